@@ -1,0 +1,62 @@
+# A front door to the CMake presets. Where there is no apt-get: install the packages named by
+# `scripts/setup --list` by hand and say `make SETUP=true`.
+SETUP ?= scripts/setup
+JOBS ?= $(shell nproc)
+PREFIX ?= /usr/local
+# Cleared, so that an inherited jobserver does not make Ninja run on one core.
+BUILD = env -u MAKEFLAGS cmake --build --preset
+RELEASE = build/release
+
+.DEFAULT_GOAL := release
+.PHONY: release setup demo test asan fuzz bench accuracy format check install clean
+
+release: setup $(RELEASE)/build.ninja
+	$(BUILD) release -j $(JOBS)
+
+setup:
+	@$(SETUP)
+
+build/%/build.ninja: CMakePresets.json | setup
+	cmake --preset $*
+	@touch $@
+
+demo: setup $(RELEASE)/build.ninja
+	$(BUILD) release -j $(JOBS) --target dotpose_cli dotpose_demo
+	$(RELEASE)/bin/dotpose_demo
+
+test: release
+	ctest --preset release -j $(JOBS)
+
+asan: setup build/asan/build.ninja
+	$(BUILD) asan -j $(JOBS)
+	ctest --preset asan -j $(JOBS)
+
+fuzz: SETUP += --fuzz
+fuzz: setup build/fuzz/build.ninja
+	$(BUILD) fuzz -j $(JOBS)
+	ctest --preset fuzz -j $(JOBS)
+
+bench: setup $(RELEASE)/build.ninja
+	$(BUILD) release -j $(JOBS) --target dotpose_bench
+	$(RELEASE)/bin/dotpose_bench
+
+accuracy: setup $(RELEASE)/build.ninja
+	$(BUILD) release -j $(JOBS) --target dotpose_accuracy
+	$(RELEASE)/bin/dotpose_accuracy
+
+format: setup
+	scripts/format
+
+check: setup $(RELEASE)/build.ninja
+	scripts/format --check
+	scripts/check-layers
+	$(BUILD) release -j $(JOBS) --target dotpose
+	scripts/check-core-symbols $(RELEASE)/src/libdotpose.a
+
+# No setup here: `sudo make install` after `make` only copies.
+install:
+	@test -f $(RELEASE)/src/libdotpose.a || { echo 'Nothing built yet: run make first.' >&2; exit 1; }
+	cmake --install $(RELEASE) --prefix $(PREFIX)
+
+clean:
+	rm -rf build demo-out

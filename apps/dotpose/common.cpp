@@ -1,0 +1,135 @@
+#include "common.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <string_view>
+
+#include <fmt/format.h>
+
+namespace dotpose::cli {
+namespace {
+
+const std::map<std::string, Profile> kProfiles = {
+    {"anoto", Profile::anoto},
+    {"published", Profile::published},
+    {"microdots", Profile::microdots},
+};
+
+bool parse_whole(std::string_view text, std::uint32_t limit, std::uint32_t& value) {
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    return error == std::errc() && stop == end && value < limit;
+}
+
+/// "A,B" with whole numbers from 0 to limit - 1.
+std::pair<std::uint32_t, std::uint32_t> parse_pair(const std::string& flag, const std::string& text,
+                                                   std::uint32_t limit) {
+    const std::string_view view = text;
+    const std::size_t comma = view.find(',');
+    std::uint32_t first = 0;
+    std::uint32_t second = 0;
+    if (comma == std::string_view::npos || !parse_whole(view.substr(0, comma), limit, first) ||
+        !parse_whole(view.substr(comma + 1), limit, second)) {
+        throw CLI::ValidationError(
+            flag, fmt::format("'{}' must be two whole numbers from 0 to {} with a comma between",
+                              text, limit - 1));
+    }
+    return {first, second};
+}
+
+/// CLI11's own check for positive numbers names a limit of 309 digits.
+std::string require_positive(const std::string& text) {
+    double value = 0;
+    if (CLI::detail::lexical_cast(text, value) && value > 0 && std::isfinite(value)) return {};
+    return "'" + text + "' is not a length in mm above 0";
+}
+
+}  // namespace
+
+void add_code_option(CLI::App& command, Profile& profile) {
+    command
+        .add_option_function<std::string>(
+            "--code",
+            [&profile](const std::string& name) {
+                const auto found = kProfiles.find(name);
+                if (found == kProfiles.end()) {
+                    throw CLI::ValidationError(
+                        "--code", fmt::format("'{}' is not anoto, published or microdots", name));
+                }
+                profile = found->second;
+            },
+            "Code profile: anoto, published or microdots")
+        ->type_name("NAME")
+        ->default_str(profile_name(profile));
+}
+
+void add_section_option(CLI::App& command, Section& section) {
+    command
+        .add_option_function<std::string>(
+            "--section",
+            [&section](const std::string& text) {
+                const auto [u, v] = parse_pair("--section", text, kSections);
+                section = {static_cast<std::uint8_t>(u), static_cast<std::uint8_t>(v)};
+            },
+            "Section of the code, each number 0 to 62")
+        ->type_name("U,V")
+        ->default_str(fmt::format("{},{}", section.u, section.v));
+}
+
+void add_spacing_option(CLI::App& command, double& spacing_mm) {
+    command.add_option("--spacing", spacing_mm, "Distance of neighbouring grid intersections")
+        ->type_name("MM")
+        ->capture_default_str()
+        ->check(require_positive);
+}
+
+void add_cell_option(CLI::App& command, const std::string& flag, Cell& cell,
+                     const std::string& help) {
+    command
+        .add_option_function<std::string>(
+            flag,
+            [&cell, flag](const std::string& text) {
+                const auto [x, y] = parse_pair(flag, text, kPositionsPerAxis);
+                cell = {x, y};
+            },
+            help)
+        ->type_name("X,Y")
+        ->default_str(fmt::format("{},{}", cell.x, cell.y));
+}
+
+void PatternArguments::add_to(CLI::App& command) {
+    add_code_option(command, given_.profile);
+    add_section_option(command, given_.section);
+    add_spacing_option(command, given_.spacing_mm);
+    command.add_option("--displacement", displacement_mm_, "From intersection to dot centre")
+        ->type_name("MM")
+        ->default_str("spacing/6")
+        ->check(require_positive);
+    command.add_option("--dot", dot_mm_, "Diameter of a dot")
+        ->type_name("MM")
+        ->default_str("spacing/6")
+        ->check(require_positive);
+}
+
+Pattern PatternArguments::pattern() const {
+    Pattern pattern = given_;
+    pattern.displacement_mm = displacement_mm_.value_or(pattern.spacing_mm / 6);
+    pattern.dot_mm = dot_mm_.value_or(pattern.spacing_mm / 6);
+    return pattern;
+}
+
+const char* profile_name(Profile profile) {
+    switch (profile) {
+        case Profile::anoto:
+            return "anoto";
+        case Profile::published:
+            return "published";
+        case Profile::microdots:
+            return "microdots";
+    }
+    return "";
+}
+
+}  // namespace dotpose::cli

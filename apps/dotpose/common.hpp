@@ -1,0 +1,44 @@
+/// Options that several subcommands share, spelt and explained in one place.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "dotpose/sheet.hpp"
+
+namespace dotpose::cli {
+
+/// --code anoto|published|microdots. The default stays what `profile` holds.
+void add_code_option(CLI::App& command, Profile& profile);
+
+/// --section U,V; each 0 to 62.
+void add_section_option(CLI::App& command, Section& section);
+
+/// --spacing MM; more than 0.
+void add_spacing_option(CLI::App& command, double& spacing_mm);
+
+/// --origin X,Y, a cell; the meaning of the cell for this command is in `help`.
+void add_cell_option(CLI::App& command, const std::string& flag, Cell& cell,
+                     const std::string& help);
+
+/// --code, --section, --spacing, --displacement and --dot.
+class PatternArguments {
+  public:
+    void add_to(CLI::App& command);
+
+    /// The pattern asked for. Displacement and dot diameter follow the spacing (one sixth of it)
+    /// unless they were given.
+    Pattern pattern() const;
+
+  private:
+    Pattern given_;
+    std::optional<double> displacement_mm_;
+    std::optional<double> dot_mm_;
+};
+
+/// Name of a profile as --code takes it.
+const char* profile_name(Profile profile);
+
+}  // namespace dotpose::cli

@@ -1,0 +1,274 @@
+#include "dotpose/locate.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "commands.hpp"
+#include "common.hpp"
+#include "dotpose/image_file.hpp"
+#include "locate_record.hpp"
+#include "picture_folder.hpp"
+
+namespace dotpose::cli {
+namespace {
+
+using std::chrono::steady_clock;
+
+constexpr double kLargestLens_k = 1.0 / 512;
+/// Far outside any image, and far inside what the fixed-point pose can express.
+constexpr double kFarthestReference_px = 10'000;
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  dotpose locate frame.png\n"
+    "  dotpose locate --format csv frames/*.pgm > poses.csv\n"
+    "  dotpose locate --draw pictures frame.png\n"
+    "  find frames -name '*.png' | sort | dotpose locate --list -\n\n"
+    "One line per image, also for those without a fix. Exit status 1 if some image could not be\n"
+    "read, 2 for wrong usage.\n";
+
+struct PixelPoint {
+    double u = 0;
+    double v = 0;
+};
+
+struct LocateArguments {
+    std::vector<std::string> images;
+    std::string list;
+    std::string out;
+    std::string draw_folder;
+    RecordFormat format = RecordFormat::jsonl;
+    double spacing_mm = kDefaultSpacing_mm;
+    Options options;
+    std::optional<PixelPoint> reference_px;
+};
+
+/// All names in turn: those on the command line, then those of the list, read as they come.
+class Names {
+  public:
+    explicit Names(const LocateArguments& arguments)
+        : images_(arguments.images), list_name_(arguments.list) {
+        if (arguments.list.empty()) return;
+        if (arguments.list == "-") {
+            list_ = &std::cin;
+            return;
+        }
+        file_.open(arguments.list);
+        list_ = &file_;
+        require_good();
+    }
+
+    std::optional<std::string> next() {
+        if (next_image_ < images_.size()) return images_[next_image_++];
+        std::string line;
+        while (list_ != nullptr && std::getline(*list_, line)) {
+            if (!line.empty()) return line;
+        }
+        if (list_ != nullptr && !list_->eof()) require_good();
+        return std::nullopt;
+    }
+
+  private:
+    void require_good() const {
+        if (!*list_) throw Error("cannot read the list " + list_name_);
+    }
+
+    const std::vector<std::string>& images_;
+    std::string list_name_;
+    std::size_t next_image_ = 0;
+    std::ifstream file_;
+    std::istream* list_ = nullptr;
+};
+
+/// Standard output or a file; every line leaves at once, so that stopping the tool loses none.
+class Lines {
+  public:
+    explicit Lines(const std::string& path) : path_(path) {
+        if (path.empty()) return;
+        file_.reset(std::fopen(path.c_str(), "w"));
+        if (!file_) throw Error("cannot create " + path);
+    }
+    void write(const std::string& line) {
+        std::FILE* stream = file_ ? file_.get() : stdout;
+        const bool written = std::fwrite(line.data(), 1, line.size(), stream) == line.size();
+        if (!written || std::fflush(stream) != 0) {
+            throw Error("cannot write " + (path_.empty() ? "to standard output" : path_));
+        }
+    }
+
+  private:
+    struct Closer {
+        void operator()(std::FILE* file) const { std::fclose(file); }
+    };
+    std::string path_;
+    std::unique_ptr<std::FILE, Closer> file_;
+};
+
+/// Reads and locates one image after the other.
+class Locator {
+  public:
+    explicit Locator(const LocateArguments& arguments)
+        : arguments_(arguments), workspace_(std::make_unique<LargeWorkspace>()) {
+        if (!arguments.draw_folder.empty()) pictures_.emplace(arguments.draw_folder);
+    }
+
+    /// Throws Error if the image cannot be read.
+    Record operator()(const std::string& name) {
+        image_ = read_image(name);
+        options_ = options_for(image_);
+        Record record;
+        const auto start = steady_clock::now();
+        record.fix = locate(image_.view(), options_, *workspace_);
+        const std::chrono::duration<double, std::micro> elapsed = steady_clock::now() - start;
+        record.file = name;
+        record.elapsed_us = elapsed.count();
+        record.width_px = image_.width_px;
+        record.height_px = image_.height_px;
+        record.spacing_mm = arguments_.spacing_mm;
+        record.min_dots = options_.lattice.min_dots;
+        return record;
+    }
+
+    /// Draws the image just located, if pictures are wanted. Throws Error.
+    void draw(const std::string& name) {
+        if (!pictures_) return;
+        pictures_->add(name, image_.view(), *workspace_, options_, arguments_.spacing_mm);
+    }
+
+  private:
+    Options options_for(const GreyImage& image) const {
+        Options options = arguments_.options;
+        if (const auto& reference_px = arguments_.reference_px) {
+            const auto from_centre_q8 = [](double px, int side_px) {
+                return static_cast<std::int32_t>(std::lround((px - (side_px - 1) / 2.0) * 256));
+            };
+            options.reference_dx_q8 = from_centre_q8(reference_px->u, image.width_px);
+            options.reference_dy_q8 = from_centre_q8(reference_px->v, image.height_px);
+        }
+        return options;
+    }
+
+    const LocateArguments& arguments_;
+    std::unique_ptr<LargeWorkspace> workspace_;
+    std::optional<PictureFolder> pictures_;
+    GreyImage image_;
+    Options options_;
+};
+
+/// Returns the exit status.
+int run(const LocateArguments& arguments) {
+    if (arguments.images.empty() && arguments.list.empty()) {
+        throw BadArgument("no images given: name some, or use --list");
+    }
+    const bool is_csv = arguments.format == RecordFormat::csv;
+    Names names(arguments);
+    Locator locator(arguments);
+    Lines lines(arguments.out);
+    int exit_code = 0;
+    // One bad file does not keep the others from being done.
+    const auto attempt = [&exit_code](const auto& action) {
+        try {
+            action();
+            return true;
+        } catch (const Error& error) {
+            fmt::print(stderr, "dotpose: {}\n", error.what());
+            exit_code = kExitFailed;
+            return false;
+        }
+    };
+    if (is_csv) lines.write(csv_header());
+    while (const auto name = names.next()) {
+        Record record;
+        if (!attempt([&] { record = locator(*name); })) continue;
+        lines.write(is_csv ? csv_line(record) : json_line(record));
+        attempt([&] { locator.draw(*name); });
+    }
+    return exit_code;
+}
+
+PixelPoint parse_reference(const std::string& text) {
+    PixelPoint point;
+    const std::size_t comma = text.find(',');
+    const auto parse = [](const std::string& number, double& value) {
+        return CLI::detail::lexical_cast(number, value) && std::abs(value) <= kFarthestReference_px;
+    };
+    if (comma == std::string::npos || !parse(text.substr(0, comma), point.u) ||
+        !parse(text.substr(comma + 1), point.v)) {
+        throw CLI::ValidationError(
+            "--reference",
+            fmt::format("'{}' must be two numbers from {} to {} with a comma between", text,
+                        -kFarthestReference_px, kFarthestReference_px));
+    }
+    return point;
+}
+
+Lens parse_lens(double k_per_px2) {
+    if (!(std::abs(k_per_px2) < kLargestLens_k)) {
+        throw CLI::ValidationError("--k", fmt::format("{} is not between {:.4f} and {:.4f}",
+                                                      k_per_px2, -kLargestLens_k, kLargestLens_k));
+    }
+    return Lens::from_k(k_per_px2);
+}
+
+void add_camera_options(CLI::App& command, LocateArguments& arguments) {
+    command
+        .add_option_function<double>(
+            "--k", [&arguments](double k) { arguments.options.lens = parse_lens(k); },
+            "Radial distortion, below 0 for barrel: p = m + r / (1 + k r^2)")
+        ->type_name("1/PX^2")
+        ->default_str("0");
+    command
+        .add_option_function<std::string>(
+            "--reference",
+            [&arguments](const std::string& text) {
+                arguments.reference_px = parse_reference(text);
+            },
+            "Pixel whose place is wanted; (0, 0) is the centre of the first pixel")
+        ->type_name("U,V")
+        ->default_str("image centre");
+}
+
+}  // namespace
+
+void add_locate(CLI::App& app, int& exit_code) {
+    const auto arguments = std::make_shared<LocateArguments>();
+    CLI::App* command = app.add_subcommand("locate", "Find where images look on the pattern");
+    command->footer(kExamples);
+    command->add_option("images", arguments->images, "PGM, PNG, JPEG, BMP or TIFF files")
+        ->type_name("IMAGE");
+    command
+        ->add_option("--list", arguments->list,
+                     "Read names from a file, or from - (standard input)")
+        ->type_name("FILE|-");
+    add_spacing_option(*command, arguments->spacing_mm);
+    add_code_option(*command, arguments->options.profile);
+    add_camera_options(*command, *arguments);
+    command
+        ->add_option_function<std::string>(
+            "--format",
+            [arguments](const std::string& name) {
+                arguments->format = name == "csv" ? RecordFormat::csv : RecordFormat::jsonl;
+            },
+            "jsonl (a JSON object per line) or csv")
+        ->type_name("NAME")
+        ->default_str("jsonl")
+        ->check(CLI::IsMember({"jsonl", "csv"}));
+    command->add_option("-o,--out", arguments->out, "File to write instead of standard output")
+        ->type_name("FILE");
+    command
+        ->add_option("--draw", arguments->draw_folder,
+                     "Also write a picture (SVG) of what was seen in each image")
+        ->type_name("DIR");
+    command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
+}  // namespace dotpose::cli

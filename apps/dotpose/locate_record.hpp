@@ -1,0 +1,31 @@
+/// One output line of `dotpose locate`: what one image told.
+#pragma once
+
+#include <string>
+
+#include "dotpose/fix.hpp"
+
+namespace dotpose::cli {
+
+enum class RecordFormat { jsonl, csv };
+
+struct Record {
+    std::string file;
+    Fix fix;
+    double spacing_mm = 0;
+    double elapsed_us = 0;  ///< of `dotpose::locate` alone
+    int width_px = 0;
+    int height_px = 0;
+    int min_dots = 0;  ///< fewest that are worth a try
+};
+
+/// Why there is no fix, with the numbers that matter; empty if there is one.
+std::string reason(const Record& record);
+
+/// Lines with their line break. JSON holds the fields that mean something, CSV has all columns. In
+/// JSON, bytes of a file name that are no UTF-8 are replaced.
+std::string json_line(const Record& record);
+std::string csv_header();
+std::string csv_line(const Record& record);
+
+}  // namespace dotpose::cli

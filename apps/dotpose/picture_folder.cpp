@@ -1,0 +1,31 @@
+#include "picture_folder.hpp"
+
+#include <fmt/format.h>
+
+#include "dotpose/draw.hpp"
+#include "dotpose/error.hpp"
+
+namespace dotpose::cli {
+
+namespace fs = std::filesystem;
+
+PictureFolder::PictureFolder(fs::path folder) : folder_(std::move(folder)) {
+    std::error_code error;
+    fs::create_directories(folder_, error);
+    if (!fs::is_directory(folder_)) {
+        throw Error(fmt::format("cannot create the folder {}: {}", folder_.string(),
+                                error ? error.message() : "a file has this name"));
+    }
+}
+
+void PictureFolder::add(const std::string& image_name, ImageView image, const Workspace& workspace,
+                        const Options& options, double spacing_mm) {
+    const std::string stem = fs::path(image_name).stem().string();
+    std::string file = stem + ".svg";
+    for (int n = 2; !used_.insert(file).second; ++n)
+        file = fmt::format("{}-{}.svg", stem, n);
+    draw_frame(folder_ / file, image, workspace, options,
+               {.spacing_mm = spacing_mm, .title = fs::path(image_name).filename().string()});
+}
+
+}  // namespace dotpose::cli

@@ -1,0 +1,29 @@
+/// The folder of `--draw`: one picture per image.
+#pragma once
+
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include "dotpose/image.hpp"
+#include "dotpose/options.hpp"
+#include "dotpose/workspace.hpp"
+
+namespace dotpose::cli {
+
+class PictureFolder {
+  public:
+    /// Creates the folder. Throws Error.
+    explicit PictureFolder(std::filesystem::path folder);
+
+    /// Writes STEM.svg after the image's name, or STEM-2.svg and so on if an earlier image had the
+    /// same stem. Throws Error.
+    void add(const std::string& image_name, ImageView image, const Workspace& workspace,
+             const Options& options, double spacing_mm);
+
+  private:
+    std::filesystem::path folder_;
+    std::set<std::string> used_;
+};
+
+}  // namespace dotpose::cli

@@ -1,0 +1,321 @@
+#include "dotpose/simulate.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "commands.hpp"
+#include "common.hpp"
+#include "dotpose/image_file.hpp"
+#include "progress.hpp"
+
+namespace dotpose::cli {
+namespace {
+
+constexpr const char* kExamples =
+    "Writes frame_000000.pgm, frame_000001.pgm, ... to DIR, and their true poses to truth.csv "
+    "there.\n"
+    "Equal options give equal bytes. Angle, place, section and the imperfections of the preset "
+    "are\n"
+    "drawn anew for each frame unless an option fixes them.\n\n"
+    "Examples:\n"
+    "  dotpose simulate -o frames --frames 100 --preset hard\n"
+    "  dotpose simulate -o still --preset clean --angle 30 --at 5000.25,7000.5 --noise 3\n"
+    "  dotpose simulate -o foreign --scene plain_grid\n";
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+// Imperfections that are a single number, each with an option of its own.
+struct NumberOption {
+    const char* flag;
+    const char* unit;
+    const char* help;
+    double Imperfections::*member;
+};
+constexpr NumberOption kNumberOptions[] = {
+    {"--paper", "LEVEL", "Grey level of paper at the image centre", &Imperfections::paper_level},
+    {"--ink", "FRACTION", "Reflectance of ink, relative to paper", &Imperfections::ink_reflectance},
+    {"--ink-variation", "FRACTION", "Its deviation from dot to dot", &Imperfections::ink_variation},
+    {"--vignetting", "FRACTION", "Loss of light in the corners", &Imperfections::vignetting},
+    {"--fall", "FRACTION", "Change of light from side to side", &Imperfections::fall},
+    {"--blur", "PX", "Sigma of the lens's blur", &Imperfections::blur_sigma_px},
+    {"--noise", "LEVELS", "Sigma of the sensor's noise", &Imperfections::noise_sigma},
+    {"--salt-pepper", "FRACTION", "Black or white pixels", &Imperfections::salt_and_pepper},
+    {"--jitter", "MM", "Deviation of each dot's place, per axis", &Imperfections::jitter_mm},
+    {"--missing", "FRACTION", "Dots that are missing", &Imperfections::missing},
+    {"--texture", "FRACTION", "Deviation of the paper's reflectance", &Imperfections::texture},
+};
+
+// Two numbers in one argument: "A,B".
+struct Pair {
+    std::vector<double> values;
+    bool given() const { return values.size() == 2; }
+};
+
+struct SimulateArguments {
+    std::string out;
+    int frames = 10;
+    Setup setup;
+    PatternArguments pattern;
+    std::string size = "188x120";
+    std::optional<Scene> scene;
+    double density = 0.5;
+    std::optional<double> angle_deg;
+    Pair at_grid;
+    Pair motion_px;
+    Pair tilt_deg;
+    std::optional<int> dirt_blobs;
+    std::optional<int> graphics;
+    std::optional<double> numbers[std::size(kNumberOptions)];
+};
+
+Vec2 to_vec(const Pair& pair) {
+    return {pair.values[0], pair.values[1]};
+}
+
+// Called for each frame: what the user fixed replaces what was drawn.
+Shot shot_of(const SimulateArguments& arguments, int index) {
+    Shot shot = draw_shot(arguments.setup, static_cast<std::uint64_t>(index));
+    Imperfections& seen = shot.imperfections;
+    for (std::size_t i = 0; i < std::size(kNumberOptions); ++i) {
+        if (arguments.numbers[i]) seen.*kNumberOptions[i].member = *arguments.numbers[i];
+    }
+    if (arguments.dirt_blobs) seen.dirt_blobs = *arguments.dirt_blobs;
+    if (arguments.graphics) seen.graphics = *arguments.graphics;
+    if (arguments.motion_px.given()) seen.motion_px = to_vec(arguments.motion_px);
+
+    CameraPose& pose = shot.pose;
+    if (arguments.angle_deg) {
+        // To (-180, 180].
+        pose.theta_rad = -std::remainder(-*arguments.angle_deg, 360) / kDegrees;
+    }
+    if (arguments.tilt_deg.given()) {
+        pose.tilt_x_rad = to_vec(arguments.tilt_deg).x / kDegrees;
+        pose.tilt_y_rad = to_vec(arguments.tilt_deg).y / kDegrees;
+    }
+    if (arguments.at_grid.given()) {
+        const Vec2 at = to_vec(arguments.at_grid);
+        pose.cell = {static_cast<std::uint32_t>(at.x), static_cast<std::uint32_t>(at.y)};
+        pose.fraction_x = at.x - pose.cell.x;
+        pose.fraction_y = at.y - pose.cell.y;
+    }
+    return shot;
+}
+
+constexpr const char* kTruthHeader =
+    "file,x_mm,y_mm,theta_deg,x_grid,y_grid,section_u,section_v,profile,spacing_mm,px_per_spacing,"
+    "preset,seed\n";
+
+std::string file_name(int index) {
+    return fmt::format("frame_{:06}.pgm", index);
+}
+
+// Scenes have no pose: those columns stay empty.
+std::string truth_row(const SimulateArguments& arguments, int index, const Shot& shot) {
+    const Pattern& pattern = shot.page.pattern;
+    std::string pose = ",,,,,,";
+    if (!arguments.scene) {
+        const double x = x_grid(shot.pose);
+        const double y = y_grid(shot.pose);
+        pose = fmt::format("{:.7f},{:.7f},{:.9f},{:.8f},{:.8f},{},{}", x * pattern.spacing_mm,
+                           y * pattern.spacing_mm, shot.pose.theta_rad * kDegrees, x, y,
+                           pattern.section.u, pattern.section.v);
+    }
+    return fmt::format("{},{},{},{},{:.9g},{},{}\n", file_name(index), pose,
+                       profile_name(pattern.profile), pattern.spacing_mm,
+                       pattern.spacing_mm / shot.camera.mm_per_px, name(arguments.setup.preset),
+                       arguments.setup.seed);
+}
+
+// Renders and writes frames `first` to `end` - 1 on all cores; gives their rows of truth.csv.
+std::vector<std::string> write_frames(const SimulateArguments& arguments, int first, int end) {
+    std::vector<std::string> rows(static_cast<std::size_t>(end - first));
+    std::vector<std::exception_ptr> errors(rows.size());
+    std::atomic<int> next = first;
+    const auto work = [&] {
+        for (int index = next++; index < end; index = next++) {
+            const auto slot = static_cast<std::size_t>(index - first);
+            try {
+                const Shot shot = shot_of(arguments, index);
+                const GreyImage image =
+                    arguments.scene ? render_scene(*arguments.scene, shot, arguments.density)
+                                    : render(shot);
+                write_pgm(std::filesystem::path(arguments.out) / file_name(index), image.view());
+                rows[slot] = truth_row(arguments, index, shot);
+            } catch (...) {
+                errors[slot] = std::current_exception();
+            }
+        }
+    };
+    {
+        std::vector<std::jthread> threads;
+        const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
+        for (unsigned i = 1; i < cores; ++i)
+            threads.emplace_back(work);
+        work();
+    }
+    for (const std::exception_ptr& error : errors) {
+        if (error) std::rethrow_exception(error);
+    }
+    return rows;
+}
+
+void prepare(SimulateArguments& arguments, bool section_given) {
+    arguments.setup.pattern = arguments.pattern.pattern();
+    arguments.setup.random_section = !section_given;
+    int used = 0;
+    CameraModel& camera = arguments.setup.camera;
+    if (std::sscanf(arguments.size.c_str(), "%dx%d%n", &camera.width_px, &camera.height_px,
+                    &used) != 2 ||
+        static_cast<std::size_t>(used) != arguments.size.size()) {
+        throw BadArgument("--size must be WIDTHxHEIGHT in px, such as 188x120, not '" +
+                          arguments.size + "'");
+    }
+    for (const double coordinate : arguments.at_grid.values) {
+        if (!(coordinate >= 0 && coordinate < kPositionsPerAxis)) {
+            throw BadArgument(fmt::format("--at takes coordinates from 0 to {}, not {}",
+                                          kPositionsPerAxis - 1, coordinate));
+        }
+    }
+}
+
+void run(SimulateArguments& arguments, bool section_given, int& exit_code) {
+    prepare(arguments, section_given);
+    const std::filesystem::path folder = arguments.out;
+    std::error_code failed;
+    std::filesystem::create_directories(folder, failed);
+    const std::filesystem::path truth_path = folder / "truth.csv";
+    std::ofstream truth(truth_path);
+    truth << kTruthHeader;
+
+    catch_interrupts();
+    int done = 0;
+    {
+        ProgressLine line("simulating " + arguments.out);
+        // Short batches, so that Ctrl-C and truth.csv do not lag behind.
+        const int batch = 4 * static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+        while (done < arguments.frames && truth && !interrupted()) {
+            const int end = std::min(arguments.frames, done + batch);
+            for (const std::string& row : write_frames(arguments, done, end))
+                truth << row;
+            truth.flush();
+            done = end;
+            line.update(done, arguments.frames);
+        }
+    }
+    if (!truth) throw Error("cannot write " + truth_path.string());
+    fmt::print("{}: {} frames of {} x {} px, preset {}, seed {}, truth.csv\n", arguments.out, done,
+               arguments.setup.camera.width_px, arguments.setup.camera.height_px,
+               name(arguments.setup.preset), arguments.setup.seed);
+    if (done < arguments.frames) {
+        fmt::print(stderr, "dotpose: interrupted; the frames in truth.csv are complete\n");
+        exit_code = kExitFailed;
+    }
+}
+
+// An option whose value is the name of one of `values`.
+template <typename Values, typename Store>
+void add_named(CLI::App& command, const std::string& flag, const Values& values,
+               const std::string& default_name, const std::string& help, Store store) {
+    std::string names;
+    for (const auto value : values)
+        names += (names.empty() ? "" : ", ") + std::string(name(value));
+    command
+        .add_option_function<std::string>(
+            flag,
+            [&values, names, flag, store](const std::string& asked) {
+                for (const auto value : values) {
+                    if (asked == name(value)) return store(value);
+                }
+                throw CLI::ValidationError(flag,
+                                           fmt::format("'{}' is not one of {}", asked, names));
+            },
+            help + ": " + names)
+        ->type_name("NAME")
+        ->default_str(default_name);
+}
+
+void add_pair(CLI::App& command, const std::string& flag, const std::string& unit, Pair& pair,
+              const std::string& help) {
+    command.add_option(flag, pair.values, help)->type_name(unit)->delimiter(',')->expected(2);
+}
+
+void add_camera_options(CLI::App& command, CameraModel& camera, std::string& size) {
+    command.add_option("--size", size, "Size of a frame")->type_name("WxH")->capture_default_str();
+    command.add_option("--mm-per-px", camera.mm_per_px, "Size of a pixel on the paper")
+        ->type_name("MM")
+        ->capture_default_str();
+    command.add_option("--k", camera.k, "Radial distortion; below 0 is barrel")
+        ->type_name("1/PX^2")
+        ->capture_default_str();
+    command
+        .add_option("--working-distance", camera.working_distance_mm,
+                    "From the camera to the paper; matters with tilt")
+        ->type_name("MM")
+        ->capture_default_str();
+}
+
+// Everything that is otherwise drawn for each frame.
+void add_overrides(CLI::App& command, SimulateArguments& arguments) {
+    command.add_option("--angle", arguments.angle_deg, "Angle of the camera on the page")
+        ->type_name("DEG");
+    add_pair(command, "--at", "X,Y", arguments.at_grid,
+             "Place under the image centre, in grid units");
+    add_pair(command, "--tilt", "X,Y", arguments.tilt_deg,
+             "Degrees of tilt about the image x and y axes");
+    add_pair(command, "--motion", "U,V", arguments.motion_px, "Motion during exposure, in px");
+    for (std::size_t i = 0; i < std::size(kNumberOptions); ++i) {
+        const NumberOption& option = kNumberOptions[i];
+        command.add_option(option.flag, arguments.numbers[i], option.help)->type_name(option.unit);
+    }
+    command.add_option("--dirt", arguments.dirt_blobs, "Dark specks in each frame")->type_name("N");
+    command.add_option("--graphics", arguments.graphics, "Thick strokes or words in each frame")
+        ->type_name("N");
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app, int& exit_code) {
+    const auto arguments = std::make_shared<SimulateArguments>();
+    CLI::App* command =
+        app.add_subcommand("simulate", "Make camera frames whose pose is known exactly");
+    command->footer(kExamples);
+    command->add_option("-o,--out", arguments->out, "Folder for the frames; made if missing")
+        ->type_name("DIR")
+        ->required();
+    command->add_option("--frames", arguments->frames, "How many")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1'000'000))
+        ->capture_default_str();
+    add_named(*command, "--preset", kPresets, name(arguments->setup.preset),
+              "Conditions to draw from", [arguments](Preset p) { arguments->setup.preset = p; });
+    command->add_option("--seed", arguments->setup.seed, "Another seed, other frames")
+        ->type_name("N")
+        ->capture_default_str();
+    add_camera_options(*command, arguments->setup.camera, arguments->size);
+    arguments->pattern.add_to(*command);
+    command->get_option("--section")->default_str("random");
+    add_overrides(*command, *arguments);
+    add_named(*command, "--scene", kScenes, "", "Something other than the pattern, to be refused",
+              [arguments](Scene s) { arguments->scene = s; });
+    command->add_option("--density", arguments->density, "Of scenes noise and scattered_dots")
+        ->type_name("FRACTION")
+        ->capture_default_str();
+    command->callback([arguments, command, &exit_code] {
+        run(*arguments, command->count("--section") > 0, exit_code);
+    });
+}
+
+}  // namespace dotpose::cli

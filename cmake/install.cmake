@@ -1,0 +1,38 @@
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/dotpose)
+# Relative, so that `cmake --install --prefix` and a moved tree stay right.
+file(RELATIVE_PATH DOTPOSE_PREFIX_FROM_PC
+     /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
+string(REGEX REPLACE "/$" "" DOTPOSE_PREFIX_FROM_PC "${DOTPOSE_PREFIX_FROM_PC}")
+
+# A header without its library would only fail when the user links.
+set(tools_headers)
+if(NOT DOTPOSE_BUILD_TOOLS)
+    set(tools_headers REGEX "/(print|simulate|draw|sheet|image_file|grey_image|error|random)\\.hpp$" EXCLUDE)
+endif()
+install(DIRECTORY include/dotpose TYPE INCLUDE FILES_MATCHING PATTERN "*.hpp" ${tools_headers})
+
+# Two export sets: who only wants the core must not need libpng to be found.
+foreach(target IN ITEMS dotpose dotpose_tools)
+    if(TARGET ${target})
+        install(TARGETS ${target} EXPORT ${target} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+        install(EXPORT ${target} NAMESPACE dotpose:: DESTINATION ${config_dir}
+                FILE ${target}Targets.cmake)
+        string(REPLACE _ - pc_name ${target})
+        configure_file(cmake/${pc_name}.pc.in ${pc_name}.pc @ONLY)
+        install(FILES ${PROJECT_BINARY_DIR}/${pc_name}.pc
+                DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+    endif()
+endforeach()
+if(TARGET dotpose_cli)
+    install(TARGETS dotpose_cli)
+endif()
+
+configure_package_config_file(cmake/dotposeConfig.cmake.in dotposeConfig.cmake
+                              INSTALL_DESTINATION ${config_dir})
+write_basic_package_version_file(dotposeConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/dotposeConfig.cmake
+              ${PROJECT_BINARY_DIR}/dotposeConfigVersion.cmake
+        DESTINATION ${config_dir})

@@ -1,0 +1,62 @@
+# dotpose_layer(NAME [PURE] [USES target...])
+#
+# One directory of src/ is one layer and one object library dotpose_NAME. The layers are put together
+# into the installed libraries in src/CMakeLists.txt. A directory without sources gives no target.
+# PURE: may use no heap, exceptions, RTTI or dependency (scripts/check-core-symbols proves it).
+function(dotpose_layer name)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "PURE" "" "USES")
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp)
+    if(NOT sources)
+        return()
+    endif()
+    set(target dotpose_${name})
+    add_library(${target} OBJECT ${sources})
+    target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/include
+                                                ${PROJECT_SOURCE_DIR}/src)
+    foreach(used IN LISTS arg_USES)
+        target_link_libraries(${target} PUBLIC $<TARGET_NAME_IF_EXISTS:${used}>)
+    endforeach()
+    if(arg_PURE)
+        target_compile_options(${target} PRIVATE -fno-exceptions -fno-rtti -fno-threadsafe-statics
+                                                 -ffunction-sections -fdata-sections)
+    endif()
+endfunction()
+
+# dotpose_library(NAME layer...): the installed static library NAME, exported under dotpose::.
+function(dotpose_library name)
+    set(objects)
+    foreach(layer IN LISTS ARGN)
+        if(TARGET dotpose_${layer})
+            list(APPEND objects $<TARGET_OBJECTS:dotpose_${layer}>)
+        endif()
+    endforeach()
+    if(NOT objects)
+        return()
+    endif()
+    add_library(${name} STATIC ${objects})
+    target_compile_features(${name} PUBLIC cxx_std_20)
+    target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+                                              $<INSTALL_INTERFACE:include>)
+    # The archive holds objects only; without a language of its own CMake could not link it.
+    set_target_properties(${name} PROPERTIES LINKER_LANGUAGE CXX)
+endfunction()
+
+# dotpose_program(NAME [USES target...]): one program from all sources of the directory.
+function(dotpose_program name)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "USES")
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp)
+    if(NOT sources)
+        return()
+    endif()
+    add_executable(${name} ${sources})
+    dotpose_use_internals(${name})
+    target_link_libraries(${name} PRIVATE ${arg_USES})
+endfunction()
+
+# Tests, benchmarks and the tool may look inside: they see src/ as well as include/.
+function(dotpose_use_internals name)
+    target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/include
+                                               ${PROJECT_SOURCE_DIR}/src)
+    target_link_libraries(${name} PRIVATE $<TARGET_NAME_IF_EXISTS:dotpose_tools>
+                                          $<TARGET_NAME_IF_EXISTS:dotpose>)
+endfunction()

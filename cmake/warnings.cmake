@@ -1,0 +1,11 @@
+# A promotion to double would pull soft-double code into a core that must run without an FPU, and a
+# silent narrowing would break a fixed-point bound: both are warnings here, and errors in `dev`.
+add_compile_options(
+    -Wall -Wextra -Wpedantic
+    -Wconversion -Wdouble-promotion -Wshadow
+    -Wold-style-cast -Wcast-align -Wcast-qual
+    -Wnon-virtual-dtor -Woverloaded-virtual -Wextra-semi
+    -Wformat=2 -Wimplicit-fallthrough -Wundef -Wunused -Wvla)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    add_compile_options(-Wduplicated-cond -Wlogical-op)
+endif()

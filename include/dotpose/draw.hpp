@@ -1,0 +1,61 @@
+/// Drawing: pictures (SVG, self-contained) of what `locate` saw in a frame, stage by stage, and of
+/// paths over a sheet. The stages themselves know nothing of it: all is read from the workspace.
+///
+///     const dotpose::Fix fix = locate(image.view(), options, *workspace);
+///     draw_frame("frame.svg", image.view(), *workspace, options);
+///
+/// Functions throw Error when a file cannot be written; they share no state. Texts are expected in
+/// UTF-8; what is not is replaced.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <span>
+#include <string>
+
+#include "dotpose/error.hpp"
+#include "dotpose/image.hpp"
+#include "dotpose/options.hpp"
+#include "dotpose/sheet.hpp"
+#include "dotpose/workspace.hpp"
+
+namespace dotpose {
+
+/// What the caption of `draw_frame` says besides the fix.
+struct DrawOptions {
+    double spacing_mm = kDefaultSpacing_mm;  ///< of the printed grid, for the pose in mm
+    std::string title;                       ///< for example the file's name; default none
+};
+
+/// Draws the last frame of `workspace`, whatever stage it got to. `image` and `options` are those
+/// it was located with.
+///
+/// Left, on the image (paper Fig. 2 and 3): a ring around each dot, the symmetric connections of
+/// the neighbour search, the centre of the intact neighbourhood. Below it the same connections from
+/// one origin, with the grid vectors (Fig. 4). Right (Fig. 9): the grid, each dot's symbol as read
+/// on the pattern, coloured by its likelihood, the window that was decoded and its corner, the
+/// reference point and the angle theta. Below: the pose, or why there is none.
+///
+/// With lens distortion everything is drawn where the image shows it, so grid lines bend.
+void draw_frame(std::ostream& out, ImageView image, const Workspace& workspace,
+                const Options& options, const DrawOptions& draw_options = {});
+void draw_frame(const std::filesystem::path& path, ImageView image, const Workspace& workspace,
+                const Options& options, const DrawOptions& draw_options = {});
+
+/// One frame of a drive over a sheet; sheet coordinates.
+struct PathPoint {
+    double true_x_mm = 0;
+    double true_y_mm = 0;
+    bool is_fix = false;
+    double measured_x_mm = 0;  ///< if it is a fix
+    double measured_y_mm = 0;
+};
+
+/// Draws the true path on the page with the measured points on it, and the errors, far too small to
+/// be seen there: as a scatter plot and over the frame number.
+void draw_path(std::ostream& out, const Sheet& sheet, std::span<const PathPoint> path,
+               const std::string& title = {});
+void draw_path(const std::filesystem::path& file, const Sheet& sheet,
+               std::span<const PathPoint> path, const std::string& title = {});
+
+}  // namespace dotpose

@@ -1,0 +1,50 @@
+/// Fix: what one frame tells, with its evidence.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "dotpose/code.hpp"
+#include "dotpose/status.hpp"
+
+namespace dotpose {
+
+/// Result of `locate`. Unless `status` is ok only `status`, `dots_seen` and, as far as the frame
+/// got, the counts below it mean anything.
+///
+/// The pose: the pattern point under the reference point (by default the image centre) is
+/// `cell + fraction` in units of the spacing; `theta` is the angle of the image x axis in the
+/// pattern frame, from +x towards +y (clockwise as seen on the paper, since y is down).
+struct Fix {
+    Status status = Status::no_contrast;
+
+    Cell cell;                         ///< intersection to the upper left of the reference point
+    std::uint16_t fraction_x_q16 = 0;  ///< from there to the right, in 1/65536 spacing
+    std::uint16_t fraction_y_q16 = 0;  ///< from there down
+    std::int32_t theta_bam = 0;        ///< binary angle: 2^31 is half a turn, in [-2^31, 2^31)
+    Section section;                   ///< section in which `cell` was read
+    std::int32_t spacing_px_q16 = 0;   ///< grid spacing in the image
+
+    int dots_seen = 0;     ///< blobs of a dot's size
+    int dots_used = 0;     ///< dots the pose was fitted to
+    int bit_errors = 0;    ///< bits, two for each dot read, that contradict the position found
+    int p_wrong_log2 = 0;  ///< the position is wrong with probability at most 2^p_wrong_log2
+    float residual_px =
+        0;  ///< root mean square distance of the dots from their fitted places, per axis
+
+    /// Covariance of (x, y, theta) in (spacing, spacing, radian) squared.
+    float covariance[3][3] = {};
+
+    // Double precision only here, outside the core's object code.
+    double x_grid() const { return cell.x + fraction_x_q16 / 65536.0; }
+    double y_grid() const { return cell.y + fraction_y_q16 / 65536.0; }
+    double x_mm(double spacing_mm) const { return x_grid() * spacing_mm; }
+    double y_mm(double spacing_mm) const { return y_grid() * spacing_mm; }
+    /// In [-pi, pi).
+    double theta_rad() const { return theta_bam * (std::numbers::pi / 2147483648.0); }
+    double spacing_px() const { return spacing_px_q16 / 65536.0; }
+    double p_wrong() const { return std::ldexp(1.0, p_wrong_log2); }
+};
+
+}  // namespace dotpose

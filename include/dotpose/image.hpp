@@ -1,0 +1,19 @@
+/// A view of an 8-bit grey image; the caller owns the pixels.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace dotpose {
+
+/// Row `v` starts at `pixels + v * stride_bytes`; dark dots on light paper, 0 is black.
+struct ImageView {
+    const std::uint8_t* pixels = nullptr;
+    int width_px = 0;
+    int height_px = 0;
+    std::ptrdiff_t stride_bytes = 0;
+
+    const std::uint8_t* row(int v) const { return pixels + v * stride_bytes; }
+};
+
+}  // namespace dotpose

@@ -1,0 +1,41 @@
+/// Reads images from files as 8-bit grey, and writes grey images.
+///
+/// Formats: PNM (PBM, PGM and PPM, text and binary), PNG, JPEG, BMP, TIFF. What a file holds is
+/// told from its first bytes, never from its name. A file that is cut short or damaged is an Error,
+/// even if part of the picture could be shown: made-up pixels are no measurement.
+///
+/// Every pixel becomes one grey level, 0 black to 255 white:
+///  - colour: luma 0.299 R + 0.587 G + 0.114 B (Rec. 601) of the stored values; palettes are
+///    expanded; CMYK is converted without profiles; gamma and colour profiles are ignored
+///  - 16 bits, and maximum values other than 255: scaled to 0..255 and rounded
+///  - transparency: laid on white paper
+///  - several pages in one file: the first
+/// EXIF orientation is ignored: the pixels come as the sensor delivered them, because a camera's
+/// calibration and mount refer to those.
+#pragma once
+
+#include <filesystem>
+
+#include "dotpose/error.hpp"
+#include "dotpose/grey_image.hpp"
+
+namespace dotpose {
+
+/// Largest image that is read; a larger one is an Error.
+inline constexpr int kMaxImageSide_px = 100'000;
+inline constexpr int kMaxImagePixels = 1 << 28;
+
+/// Reads one image. While reading, 9 bytes of memory are needed per pixel, besides the file.
+/// Throws Error, naming the file and the reason: no such file, a directory, no permission, empty,
+/// no known image format, cut short, damaged, too large, not enough memory.
+/// Thread-safe. The first call sets up the decoding library, which takes some milliseconds.
+GreyImage read_image(const std::filesystem::path& path);
+
+/// Writes binary PGM (P5), replacing the file. Throws Error if the image is empty or the file
+/// cannot be written.
+void write_pgm(const std::filesystem::path& path, ImageView image);
+
+/// Writes 8-bit grey PNG, replacing the file; equal images give equal files. Throws Error as above.
+void write_png(const std::filesystem::path& path, ImageView image);
+
+}  // namespace dotpose

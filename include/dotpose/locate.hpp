@@ -1,0 +1,36 @@
+/// dotpose in one call: `Fix fix = locate(image, options, workspace)`.
+///
+/// Or row by row, as a camera delivers them, without a frame buffer: `begin`, then `push_row` for
+/// every row from the top, then `finish`. `locate` does just that.
+///
+/// Memory: the caller owns one workspace for each thread (LargeWorkspace is about 1 MB: make it
+/// static or on the heap) and may use it for any number of frames; afterwards it shows every
+/// stage's output. Nothing is allocated, printed or thrown; there are no globals. Calls with
+/// different workspaces may run at the same time.
+#pragma once
+
+#include "dotpose/fix.hpp"
+#include "dotpose/image.hpp"
+#include "dotpose/options.hpp"
+#include "dotpose/workspace.hpp"
+
+namespace dotpose {
+
+/// Images this size can be located, in pixels per side.
+inline constexpr int kMinFrameSide_px = 64;
+inline constexpr int kMaxFrameSide_px = 4096;
+
+/// Where the pattern is seen in an image; see Fix. The same image gives the same bits everywhere,
+/// but for the covariance and the residual.
+Fix locate(const ImageView& image, const Options& options, Workspace& workspace);
+
+/// Starts a frame. Errors: image_too_small, image_too_large (for the workspace).
+Status begin(int width_px, int height_px, const Options& options, Workspace& workspace);
+
+/// Takes the next row of `width_px` pixels; the pixels are not needed afterwards.
+void push_row(const std::uint8_t* pixels, const Options& options, Workspace& workspace);
+
+/// Locates once all `height_px` rows have been pushed.
+Fix finish(const Options& options, Workspace& workspace);
+
+}  // namespace dotpose

@@ -1,0 +1,85 @@
+/// Options of `locate`, one aggregate for each stage; the defaults suit any camera.
+#pragma once
+
+#include <cstdint>
+
+#include "dotpose/code.hpp"
+
+namespace dotpose {
+
+/// Radial distortion, paper eq. 1-2: p_u = m + r_d / (1 + k |r_d|^2), m the image centre.
+struct Lens {
+    /// k in 2^-40 / px^2; negative for barrel distortion. Default 0: none.
+    std::int32_t k_q40 = 0;
+
+    /// k in 1/px^2, |k| < 2^-9.
+    static constexpr Lens from_k(double k_per_px2) {
+        constexpr double kQ40 = 1099511627776.0;
+        return {static_cast<std::int32_t>(k_per_px2 * kQ40)};
+    }
+};
+
+struct ThresholdOptions {
+    /// A pixel belongs to a blob when it is darker than the paper by this share (in 1/256) of the
+    /// local contrast. Smaller joins neighbouring dots, larger loses blurred ones.
+    int extent_q8 = 90;
+    /// Some pixel of a blob must be darker by this share (in 1/256). Larger drops more noise.
+    int core_q8 = 140;
+    /// Contrast, in grey levels, below which an area counts as blank. Raise it for noisy cameras.
+    int min_contrast = 8;
+};
+
+struct BlobOptions {
+    /// Fewest pixels of a dot. 1 keeps salt and pepper noise.
+    int min_area_px = 2;
+    /// Dots lighter than this share (in 1/256) of the median dot are noise.
+    int min_mass_q8 = 72;
+    /// Blobs larger than this multiple of the median dot are graphics.
+    int max_area_ratio = 5;
+};
+
+struct LatticeOptions {
+    /// Fewest dots worth a try; 6 x 6 is the least that can carry a position.
+    int min_dots = 40;
+    /// Most a dot may lie from its intersection, per axis, in 2^-16 spacing, before it counts as
+    /// noise. Nominal is 1/6.
+    int max_offset_q16 = 24000;
+};
+
+struct IntegrityOptions {
+    /// A position that may be wrong with more than 2^this is refused. Default 2^-30 < 1e-9.
+    int max_p_wrong_log2 = -30;
+    /// Most contradicting bits, in 1/256 of those read, on either axis; more mean that the frame
+    /// shows two patterns.
+    int max_bit_error_q8 = 46;
+};
+
+/// How hard `locate` tries.
+enum class Effort : std::uint8_t {
+    once,   ///< one attempt, as a device does that gets its frame row by row
+    twice,  ///< a frame that could not be read is filtered and tried again
+};
+
+/// What the position is read from.
+enum class Decoder : std::uint8_t {
+    window,  ///< the best 8 x 8 symbols, as in the paper: the baseline
+    all,     ///< all dots in view
+};
+
+struct Options {
+    Profile profile = Profile::anoto;
+    Effort effort = Effort::twice;
+    Decoder decoder = Decoder::all;
+    Lens lens;
+    ThresholdOptions threshold;
+    BlobOptions blobs;
+    LatticeOptions lattice;
+    IntegrityOptions integrity;
+
+    /// The point whose pose is wanted, in pixels from the image centre, times 256. Default: the
+    /// image centre itself.
+    std::int32_t reference_dx_q8 = 0;
+    std::int32_t reference_dy_q8 = 0;
+};
+
+}  // namespace dotpose

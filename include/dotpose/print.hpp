@@ -1,0 +1,106 @@
+/// Printing: lays a part of the code plane out on a page and writes it as text, SVG, PNG or TIFF.
+///
+///     dotpose::SheetOptions options;                      // A4, 5 mm margin, 0.508 mm spacing
+///     options.origin = {.x = 1000, .y = 2000};
+///     const dotpose::Sheet sheet = dotpose::make_sheet(options);
+///     dotpose::write_sheet(sheet, "page.png");
+///
+/// Rows are written as they are made: memory grows with the width of the page, not with its area.
+/// Functions throw BadArgument or Error (error.hpp); they share no state, so threads may write
+/// different files at the same time.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string_view>
+
+#include "dotpose/error.hpp"
+#include "dotpose/sheet.hpp"
+
+namespace dotpose {
+
+/// Largest width and height of a page, in mm.
+inline constexpr double kMaxPage_mm = 100'000;
+/// Fewest columns and rows of a sheet: smaller regions cannot be read (paper section III-A.3).
+inline constexpr int kMinSheetCells = 8;
+/// Largest accepted resolution of PNG and TIFF files.
+inline constexpr double kMaxResolution_dpi = 19'200;
+
+/// Size of a page; the default is A4, portrait.
+struct Paper {
+    double width_mm = 210;
+    double height_mm = 297;
+};
+
+/// Size by name: A0 to A6, Letter, Legal, Tabloid (portrait, in any case of letters), or
+/// WIDTHxHEIGHT in mm, for example "100x62.5".
+/// Throws BadArgument for any other text, and for sizes outside (0, kMaxPage_mm].
+Paper paper_by_name(std::string_view name);
+
+/// The same page with its longer side across.
+Paper landscape(Paper paper);
+
+/// What `make_sheet` lays out.
+struct SheetOptions {
+    Pattern pattern;       ///< code, section and measures of the dots
+    Cell origin;           ///< cell of the top left dot; choose another for each sheet
+    Paper paper;           ///< the page; default A4 portrait
+    double margin_mm = 5;  ///< kept free of ink on all sides; 0 for printers that reach the edge
+};
+
+/// Fills the page inside its margins with whole cells, from the top left.
+///
+/// The first intersection is the first one whose dot clears the margin and whose coordinates are an
+/// odd multiple of half a 300 dpi printer pixel. With the default pattern every dot then covers
+/// whole printer pixels at 300, 600 and 1200 dpi (paper section III-A.1, Fig. 11).
+///
+/// Throws BadArgument: see `validate`; also if the margins leave no room for kMinSheetCells columns
+/// and rows, and if the region would run past the end of the code plane.
+Sheet make_sheet(const SheetOptions& options);
+
+/// Checks a sheet, whoever filled it: lengths positive and finite, dots apart from each other,
+/// section below kSections, at least kMinSheetCells columns and rows, region inside the code plane,
+/// all ink on the page. Throws BadArgument naming the first value that is wrong.
+void validate(const Sheet& sheet);
+
+/// Checks that a printer of this resolution can show the pattern: the displacement is at least one
+/// printer pixel and at least one white pixel parts any two dots. Throws BadArgument.
+void validate_resolution(const Sheet& sheet, double dpi);
+
+/// File formats.
+enum class PrintFormat {
+    text,  ///< the letters u, d, l, r; one line per row of the pattern (paper section III-A.1)
+    svg,   ///< true size in mm, black round dots
+    png,   ///< 1 bit per pixel
+    tiff,  ///< 1 bit per pixel, CCITT group 4
+};
+
+/// Format by file ending: .txt .svg .png .tif .tiff, in any case. Throws BadArgument for others.
+PrintFormat print_format(const std::filesystem::path& path);
+
+/// Told after each row of the pattern; return false to give up.
+using Progress = std::function<bool(int rows_done, int rows)>;
+
+/// How `write_sheet` writes.
+struct PrintOptions {
+    /// Resolution of PNG and TIFF, in dots per inch. Use the printer's own. Not used by text, SVG.
+    double dpi = 600;
+    /// Called often, so it must be cheap. Default: none.
+    Progress progress;
+};
+
+/// Writes the sheet in the format of the file's ending.
+///
+/// In PNG and TIFF the centre of every dot is rounded by itself to the nearest position the printer
+/// has, so the error is at most half a printer pixel per axis and does not add up.
+///
+/// The file appears complete or not at all: it is written under a temporary name in the same
+/// directory and renamed at the end. After any error, and when `progress` returned false, a file
+/// that was there before is unchanged and nothing is left behind.
+///
+/// Throws BadArgument: `print_format`, `validate`, `validate_resolution`. Throws Error: the file
+/// cannot be created or written (with the system's reason), or `progress` returned false.
+void write_sheet(const Sheet& sheet, const std::filesystem::path& path,
+                 const PrintOptions& options = {});
+
+}  // namespace dotpose

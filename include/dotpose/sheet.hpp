@@ -1,0 +1,36 @@
+/// What is printed: the pattern's measures and the page it stands on. Shared by printing,
+/// simulation and evaluation; the core does not need it.
+///
+/// Frames (both x right, y DOWN): *pattern*, where intersection (i, j) lies at (i, j) * spacing_mm;
+/// *sheet*, in mm from the top left corner of the page.
+#pragma once
+
+#include "dotpose/code.hpp"
+
+namespace dotpose {
+
+/// Grid spacing at which dots fall on printer pixels at 300, 600 and 1200 dpi (paper III-A.1).
+inline constexpr double kDefaultSpacing_mm = 0.508;
+
+/// Measures of a printed pattern, in mm.
+struct Pattern {
+    Profile profile = Profile::anoto;
+    Section section;
+    double spacing_mm = kDefaultSpacing_mm;
+    double displacement_mm = kDefaultSpacing_mm / 6;  ///< from the intersection to the dot's centre
+    double dot_mm = kDefaultSpacing_mm / 6;           ///< diameter of a dot
+};
+
+/// One page: `columns` x `rows` intersections, the first of which is `origin`.
+struct Sheet {
+    Pattern pattern;
+    Cell origin;
+    int columns = 0;
+    int rows = 0;
+    double width_mm = 0;
+    double height_mm = 0;
+    double origin_x_mm = 0;  ///< sheet coordinates of intersection `origin`
+    double origin_y_mm = 0;
+};
+
+}  // namespace dotpose

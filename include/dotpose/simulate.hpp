@@ -1,0 +1,190 @@
+/// Simulated printer and camera: frames whose exact pose is known.
+///
+/// A frame is rendered from the geometry of the printed page, in this order: paper with texture,
+/// ink, light, blur, motion, integration over the area of each pixel, noise, clipping, rounding.
+/// The centre of gravity of a dot is right to better than 0.003 px (tests/unit/simulate).
+///
+/// How to use: fill a `Setup`, then for frame i
+///
+///     const Shot shot = draw_shot(setup, i);  // change anything here: shot.pose.theta_rad = 0;
+///     const GreyImage image = render(shot);
+///
+/// Every frame depends on (setup, i) alone: the same bytes on every machine, in any order and from
+/// any number of threads. All functions are pure and thread-safe. Bad values throw BadArgument.
+///
+/// Frames: *pixel* (centre of the first pixel (0, 0), v down), *pattern* (x right, y DOWN as the
+/// page is read, mm). Offsets named `offset_mm` are in the pattern frame, from the pose point, so
+/// that nothing is lost to rounding anywhere on the plane of 2.1e8 mm.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "dotpose/code.hpp"
+#include "dotpose/error.hpp"
+#include "dotpose/grey_image.hpp"
+#include "dotpose/random.hpp"
+#include "dotpose/sheet.hpp"
+
+namespace dotpose {
+
+/// A point or vector; the unit and frame stand in the variable's name.
+struct Vec2 {
+    double x = 0;
+    double y = 0;
+};
+
+/// The camera. The defaults are the paper's device (III-A).
+struct CameraModel {
+    int width_px = 188;   ///< 1 to 16384
+    int height_px = 120;  ///< 1 to 16384
+    /// Size of a pixel at the image centre on the reference plane. Above 0.
+    double mm_per_px = 0.046;
+    /// Radial distortion of eq. 1-2, p_u = m + r_d / (1 + k |r_d|^2), in 1 / px^2; m is the image
+    /// centre. Below 0: barrel. 1 + k |r|^2 must stay in (0, 2) over the whole image.
+    double k = 0;
+    /// Distance of the projection centre from the pose point; matters with tilt only. Above 0.
+    double working_distance_mm = 16;
+};
+
+/// Where the camera looks: the pattern point under the image centre is cell + fraction.
+struct CameraPose {
+    Cell cell;
+    double fraction_x = 0;  ///< grid units, from `cell`; usually in [0, 1)
+    double fraction_y = 0;
+    /// Angle of the image x axis in the pattern frame, from +x towards +y (clockwise as seen on
+    /// the paper), at the image centre.
+    double theta_rad = 0;
+    /// Tilt of the paper about the image x axis: above 0, the paper recedes towards the bottom.
+    double tilt_x_rad = 0;
+    /// Tilt about the image y axis: above 0, the paper comes closer towards the right.
+    double tilt_y_rad = 0;
+};
+
+double x_grid(const CameraPose& pose);
+double y_grid(const CameraPose& pose);
+
+/// What printer, paper, light and sensor do to a frame. The defaults are perfect: preset `clean`.
+/// Fractions and reflectances are in [0, 1]; sigmas, lengths and counts are not negative.
+struct Imperfections {
+    double paper_level = 200;       ///< grey level of bare paper at the image centre, 0 to 255
+    double ink_reflectance = 0.15;  ///< relative to paper
+    double ink_variation = 0;       ///< deviation of a dot's reflectance, relative to paper
+    double vignetting = 0;          ///< loss of light in the image corners, growing with r^2
+    double fall = 0;                ///< linear change of light from one side to the other
+    double fall_direction_rad = 0;  ///< image direction of less light, from +u towards +v
+    double blur_sigma_px = 0;
+    Vec2 motion_px;  ///< of the scene in the image during exposure; the pose is that of its middle
+    double noise_sigma = 0;                 ///< grey levels
+    double salt_and_pepper = 0;             ///< fraction of the pixels
+    double jitter_mm = 0;                   ///< deviation of a printed dot's place, per axis
+    double missing = 0;                     ///< fraction of the dots
+    int dirt_blobs = 0;                     ///< dark specks in the frame
+    int graphics = 0;                       ///< thick strokes or words in the frame
+    double texture = 0;                     ///< deviation of the paper's reflectance
+    static constexpr double kGrain_px = 3;  ///< size of the texture's grains
+    double tilt_x_rad = 0;  ///< added to the pose by `draw_shot`; `render` ignores it
+    double tilt_y_rad = 0;
+};
+
+/// The named conditions for which accuracy is given.
+enum class Preset : std::uint8_t { clean, nominal, hard };
+inline constexpr std::array kPresets = {Preset::clean, Preset::nominal, Preset::hard};
+const char* name(Preset preset);
+
+/// Draws each imperfection from the preset's range, uniformly.
+Imperfections draw(Preset preset, Rng& rng);
+
+/// A printed page: a pattern, its printing errors, and how far it reaches.
+struct Page {
+    Pattern pattern;
+    /// Decides the jitter, ink and absence of each dot, together with its cell: a dot has the same
+    /// printing errors in every frame that shows it.
+    std::uint64_t seed = 1;
+    /// Printed intersections: `columns` x `rows` from `origin`; 0 columns: the whole plane.
+    Cell origin;
+    std::uint32_t columns = 0;
+    std::uint32_t rows = 0;
+};
+
+Page page_of(const Sheet& sheet, std::uint64_t seed = 1);
+
+/// Camera geometry between offsets from the pose point and pixels; the two are each other's
+/// inverse.
+class Projection {
+  public:
+    Projection(const CameraModel& camera, const CameraPose& pose);
+
+    /// A point that the camera cannot see at all gives a pixel 1e9 away.
+    Vec2 pixel_from_offset(Vec2 offset_mm) const;
+    Vec2 offset_from_pixel(Vec2 pixel) const;
+
+  private:
+    Vec2 centre_px_;
+    double k_;
+    double focal_px_;
+    double distance_mm_;
+    // camera_mm = x_axis * offset.x + y_axis * offset.y + (0, 0, distance): the pattern's axes as
+    // the camera sees them (x right, y down, z ahead).
+    std::array<double, 3> x_axis_;
+    std::array<double, 3> y_axis_;
+};
+
+/// Renders what the camera sees. `seed` decides noise, dirt and graphics.
+GreyImage render(const Page& page, const CameraModel& camera, const CameraPose& pose,
+                 const Imperfections& imperfections, std::uint64_t seed);
+
+/// The same for the whole plane, printed with `Page::seed` 1.
+GreyImage render(const Pattern& pattern, const CameraModel& camera, const CameraPose& pose,
+                 const Imperfections& imperfections, std::uint64_t seed);
+
+/// What a run of frames has in common.
+struct Setup {
+    Preset preset = Preset::nominal;
+    Pattern pattern;             ///< its section counts only without `random_section`
+    bool random_section = true;  ///< each frame reads another section
+    CameraModel camera;
+    std::uint64_t seed = 1;
+};
+
+/// All that decides one frame. `page.pattern.section` and `pose` are the truth.
+struct Shot {
+    Page page;
+    CameraModel camera;
+    CameraPose pose;
+    Imperfections imperfections;
+    std::uint64_t seed = 0;
+};
+
+/// Frame `index` of a run: uniform angle, position anywhere on the plane with the whole frame on
+/// it, imperfections from the preset.
+Shot draw_shot(const Setup& setup, std::uint64_t index);
+
+GreyImage render(const Shot& shot);
+
+/// Frames without a valid position, which a locator must refuse. At a seam, the position and
+/// section of either side would be right as well.
+enum class Scene : std::uint8_t {
+    black,
+    white,
+    noise,            ///< each pixel dark with probability `density`, nothing else
+    text,             ///< a page of words
+    plain_grid,       ///< dots on the intersections, not displaced
+    random_symbols,   ///< a perfect grid whose symbols are drawn at random
+    scattered_dots,   ///< dots at random places, `density` per grid cell
+    checkerboard,     ///< squares of two grid spacings
+    seam_vertical,    ///< two sections side by side, the border through the image centre
+    seam_horizontal,  ///< two sections one above the other
+    mirrored,         ///< the pattern seen from behind
+};
+inline constexpr std::array kScenes = {
+    Scene::black,         Scene::white,           Scene::noise,          Scene::text,
+    Scene::plain_grid,    Scene::random_symbols,  Scene::scattered_dots, Scene::checkerboard,
+    Scene::seam_vertical, Scene::seam_horizontal, Scene::mirrored};
+const char* name(Scene scene);
+
+/// Renders `scene` with the shot's camera, pose and imperfections in place of its page.
+/// density: 0 to 1; means something for `noise` and `scattered_dots` only.
+GreyImage render_scene(Scene scene, const Shot& shot, double density = 0.5);
+
+}  // namespace dotpose

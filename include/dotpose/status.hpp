@@ -1,0 +1,42 @@
+/// Status: why a call gave a result or why it did not. "No fix in this frame" is a normal value.
+#pragma once
+
+#include <cstdint>
+
+namespace dotpose {
+
+enum class [[nodiscard]] Status : std::uint8_t{
+    ok,
+    // What the caller handed over.
+    bad_argument,
+    image_too_small,
+    image_too_large,
+    // src/core/pixels
+    no_contrast,
+    too_few_dots,
+    // src/core/lattice
+    no_grid,
+    no_intact_neighbourhood,
+    no_displacement,
+    // src/core/decode
+    grid_too_small,
+    no_orientation,
+    mirrored,
+    // src/code
+    bad_window,
+    not_in_code,
+    ambiguous,
+    // src/core/pose
+    not_certain,
+};
+
+/// Number of values of Status, for tables.
+inline constexpr int kStatusCount = 16;
+
+/// The identifier of a status as written in output lines, for example "too_few_dots".
+const char* name(Status status) noexcept;
+
+/// One plain sentence for the user, without a full stop; it holds for every frame of this status.
+const char* message(Status status) noexcept;
+
+}  // namespace dotpose

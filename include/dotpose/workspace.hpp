@@ -1,0 +1,299 @@
+/// Workspace: all memory of `locate`, and after a call every stage's output, for whoever wants to
+/// draw or judge it. Fixed capacities, owned by the caller, reusable from frame to frame.
+///
+/// Fixed point: a suffix _qN marks a value in units of 2^-N. Pixel frame: the centre of the first
+/// pixel is (0, 0), u to the right, v down.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "dotpose/code.hpp"
+#include "dotpose/fix.hpp"
+
+namespace dotpose {
+
+/// Side of the tiles in which light is measured, for images whose shorter side is at most
+/// `kLargestFinelyTiled_px`, and for larger ones. Three tiles must reach over a dot: an image that
+/// shows 8 dots along its shorter side has a spacing of at most 1/8 of it, and dots a third of
+/// that.
+inline constexpr int kSmallestTile_px = 8;
+inline constexpr int kLargestTile_px = 16;
+inline constexpr int kLargestFinelyTiled_px = 240;
+/// Dots nearest the image centre that give the first estimate of the grid.
+inline constexpr int kMaxSeeds = 256;
+/// Side of the decoding window of the paper (section II-B.5).
+inline constexpr int kWindowSide = 8;
+
+/// Most cells per axis of any workspace's grid.
+inline constexpr int kMaxGridSide = 256;
+/// Most columns and rows that are decoded: where more are in view, those read most clearly.
+inline constexpr int kMaxLines = 64;
+
+/// A vector or point in fixed point.
+struct Vec {
+    std::int32_t x = 0;
+    std::int32_t y = 0;
+    friend constexpr bool operator==(const Vec&, const Vec&) = default;
+};
+
+/// A detected dot.
+struct Dot {
+    Vec centre_q8;           ///< px; after `undistort`, where a camera without distortion sees it
+    std::uint16_t mass = 0;  ///< sum of its darkness, grey levels, saturated
+    std::uint16_t area_px = 0;
+};
+
+/// Light of one tile.
+struct Tile {
+    std::uint16_t sum = 0;  ///< of its pixels
+    std::uint8_t mean = 0;
+    std::uint8_t darkest = 255;
+};
+
+/// What counts as dark in one tile, in grey levels.
+struct Levels {
+    std::uint8_t paper = 0;
+    std::uint8_t extent = 0;  ///< pixels darker than this belong to a blob
+    std::uint8_t core = 0;    ///< some pixel of a blob must be darker than this
+};
+
+/// The newest rows of the image and the light in them. A *band* is a row of tiles.
+struct Light {
+    int width_px = 0;
+    int height_px = 0;
+    int tile_px = 0;
+    int tiles_per_band = 0;
+    int rows_taken = 0;
+    std::span<std::uint8_t> rows;  ///< pixels of the two newest bands
+    std::span<Tile> tiles;         ///< of the three newest bands
+    std::span<Levels> levels;      ///< of the band being thresholded
+};
+
+/// Rows of an image that is being filtered for a second attempt.
+struct Smoothing {
+    std::span<std::uint16_t> lines;  ///< the five newest, weighted along the row
+    std::span<std::uint8_t> row;
+    int lines_ready = 0;
+    int rows_given = 0;
+    int block_px = 0;                      ///< side of the blocks in which the paper is measured
+    int block_rows = 0;                    ///< of which the paper is known
+    std::span<std::uint8_t> papers;        ///< of the newest four rows of blocks
+    std::span<std::uint32_t> column_sums;  ///< over the rows [sums_begin, sums_end)
+    int sums_begin = 0;
+    int sums_end = 0;
+};
+
+/// Stretch of blob pixels in one row, end exclusive.
+struct Run {
+    std::int16_t begin = 0;
+    std::int16_t end = 0;
+    std::int16_t blob = 0;
+};
+
+/// A blob that still grows: sums over its pixels, relative to its first one.
+struct OpenBlob {
+    std::int32_t sum_x = 0;  ///< weight times (u - first_u)
+    std::int32_t sum_y = 0;  ///< weight times (v - first_v)
+    std::int32_t mass = 0;
+    std::int16_t first_u = 0;
+    std::int16_t first_v = 0;
+    std::int16_t last_v = 0;
+    std::uint16_t area_px = 0;
+    bool has_core = false;
+    bool is_dot = true;  ///< false once it touches the border or is larger than any dot
+    bool in_use = false;
+};
+
+/// Blobs that reach into the newest thresholded row.
+struct OpenBlobs {
+    std::span<Run> runs;  ///< of the newest row and of the one above, in halves
+    int run_count = 0;
+    bool newest_in_second_half = false;
+    std::span<OpenBlob> blobs;
+    int next_free = 0;
+};
+
+/// A connection between two seeds that both count each other among their four nearest.
+struct Edge {
+    std::int16_t from = 0;  ///< index of a seed
+    std::int16_t to = 0;
+    Vec step_q8;  ///< px, pointing down (or right)
+};
+
+/// First estimate of the grid: intersection (i, j) lies at origin + i u + j v in the image.
+struct Lattice {
+    Vec u_q16;
+    Vec v_q16;
+    Vec origin_q16;
+};
+
+/// Maps image points to the plane of the paper, in spacings: with (x, y) in px from `centre`,
+///
+///     plane = at_centre + (du x + dv y) / (1 + perspective . (x, y) + lens (x^2 + y^2)),
+///
+/// which is exact for a tilted camera, for the lens of eq. 2, and for both.
+struct PlaneFromImage {
+    Vec centre_q8;              ///< px
+    Vec at_centre_q16;          ///< spacings
+    Vec du_q24;                 ///< spacings per px to the right
+    Vec dv_q24;                 ///< spacings per px down
+    Vec perspective_q30;        ///< per px
+    std::int32_t lens_q40 = 0;  ///< per px^2
+};
+
+/// One cell of the matrices P of the paper's Fig. 8.
+struct GridCell {
+    static constexpr std::uint16_t kNoDot = 65535;
+    std::int8_t x = 0;  ///< quasi-probability of the x bit, in 1/127: positive for 1
+    std::int8_t y = 0;
+    std::uint16_t dot = kNoDot;  ///< index of the dot read here
+};
+
+/// Quarter turns of the grid against the pattern: pattern_step = turn(grid_step).
+struct Turn {
+    int quarters = 0;  ///< 0 to 3, from +x towards +y
+
+    constexpr Vec operator()(Vec grid) const {
+        switch (quarters) {
+            case 1:
+                return {-grid.y, grid.x};
+            case 2:
+                return {-grid.x, -grid.y};
+            case 3:
+                return {grid.y, -grid.x};
+            default:
+                return grid;
+        }
+    }
+    constexpr Turn inverse() const { return {(4 - quarters) % 4}; }
+};
+
+/// The matrices P^(x), P^(y) over the cells [i0, i0 + columns) x [j0, j0 + rows).
+struct Grid {
+    std::span<GridCell> storage;
+    int side = 0;  ///< capacity: side * side cells
+    int i0 = 0;
+    int j0 = 0;
+    int columns = 0;
+    int rows = 0;
+
+    GridCell& at(int i, int j) const {
+        return storage[static_cast<std::size_t>((j - j0) * columns + (i - i0))];
+    }
+    bool contains(int i, int j) const {
+        return i >= i0 && j >= j0 && i < i0 + columns && j < j0 + rows;
+    }
+};
+
+/// Agreement of one column or row with the main sequence at each of its offsets.
+using LineScores = std::array<std::int16_t, kSections>;
+
+/// A rectangle of grid cells.
+struct Region {
+    int i0 = 0;
+    int j0 = 0;
+    int columns = 0;
+    int rows = 0;
+};
+
+/// What the grid was read as.
+struct Decoding {
+    Region window;  ///< the 8 x 8 cells read most clearly
+    Region region;  ///< all that is decoded: at most kMaxLines x kMaxLines cells
+    Turn pattern_from_grid;
+    Place place;  ///< where grid cell (0, 0) stands in the code, seen or not
+};
+
+/// All stages' memory and results. Use one of the aliases below; the stages see spans only.
+struct Workspace {
+    int max_width_px = 0;
+    // pixels
+    Smoothing smoothing;
+    Light light;
+    OpenBlobs open;
+    std::span<Dot> dots;  ///< capacity
+    int dot_count = 0;
+    int dots_kept_within_px = 0;  ///< of the image centre, per axis; shrinks when `dots` is full
+    // lattice
+    std::array<std::uint16_t, kMaxSeeds> seeds{};  ///< indices of dots
+    int seed_count = 0;
+    std::array<std::array<std::int16_t, 4>, kMaxSeeds> neighbours{};
+    std::array<Edge, 2 * kMaxSeeds> edges{};
+    int edge_count = 0;
+    Lattice lattice;
+    int origin_seed = -1;  ///< centre of the intact neighbourhood, if any
+    PlaneFromImage grid_from_image;
+    // decode
+    Grid grid;
+    std::span<LineScores> line_scores;  ///< of one axis
+    Decoding decoding;
+    // pose
+    PlaneFromImage pattern_from_image;  ///< relative to `Decoding::place`
+    Fix fix;
+
+    std::span<const Dot> found_dots() const {
+        return dots.first(static_cast<std::size_t>(dot_count));
+    }
+};
+
+/// A workspace with its memory, for images up to `MaxWidth` px wide. Of more than `MaxDots` dots
+/// those nearest the image centre are kept; of the grid, the middle `GridSide` x `GridSide` cells.
+template <int MaxWidth, int MaxDots, int GridSide>
+class WorkspaceOf : public Workspace {
+  public:
+    static_assert(MaxWidth >= 64 && MaxWidth <= 4096, "images are 64 to 4096 px wide");
+    static_assert(GridSide >= 16 && GridSide <= kMaxGridSide, "lines of the grid have fixed room");
+    static_assert(MaxDots >= 64 && MaxDots < GridCell::kNoDot, "dots are counted in 16 bits");
+
+    WorkspaceOf() {
+        max_width_px = MaxWidth;
+        smoothing.lines = smooth_lines_;
+        smoothing.row = smooth_row_;
+        smoothing.papers = smooth_papers_;
+        smoothing.column_sums = smooth_sums_;
+        light.rows = rows_;
+        light.tiles = tiles_;
+        light.levels = levels_;
+        open.runs = runs_;
+        open.blobs = blobs_;
+        dots = dots_;
+        grid.storage = cells_;
+        grid.side = GridSide;
+        line_scores = line_scores_;
+    }
+    WorkspaceOf(const WorkspaceOf&) = delete;
+    WorkspaceOf& operator=(const WorkspaceOf&) = delete;
+
+  private:
+    // Small images have small tiles, larger ones large tiles: see `begin_light`.
+    static constexpr int kTile_px =
+        MaxWidth <= kLargestFinelyTiled_px ? kSmallestTile_px : kLargestTile_px;
+    static constexpr int kTiles = MaxWidth / kSmallestTile_px + 1;
+    // Every second pixel may begin a run, and every run a blob.
+    static constexpr int kRuns = MaxWidth / 2 + 1;
+
+    std::array<std::uint16_t, 5 * MaxWidth> smooth_lines_{};
+    std::array<std::uint8_t, MaxWidth> smooth_row_{};
+    // Blocks are a tenth of the shorter side, so at least 6 px.
+    std::array<std::uint8_t, 4 * (MaxWidth / 6 + 1)> smooth_papers_{};
+    std::array<std::uint32_t, MaxWidth> smooth_sums_{};
+    std::array<std::uint8_t, 2 * kTile_px * MaxWidth> rows_{};
+    std::array<Tile, 3 * kTiles> tiles_{};
+    std::array<Levels, kTiles> levels_{};
+    std::array<Run, 2 * kRuns> runs_{};
+    std::array<OpenBlob, 2 * kRuns> blobs_{};
+    std::array<Dot, MaxDots> dots_{};
+    std::array<GridCell, GridSide * GridSide> cells_{};
+    std::array<LineScores, std::min(GridSide, kMaxLines)> line_scores_{};
+};
+
+/// For the paper's 188 x 120 px sensor.
+using SmallWorkspace = WorkspaceOf<188, 384, 32>;
+/// For everything up to 4096 x 4096 px.
+using LargeWorkspace = WorkspaceOf<4096, 16384, 192>;
+
+}  // namespace dotpose

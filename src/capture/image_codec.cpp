@@ -1,0 +1,160 @@
+#include "capture/image_codec.hpp"
+
+#include <cstddef>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <string>
+
+#include <magick/api.h>
+
+#include "dotpose/image_file.hpp"
+
+namespace dotpose::capture {
+namespace {
+
+struct InfoDeleter {
+    void operator()(ImageInfo* info) const { DestroyImageInfo(info); }
+};
+struct ImageDeleter {
+    void operator()(Image* image) const { DestroyImageList(image); }
+};
+struct BlobDeleter {
+    void operator()(void* blob) const { MagickFree(blob); }
+};
+using InfoPointer = std::unique_ptr<ImageInfo, InfoDeleter>;
+using ImagePointer = std::unique_ptr<Image, ImageDeleter>;
+
+/// Where the library reports what went wrong.
+class Report : public ExceptionInfo {
+  public:
+    Report() { GetExceptionInfo(this); }
+    ~Report() { DestroyExceptionInfo(this); }
+    Report(const Report&) = delete;
+    Report& operator=(const Report&) = delete;
+
+    /// Pixels that a damaged file did not give are filled up and only warned of.
+    bool is_failure() const {
+        return severity >= ErrorException || severity == CorruptImageWarning;
+    }
+    bool mentions(const char* text) const {
+        return reason != nullptr && std::strstr(reason, text) != nullptr;
+    }
+};
+
+/// The library's global state, from the first use to the end of the program.
+class Library {
+  public:
+    Library() {
+        // Signals belong to the program.
+        if (InitializeMagickEx(nullptr, MAGICK_OPT_NO_SIGNAL_HANDER, nullptr) == MagickFail) {
+            throw Error("the image decoding library could not be started");
+        }
+        SetMagickResourceLimit(WidthResource, kMaxImageSide_px);
+        SetMagickResourceLimit(HeightResource, kMaxImageSide_px);
+        SetMagickResourceLimit(PixelsResource, kMaxImagePixels);
+        // Frames are small: threads would cost more than they give.
+        SetMagickResourceLimit(ThreadsResource, 1);
+        // Never swap pixels to files behind the user's back.
+        SetMagickResourceLimit(DiskResource, 0);
+        SetMagickResourceLimit(MapResource, 0);
+    }
+    ~Library() { DestroyMagick(); }
+    Library(const Library&) = delete;
+    Library& operator=(const Library&) = delete;
+};
+
+void start_library() {
+    static const Library kLibrary;
+}
+
+InfoPointer make_info(ImageFormat format) {
+    InfoPointer info(CloneImageInfo(nullptr));
+    // Named outright, so that the library never guesses among the many formats it knows.
+    std::strncpy(info->magick, name(format), sizeof info->magick - 1);
+    info->subimage = 0;
+    info->subrange = 1;
+    return info;
+}
+
+[[noreturn]] void fail(ImageFormat format, std::span<const std::uint8_t> bytes,
+                       const Report& report) {
+    const std::string kind = name(format);
+    if (report.mentions("Memory allocation failed")) throw std::bad_alloc();
+    if (report.severity == ResourceLimitError || report.mentions("exceeds resource limit") ||
+        is_too_large(format, bytes)) {
+        throw Error(kTooLarge);
+    }
+    const bool is_short = report.mentions("end-of-file") || report.mentions("Insufficient") ||
+                          report.mentions("Premature end") || is_cut_short(format, bytes);
+    if (is_short) throw Error("the " + kind + " image is cut short");
+    const bool has_reason = report.reason != nullptr && *report.reason != '\0';
+    throw Error("the " + kind + " image is damaged or of an unknown kind" +
+                (has_reason ? " (" + std::string(report.reason) + ")" : ""));
+}
+
+/// One row as 16-bit red, green, blue and opacity to grey, rounded once.
+void convert_row(std::span<const std::uint16_t> rgba, std::uint8_t* grey) {
+    constexpr std::uint64_t kFull = 65'535;
+    constexpr std::uint64_t kLumaScale = 1000;  // of the Rec. 601 weights
+    constexpr std::uint64_t kScale = kFull * kLumaScale * (kFull / 255);
+    for (std::size_t i = 0; i + 3 < rgba.size(); i += 4) {
+        const std::uint64_t luma = 299ULL * rgba[i] + 587ULL * rgba[i + 1] + 114ULL * rgba[i + 2];
+        const std::uint64_t opacity = rgba[i + 3];
+        const std::uint64_t on_white = luma * opacity + kFull * kLumaScale * (kFull - opacity);
+        *grey++ = static_cast<std::uint8_t>((on_white + kScale / 2) / kScale);
+    }
+}
+
+GreyImage to_grey(const Image& image, Report& report) {
+    GreyImage grey;
+    grey.width_px = static_cast<int>(image.columns);
+    grey.height_px = static_cast<int>(image.rows);
+    grey.pixels.resize(image.columns * image.rows);
+    std::vector<std::uint16_t> row(4 * image.columns);
+    for (unsigned long v = 0; v < image.rows; ++v) {
+        if (DispatchImage(&image, 0, static_cast<long>(v), image.columns, 1, "RGBA", ShortPixel,
+                          row.data(), &report) == MagickFail) {
+            return {};
+        }
+        convert_row(row, grey.pixels.data() + v * image.columns);
+    }
+    return grey;
+}
+
+}  // namespace
+
+GreyImage decode_image(ImageFormat format, std::span<const std::uint8_t> bytes) {
+    start_library();
+    Report report;
+    // The library leaves the pixels of missing TIFF strips unset, without a word.
+    if (format == ImageFormat::tiff && is_cut_short(format, bytes)) fail(format, bytes, report);
+    const InfoPointer info = make_info(format);
+    const ImagePointer image(BlobToImage(info.get(), bytes.data(), bytes.size(), &report));
+    if (!image || report.is_failure()) fail(format, bytes, report);
+    if (image->colorspace == CMYKColorspace) TransformColorspace(image.get(), RGBColorspace);
+    GreyImage grey = to_grey(*image, report);
+    if (grey.pixels.empty()) fail(format, bytes, report);
+    return grey;
+}
+
+std::vector<std::uint8_t> encode_png(const GreyImage& image) {
+    start_library();
+    Report report;
+    const auto width = static_cast<unsigned long>(image.width_px);
+    const auto height = static_cast<unsigned long>(image.height_px);
+    const ImagePointer magick(
+        ConstituteImage(width, height, "I", CharPixel, image.pixels.data(), &report));
+    std::size_t size = 0;
+    std::unique_ptr<void, BlobDeleter> blob;
+    if (magick) {
+        const InfoPointer info = make_info(ImageFormat::png);
+        std::strncpy(magick->magick, info->magick, sizeof magick->magick);
+        blob.reset(ImageToBlob(info.get(), magick.get(), &size, &report));
+    }
+    if (!blob) throw Error(std::string("the PNG encoder failed: ") + report.reason);
+    const auto* first = static_cast<const std::uint8_t*>(blob.get());
+    return {first, first + size};
+}
+
+}  // namespace dotpose::capture

@@ -1,0 +1,141 @@
+#include "dotpose/image_file.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <string>
+#include <utility>
+
+#include "capture/image_codec.hpp"
+#include "capture/image_format.hpp"
+#include "capture/pnm.hpp"
+
+namespace dotpose {
+namespace {
+
+using capture::ImageFormat;
+using Bytes = std::vector<std::uint8_t>;
+
+/// More than the largest image takes at 16 bits and four channels; ends endless files.
+constexpr std::size_t kMaxFileBytes = (std::size_t{8} << 28) + (std::size_t{1} << 20);
+
+struct Closer {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, Closer>;
+
+std::string system_reason() {
+    switch (errno) {
+        case ENOENT:
+            return "no such file";
+        case EACCES:
+            return "permission denied";
+        case EISDIR:
+            return "it is a directory";
+        default:
+            return std::strerror(errno);
+    }
+}
+
+/// Appends up to `count` bytes; fewer only at the end of the file.
+void append(std::FILE* file, std::size_t count, Bytes& bytes) {
+    const std::size_t before = bytes.size();
+    bytes.resize(before + count);
+    errno = 0;
+    const std::size_t got = std::fread(bytes.data() + before, 1, count, file);
+    if (std::ferror(file) != 0) throw Error(system_reason());
+    bytes.resize(before + got);
+}
+
+struct Content {
+    ImageFormat format;
+    Bytes bytes;
+};
+
+Content read_file(const std::filesystem::path& path) {
+    const File file(std::fopen(path.c_str(), "rb"));
+    if (!file) throw Error(system_reason());
+    Bytes bytes;
+    append(file.get(), capture::kMagicBytes, bytes);
+    if (bytes.empty()) throw Error("the file is empty");
+    const auto format = capture::sniff(bytes);
+    if (!format) throw Error("not a PNM, PNG, JPEG, BMP or TIFF image");
+    // Read to the end instead of asking for the size, which pipes do not have.
+    std::size_t chunk = std::size_t{1} << 16;
+    while (std::feof(file.get()) == 0) {
+        if (bytes.size() > kMaxFileBytes) throw Error("the file is larger than 2 GiB");
+        append(file.get(), chunk, bytes);
+        chunk = bytes.size();
+    }
+    return {*format, std::move(bytes)};
+}
+
+void write_file(const std::filesystem::path& path, const Bytes& bytes) {
+    File file(std::fopen(path.c_str(), "wb"));
+    const bool written =
+        file && std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
+    // What is still buffered can fail when closing: the disk may be full.
+    const bool closed = file && std::fclose(file.release()) == 0;
+    if (!written || !closed) throw Error(system_reason());
+}
+
+/// The pixels without padding between rows.
+Bytes packed_pixels(ImageView image) {
+    if (image.pixels == nullptr || image.width_px <= 0 || image.height_px <= 0) {
+        throw Error("the image is empty");
+    }
+    Bytes pixels;
+    const auto width = static_cast<std::size_t>(image.width_px);
+    pixels.reserve(width * static_cast<std::size_t>(image.height_px));
+    for (int v = 0; v < image.height_px; ++v) {
+        pixels.insert(pixels.end(), image.row(v), image.row(v) + width);
+    }
+    return pixels;
+}
+
+/// Runs `action`; its errors, which give the reason only, get the file's name.
+template <class Action>
+auto with_name(const char* verb, const std::filesystem::path& path, Action action) {
+    const auto sentence = [&](const char* reason) {
+        return std::string("cannot ") + verb + " " + path.string() + ": " + reason;
+    };
+    try {
+        return action();
+    } catch (const Error& error) {
+        throw Error(sentence(error.what()));
+    } catch (const std::bad_alloc&) {
+        throw Error(sentence("not enough memory"));
+    }
+}
+
+}  // namespace
+
+GreyImage read_image(const std::filesystem::path& path) {
+    return with_name("read", path, [&] {
+        const Content content = read_file(path);
+        return content.format == ImageFormat::pnm
+                   ? capture::decode_pnm(content.bytes)
+                   : capture::decode_image(content.format, content.bytes);
+    });
+}
+
+void write_pgm(const std::filesystem::path& path, ImageView image) {
+    with_name("write", path, [&] {
+        const std::string header = "P5\n" + std::to_string(image.width_px) + " " +
+                                   std::to_string(image.height_px) + "\n255\n";
+        Bytes bytes = packed_pixels(image);
+        bytes.insert(bytes.begin(), header.begin(), header.end());
+        write_file(path, bytes);
+    });
+}
+
+void write_png(const std::filesystem::path& path, ImageView image) {
+    with_name("write", path, [&] {
+        const GreyImage packed{packed_pixels(image), image.width_px, image.height_px};
+        write_file(path, capture::encode_png(packed));
+    });
+}
+
+}  // namespace dotpose

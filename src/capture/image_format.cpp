@@ -1,0 +1,194 @@
+#include "capture/image_format.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "dotpose/image_file.hpp"
+
+namespace dotpose::capture {
+namespace {
+
+using Bytes = std::span<const std::uint8_t>;
+
+/// Unsigned integer of `size` bytes; the caller has checked that they are there.
+std::uint64_t integer(Bytes bytes, std::size_t offset, std::size_t size, bool big_endian) {
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+        value = value << 8 | bytes[offset + (big_endian ? i : size - 1 - i)];
+    }
+    return value;
+}
+
+bool png_is_cut_short(Bytes bytes) {
+    constexpr std::size_t kSignature = 8;
+    constexpr std::size_t kChunkFrame = 12;         // length, type, checksum
+    constexpr std::uint64_t kEndType = 0x49454E44;  // "IEND"
+    std::size_t offset = kSignature;
+    while (bytes.size() - offset >= kChunkFrame) {
+        const std::uint64_t length = integer(bytes, offset, 4, true);
+        if (length > bytes.size() - offset - kChunkFrame) return true;
+        if (integer(bytes, offset + 4, 4, true) == kEndType) return false;
+        offset += kChunkFrame + length;
+    }
+    return true;
+}
+
+bool jpeg_is_cut_short(Bytes bytes) {
+    constexpr std::array<std::uint8_t, 2> kEndOfImage{0xFF, 0xD9};
+    // Cameras may pad after the marker, so the last bytes alone do not tell.
+    return std::search(bytes.rbegin(), bytes.rend(), kEndOfImage.rbegin(), kEndOfImage.rend()) ==
+           bytes.rend();
+}
+
+bool bmp_is_cut_short(Bytes bytes) {
+    constexpr std::size_t kFileHeader = 14;
+    return bytes.size() < kFileHeader || integer(bytes, 2, 4, false) > bytes.size();
+}
+
+/// The first directory of a TIFF or BigTIFF file. The two differ in the widths of their numbers.
+class TiffDirectory {
+  public:
+    explicit TiffDirectory(Bytes bytes)
+        : bytes_(bytes), big_endian_(bytes[0] == 'M'), is_big_(bytes[big_endian_ ? 3 : 2] == 43) {}
+
+    bool is_cut_short() const {
+        const std::size_t start = is_big_ ? 8 : 4;
+        const std::size_t count_size = is_big_ ? 8 : 2;
+        if (!holds(start, word())) return true;
+        const std::uint64_t offset = number(start, word());
+        if (!holds(offset, count_size)) return true;
+        const std::uint64_t entries = number(offset, count_size);
+        const std::uint64_t first = offset + count_size;
+        // After the entries stands the offset of the next directory.
+        if (entries > bytes_.size() / entry_size() ||
+            !holds(first, entries * entry_size() + word())) {
+            return true;
+        }
+        Values offsets;
+        Values sizes;
+        for (std::uint64_t i = 0; i < entries; ++i) {
+            const std::uint64_t entry = first + i * entry_size();
+            const Values values = values_of(entry);
+            if (values.count > bytes_.size() || !holds(values.offset, values.count * values.size)) {
+                return true;
+            }
+            const std::uint64_t tag = number(entry, 2);
+            if (tag == strip_offsets || tag == tile_offsets) offsets = values;
+            if (tag == strip_sizes || tag == tile_sizes) sizes = values;
+        }
+        return !holds_pixels(offsets, sizes);
+    }
+
+  private:
+    /// An array of integers in the file.
+    struct Values {
+        std::uint64_t offset = 0;
+        std::uint64_t count = 0;
+        std::uint64_t size = 0;  ///< bytes of one
+    };
+    enum Tag : std::uint64_t {
+        strip_offsets = 273,
+        strip_sizes = 279,
+        tile_offsets = 324,
+        tile_sizes = 325,
+    };
+
+    std::uint64_t word() const { return is_big_ ? 8 : 4; }
+    std::uint64_t entry_size() const { return 4 + 2 * word(); }
+    bool holds(std::uint64_t offset, std::uint64_t size) const {
+        return offset <= bytes_.size() && size <= bytes_.size() - offset;
+    }
+    std::uint64_t number(std::uint64_t offset, std::uint64_t size) const {
+        return integer(bytes_, offset, size, big_endian_);
+    }
+
+    Values values_of(std::uint64_t entry) const {
+        // Bytes per value of the types 0 to 18; the decoder ignores unknown types, and so do we.
+        constexpr std::array<std::uint8_t, 19> kTypeSizes{0, 1, 1, 2, 4, 8, 1, 1, 2, 4,
+                                                          8, 4, 8, 4, 0, 0, 8, 8, 8};
+        const std::uint64_t type = number(entry + 2, 2);
+        Values values;
+        values.size = type < kTypeSizes.size() ? kTypeSizes[type] : 0;
+        values.count = number(entry + 4, word());
+        const std::uint64_t place = entry + 4 + word();
+        const bool is_inline = values.size == 0 || values.count <= word() / values.size;
+        values.offset = is_inline ? place : number(place, word());
+        if (values.size == 0) values.count = 0;
+        return values;
+    }
+
+    bool holds_pixels(const Values& offsets, const Values& sizes) const {
+        const std::uint64_t count = std::min(offsets.count, sizes.count);
+        for (std::uint64_t i = 0; i < count; ++i) {
+            const std::uint64_t offset = number(offsets.offset + i * offsets.size, offsets.size);
+            const std::uint64_t size = number(sizes.offset + i * sizes.size, sizes.size);
+            if (!holds(offset, size)) return false;
+        }
+        return true;
+    }
+
+    Bytes bytes_;
+    bool big_endian_;
+    bool is_big_;
+};
+
+}  // namespace
+
+std::optional<ImageFormat> sniff(std::span<const std::uint8_t> bytes) {
+    using namespace std::string_view_literals;
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (text.starts_with("\x89PNG\r\n\x1A\n"sv)) return ImageFormat::png;
+    if (text.starts_with("\xFF\xD8\xFF"sv)) return ImageFormat::jpeg;
+    for (const std::string_view magic : {"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv}) {
+        if (text.starts_with(magic)) return ImageFormat::tiff;
+    }
+    if (text.starts_with("BM"sv)) return ImageFormat::bmp;
+    if (text.size() >= 3 && text[0] == 'P' && text[1] >= '1' && text[1] <= '6' &&
+        " \t\n\v\f\r#"sv.find(text[2]) != std::string_view::npos) {
+        return ImageFormat::pnm;
+    }
+    return std::nullopt;
+}
+
+const char* name(ImageFormat format) {
+    switch (format) {
+        case ImageFormat::pnm:
+            return "PNM";
+        case ImageFormat::png:
+            return "PNG";
+        case ImageFormat::jpeg:
+            return "JPEG";
+        case ImageFormat::bmp:
+            return "BMP";
+        case ImageFormat::tiff:
+            return "TIFF";
+    }
+    return "";
+}
+
+bool is_cut_short(ImageFormat format, std::span<const std::uint8_t> bytes) {
+    switch (format) {
+        case ImageFormat::pnm:
+            return false;
+        case ImageFormat::png:
+            return png_is_cut_short(bytes);
+        case ImageFormat::jpeg:
+            return jpeg_is_cut_short(bytes);
+        case ImageFormat::bmp:
+            return bmp_is_cut_short(bytes);
+        case ImageFormat::tiff:
+            return TiffDirectory(bytes).is_cut_short();
+    }
+    return false;
+}
+
+bool is_too_large(ImageFormat format, std::span<const std::uint8_t> bytes) {
+    constexpr std::size_t kWidthOffset = 16;
+    constexpr std::size_t kHeightOffset = 20;
+    if (format != ImageFormat::png || bytes.size() < kHeightOffset + 4) return false;
+    return integer(bytes, kWidthOffset, 4, true) > kMaxImageSide_px ||
+           integer(bytes, kHeightOffset, 4, true) > kMaxImageSide_px;
+}
+
+}  // namespace dotpose::capture

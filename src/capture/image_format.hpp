@@ -1,0 +1,34 @@
+/// What can be told about an image file from its bytes alone, without decoding.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace dotpose::capture {
+
+enum class ImageFormat : std::uint8_t { pnm, png, jpeg, bmp, tiff };
+
+/// Bytes `sniff` looks at.
+inline constexpr std::size_t kMagicBytes = 8;
+
+/// The reason given for images beyond the limits.
+inline constexpr char kTooLarge[] =
+    "the image is too large: at most 100,000 px per side and 2^28 px are read";
+
+/// The format the first bytes announce.
+std::optional<ImageFormat> sniff(std::span<const std::uint8_t> bytes);
+
+/// "PNM", "PNG", "JPEG", "BMP" or "TIFF".
+const char* name(ImageFormat format);
+
+/// Whether the file's own structure (chunks, sizes, offsets, end marker) reaches beyond its end.
+/// PNM has no such structure: always false.
+bool is_cut_short(ImageFormat format, std::span<const std::uint8_t> bytes);
+
+/// Whether a PNG announces a side above kMaxImageSide_px, which its decoder reports only as a bad
+/// header; other formats: false.
+bool is_too_large(ImageFormat format, std::span<const std::uint8_t> bytes);
+
+}  // namespace dotpose::capture

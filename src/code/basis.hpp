@@ -1,0 +1,21 @@
+// The four secondary number sequences of a profile.
+#pragma once
+
+#include "code/tables.hpp"
+#include "dotpose/code.hpp"
+
+namespace dotpose::code {
+
+constexpr const Basis& basis(Profile profile) {
+    switch (profile) {
+        case Profile::published:
+            return kBasis<kA4Published>;
+        case Profile::microdots:
+            return kBasis<kA4Microdots>;
+        case Profile::anoto:
+            break;
+    }
+    return kBasis<kA4Restored>;
+}
+
+}  // namespace dotpose::code

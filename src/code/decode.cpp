@@ -1,0 +1,156 @@
+// Symbols -> position (paper section II-A and II-B.7), exact, for windows without errors.
+#include <array>
+
+#include "code/basis.hpp"
+#include "dotpose/code.hpp"
+
+namespace dotpose {
+namespace {
+
+constexpr int kLargestWindow = 32;
+constexpr int kSmallestWindow = code::kMainOrder;
+
+using Rolls = std::array<std::uint8_t, kLargestWindow>;
+using Deltas = std::array<std::uint8_t, kLargestWindow - 1>;
+
+/// Places of one secondary sequence at which the digits of all differences stand.
+struct Places {
+    std::uint32_t first = 0;
+    int count = 0;
+};
+
+bool stands_at(const code::Secondary& a, int digit, std::span<const std::uint8_t> deltas,
+               std::uint32_t place) {
+    for (const std::uint8_t d : deltas) {
+        const auto& digits = code::kDigitsOfDelta[d - std::size_t{code::kSmallestDelta}];
+        if (a.digits[place] != digits[static_cast<std::size_t>(digit)]) return false;
+        place = place + 1 == a.length ? 0 : place + 1;
+    }
+    return true;
+}
+
+Places find(const code::Secondary& a, int digit, std::span<const std::uint8_t> deltas) {
+    unsigned key = 0;
+    for (int i = 0; i < code::kOrder; ++i) {
+        const auto& digits = code::kDigitsOfDelta[deltas[static_cast<std::size_t>(i)] -
+                                                  std::size_t{code::kSmallestDelta}];
+        key = key * a.base + digits[static_cast<std::size_t>(digit)];
+    }
+    const std::uint8_t first = a.first_place_of[key];
+    Places places;
+    if (first == code::kAbsent) return places;
+    // Only the misprinted sequence needs a look beyond the first place.
+    const std::uint32_t end = a.has_twins ? a.length : first + 1U;
+    for (std::uint32_t place = first; place < end; ++place) {
+        if (!stands_at(a, digit, deltas, place)) continue;
+        if (places.count++ == 0) places.first = place;
+    }
+    return places;
+}
+
+/// Inverse of a modulo the prime m.
+consteval std::uint32_t inverse(std::uint32_t a, std::uint32_t m) {
+    std::uint32_t x = 1;
+    while (a % m * x % m != 1)
+        ++x;
+    return x;
+}
+
+/// The position that leaves these remainders modulo 236, 233, 31 and 241: Garner's mixed-radix form
+/// of the Chinese remainder theorem, which stays within 32 bits.
+std::uint32_t from_remainders(const std::array<std::uint32_t, 4>& r) {
+    constexpr std::uint32_t kM1 = 236, kM2 = 233, kM3 = 31, kM4 = 241;
+    static_assert(kM1 * kM2 * kM3 * kM4 == kPositionsPerAxis);
+    const std::uint32_t k2 = (r[1] + 2 * kM2 - r[0]) % kM2 * inverse(kM1, kM2) % kM2;
+    const std::uint32_t p2 = r[0] + kM1 * k2;
+    const std::uint32_t k3 = (r[2] + kM3 - p2 % kM3) % kM3 * inverse(kM1 * kM2, kM3) % kM3;
+    const std::uint32_t p3 = p2 + kM1 * kM2 * k3;
+    const std::uint32_t k4 = (r[3] + kM4 - p3 % kM4) % kM4 * inverse(kM1 * kM2 * kM3, kM4) % kM4;
+    return p3 + kM1 * kM2 * kM3 * k4;
+}
+
+/// Place in the main sequence of a whole column or row of bits; kAbsent if there is none.
+std::uint8_t place_in_main(const Window& window, bool columns, int line) {
+    const int length = columns ? window.rows : window.columns;
+    const auto bit = [&](int i) -> unsigned {
+        const int index = columns ? i * window.columns + line : line * window.columns + i;
+        const Symbol symbol = window.symbols[static_cast<std::size_t>(index)];
+        return static_cast<unsigned>(columns ? x_bit(symbol) : y_bit(symbol));
+    };
+    unsigned key = 0;
+    for (int i = 0; i < code::kMainOrder; ++i)
+        key = key * 2 + bit(i);
+    const std::uint8_t place = code::kPlaceInMain[key];
+    if (place == code::kAbsent) return place;
+    for (int i = code::kMainOrder; i < length; ++i) {
+        if (static_cast<int>(bit(i)) != main_bit(place + static_cast<unsigned>(i))) {
+            return code::kAbsent;
+        }
+    }
+    return place;
+}
+
+/// Rolls of all columns (or rows) of a window, and the position of the first of them.
+Status read_axis(Profile profile, const Window& window, bool columns, std::uint8_t& first_roll,
+                 std::uint32_t& position) {
+    Rolls rolls{};
+    const auto count = static_cast<std::size_t>(columns ? window.columns : window.rows);
+    for (std::size_t i = 0; i < count; ++i) {
+        rolls[i] = place_in_main(window, columns, static_cast<int>(i));
+        if (rolls[i] == code::kAbsent) return Status::not_in_code;
+    }
+    first_roll = rolls[0];
+    return position_from_rolls(profile, std::span(rolls).first(count), position);
+}
+
+}  // namespace
+
+Status position_from_rolls(Profile profile, std::span<const std::uint8_t> rolls,
+                           std::uint32_t& position) noexcept {
+    if (rolls.size() < kSmallestWindow || rolls.size() > kLargestWindow) {
+        return Status::bad_window;
+    }
+    Deltas storage{};
+    const auto deltas = std::span(storage).first(rolls.size() - 1);
+    for (std::size_t i = 0; i < deltas.size(); ++i) {
+        const int d = (rolls[i + 1] + kSections - rolls[i]) % kSections;
+        if (d < code::kSmallestDelta || d > code::kLargestDelta) return Status::not_in_code;
+        deltas[i] = static_cast<std::uint8_t>(d);
+    }
+    std::array<std::uint32_t, 4> remainders{};
+    int ways = 1;
+    for (std::size_t n = 0; n < remainders.size(); ++n) {
+        const Places places = find(code::basis(profile)[n], static_cast<int>(n), deltas);
+        remainders[n] = places.first;
+        ways *= places.count;
+    }
+    if (ways == 0) return Status::not_in_code;
+    if (ways > 1) return Status::ambiguous;
+    position = from_remainders(remainders);
+    return Status::ok;
+}
+
+Status decode(Profile profile, const Window& window, Place& place) noexcept {
+    const auto fits = [](int n) { return n >= kSmallestWindow && n <= kLargestWindow; };
+    if (!fits(window.columns) || !fits(window.rows) ||
+        window.symbols.size() < static_cast<std::size_t>(window.columns * window.rows)) {
+        return Status::bad_window;
+    }
+    std::uint8_t roll_x = 0;
+    std::uint8_t roll_y = 0;
+    Place found;
+    if (const Status s = read_axis(profile, window, true, roll_x, found.cell.x); s != Status::ok) {
+        return s;
+    }
+    if (const Status s = read_axis(profile, window, false, roll_y, found.cell.y); s != Status::ok) {
+        return s;
+    }
+    found.section.u =
+        static_cast<std::uint8_t>(section_of(profile, roll_x, found.cell.x, found.cell.y));
+    found.section.v =
+        static_cast<std::uint8_t>(section_of(profile, roll_y, found.cell.y, found.cell.x));
+    place = found;
+    return Status::ok;
+}
+
+}  // namespace dotpose

@@ -1,0 +1,62 @@
+// The one table of status names and messages.
+#include "dotpose/status.hpp"
+
+#include <array>
+#include <cstddef>
+
+namespace dotpose {
+namespace {
+
+struct Text {
+    Status status;
+    const char* name;
+    const char* message;
+};
+
+constexpr std::array<Text, kStatusCount> kTexts{{
+    {Status::ok, "ok", "located"},
+    {Status::bad_argument, "bad_argument", "an option or the image view is out of its range"},
+    {Status::image_too_small, "image_too_small", "the image is too small to show 8 x 8 dots"},
+    {Status::image_too_large, "image_too_large", "the image is larger than the workspace"},
+    {Status::no_contrast, "no_contrast", "the image has no dark marks on a lighter ground"},
+    {Status::too_few_dots, "too_few_dots", "too few dots"},
+    {Status::no_grid, "no_grid", "the dots do not lie on a regular grid"},
+    {Status::no_intact_neighbourhood, "no_intact_neighbourhood",
+     "no dot has all its eight neighbours"},
+    {Status::no_displacement, "no_displacement",
+     "the dots lie on the grid intersections and carry no symbols"},
+    {Status::grid_too_small, "grid_too_small", "fewer than 8 x 8 dots of one grid are in view"},
+    {Status::no_orientation, "no_orientation",
+     "the rows and columns do not agree on one direction"},
+    {Status::mirrored, "mirrored", "the pattern is mirrored"},
+    {Status::bad_window, "bad_window", "a window has 6 to 32 columns and rows"},
+    {Status::not_in_code, "not_in_code", "the symbols stand nowhere in the position code"},
+    {Status::ambiguous, "ambiguous", "the symbols stand at several places of the position code"},
+    {Status::not_certain, "not_certain",
+     "a position was found, but it may be wrong with more than the allowed probability"},
+}};
+
+constexpr bool in_order() {
+    for (std::size_t i = 0; i < kTexts.size(); ++i) {
+        if (static_cast<std::size_t>(kTexts[i].status) != i) return false;
+    }
+    return true;
+}
+static_assert(in_order(), "one row for each Status, in its order");
+
+const Text& text(Status status) {
+    static constexpr Text kUnknown{Status::bad_argument, "unknown", "not a status of this version"};
+    const auto i = static_cast<std::size_t>(status);
+    return i < kTexts.size() ? kTexts[i] : kUnknown;
+}
+
+}  // namespace
+
+const char* name(Status status) noexcept {
+    return text(status).name;
+}
+const char* message(Status status) noexcept {
+    return text(status).message;
+}
+
+}  // namespace dotpose

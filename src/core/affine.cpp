@@ -1,0 +1,101 @@
+#include "core/affine.hpp"
+
+namespace dotpose::core {
+namespace {
+
+/// Sum of (a - mean a)(b - mean b) from the plain sums. Taking integers near the means off first
+/// keeps every product within 64 bits.
+std::int64_t centred(std::int64_t sum_ab, std::int64_t sum_a, std::int64_t sum_b, std::int64_t n) {
+    const std::int64_t a = sum_a / n;
+    const std::int64_t b = sum_b / n;
+    const std::int64_t about_ab = sum_ab - a * sum_b - b * (sum_a - n * a);
+    return about_ab - divide_rounded((sum_a - n * a) * (sum_b - n * b), n);
+}
+
+std::int64_t magnitude(std::int64_t a) {
+    return a < 0 ? -a : a;
+}
+
+/// Shift to the left (right if negative) that brings the value into [2^29, 2^30).
+int normalising_shift(std::int64_t value) {
+    int shift = 0;
+    for (std::int64_t m = value; m >= std::int64_t{1} << 30; m >>= 1)
+        --shift;
+    for (std::int64_t m = value; m != 0 && m < std::int64_t{1} << 29; m <<= 1)
+        ++shift;
+    return shift;
+}
+
+std::int64_t shifted(std::int64_t value, int shift) {
+    return shift >= 0 ? value * (std::int64_t{1} << shift) : value >> -shift;
+}
+
+}  // namespace
+
+void AffineFit::add(Vec source, Vec target) {
+    const std::int64_t sx = source.x, sy = source.y, tx = target.x, ty = target.y;
+    ++n_;
+    sx_ += sx;
+    sy_ += sy;
+    tx_ += tx;
+    ty_ += ty;
+    sxsx_ += sx * sx;
+    sxsy_ += sx * sy;
+    sysy_ += sy * sy;
+    sxtx_ += sx * tx;
+    sxty_ += sx * ty;
+    sytx_ += sy * tx;
+    syty_ += sy * ty;
+}
+
+AffineFit::Moments AffineFit::source_moments() const {
+    if (n_ == 0) return {};
+    return {centred(sxsx_, sx_, sx_, n_), centred(sxsy_, sx_, sy_, n_),
+            centred(sysy_, sy_, sy_, n_)};
+}
+
+Vec AffineFit::source_mean() const {
+    if (n_ == 0) return {};
+    return {static_cast<std::int32_t>(divide_rounded(sx_, n_)),
+            static_cast<std::int32_t>(divide_rounded(sy_, n_))};
+}
+
+bool AffineFit::solve(int fraction_bits, AffineMap& map) const {
+    if (n_ < 3) return false;
+    const Moments m = source_moments();
+    const int source_shift = normalising_shift(std::max(m.xx, m.yy));
+    const std::int64_t xx = shifted(m.xx, source_shift);
+    const std::int64_t xy = shifted(m.xy, source_shift);
+    const std::int64_t yy = shifted(m.yy, source_shift);
+    const std::int64_t determinant = xx * yy - xy * xy;
+    // Points spread a thousand times less across than along count as a line.
+    if (determinant < std::int64_t{1} << 40) return false;
+
+    const auto solve_one = [&](std::int64_t sx_t, std::int64_t sy_t, std::int32_t& dx,
+                               std::int32_t& dy) {
+        const int shift = normalising_shift(std::max(magnitude(sx_t), magnitude(sy_t)));
+        const std::int64_t x = shifted(sx_t, shift);
+        const std::int64_t y = shifted(sy_t, shift);
+        const int scale = fraction_bits + source_shift - shift;
+        dx = scaled_quotient(x * yy - y * xy, determinant, scale);
+        dy = scaled_quotient(y * xx - x * xy, determinant, scale);
+    };
+    solve_one(centred(sxtx_, sx_, tx_, n_), centred(sytx_, sy_, tx_, n_), map.dx.x, map.dy.x);
+    solve_one(centred(sxty_, sx_, ty_, n_), centred(syty_, sy_, ty_, n_), map.dx.y, map.dy.y);
+    const std::int64_t one = std::int64_t{1} << fraction_bits;
+    map.offset_x = divide_rounded(tx_ * one - map.dx.x * sx_ - map.dy.x * sy_, n_);
+    map.offset_y = divide_rounded(ty_ * one - map.dx.y * sx_ - map.dy.y * sy_, n_);
+    return true;
+}
+
+std::int32_t scaled_quotient(std::int64_t numerator, std::int64_t denominator, int shift) {
+    while (shift > 0 && magnitude(numerator) < std::int64_t{1} << 61) {
+        numerator *= 2;
+        --shift;
+    }
+    if (shift > 0) denominator >>= shift;
+    const std::int64_t quotient = divide_rounded(numerator, std::max<std::int64_t>(denominator, 1));
+    return shift < 0 ? shift_rounded(quotient, -shift) : static_cast<std::int32_t>(quotient);
+}
+
+}  // namespace dotpose::core

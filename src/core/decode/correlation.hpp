@@ -1,0 +1,25 @@
+// Correlation of a line of likelihoods with the main sequence at every offset. Paper section
+// II-B.7.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "dotpose/workspace.hpp"
+
+namespace dotpose::core {
+
+/// An offset of the main sequence and how well it agrees.
+struct Match {
+    std::int32_t score = 0;
+    std::uint8_t roll = 0;
+};
+
+/// scores[o] = sum of the weights that agree with the main sequence from index o on, minus those
+/// that do not; the weights soften doubtful bits. At most 256 weights in [-127, 127].
+void correlate(std::span<const std::int8_t> weights, LineScores& scores);
+
+/// The best of all offsets; the smallest of equal ones.
+Match best_match(const LineScores& scores);
+
+}  // namespace dotpose::core

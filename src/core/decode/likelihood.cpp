@@ -1,0 +1,66 @@
+#include "core/decode/likelihood.hpp"
+
+#include "core/plane.hpp"
+
+namespace dotpose::core {
+namespace {
+
+/// Nominal offset r0: the displacement, a sixth of the spacing.
+constexpr std::int32_t kNominal_q16 = 65536 / 6;
+
+struct Extent {
+    int first = 0;
+    int count = 0;
+};
+
+/// The cells from least to most, or where they are too many, the middle ones around the origin.
+Extent extent(int least, int most, int capacity) {
+    if (most - least < capacity) return {least, most - least + 1};
+    const int first = std::clamp(-capacity / 2, least, most - capacity + 1);
+    return {first, capacity};
+}
+
+}  // namespace
+
+std::int8_t quasi_probability(std::int32_t projection_q16) {
+    const int r_q8 = projection_q16 * 256 / kNominal_q16;  // r / r0
+    if (r_q8 * r_q8 >= 3 * 65536) return 0;
+    // Eq. 9: (3 r - r^3) / 2 in units of r0
+    const int f_q8 = (3 * r_q8 - r_q8 * r_q8 / 256 * r_q8 / 256) / 2;
+    return static_cast<std::int8_t>(f_q8 * 127 / 256);
+}
+
+Status assign_likelihoods(std::span<const Dot> dots, const PlaneFromImage& grid_from_image,
+                          Grid& grid) {
+    Vec least{INT32_MAX, INT32_MAX};
+    Vec most{INT32_MIN, INT32_MIN};
+    for (const Dot& dot : dots) {
+        const Vec cell = grid_point(grid_from_image, dot.centre_q8).cell;
+        least = {std::min(least.x, cell.x), std::min(least.y, cell.y)};
+        most = {std::max(most.x, cell.x), std::max(most.y, cell.y)};
+    }
+    if (dots.empty() || most.x - least.x + 1 < kWindowSide || most.y - least.y + 1 < kWindowSide) {
+        return Status::grid_too_small;
+    }
+    const Extent columns = extent(least.x, most.x, grid.side);
+    const Extent rows = extent(least.y, most.y, grid.side);
+    grid.i0 = columns.first;
+    grid.columns = columns.count;
+    grid.j0 = rows.first;
+    grid.rows = rows.count;
+    std::fill_n(grid.storage.begin(), grid.columns * grid.rows, GridCell{});
+
+    for (std::size_t d = 0; d < dots.size(); ++d) {
+        const GridPoint g = grid_point(grid_from_image, dots[d].centre_q8);
+        if (!grid.contains(g.cell.x, g.cell.y)) continue;
+        // Eq. 7-8. differs: with y down, left and down mean x bit 1, right and down y bit 1.
+        const GridCell read{quasi_probability(g.offset_q16.y - g.offset_q16.x),
+                            quasi_probability(g.offset_q16.y + g.offset_q16.x),
+                            static_cast<std::uint16_t>(d)};
+        GridCell& cell = grid.at(g.cell.x, g.cell.y);
+        if (quality(read) > quality(cell)) cell = read;  // Fig. 8
+    }
+    return Status::ok;
+}
+
+}  // namespace dotpose::core

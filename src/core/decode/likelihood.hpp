@@ -1,0 +1,23 @@
+// Likelihood: how likely each bit of each dot is 1 or 0. Paper section II-B.4, eq. 7-9, Fig. 7-8.
+#pragma once
+
+#include "dotpose/status.hpp"
+#include "dotpose/workspace.hpp"
+
+namespace dotpose::core {
+
+/// The quasi-probability f(r) of eq. 9 for a projected offset, in 1/127, in [-127, 127].
+std::int8_t quasi_probability(std::int32_t projection_q16);
+
+/// Fills the matrices P of Fig. 8 from all dots. Only the middle `grid.side` cells per axis are
+/// kept of a larger grid. Errors: grid_too_small.
+Status assign_likelihoods(std::span<const Dot> dots, const PlaneFromImage& grid_from_image,
+                          Grid& grid);
+
+/// |P^(x) P^(y)|: how likely a dot represents its symbol.
+inline int quality(const GridCell& cell) {
+    const int product = cell.x * cell.y;
+    return product < 0 ? -product : product;
+}
+
+}  // namespace dotpose::core

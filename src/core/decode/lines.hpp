@@ -1,0 +1,35 @@
+// Lines: all columns (or rows) of an upright region, each correlated with the main sequence.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "core/decode/upright.hpp"
+#include "dotpose/workspace.hpp"
+
+namespace dotpose::core {
+
+enum class Axis : std::uint8_t {
+    x,  ///< the x bits, down the columns
+    y,  ///< the y bits, along the rows
+};
+
+struct Lines {
+    std::span<const LineScores> scores;
+    std::array<std::uint8_t, kMaxLines> dots{};  ///< read in each line
+
+    int count() const { return static_cast<int>(scores.size()); }
+    const LineScores& operator[](int line) const { return scores[static_cast<std::size_t>(line)]; }
+};
+
+/// The region may have at most as many lines as `storage` holds.
+Lines score_lines(const Upright& upright, Axis axis, std::span<LineScores> storage);
+
+/// What one axis was read as.
+struct AxisReading {
+    std::uint32_t position = 0;  ///< of the first line
+    std::uint8_t roll = 0;       ///< of the first line, at the first cell of the crossing lines
+    std::int32_t score = 0;      ///< sum over all lines
+};
+
+}  // namespace dotpose::core

@@ -1,0 +1,29 @@
+// Nominal: the symbol that the code puts at every cell of the grid, once the position is known.
+#pragma once
+
+#include <array>
+
+#include "core/fixed.hpp"
+#include "dotpose/code.hpp"
+#include "dotpose/workspace.hpp"
+
+namespace dotpose::core {
+
+class Nominal {
+  public:
+    Nominal(const Grid& grid, Profile profile, const Decoding& decoding);
+
+    /// Position of a grid cell on the pattern, relative to `Decoding::place`, in spacings.
+    Vec pattern_step(Vec grid_cell) const { return turn_(grid_cell); }
+    Symbol symbol(Vec pattern_step) const;
+
+  private:
+    Turn turn_;
+    Vec first_;                  ///< least pattern step of the grid's cells
+    std::uint32_t first_x_ = 0;  ///< their position in the code
+    std::uint32_t first_y_ = 0;
+    std::array<std::uint8_t, kMaxGridSide> column_rolls_;
+    std::array<std::uint8_t, kMaxGridSide> row_rolls_;
+};
+
+}  // namespace dotpose::core

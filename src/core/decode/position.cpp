@@ -1,0 +1,88 @@
+#include "core/decode/position.hpp"
+
+#include "core/decode/correlation.hpp"
+#include "core/decode/lines.hpp"
+#include "core/decode/orientation.hpp"
+#include "core/decode/search.hpp"
+#include "core/decode/window.hpp"
+
+namespace dotpose::core {
+namespace {
+
+/// Fewest lines that can carry a position.
+constexpr int kFewestLines = 6;
+
+/// Position of one axis from the best roll of each line by itself.
+Status read_axis(Profile profile, const Lines& lines, AxisReading& reading) {
+    std::array<std::uint8_t, kMaxLines> rolls{};
+    for (int i = 0; i < lines.count(); ++i) {
+        const Match match = best_match(lines[i]);
+        rolls[static_cast<std::size_t>(i)] = match.roll;
+        reading.score += match.score;
+    }
+    reading.roll = rolls[0];
+    const auto used = std::span<const std::uint8_t>(rolls).first(lines.scores.size());
+    return position_from_rolls(profile, used, reading.position);
+}
+
+/// Sets the turn, and the place from the readings of the first column and row.
+void set_place(Profile profile, const Upright& upright, Turn turn, const AxisReading& x,
+               const AxisReading& y, Decoding& decoding) {
+    const auto section = [&](const AxisReading& own, const AxisReading& other) {
+        return static_cast<std::uint8_t>(
+            section_of(profile, own.roll, own.position, other.position));
+    };
+    const Place corner{{x.position, y.position}, {section(x, y), section(y, x)}};
+    const Vec step = turn(-upright.corner());
+    decoding.pattern_from_grid = turn;
+    decoding.place = moved(profile, corner, step.x, step.y);
+}
+
+}  // namespace
+
+Status decode_window(const Grid& grid, Profile profile, std::span<LineScores> storage,
+                     Decoding& decoding) {
+    const Region& window = decoding.window;
+    constexpr int kFewestDots_q8 = 256 / 3;
+    if (window.columns < kWindowSide || window.rows < kWindowSide ||
+        mean_quality_q8(grid, window) < kFewestDots_q8) {
+        return Status::grid_too_small;
+    }
+    const Turn turn = rank_turns(grid, window)[0];
+    const Upright upright(grid, window, turn);
+    AxisReading x;
+    AxisReading y;
+    Status status = read_axis(profile, score_lines(upright, Axis::x, storage), x);
+    if (status == Status::ok) {
+        status = read_axis(profile, score_lines(upright, Axis::y, storage), y);
+    }
+    if (status != Status::ok) return status;
+    set_place(profile, upright, turn, x, y, decoding);
+    return Status::ok;
+}
+
+Status decode_all(const Grid& grid, Profile profile, std::span<LineScores> storage,
+                  Decoding& decoding) {
+    if (decoding.region.columns < kFewestLines || decoding.region.rows < kFewestLines) {
+        return Status::grid_too_small;
+    }
+    const std::array<Turn, 4> turns = rank_turns(grid, decoding.region);
+    std::int32_t best = INT32_MIN;
+    Status status = Status::not_in_code;
+    for (const Turn turn : {turns[0], turns[1]}) {
+        const Upright upright(grid, decoding.region, turn);
+        AxisReading x;
+        AxisReading y;
+        if (find_axis(profile, score_lines(upright, Axis::x, storage), x) != Status::ok ||
+            find_axis(profile, score_lines(upright, Axis::y, storage), y) != Status::ok ||
+            x.score + y.score <= best) {
+            continue;
+        }
+        best = x.score + y.score;
+        status = Status::ok;
+        set_place(profile, upright, turn, x, y, decoding);
+    }
+    return status;
+}
+
+}  // namespace dotpose::core

@@ -1,0 +1,79 @@
+#include "core/decode/verify.hpp"
+
+#include "core/decode/lines.hpp"
+#include "core/decode/rivals.hpp"
+#include "core/decode/upright.hpp"
+
+namespace dotpose::core {
+namespace {
+
+std::int64_t n_log2_n_q16(int n) {
+    return n == 0 ? 0 : n * log2_q16(static_cast<std::uint32_t>(n));
+}
+
+Agreement compare(const Grid& grid, Turn pattern_from_grid, const Nominal& nominal, Axis axis,
+                  Confidence& confidence) {
+    Agreement agreement;
+    for (int j = grid.j0; j < grid.j0 + grid.rows; ++j) {
+        for (int i = grid.i0; i < grid.i0 + grid.columns; ++i) {
+            const GridCell& cell = grid.at(i, j);
+            const Bits read = turned(pattern_from_grid, cell);
+            const int weight = axis == Axis::x ? read.x : read.y;
+            if (weight == 0) continue;
+            const Symbol expected = nominal.symbol(nominal.pattern_step({i, j}));
+            const int bit = axis == Axis::x ? x_bit(expected) : y_bit(expected);
+            const bool is_wrong = (weight > 0) != (bit == 1);
+            confidence.add(weight, is_wrong);
+            agreement.errors += is_wrong;
+            ++agreement.bits;
+        }
+    }
+    return agreement;
+}
+
+AxisReading reading_of(Profile profile, std::uint32_t position, int section, std::uint32_t cross) {
+    const int here = roll(profile, position) + section + static_cast<int>(cross % kSections);
+    return {position, static_cast<std::uint8_t>(here % kSections), 0};
+}
+
+}  // namespace
+
+int chance_log2(Agreement agreement) {
+    const int n = agreement.bits;
+    const int errors = std::min(agreement.errors, n / 2);
+    // n H(errors / n) = n log n - errors log errors - (n - errors) log (n - errors). Rounding of
+    // the logarithms is off by at most n 2^-15 in all, which the last term covers.
+    const std::int64_t entropy_q16 =
+        n_log2_n_q16(n) - n_log2_n_q16(errors) - n_log2_n_q16(n - errors) + 4 * n;
+    // log2(410815348 * 63 * 4) = 36.6
+    constexpr std::int64_t kHypotheses_q16 = 37 * 65536;
+    return static_cast<int>((kHypotheses_q16 + entropy_q16 - n * std::int64_t{65536}) >> 16) + 1;
+}
+
+Status verify(const Grid& grid, Profile profile, const Decoding& decoding, const Nominal& nominal,
+              const IntegrityOptions& options, std::span<LineScores> storage, Fix& fix) {
+    const Upright upright(grid, decoding.region, decoding.pattern_from_grid);
+    const Vec corner = decoding.pattern_from_grid(upright.corner());
+    const Place place = moved(profile, decoding.place, corner.x, corner.y);
+    fix.bit_errors = 0;
+    int p_wrong_q8 = kNever_q8;
+    bool one_pattern = true;
+    for (const Axis axis : {Axis::x, Axis::y}) {
+        Confidence confidence;
+        const Agreement agreement =
+            compare(grid, decoding.pattern_from_grid, nominal, axis, confidence);
+        const AxisReading reading =
+            axis == Axis::x ? reading_of(profile, place.cell.x, place.section.u, place.cell.y)
+                            : reading_of(profile, place.cell.y, place.section.v, place.cell.x);
+        const Lines lines = score_lines(upright, axis, storage);
+        const int rivals = rivals_log2(profile, lines, reading, odds_per_bit_q8(confidence));
+        p_wrong_q8 = add_log2(p_wrong_q8, add_log2(256 * rivals, 256 * chance_log2(agreement)));
+        fix.bit_errors += agreement.errors;
+        one_pattern &= agreement.errors <= agreement.bits * options.max_bit_error_q8 / 256;
+    }
+    fix.p_wrong_log2 = std::min((p_wrong_q8 + 255) >> 8, 0);
+    const bool certain = one_pattern && fix.p_wrong_log2 <= options.max_p_wrong_log2;
+    return certain ? Status::ok : Status::not_certain;
+}
+
+}  // namespace dotpose::core

@@ -1,0 +1,15 @@
+// Window: the square of cells that is read most clearly. Paper section II-B.5, with 8 x 8 cells.
+#pragma once
+
+#include "dotpose/workspace.hpp"
+
+namespace dotpose::core {
+
+/// The square of `side` x `side` cells with the largest sum of qualities; the whole width or height
+/// of the grid where that is less.
+Region choose_window(const Grid& grid, int side);
+
+/// Mean quality of its cells, in 1/256: 256 where every dot is where a symbol has it.
+int mean_quality_q8(const Grid& grid, const Region& region);
+
+}  // namespace dotpose::core

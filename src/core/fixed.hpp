@@ -1,0 +1,87 @@
+// Integer arithmetic shared by the stages. Angles are binary: 2^32 is a full turn.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+
+#include "dotpose/workspace.hpp"
+
+namespace dotpose::core {
+
+constexpr Vec operator+(Vec a, Vec b) {
+    return {a.x + b.x, a.y + b.y};
+}
+constexpr Vec operator-(Vec a, Vec b) {
+    return {a.x - b.x, a.y - b.y};
+}
+constexpr Vec operator-(Vec a) {
+    return {-a.x, -a.y};
+}
+
+constexpr std::int64_t dot(Vec a, Vec b) {
+    return std::int64_t{a.x} * b.x + std::int64_t{a.y} * b.y;
+}
+constexpr std::int64_t cross(Vec a, Vec b) {
+    return std::int64_t{a.x} * b.y - std::int64_t{a.y} * b.x;
+}
+constexpr std::int64_t squared(Vec a) {
+    return dot(a, a);
+}
+
+/// Quotient rounded to nearest, halves away from zero. The divisor is positive.
+constexpr std::int64_t divide_rounded(std::int64_t n, std::int64_t d) {
+    return (n >= 0 ? n + d / 2 : n - d / 2) / d;
+}
+
+/// n / 2^bits, rounded to nearest, halves up.
+constexpr std::int32_t shift_rounded(std::int64_t n, int bits) {
+    return static_cast<std::int32_t>((n + (std::int64_t{1} << (bits - 1))) >> bits);
+}
+
+/// Largest r with r * r <= n.
+constexpr std::uint32_t square_root(std::uint64_t n) {
+    std::uint64_t root = 0;
+    for (std::uint64_t bit = std::uint64_t{1} << 62; bit != 0; bit >>= 2) {
+        if (n >= root + bit) {
+            n -= root + bit;
+            root = (root >> 1) + bit;
+        } else {
+            root >>= 1;
+        }
+    }
+    return static_cast<std::uint32_t>(root);
+}
+
+/// log2(n) in 2^-16, rounded down, for n >= 1.
+std::int64_t log2_q16(std::uint32_t n);
+
+/// 2^(n / 256), in 2^-16, to 2 %, for 0 <= n < 47 * 256: linear between whole powers, corrected.
+constexpr std::int64_t exp2_q16(int n_q8) {
+    const std::int64_t fraction_q8 = n_q8 & 255;
+    // 2^f is below 1 + f by at most 0.086, about f (1 - f) / 3.
+    const std::int64_t mantissa_q16 =
+        65536 + fraction_q8 * 256 - fraction_q8 * (256 - fraction_q8) / 3;
+    return mantissa_q16 << (n_q8 >> 8);
+}
+
+/// log2 of zero, as good as, in 2^-8.
+inline constexpr int kNever_q8 = -(1 << 20);
+
+/// log2(2^a + 2^b) in 2^-8, rounded up: log2(1 + 2^-d) is at most 1 and at most 2^-d / ln 2.
+constexpr int add_log2(int a_q8, int b_q8) {
+    const int larger = std::max(a_q8, b_q8);
+    const int whole = (larger - std::min(a_q8, b_q8)) >> 8;
+    return larger + std::min(256, whole > 10 ? 1 : (370 >> whole) + 1);
+}
+
+/// Median (the lower one of two); the order of the values is lost. Empty gives 0.
+std::int32_t median(std::span<std::int32_t> values);
+
+/// Angle of a vector from +x towards +y, to about 1e-9 turns; (0, 0) gives 0. |x|, |y| < 2^29.
+std::int32_t angle_bam(Vec direction);
+
+/// Cosine and sine, times 2^30.
+Vec unit_q30(std::int32_t angle_bam);
+
+}  // namespace dotpose::core

@@ -1,0 +1,20 @@
+// Axes: the two directions and spacings of the grid, from the symmetric edges. Paper section
+// II-B.2, Fig. 5 (constrained k-means).
+#pragma once
+
+#include "dotpose/status.hpp"
+#include "dotpose/workspace.hpp"
+
+namespace dotpose::core {
+
+/// Sets u and v (right-handed: from u to v is the turn from +x to +y); the origin is not touched.
+/// Errors: no_grid, when the edges have no two directions of about one length at a right angle.
+Status estimate_axes(std::span<const Edge> edges, Lattice& lattice);
+
+/// Whether two directions may belong to a square grid that is seen from up to about 35 degrees
+/// aside.
+bool is_nearly_square(Vec u, Vec v);
+/// The same for the grid around the centre of a plane, with spacings of at least 4 px.
+bool is_nearly_square(const PlaneFromImage& plane);
+
+}  // namespace dotpose::core

@@ -1,0 +1,36 @@
+// Neighbours: the four nearest dots of each dot near the image centre, and the symmetric edges
+// among them. Paper section II-B.2. differs: the paper connects all dots; here the dots nearest the
+// centre (seeds), at most kMaxSeeds, give the first grid, which then grows outwards (refine.hpp).
+// The time stays bounded in any image.
+#pragma once
+
+#include "dotpose/workspace.hpp"
+
+namespace dotpose::core {
+
+/// Indices of the dots nearest to a point (in squares around it), at most as many as `seeds` holds.
+int choose_seeds(std::span<const Dot> dots, Vec centre_q8, std::span<std::uint16_t> seeds);
+
+/// For each seed the four nearest other seeds, nearest first; -1 where there are none.
+void find_neighbours(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
+                     std::span<std::array<std::int16_t, 4>> neighbours);
+
+/// The connections on which both ends agree, each once, pointing down. Returns their number.
+int connect_symmetric(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
+                      std::span<const std::array<std::int16_t, 4>> neighbours,
+                      std::span<Edge> edges);
+
+/// Whether `to` is among the four nearest of `from`.
+inline bool counts(std::span<const std::array<std::int16_t, 4>> neighbours, int from, int to) {
+    for (const std::int16_t n : neighbours[static_cast<std::size_t>(from)]) {
+        if (n == to) return true;
+    }
+    return false;
+}
+
+/// Whether both count each other among their four nearest.
+inline bool are_connected(std::span<const std::array<std::int16_t, 4>> neighbours, int a, int b) {
+    return counts(neighbours, a, b) && counts(neighbours, b, a);
+}
+
+}  // namespace dotpose::core

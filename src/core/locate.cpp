@@ -1,0 +1,171 @@
+// The pipeline of the paper's Fig. 1: image -> dots -> grid -> bits -> position -> pose.
+#include "dotpose/locate.hpp"
+
+#include "core/decode/likelihood.hpp"
+#include "core/decode/look.hpp"
+#include "core/decode/nominal.hpp"
+#include "core/decode/orientation.hpp"
+#include "core/decode/position.hpp"
+#include "core/decode/verify.hpp"
+#include "core/decode/window.hpp"
+#include "core/lattice/axes.hpp"
+#include "core/lattice/climb.hpp"
+#include "core/lattice/neighbours.hpp"
+#include "core/lattice/origin.hpp"
+#include "core/lattice/refine.hpp"
+#include "core/pixels/blobs.hpp"
+#include "core/pixels/light.hpp"
+#include "core/pixels/smooth.hpp"
+#include "core/pixels/undistort.hpp"
+#include "core/pose/covariance.hpp"
+#include "core/pose/refine.hpp"
+#include "core/pose/subgrid.hpp"
+
+namespace dotpose {
+namespace {
+
+using core::DotList;
+
+DotList dot_list(Workspace& w) {
+    return {w.dots, w.dot_count, w.dots_kept_within_px};
+}
+
+template <typename T, std::size_t Extent>
+std::span<T> first(std::span<T, Extent> all, int count) {
+    return all.first(static_cast<std::size_t>(count));
+}
+
+Vec image_centre_q8(const Light& light) {
+    return {(light.width_px - 1) * 128, (light.height_px - 1) * 128};
+}
+
+/// Blobs -> dots where a lens without distortion would see them.
+Status find_dots(const Options& options, Workspace& w) {
+    core::sift_dots(options.blobs, dot_list(w));  // II-B.1
+    w.fix.dots_seen = w.dot_count;
+    if (w.dot_count < options.lattice.min_dots) return Status::too_few_dots;
+    core::undistort(options.lens, image_centre_q8(w.light), first(w.dots, w.dot_count));  // eq. 1-2
+    return Status::ok;
+}
+
+/// Dots -> the grid they lie on.
+Status find_grid(const Options& options, bool thorough, Workspace& w) {
+    const auto dots = w.found_dots();
+    const Vec centre_q8 = image_centre_q8(w.light);
+    w.seed_count = core::choose_seeds(dots, centre_q8, w.seeds);
+    const auto seeds = first(std::span<const std::uint16_t>(w.seeds), w.seed_count);
+    core::find_neighbours(dots, seeds, w.neighbours);  // II-B.2, Fig. 3
+    w.edge_count = core::connect_symmetric(dots, seeds, w.neighbours, w.edges);
+    const auto edges = first(std::span<const Edge>(w.edges), w.edge_count);
+
+    Status status = core::estimate_axes(edges, w.lattice);  // Fig. 4-5
+    if (status != Status::ok) return status;
+    if (thorough) {
+        core::climb_periodogram(dots, seeds, centre_q8, w.lattice);
+    } else {
+        status = core::find_origin(dots, seeds, w.neighbours, centre_q8, w.lattice, w.origin_seed);
+        if (status != Status::ok) return status;
+    }
+    return core::refine_grid(dots, options.lattice, centre_q8, w.lattice,
+                             w.grid_from_image);  // II-B.3
+}
+
+/// Dots and grid -> bits -> position in the code.
+Status read_position(const Options& options, const ImageView* image, Workspace& w) {
+    Decoding& decoding = w.decoding;
+    Status status =
+        core::assign_likelihoods(w.found_dots(), w.grid_from_image, w.grid);  // II-B.4, eq. 7-9
+    if (status != Status::ok) return status;
+    if (image != nullptr) core::look_at_cells(*image, w.grid_from_image, w.grid);
+    decoding.window = core::choose_window(w.grid, kWindowSide);  // II-B.5
+    decoding.region = core::choose_window(w.grid, static_cast<int>(w.line_scores.size()));
+    const auto decode = options.decoder == Decoder::window ? core::decode_window : core::decode_all;
+    status = decode(w.grid, options.profile, w.line_scores, decoding);  // II-B.6-7
+    if (status != Status::ok && core::is_mirrored(w.grid, decoding.region)) return Status::mirrored;
+    return status;
+}
+
+/// Position -> pose, once all dots in view agree with it.
+Status measure_pose(const Options& options, Workspace& w) {
+    const core::Nominal nominal(w.grid, options.profile, w.decoding);
+    const Status status = core::verify(w.grid, options.profile, w.decoding, nominal,
+                                       options.integrity, w.line_scores, w.fix);
+    if (status != Status::ok) {
+        return core::is_mirrored(w.grid, w.decoding.region) ? Status::mirrored : status;
+    }
+
+    const Vec centre_q8 = image_centre_q8(w.light);
+    const Vec reference_q8{centre_q8.x + options.reference_dx_q8,
+                           centre_q8.y + options.reference_dy_q8};
+    w.pattern_from_image =
+        core::upright_plane(w.grid_from_image, w.decoding.pattern_from_grid);  // II-B.8
+    core::FitQuality quality;
+    const core::Observations observations(w.found_dots(), w.grid, nominal);
+    if (!core::refine_pose(observations, w.pattern_from_image, quality)) return Status::no_grid;
+    core::write_pose(w.pattern_from_image, reference_q8, options.profile, w.decoding.place, w.fix);
+    core::estimate_covariance(observations, quality, w.pattern_from_image, reference_q8, w.fix);
+    return Status::ok;
+}
+
+/// Everything after the last row. With an `image`, bits are read from it rather than from blobs.
+Fix locate_dots(const Options& options, const ImageView* image, Workspace& w) {
+    Status status = find_dots(options, w);
+    if (status == Status::ok) status = find_grid(options, image != nullptr, w);
+    if (status == Status::ok) status = read_position(options, image, w);
+    if (status == Status::ok) status = measure_pose(options, w);
+    w.fix.status = status;
+    return w.fix;
+}
+
+}  // namespace
+
+Fix locate(const ImageView& image, const Options& options, Workspace& workspace) {
+    const Status status = begin(image.width_px, image.height_px, options, workspace);
+    if (status != Status::ok) return workspace.fix;
+    for (int v = 0; v < image.height_px; ++v)
+        push_row(image.row(v), options, workspace);
+    const Fix fix = finish(options, workspace);
+    if (fix.status == Status::ok || options.effort == Effort::once) return fix;
+
+    if (begin(image.width_px, image.height_px, options, workspace) != Status::ok) return fix;
+    core::begin_smoothing(image, workspace.smoothing);
+    for (int v = 0; v < image.height_px; ++v) {
+        push_row(core::next_smooth_row(image, workspace.smoothing), options, workspace);
+    }
+    return locate_dots(options, &image, workspace);
+}
+
+Status begin(int width_px, int height_px, const Options&, Workspace& w) {
+    w.fix = Fix{};
+    w.dot_count = w.seed_count = w.edge_count = 0;
+    w.origin_seed = -1;
+    w.decoding = {};
+    w.grid.columns = w.grid.rows = 0;
+    if (width_px < kMinFrameSide_px || height_px < kMinFrameSide_px) {
+        return w.fix.status = Status::image_too_small;
+    }
+    if (width_px > w.max_width_px || height_px > kMaxFrameSide_px) {
+        return w.fix.status = Status::image_too_large;
+    }
+    core::begin_light(width_px, height_px, w.light);
+    core::begin_blobs(w.light, w.open, dot_list(w));
+    return Status::ok;
+}
+
+void push_row(const std::uint8_t* pixels, const Options& options, Workspace& w) {
+    int ready = core::take_row(pixels, w.light);
+    const int newest = (w.light.rows_taken - 1) / w.light.tile_px;
+    const bool is_last = w.light.rows_taken == w.light.height_px;
+    for (int band = newest - ready + (is_last ? 1 : 0); ready > 0; --ready, ++band) {
+        core::measure_levels(band, options.threshold, w.light);
+        for (int v = core::band_begin(w.light, band); v < core::band_end(w.light, band); ++v) {
+            core::grow_blobs(v, w.light, w.open, dot_list(w));
+        }
+    }
+}
+
+Fix finish(const Options& options, Workspace& workspace) {
+    return locate_dots(options, nullptr, workspace);
+}
+
+}  // namespace dotpose

@@ -1,0 +1,40 @@
+// Light: what is paper and what is dark, everywhere in the image. First half of the thresholding of
+// paper section II-B.1. differs: the paper thresholds globally; here paper and contrast are
+// measured in tiles, because light from LEDs beside a wide lens is never even.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "dotpose/options.hpp"
+#include "dotpose/workspace.hpp"
+
+namespace dotpose::core {
+
+void begin_light(int width_px, int height_px, Light& light);
+
+/// Keeps the next row and measures it. Returns the number of bands that are ready for thresholding
+/// with this row: 0, or 1, or with the last row of the image up to 2.
+int take_row(const std::uint8_t* pixels, Light& light);
+
+/// Sets `light.levels` for one band, in order, as soon as `take_row` says that it is ready: from
+/// the tiles of the band and of its neighbours.
+void measure_levels(int band, const ThresholdOptions& options, Light& light);
+
+inline int band_count(const Light& light) {
+    return (light.height_px + light.tile_px - 1) / light.tile_px;
+}
+/// First row of a band, and one past its last.
+inline int band_begin(const Light& light, int band) {
+    return band * light.tile_px;
+}
+inline int band_end(const Light& light, int band) {
+    return std::min((band + 1) * light.tile_px, light.height_px);
+}
+/// A row of one of the two newest bands.
+inline std::uint8_t* kept_row(const Light& light, int v) {
+    return light.rows.data() +
+           static_cast<std::ptrdiff_t>(v % (2 * light.tile_px)) * light.width_px;
+}
+
+}  // namespace dotpose::core

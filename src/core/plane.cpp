@@ -1,0 +1,101 @@
+#include "core/plane.hpp"
+
+namespace dotpose::core {
+namespace {
+
+constexpr std::int64_t kOne_q30 = std::int64_t{1} << 30;
+
+bool is_affine(const PlaneFromImage& plane) {
+    return plane.perspective_q30 == Vec{} && plane.lens_q40 == 0;
+}
+
+/// du x + dv y
+Vec linear_q16(const PlaneFromImage& plane, Vec from_centre_q8) {
+    const std::int64_t x = from_centre_q8.x;
+    const std::int64_t y = from_centre_q8.y;
+    return {shift_rounded(plane.du_q24.x * x + plane.dv_q24.x * y, 16),
+            shift_rounded(plane.du_q24.y * x + plane.dv_q24.y * y, 16)};
+}
+
+Vec divided(Vec numerator, std::int64_t divisor_q30) {
+    return {static_cast<std::int32_t>(divide_rounded(numerator.x * kOne_q30, divisor_q30)),
+            static_cast<std::int32_t>(divide_rounded(numerator.y * kOne_q30, divisor_q30))};
+}
+
+}  // namespace
+
+PlaneFromImage plane_from_lattice(const Lattice& lattice, Vec centre_q8) {
+    const std::int64_t area_q16 =
+        std::max<std::int64_t>(cross(lattice.u_q16, lattice.v_q16) >> 16, 1);
+    const auto entry = [&](std::int32_t a_q16) {
+        return static_cast<std::int32_t>((std::int64_t{a_q16} << 24) / area_q16);
+    };
+    PlaneFromImage plane;
+    plane.centre_q8 = centre_q8;
+    plane.du_q24 = {entry(lattice.v_q16.y), entry(-lattice.u_q16.y)};
+    plane.dv_q24 = {entry(-lattice.v_q16.x), entry(lattice.u_q16.x)};
+    const Vec origin_q8{shift_rounded(lattice.origin_q16.x, 8),
+                        shift_rounded(lattice.origin_q16.y, 8)};
+    plane.at_centre_q16 = -linear_q16(plane, origin_q8 - centre_q8);
+    return plane;
+}
+
+std::int64_t divisor_q30(const PlaneFromImage& plane, Vec from_centre_q8) {
+    const std::int64_t tilt_q30 = dot(plane.perspective_q30, from_centre_q8) >> 8;
+    const std::int64_t bend_q30 = (plane.lens_q40 * (squared(from_centre_q8) >> 8)) >> 18;
+    return std::max(kOne_q30 + tilt_q30 + bend_q30, kOne_q30 / 4);
+}
+
+Vec plane_point_q16(const PlaneFromImage& plane, Vec image_point_q8) {
+    const Vec p = image_point_q8 - plane.centre_q8;
+    const Vec linear = linear_q16(plane, p);
+    if (is_affine(plane)) return plane.at_centre_q16 + linear;
+    return plane.at_centre_q16 + divided(linear, divisor_q30(plane, p));
+}
+
+GridPoint grid_point(const PlaneFromImage& plane, Vec image_point_q8) {
+    const Vec c = plane_point_q16(plane, image_point_q8);
+    const Vec cell{(c.x + 32768) >> 16, (c.y + 32768) >> 16};
+    return {cell, {c.x - cell.x * 65536, c.y - cell.y * 65536}};
+}
+
+Vec image_point_q8(const PlaneFromImage& plane, Vec plane_point) {
+    const std::int64_t area_q24 =
+        std::max<std::int64_t>(cross(plane.du_q24, plane.dv_q24) >> 24, 1);
+    // Affine exactly; with perspective or lens by Newton's method with the slope at the centre.
+    Vec point_q8 = plane.centre_q8;
+    for (int round = 0; round < 8; ++round) {
+        const Vec missing_q16 = plane_point - plane_point_q16(plane, point_q8);
+        const Vec step_q8{
+            static_cast<std::int32_t>(cross(missing_q16, plane.dv_q24) / area_q24 >> 8),
+            static_cast<std::int32_t>(cross(plane.du_q24, missing_q16) / area_q24 >> 8)};
+        point_q8 = point_q8 + step_q8;
+        if (is_affine(plane) || step_q8 == Vec{}) break;
+    }
+    return point_q8;
+}
+
+PlaneFromImage tangent(const PlaneFromImage& plane, Vec image_point_q8) {
+    PlaneFromImage result;
+    result.centre_q8 = image_point_q8;
+    result.at_centre_q16 = plane_point_q16(plane, image_point_q8);
+    const Vec p = image_point_q8 - plane.centre_q8;
+    const std::int64_t divisor = divisor_q30(plane, p);
+    const Vec from_centre_q16 = result.at_centre_q16 - plane.at_centre_q16;
+    // Quotient rule, with d(divisor) = perspective + 2 lens (x, y).
+    const auto slope = [&](Vec linear_q24, std::int32_t perspective_q30, std::int32_t along_q8) {
+        const std::int64_t bend_q30 = (std::int64_t{plane.lens_q40} * along_q8) >> 17;
+        const std::int64_t d_q30 = perspective_q30 + bend_q30;
+        const auto component = [&](std::int32_t a_q24, std::int32_t value_q16) {
+            return static_cast<std::int32_t>(a_q24 - ((value_q16 * d_q30) >> 22));
+        };
+        return divided({component(linear_q24.x, from_centre_q16.x),
+                        component(linear_q24.y, from_centre_q16.y)},
+                       divisor);
+    };
+    result.du_q24 = slope(plane.du_q24, plane.perspective_q30.x, p.x);
+    result.dv_q24 = slope(plane.dv_q24, plane.perspective_q30.y, p.y);
+    return result;
+}
+
+}  // namespace dotpose::core

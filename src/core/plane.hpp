@@ -1,0 +1,35 @@
+// Points between the image and the plane of the paper.
+#pragma once
+
+#include "core/fixed.hpp"
+#include "dotpose/workspace.hpp"
+
+namespace dotpose::core {
+
+/// A point of the grid: the nearest intersection and the offset from it.
+struct GridPoint {
+    Vec cell;        ///< paper eq. 4
+    Vec offset_q16;  ///< eq. 5, in spacings, each in [-1/2, 1/2)
+};
+
+/// A plane without perspective or lens. |u x v| > 0.
+PlaneFromImage plane_from_lattice(const Lattice& lattice, Vec centre_q8);
+
+/// Eq. 3. differs: the paper projects on u and v, which is right only where these stand at right
+/// angles and the camera is not tilted.
+Vec plane_point_q16(const PlaneFromImage& plane, Vec image_point_q8);
+
+/// Eq. 3-5.
+GridPoint grid_point(const PlaneFromImage& plane, Vec image_point_q8);
+
+/// The inverse of plane_point_q16, in px.
+Vec image_point_q8(const PlaneFromImage& plane, Vec plane_point_q16);
+
+/// How the plane lies around one image point: without perspective or lens, the same there in value
+/// and slope.
+PlaneFromImage tangent(const PlaneFromImage& plane, Vec image_point_q8);
+
+/// The divisor 1 + perspective . (x, y) + lens (x^2 + y^2), at least 1/4.
+std::int64_t divisor_q30(const PlaneFromImage& plane, Vec from_centre_q8);
+
+}  // namespace dotpose::core

@@ -1,0 +1,47 @@
+// Observations: the dots that were read, each with the place where the code has it printed.
+#pragma once
+
+#include "core/decode/nominal.hpp"
+#include "core/plane.hpp"
+
+namespace dotpose::core {
+
+struct Observation {
+    Vec image_point_q8;
+    Vec pattern_step;  ///< its intersection, in spacings from `Decoding::place`
+    Symbol symbol;
+};
+
+/// Where the dot was printed, in spacings from `Decoding::place`.
+inline Vec nominal_place_q16(const Observation& o, std::int32_t displacement_q16) {
+    return {o.pattern_step.x * 65536 + dx(o.symbol) * displacement_q16,
+            o.pattern_step.y * 65536 + dy(o.symbol) * displacement_q16};
+}
+
+class Observations {
+  public:
+    Observations(std::span<const Dot> dots, const Grid& grid, const Nominal& nominal)
+        : dots_(dots), grid_(grid), nominal_(nominal) {}
+
+    /// At least as many as `visit` shows.
+    int count() const { return static_cast<int>(dots_.size()); }
+
+    template <typename Use>
+    void visit(Use use) const {
+        for (int j = grid_.j0; j < grid_.j0 + grid_.rows; ++j) {
+            for (int i = grid_.i0; i < grid_.i0 + grid_.columns; ++i) {
+                const GridCell& cell = grid_.at(i, j);
+                if (cell.dot == GridCell::kNoDot) continue;
+                const Vec step = nominal_.pattern_step({i, j});
+                use(Observation{dots_[cell.dot].centre_q8, step, nominal_.symbol(step)});
+            }
+        }
+    }
+
+  private:
+    std::span<const Dot> dots_;
+    const Grid& grid_;
+    const Nominal& nominal_;
+};
+
+}  // namespace dotpose::core

@@ -1,0 +1,34 @@
+#include "core/pose/subgrid.hpp"
+
+#include "core/plane.hpp"
+
+namespace dotpose::core {
+
+PlaneFromImage upright_plane(const PlaneFromImage& grid_from_image, Turn pattern_from_grid) {
+    PlaneFromImage pattern = grid_from_image;
+    pattern.at_centre_q16 = pattern_from_grid(grid_from_image.at_centre_q16);
+    pattern.du_q24 = pattern_from_grid(grid_from_image.du_q24);
+    pattern.dv_q24 = pattern_from_grid(grid_from_image.dv_q24);
+    return pattern;
+}
+
+void write_pose(const PlaneFromImage& pattern_from_image, Vec reference_q8, Profile profile,
+                const Place& place, Fix& fix) {
+    const PlaneFromImage there = tangent(pattern_from_image, reference_q8);
+    // Eq. 10-12: the decoded position plus the way from there to the reference point, in grid
+    // units.
+    const Vec t = there.at_centre_q16;
+    const Place at = moved(profile, place, t.x >> 16, t.y >> 16);
+    fix.cell = at.cell;
+    fix.section = at.section;
+    fix.fraction_x_q16 = static_cast<std::uint16_t>(t.x & 0xFFFF);
+    fix.fraction_y_q16 = static_cast<std::uint16_t>(t.y & 0xFFFF);
+    const Vec du = there.du_q24;
+    fix.theta_bam = angle_bam(du);
+    // px per spacing: the inverse of the length of du.
+    const auto du_length_q24 = square_root(static_cast<std::uint64_t>(squared(du)));
+    fix.spacing_px_q16 =
+        static_cast<std::int32_t>((std::int64_t{1} << 40) / std::max(du_length_q24, 1U));
+}
+
+}  // namespace dotpose::core

@@ -1,0 +1,110 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "draw/frame_panels.hpp"
+
+namespace dotpose::draw {
+namespace {
+
+constexpr double kLabelSize = 27;
+constexpr double kBigSize = 60;
+constexpr double kSmallSize = 36;
+constexpr double kSecondRow_y = 190;
+
+/// A value with its name above it.
+struct Entry {
+    const char* label;
+    std::string value;
+};
+
+/// About the width of bold text without wide letters.
+double text_width(const std::string& text, double size) {
+    const auto is_first_byte = [](char c) { return (c & 0xC0) != 0x80; };
+    return 0.72 * size * static_cast<double>(std::ranges::count_if(text, is_first_byte));
+}
+
+/// In columns of equal width; where one needs more, in a smaller font.
+void draw_entries(const std::vector<Entry>& entries, double y, double column, double size,
+                  Svg& svg) {
+    double font = size;
+    for (const Entry& entry : entries) {
+        font = std::min(font, size * (column - 20) / text_width(entry.value, size));
+    }
+    double x = 0;
+    for (const Entry& entry : entries) {
+        svg.text({x, y}, kLabelSize, entry.label, R"(fill="#6b7885")");
+        svg.text({x, y + 0.45 * kLabelSize + size}, font, entry.value,
+                 R"(fill="#17202a" font-weight="bold")");
+        x += column;
+    }
+}
+
+double sigma(const Fix& fix, std::size_t axis) {
+    return std::sqrt(static_cast<double>(fix.covariance[axis][axis]));
+}
+
+constexpr double degrees(double angle_rad) {
+    return angle_rad * 180 / std::numbers::pi;
+}
+
+std::string probability(const Fix& fix) {
+    const int digits = static_cast<int>(std::ceil(fix.p_wrong_log2 * std::log10(2.0)));
+    std::string exponent;
+    for (const char c : std::to_string(std::max(digits, -30))) {
+        constexpr const char* kRaised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+        exponent += c == '-' ? "⁻" : kRaised[c - '0'];
+    }
+    return "≤ 10" + exponent;
+}
+
+/// A minus sign as wide as a digit.
+std::string with_minus(std::string text) {
+    if (text.starts_with('-')) text.replace(0, 1, "−");
+    return text;
+}
+
+void draw_pose(const Fix& fix, const DrawOptions& draw_options, double width, Svg& svg) {
+    const double spacing_mm = draw_options.spacing_mm;
+    draw_entries({{"x", fmt::format("{:.3f} mm", fix.x_mm(spacing_mm))},
+                  {"y", fmt::format("{:.3f} mm", fix.y_mm(spacing_mm))},
+                  {"θ", with_minus(fmt::format("{:.3f}°", degrees(fix.theta_rad())))}},
+                 40, width / 3, kBigSize, svg);
+    const auto sigma_um = [&](std::size_t axis) { return 1000 * spacing_mm * sigma(fix, axis); };
+    draw_entries({{"σ of x, y", fmt::format("{:.2f}, {:.2f} µm", sigma_um(0), sigma_um(1))},
+                  {"σ of θ", fmt::format("{:.4f}°", degrees(sigma(fix, 2)))},
+                  {"dots used, seen", fmt::format("{}, {}", fix.dots_used, fix.dots_seen)},
+                  {"bit errors", fmt::format("{}", fix.bit_errors)},
+                  {"probability wrong", probability(fix)},
+                  {"section", fmt::format("{}, {}", fix.section.u, fix.section.v)}},
+                 kSecondRow_y, width / 6, kSmallSize, svg);
+}
+
+void draw_failure(const Fix& fix, const Options& options, Svg& svg) {
+    svg.text({0, 88}, kBigSize, fmt::format("no fix: {}", name(fix.status)),
+             R"(fill="#c0392b" font-weight="bold")");
+    svg.text({0, 150}, kSmallSize, message(fix.status), R"(fill="#17202a")");
+    std::string counts = fmt::format("dots seen: {}", fix.dots_seen);
+    if (fix.status == Status::too_few_dots) {
+        counts += fmt::format(", at least {} are needed", options.lattice.min_dots);
+    } else if (fix.status == Status::not_certain) {
+        counts += fmt::format(", bits that contradict the best position: {}", fix.bit_errors);
+    }
+    svg.text({0, 205}, kSmallSize, counts, R"(fill="#6b7885")");
+}
+
+}  // namespace
+
+void draw_caption(const FrameView& view, const Options& options, const DrawOptions& draw_options,
+                  double width, Svg& svg) {
+    const Fix& fix = view.workspace().fix;
+    if (view.reached().pose) {
+        draw_pose(fix, draw_options, width, svg);
+    } else {
+        draw_failure(fix, options, svg);
+    }
+}
+
+}  // namespace dotpose::draw

@@ -1,0 +1,93 @@
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <string>
+
+#include "draw/frame_panels.hpp"
+
+namespace dotpose::draw {
+namespace {
+
+const Dot& dot_of_seed(const Workspace& workspace, int seed) {
+    return workspace.dots[workspace.seeds[static_cast<std::size_t>(seed)]];
+}
+
+std::span<const Edge> edges_of(const Workspace& workspace) {
+    return std::span(workspace.edges).first(static_cast<std::size_t>(workspace.edge_count));
+}
+
+/// An axis with its name at the end.
+void draw_axis(Point from, Point to, std::string_view name, Svg& svg) {
+    svg.arrow(from, to, 4.5, colour::kInk);
+    const Point along = to - from;
+    const Point beyond = to + 24 / std::max(1.0, length(along)) * along;
+    svg.text(beyond + Point{0, 10}, 32, name,
+             R"(text-anchor="middle" font-style="italic" font-weight="bold" fill="#17202a" )"
+             R"(stroke="#ffffff" stroke-width="7" paint-order="stroke")");
+}
+
+}  // namespace
+
+void draw_detection(const FrameView& view, Svg& svg) {
+    const Workspace& workspace = view.workspace();
+    const double stroke = view.stroke();
+    svg.add(R"(<g stroke="{}" stroke-width="{:.2f}" stroke-linecap="round" stroke-opacity="0.85">)",
+            colour::kEdge, 3.5 * stroke);
+    if (view.reached().edges) {
+        for (const Edge& edge : edges_of(workspace)) {
+            svg.line(view.at_dot(dot_of_seed(workspace, edge.from)),
+                     view.at_dot(dot_of_seed(workspace, edge.to)), {});
+        }
+    }
+    svg.add("</g>");
+    svg.add(R"(<g class="dots" fill="none" stroke="{}" stroke-width="{:.2f}">)", colour::kDot,
+            3.5 * stroke);
+    for (const Dot& dot : workspace.found_dots()) {
+        const double radius_px = std::sqrt(dot.area_px / std::numbers::pi);
+        svg.circle(view.at_dot(dot), radius_px * view.scale() + 2 * stroke, {});
+    }
+    svg.add("</g>");
+    if (view.reached().origin) {
+        svg.circle(view.at_dot(dot_of_seed(workspace, workspace.origin_seed)),
+                   0.42 * view.spacing(),
+                   fmt::format(R"(class="origin" fill="none" stroke="{}" stroke-width="{:.2f}")",
+                               colour::kBad, 7 * stroke));
+    }
+}
+
+void draw_edges(const FrameView& view, double side, Svg& svg) {
+    const Point middle{side / 2, side / 2};
+    svg.add(R"(<rect width="{0:.0f}" height="{0:.0f}" fill="#f7f9fb" stroke="{1}"/>)", side,
+            colour::kFrame);
+    if (!view.reached().edges) {
+        svg.text(middle + Point{0, 10}, 28, "no connections",
+                 R"(text-anchor="middle" fill="#6b7885")");
+        return;
+    }
+    svg.add(R"(<g stroke="{}" stroke-width="1.5">)", colour::kFrame);
+    svg.line({0, middle.y}, {side, middle.y}, {});
+    svg.line({middle.x, 0}, {middle.x, side}, {});
+    svg.add("</g>");
+    // One and a half spacings to each side hold the longest connections, from dot to dot.
+    const double scale = side / 2 / (1.7 * view.spacing() / view.scale());
+    svg.add(R"(<g class="edges" fill="{0}" stroke="{0}" stroke-width="1" stroke-opacity="0.25">)",
+            colour::kEdge);
+    for (const Edge& edge : edges_of(view.workspace())) {
+        const Point end = middle + scale * from_q8(edge.step_q8);
+        if (end.x < 0 || end.x > side || end.y < 0 || end.y > side) continue;
+        svg.line(middle, end, {});
+        svg.circle(end, 3.5, {});
+    }
+    svg.add("</g>");
+    if (!view.reached().axes) return;
+    const Point u = scale * from_q16(view.workspace().lattice.u_q16);
+    const Point v = scale * from_q16(view.workspace().lattice.v_q16);
+    svg.add(R"(<g stroke="{}" stroke-width="3" stroke-dasharray="3 7">)", colour::kInk);
+    svg.line(middle, middle - u, {});
+    svg.line(middle, middle - v, {});
+    svg.add("</g>");
+    draw_axis(middle, middle + u, "u", svg);
+    draw_axis(middle, middle + v, "v", svg);
+}
+
+}  // namespace dotpose::draw

@@ -1,0 +1,176 @@
+// The picture of a frame: two panels side by side, below them the plot of the connections, the pose
+// and the legend.
+#include <algorithm>
+#include <ostream>
+#include <string>
+
+#include "dotpose/draw.hpp"
+#include "draw/embedded_image.hpp"
+#include "draw/frame_panels.hpp"
+
+namespace dotpose {
+namespace {
+
+using namespace dotpose::draw;
+
+constexpr double kMargin = 36;
+constexpr double kPanelWidth = 1200;
+constexpr double kLeastPanelHeight = 240;
+constexpr double kHeadHeight = 64;
+constexpr double kStripHeight = 360;
+constexpr double kWidth = 2 * kPanelWidth + 3 * kMargin;
+
+class Sketch {
+  public:
+    Sketch(ImageView image, const Workspace& workspace, const Options& options,
+           const DrawOptions& draw_options)
+        : view_(image, workspace, options, kPanelWidth),
+          options_(options),
+          draw_options_(draw_options),
+          panel_height_(std::max(view_.height(), kLeastPanelHeight)),
+          svg_(kWidth, height(), draw_options.title) {
+        define_frame(image);
+    }
+
+    std::string draw() && {
+        begin_panel(kMargin, "Dots and their neighbours", draw_options_.title, 1);
+        draw_detection(view_, svg_);
+        end_panel();
+        begin_panel(2 * kMargin + kPanelWidth, "The code read from them", reading_note(), 0.3);
+        draw_reading(view_, options_, svg_);
+        end_panel();
+        draw_strip();
+        return std::move(svg_).finish();
+    }
+
+  private:
+    double height() const { return 3 * kMargin + kHeadHeight + panel_height_ + kStripHeight; }
+
+    std::string reading_note() const {
+        if (view_.reached().place) {
+            const Workspace& workspace = view_.workspace();
+            const Cell cell = place_of(workspace, options_.profile, window_corner(workspace)).cell;
+            return fmt::format("window decoded at {}, {}", cell.x, cell.y);
+        }
+        return view_.reached().cells ? "turn unknown: letters as on the grid" : "";
+    }
+
+    /// The image, stored once and used by both panels.
+    void define_frame(ImageView image) {
+        const std::string uri = data_uri(image);
+        svg_.add("<defs>");
+        if (!uri.empty()) {
+            svg_.add(R"(<image id="frame" width="{:.2f}" height="{:.2f}" )"
+                     R"(preserveAspectRatio="none" style="image-rendering:pixelated" )"
+                     R"(image-rendering="optimizeSpeed" xlink:href="{}"/>)",
+                     view_.width(), view_.height(), uri);
+        } else {
+            svg_.add(R"(<g id="frame"/>)");
+        }
+        svg_.add(R"(<clipPath id="panel"><rect width="{:.2f}" height="{:.2f}"/></clipPath>)",
+                 view_.width(), view_.height());
+        svg_.add("</defs>");
+    }
+
+    void begin_panel(double x, std::string_view head, std::string_view note, double opacity) {
+        svg_.text({x, kMargin + 38}, 38, head, R"(font-weight="bold" fill="#17202a")");
+        svg_.text({x + kPanelWidth, kMargin + 38}, 30, note, R"(text-anchor="end" fill="#6b7885")");
+        const double y = kMargin + kHeadHeight;
+        svg_.add(R"svg(<g transform="translate({:.2f} {:.2f})">)svg",
+                 x + (kPanelWidth - view_.width()) / 2, y);
+        svg_.add(R"svg(<g clip-path="url(#panel)"><use xlink:href="#frame" opacity="{}"/>)svg",
+                 opacity);
+    }
+    void end_panel() {
+        svg_.add(R"(</g><rect width="{:.2f}" height="{:.2f}" fill="none" stroke="{}" )"
+                 R"(stroke-width="2"/></g>)",
+                 view_.width(), view_.height(), colour::kFrame);
+    }
+
+    void draw_strip() {
+        const double y = 2 * kMargin + kHeadHeight + panel_height_;
+        svg_.add(R"svg(<g transform="translate({:.2f} {:.2f})">)svg", kMargin, y);
+        draw_edges(view_, kStripHeight, svg_);
+        svg_.add("</g>");
+        const double x = 2.5 * kMargin + kStripHeight;
+        const double width = kWidth - kMargin - x;
+        svg_.add(R"svg(<g transform="translate({:.2f} {:.2f})">)svg", x, y);
+        draw_caption(view_, options_, draw_options_, width, svg_);
+        svg_.add("</g>");
+        svg_.add(R"svg(<g transform="translate({:.2f} {:.2f})">)svg", x, y + kStripHeight - 14);
+        draw_legend();
+        svg_.add("</g>");
+    }
+
+    void draw_legend() {
+        struct Item {
+            double width;
+            const char* text;
+            std::string mark;
+        };
+        const auto ring = [](const char* colour, double radius, double stroke) {
+            return fmt::format(
+                R"(<circle cx="18" cy="-10" r="{}" fill="none" stroke="{}" stroke-width="{}"/>)",
+                radius, colour, stroke);
+        };
+        const auto stroke = [](const char* colour, double width) {
+            return fmt::format(
+                R"(<line x1="0" y1="-10" x2="36" y2="-10" stroke="{}" stroke-width="{}"/>)", colour,
+                width);
+        };
+        const Item items[] = {
+            {112, "dot", ring(colour::kDot, 11, 4)},
+            {220, "connection", stroke(colour::kEdge, 5)},
+            {218, "grid origin", ring(colour::kBad, 14, 6)},
+            {168, "window",
+             fmt::format(R"(<rect x="3" y="-25" width="30" height="30" fill="none" stroke="{}" )"
+                         R"(stroke-width="6"/>)",
+                         colour::kWindow)},
+            {214, "its position", ring(colour::kWindow, 14, 6)},
+            {180, "image x", stroke(colour::kInk, 8)},
+            {204, "pattern x", stroke(colour::kPattern, 8)},
+            {182, "bit error", ring(colour::kError, 11, 6)},
+            {224, "unread dot", ring(colour::kBad, 10, 3)},
+        };
+        double x = 0;
+        for (const Item& item : items) {
+            svg_.add(R"svg(<g transform="translate({:.2f} 0)">{})svg", x, item.mark);
+            svg_.text({50, 0}, 27, item.text, R"(fill="#6b7885")");
+            svg_.add("</g>");
+            x += item.width;
+        }
+        draw_quality_bar(x);
+    }
+
+    void draw_quality_bar(double x) {
+        svg_.add(R"(<linearGradient id="quality"><stop offset="0" stop-color="{}"/>)"
+                 R"(<stop offset="0.5" stop-color="#d68910"/>)"
+                 R"(<stop offset="1" stop-color="{}"/></linearGradient>)",
+                 colour::kBad, colour::kGood);
+        svg_.add(R"svg(<rect x="{:.2f}" y="-24" width="70" height="26" rx="13" )svg"
+                 R"svg(fill="url(#quality)"/>)svg",
+                 x);
+        svg_.text({x + 84, 0}, 27, "likelihood", R"(fill="#6b7885")");
+    }
+
+    FrameView view_;
+    const Options& options_;
+    const DrawOptions& draw_options_;
+    double panel_height_;
+    Svg svg_;
+};
+
+}  // namespace
+
+void draw_frame(std::ostream& out, ImageView image, const Workspace& workspace,
+                const Options& options, const DrawOptions& draw_options) {
+    out << Sketch(image, workspace, options, draw_options).draw();
+}
+
+void draw_frame(const std::filesystem::path& path, ImageView image, const Workspace& workspace,
+                const Options& options, const DrawOptions& draw_options) {
+    draw::write_file(
+        path, [&](std::ostream& out) { draw_frame(out, image, workspace, options, draw_options); });
+}
+
+}  // namespace dotpose

@@ -1,0 +1,231 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "draw/frame_panels.hpp"
+
+namespace dotpose::draw {
+namespace {
+
+constexpr double kHighest = 127;  // of a quasi-probability
+
+/// The paper's likelihood of the symbol, |Px Py|, from 0 to 1.
+double quality(const GridCell& cell) {
+    return std::abs(cell.x * cell.y) / (kHighest * kHighest);
+}
+
+/// From red over amber to green.
+std::string quality_colour(double quality) {
+    struct Rgb {
+        double red, green, blue;
+    };
+    constexpr Rgb kRed{192, 57, 43};
+    constexpr Rgb kAmber{214, 137, 16};
+    constexpr Rgb kGreen{30, 132, 73};
+    const Rgb& low = quality < 0.5 ? kRed : kAmber;
+    const Rgb& high = quality < 0.5 ? kAmber : kGreen;
+    const double share = quality < 0.5 ? 2 * quality : 2 * quality - 1;
+    const auto mix = [share](double a, double b) {
+        return static_cast<int>(std::lround(a + share * (b - a)));
+    };
+    return fmt::format("#{:02x}{:02x}{:02x}", mix(low.red, high.red), mix(low.green, high.green),
+                       mix(low.blue, high.blue));
+}
+
+/// The symbol that a displacement of the grid stands for on the pattern.
+Symbol turned(Symbol symbol, Turn pattern_from_grid) {
+    const Vec d = pattern_from_grid({dx(symbol), dy(symbol)});
+    return make_symbol((d.y - d.x + 1) / 2, (d.y + d.x + 1) / 2);
+}
+
+/// The reading of one frame, drawn layer by layer.
+class Reading {
+  public:
+    Reading(const FrameView& view, Profile profile, Svg& svg)
+        : view_(view), workspace_(view.workspace()), profile_(profile), svg_(svg) {}
+
+    void draw_grid() const;
+    void draw_symbols() const;
+    void draw_window() const;
+    void draw_corner() const;
+    void draw_reference() const;
+
+  private:
+    Turn turn() const {
+        return view_.reached().place ? workspace_.decoding.pattern_from_grid : Turn{};
+    }
+    void draw_axes() const;
+    void draw_symbol(int i, int j, const GridCell& cell) const;
+    /// A line of the grid; several strokes, because a lens may bend it.
+    void draw_grid_line(double i, double j, int steps, Point step) const;
+
+    const FrameView& view_;
+    const Workspace& workspace_;
+    Profile profile_;
+    Svg& svg_;
+};
+
+void Reading::draw_grid_line(double i, double j, int steps, Point step) const {
+    std::string path;
+    for (int n = 0; n <= steps; ++n) {
+        const Point at = view_.at_grid(i + n * step.x, j + n * step.y);
+        path += fmt::format("{}{:.2f} {:.2f}", n == 0 ? 'M' : 'L', at.x, at.y);
+    }
+    svg_.add(R"(<path d="{}"/>)", path);
+}
+
+void Reading::draw_grid() const {
+    if (!view_.reached().cells) return;
+    const Grid& grid = workspace_.grid;
+    svg_.add(R"(<g class="grid" fill="none" stroke="#7f8c99" stroke-opacity="0.7" )"
+             R"(stroke-width="{:.2f}">)",
+             1.6 * view_.stroke());
+    for (int i = grid.i0; i < grid.i0 + grid.columns; ++i) {
+        draw_grid_line(i, grid.j0, grid.rows - 1, {0, 1});
+    }
+    for (int j = grid.j0; j < grid.j0 + grid.rows; ++j) {
+        draw_grid_line(grid.i0, j, grid.columns - 1, {1, 0});
+    }
+    svg_.add("</g>");
+}
+
+void Reading::draw_symbol(int i, int j, const GridCell& cell) const {
+    const Point at = view_.at_dot(workspace_.dots[cell.dot]);
+    const double radius = 0.27 * view_.spacing();
+    const Symbol read = turned(make_symbol(cell.x > 0, cell.y > 0), turn());
+    bool is_error = false;
+    if (view_.reached().place) {
+        const Place place = place_of(workspace_, profile_, {i, j});
+        is_error = symbol_at(profile_, place.cell, place.section) != read;
+    }
+    svg_.circle(at, radius,
+                fmt::format(R"(fill="{}"{})", quality_colour(quality(cell)),
+                            is_error ? fmt::format(R"( stroke="{}" stroke-width="{:.2f}")",
+                                                   colour::kError, 7 * view_.stroke())
+                                     : ""));
+    const bool is_legible = cell.x != 0 && cell.y != 0;
+    const char capital = static_cast<char>(letter(read) - 'a' + 'A');
+    const double size = 1.45 * radius;
+    // A letter stands upright on the pattern, so that it also shows which way up that is.
+    const double angle_deg =
+        view_.reached().pose ? -workspace_.fix.theta_rad() * 180 / std::numbers::pi : 0;
+    svg_.add(R"svg(<text transform="translate({:.2f} {:.2f}) rotate({:.2f})" y="{:.2f}" )svg"
+             R"svg(font-size="{:.2f}">{}</text>)svg",
+             at.x, at.y, angle_deg, 0.36 * size, size, is_legible ? capital : '?');
+}
+
+void Reading::draw_symbols() const {
+    if (!view_.reached().cells) {
+        svg_.add(R"(<g class="dots" fill="{}">)", colour::kQuiet);
+        for (const Dot& dot : workspace_.found_dots()) {
+            svg_.circle(view_.at_dot(dot), 0.1 * view_.spacing(), {});
+        }
+        svg_.add("</g>");
+        return;
+    }
+    svg_.add(R"(<g class="symbols" font-weight="bold" fill="#ffffff" text-anchor="middle">)");
+    std::vector<bool> is_read(static_cast<std::size_t>(workspace_.dot_count), false);
+    const Grid& grid = workspace_.grid;
+    for (int j = grid.j0; j < grid.j0 + grid.rows; ++j) {
+        for (int i = grid.i0; i < grid.i0 + grid.columns; ++i) {
+            const GridCell& cell = grid.at(i, j);
+            if (cell.dot >= is_read.size()) continue;
+            is_read[cell.dot] = true;
+            draw_symbol(i, j, cell);
+        }
+    }
+    svg_.add("</g>");
+    // What lies on no intersection, or where another dot fits better.
+    svg_.add(R"(<g class="unread" fill="none" stroke="{}" stroke-width="{:.2f}">)", colour::kBad,
+             4 * view_.stroke());
+    for (std::size_t d = 0; d < is_read.size(); ++d) {
+        if (!is_read[d]) svg_.circle(view_.at_dot(workspace_.dots[d]), 0.2 * view_.spacing(), {});
+    }
+    svg_.add("</g>");
+}
+
+void Reading::draw_window() const {
+    if (!view_.reached().window) return;
+    const Region& window = workspace_.decoding.window;
+    // Half a cell around the outer intersections; cell by cell, because a lens may bend it.
+    const double left = window.i0 - 0.5;
+    const double top = window.j0 - 0.5;
+    std::string path;
+    const auto side = [&](double i, double j, int steps, int di, int dj) {
+        for (int n = 0; n < steps; ++n) {
+            const Point at = view_.at_grid(i + n * di, j + n * dj);
+            path += fmt::format("{}{:.2f} {:.2f}", path.empty() ? 'M' : 'L', at.x, at.y);
+        }
+    };
+    side(left, top, window.columns, 1, 0);
+    side(left + window.columns, top, window.rows, 0, 1);
+    side(left + window.columns, top + window.rows, window.columns, -1, 0);
+    side(left, top + window.rows, window.rows, 0, -1);
+    svg_.add(R"(<path class="window" d="{}Z" fill="none" stroke="{}" stroke-width="{:.2f}" )"
+             R"(stroke-linejoin="round"/>)",
+             path, colour::kWindow, 7 * view_.stroke());
+}
+
+void Reading::draw_corner() const {
+    if (!view_.reached().place) return;
+    const Vec cell = window_corner(workspace_);
+    svg_.circle(view_.at_grid(cell.x, cell.y), 0.44 * view_.spacing(),
+                fmt::format(R"(class="corner" fill="none" stroke="{}" stroke-width="{:.2f}")",
+                            colour::kWindow, 7 * view_.stroke()));
+}
+
+void Reading::draw_axes() const {
+    const Point reference = view_.at(view_.reference_px());
+    const double stroke = std::max(view_.stroke(), 0.35);
+    const Vec cell = window_corner(workspace_);
+    svg_.line(view_.at_grid(cell.x, cell.y), reference,  // t of eq. 10
+              fmt::format(R"(stroke="{}" stroke-width="{:.2f}" stroke-dasharray="{:.2f}")",
+                          colour::kWindow, 4 * stroke, 11 * stroke));
+    const double reach = 2.4 * view_.spacing();
+    const Point ahead = reach * view_.ahead_of_reference();
+    const double arc = 0.6;  // its radius, of the arrows' length
+    svg_.add(R"(<path d="M{:.2f} {:.2f}A{:.2f} {:.2f} 0 0 {} {:.2f} {:.2f}" fill="none" )"
+             R"(stroke="{}" stroke-width="{:.2f}"/>)",
+             reference.x + arc * reach, reference.y, arc * reach, arc * reach, ahead.y > 0 ? 1 : 0,
+             reference.x + arc * ahead.x, reference.y + arc * ahead.y, colour::kPattern,
+             4 * stroke);
+    const Point between = Point{reach, 0} + ahead;
+    if (length(between) < 1.98 * reach && length(between) > 0.1 * reach) {
+        const Point at = reference + 0.8 * reach / length(between) * between;
+        svg_.text(at + Point{0, 12 * stroke}, 36 * stroke, "θ",
+                  fmt::format(R"(text-anchor="middle" font-weight="bold" fill="{}" )"
+                              R"(stroke="#ffffff" stroke-width="{:.2f}" paint-order="stroke")",
+                              colour::kPattern, 8 * stroke));
+    }
+    svg_.arrow(reference, reference + Point{reach, 0}, 7 * stroke, colour::kInk);
+    svg_.arrow(reference, reference + ahead, 7 * stroke, colour::kPattern);
+}
+
+void Reading::draw_reference() const {
+    if (view_.reached().pose) draw_axes();
+    const Point reference = view_.at(view_.reference_px());
+    const double stroke = std::max(view_.stroke(), 0.35);
+    const double arm = 24 * stroke;
+    svg_.add(R"(<g class="reference" stroke="{}" stroke-width="{:.2f}">)", colour::kInk,
+             6 * stroke);
+    svg_.line(reference - Point{arm, 0}, reference + Point{arm, 0}, {});
+    svg_.line(reference - Point{0, arm}, reference + Point{0, arm}, {});
+    svg_.add("</g>");
+}
+
+}  // namespace
+
+void draw_reading(const FrameView& view, const Options& options, Svg& svg) {
+    const Reading reading(view, options.profile, svg);
+    reading.draw_grid();
+    reading.draw_symbols();
+    reading.draw_window();
+    reading.draw_corner();
+    reading.draw_reference();
+}
+
+}  // namespace dotpose::draw

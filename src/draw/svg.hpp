@@ -1,0 +1,78 @@
+// Svg: text of a picture under construction, and the palette all pictures share.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <iosfwd>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace dotpose::draw {
+
+/// A place or vector; which frame, the variable's name says.
+struct Point {
+    double x = 0;
+    double y = 0;
+};
+constexpr Point operator+(Point a, Point b) {
+    return {a.x + b.x, a.y + b.y};
+}
+constexpr Point operator-(Point a, Point b) {
+    return {a.x - b.x, a.y - b.y};
+}
+constexpr Point operator*(double factor, Point a) {
+    return {factor * a.x, factor * a.y};
+}
+double length(Point a);
+
+namespace colour {
+inline constexpr const char* kInk = "#17202a";
+inline constexpr const char* kQuiet = "#6b7885";
+inline constexpr const char* kFrame = "#d5dbe1";
+inline constexpr const char* kGood = "#1e8449";
+inline constexpr const char* kBad = "#c0392b";
+inline constexpr const char* kError = "#d500f9";
+inline constexpr const char* kDot = "#ff8f00";
+inline constexpr const char* kEdge = "#2979ff";
+inline constexpr const char* kWindow = "#1565c0";
+inline constexpr const char* kPattern = "#8e24aa";
+}  // namespace colour
+
+class Svg {
+  public:
+    /// A drawing of this size in user units, on white.
+    Svg(double width, double height, std::string_view title);
+
+    /// Appends markup as it is, formatted, and a line break.
+    template <typename... Values>
+    void add(fmt::format_string<Values...> format, Values&&... values) {
+        fmt::format_to(std::back_inserter(text_), format, std::forward<Values>(values)...);
+        text_ += '\n';
+    }
+    void line(Point from, Point to, std::string_view attributes);
+    void circle(Point centre, double radius, std::string_view attributes);
+    /// A line with a head at its end; `width` is that of the line.
+    void arrow(Point from, Point to, double width, std::string_view colour,
+               std::string_view attributes = {});
+    /// One line of text; `size` is that of the font.
+    void text(Point at, double size, std::string_view content, std::string_view attributes = {});
+
+    /// The whole drawing.
+    std::string finish() &&;
+
+  private:
+    std::string text_;
+};
+
+/// Text for use between tags or in an attribute: escaped, without control characters, and with a
+/// replacement character for each byte that is no UTF-8.
+std::string escaped(std::string_view text);
+
+/// Writes a file by means of a function that writes to a stream. Throws Error.
+void write_file(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
+
+}  // namespace dotpose::draw

@@ -1,0 +1,54 @@
+#include <algorithm>
+#include <cctype>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "dotpose/print.hpp"
+#include "output_file.hpp"
+#include "writers.hpp"
+
+namespace dotpose {
+
+PrintFormat print_format(const std::filesystem::path& path) {
+    std::string ending = path.extension().string();
+    std::ranges::transform(ending, ending.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (ending == ".txt") return PrintFormat::text;
+    if (ending == ".svg") return PrintFormat::svg;
+    if (ending == ".png") return PrintFormat::png;
+    if (ending == ".tif" || ending == ".tiff") return PrintFormat::tiff;
+    throw BadArgument(
+        fmt::format("'{}': the name must end in .svg, .png, .tif or .txt", path.string()));
+}
+
+void write_sheet(const Sheet& sheet, const std::filesystem::path& path,
+                 const PrintOptions& options) {
+    const PrintFormat format = print_format(path);
+    validate(sheet);
+    if (format == PrintFormat::png || format == PrintFormat::tiff) {
+        validate_resolution(sheet, options.dpi);
+    }
+    print::OutputFile file(path);
+    switch (format) {
+        case PrintFormat::text:
+            print::write_text(sheet, options.progress, file);
+            break;
+        case PrintFormat::svg:
+            print::write_svg(sheet, options.progress, file);
+            break;
+        case PrintFormat::png:
+            print::write_png(sheet, options.dpi, options.progress, file);
+            break;
+        case PrintFormat::tiff:
+            print::write_tiff(sheet, options.dpi, options.progress, file);
+            break;
+    }
+    file.commit();
+}
+
+void print::report(const Progress& progress, int rows_done, int rows) {
+    if (progress && !progress(rows_done, rows)) throw Error("stopped; nothing was written");
+}
+
+}  // namespace dotpose

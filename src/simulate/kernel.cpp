@@ -1,0 +1,74 @@
+#include "simulate/kernel.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace dotpose::simulate {
+namespace {
+
+// Integral of the normal distribution function from minus infinity to x; of a step if sigma is 0.
+double integral_of_edge(double x, double sigma) {
+    if (sigma < 1e-6) return std::max(x, 0.0);
+    const double z = x / sigma;
+    const double density = std::exp(-z * z / 2) / std::sqrt(2 * std::numbers::pi);
+    return sigma * (z * 0.5 * std::erfc(-z / std::numbers::sqrt2) + density);
+}
+
+// Shares for a scene moved by `shift_px`. One pixel sees box(1 px) convolved with the lens's
+// Gaussian; its share of a sub-pixel is the integral over that sub-pixel.
+Kernel::Weights weights(const Kernel& kernel, double sigma_px, double shift_px, double share) {
+    const auto collected = [&](double x) {
+        return integral_of_edge(x + 0.5, sigma_px) - integral_of_edge(x - 0.5, sigma_px);
+    };
+    const auto pixels = static_cast<std::size_t>(2 * kernel.border_px + 1);
+    const auto per_pixel = static_cast<std::size_t>(kernel.per_pixel);
+    std::vector<double> exact;
+    double sum = 0;
+    for (std::size_t i = 0; i < pixels * per_pixel; ++i) {
+        const double from_px =
+            static_cast<double>(i) / kernel.per_pixel - kernel.border_px - 0.5 + shift_px;
+        exact.push_back(collected(from_px + 1.0 / kernel.per_pixel) - collected(from_px));
+        sum += exact.back();
+    }
+    Kernel::Weights result(per_pixel, std::vector<float>(pixels));
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+        // The further right the sub-pixel, the further left of it lies the pixel.
+        result[i % per_pixel][pixels - 1 - i / per_pixel] =
+            static_cast<float>(exact[i] * share / sum);
+    }
+    return result;
+}
+
+// About 6 sub-pixels across a dot or more: what then remains of the raster in a dot's centroid is
+// below 0.003 px. Not more than 8 per pixel, for time.
+int sub_pixels_for(double dot_px) {
+    if (dot_px < 1.5) return 8;
+    return dot_px < 6 ? 4 : 2;
+}
+
+}  // namespace
+
+Kernel make_kernel(const Imperfections& imperfections, double dot_px) {
+    const Vec2 motion_px = imperfections.motion_px;
+    const double length_px = std::hypot(motion_px.x, motion_px.y);
+
+    Kernel kernel;
+    kernel.per_pixel = sub_pixels_for(dot_px);
+    // Sub-pixels blur like a triangle of twice their width, variance 1/6; the lens adds the rest.
+    const double raster_variance = 1.0 / (6.0 * kernel.per_pixel * kernel.per_pixel);
+    const double sigma_px = std::sqrt(
+        std::max(0.0, imperfections.blur_sigma_px * imperfections.blur_sigma_px - raster_variance));
+    kernel.border_px = static_cast<int>(
+        std::ceil(4 * sigma_px + std::max(std::abs(motion_px.x), std::abs(motion_px.y)) / 2));
+    // The scene stands still for moments during which it moves by no more than a sub-pixel.
+    const int moments = std::max(1, static_cast<int>(std::ceil(length_px * kernel.per_pixel)));
+    for (int moment = 0; moment < moments; ++moment) {
+        const double time = (moment + 0.5) / moments - 0.5;
+        kernel.moments.push_back({weights(kernel, sigma_px, time * motion_px.x, 1),
+                                  weights(kernel, sigma_px, time * motion_px.y, 1.0 / moments)});
+    }
+    return kernel;
+}
+
+}  // namespace dotpose::simulate

@@ -1,0 +1,72 @@
+#include <cmath>
+
+#include "dotpose/simulate.hpp"
+
+namespace dotpose {
+namespace {
+
+constexpr Vec2 kInvisible{1e9, 1e9};
+
+}  // namespace
+
+Projection::Projection(const CameraModel& camera, const CameraPose& pose)
+    : centre_px_{(camera.width_px - 1) / 2.0, (camera.height_px - 1) / 2.0},
+      k_(camera.k),
+      focal_px_(camera.working_distance_mm / camera.mm_per_px),
+      distance_mm_(camera.working_distance_mm) {
+    // The untilted paper's axes s and t lie along the image axes. Tilting turns them first about
+    // the image y axis, then about the image x axis.
+    const double cx = std::cos(pose.tilt_x_rad);
+    const double sx = std::sin(pose.tilt_x_rad);
+    const double cy = std::cos(pose.tilt_y_rad);
+    const double sy = std::sin(pose.tilt_y_rad);
+    const std::array<double, 3> s_axis{cy, sx * sy, -cx * sy};
+    const std::array<double, 3> t_axis{0, cx, sx};
+
+    // Around the pose point a step along the image x axis is, on the paper, the (s, t) that solves
+    // s * s_axis + t * t_axis = (1, 0, any). Theta is the angle of this step in the pattern.
+    const double step_angle_rad = std::atan2(-sx * sy / cx, 1);
+    const double turn_rad = pose.theta_rad - step_angle_rad;
+    const double c = std::cos(turn_rad);
+    const double s = std::sin(turn_rad);
+    for (std::size_t i = 0; i < 3; ++i) {
+        // offset = R(turn) * (s, t), so the pattern's axes are the columns of R(-turn).
+        x_axis_[i] = c * s_axis[i] - s * t_axis[i];
+        y_axis_[i] = s * s_axis[i] + c * t_axis[i];
+    }
+}
+
+Vec2 Projection::pixel_from_offset(Vec2 offset_mm) const {
+    const auto camera_mm = [&](std::size_t i) {
+        return x_axis_[i] * offset_mm.x + y_axis_[i] * offset_mm.y;
+    };
+    const double depth_mm = distance_mm_ + camera_mm(2);
+    if (depth_mm <= 0) return kInvisible;
+    const Vec2 undistorted{focal_px_ * camera_mm(0) / depth_mm,
+                           focal_px_ * camera_mm(1) / depth_mm};
+    // Paper eq. 2 solved for r_d: k |r_u| |r_d|^2 - |r_d| + |r_u| = 0, the root that goes to r_u
+    // with k.
+    const double square = undistorted.x * undistorted.x + undistorted.y * undistorted.y;
+    const double discriminant = 1 - 4 * k_ * square;
+    if (discriminant < 0) return kInvisible;
+    const double scale = 2 / (1 + std::sqrt(discriminant));
+    return {centre_px_.x + scale * undistorted.x, centre_px_.y + scale * undistorted.y};
+}
+
+Vec2 Projection::offset_from_pixel(Vec2 pixel) const {
+    const double dx = pixel.x - centre_px_.x;
+    const double dy = pixel.y - centre_px_.y;
+    const double scale = 1 / (focal_px_ * (1 + k_ * (dx * dx + dy * dy)));  // paper eq. 2
+    // The viewing ray is (rx, ry, 1) * depth; on the paper depth = distance + z, so that
+    // x_axis.xy * ox + y_axis.xy * oy = (rx, ry) * (distance + x_axis.z * ox + y_axis.z * oy).
+    const double rx = dx * scale;
+    const double ry = dy * scale;
+    const double a = x_axis_[0] - rx * x_axis_[2];
+    const double b = y_axis_[0] - rx * y_axis_[2];
+    const double c = x_axis_[1] - ry * x_axis_[2];
+    const double d = y_axis_[1] - ry * y_axis_[2];
+    const double factor = distance_mm_ / (a * d - b * c);
+    return {(d * rx - b * ry) * factor, (a * ry - c * rx) * factor};
+}
+
+}  // namespace dotpose

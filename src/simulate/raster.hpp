@@ -1,0 +1,70 @@
+/// Draws ink on sub-pixels, a band of sub-rows at a time.
+#pragma once
+
+#include <vector>
+
+#include "simulate/ink.hpp"
+
+namespace dotpose::simulate {
+
+class Raster {
+  public:
+    struct Layout {
+        int per_pixel = 1;
+        int border_px = 0;
+        int width = 0;  ///< sub-pixels per row, border included
+        int band_rows = 0;
+    };
+
+    Raster(const Ink& ink, const Layout& layout);
+
+    /// Draws sub-rows top to top + band_rows - 1, counted from the top of the border. All rows of
+    /// the band before must have been taken.
+    void draw_band(int top);
+
+    /// One sub-pixel with ink.
+    struct Spot {
+        int x = 0;
+        float darkness = 0;  ///< share of the light that the ink takes away
+    };
+
+    /// The inked sub-pixels of a row of the band, each once. The row is empty afterwards.
+    const std::vector<Spot>& take_row(int row_in_band);
+
+  private:
+    // Sub-pixel coordinates: sub-pixel i covers [i, i + 1).
+    struct Ellipse {
+        double x, y;
+        double slant;       // x of the chord's middle per y
+        double half_width;  // of the chord through the centre
+        double half_height;
+        double darkness;  // 1 - reflectance
+    };
+    struct Polygon {
+        std::vector<Vec2> corners;
+        double top, bottom;
+        double darkness;
+    };
+
+    template <typename ChordAt>
+    void fill(double top, double bottom, double darkness, const ChordAt& chord_at);
+    void cover(double left, double right, double weight);
+
+    Layout layout_;
+    std::vector<Ellipse> ellipses_;  // by y
+    double tallest_ = 0;             // largest half_height
+    std::vector<Polygon> polygons_;
+    int band_top_ = 0;
+    // Most sub-pixels are bare: only those in `spans_` of their row are ever looked at.
+    struct Span {
+        int from, to;
+    };
+    float* row(int row_in_band);
+    std::vector<float> band_;
+    std::vector<std::vector<Span>> spans_;  // may overlap
+    std::vector<double> coverage_;          // of the row in work
+    Span touched_{};                        // of coverage_
+    std::vector<Spot> spots_;
+};
+
+}  // namespace dotpose::simulate

@@ -1,0 +1,346 @@
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "../xml_check.hpp"
+#include "locate_command.hpp"
+
+namespace dotpose::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
+
+TEST_F(LocateCommand, finds_the_true_poses) {
+    constexpr std::uint64_t kFrames = 12;
+    std::string names;
+    for (std::uint64_t i = 0; i < kFrames; ++i) {
+        const std::string name = std::to_string(i) + ".pgm";
+        write_frame(name, i);
+        names += " " + name;
+    }
+    run(names);
+    EXPECT_EQ(exit_code_, 0);
+    EXPECT_THAT(errors_, IsEmpty());
+    const std::vector<json> found = records();
+    ASSERT_EQ(found.size(), kFrames);
+    for (std::uint64_t i = 0; i < kFrames; ++i) {
+        const Shot truth = shot(i);
+        const json& record = found[i];
+        EXPECT_EQ(record["file"], std::to_string(i) + ".pgm");
+        ASSERT_EQ(record["status"], "ok");
+        EXPECT_FALSE(record.contains("message"));
+        EXPECT_NEAR(record["x_grid"], x_grid(truth.pose), 0.03);
+        EXPECT_NEAR(record["y_grid"], y_grid(truth.pose), 0.03);
+        EXPECT_NEAR(record["x_mm"], x_grid(truth.pose) * 0.508, 0.015);
+        EXPECT_NEAR(record["y_mm"], y_grid(truth.pose) * 0.508, 0.015);
+        const double theta_deg = truth.pose.theta_rad * 180 / 3.14159265358979;
+        EXPECT_NEAR(std::remainder(record["theta_deg"].get<double>() - theta_deg, 360), 0, 0.3);
+        EXPECT_GT(record["theta_deg"], -180);
+        EXPECT_LE(record["theta_deg"], 180);
+        const Section section = truth.page.pattern.section;
+        EXPECT_EQ(record["section"], json({section.u, section.v}));
+        EXPECT_GT(record["dots_seen"], 100);
+        EXPECT_LE(record["dots_used"], record["dots_seen"]);
+        EXPECT_LE(record["p_wrong"], 1e-9);
+        EXPECT_GE(record["p_wrong"], 1e-30);
+        EXPECT_NEAR(record["sigma_x_mm"], 0.001, 0.0009);
+        EXPECT_GT(record["sigma_theta_deg"], 0);
+        EXPECT_NEAR(record["spacing_px"], 11.043, 0.05);
+        EXPECT_GT(record["residual_px"], 0);
+        EXPECT_GT(record["elapsed_us"], 0);
+    }
+}
+
+TEST_F(LocateCommand, shows_six_decimals_of_positions) {
+    write_frame("a.pgm", 0);
+    run("a.pgm");
+    for (const char* field : {"\"x_mm\":", "\"y_mm\":", "\"x_grid\":", "\"y_grid\":"}) {
+        const std::size_t at = output_.find(field);
+        ASSERT_NE(at, std::string::npos);
+        const std::size_t point = output_.find('.', at);
+        EXPECT_EQ(output_.find(',', at) - point, 7U) << output_;
+    }
+}
+
+TEST_F(LocateCommand, every_file_gets_one_line_or_one_message_in_order) {
+    write_frame("good.pgm", 1);
+    fs::create_directory(directory_ / "folder");
+    write("empty.png", "");
+    write("text.jpg", "this is no image\n");
+    const std::string pgm = read_file(directory_ / "good.pgm");
+    write("cut.pgm", pgm.substr(0, pgm.size() / 2));
+    write_png(directory_ / "whole.png", render(shot(1)).view());
+    const std::string png = read_file(directory_ / "whole.png");
+    write("cut.png", png.substr(0, png.size() / 2));
+    write("cut.jpg",
+          std::string("\xff\xd8\xff\xe0\x00\x10JFIF\x00\x01\x01\x00\x00\x01\x00\x01", 18));
+    write_level("flat.pgm", 64, 64);
+    run("missing.png good.pgm folder empty.png text.jpg flat.pgm cut.pgm cut.png cut.jpg "
+        "whole.png");
+    EXPECT_EQ(exit_code_, 1);
+    EXPECT_THAT(files(), ElementsAre("good.pgm", "flat.pgm", "whole.png"));
+    const std::vector<std::string> messages = lines_of(errors_);
+    const char* const bad[] = {"missing.png", "folder",  "empty.png", "text.jpg",
+                               "cut.pgm",     "cut.png", "cut.jpg"};
+    ASSERT_EQ(messages.size(), std::size(bad)) << errors_;
+    for (std::size_t i = 0; i < std::size(bad); ++i) {
+        EXPECT_THAT(messages[i], StartsWith("dotpose: ")) << errors_;
+        EXPECT_THAT(messages[i], HasSubstr(std::string(bad[i]) + ": ")) << errors_;
+    }
+}
+
+TEST_F(LocateCommand, frames_without_a_fix_are_lines_with_a_reason) {
+    write_level("one.pgm", 1, 1);
+    write_level("wide.pgm", 100'000, 1);
+    write_level("large.pgm", 4097, 100);
+    write_level("flat.pgm", 64, 64);
+    GreyImage noise{{}, 4096, 4096};
+    Rng rng(3);
+    for (int i = 0; i < 4096 * 4096; ++i) {
+        noise.pixels.push_back(static_cast<std::uint8_t>(rng.bits() & 255U));
+    }
+    write_pgm(directory_ / "noise.pgm", noise.view());
+    run("one.pgm wide.pgm large.pgm flat.pgm noise.pgm");
+    EXPECT_EQ(exit_code_, 0);
+    EXPECT_THAT(errors_, IsEmpty());
+    const std::vector<json> found = records();
+    ASSERT_EQ(found.size(), 5U);
+    EXPECT_EQ(found[0]["status"], "image_too_small");
+    EXPECT_EQ(found[0]["message"], "the image is 1 x 1 px; at least 64 x 64 are needed");
+    EXPECT_EQ(found[1]["status"], "image_too_small");
+    EXPECT_EQ(found[2]["status"], "image_too_large");
+    EXPECT_EQ(found[2]["message"],
+              "the image is 4097 x 100 px; at most 4096 x 4096 can be located");
+    EXPECT_THAT(found[3]["message"].get<std::string>(), Not(IsEmpty()));
+    EXPECT_EQ(found[3]["dots_seen"], 0);
+    for (const json& record : found) {
+        EXPECT_NE(record["status"], "ok") << record;
+        EXPECT_TRUE(record.contains("elapsed_us"));
+        for (const char* field : {"x_mm", "theta_deg", "section", "p_wrong", "sigma_x_mm"}) {
+            EXPECT_FALSE(record.contains(field)) << record;
+        }
+    }
+}
+
+TEST_F(LocateCommand, sixteen_bits_and_transparency_change_nothing) {
+    const GreyImage image = render(shot(2));
+    write_pgm(directory_ / "grey.pgm", image.view());
+    std::vector<std::uint16_t> deep;
+    std::vector<std::uint8_t> ink;  // black, more or less transparent
+    for (const std::uint8_t level : image.pixels) {
+        deep.push_back(static_cast<std::uint16_t>(level * 257));
+        ink.push_back(0);
+        ink.push_back(static_cast<std::uint8_t>(255 - level));
+    }
+    write_as_png("deep.png", image, PNG_FORMAT_LINEAR_Y, deep.data());
+    write_as_png("ink.png", image, PNG_FORMAT_GA, ink.data());
+    run("grey.pgm deep.png ink.png");
+    EXPECT_EQ(exit_code_, 0) << errors_;
+    std::vector<json> found = records();
+    ASSERT_EQ(found.size(), 3U);
+    for (json& record : found) {
+        record.erase("file");
+        record.erase("elapsed_us");
+        EXPECT_EQ(record, found[0]);
+    }
+    EXPECT_EQ(found[0]["status"], "ok");
+}
+
+TEST_F(LocateCommand, names_may_come_from_a_list) {
+    write_frame("a b.pgm", 0);
+    write_frame("c.pgm", 1);
+    write_frame("d.pgm", 2);
+    write("names.txt", "a b.pgm\n\nmissing.pgm\nc.pgm");
+    run("--list names.txt d.pgm");
+    EXPECT_EQ(exit_code_, 1);
+    EXPECT_THAT(files(), ElementsAre("d.pgm", "a b.pgm", "c.pgm"));
+    run("--list -", "names.txt");
+    EXPECT_EQ(exit_code_, 1);
+    EXPECT_THAT(files(), ElementsAre("a b.pgm", "c.pgm"));
+    run("--list -");  // an empty one
+    EXPECT_EQ(exit_code_, 0);
+    EXPECT_THAT(output_, IsEmpty());
+    for (const char* list : {"none.txt", "."}) {
+        run(std::string("--list ") + list);
+        EXPECT_EQ(exit_code_, 1) << list;
+        EXPECT_THAT(errors_, StartsWith("dotpose: ")) << list;
+    }
+}
+
+TEST_F(LocateCommand, csv_says_the_same_as_json) {
+    write_frame("a.pgm", 3);
+    write_level("b, \"flat\".pgm", 64, 64);
+    const std::string names = "a.pgm 'b, \"flat\".pgm'";
+    run(names);
+    const std::vector<json> expected = records();
+    run("--format csv " + names);
+    EXPECT_EQ(exit_code_, 0);
+    const std::vector<std::string> lines = lines_of(output_);
+    ASSERT_EQ(lines.size(), 3U);
+    const std::vector<std::string> header = cells_of(lines[0]);
+    for (std::size_t row = 0; row < 2; ++row) {
+        const std::vector<std::string> cells = cells_of(lines[row + 1]);
+        ASSERT_EQ(cells.size(), header.size());
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            if (header[i] == "elapsed_us") continue;
+            json value;
+            if (header[i] == "section_u" && expected[row].contains("section")) {
+                value = expected[row]["section"][0];
+            } else if (header[i] == "section_v" && expected[row].contains("section")) {
+                value = expected[row]["section"][1];
+            } else if (expected[row].contains(header[i])) {
+                value = expected[row][header[i]];
+            }
+            if (value.is_null()) {
+                EXPECT_EQ(cells[i], "") << header[i];
+            } else if (value.is_string()) {
+                EXPECT_EQ(cells[i], value.get<std::string>());
+            } else {
+                EXPECT_EQ(std::stod(cells[i]), value.get<double>()) << header[i];
+            }
+        }
+    }
+}
+
+TEST_F(LocateCommand, names_that_are_no_utf8_give_valid_json) {
+    write_frame("\xff\"\\\n.pgm", 0);
+    run("*.pgm");
+    EXPECT_EQ(exit_code_, 0);
+    EXPECT_THAT(files(), ElementsAre("\xef\xbf\xbd\"\\\n.pgm"));
+}
+
+TEST_F(LocateCommand, spacing_and_code_and_reference_are_used) {
+    const Shot truth = shot(5);
+    write_frame("a.pgm", 5);
+    run("--spacing 1 a.pgm");
+    EXPECT_NEAR(records().at(0)["x_mm"], x_grid(truth.pose), 0.03);
+
+    run("--code microdots a.pgm");
+    EXPECT_NE(records().at(0)["status"], "ok");
+
+    const Vec2 offset_mm = Projection(truth.camera, truth.pose).offset_from_pixel({20, 100});
+    run("--reference 20,100 a.pgm");
+    EXPECT_NEAR(records().at(0)["x_mm"], x_grid(truth.pose) * 0.508 + offset_mm.x, 0.02);
+    EXPECT_NEAR(records().at(0)["y_mm"], y_grid(truth.pose) * 0.508 + offset_mm.y, 0.02);
+}
+
+TEST_F(LocateCommand, the_lens_is_used) {
+    Shot truth = shot(6);
+    truth.camera.width_px = 376;
+    truth.camera.height_px = 240;
+    truth.camera.k = -5e-6;
+    write_pgm(directory_ / "a.pgm", render(truth).view());
+    run("--k -5e-6 a.pgm");
+    const json with_lens = records().at(0);
+    ASSERT_EQ(with_lens["status"], "ok");
+    EXPECT_NEAR(with_lens["x_grid"], x_grid(truth.pose), 0.03);
+    EXPECT_LT(with_lens["residual_px"], 0.5);
+    run("a.pgm");
+    const json without = records().at(0);
+    EXPECT_TRUE(without["status"] != "ok" || without["residual_px"] > 1) << without;
+}
+
+TEST_F(LocateCommand, draws_a_picture_for_each_image) {
+    write_frame("a.pgm", 0);
+    write_png(directory_ / "a.png", render(shot(1)).view());
+    write_level("flat<&>.pgm", 64, 64);
+    run("--draw new/folder a.pgm a.png 'flat<&>.pgm' missing.pgm");
+    EXPECT_EQ(exit_code_, 1);
+    std::vector<std::string> pictures;
+    for (const auto& entry : fs::directory_iterator(directory_ / "new/folder")) {
+        pictures.push_back(entry.path().filename());
+        const std::string svg = read_file(entry.path());
+        EXPECT_THAT(XmlCheck(svg).problem(), IsEmpty()) << entry.path();
+        EXPECT_THAT(svg, HasSubstr("data:image/png;base64,"));
+    }
+    EXPECT_THAT(pictures, testing::UnorderedElementsAre("a.svg", "a-2.svg", "flat<&>.svg"));
+
+    fs::create_directory(directory_ / "new/folder/b.svg");  // in the way of a picture
+    write_frame("b.pgm", 2);
+    run("--draw new/folder b.pgm a.pgm");
+    EXPECT_EQ(exit_code_, 1);
+    EXPECT_THAT(files(), ElementsAre("b.pgm", "a.pgm"));
+    EXPECT_THAT(errors_, StartsWith("dotpose: cannot write new/folder/b.svg"));
+
+    run("--draw a.pgm a.png");
+    EXPECT_EQ(exit_code_, 1);
+    EXPECT_THAT(output_, IsEmpty());
+    EXPECT_THAT(errors_, HasSubstr("a.pgm"));
+}
+
+TEST_F(LocateCommand, output_can_go_to_a_file) {
+    write_frame("a.pgm", 0);
+    run("-o out.jsonl a.pgm");
+    EXPECT_EQ(exit_code_, 0);
+    EXPECT_THAT(output_, IsEmpty());
+    EXPECT_EQ(json::parse(read_file(directory_ / "out.jsonl"))["status"], "ok");
+    run("-o no/such/folder a.pgm");
+    EXPECT_EQ(exit_code_, 1);
+    EXPECT_THAT(errors_, HasSubstr("no/such/folder"));
+    if (fs::exists("/dev/full")) {
+        run("-o /dev/full a.pgm");
+        EXPECT_EQ(exit_code_, 1);
+        EXPECT_THAT(errors_, Not(IsEmpty()));
+    }
+}
+
+TEST_F(LocateCommand, lines_leave_at_once) {
+    write_frame("a.pgm", 0);
+    // The list stays open until the first line has come out, or for 10 seconds.
+    write("names.sh",
+          "echo a.pgm\n"
+          "for i in $(seq 100); do [ -s out ] && echo yes > came && break; sleep 0.1; done\n");
+    const std::string command = "cd '" + directory_.string() +
+                                "' && sh names.sh | '" DOTPOSE_TOOL "' locate --list - > out";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    EXPECT_EQ(read_file(directory_ / "came"), "yes\n");
+}
+
+TEST_F(LocateCommand, wrong_usage_is_status_2_with_a_message) {
+    write_frame("a.pgm", 0);
+    const char* const wrong[] = {
+        "",                         // no images
+        "--format xml a.pgm",       // unknown format
+        "--format",                 // no value
+        "--code 7 a.pgm",           // no name
+        "--spacing 0 a.pgm",        // no length
+        "--spacing -1 a.pgm",       //
+        "--k 1 a.pgm",              // no lens has it
+        "--k nan a.pgm",            //
+        "--k wide a.pgm",           //
+        "--reference 1 a.pgm",      // half a point
+        "--reference 1,x a.pgm",    //
+        "--reference 1,nan a.pgm",  //
+        "--reference 1e9,1 a.pgm",  // nowhere near the image
+        "--bogus a.pgm",            //
+    };
+    for (const char* arguments : wrong) {
+        run(arguments);
+        EXPECT_EQ(exit_code_, 2) << arguments;
+        EXPECT_THAT(errors_, StartsWith("dotpose: ")) << arguments;
+        EXPECT_THAT(output_, IsEmpty()) << arguments;
+    }
+}
+
+TEST_F(LocateCommand, help_shows_an_example_and_all_options) {
+    run("--help");
+    EXPECT_EQ(exit_code_, 0);
+    EXPECT_THAT(output_, HasSubstr("dotpose locate --format csv frames/*.pgm > poses.csv"));
+    for (const char* option : {"--list", "--spacing", "--code", "--k", "--reference", "--format",
+                               "--out", "--draw", "IMAGE"}) {
+        EXPECT_THAT(output_, HasSubstr(option));
+    }
+}
+
+}  // namespace
+}  // namespace dotpose::test

@@ -1,0 +1,179 @@
+// Simulated frames with known poses, seen through `locate` alone. DOTPOSE_LONG_TESTS=1 in the
+// environment runs more of them.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "dotpose/locate.hpp"
+#include "dotpose/simulate.hpp"
+
+namespace dotpose {
+namespace {
+
+constexpr std::uint64_t kSeed = 2026;
+
+std::uint64_t frames_of(std::uint64_t usual, std::uint64_t many) {
+    return std::getenv("DOTPOSE_LONG_TESTS") != nullptr ? many : usual;
+}
+
+/// How a run of frames went.
+struct Tally {
+    std::uint64_t frames = 0;
+    std::uint64_t located = 0;
+    std::uint64_t wrong = 0;
+    std::vector<double> errors_um;
+    std::vector<double> errors_mrad;
+
+    double percentile(std::vector<double> values, double share) const {
+        std::sort(values.begin(), values.end());
+        return values.at(static_cast<std::size_t>(share * static_cast<double>(values.size() - 1)));
+    }
+    double median_um() const { return percentile(errors_um, 0.5); }
+    double located_share() const {
+        return static_cast<double>(located) / static_cast<double>(frames);
+    }
+};
+
+/// Wrong: another cell than the true one, or the next; or another section; or another direction.
+void judge(const Fix& fix, const Shot& shot, Tally& tally) {
+    ++tally.frames;
+    if (fix.status != Status::ok) return;
+    ++tally.located;
+    const double spacing_um = 1000 * shot.page.pattern.spacing_mm;
+    const double x = fix.x_grid() - x_grid(shot.pose);
+    const double y = fix.y_grid() - y_grid(shot.pose);
+    const double theta =
+        std::remainder(fix.theta_rad() - shot.pose.theta_rad, 2 * std::numbers::pi);
+    if (std::hypot(x, y) > 0.5 || std::abs(theta) > 0.1 ||
+        fix.section != shot.page.pattern.section) {
+        ++tally.wrong;
+        ADD_FAILURE() << "wrong fix at cell " << shot.pose.cell.x << ", " << shot.pose.cell.y
+                      << ": " << x << ", " << y << " cells and " << theta << " rad off, 2^"
+                      << fix.p_wrong_log2 << " sure";
+        return;
+    }
+    tally.errors_um.push_back(std::hypot(x, y) * spacing_um);
+    tally.errors_mrad.push_back(std::abs(theta) * 1000);
+}
+
+Tally run(const Setup& setup, std::uint64_t frames, const Options& options = {}) {
+    const auto workspace = std::make_unique<LargeWorkspace>();
+    Tally tally;
+    for (std::uint64_t i = 0; i < frames; ++i) {
+        const Shot shot = draw_shot(setup, i);
+        judge(locate(render(shot).view(), options, *workspace), shot, tally);
+    }
+    return tally;
+}
+
+Setup setup_of(Preset preset, std::uint64_t seed = kSeed) {
+    Setup setup;
+    setup.preset = preset;
+    setup.seed = seed;
+    return setup;
+}
+
+TEST(SimulatedFrames, NominalFramesAreLocated) {
+    const Tally tally = run(setup_of(Preset::nominal), frames_of(300, 2000));
+    EXPECT_GE(tally.located_share(), 0.995) << "seed " << kSeed;
+    EXPECT_EQ(tally.wrong, 0u);
+    EXPECT_LE(tally.median_um(), 3) << "seed " << kSeed;
+    // The camera sees 8.6 mm: 3 um at its border are 0.7 mrad.
+    EXPECT_LE(tally.percentile(tally.errors_mrad, 0.5), 1);
+}
+
+TEST(SimulatedFrames, CleanFramesAreAllLocated) {
+    const Tally tally = run(setup_of(Preset::clean), frames_of(200, 2000));
+    EXPECT_EQ(tally.located, tally.frames) << "seed " << kSeed;
+    EXPECT_EQ(tally.wrong, 0u);
+    EXPECT_LE(tally.median_um(), 1);
+}
+
+TEST(SimulatedFrames, HardFramesAreNeverLocatedWrongly) {
+    const Tally tally = run(setup_of(Preset::hard), frames_of(300, 5000));
+    EXPECT_EQ(tally.wrong, 0u);
+    EXPECT_GE(tally.located_share(), 0.2) << "seed " << kSeed;
+}
+
+TEST(SimulatedFrames, AllProfilesAreRead) {
+    for (const Profile profile : {Profile::published, Profile::microdots}) {
+        dotpose::Setup setup = setup_of(Preset::nominal, kSeed + 1);
+        setup.pattern.profile = profile;
+        Options options;
+        options.profile = profile;
+        const Tally tally = run(setup, frames_of(100, 1000), options);
+        EXPECT_GE(tally.located_share(), 0.99) << static_cast<int>(profile);
+        EXPECT_EQ(tally.wrong, 0u);
+    }
+}
+
+TEST(SimulatedFrames, OtherProfilesAreNotTakenForOnesOwn) {
+    for (const Profile profile : {Profile::anoto, Profile::microdots}) {
+        dotpose::Setup setup = setup_of(Preset::nominal, kSeed + 2);
+        setup.pattern.profile = profile;
+        Options options;
+        options.profile = profile == Profile::anoto ? Profile::microdots : Profile::anoto;
+        const Tally tally = run(setup, frames_of(50, 1000), options);
+        EXPECT_EQ(tally.located, 0u) << static_cast<int>(profile);
+    }
+}
+
+TEST(SimulatedFrames, BothEndsOfTheCodeAreReadAsTheMiddle) {
+    const auto workspace = std::make_unique<LargeWorkspace>();
+    // All that the camera sees lies on the plane: it reaches 10 cells from its centre.
+    constexpr std::uint32_t kNear = 12;
+    constexpr std::uint32_t kFar = kPositionsPerAxis - 13;
+    Tally tally;
+    std::uint64_t index = 0;
+    for (std::uint64_t n = 0; n < frames_of(10, 100); ++n) {
+        for (const Cell cell : {Cell{kNear, kNear}, Cell{kNear, kFar}, Cell{kFar, kNear},
+                                Cell{kFar, kFar}, Cell{kFar, kPositionsPerAxis / 2}}) {
+            Shot shot = draw_shot(setup_of(Preset::nominal, kSeed + 3), index++);
+            shot.pose.cell = cell;
+            judge(locate(render(shot).view(), {}, *workspace), shot, tally);
+        }
+    }
+    EXPECT_GE(tally.located_share(), 0.98) << "seed " << kSeed + 3;
+    EXPECT_EQ(tally.wrong, 0u);
+}
+
+TEST(SimulatedFrames, EveryDirectionIsRead) {
+    const auto workspace = std::make_unique<LargeWorkspace>();
+    Tally tally;
+    for (int degrees = -180; degrees < 180; degrees += 3) {
+        Shot shot = draw_shot(setup_of(Preset::clean, kSeed + 4),
+                              static_cast<std::uint64_t>(degrees + 180));
+        shot.pose.theta_rad = degrees * std::numbers::pi / 180;
+        judge(locate(render(shot).view(), {}, *workspace), shot, tally);
+    }
+    EXPECT_EQ(tally.located, tally.frames) << "seed " << kSeed + 4;
+    EXPECT_EQ(tally.wrong, 0u);
+}
+
+TEST(SimulatedFrames, CamerasOfManySizesAndSpacingsAreRead) {
+    struct Camera {
+        int width_px, height_px;
+        double spacing_px;
+    };
+    for (const auto& [width, height, spacing] :
+         {Camera{96, 96, 8}, Camera{188, 120, 8}, Camera{188, 120, 12}, Camera{320, 240, 10},
+          Camera{240, 320, 22}, Camera{640, 480, 12}, Camera{640, 480, 30}, Camera{1280, 720, 60},
+          Camera{1600, 1200, 9}}) {
+        dotpose::Setup setup = setup_of(Preset::nominal, kSeed + 5);
+        setup.camera.width_px = width;
+        setup.camera.height_px = height;
+        setup.camera.mm_per_px = setup.pattern.spacing_mm / spacing;
+        const Tally tally = run(setup, frames_of(6, 100));
+        EXPECT_GE(tally.located_share(), 0.95)
+            << width << " x " << height << " at " << spacing << " px, seed " << setup.seed;
+        EXPECT_EQ(tally.wrong, 0u);
+    }
+}
+
+}  // namespace
+}  // namespace dotpose

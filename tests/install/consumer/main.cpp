@@ -1,0 +1,5 @@
+#include <dotpose/status.hpp>
+
+int main() {
+    return 0;
+}

@@ -1,0 +1,64 @@
+// Every status has its identifier as name and one plain sentence as message.
+#include "dotpose/status.hpp"
+
+#include <cctype>
+#include <cstddef>
+#include <iterator>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "gtest/gtest.h"
+
+namespace dotpose::code_test {
+namespace {
+
+#define NAMED(status) \
+    { Status::status, #status }
+constexpr std::pair<Status, const char*> kNames[] = {
+    NAMED(ok),
+    NAMED(bad_argument),
+    NAMED(image_too_small),
+    NAMED(image_too_large),
+    NAMED(no_contrast),
+    NAMED(too_few_dots),
+    NAMED(no_grid),
+    NAMED(no_intact_neighbourhood),
+    NAMED(no_displacement),
+    NAMED(grid_too_small),
+    NAMED(no_orientation),
+    NAMED(mirrored),
+    NAMED(bad_window),
+    NAMED(not_in_code),
+    NAMED(ambiguous),
+    NAMED(not_certain),
+};
+#undef NAMED
+static_assert(std::size(kNames) == kStatusCount, "a status without a name in this test");
+
+TEST(Status, NameIsTheIdentifier) {
+    for (const auto& [status, identifier] : kNames)
+        EXPECT_STREQ(name(status), identifier);
+}
+
+TEST(Status, ValuesCountFromZero) {
+    for (std::size_t i = 0; i < std::size(kNames); ++i) {
+        EXPECT_EQ(static_cast<std::size_t>(kNames[i].first), i) << kNames[i].second;
+    }
+}
+
+TEST(Status, EveryMessageIsItsOwnPlainSentence) {
+    std::set<std::string> messages;
+    for (const auto& [status, identifier] : kNames) {
+        SCOPED_TRACE(identifier);
+        const std::string text = message(status);
+        ASSERT_FALSE(text.empty());
+        EXPECT_TRUE(std::islower(static_cast<unsigned char>(text.front()))) << text;
+        EXPECT_EQ(std::string(".!\n ").find(text.back()), std::string::npos) << text;
+        EXPECT_EQ(text.find('_'), std::string::npos) << "an identifier, not a sentence: " << text;
+        EXPECT_TRUE(messages.insert(text).second) << "said twice: " << text;
+    }
+}
+
+}  // namespace
+}  // namespace dotpose::code_test

@@ -1,0 +1,91 @@
+// Small images drawn by hand, and what the pixel stages make of them.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/pixels/blobs.hpp"
+#include "core/pixels/light.hpp"
+#include "dotpose/grey_image.hpp"
+#include "geometry.hpp"
+
+namespace dotpose::core_test {
+
+inline GreyImage blank(int width_px, int height_px, int level = 200) {
+    GreyImage image{{}, width_px, height_px};
+    image.pixels.assign(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px),
+                        static_cast<std::uint8_t>(level));
+    return image;
+}
+
+inline std::uint8_t& pixel(GreyImage& image, int u, int v) {
+    return image.pixels[static_cast<std::size_t>(v * image.width_px + u)];
+}
+
+inline void fill(GreyImage& image, int u0, int v0, int u1, int v1, int level) {
+    for (int v = v0; v < v1; ++v) {
+        for (int u = u0; u < u1; ++u)
+            pixel(image, u, v) = static_cast<std::uint8_t>(level);
+    }
+}
+
+/// Share of a Gaussian of deviation `sigma` about `centre` that falls on the pixel at `u`.
+inline double gaussian_share(int u, double centre, double sigma) {
+    const double scale = sigma * std::numbers::sqrt2;
+    return 0.5 * (std::erf((u + 0.5 - centre) / scale) - std::erf((u - 0.5 - centre) / scale));
+}
+
+/// Takes a Gaussian spot out of the light: `depth` of it at the centre. Integrated over each pixel,
+/// so the centre of gravity is exact up to the rounding of the levels.
+inline void darken(GreyImage& image, Vec2 centre, double sigma, double depth) {
+    const double peak = depth * 2 * std::numbers::pi * sigma * sigma;
+    const int reach = static_cast<int>(6 * sigma) + 2;
+    for (int v = static_cast<int>(centre.y) - reach; v <= static_cast<int>(centre.y) + reach; ++v) {
+        for (int u = static_cast<int>(centre.x) - reach; u <= static_cast<int>(centre.x) + reach;
+             ++u) {
+            if (u < 0 || v < 0 || u >= image.width_px || v >= image.height_px) continue;
+            const double share =
+                gaussian_share(u, centre.x, sigma) * gaussian_share(v, centre.y, sigma);
+            std::uint8_t& level = pixel(image, u, v);
+            level =
+                static_cast<std::uint8_t>(std::lround(level * (1 - std::min(peak * share, 1.0))));
+        }
+    }
+}
+
+/// The blobs of an image that may be dots, before the size filter.
+inline std::vector<Dot> blobs_of(const GreyImage& image, Workspace& w,
+                                 const ThresholdOptions& options = {}) {
+    const core::DotList list{w.dots, w.dot_count, w.dots_kept_within_px};
+    core::begin_light(image.width_px, image.height_px, w.light);
+    core::begin_blobs(w.light, w.open, list);
+    int band = 0;
+    for (int row = 0; row < image.height_px; ++row) {
+        for (int ready = core::take_row(image.view().row(row), w.light); ready > 0;
+             --ready, ++band) {
+            core::measure_levels(band, options, w.light);
+            for (int v = core::band_begin(w.light, band); v < core::band_end(w.light, band); ++v) {
+                core::grow_blobs(v, w.light, w.open, list);
+            }
+        }
+    }
+    const auto found = w.found_dots();
+    return {found.begin(), found.end()};
+}
+
+inline std::vector<Dot> blobs_of(const GreyImage& image) {
+    static LargeWorkspace workspace;
+    return blobs_of(image, workspace);
+}
+
+/// Distance to the nearest of some dots.
+inline double nearest_px(const std::vector<Dot>& dots, Vec2 place) {
+    double nearest = 1e9;
+    for (const Dot& dot : dots)
+        nearest = std::min(nearest, length(real(dot.centre_q8, 8) - place));
+    return nearest;
+}
+
+}  // namespace dotpose::core_test

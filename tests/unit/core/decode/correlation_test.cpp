@@ -1,0 +1,67 @@
+// Weighted correlation with the main sequence (paper section II-B.7) against loops over its text.
+#include "core/decode/correlation.hpp"
+
+#include <gtest/gtest.h>
+
+#include "../../code/reference.hpp"
+#include "../geometry.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+using namespace core;
+
+constexpr std::uint64_t kSeed = 30;
+
+TEST(Correlation, IsWhatAgreesMinusWhatDoesNot) {
+    Rng rng(kSeed);
+    for (const int length : {1, 6, 8, 16, 62, 63, 64, 130, 256}) {
+        std::vector<std::int8_t> weights;
+        for (int i = 0; i < length; ++i) {
+            // The largest weights throughout are the worst case of the sums.
+            const int most = length == 256 ? 127 : static_cast<int>(rng.below(128));
+            weights.push_back(static_cast<std::int8_t>(rng.below(2) == 0 ? most : -most));
+        }
+        LineScores scores;
+        correlate(weights, scores);
+        for (std::size_t o = 0; o < 63; ++o) {
+            int expected = 0;
+            for (std::size_t i = 0; i < weights.size(); ++i) {
+                expected += code_test::digit_at(code_test::kMainText, o + i) == 1 ? weights[i]
+                                                                                  : -weights[i];
+            }
+            ASSERT_EQ(scores[o], expected)
+                << length << " weights, offset " << o << ", seed " << kSeed;
+        }
+        const Match match = best_match(scores);
+        const auto best = std::max_element(scores.begin(), scores.end());
+        EXPECT_EQ(match.score, *best);
+        EXPECT_EQ(match.roll, best - scores.begin());
+    }
+}
+
+TEST(Correlation, LinesOfTheSequenceAgreeWithItWholly) {
+    LineScores scores;
+    for (std::size_t roll = 0; roll < 63; ++roll) {
+        for (const std::size_t length : {6U, 8U, 70U, 256U}) {
+            std::vector<std::int8_t> line;
+            for (std::size_t i = 0; i < length; ++i) {
+                line.push_back(code_test::digit_at(code_test::kMainText, roll + i) == 1 ? 127
+                                                                                        : -127);
+            }
+            correlate(line, scores);
+            EXPECT_EQ(best_match(scores).roll, roll);
+            EXPECT_EQ(best_match(scores).score, 127 * static_cast<int>(length));
+        }
+    }
+}
+
+TEST(Correlation, OfEqualsTheFirstIsTaken) {
+    LineScores scores;
+    correlate({}, scores);
+    EXPECT_EQ(best_match(scores).roll, 0);
+    EXPECT_EQ(best_match(scores).score, 0);
+}
+
+}  // namespace
+}  // namespace dotpose::core_test

@@ -1,0 +1,119 @@
+// Quasi-probabilities (paper eq. 7-9) and the matrices P (Fig. 8).
+#include "core/decode/likelihood.hpp"
+
+#include <gtest/gtest.h>
+
+#include "../geometry.hpp"
+#include "core/plane.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+using namespace core;
+
+/// Eq. 9 for the nominal offset of a sixth of the spacing.
+double f(double r) {
+    constexpr double kR0 = 1.0 / 6;
+    if (r * r >= 3 * kR0 * kR0) return 0;
+    return 3 * r / (2 * kR0) - r * r * r / (2 * kR0 * kR0 * kR0);
+}
+
+TEST(Likelihood, QuasiProbabilityIsEquation9) {
+    for (int projection = -65536; projection <= 65536; projection += 7) {
+        const int found = quasi_probability(projection);
+        // r / r0 in steps of 1/256, where f is at most 3 / 256 per step.
+        ASSERT_NEAR(found / 127.0, f(projection / 65536.0), 0.024) << projection;
+    }
+    EXPECT_EQ(quasi_probability(0), 0);
+    EXPECT_GE(quasi_probability(65536 / 6), 126);
+    EXPECT_LE(quasi_probability(-65536 / 6), -126);
+}
+
+/// Cells of 16 px with intersection (0, 0) at (100, 100).
+const Mesh kMesh = square_mesh(16, 0, {100, 100});
+const PlaneFromImage kPlane = core::plane_from_lattice(lattice_of(kMesh), fixed({90, 60}, 8));
+
+Dot dot_in(int i, int j, Vec2 offset) {
+    return dot_at(kMesh.at(i + offset.x, j + offset.y));
+}
+
+/// Dots at the corners of `columns` x `rows` cells from (i0, j0), which give the grid its extent.
+std::vector<Dot> corners(int i0, int j0, int columns, int rows) {
+    return {dot_in(i0, j0, {0, -1 / 6.0}), dot_in(i0 + columns - 1, j0 + rows - 1, {0, -1 / 6.0})};
+}
+
+TEST(Likelihood, EachSymbolHasItsBits) {
+    OwnedGrid owned(16);
+    auto dots = corners(-4, -4, 9, 9);
+    for (const Symbol symbol : {Symbol::up, Symbol::left, Symbol::right, Symbol::down}) {
+        dots.push_back(dot_in(static_cast<int>(symbol), 1, {dx(symbol) / 6.0, dy(symbol) / 6.0}));
+    }
+    ASSERT_EQ(assign_likelihoods(dots, kPlane, owned.grid), Status::ok);
+    EXPECT_EQ(owned.grid.i0, -4);
+    EXPECT_EQ(owned.grid.j0, -4);
+    EXPECT_EQ(owned.grid.columns, 9);
+    EXPECT_EQ(owned.grid.rows, 9);
+    for (const Symbol symbol : {Symbol::up, Symbol::left, Symbol::right, Symbol::down}) {
+        const GridCell& cell = owned.grid.at(static_cast<int>(symbol), 1);
+        EXPECT_NEAR(cell.x, x_bit(symbol) == 1 ? 127 : -127, 4) << letter(symbol);
+        EXPECT_NEAR(cell.y, y_bit(symbol) == 1 ? 127 : -127, 4) << letter(symbol);
+        EXPECT_EQ(cell.dot, 2 + static_cast<int>(symbol));
+    }
+    EXPECT_EQ(owned.grid.at(0, 0).dot, GridCell::kNoDot);
+    EXPECT_EQ(owned.grid.at(0, 0).x, 0);
+}
+
+TEST(Likelihood, TheLikelierOfTwoDotsInACellStaysWhateverTheOrder) {
+    const Dot good = dot_in(1, 2, {0.16, 0.01});
+    const Dot doubtful = dot_in(1, 2, {-0.02, 0.09});
+    for (const bool good_first : {true, false}) {
+        auto dots = corners(-4, -4, 9, 9);
+        dots.push_back(good_first ? good : doubtful);
+        dots.push_back(good_first ? doubtful : good);
+        OwnedGrid owned(16);
+        ASSERT_EQ(assign_likelihoods(dots, kPlane, owned.grid), Status::ok);
+        const GridCell& cell = owned.grid.at(1, 2);
+        EXPECT_EQ(cell.dot, good_first ? 2 : 3);
+        // Eq. 7-8 with y down: x bit from dy - dx, y bit from dy + dx.
+        EXPECT_NEAR(cell.x / 127.0, f(0.01 - 0.16), 0.03);
+        EXPECT_NEAR(cell.y / 127.0, f(0.01 + 0.16), 0.03);
+        EXPECT_EQ(quality(cell), std::abs(cell.x * cell.y));
+    }
+}
+
+TEST(Likelihood, ADotBetweenIntersectionsSaysNothing) {
+    auto dots = corners(-4, -4, 9, 9);
+    dots.push_back(dot_in(0, 0, {0.45, 0.1}));
+    OwnedGrid owned(16);
+    ASSERT_EQ(assign_likelihoods(dots, kPlane, owned.grid), Status::ok);
+    EXPECT_EQ(quality(owned.grid.at(0, 0)), 0);
+}
+
+TEST(Likelihood, TheMiddleOfALargerGridIsKept) {
+    OwnedGrid owned(16);
+    auto dots = corners(-30, -5, 61, 12);
+    dots.push_back(dot_in(3, 2, {0, 1 / 6.0}));
+    ASSERT_EQ(assign_likelihoods(dots, kPlane, owned.grid), Status::ok);
+    EXPECT_EQ(owned.grid.columns, 16);
+    EXPECT_EQ(owned.grid.rows, 12);
+    EXPECT_EQ(owned.grid.j0, -5);
+    EXPECT_EQ(owned.grid.i0, -8);
+    EXPECT_EQ(owned.grid.at(3, 2).dot, 2);
+    // All cells lie on one side of the origin: those nearest to it.
+    ASSERT_EQ(assign_likelihoods(corners(2, -5, 40, 12), kPlane, owned.grid), Status::ok);
+    EXPECT_EQ(owned.grid.i0, 2);
+    ASSERT_EQ(assign_likelihoods(corners(-45, -5, 40, 12), kPlane, owned.grid), Status::ok);
+    EXPECT_EQ(owned.grid.i0, -21);
+    EXPECT_EQ(owned.grid.columns, 16);
+}
+
+TEST(Likelihood, EightByEightCellsAreTheLeast) {
+    OwnedGrid owned(16);
+    EXPECT_EQ(assign_likelihoods(corners(0, 0, 8, 8), kPlane, owned.grid), Status::ok);
+    EXPECT_EQ(assign_likelihoods(corners(0, 0, 7, 8), kPlane, owned.grid), Status::grid_too_small);
+    EXPECT_EQ(assign_likelihoods(corners(0, 0, 8, 7), kPlane, owned.grid), Status::grid_too_small);
+    EXPECT_EQ(assign_likelihoods({}, kPlane, owned.grid), Status::grid_too_small);
+}
+
+}  // namespace
+}  // namespace dotpose::core_test

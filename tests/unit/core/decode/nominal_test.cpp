@@ -1,0 +1,114 @@
+// The symbols of a grid whose place is known, against a second implementation of the code.
+#include "core/decode/nominal.hpp"
+
+#include <gtest/gtest.h>
+
+#include "../../code/reference.hpp"
+#include "../geometry.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+using namespace core;
+
+constexpr std::uint64_t kSeed = 31;
+constexpr std::uint32_t kL = code_test::kL;
+
+/// The place of a position past the end of an axis, named from the beginning of the code.
+Place wrapped(Profile profile, std::uint64_t x, std::uint64_t y, Section section) {
+    int u = section.u;
+    int v = section.v;
+    const int roll_there = code_test::reference_roll(profile, kL);
+    if (x >= kL) {
+        u += roll_there;
+        v += static_cast<int>(kL % 63);
+    }
+    if (y >= kL) {
+        u += static_cast<int>(kL % 63);
+        v += roll_there;
+    }
+    return {{static_cast<std::uint32_t>(x % kL), static_cast<std::uint32_t>(y % kL)},
+            {static_cast<std::uint8_t>(u % 63), static_cast<std::uint8_t>(v % 63)}};
+}
+
+/// A window of the pattern laid into a grid at some turn, so that symbol `known` of it stands at
+/// cell (0, 0).
+void check(Profile profile, const Place& first, int columns, int rows, Turn turn, Vec known) {
+    const code_test::Grid expected = code_test::reference_window(profile, first, columns, rows);
+    const auto cell_of = [&](int x, int y) { return turn.inverse()({x - known.x, y - known.y}); };
+    const Vec a = cell_of(0, 0);
+    const Vec b = cell_of(columns - 1, rows - 1);
+    Grid grid;
+    grid.i0 = std::min(a.x, b.x);
+    grid.j0 = std::min(a.y, b.y);
+    grid.columns = std::abs(a.x - b.x) + 1;
+    grid.rows = std::abs(a.y - b.y) + 1;
+    Decoding decoding;
+    decoding.pattern_from_grid = turn;
+    decoding.place =
+        wrapped(profile, std::uint64_t{first.cell.x} + static_cast<unsigned>(known.x),
+                std::uint64_t{first.cell.y} + static_cast<unsigned>(known.y), first.section);
+    const Nominal nominal(grid, profile, decoding);
+    for (int y = 0; y < rows; ++y) {
+        for (int x = 0; x < columns; ++x) {
+            const Vec step = nominal.pattern_step(cell_of(x, y));
+            ASSERT_EQ(step, (Vec{x - known.x, y - known.y}));
+            ASSERT_EQ(nominal.symbol(step), expected.symbols[expected.index(x, y)])
+                << x << ", " << y;
+        }
+    }
+}
+
+TEST(Nominal, IsTheCodeAtEveryTurn) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 120; ++i) {
+        SCOPED_TRACE(testing::Message() << "grid " << i << ", seed " << kSeed);
+        const int columns = 8 + static_cast<int>(rng.below(40));
+        const int rows = 8 + static_cast<int>(rng.below(40));
+        const Vec known{static_cast<std::int32_t>(rng.below(static_cast<std::uint32_t>(columns))),
+                        static_cast<std::int32_t>(rng.below(static_cast<std::uint32_t>(rows)))};
+        Place first = random_place(rng);
+        first.cell = {first.cell.x / 2, first.cell.y / 2};
+        check(code_test::kProfiles[static_cast<std::size_t>(i % 3)], first, columns, rows,
+              Turn{i % 4}, known);
+    }
+}
+
+TEST(Nominal, ContinuesPastBothEndsOfTheCode) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 120; ++i) {
+        SCOPED_TRACE(testing::Message() << "grid " << i << ", seed " << kSeed);
+        Place first = random_place(rng);
+        // The ends lie inside the grid on one axis or on both, before or behind the known cell.
+        if (i % 3 != 0) first.cell.x = kL - 1 - rng.below(29);
+        if (i % 3 != 1) first.cell.y = kL - 1 - rng.below(29);
+        const Vec known{static_cast<std::int32_t>(rng.below(30)),
+                        static_cast<std::int32_t>(rng.below(30))};
+        check(code_test::kProfiles[static_cast<std::size_t>(i % 3)], first, 30, 30, Turn{i / 3 % 4},
+              known);
+    }
+}
+
+TEST(Nominal, CellZeroNeedNotBeInTheGrid) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 60; ++i) {
+        SCOPED_TRACE(testing::Message() << "grid " << i << ", seed " << kSeed);
+        Place first = random_place(rng);
+        // At the ends of the code, and elsewhere.
+        if (i % 2 == 0) first.cell = {kL - 1 - rng.below(50), kL - 1 - rng.below(50)};
+        check(Profile::anoto, first, 20, 12, Turn{i % 4},
+              {20 + static_cast<std::int32_t>(rng.below(100)),
+               12 + static_cast<std::int32_t>(rng.below(100))});
+    }
+}
+
+TEST(Nominal, HoldsForTheLargestGrid) {
+    const Place first{{kL - 100, 5}, {62, 62}};
+    for (int quarters = 0; quarters < 4; ++quarters) {
+        check(Profile::anoto, first, kMaxGridSide, kMaxGridSide, Turn{quarters}, {200, 250});
+        check(Profile::anoto, first, kMaxGridSide, kMaxGridSide, Turn{quarters}, {0, 0});
+    }
+}
+
+}  // namespace
+}  // namespace dotpose::core_test

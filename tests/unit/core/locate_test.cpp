@@ -1,0 +1,254 @@
+// The whole pipeline as a function: rows or image, any workspace, any order of frames.
+#include "dotpose/locate.hpp"
+
+#include <cstring>
+#include <map>
+#include <memory>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "canvas.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+constexpr std::uint64_t kSeed = 34;
+
+Shot shot_of(Preset preset, std::uint64_t index, int width_px = 188, int height_px = 120) {
+    Setup setup;
+    setup.preset = preset;
+    setup.seed = kSeed;
+    setup.camera.width_px = width_px;
+    setup.camera.height_px = height_px;
+    return draw_shot(setup, index);
+}
+
+/// Frames that are read and frames that are not, in one size.
+std::vector<GreyImage> mixed_frames() {
+    std::vector<GreyImage> frames;
+    for (std::uint64_t i = 0; i < 8; ++i) {
+        frames.push_back(render(shot_of(Preset::nominal, i)));
+        frames.push_back(render(shot_of(Preset::hard, i)));
+        const Scene scene = kScenes[static_cast<std::size_t>(i) % kScenes.size()];
+        frames.push_back(render_scene(scene, shot_of(Preset::clean, i)));
+    }
+    return frames;
+}
+
+/// All that a fix says, bit by bit. The bytes between its members mean nothing.
+void expect_same(const Fix& a, const Fix& b) {
+    EXPECT_EQ(a.status, b.status);
+    EXPECT_EQ(a.dots_seen, b.dots_seen);
+    if (a.status != Status::ok) return;
+    EXPECT_EQ(a.cell, b.cell);
+    EXPECT_EQ(a.fraction_x_q16, b.fraction_x_q16);
+    EXPECT_EQ(a.fraction_y_q16, b.fraction_y_q16);
+    EXPECT_EQ(a.theta_bam, b.theta_bam);
+    EXPECT_EQ(a.section, b.section);
+    EXPECT_EQ(a.spacing_px_q16, b.spacing_px_q16);
+    EXPECT_EQ(a.dots_used, b.dots_used);
+    EXPECT_EQ(a.bit_errors, b.bit_errors);
+    EXPECT_EQ(a.p_wrong_log2, b.p_wrong_log2);
+    EXPECT_EQ(a.residual_px, b.residual_px);
+    EXPECT_EQ(std::memcmp(a.covariance, b.covariance, sizeof a.covariance), 0);
+}
+
+Fix pushed(const GreyImage& image, const Options& options, Workspace& workspace) {
+    const Status status = begin(image.width_px, image.height_px, options, workspace);
+    if (status != Status::ok) return workspace.fix;
+    std::vector<std::uint8_t> row(static_cast<std::size_t>(image.width_px));
+    for (int v = 0; v < image.height_px; ++v) {
+        std::copy_n(image.view().row(v), image.width_px, row.begin());
+        push_row(row.data(), options, workspace);
+        std::fill(row.begin(), row.end(), std::uint8_t{0});  // the pixels are not needed afterwards
+    }
+    return finish(options, workspace);
+}
+
+TEST(Locate, RowsGiveTheSameBitsAsTheImage) {
+    SmallWorkspace by_rows;
+    SmallWorkspace at_once;
+    Options options;
+    options.effort = Effort::once;  // rows that have gone by cannot be tried again
+    int found = 0;
+    for (const GreyImage& frame : mixed_frames()) {
+        const Fix fix = locate(frame.view(), options, at_once);
+        expect_same(pushed(frame, options, by_rows), fix);
+        found += fix.status == Status::ok ? 1 : 0;
+    }
+    EXPECT_GE(found, 8) << "seed " << kSeed;
+}
+
+TEST(Locate, SmallAndLargeWorkspacesGiveTheSameFix) {
+    SmallWorkspace small;
+    const auto large = std::make_unique<LargeWorkspace>();
+    for (const GreyImage& frame : mixed_frames()) {
+        expect_same(locate(frame.view(), {}, small), locate(frame.view(), {}, *large));
+    }
+}
+
+TEST(Locate, AUsedWorkspaceIsAsGoodAsAFreshOne) {
+    // Other sizes and failures in between leave nothing behind.
+    const auto used = std::make_unique<LargeWorkspace>();
+    const GreyImage big = render(shot_of(Preset::nominal, 3, 640, 480));
+    const GreyImage tiny = blank(10, 10);
+    for (const GreyImage& frame : mixed_frames()) {
+        const auto fresh = std::make_unique<LargeWorkspace>();
+        expect_same(locate(frame.view(), {}, *used), locate(frame.view(), {}, *fresh));
+        EXPECT_EQ(locate(big.view(), {}, *used).status, Status::ok);
+        expect_same(locate(frame.view(), {}, *used), fresh->fix);
+        EXPECT_EQ(locate(tiny.view(), {}, *used).status, Status::image_too_small);
+        // A frame that was given up half way.
+        EXPECT_EQ(begin(frame.width_px, frame.height_px, {}, *used), Status::ok);
+        for (int v = 0; v < 50; ++v)
+            push_row(frame.view().row(v), {}, *used);
+    }
+}
+
+TEST(Locate, TheWorkspaceKeepsTheFix) {
+    SmallWorkspace workspace;
+    const GreyImage frame = render(shot_of(Preset::nominal, 0));
+    const Fix fix = locate(frame.view(), {}, workspace);
+    ASSERT_EQ(fix.status, Status::ok);
+    expect_same(fix, workspace.fix);
+    EXPECT_EQ(fix.dots_seen, static_cast<int>(workspace.found_dots().size()));
+}
+
+TEST(Locate, RowsMayLieApartOrUpsideDown) {
+    SmallWorkspace workspace;
+    const GreyImage frame = render(shot_of(Preset::nominal, 1));
+    const Fix fix = locate(frame.view(), {}, workspace);
+    ASSERT_EQ(fix.status, Status::ok);
+    for (const int stride : {188, 189, 256, 1000, -188, -300}) {
+        const int step = std::abs(stride);
+        std::vector<std::uint8_t> memory(static_cast<std::size_t>(step) * 120, 77);
+        const auto row = [&](int v) { return memory.data() + (stride > 0 ? v : 119 - v) * step; };
+        for (int v = 0; v < 120; ++v)
+            std::copy_n(frame.view().row(v), 188, row(v));
+        expect_same(locate({row(0), 188, 120, stride}, {}, workspace), fix);
+    }
+}
+
+TEST(Locate, TheReferencePointMayLieAnywhere) {
+    SmallWorkspace workspace;
+    for (std::uint64_t i = 0; i < 10; ++i) {
+        const Shot shot = shot_of(Preset::clean, i);
+        const GreyImage frame = render(shot);
+        const Fix at_centre = locate(frame.view(), {}, workspace);
+        ASSERT_EQ(at_centre.status, Status::ok);
+        for (const Vec2 offset :
+             {Vec2{0, 0}, Vec2{40.5, -20.25}, Vec2{-93.5, 59.5}, Vec2{500, 300}}) {
+            SCOPED_TRACE(testing::Message()
+                         << "shot " << i << ", seed " << kSeed << ", offset " << offset.x);
+            Options options;
+            options.reference_dx_q8 = static_cast<std::int32_t>(offset.x * 256);
+            options.reference_dy_q8 = static_cast<std::int32_t>(offset.y * 256);
+            const Fix fix = locate(frame.view(), options, workspace);
+            ASSERT_EQ(fix.status, Status::ok);
+            // Where the camera's geometry puts that pixel, in spacings from the pose's cell.
+            const Vec2 pixel = Vec2{93.5, 59.5} + offset;
+            const Vec2 from_pose = 1 / kDefaultSpacing_mm *
+                                   Projection(shot.camera, shot.pose).offset_from_pixel(pixel);
+            const double x = fix.x_grid() - shot.pose.cell.x - shot.pose.fraction_x;
+            const double y = fix.y_grid() - shot.pose.cell.y - shot.pose.fraction_y;
+            // 1/100 spacing at the image's border, more outside of it.
+            const double tolerance = 0.01 + length(offset) * 1e-4;
+            EXPECT_NEAR(x, from_pose.x, tolerance);
+            EXPECT_NEAR(y, from_pose.y, tolerance);
+            EXPECT_EQ(fix.theta_bam, at_centre.theta_bam);
+        }
+    }
+}
+
+TEST(Locate, ALensIsUndone) {
+    SmallWorkspace workspace;
+    for (std::uint64_t i = 0; i < 10; ++i) {
+        Shot shot = shot_of(Preset::clean, i);
+        shot.camera.k = -1.5e-5;
+        const GreyImage frame = render(shot);
+        Options options;
+        options.lens = Lens::from_k(shot.camera.k);
+        const Fix fix = locate(frame.view(), options, workspace);
+        ASSERT_EQ(fix.status, Status::ok) << "shot " << i << ", seed " << kSeed;
+        EXPECT_NEAR(fix.x_grid() - shot.pose.cell.x, shot.pose.fraction_x, 0.01);
+        EXPECT_NEAR(fix.y_grid() - shot.pose.cell.y, shot.pose.fraction_y, 0.01);
+        EXPECT_NEAR(std::remainder(fix.theta_rad() - shot.pose.theta_rad, 2 * std::numbers::pi), 0,
+                    0.001);
+    }
+}
+
+TEST(Locate, SizesOutOfRangeAreRefused) {
+    SmallWorkspace small;
+    const auto large = std::make_unique<LargeWorkspace>();
+    const auto status_of = [](int width, int height, Workspace& workspace) {
+        const GreyImage image = blank(width, height);
+        return locate(image.view(), {}, workspace).status;
+    };
+    EXPECT_EQ(status_of(63, 120, small), Status::image_too_small);
+    EXPECT_EQ(status_of(120, 63, small), Status::image_too_small);
+    EXPECT_EQ(status_of(1, 1, small), Status::image_too_small);
+    EXPECT_EQ(locate({}, {}, small).status, Status::image_too_small);
+    EXPECT_EQ(locate({nullptr, -5, -5, 0}, {}, small).status, Status::image_too_small);
+    EXPECT_EQ(status_of(189, 120, small), Status::image_too_large);
+    EXPECT_EQ(status_of(64, 4097, *large), Status::image_too_large);
+    EXPECT_EQ(begin(4097, 64, {}, *large), Status::image_too_large);
+    for (const auto& [width, height] :
+         {std::pair{64, 64}, std::pair{188, 120}, std::pair{64, 4096}}) {
+        EXPECT_EQ(status_of(width, height, small), Status::too_few_dots) << width;
+    }
+}
+
+TEST(Locate, AFrameWithoutAPositionTellsWhy) {
+    // What is in the picture decides which stage may refuse it.
+    const std::map<Scene, std::set<Status>> allowed{
+        {Scene::black, {Status::no_contrast, Status::too_few_dots}},
+        {Scene::white, {Status::no_contrast, Status::too_few_dots}},
+        {Scene::noise, {Status::too_few_dots, Status::no_grid, Status::no_intact_neighbourhood}},
+        {Scene::text, {Status::too_few_dots, Status::no_grid, Status::no_intact_neighbourhood}},
+        {Scene::plain_grid, {Status::no_displacement}},
+        {Scene::random_symbols, {Status::not_in_code, Status::not_certain, Status::mirrored}},
+        {Scene::scattered_dots, {Status::no_grid, Status::no_intact_neighbourhood}},
+        {Scene::checkerboard, {Status::too_few_dots, Status::no_grid}},
+        {Scene::seam_vertical, {Status::not_certain, Status::not_in_code}},
+        {Scene::seam_horizontal, {Status::not_certain, Status::not_in_code}},
+        {Scene::mirrored, {Status::mirrored}},
+    };
+    SmallWorkspace workspace;
+    for (const Scene scene : kScenes) {
+        for (std::uint64_t i = 0; i < 20; ++i) {
+            const GreyImage frame = render_scene(scene, shot_of(Preset::clean, i), 0.8);
+            const Status status = locate(frame.view(), {}, workspace).status;
+            EXPECT_TRUE(allowed.at(scene).contains(status))
+                << name(scene) << " gave " << name(status) << ", shot " << i << ", seed " << kSeed;
+        }
+    }
+}
+
+TEST(Locate, EveryStageCanRefuse) {
+    // A frame of the pattern, made worse step by step until each stage has had its say.
+    SmallWorkspace workspace;
+    Shot shot = shot_of(Preset::clean, 0);
+    const GreyImage frame = render(shot);
+    Options options;
+    options.integrity.max_p_wrong_log2 = -100000;
+    EXPECT_EQ(locate(frame.view(), options, workspace).status, Status::not_certain);
+    options = {};
+    options.lattice.min_dots = 10000;
+    EXPECT_EQ(locate(frame.view(), options, workspace).status, Status::too_few_dots);
+    // Another profile differs in a4, and so in nearly every difference.
+    options = {};
+    options.profile = Profile::microdots;
+    const Status other = locate(frame.view(), options, workspace).status;
+    EXPECT_TRUE(other == Status::not_certain || other == Status::not_in_code) << name(other);
+    // Five columns of dots.
+    shot.page.origin = {shot.pose.cell.x - 2, shot.pose.cell.y - 30};
+    shot.page.columns = 5;
+    shot.page.rows = 60;
+    shot.pose.theta_rad = radians(90);
+    const Status narrow = locate(render(shot).view(), {}, workspace).status;
+    EXPECT_EQ(narrow, Status::grid_too_small) << name(narrow);
+}
+
+}  // namespace
+}  // namespace dotpose::core_test

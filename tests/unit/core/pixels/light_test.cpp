@@ -1,0 +1,134 @@
+// Paper level and thresholds of the tiles.
+#include "core/pixels/light.hpp"
+
+#include <gtest/gtest.h>
+
+#include "../canvas.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+using namespace core;
+
+/// Paper of one level with dark squares of 2 x 2 px every 8 px.
+GreyImage dotted(int width_px, int height_px, int paper, int ink) {
+    GreyImage image = blank(width_px, height_px, paper);
+    for (int v = 3; v + 2 <= height_px; v += 8) {
+        for (int u = 3; u + 2 <= width_px; u += 8)
+            fill(image, u, v, u + 2, v + 2, ink);
+    }
+    return image;
+}
+
+/// Shows `visit(band)` every band in the order in which it becomes ready.
+template <typename Visit>
+void for_each_band(const GreyImage& image, const ThresholdOptions& options, Light& light,
+                   Visit visit) {
+    begin_light(image.width_px, image.height_px, light);
+    int next = 0;
+    for (int v = 0; v < image.height_px; ++v) {
+        const int ready = take_row(image.view().row(v), light);
+        ASSERT_GE(ready, 0);
+        for (int i = 0; i < ready; ++i, ++next) {
+            // All rows that a band and its lower neighbour cover have been seen.
+            ASSERT_LE(std::min(band_end(light, next + 1), image.height_px), v + 1);
+            measure_levels(next, options, light);
+            visit(next);
+        }
+    }
+    ASSERT_EQ(next, band_count(light));
+}
+
+TEST(Light, EveryBandBecomesReadyOnceWhateverTheHeight) {
+    LargeWorkspace w;
+    for (const auto& [width, heights] : {std::pair{64, 64}, std::pair{300, 250}}) {
+        for (int height = heights; height < heights + 35; ++height) {
+            SCOPED_TRACE(testing::Message() << width << " x " << height);
+            const GreyImage image = blank(width, height);
+            int covered = 0;
+            for_each_band(image, {}, w.light, [&](int band) {
+                EXPECT_EQ(band_begin(w.light, band), covered);
+                covered = band_end(w.light, band);
+                // The rows of the band are still there.
+                for (int v = band_begin(w.light, band); v < covered; ++v) {
+                    EXPECT_EQ(kept_row(w.light, v)[width - 1], 200);
+                }
+            });
+            EXPECT_EQ(covered, height);
+        }
+    }
+}
+
+TEST(Light, ThresholdsLieAtTheirSharesOfTheContrast) {
+    SmallWorkspace w;
+    const ThresholdOptions options;
+    for (const auto& [paper, ink] : {std::pair{200, 30}, std::pair{255, 0}, std::pair{90, 20},
+                                     std::pair{60, 40}, std::pair{230, 150}}) {
+        SCOPED_TRACE(testing::Message() << "paper " << paper << ", ink " << ink);
+        for_each_band(dotted(120, 80, paper, ink), options, w.light, [&, p = paper, i = ink](int) {
+            for (int t = 0; t < 15; ++t) {
+                const Levels level = w.light.levels[static_cast<std::size_t>(t)];
+                // 4 of 64 pixels of a tile are ink.
+                const double mean = (60.0 * p + 4.0 * i) / 64;
+                ASSERT_NEAR(level.paper, mean, 1);
+                // The contrast is known in steps of 1/64 of the paper's level.
+                const double step = mean / 64;
+                const double extent = mean - (mean - i) * options.extent_q8 / 256;
+                const double core = mean - (mean - i) * options.core_q8 / 256;
+                ASSERT_NEAR(level.extent, extent, step * options.extent_q8 / 256 + 1.5);
+                ASSERT_NEAR(level.core, core, step * options.core_q8 / 256 + 1.5);
+            }
+        });
+    }
+}
+
+TEST(Light, BlankAreasHaveNoInk) {
+    SmallWorkspace w;
+    for (const int level : {0, 1, 7, 100, 255}) {
+        for_each_band(blank(100, 70, level), {}, w.light, [&](int) {
+            for (int t = 0; t < w.light.tiles_per_band; ++t) {
+                EXPECT_EQ(w.light.levels[static_cast<std::size_t>(t)].extent, 0) << level;
+            }
+        });
+    }
+    // Less than the least contrast is blank, more is not; far from the ink it stays blank.
+    ThresholdOptions options;
+    options.min_contrast = 20;
+    for (const int ink : {185, 150}) {
+        GreyImage image = blank(120, 80);
+        fill(image, 19, 19, 21, 21, ink);
+        for_each_band(image, options, w.light, [&](int band) {
+            for (int t = 0; t < w.light.tiles_per_band; ++t) {
+                const bool is_near = std::abs(t - 2) <= 1 && std::abs(band - 2) <= 1;
+                EXPECT_EQ(w.light.levels[static_cast<std::size_t>(t)].extent > 0,
+                          is_near && ink == 150)
+                    << "tile " << t << ", band " << band << ", ink " << ink;
+            }
+        });
+    }
+}
+
+TEST(Light, ThresholdsFollowAShadow) {
+    // The right half gets a third of the light.
+    SmallWorkspace w;
+    GreyImage image = dotted(160, 80, 210, 30);
+    for (int v = 0; v < 80; ++v) {
+        for (int u = 80; u < 160; ++u)
+            pixel(image, u, v) = static_cast<std::uint8_t>(pixel(image, u, v) / 3);
+    }
+    for_each_band(image, {}, w.light, [&](int) {
+        for (const int t : {0, 4, 8}) {
+            const Levels level = w.light.levels[static_cast<std::size_t>(t)];
+            EXPECT_GT(level.core, 30);
+            EXPECT_LT(level.extent, 210);
+        }
+        for (const int t : {12, 15, 19}) {
+            const Levels level = w.light.levels[static_cast<std::size_t>(t)];
+            EXPECT_GT(level.core, 10);
+            EXPECT_LT(level.extent, 70);
+        }
+    });
+}
+
+}  // namespace
+}  // namespace dotpose::core_test

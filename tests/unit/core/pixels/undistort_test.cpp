@@ -1,0 +1,48 @@
+// Paper eq. 1-2 in double precision.
+#include "core/pixels/undistort.hpp"
+
+#include <gtest/gtest.h>
+
+#include "../geometry.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+constexpr std::uint64_t kSeed = 23;
+
+TEST(Undistort, IsEquations1And2) {
+    Rng rng(kSeed);
+    for (const Vec2 size : {Vec2{64, 64}, Vec2{188, 120}, Vec2{640, 480}, Vec2{4096, 4096}}) {
+        const Vec2 centre{(size.x - 1) / 2, (size.y - 1) / 2};
+        // From half the radius at the corner to twice it.
+        for (const double at_corner : {-0.5, -0.2, -0.01, 0.0, 0.01, 0.3, 1.0}) {
+            const double k = at_corner / (centre.x * centre.x + centre.y * centre.y);
+            std::vector<Dot> dots;
+            for (int i = 0; i < 500; ++i) {
+                dots.push_back(dot_at({rng.uniform(0, size.x - 1), rng.uniform(0, size.y - 1)}));
+            }
+            const std::vector<Dot> before = dots;
+            core::undistort(Lens::from_k(k), fixed(centre, 8), dots);
+            for (std::size_t i = 0; i < dots.size(); ++i) {
+                const Vec2 r = real(before[i].centre_q8, 8) - centre;
+                const Vec2 expected = centre + 1 / (1 + k * (r.x * r.x + r.y * r.y)) * r;
+                const Vec2 found = real(dots[i].centre_q8, 8);
+                // k is given to 2^-40: 4e-6 of the radius at the corner of the largest image.
+                const double tolerance = 0.51 / 256 + 4e-5 * length(r);
+                ASSERT_NEAR(found.x, expected.x, tolerance) << "k " << k << ", seed " << kSeed;
+                ASSERT_NEAR(found.y, expected.y, tolerance) << "k " << k << ", seed " << kSeed;
+                ASSERT_EQ(dots[i].mass, before[i].mass);
+            }
+        }
+    }
+}
+
+TEST(Undistort, NoLensMovesNothing) {
+    std::vector<Dot> dots{dot_at({1.25, 3.5}), dot_at({4000.75, 12})};
+    core::undistort({}, {2048 * 256, 2048 * 256}, dots);
+    EXPECT_EQ(dots[0].centre_q8, (Vec{320, 896}));
+    EXPECT_EQ(dots[1].centre_q8, (Vec{1024192, 3072}));
+}
+
+}  // namespace
+}  // namespace dotpose::core_test

@@ -1,0 +1,255 @@
+// From the place in the code to the pose, against a camera whose geometry is known.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "../reading.hpp"
+#include "core/pose/covariance.hpp"
+#include "core/pose/refine.hpp"
+#include "core/pose/subgrid.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+using namespace core;
+
+constexpr std::uint64_t kSeed = 33;
+constexpr std::array kProfiles{Profile::anoto, Profile::published, Profile::microdots};
+
+/// Pattern point under a pixel, in spacings from the place of the grid's cell (0, 0).
+Vec2 expected_at(const Reading& reading, Vec2 pixel) {
+    const Vec2 zero{static_cast<double>(reading.zero.x), static_cast<double>(reading.zero.y)};
+    return reading.view.pattern(pixel) - zero;
+}
+
+/// The plane is right at a pixel, in value and slope.
+void expect_pose(const Reading& reading, const PlaneFromImage& found, Vec2 pixel,
+                 double tolerance) {
+    const Vec2 expected = expected_at(reading, pixel);
+    const Vec2 at = real(plane_point_q16(found, fixed(pixel, 8)), 16);
+    EXPECT_NEAR(at.x, expected.x, tolerance);
+    EXPECT_NEAR(at.y, expected.y, tolerance);
+    // Directions err by as much over half the image as positions do.
+    const double slope = 2 * tolerance / reading.view.image_px.y;
+    const PlaneFromImage flat = tangent(found, fixed(pixel, 8));
+    EXPECT_NEAR(real(flat.du_q24, 24).x, reading.view.du().x, slope);
+    EXPECT_NEAR(real(flat.du_q24, 24).y, reading.view.du().y, slope);
+    EXPECT_NEAR(real(flat.dv_q24, 24).x, reading.view.dv().x, slope);
+    EXPECT_NEAR(real(flat.dv_q24, 24).y, reading.view.dv().y, slope);
+}
+
+/// The pose fitted to all dots, starting from that of the grid, with the fix for one pixel.
+struct Fitted {
+    bool ok = false;
+    PlaneFromImage pose;
+    FitQuality quality;
+    Fix fix;
+};
+
+Fitted fitted(const Reading& reading, Vec2 pixel) {
+    const Nominal nominal(reading.grid(), reading.view.profile, reading.truth());
+    const Observations observations(reading.dots, reading.grid(), nominal);
+    Fitted result;
+    result.pose = upright_plane(reading.plane, reading.turn);
+    result.ok = refine_pose(observations, result.pose, result.quality);
+    if (!result.ok) return result;
+    write_pose(result.pose, fixed(pixel, 8), reading.view.profile, reading.truth().place,
+               result.fix);
+    estimate_covariance(observations, result.quality, result.pose, fixed(pixel, 8), result.fix);
+    return result;
+}
+
+Fitted fitted(const Reading& reading) {
+    return fitted(reading, reading.view.centre_px());
+}
+
+TEST(Pose, OfTheGridIsThatOfTheCamera) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 200; ++i) {
+        SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
+        View view = random_view(rng);
+        view.spacing_px = rng.uniform(6, 11);
+        const Reading reading(view, Turn{i % 4});
+        const Vec2 pixel =
+            i % 2 == 0 ? view.centre_px() : Vec2{rng.uniform(-50, 250), rng.uniform(-50, 200)};
+        expect_pose(reading, upright_plane(reading.plane, reading.turn), pixel, 1e-3);
+    }
+}
+
+TEST(Pose, FittedToExactDotsIsExact) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 200; ++i) {
+        SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
+        View view = random_view(rng);
+        view.spacing_px = rng.uniform(6, 11);
+        view.profile = kProfiles[static_cast<std::size_t>(i % 3)];
+        Reading reading(view, Turn{i % 4});
+        // The grid may be off a little: that must not matter.
+        reading.plane.at_centre_q16.x += 2000;
+        reading.plane.du_q24.y += 3000;
+        const Fitted fit = fitted(reading);
+        ASSERT_TRUE(fit.ok);
+        expect_pose(reading, fit.pose, view.centre_px(), 1e-4);
+        EXPECT_GE(fit.fix.dots_used, static_cast<int>(reading.dots.size()) * 9 / 10);
+    }
+}
+
+TEST(Pose, OutliersAreLeftOut) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 100; ++i) {
+        SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
+        const View view = random_view(rng);
+        auto dots = dots_of(pattern_dots(view));
+        int moved_dots = 0;
+        for (std::size_t d = 0; d < dots.size(); d += 8) {
+            const double angle = rng.uniform(0, 6.3);
+            const double away_px = rng.uniform(0.5, 2);
+            dots[d] = dot_at(real(dots[d].centre_q8, 8) +
+                             away_px * Vec2{std::cos(angle), std::sin(angle)});
+            ++moved_dots;
+        }
+        const Reading reading(view, Turn{i % 4}, dots);
+        const Fitted fit = fitted(reading);
+        ASSERT_TRUE(fit.ok);
+        expect_pose(reading, fit.pose, view.centre_px(), 1e-4);
+        EXPECT_LE(fit.fix.dots_used, static_cast<int>(dots.size()) - moved_dots);
+        EXPECT_GE(fit.fix.dots_used, static_cast<int>(dots.size()) * 3 / 4);
+    }
+}
+
+TEST(Pose, ADisplacementOtherThanASixthIsMeasured) {
+    // Dots printed nearer to, or farther from, their intersections than nominal.
+    Rng rng(kSeed);
+    for (const double displacement : {0.11, 0.14, 0.2, 0.23}) {
+        const View view = random_view(rng);
+        std::vector<Dot> dots;
+        for (const PlacedDot& d : pattern_dots(view)) {
+            const Vec2 own = view.mesh().at(d.cell.x, d.cell.y);
+            dots.push_back(dot_at(own + 6 * displacement * (d.centre_px - own)));
+        }
+        const Reading reading(view, Turn{1}, dots);
+        const Fitted fit = fitted(reading);
+        ASSERT_TRUE(fit.ok);
+        expect_pose(reading, fit.pose, view.centre_px(), 2e-4);
+        EXPECT_GE(fit.fix.dots_used, static_cast<int>(dots.size()) * 9 / 10) << displacement;
+    }
+}
+
+TEST(Pose, DotsOnOneLineDetermineNone) {
+    Rng rng(kSeed);
+    Reading reading(random_view(rng), {});
+    for (GridCell& cell : reading.owned.cells)
+        cell.dot = GridCell::kNoDot;
+    EXPECT_FALSE(fitted(reading).ok);
+}
+
+TEST(Pose, IsWrittenAsCellFractionAngleAndSpacing) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 2000; ++i) {
+        SCOPED_TRACE(testing::Message() << "pose " << i << ", seed " << kSeed);
+        const Place place = random_place(rng);
+        const double theta = rng.uniform(-std::numbers::pi, std::numbers::pi);
+        const double spacing = rng.uniform(6, 60);
+        const Vec2 at{rng.uniform(-200, 200), rng.uniform(-200, 200)};
+        const Vec2 du{std::cos(theta) / spacing, std::sin(theta) / spacing};
+        Fix fix;
+        const Vec2 centre{rng.uniform(0, 4000), rng.uniform(0, 4000)};
+        const PlaneFromImage plane{
+            fixed(centre, 8), fixed(at, 16), fixed(du, 24), fixed({-du.y, du.x}, 24), {}, 0};
+        write_pose(plane, fixed(centre, 8), Profile::anoto, place, fix);
+        const auto nearest = [](double value) { return std::remainder(value, kPositionsPerAxis); };
+        ASSERT_NEAR(nearest(fix.x_grid() - place.cell.x - at.x), 0, 1e-5);
+        ASSERT_NEAR(nearest(fix.y_grid() - place.cell.y - at.y), 0, 1e-5);
+        ASSERT_LT(fix.cell.x, kPositionsPerAxis);
+        ASSERT_LT(fix.cell.y, kPositionsPerAxis);
+        ASSERT_NEAR(std::remainder(fix.theta_rad() - theta, 2 * std::numbers::pi), 0, 1e-5);
+        ASSERT_GE(fix.theta_rad(), -std::numbers::pi);
+        ASSERT_LT(fix.theta_rad(), std::numbers::pi);
+        ASSERT_NEAR(fix.spacing_px(), spacing, 2e-5 * spacing);
+    }
+}
+
+TEST(Pose, PastTheEndOfTheCodeItContinuesInAnotherSection) {
+    // docs/position-code.md: (x + L, y) in section (u, v) is (x, y) in section (u + 52, v + 34).
+    const Place place{{kPositionsPerAxis - 2, 5}, {60, 40}};
+    Fix fix;
+    const auto at = [](Vec2 point) {
+        return PlaneFromImage{{}, fixed(point, 16), {1 << 20, 0}, {0, 1 << 20}, {}, 0};
+    };
+    write_pose(at({3.25, 1.5}), {}, Profile::anoto, place, fix);
+    EXPECT_EQ(fix.cell, (Cell{1, 6}));
+    EXPECT_EQ(fix.section, (Section{(60 + 52) % 63, (40 + 34) % 63}));
+    EXPECT_EQ(fix.x_grid(), 1.25);
+    EXPECT_EQ(fix.y_grid(), 6.5);
+    write_pose(at({-5.25, 0.5}), {}, Profile::anoto, {{3, 5}, {60, 40}}, fix);
+    EXPECT_EQ(fix.cell, (Cell{kPositionsPerAxis - 3, 5}));
+    EXPECT_EQ(fix.section, (Section{60 - 52, 40 - 34}));
+    EXPECT_EQ(fix.fraction_x_q16, 0.75 * 65536);
+}
+
+/// Sums for the covariance of (x, y, theta).
+struct Scatter {
+    double squares[3][3] = {};
+    double claimed[3][3] = {};
+    double residual_px = 0;
+    int count = 0;
+
+    void add(const std::array<double, 3>& error, const Fix& fix) {
+        for (std::size_t r = 0; r < 3; ++r) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                squares[r][c] += error[r] * error[c];
+                claimed[r][c] += static_cast<double>(fix.covariance[r][c]);
+            }
+        }
+        residual_px += static_cast<double>(fix.residual_px);
+        ++count;
+    }
+};
+
+/// Poses of one view with fresh noise on all dots each time.
+Scatter scatter(const View& view, Vec2 reference, double sigma_px, int rounds, Rng& rng) {
+    const auto placed = pattern_dots(view);
+    Scatter result;
+    for (int i = 0; i < rounds; ++i) {
+        std::vector<Dot> dots;
+        for (const PlacedDot& d : placed) {
+            dots.push_back(dot_at(d.centre_px + sigma_px * Vec2{rng.normal(), rng.normal()}));
+        }
+        const Reading reading(view, {}, dots);
+        const Fitted fit = fitted(reading, reference);
+        // Frames in which chance looked like a tilt are judged with more parameters; leave them
+        // out.
+        if (!fit.ok || fit.quality.terms != Terms::affine) continue;
+        const Vec2 at = real(plane_point_q16(fit.pose, fixed(reference, 8)), 16) -
+                        expected_at(reading, reference);
+        const double turned =
+            std::remainder(fit.fix.theta_rad() - view.theta_rad, 2 * std::numbers::pi);
+        result.add({at.x, at.y, turned}, fit.fix);
+    }
+    return result;
+}
+
+TEST(Pose, CovarianceIsThatOfManyNoisyFrames) {
+    constexpr int kRounds = 4000;
+    Rng rng(kSeed);
+    const View view = random_view(rng);
+    for (const Vec2 reference : {view.centre_px(), Vec2{187, 0}, Vec2{-60, 100}}) {
+        SCOPED_TRACE(testing::Message()
+                     << "reference " << reference.x << ", " << reference.y << ", seed " << kSeed);
+        const Scatter found = scatter(view, reference, 0.1, kRounds, rng);
+        ASSERT_GE(found.count, kRounds * 8 / 10);
+        for (std::size_t r = 0; r < 3; ++r) {
+            // The deviation of a measured variance is sqrt(2 / rounds) = 2.2 %.
+            EXPECT_NEAR(found.claimed[r][r] / found.squares[r][r], 1, 0.08) << r;
+            for (std::size_t c = 0; c < r; ++c) {
+                const double scale = std::sqrt(found.squares[r][r] * found.squares[c][c]);
+                EXPECT_NEAR(found.claimed[r][c] / scale, found.squares[r][c] / scale, 0.06)
+                    << r << ", " << c;
+            }
+        }
+        EXPECT_NEAR(found.residual_px / found.count, 0.1, 0.002);
+    }
+}
+
+}  // namespace
+}  // namespace dotpose::core_test

@@ -1,0 +1,47 @@
+// An ideal view of the pattern as the grid that the decoder is given.
+#pragma once
+
+#include <array>
+
+#include "core/decode/likelihood.hpp"
+#include "core/decode/window.hpp"
+#include "core/plane.hpp"
+#include "geometry.hpp"
+
+namespace dotpose::core_test {
+
+/// The dots of a view in the matrices P, with the grid found at some turn and cell.
+struct Reading {
+    Reading(const View& view_, Turn turn_, std::vector<Dot> dots_, int side = 64)
+        : view(view_), turn(turn_), dots(std::move(dots_)), owned(side) {
+        zero = {static_cast<int>(std::lround(view.at_centre.x)) + 2,
+                static_cast<int>(std::lround(view.at_centre.y)) - 1};
+        plane = core::plane_from_lattice(lattice_of(view.mesh_turned(turn, zero)),
+                                         fixed(view.centre_px(), 8));
+        status = core::assign_likelihoods(dots, plane, owned.grid);
+        if (status != Status::ok) return;
+        decoding.window = core::choose_window(grid(), kWindowSide);
+        decoding.region = core::choose_window(grid(), kMaxLines);
+    }
+    Reading(const View& view_, Turn turn_) : Reading(view_, turn_, dots_of(pattern_dots(view_))) {}
+
+    const Grid& grid() const { return owned.grid; }
+    /// What the grid stands for, as geometry has it.
+    Decoding truth() const {
+        Decoding true_decoding = decoding;
+        true_decoding.pattern_from_grid = turn;
+        true_decoding.place = moved(view.profile, view.place, zero.x, zero.y);
+        return true_decoding;
+    }
+
+    View view;
+    Turn turn;
+    std::vector<Dot> dots;
+    OwnedGrid owned;
+    Vec zero;  ///< steps on the pattern from `view.place` to the grid's cell (0, 0)
+    PlaneFromImage plane;
+    Status status;
+    Decoding decoding;  ///< with the regions to decode
+};
+
+}  // namespace dotpose::core_test

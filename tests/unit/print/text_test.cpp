@@ -1,0 +1,104 @@
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "dotpose/print.hpp"
+#include "files.hpp"
+
+namespace dotpose {
+namespace {
+
+using print_test::TemporaryDirectory;
+
+struct Vector {
+    Profile profile;
+    Cell origin;
+    Section section;
+    std::vector<std::string> rows;
+};
+
+// Made by an implementation that shares nothing with this one.
+const std::vector<Vector> kVectors = {
+    {Profile::anoto,
+     {0, 0},
+     {0, 0},
+     {"uulluldu", "udlurrdr", "rrdruduu", "ruldllul", "ulurddur", "rldrduur", "dduuuuul",
+      "ulurllrd"}},
+    {Profile::anoto,
+     {122, 3219},
+     {0, 0},
+     {"ruldrdrr", "rdruudlr", "dllruuul", "lrlllrld", "dluruull", "luudlrrl", "lllulrll",
+      "ulddurlr"}},
+    {Profile::anoto,
+     {217, 1134},
+     {0, 0},
+     {"dddurddl", "rdddrudu", "rrluulul", "rdulduru", "ululuudu", "rlrrruud", "uuldddlr",
+      "lrlddurr"}},
+    {Profile::anoto,
+     {123456789, 400000000},
+     {10, 2},
+     {"lddruddd", "ldluudlr", "uddddull", "llruldrr", "ddrdlulr", "lrrllull", "rllulddr",
+      "uulluuru"}},
+    {Profile::published,
+     {122, 3219},
+     {0, 0},
+     {"ruldrdrr", "rdruudlr", "dllruuul", "lrlllrld", "dluruull", "luudlrrl", "lllulrll",
+      "ulddurlr"}},
+    {Profile::microdots,
+     {7, 3},
+     {10, 2},
+     {"drurrdll", "ruldldud", "llrddrdl", "ddullluu", "udurdurr", "urlllldd", "ldududuu",
+      "dlllldrd"}},
+};
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::istringstream stream(text);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(stream, line);)
+        lines.push_back(line);
+    return lines;
+}
+
+TEST(write_text, writes_the_letters_of_the_code) {
+    const TemporaryDirectory directory;
+    for (const Vector& expected : kVectors) {
+        SheetOptions options;
+        options.pattern.profile = expected.profile;
+        options.pattern.section = expected.section;
+        options.origin = expected.origin;
+        options.paper = {.width_mm = 20, .height_mm = 30};
+        const Sheet sheet = make_sheet(options);
+        write_sheet(sheet, directory / "sheet.txt");
+        const auto lines = lines_of(print_test::read_file(directory / "sheet.txt"));
+        ASSERT_EQ(lines.size(), static_cast<std::size_t>(sheet.rows));
+        for (const std::string& line : lines) {
+            EXPECT_EQ(line.size(), static_cast<std::size_t>(sheet.columns));
+        }
+        for (std::size_t row = 0; row < expected.rows.size(); ++row) {
+            EXPECT_EQ(lines[row].substr(0, 8), expected.rows[row]) << "row " << row;
+        }
+    }
+}
+
+TEST(write_text, reaches_the_last_corner_of_the_code_plane) {
+    // The vector at x = 410815341, y = 5 is 7 columns from the end, so 8 columns cannot start
+    // there.
+    const std::vector<std::string> expected = {"urrrduu", "urdrllr", "lrlrldl", "drdddur",
+                                               "drdurdr", "lulrurr", "dlrlrdr", "rrdllld"};
+    const TemporaryDirectory directory;
+    Sheet sheet = make_sheet({});
+    sheet.pattern.section = {.u = 62, .v = 1};
+    sheet.columns = 8;
+    sheet.rows = 8;
+    sheet.origin = {.x = kPositionsPerAxis - 8, .y = 5};
+    write_sheet(sheet, directory / "sheet.txt");
+    const auto lines = lines_of(print_test::read_file(directory / "sheet.txt"));
+    ASSERT_EQ(lines.size(), 8U);
+    for (std::size_t row = 0; row < 8; ++row)
+        EXPECT_EQ(lines[row].substr(1), expected[row]);
+}
+
+}  // namespace
+}  // namespace dotpose

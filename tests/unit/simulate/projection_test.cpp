@@ -1,0 +1,123 @@
+#include <gtest/gtest.h>
+
+#include "helpers.hpp"
+
+namespace dotpose::simulate_test {
+namespace {
+
+constexpr double kCentreU = 93.5;
+constexpr double kCentreV = 59.5;
+constexpr double kMm = 0.046;
+
+Vec2 pixel(const CameraModel& camera, const CameraPose& pose, Vec2 offset_mm) {
+    return Projection(camera, pose).pixel_from_offset(offset_mm);
+}
+
+void expect_near(Vec2 a, Vec2 b, double tolerance) {
+    EXPECT_NEAR(a.x, b.x, tolerance);
+    EXPECT_NEAR(a.y, b.y, tolerance);
+}
+
+TEST(Projection, ThePosePointLiesUnderTheImageCentre) {
+    for (const double degrees : {0.0, 37.0, -160.0}) {
+        CameraPose pose;
+        pose.theta_rad = radians(degrees);
+        pose.tilt_x_rad = 0.05;
+        pose.tilt_y_rad = -0.04;
+        expect_near(pixel({}, pose, {0, 0}), {kCentreU, kCentreV}, 1e-12);
+    }
+}
+
+TEST(Projection, AtZeroDegreesImageAndPatternAxesAgree) {
+    expect_near(pixel({}, {}, {20 * kMm, -7 * kMm}), {kCentreU + 20, kCentreV - 7}, 1e-9);
+}
+
+TEST(Projection, AtNinetyDegreesTheImageXAxisPointsDownThePage) {
+    CameraPose pose;
+    pose.theta_rad = radians(90);
+    // A step of 20 px along image x is 20 px down the page; along image y, to the left of the page.
+    expect_near(pixel({}, pose, {0, 20 * kMm}), {kCentreU + 20, kCentreV}, 1e-9);
+    expect_near(pixel({}, pose, {-7 * kMm, 0}), {kCentreU, kCentreV + 7}, 1e-9);
+}
+
+TEST(Projection, AtThirtySevenDegreesTheFormulaOfTheHeaderHolds) {
+    CameraPose pose;
+    pose.theta_rad = radians(37);
+    const double c = 0.798635510047292846;  // cosine and sine of 37 degrees, from a table
+    const double s = 0.601815023152048280;
+    const Vec2 offset{kMm * (c * 30 - s * -12), kMm * (s * 30 + c * -12)};
+    expect_near(pixel({}, pose, offset), {kCentreU + 30, kCentreV - 12}, 1e-9);
+}
+
+TEST(Projection, TiltAboutXMovesTheLowerPaperAway) {
+    CameraPose pose;
+    pose.tilt_x_rad = radians(3);
+    // By similar triangles: a point t mm down the paper lies t cos 3 below the axis and t sin 3
+    // farther than 16 mm.
+    const double t = 2;
+    const double below = t * std::cos(radians(3));
+    const double depth = 16 + t * std::sin(radians(3));
+    expect_near(pixel({}, pose, {0, t}), {kCentreU, kCentreV + 16 / kMm * below / depth}, 1e-9);
+    EXPECT_LT(16 / depth, 1);
+}
+
+TEST(Projection, TiltAboutYBringsTheRightPaperCloser) {
+    CameraPose pose;
+    pose.tilt_y_rad = radians(3);
+    const double s = 3;
+    const double right = s * std::cos(radians(3));
+    const double depth = 16 - s * std::sin(radians(3));
+    expect_near(pixel({}, pose, {s, 0}), {kCentreU + 16 / kMm * right / depth, kCentreV}, 1e-9);
+}
+
+TEST(Projection, WithAnyTiltThetaIsTheDirectionOfTheImageXAxisAtTheCentre) {
+    for (const double degrees : {0.0, 25.0, -118.0}) {
+        CameraPose pose;
+        pose.theta_rad = radians(degrees);
+        pose.tilt_x_rad = radians(20);
+        pose.tilt_y_rad = radians(-15);
+        const Projection projection({}, pose);
+        const Vec2 ahead = projection.offset_from_pixel({kCentreU + 1e-4, kCentreV});
+        EXPECT_NEAR(std::atan2(ahead.y, ahead.x), pose.theta_rad, 1e-6);
+    }
+}
+
+TEST(Projection, DistortionIsTheInverseOfThePapersEquation2) {
+    CameraModel camera;
+    camera.k = -8e-6;
+    const Vec2 distorted = pixel(camera, {}, {80 * kMm, -40 * kMm});
+    const double du = distorted.x - kCentreU;
+    const double dv = distorted.y - kCentreV;
+    const double scale = 1 / (1 + camera.k * (du * du + dv * dv));
+    EXPECT_NEAR(du * scale, 80, 1e-9);
+    EXPECT_NEAR(dv * scale, -40, 1e-9);
+    EXPECT_LT(du, 80) << "k below 0 is barrel distortion";
+}
+
+TEST(Projection, BothWaysAreInverse) {
+    for (const double k : {0.0, -2e-5, 1e-5}) {
+        CameraModel camera;
+        camera.k = k;
+        CameraPose pose;
+        pose.theta_rad = 2.5;
+        pose.tilt_x_rad = 0.05;
+        pose.tilt_y_rad = 0.03;
+        const Projection projection(camera, pose);
+        for (int v = 0; v < 120; v += 17) {
+            for (int u = 0; u < 188; u += 17) {
+                const Vec2 there{1.0 * u, 1.0 * v};
+                const Vec2 back = projection.pixel_from_offset(projection.offset_from_pixel(there));
+                expect_near(back, there, 1e-8);
+            }
+        }
+    }
+}
+
+TEST(Projection, APointBehindTheCameraIsFarAway) {
+    CameraPose pose;
+    pose.tilt_x_rad = radians(45);
+    EXPECT_GE(pixel({}, pose, {0, -100}).x, 1e9);
+}
+
+}  // namespace
+}  // namespace dotpose::simulate_test
