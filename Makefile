@@ -3,6 +3,8 @@
 SETUP ?= scripts/setup
 JOBS ?= $(shell nproc)
 PREFIX ?= /usr/local
+# How long each fuzz target runs.
+FUZZ_SECONDS ?= 60
 # Cleared, so that an inherited jobserver does not make Ninja run on one core.
 BUILD = env -u MAKEFLAGS cmake --build --preset
 RELEASE = build/release
@@ -33,7 +35,8 @@ asan: setup build/asan/build.ninja
 
 fuzz: SETUP += --fuzz
 fuzz: setup build/fuzz/build.ninja
-	$(BUILD) fuzz -j $(JOBS)
+	cmake --preset fuzz -DDOTPOSE_FUZZ_SECONDS=$(FUZZ_SECONDS)
+	$(BUILD) fuzz -j $(JOBS) --target dotpose_fuzz
 	ctest --preset fuzz -j $(JOBS)
 
 bench: setup $(RELEASE)/build.ninja
@@ -42,7 +45,7 @@ bench: setup $(RELEASE)/build.ninja
 
 accuracy: setup $(RELEASE)/build.ninja
 	$(BUILD) release -j $(JOBS) --target dotpose_accuracy
-	$(RELEASE)/bin/dotpose_accuracy
+	$(RELEASE)/bin/dotpose_accuracy $(ARGS)
 
 format: setup
 	scripts/format
@@ -59,4 +62,4 @@ install:
 	cmake --install $(RELEASE) --prefix $(PREFIX)
 
 clean:
-	rm -rf build demo-out
+	rm -rf build demo-out accuracy-out

@@ -138,7 +138,7 @@ Drive drive_over(const Sheet& sheet, const fs::path& folder, Workspace& workspac
     for (int frame = 0; frame < kFrames; ++frame) {
         const Waypoint truth = waypoint(sheet, frame);
         Rng rng(kSeed, static_cast<std::uint64_t>(frame));
-        const Imperfections imperfections = draw(Preset::nominal, rng);
+        const Imperfections imperfections = draw_imperfections(Preset::nominal, rng);
         const GreyImage image =
             render(page, camera, pose_at(sheet, truth), imperfections, rng.bits());
         double time_us = 0;

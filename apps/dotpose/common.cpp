@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <map>
 #include <string_view>
 
@@ -97,6 +98,43 @@ void add_cell_option(CLI::App& command, const std::string& flag, Cell& cell,
             help)
         ->type_name("X,Y")
         ->default_str(fmt::format("{},{}", cell.x, cell.y));
+}
+
+void add_lens_option(CLI::App& command, Lens& lens) {
+    command
+        .add_option_function<double>(
+            "--k",
+            [&lens](double k_per_px2) {
+                constexpr double kLargest_k = 1.0 / 512;
+                if (!(std::abs(k_per_px2) < kLargest_k)) {
+                    throw CLI::ValidationError(
+                        "--k", fmt::format("{} is not between {:.4f} and {:.4f}", k_per_px2,
+                                           -kLargest_k, kLargest_k));
+                }
+                lens = Lens::from_k(k_per_px2);
+            },
+            "Radial distortion, below 0 for barrel: p = m + r / (1 + k r^2)")
+        ->type_name("1/PX^2")
+        ->default_str("0");
+}
+
+void add_size_option(CLI::App& command, CameraModel& camera) {
+    command
+        .add_option_function<std::string>(
+            "--size",
+            [&camera](const std::string& text) {
+                int used = 0;
+                if (std::sscanf(text.c_str(), "%dx%d%n", &camera.width_px, &camera.height_px,
+                                &used) != 2 ||
+                    static_cast<std::size_t>(used) != text.size()) {
+                    throw CLI::ValidationError(
+                        "--size",
+                        fmt::format("'{}' is not WIDTHxHEIGHT in px, such as 188x120", text));
+                }
+            },
+            "Size of a frame")
+        ->type_name("WxH")
+        ->default_str(fmt::format("{}x{}", camera.width_px, camera.height_px));
 }
 
 void PatternArguments::add_to(CLI::App& command) {

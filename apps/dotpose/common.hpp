@@ -5,8 +5,11 @@
 #include <string>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
+#include "dotpose/options.hpp"
 #include "dotpose/sheet.hpp"
+#include "dotpose/simulate.hpp"
 
 namespace dotpose::cli {
 
@@ -22,6 +25,34 @@ void add_spacing_option(CLI::App& command, double& spacing_mm);
 /// --origin X,Y, a cell; the meaning of the cell for this command is in `help`.
 void add_cell_option(CLI::App& command, const std::string& flag, Cell& cell,
                      const std::string& help);
+
+/// --k 1/PX^2: what `locate` corrects.
+void add_lens_option(CLI::App& command, Lens& lens);
+
+/// --size WxH of a simulated frame.
+void add_size_option(CLI::App& command, CameraModel& camera);
+
+/// An option whose value is the name of one of `values`, which must outlive the command.
+template <typename Values, typename Store>
+CLI::Option* add_named(CLI::App& command, const std::string& flag, const Values& values,
+                       const std::string& default_name, const std::string& help, Store store) {
+    std::string names;
+    for (const auto value : values)
+        names += (names.empty() ? "" : ", ") + std::string(name(value));
+    return command
+        .add_option_function<std::string>(
+            flag,
+            [&values, names, flag, store](const std::string& asked) {
+                for (const auto value : values) {
+                    if (asked == name(value)) return store(value);
+                }
+                throw CLI::ValidationError(flag,
+                                           fmt::format("'{}' is not one of {}", asked, names));
+            },
+            help + ": " + names)
+        ->type_name("NAME")
+        ->default_str(default_name);
+}
 
 /// --code, --section, --spacing, --displacement and --dot.
 class PatternArguments {

@@ -23,7 +23,6 @@ namespace {
 
 using std::chrono::steady_clock;
 
-constexpr double kLargestLens_k = 1.0 / 512;
 /// Far outside any image, and far inside what the fixed-point pose can express.
 constexpr double kFarthestReference_px = 10'000;
 
@@ -211,21 +210,8 @@ PixelPoint parse_reference(const std::string& text) {
     return point;
 }
 
-Lens parse_lens(double k_per_px2) {
-    if (!(std::abs(k_per_px2) < kLargestLens_k)) {
-        throw CLI::ValidationError("--k", fmt::format("{} is not between {:.4f} and {:.4f}",
-                                                      k_per_px2, -kLargestLens_k, kLargestLens_k));
-    }
-    return Lens::from_k(k_per_px2);
-}
-
 void add_camera_options(CLI::App& command, LocateArguments& arguments) {
-    command
-        .add_option_function<double>(
-            "--k", [&arguments](double k) { arguments.options.lens = parse_lens(k); },
-            "Radial distortion, below 0 for barrel: p = m + r / (1 + k r^2)")
-        ->type_name("1/PX^2")
-        ->default_str("0");
+    add_lens_option(command, arguments.options.lens);
     command
         .add_option_function<std::string>(
             "--reference",

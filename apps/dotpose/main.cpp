@@ -17,6 +17,7 @@ int run(int argc, char** argv) {
     add_locate(app, exit_code);
     add_print(app, exit_code);
     add_simulate(app, exit_code);
+    add_evaluate(app, exit_code);
     try {
         app.parse(argc, argv);
         return exit_code;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -69,7 +68,6 @@ struct SimulateArguments {
     int frames = 10;
     Setup setup;
     PatternArguments pattern;
-    std::string size = "188x120";
     std::optional<Scene> scene;
     double density = 0.5;
     std::optional<double> angle_deg;
@@ -175,14 +173,6 @@ std::vector<std::string> write_frames(const SimulateArguments& arguments, int fi
 void prepare(SimulateArguments& arguments, bool section_given) {
     arguments.setup.pattern = arguments.pattern.pattern();
     arguments.setup.random_section = !section_given;
-    int used = 0;
-    CameraModel& camera = arguments.setup.camera;
-    if (std::sscanf(arguments.size.c_str(), "%dx%d%n", &camera.width_px, &camera.height_px,
-                    &used) != 2 ||
-        static_cast<std::size_t>(used) != arguments.size.size()) {
-        throw BadArgument("--size must be WIDTHxHEIGHT in px, such as 188x120, not '" +
-                          arguments.size + "'");
-    }
     for (const double coordinate : arguments.at_grid.values) {
         if (!(coordinate >= 0 && coordinate < kPositionsPerAxis)) {
             throw BadArgument(fmt::format("--at takes coordinates from 0 to {}, not {}",
@@ -225,35 +215,13 @@ void run(SimulateArguments& arguments, bool section_given, int& exit_code) {
     }
 }
 
-// An option whose value is the name of one of `values`.
-template <typename Values, typename Store>
-void add_named(CLI::App& command, const std::string& flag, const Values& values,
-               const std::string& default_name, const std::string& help, Store store) {
-    std::string names;
-    for (const auto value : values)
-        names += (names.empty() ? "" : ", ") + std::string(name(value));
-    command
-        .add_option_function<std::string>(
-            flag,
-            [&values, names, flag, store](const std::string& asked) {
-                for (const auto value : values) {
-                    if (asked == name(value)) return store(value);
-                }
-                throw CLI::ValidationError(flag,
-                                           fmt::format("'{}' is not one of {}", asked, names));
-            },
-            help + ": " + names)
-        ->type_name("NAME")
-        ->default_str(default_name);
-}
-
 void add_pair(CLI::App& command, const std::string& flag, const std::string& unit, Pair& pair,
               const std::string& help) {
     command.add_option(flag, pair.values, help)->type_name(unit)->delimiter(',')->expected(2);
 }
 
-void add_camera_options(CLI::App& command, CameraModel& camera, std::string& size) {
-    command.add_option("--size", size, "Size of a frame")->type_name("WxH")->capture_default_str();
+void add_camera_options(CLI::App& command, CameraModel& camera) {
+    add_size_option(command, camera);
     command.add_option("--mm-per-px", camera.mm_per_px, "Size of a pixel on the paper")
         ->type_name("MM")
         ->capture_default_str();
@@ -304,7 +272,7 @@ void add_simulate(CLI::App& app, int& exit_code) {
     command->add_option("--seed", arguments->setup.seed, "Another seed, other frames")
         ->type_name("N")
         ->capture_default_str();
-    add_camera_options(*command, arguments->setup.camera, arguments->size);
+    add_camera_options(*command, arguments->setup.camera);
     arguments->pattern.add_to(*command);
     command->get_option("--section")->default_str("random");
     add_overrides(*command, *arguments);

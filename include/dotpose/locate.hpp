@@ -24,7 +24,7 @@ inline constexpr int kMaxFrameSide_px = 4096;
 /// but for the covariance and the residual.
 Fix locate(const ImageView& image, const Options& options, Workspace& workspace);
 
-/// Starts a frame. Errors: image_too_small, image_too_large (for the workspace).
+/// Starts a frame. Errors: bad_argument, image_too_small, image_too_large (for the workspace).
 Status begin(int width_px, int height_px, const Options& options, Workspace& workspace);
 
 /// Takes the next row of `width_px` pixels; the pixels are not needed afterwards.

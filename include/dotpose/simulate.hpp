@@ -93,7 +93,7 @@ inline constexpr std::array kPresets = {Preset::clean, Preset::nominal, Preset::
 const char* name(Preset preset);
 
 /// Draws each imperfection from the preset's range, uniformly.
-Imperfections draw(Preset preset, Rng& rng);
+Imperfections draw_imperfections(Preset preset, Rng& rng);
 
 /// A printed page: a pattern, its printing errors, and how far it reaches.
 struct Page {

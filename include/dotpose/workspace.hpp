@@ -56,7 +56,7 @@ struct Tile {
 
 /// What counts as dark in one tile, in grey levels.
 struct Levels {
-    std::uint8_t paper = 0;
+    std::uint8_t paper = 0;   ///< 0 where nothing is dark
     std::uint8_t extent = 0;  ///< pixels darker than this belong to a blob
     std::uint8_t core = 0;    ///< some pixel of a blob must be darker than this
 };
@@ -68,6 +68,7 @@ struct Light {
     int tile_px = 0;
     int tiles_per_band = 0;
     int rows_taken = 0;
+    bool has_contrast = false;     ///< anywhere so far
     std::span<std::uint8_t> rows;  ///< pixels of the two newest bands
     std::span<Tile> tiles;         ///< of the three newest bands
     std::span<Levels> levels;      ///< of the band being thresholded
@@ -80,8 +81,7 @@ struct Smoothing {
     int lines_ready = 0;
     int rows_given = 0;
     int block_px = 0;                      ///< side of the blocks in which the paper is measured
-    int block_rows = 0;                    ///< of which the paper is known
-    std::span<std::uint8_t> papers;        ///< of the newest four rows of blocks
+    std::span<std::uint8_t> papers;        ///< of all blocks, row by row
     std::span<std::uint32_t> column_sums;  ///< over the rows [sums_begin, sums_end)
     int sums_begin = 0;
     int sums_end = 0;
@@ -148,6 +148,8 @@ struct PlaneFromImage {
 /// One cell of the matrices P of the paper's Fig. 8.
 struct GridCell {
     static constexpr std::uint16_t kNoDot = 65535;
+    static constexpr std::uint16_t kHidden = 65534;  ///< under graphics
+    bool has_dot() const { return dot < kHidden; }
     std::int8_t x = 0;  ///< quasi-probability of the x bit, in 1/127: positive for 1
     std::int8_t y = 0;
     std::uint16_t dot = kNoDot;  ///< index of the dot read here
@@ -247,7 +249,7 @@ class WorkspaceOf : public Workspace {
   public:
     static_assert(MaxWidth >= 64 && MaxWidth <= 4096, "images are 64 to 4096 px wide");
     static_assert(GridSide >= 16 && GridSide <= kMaxGridSide, "lines of the grid have fixed room");
-    static_assert(MaxDots >= 64 && MaxDots < GridCell::kNoDot, "dots are counted in 16 bits");
+    static_assert(MaxDots >= 64 && MaxDots < GridCell::kHidden, "dots are counted in 16 bits");
 
     WorkspaceOf() {
         max_width_px = MaxWidth;
@@ -278,8 +280,8 @@ class WorkspaceOf : public Workspace {
 
     std::array<std::uint16_t, 5 * MaxWidth> smooth_lines_{};
     std::array<std::uint8_t, MaxWidth> smooth_row_{};
-    // Blocks are a tenth of the shorter side, so at least 6 px.
-    std::array<std::uint8_t, 4 * (MaxWidth / 6 + 1)> smooth_papers_{};
+    // Blocks are a tenth of the shorter side, so at least 6 px: at most 11 x 683 of them.
+    std::array<std::uint8_t, 11 * 683> smooth_papers_{};
     std::array<std::uint32_t, MaxWidth> smooth_sums_{};
     std::array<std::uint8_t, 2 * kTile_px * MaxWidth> rows_{};
     std::array<Tile, 3 * kTiles> tiles_{};

@@ -15,7 +15,8 @@ struct Text {
 
 constexpr std::array<Text, kStatusCount> kTexts{{
     {Status::ok, "ok", "located"},
-    {Status::bad_argument, "bad_argument", "an option or the image view is out of its range"},
+    {Status::bad_argument, "bad_argument",
+     "an option is out of its range, or the image view has no pixels"},
     {Status::image_too_small, "image_too_small", "the image is too small to show 8 x 8 dots"},
     {Status::image_too_large, "image_too_large", "the image is larger than the workspace"},
     {Status::no_contrast, "no_contrast", "the image has no dark marks on a lighter ground"},

@@ -20,7 +20,8 @@ struct Secondary {
     const std::uint8_t* digits;          ///< `length` of them
     const std::uint16_t* prefix_sums;    ///< length + 1: sum of the first i digits
     const std::uint8_t* first_place_of;  ///< by the key of 5 digits; kAbsent where there is none
-    const std::uint8_t* next_twins;      ///< by place: the next with the same 4 digits, in a cycle
+    /// By place: the next with the same 3 digits, and with the same 4 digits, each in a cycle.
+    std::array<const std::uint8_t*, 2> next_twins;
     std::uint16_t length;
     std::uint8_t base;
     std::uint8_t weight;  ///< in the basis equation of section II-A
@@ -71,10 +72,11 @@ template <unsigned Base, const auto& Sequence>
 struct Tables {
     static constexpr auto kSums = prefix_sums(Sequence);
     static constexpr auto kPlaces = first_places<Base, kOrder>(Sequence);
-    static constexpr auto kTwins = next_twins<Base, kOrder - 1>(Sequence);
+    static constexpr auto kTwinsOf3 = next_twins<Base, 3>(Sequence);
+    static constexpr auto kTwinsOf4 = next_twins<Base, 4>(Sequence);
     static constexpr Secondary make(std::uint8_t weight) {
         return {Sequence.data(), kSums.data(),
-                kPlaces.data(),  kTwins.data(),
+                kPlaces.data(),  {kTwinsOf3.data(), kTwinsOf4.data()},
                 Sequence.size(), Base,
                 weight,          !is_quasi_de_bruijn(Sequence, kOrder, Base)};
     }

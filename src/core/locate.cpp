@@ -18,6 +18,7 @@
 #include "core/pixels/smooth.hpp"
 #include "core/pixels/undistort.hpp"
 #include "core/pose/covariance.hpp"
+#include "core/pose/measure.hpp"
 #include "core/pose/refine.hpp"
 #include "core/pose/subgrid.hpp"
 
@@ -43,6 +44,7 @@ Vec image_centre_q8(const Light& light) {
 Status find_dots(const Options& options, Workspace& w) {
     core::sift_dots(options.blobs, dot_list(w));  // II-B.1
     w.fix.dots_seen = w.dot_count;
+    if (!w.light.has_contrast) return Status::no_contrast;
     if (w.dot_count < options.lattice.min_dots) return Status::too_few_dots;
     core::undistort(options.lens, image_centre_q8(w.light), first(w.dots, w.dot_count));  // eq. 1-2
     return Status::ok;
@@ -86,7 +88,7 @@ Status read_position(const Options& options, const ImageView* image, Workspace& 
 }
 
 /// Position -> pose, once all dots in view agree with it.
-Status measure_pose(const Options& options, Workspace& w) {
+Status measure_pose(const Options& options, const ImageView* image, Workspace& w) {
     const core::Nominal nominal(w.grid, options.profile, w.decoding);
     const Status status = core::verify(w.grid, options.profile, w.decoding, nominal,
                                        options.integrity, w.line_scores, w.fix);
@@ -99,6 +101,10 @@ Status measure_pose(const Options& options, Workspace& w) {
                            centre_q8.y + options.reference_dy_q8};
     w.pattern_from_image =
         core::upright_plane(w.grid_from_image, w.decoding.pattern_from_grid);  // II-B.8
+    if (image != nullptr) {
+        w.dot_count = core::measure_dots(*image, w.pattern_from_image, nominal, w.grid, w.dots);
+        core::undistort(options.lens, centre_q8, first(w.dots, w.dot_count));
+    }
     core::FitQuality quality;
     const core::Observations observations(w.found_dots(), w.grid, nominal);
     if (!core::refine_pose(observations, w.pattern_from_image, quality)) return Status::no_grid;
@@ -107,12 +113,30 @@ Status measure_pose(const Options& options, Workspace& w) {
     return Status::ok;
 }
 
+constexpr bool is_within(int value, int low, int high) {
+    return value >= low && value <= high;
+}
+
+/// Whether the options are such that no stage can overflow.
+bool are_valid(const Options& options) {
+    constexpr int kFarthestReference_q8 = 16384 * 256;
+    return is_within(options.threshold.extent_q8, 1, 256) &&
+           is_within(options.threshold.core_q8, 1, 256) &&
+           is_within(options.threshold.min_contrast, 1, 255) &&
+           is_within(options.blobs.min_mass_q8, 0, 256) &&
+           is_within(options.blobs.max_area_ratio, 1, 1024) &&
+           is_within(options.lattice.max_offset_q16, 0, 32768) &&
+           is_within(options.integrity.max_bit_error_q8, 0, 256) &&
+           is_within(options.reference_dx_q8, -kFarthestReference_q8, kFarthestReference_q8) &&
+           is_within(options.reference_dy_q8, -kFarthestReference_q8, kFarthestReference_q8);
+}
+
 /// Everything after the last row. With an `image`, bits are read from it rather than from blobs.
 Fix locate_dots(const Options& options, const ImageView* image, Workspace& w) {
     Status status = find_dots(options, w);
     if (status == Status::ok) status = find_grid(options, image != nullptr, w);
     if (status == Status::ok) status = read_position(options, image, w);
-    if (status == Status::ok) status = measure_pose(options, w);
+    if (status == Status::ok) status = measure_pose(options, image, w);
     w.fix.status = status;
     return w.fix;
 }
@@ -121,6 +145,10 @@ Fix locate_dots(const Options& options, const ImageView* image, Workspace& w) {
 
 Fix locate(const ImageView& image, const Options& options, Workspace& workspace) {
     const Status status = begin(image.width_px, image.height_px, options, workspace);
+    if (status == Status::ok && image.pixels == nullptr) {
+        workspace.fix.status = Status::bad_argument;
+        return workspace.fix;
+    }
     if (status != Status::ok) return workspace.fix;
     for (int v = 0; v < image.height_px; ++v)
         push_row(image.row(v), options, workspace);
@@ -135,12 +163,13 @@ Fix locate(const ImageView& image, const Options& options, Workspace& workspace)
     return locate_dots(options, &image, workspace);
 }
 
-Status begin(int width_px, int height_px, const Options&, Workspace& w) {
+Status begin(int width_px, int height_px, const Options& options, Workspace& w) {
     w.fix = Fix{};
     w.dot_count = w.seed_count = w.edge_count = 0;
     w.origin_seed = -1;
     w.decoding = {};
     w.grid.columns = w.grid.rows = 0;
+    if (!are_valid(options)) return w.fix.status = Status::bad_argument;
     if (width_px < kMinFrameSide_px || height_px < kMinFrameSide_px) {
         return w.fix.status = Status::image_too_small;
     }

@@ -60,17 +60,22 @@ GridPoint grid_point(const PlaneFromImage& plane, Vec image_point_q8) {
 }
 
 Vec image_point_q8(const PlaneFromImage& plane, Vec plane_point) {
-    const std::int64_t area_q24 =
-        std::max<std::int64_t>(cross(plane.du_q24, plane.dv_q24) >> 24, 1);
-    // Affine exactly; with perspective or lens by Newton's method with the slope at the centre.
+    // Newton's method with the slope where the search stands; exact at once where it is the same
+    // everywhere, but for what the division cuts off.
+    constexpr int kMostRounds = 12;
     Vec point_q8 = plane.centre_q8;
-    for (int round = 0; round < 8; ++round) {
+    for (int round = 0; round < kMostRounds; ++round) {
+        const PlaneFromImage here = is_affine(plane) ? plane : tangent(plane, point_q8);
+        const std::int64_t area_q32 =
+            std::max<std::int64_t>(cross(here.du_q24, here.dv_q24) >> 16, 1);
         const Vec missing_q16 = plane_point - plane_point_q16(plane, point_q8);
-        const Vec step_q8{
-            static_cast<std::int32_t>(cross(missing_q16, plane.dv_q24) / area_q24 >> 8),
-            static_cast<std::int32_t>(cross(plane.du_q24, missing_q16) / area_q24 >> 8)};
+        const auto quotient = [&](std::int64_t numerator_q40) {
+            return static_cast<std::int32_t>(divide_rounded(numerator_q40, area_q32));
+        };
+        const Vec step_q8{quotient(cross(missing_q16, here.dv_q24)),
+                          quotient(cross(here.du_q24, missing_q16))};
         point_q8 = point_q8 + step_q8;
-        if (is_affine(plane) || step_q8 == Vec{}) break;
+        if (step_q8 == Vec{}) break;
     }
     return point_q8;
 }

@@ -111,11 +111,13 @@ void PlaneFit::add_residual(Vec image_point_q8, Vec target_q16) {
     }
 }
 
-bool PlaneFit::solve(PlaneFromImage& plane) const {
+bool PlaneFit::solve(PlaneFromImage& plane, std::int64_t share_q8) const {
     // target * (1 + sum of terms) = affine: the terms take off what the regressors share with the
     // target beyond an affine map.
     std::array<std::int32_t, kExtra> terms_q30{};
     if (extra() > 0 && !SmallSystem(normal_, right_, extra()).solve(terms_q30)) return false;
+    for (std::int32_t& term : terms_q30)
+        term = static_cast<std::int32_t>(term * share_q8 / 256);
     std::array<std::int64_t, 6> sum{maps_[0].offset_x, maps_[0].offset_y, maps_[0].dx.x,
                                     maps_[0].dx.y,     maps_[0].dy.x,     maps_[0].dy.y};
     for (std::size_t k = 0; k < extra(); ++k) {

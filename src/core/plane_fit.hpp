@@ -35,7 +35,8 @@ class PlaneFit {
     bool reduce();
     void add_residual(Vec image_point_q8, Vec target_q16);
     /// False where they do not determine the further terms.
-    bool solve(PlaneFromImage& plane) const;
+    /// `share_q8` of the further terms is kept, in 1/256.
+    bool solve(PlaneFromImage& plane, std::int64_t share_q8 = 256) const;
 
   private:
     static constexpr std::size_t kExtra = 3;
@@ -62,11 +63,11 @@ struct FittedPlane {
 };
 
 /// Fits the points that `visit(use)` shows by calling use(image_point_q8, target_q16), the same
-/// ones each time. A further term has to lower the sum of squares by 6 times the mean square, where
-/// chance does so by 1. False where the points do not even determine an affine map.
+/// ones each time. Terms are added as far as they explain more than chance would; the curvature of
+/// a lens only where it is beyond doubt. False where the points do not even determine an affine
+/// map.
 template <typename Visit>
 bool fit_plane(const PlaneFromImage& estimate, Terms most, Visit visit, FittedPlane& best) {
-    constexpr int kSignificant = 6;
     int reach_px = 1;
     visit([&](Vec point_q8, Vec) {
         const Vec p = point_q8 - estimate.centre_q8;
@@ -84,10 +85,18 @@ bool fit_plane(const PlaneFromImage& estimate, Terms most, Visit visit, FittedPl
         visit([&](Vec point_q8, Vec target) {
             fitted.squared_residuals += squared(plane_point_q16(fitted.plane, point_q8) - target);
         });
-        const int more = static_cast<int>(parameters(terms) - parameters(best.terms));
-        const int freedom = std::max(2 * fitted.points - static_cast<int>(parameters(terms)), 1);
-        const std::int64_t gain = best.squared_residuals - fitted.squared_residuals;
-        if (found && gain * freedom <= kSignificant * more * fitted.squared_residuals) continue;
+        if (found) {
+            // In units of the mean square, chance gains 1 with each parameter. Terms are kept in
+            // the share that is more than chance (James and Stein 1961).
+            const int more = static_cast<int>(parameters(terms) - parameters(best.terms));
+            const int freedom =
+                std::max(2 * fitted.points - static_cast<int>(parameters(terms)), 1);
+            const std::int64_t gain = best.squared_residuals - fitted.squared_residuals;
+            const std::int64_t by_chance = more * fitted.squared_residuals / freedom;
+            const int needed = terms == Terms::lens ? 6 : 1;
+            if (gain <= needed * by_chance) continue;
+            if (!fit.solve(fitted.plane, 256 - by_chance * 256 / gain)) continue;
+        }
         best = fitted;
         found = true;
     }

@@ -70,7 +70,7 @@ const char* name(Preset preset) {
     return "?";
 }
 
-Imperfections draw(Preset preset, Rng& rng) {
+Imperfections draw_imperfections(Preset preset, Rng& rng) {
     switch (preset) {
         case Preset::clean:
             return {};
@@ -110,7 +110,7 @@ Shot draw_shot(const Setup& setup, std::uint64_t index) {
     const std::uint32_t place_x = rng.below(~std::uint32_t{0});
     const std::uint32_t place_y = rng.below(~std::uint32_t{0});
     shot.seed = rng.bits();
-    shot.imperfections = draw(setup.preset, rng);
+    shot.imperfections = draw_imperfections(setup.preset, rng);
     shot.pose.tilt_x_rad = shot.imperfections.tilt_x_rad;
     shot.pose.tilt_y_rad = shot.imperfections.tilt_y_rad;
 

@@ -17,7 +17,8 @@ std::size_t wrapped(int shift) {
 
 }  // namespace
 
-ExpectedRivals::ExpectedRivals() {
+ExpectedRivals::ExpectedRivals(int most_shared)
+    : most_shared_(static_cast<std::size_t>(most_shared)) {
     std::size_t n = 0;
     for (unsigned different = 0; different < 16; ++different) {
         if (std::popcount(different) < 2) continue;
@@ -60,7 +61,8 @@ void ExpectedRivals::add_line(const ByShift& odds) {
         ByShift after{};
         for (int s = 0; s < kSections; ++s) {
             const float sum = before[static_cast<std::size_t>(s)];
-            if (sum == 0) continue;
+            // Too little to matter, whatever follows: 4e8 rivals at these odds.
+            if (sum < 1e-30F) continue;
             for (int d = 0; d < kSections - s; ++d) {
                 after[static_cast<std::size_t>(s + d)] +=
                     sum * set.steps[static_cast<std::size_t>(d)];
@@ -73,7 +75,7 @@ void ExpectedRivals::add_line(const ByShift& odds) {
         // Back at shift 0 a new run of shared lines begins; within one, it grows.
         float returned = after[0] - before[0] * set.steps[0];
         returned = returned > 0 ? returned : 0;
-        for (std::size_t i = kMostShared - 1; i > 0; --i) {
+        for (std::size_t i = most_shared_ - 1; i > 0; --i) {
             set.shared[i] = set.shared[i - 1] * set.steps[0] * odds[0];
         }
         set.shared[0] = returned * odds[0];

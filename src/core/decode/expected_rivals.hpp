@@ -12,7 +12,8 @@ namespace dotpose::core {
 
 class ExpectedRivals {
   public:
-    ExpectedRivals();
+    /// Of those that share at most so many lines in a row with the reading: 3 or 4.
+    explicit ExpectedRivals(int most_shared);
 
     /// Adds the next line: the odds of each roll that a rival may show there, by how much it
     /// exceeds the reading's; odds[0] is 1.
@@ -24,7 +25,6 @@ class ExpectedRivals {
   private:
     /// Sets of sequences whose places differ: all of two or more.
     static constexpr std::size_t kSets = 11;
-    /// Lines that such rivals may share in a row; those that share more are looked at one by one.
     static constexpr std::size_t kMostShared = 4;
 
     using ByShift = std::array<float, kSections>;
@@ -36,6 +36,7 @@ class ExpectedRivals {
             shared{};  ///< shift 0, by the number of lines shared in a row
     };
 
+    std::size_t most_shared_;
     std::array<Set, kSets> sets_;
     bool is_first_ = true;
 };

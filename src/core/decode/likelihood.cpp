@@ -22,6 +22,16 @@ Extent extent(int least, int most, int capacity) {
 
 }  // namespace
 
+void lay_out(Vec least, Vec most, Grid& grid) {
+    const Extent columns = extent(least.x, most.x, grid.side);
+    const Extent rows = extent(least.y, most.y, grid.side);
+    grid.i0 = columns.first;
+    grid.columns = columns.count;
+    grid.j0 = rows.first;
+    grid.rows = rows.count;
+    std::fill_n(grid.storage.begin(), grid.columns * grid.rows, GridCell{});
+}
+
 std::int8_t quasi_probability(std::int32_t projection_q16) {
     const int r_q8 = projection_q16 * 256 / kNominal_q16;  // r / r0
     if (r_q8 * r_q8 >= 3 * 65536) return 0;
@@ -42,13 +52,7 @@ Status assign_likelihoods(std::span<const Dot> dots, const PlaneFromImage& grid_
     if (dots.empty() || most.x - least.x + 1 < kWindowSide || most.y - least.y + 1 < kWindowSide) {
         return Status::grid_too_small;
     }
-    const Extent columns = extent(least.x, most.x, grid.side);
-    const Extent rows = extent(least.y, most.y, grid.side);
-    grid.i0 = columns.first;
-    grid.columns = columns.count;
-    grid.j0 = rows.first;
-    grid.rows = rows.count;
-    std::fill_n(grid.storage.begin(), grid.columns * grid.rows, GridCell{});
+    lay_out(least, most, grid);
 
     for (std::size_t d = 0; d < dots.size(); ++d) {
         const GridPoint g = grid_point(grid_from_image, dots[d].centre_q8);

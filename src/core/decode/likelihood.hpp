@@ -9,6 +9,9 @@ namespace dotpose::core {
 /// The quasi-probability f(r) of eq. 9 for a projected offset, in 1/127, in [-127, 127].
 std::int8_t quasi_probability(std::int32_t projection_q16);
 
+/// Empties the grid and lays it over the cells from `least` to `most`, or the middle ones of them.
+void lay_out(Vec least, Vec most, Grid& grid);
+
 /// Fills the matrices P of Fig. 8 from all dots. Only the middle `grid.side` cells per axis are
 /// kept of a larger grid. Errors: grid_too_small.
 Status assign_likelihoods(std::span<const Dot> dots, const PlaneFromImage& grid_from_image,

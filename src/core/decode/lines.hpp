@@ -27,9 +27,13 @@ Lines score_lines(const Upright& upright, Axis axis, std::span<LineScores> stora
 
 /// What one axis was read as.
 struct AxisReading {
-    std::uint32_t position = 0;  ///< of the first line
-    std::uint8_t roll = 0;       ///< of the first line, at the first cell of the crossing lines
-    std::int32_t score = 0;      ///< sum over all lines
+    std::uint32_t position = 0;      ///< of the first line
+    std::uint8_t roll = 0;           ///< of the first line, at the first cell of the crossing lines
+    std::int32_t score = 0;          ///< sum over all lines
+    std::int32_t most_possible = 0;  ///< sum of the best scores of each line by itself
+
+    /// No other reading can come near one that has almost all that there is to be had.
+    bool is_clear() const { return 8 * std::int64_t{score} > 7 * std::int64_t{most_possible}; }
 };
 
 }  // namespace dotpose::core

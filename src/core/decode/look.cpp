@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 
+#include "core/decode/likelihood.hpp"
 #include "core/plane.hpp"
 
 namespace dotpose::core {
@@ -74,8 +75,8 @@ std::optional<CellView> look_at(const ImageView& image, const PlaneFromImage& pl
         const Vec place{cell.x * 65536 + dx(symbol) * way_q16,
                         cell.y * 65536 + dy(symbol) * way_q16};
         const std::optional<int> level = level_q4(image, image_point_q8(plane, place));
-        if (!level) return {};
-        levels[i] = *level;
+        if (!level && i < 4) return {};
+        levels[i] = level.value_or(paper);
         paper = std::max(paper, *level);
     }
     CellView view;
@@ -112,16 +113,34 @@ int typical_contrast_q8(const ImageView& image, const PlaneFromImage& plane, Gri
     return std::max(median(std::span(values).first(count)), 1);
 }
 
+/// The cells between the outermost points of the image's border.
+void cover_image(const ImageView& image, const PlaneFromImage& plane, Grid& grid) {
+    Vec least{INT32_MAX, INT32_MAX};
+    Vec most{INT32_MIN, INT32_MIN};
+    constexpr int kPerSide = 4;
+    for (int n = 0; n <= kPerSide; ++n) {
+        for (int m = 0; m <= kPerSide; ++m) {
+            const Vec point_q8{image.width_px * 256 / kPerSide * n,
+                               image.height_px * 256 / kPerSide * m};
+            const Vec cell = grid_point(plane, point_q8).cell;
+            least = {std::min(least.x, cell.x), std::min(least.y, cell.y)};
+            most = {std::max(most.x, cell.x), std::max(most.y, cell.y)};
+        }
+    }
+    lay_out(least, most, grid);
+}
+
 }  // namespace
 
 void look_at_cells(const ImageView& image, const PlaneFromImage& plane, Grid& grid) {
+    cover_image(image, plane, grid);
     const int contrast = typical_contrast_q8(image, plane, grid);
     visit(image, plane, grid, [&](GridCell& cell, const CellView& view) {
         const auto [up, left, right, down] = view.darkness_q8;
         // Graphics are darker than dots, whose ink is spread by blur; a cell that they touch says
         // nothing.
         if (std::max({up, left, right, down, view.darkest_around_q8}) > 2 * contrast) {
-            cell = GridCell{};
+            cell.dot = GridCell::kHidden;
             return;
         }
         const auto weight = [&](int one, int zero) {

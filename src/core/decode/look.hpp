@@ -8,8 +8,8 @@
 
 namespace dotpose::core {
 
-/// Sets the weights of the bits of all cells of the grid that lie within the image; the dots found
-/// in them are kept for the pose.
+/// Lays the grid over the whole image and sets the weights of the bits of all its cells, or of the
+/// middle `grid.side` ones per axis. Cells near the border and those under graphics stay without.
 void look_at_cells(const ImageView& image, const PlaneFromImage& grid_from_image, Grid& grid);
 
 }  // namespace dotpose::core

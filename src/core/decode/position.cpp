@@ -81,6 +81,7 @@ Status decode_all(const Grid& grid, Profile profile, std::span<LineScores> stora
         best = x.score + y.score;
         status = Status::ok;
         set_place(profile, upright, turn, x, y, decoding);
+        if (x.is_clear() && y.is_clear()) break;
     }
     return status;
 }

@@ -10,11 +10,13 @@
 namespace dotpose::core {
 namespace {
 
-/// Odds below 2^-80 are not followed up, but still counted, at this value.
-constexpr int kNegligible_q8 = -80 * 256;
-constexpr float kNegligible = 8.3e-25F;
+/// Odds below 2^-64 are not followed up, but still counted, at this value.
+constexpr int kNegligible_q8 = -64 * 256;
+constexpr float kNegligible = 5.5e-20F;
 /// Consecutive lines that distinct positions can share: one more, and five differences are equal.
-constexpr int kSharedLines = code::kOrder;
+constexpr int kMostShared = code::kOrder;
+/// Odds at which a closer look at the rivals changes nothing any more.
+constexpr float kFarBelowDoubt = 1e-12F;
 static_assert(4 * code::kA3.size() >= kMaxLines, "steps back from any line stay positive");
 
 /// One reading against its rivals.
@@ -22,9 +24,9 @@ class Contest {
   public:
     Contest(Profile profile, const Lines& lines, const AxisReading& reading, int odds_q8);
 
-    float sum_of_far_rivals() const;
+    float sum_of_far_rivals(int shared_lines) const;
     float sum_of_single_rivals() const;
-    float sum_of_near_rivals() const;
+    float sum_of_near_rivals(int shared_lines) const;
     float sum_of_other_sections() const;
 
   private:
@@ -37,7 +39,9 @@ class Contest {
         return lines_[line][static_cast<std::size_t>(own)] -
                lines_[line][static_cast<std::size_t>(other)];
     }
-    int log2_odds_q8(int lost) const { return -(lost * odds_per_bit_q8_ / (2 * 127)); }
+    int log2_odds_q8(int lost) const {
+        return static_cast<int>(-std::int64_t{lost} * odds_per_bit_q8_ / (2 * 127));
+    }
     /// Odds of a rival, against the reading, that has lost so much score.
     float odds(int lost) const {
         const int log2_q8 = std::max(log2_odds_q8(lost), kNegligible_q8);
@@ -49,7 +53,7 @@ class Contest {
     }
     float odds_of_growth(const std::array<std::int16_t, kMaxLines>& growth, int shared) const;
     int difference(const Places& own, const Places& rival, int step) const;
-    float odds_of(const Places& own, const Places& rival, int run) const;
+    float odds_of(const Places& own, const Places& rival, int run, int shared_lines) const;
 
     const code::Basis& basis_;
     const Lines& lines_;
@@ -76,9 +80,9 @@ Contest::Contest(Profile profile, const Lines& lines, const AxisReading& reading
     }
 }
 
-/// Rivals whose place differs in two or more sequences and that share at most four lines in a row.
-float Contest::sum_of_far_rivals() const {
-    ExpectedRivals expected;
+/// Rivals whose place differs in two or more sequences and that share fewer lines in a row.
+float Contest::sum_of_far_rivals(int shared_lines) const {
+    ExpectedRivals expected(shared_lines - 1);
     std::array<float, kSections> line_odds;
     for (int line = 0; line < lines_.count(); ++line) {
         for (int shift = 0; shift < kSections; ++shift) {
@@ -158,11 +162,11 @@ int Contest::difference(const Places& own, const Places& rival, int step) const 
     return sum;
 }
 
-/// Odds of a rival that shares the five lines from `run` on.
-float Contest::odds_of(const Places& own, const Places& rival, int run) const {
+/// Odds of a rival that shares `shared_lines` lines from `run` on.
+float Contest::odds_of(const Places& own, const Places& rival, int run, int shared_lines) const {
     int lost = 0;
     int shift = 0;
-    for (int line = run + kSharedLines; line < lines_.count(); ++line) {
+    for (int line = run + shared_lines; line < lines_.count(); ++line) {
         shift = (shift + difference(own, rival, line - 1 - run)) % kSections;
         lost += loss(line, shift);
         if (is_hopeless(lost)) return kNegligible;
@@ -176,11 +180,13 @@ float Contest::odds_of(const Places& own, const Places& rival, int run) const {
     return odds(lost);
 }
 
-/// Rivals that share five or more consecutive lines: one by one, from the places in the secondary
-/// sequences at which the same four digits stand.
-float Contest::sum_of_near_rivals() const {
+/// Rivals that share that many consecutive lines, four or five, or more: one by one, from the
+/// places in the secondary sequences at which the digits of the three or four differences stand
+/// again.
+float Contest::sum_of_near_rivals(int shared_lines) const {
+    const auto order = static_cast<std::size_t>(shared_lines - 4);
     float sum = 0;
-    for (int run = 0; run + kSharedLines <= lines_.count(); ++run) {
+    for (int run = 0; run + shared_lines <= lines_.count(); ++run) {
         Places own;
         for (std::size_t k = 0; k < own.size(); ++k) {
             own[k] = (position_ + static_cast<std::uint32_t>(run)) % basis_[k].length;
@@ -188,10 +194,10 @@ float Contest::sum_of_near_rivals() const {
         Places rival = own;
         for (std::size_t k = 0; k < own.size();) {
             for (k = 0; k < own.size(); ++k) {
-                rival[k] = basis_[k].next_twins[rival[k]];
+                rival[k] = basis_[k].next_twins[order][rival[k]];
                 if (rival[k] != own[k]) break;
             }
-            if (k < own.size()) sum += odds_of(own, rival, run);
+            if (k < own.size()) sum += odds_of(own, rival, run, shared_lines);
         }
     }
     return sum;
@@ -219,10 +225,16 @@ int odds_per_bit_q8(const Confidence& confidence) {
 
 int rivals_log2(Profile profile, const Lines& lines, const AxisReading& reading,
                 int odds_per_bit_q8) {
-    if (odds_per_bit_q8 <= 0 || lines.count() <= kSharedLines) return 0;
+    if (odds_per_bit_q8 <= 0 || lines.count() <= kMostShared) return 0;
     const Contest contest(profile, lines, reading, odds_per_bit_q8);
-    const float sum = contest.sum_of_near_rivals() + contest.sum_of_single_rivals() +
-                      contest.sum_of_far_rivals() + contest.sum_of_other_sections();
+    const float always = contest.sum_of_single_rivals() + contest.sum_of_other_sections();
+    float sum = 0;
+    // The more rivals are looked at one by one, the fewer remain to be feared for their number.
+    for (const int shared_lines : {kMostShared, kMostShared - 1}) {
+        sum = always + contest.sum_of_near_rivals(shared_lines) +
+              contest.sum_of_far_rivals(shared_lines);
+        if (sum < kFarBelowDoubt) break;
+    }
     int exponent = 0;
     std::frexp(sum, &exponent);  // sum < 2^exponent
     return std::min(exponent, 0);

@@ -45,7 +45,7 @@ std::uint32_t previous(std::uint32_t p) {
 /// Sum over all lines for the hypothesis that line `line` stands at `position` with `roll`.
 AxisReading evaluate(Profile profile, const Lines& lines, int line, std::uint32_t position,
                      int roll) {
-    AxisReading reading{position, static_cast<std::uint8_t>(roll), 0};
+    AxisReading reading{position, static_cast<std::uint8_t>(roll), 0, 0};
     for (int i = line - 1; i >= 0; --i) {
         reading.position = previous(reading.position);
         reading.roll = static_cast<std::uint8_t>(
@@ -146,16 +146,16 @@ Status find_axis(Profile profile, const Lines& lines, AxisReading& best) {
         choices[static_cast<std::size_t>(i)] = best_choices(lines[i]);
         most_possible += choices[static_cast<std::size_t>(i)].scores[0];
     }
-    best = {0, 0, INT32_MIN};
+    best = {0, 0, INT32_MIN, 0};
     std::array<bool, kMaxLines> taken{};
     for (int run = 0; run < kMaxRuns; ++run) {
         const int first = clearest_run(choices.data(), lines.count(), length, taken);
         if (first < 0) break;
         taken[static_cast<std::size_t>(first)] = true;
         const Choices* run_choices = choices.data() + first;
-        // No other position can come near one that has almost all that there is to be had.
-        if (try_run(profile, lines, run_choices, first, length, best) &&
-            8 * std::int64_t{best.score} > 7 * std::int64_t{most_possible}) {
+        if (!try_run(profile, lines, run_choices, first, length, best)) continue;
+        best.most_possible = most_possible;
+        if (best.is_clear()) {
             break;
         }
     }

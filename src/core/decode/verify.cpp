@@ -33,7 +33,7 @@ Agreement compare(const Grid& grid, Turn pattern_from_grid, const Nominal& nomin
 
 AxisReading reading_of(Profile profile, std::uint32_t position, int section, std::uint32_t cross) {
     const int here = roll(profile, position) + section + static_cast<int>(cross % kSections);
-    return {position, static_cast<std::uint8_t>(here % kSections), 0};
+    return {position, static_cast<std::uint8_t>(here % kSections), 0, 0};
 }
 
 }  // namespace
@@ -58,15 +58,19 @@ Status verify(const Grid& grid, Profile profile, const Decoding& decoding, const
     fix.bit_errors = 0;
     int p_wrong_q8 = kNever_q8;
     bool one_pattern = true;
+    // Both axes are read from the same dots, and so are misread alike.
+    Confidence confidence;
+    const std::array<Agreement, 2> agreements{
+        compare(grid, decoding.pattern_from_grid, nominal, Axis::x, confidence),
+        compare(grid, decoding.pattern_from_grid, nominal, Axis::y, confidence)};
+    const int odds = odds_per_bit_q8(confidence);
     for (const Axis axis : {Axis::x, Axis::y}) {
-        Confidence confidence;
-        const Agreement agreement =
-            compare(grid, decoding.pattern_from_grid, nominal, axis, confidence);
+        const Agreement& agreement = agreements[axis == Axis::x ? 0 : 1];
         const AxisReading reading =
             axis == Axis::x ? reading_of(profile, place.cell.x, place.section.u, place.cell.y)
                             : reading_of(profile, place.cell.y, place.section.v, place.cell.x);
         const Lines lines = score_lines(upright, axis, storage);
-        const int rivals = rivals_log2(profile, lines, reading, odds_per_bit_q8(confidence));
+        const int rivals = rivals_log2(profile, lines, reading, odds);
         p_wrong_q8 = add_log2(p_wrong_q8, add_log2(256 * rivals, 256 * chance_log2(agreement)));
         fix.bit_errors += agreement.errors;
         one_pattern &= agreement.errors <= agreement.bits * options.max_bit_error_q8 / 256;

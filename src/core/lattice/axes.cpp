@@ -118,11 +118,17 @@ Status estimate_axes(std::span<const Edge> edges, Lattice& lattice) {
 }
 
 bool is_nearly_square(Vec u, Vec v) {
-    const std::int64_t uu = squared(u) >> 16;
-    const std::int64_t vv = squared(v) >> 16;
-    const std::int64_t area = cross(u, v) >> 16;
+    // Fourteen bits of the longer one are enough, and their fourth powers fit 64.
+    int shift = 0;
+    while (std::max({u.x, -u.x, u.y, -u.y, v.x, -v.x, v.y, -v.y}) >> shift >= 1 << 14)
+        ++shift;
+    u = {u.x >> shift, u.y >> shift};
+    v = {v.x >> shift, v.y >> shift};
+    const std::int64_t uu = squared(u);
+    const std::int64_t vv = squared(v);
+    const std::int64_t area = cross(u, v);
     // Lengths within 3:2, and the sine of the angle between at least 0.9.
-    return area > 0 && 4 * uu <= 9 * vv && 4 * vv <= 9 * uu && 100 * (area * area) >= 81 * uu * vv;
+    return area > 0 && 4 * uu <= 9 * vv && 4 * vv <= 9 * uu && 100 * (area * area / 81) >= uu * vv;
 }
 
 bool is_nearly_square(const PlaneFromImage& plane) {

@@ -21,6 +21,7 @@ bool is_intact(Neighbours neighbours, int start) {
     for (const std::int16_t side : sides) {
         for (const std::int16_t other : neighbours[static_cast<std::size_t>(side)]) {
             if (other < 0 || other == start || !counts(neighbours, other, side)) continue;
+            if (std::find(sides.begin(), sides.end(), other) != sides.end()) continue;
             int times_before = 0;
             for (std::size_t i = 0; i < reached_count; ++i)
                 times_before += reached[i] == other;

@@ -64,17 +64,6 @@ std::int16_t open_blob(int u, int v, OpenBlobs& open) {
     return static_cast<std::int16_t>(open.next_free);
 }
 
-/// Level of the paper at pixel u, times 16: linear between the middles of the tiles.
-int paper_q4(int u, const Light& light) {
-    const int doubled = 2 * u + 1 - light.tile_px;
-    const int tile = doubled < 0 ? 0 : doubled / (2 * light.tile_px);
-    const int next = std::min(tile + 1, light.tiles_per_band - 1);
-    const int a = light.levels[static_cast<std::size_t>(tile)].paper;
-    const int b = light.levels[static_cast<std::size_t>(next)].paper;
-    const int t = std::max(doubled - 2 * light.tile_px * tile, 0);
-    return 16 * a + (b - a) * t * 16 / (2 * light.tile_px);
-}
-
 void add_run(const Run& run, int v, const Light& light, OpenBlob& blob) {
     blob.last_v = static_cast<std::int16_t>(v);
     const int width = run.end - run.begin;
@@ -90,7 +79,8 @@ void add_run(const Run& run, int v, const Light& light, OpenBlob& blob) {
     const std::uint8_t* row = kept_row(light, v);
     for (int u = run.begin; u < run.end; ++u) {
         const Levels& level = light.levels[static_cast<std::size_t>(u / light.tile_px)];
-        const int weight = std::max(paper_q4(u, light) / 16 - row[u], 1);
+        // From the threshold, not from the paper: a pixel that just passes it moves nothing.
+        const int weight = level.extent - row[u];
         blob.mass += weight;
         blob.sum_x += weight * (u - blob.first_u);
         blob.sum_y += weight * (v - blob.first_v);

@@ -66,6 +66,7 @@ void begin_light(int width_px, int height_px, Light& light) {
                                                                             : kLargestTile_px;
     light.tiles_per_band = (width_px + light.tile_px - 1) / light.tile_px;
     light.rows_taken = 0;
+    light.has_contrast = false;
 }
 
 int take_row(const std::uint8_t* pixels, Light& light) {
@@ -92,10 +93,11 @@ void measure_levels(int band, const ThresholdOptions& options, Light& light) {
         const Tile near = surroundings(light, band, t);
         const int contrast = near.mean - near.darkest;
         Levels& level = levels[static_cast<std::size_t>(t)];
-        level = Levels{near.mean, 0, 0};
+        level = Levels{};
         if (contrast < options.min_contrast) continue;
         ++histogram[static_cast<std::size_t>(contrast * kContrastBins / (near.mean + 1))];
-        level.extent = 1;
+        level.paper = near.mean;
+        light.has_contrast = true;
         ++count;
     }
     int bin = 0;
@@ -104,7 +106,7 @@ void measure_levels(int band, const ThresholdOptions& options, Light& light) {
         if (10 * below > 3 * count) break;
     }
     for (Levels& level : levels) {
-        if (level.extent == 0) continue;
+        if (level.paper == 0) continue;
         const int depth_q8 = level.paper * (2 * bin + 1) * 256 / (2 * kContrastBins);
         level.extent =
             static_cast<std::uint8_t>(level.paper - depth_q8 * options.extent_q8 / 65536);

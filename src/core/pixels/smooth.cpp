@@ -9,8 +9,6 @@ namespace {
 
 constexpr int kReach = 2;
 constexpr int kRows = 2 * kReach + 1;
-/// A window of rows is two blocks high and may touch four.
-constexpr int kBlockRowsKept = 4;
 
 std::uint16_t* line(const Smoothing& smoothing, int v, int width_px) {
     return smoothing.lines.data() + static_cast<std::ptrdiff_t>(v % kRows) * width_px;
@@ -50,10 +48,10 @@ int half_side(int at, int length, int largest) {
 
 constexpr int kSamplesPerSide = 12;
 
-/// Level of the paper in one block: of the brighter third of its pixels, which dots, and strokes
-/// over half of it, leave as it is.
-int paper_of_block(const ImageView& image, int u0, int v0, int side) {
-    std::array<std::int32_t, kSamplesPerSide * kSamplesPerSide> levels;
+/// Level that a third of the pixels of one block exceed: of its paper, unless strokes cover most of
+/// it.
+std::uint8_t paper_of_block(const ImageView& image, int u0, int v0, int side) {
+    std::array<std::uint8_t, kSamplesPerSide * kSamplesPerSide> levels{};
     std::size_t count = 0;
     const int step = std::max(side / kSamplesPerSide, 1);
     for (int v = v0; v < std::min(v0 + kSamplesPerSide * step, image.height_px); v += step) {
@@ -66,27 +64,38 @@ int paper_of_block(const ImageView& image, int u0, int v0, int side) {
     return *third;
 }
 
-/// Adds a row to the sums of the columns, or takes it off again. What is much darker than the paper
-/// of its block counts as paper: strokes of graphics are no shadow.
-void add_row(const ImageView& image, int v, bool add, Smoothing& smoothing) {
-    const int side = smoothing.block_px;
-    const int block_row = v / side;
-    const int blocks = (image.width_px - 1) / side + 1;
-    std::uint8_t* papers =
-        smoothing.papers.data() + static_cast<std::ptrdiff_t>(block_row % kBlockRowsKept) * blocks;
-    if (block_row == smoothing.block_rows) {
-        for (int b = 0; b < blocks; ++b) {
-            papers[b] =
-                static_cast<std::uint8_t>(paper_of_block(image, b * side, block_row * side, side));
+int blocks_along(int length_px, int side) {
+    return (length_px - 1) / side + 1;
+}
+
+/// The brightest paper of a block and those around it.
+int paper_near(const ImageView& image, int block, int block_row, const Smoothing& smoothing) {
+    const int columns = blocks_along(image.width_px, smoothing.block_px);
+    const int rows = blocks_along(image.height_px, smoothing.block_px);
+    int brightest = 0;
+    for (int r = std::max(block_row - 1, 0); r <= std::min(block_row + 1, rows - 1); ++r) {
+        for (int c = std::max(block - 1, 0); c <= std::min(block + 1, columns - 1); ++c) {
+            brightest = std::max(brightest,
+                                 int{smoothing.papers[static_cast<std::size_t>(r * columns + c)]});
         }
-        ++smoothing.block_rows;
     }
+    return brightest;
+}
+
+/// Adds a row to the sums of the columns, or takes it off again. What is much darker than the paper
+/// around counts as paper: strokes of graphics are no shadow.
+void add_row(const ImageView& image, int v, bool add, Smoothing& smoothing) {
     const std::uint8_t* row = image.row(v);
-    for (int u = 0; u < image.width_px; ++u) {
-        const int paper = papers[u / side];
-        const auto level = static_cast<std::uint32_t>(row[u] < paper * 3 / 4 ? paper : int{row[u]});
-        std::uint32_t& sum = smoothing.column_sums[static_cast<std::size_t>(u)];
-        sum = add ? sum + level : sum - level;
+    for (int begin = 0; begin < image.width_px; begin += smoothing.block_px) {
+        const int paper =
+            paper_near(image, begin / smoothing.block_px, v / smoothing.block_px, smoothing);
+        const int end = std::min(begin + smoothing.block_px, image.width_px);
+        for (int u = begin; u < end; ++u) {
+            const auto level =
+                static_cast<std::uint32_t>(10 * row[u] < 7 * paper ? paper : int{row[u]});
+            std::uint32_t& sum = smoothing.column_sums[static_cast<std::size_t>(u)];
+            sum = add ? sum + level : sum - level;
+        }
     }
 }
 
@@ -128,10 +137,15 @@ void begin_smoothing(const ImageView& image, Smoothing& smoothing) {
     smoothing.lines_ready = 0;
     smoothing.rows_given = 0;
     smoothing.block_px = std::min(image.width_px, image.height_px) / 10;
-    smoothing.block_rows = 0;
     smoothing.sums_begin = 0;
     smoothing.sums_end = 0;
     std::fill_n(smoothing.column_sums.begin(), image.width_px, 0U);
+    std::size_t block = 0;
+    for (int v = 0; v < image.height_px; v += smoothing.block_px) {
+        for (int u = 0; u < image.width_px; u += smoothing.block_px) {
+            smoothing.papers[block++] = paper_of_block(image, u, v, smoothing.block_px);
+        }
+    }
 }
 
 const std::uint8_t* next_smooth_row(const ImageView& image, Smoothing& smoothing) {

@@ -89,22 +89,34 @@ class Normal {
     std::array<Row, kMost> m_{};
 };
 
-/// Derivatives of (x, y, theta) at the reference point by the parameters.
-std::array<Row, 3> pose_gradients(const PlaneFromImage& plane, Vec reference_q8) {
-    const Jacobian here = jacobian(plane, reference_q8);
-    // theta is the direction of the step from one point to another on the image x axis.
-    constexpr std::int32_t kStep_q8 = 8 * 256;
-    const Vec left{reference_q8.x - kStep_q8, reference_q8.y};
-    const Vec right{reference_q8.x + kStep_q8, reference_q8.y};
-    const Vec step_q16 = plane_point_q16(plane, right) - plane_point_q16(plane, left);
+/// Derivatives, by the parameters, of the direction in which a step in the image leads.
+Row direction_gradient(const PlaneFromImage& plane, Vec reference_q8, Vec step_q8) {
+    const Vec behind = reference_q8 - step_q8;
+    const Vec ahead = reference_q8 + step_q8;
+    const Vec step_q16 = plane_point_q16(plane, ahead) - plane_point_q16(plane, behind);
     const float x = static_cast<float>(step_q16.x) / 65536.0F;
     const float y = static_cast<float>(step_q16.y) / 65536.0F;
-    const Jacobian from = jacobian(plane, left);
-    const Jacobian to = jacobian(plane, right);
-    Row theta;
-    for (std::size_t i = 0; i < theta.size(); ++i) {
-        theta[i] = (x * (to[1][i] - from[1][i]) - y * (to[0][i] - from[0][i])) / (x * x + y * y);
+    const Jacobian from = jacobian(plane, behind);
+    const Jacobian to = jacobian(plane, ahead);
+    Row gradient;
+    for (std::size_t i = 0; i < gradient.size(); ++i) {
+        gradient[i] = (x * (to[1][i] - from[1][i]) - y * (to[0][i] - from[0][i])) / (x * x + y * y);
     }
+    return gradient;
+}
+
+/// Derivatives of (x, y, theta) at the reference point by the parameters. Theta is the direction of
+/// the image x axis; as far as shear was taken out, that of both axes, weighted as in the fit.
+std::array<Row, 3> pose_gradients(const PlaneFromImage& plane, Vec reference_q8,
+                                  const FitQuality& quality) {
+    constexpr std::int32_t kStep_q8 = 8 * 256;
+    const Jacobian here = jacobian(plane, reference_q8);
+    Row theta = direction_gradient(plane, reference_q8, {kStep_q8, 0});
+    const Row across = direction_gradient(plane, reference_q8, {0, kStep_q8});
+    const float share =
+        static_cast<float>((256 - quality.sheared_q8) * (256 - quality.spread_u_q8)) / 65536.0F;
+    for (std::size_t i = 0; i < theta.size(); ++i)
+        theta[i] += share * (across[i] - theta[i]);
     return {here[0], here[1], theta};
 }
 
@@ -130,7 +142,7 @@ void estimate_covariance(const Observations& observations, const FitQuality& qua
         static_cast<float>(squared_residuals) / 4294967296.0F / static_cast<float>(freedom);
     fix.residual_px = std::sqrt(variance) * static_cast<float>(fix.spacing_px_q16) / 65536.0F;
     if (!normal.decompose()) return;
-    std::array<Row, 3> gradients = pose_gradients(pattern_from_image, reference_q8);
+    std::array<Row, 3> gradients = pose_gradients(pattern_from_image, reference_q8, quality);
     for (Row& row : gradients)
         row = normal.whitened(row);
     for (std::size_t i = 0; i < 3; ++i) {

@@ -31,7 +31,7 @@ class Observations {
         for (int j = grid_.j0; j < grid_.j0 + grid_.rows; ++j) {
             for (int i = grid_.i0; i < grid_.i0 + grid_.columns; ++i) {
                 const GridCell& cell = grid_.at(i, j);
-                if (cell.dot == GridCell::kNoDot) continue;
+                if (!cell.has_dot()) continue;
                 const Vec step = nominal_.pattern_step({i, j});
                 use(Observation{dots_[cell.dot].centre_q8, step, nominal_.symbol(step)});
             }

@@ -34,6 +34,76 @@ std::int32_t measure_displacement(const Observations& observations, const PlaneF
     return displacements.take_median();
 }
 
+/// Sums over the dots of squared coordinates about their mean, and the mean.
+struct Spread {
+    Vec mean_q8;
+    std::int64_t xx = 0;
+    std::int64_t yy = 0;
+};
+
+template <typename Visit>
+Spread spread_of(Visit visit) {
+    std::int64_t n = 0;
+    std::int64_t x = 0;
+    std::int64_t y = 0;
+    visit([&](Vec p, Vec) {
+        ++n;
+        x += p.x;
+        y += p.y;
+    });
+    Spread spread;
+    spread.mean_q8 = {static_cast<std::int32_t>(x / n), static_cast<std::int32_t>(y / n)};
+    visit([&](Vec p, Vec) {
+        const Vec d = p - spread.mean_q8;
+        spread.xx += (std::int64_t{d.x} * d.x) >> 8;
+        spread.yy += (std::int64_t{d.y} * d.y) >> 8;
+    });
+    return spread;
+}
+
+/// The plane with the slopes of a plain rotation and scale, or part of the way there; what lies at
+/// the mean of the dots stays.
+PlaneFromImage without_shear(const PlaneFromImage& plane, const Spread& spread, int sheared_q8) {
+    const std::int64_t total = std::max<std::int64_t>((spread.xx + spread.yy) >> 16, 1);
+    const std::int64_t xx = spread.xx >> 16;
+    const std::int64_t yy = spread.yy >> 16;
+    // Least squares: each axis counts as much as the dots spread along it.
+    const Vec du = plane.du_q24;
+    const Vec dv = plane.dv_q24;
+    const Vec along{static_cast<std::int32_t>((xx * du.x + yy * dv.y) / total),
+                    static_cast<std::int32_t>((xx * du.y - yy * dv.x) / total)};
+    const auto blend = [&](std::int32_t straight, std::int32_t sheared) {
+        return straight +
+               static_cast<std::int32_t>((std::int64_t{sheared} - straight) * sheared_q8 / 256);
+    };
+    PlaneFromImage result = plane;
+    result.du_q24 = {blend(along.x, du.x), blend(along.y, du.y)};
+    result.dv_q24 = {blend(-along.y, dv.x), blend(along.x, dv.y)};
+    result.at_centre_q16 = result.at_centre_q16 + plane_point_q16(plane, spread.mean_q8) -
+                           plane_point_q16(result, spread.mean_q8);
+    return result;
+}
+
+/// Cameras have square pixels and sheets equal scales, nearly: shear is kept only in the share that
+/// is more than chance, as the further terms are in fit_plane. Angle and position gain.
+template <typename Visit>
+void shrink_shear(Visit visit, const FittedPlane& fitted, PlaneFromImage& pose,
+                  FitQuality& quality) {
+    const Spread spread = spread_of(visit);
+    const PlaneFromImage straight = without_shear(fitted.plane, spread, 0);
+    std::int64_t squared_residuals = 0;
+    visit([&](Vec point_q8, Vec target) {
+        squared_residuals += squared(plane_point_q16(straight, point_q8) - target);
+    });
+    const int freedom = std::max(2 * fitted.points - static_cast<int>(parameters(fitted.terms)), 1);
+    const std::int64_t gain = squared_residuals - fitted.squared_residuals;
+    const std::int64_t by_chance = 2 * fitted.squared_residuals / freedom;
+    quality.sheared_q8 = gain <= by_chance ? 0 : static_cast<int>(256 - by_chance * 256 / gain);
+    quality.spread_u_q8 =
+        static_cast<int>(spread.xx / std::max<std::int64_t>((spread.xx + spread.yy) >> 8, 1));
+    pose = without_shear(fitted.plane, spread, quality.sheared_q8);
+}
+
 }  // namespace
 
 bool refine_pose(const Observations& observations, PlaneFromImage& pose, FitQuality& quality) {
@@ -58,8 +128,8 @@ bool refine_pose(const Observations& observations, PlaneFromImage& pose, FitQual
             });
         };
         if (!fit_plane(pose, Terms::lens, visit_kept, fitted)) return false;
-        pose = fitted.plane;
         quality.terms = fitted.terms;
+        shrink_shear(visit_kept, fitted, pose, quality);
     }
     return true;
 }

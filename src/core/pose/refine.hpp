@@ -13,6 +13,11 @@ namespace dotpose::core {
 struct FitQuality {
     Terms terms = Terms::affine;
     std::int32_t displacement_q16 = 0;  ///< as seen, in spacings
+    /// Share, in 1/256, of what the two image axes show of shear and unequal scale; 0: none is
+    /// kept.
+    int sheared_q8 = 256;
+    /// Spread of the dots along u, in 1/256 of that along u and v (sums of squares).
+    int spread_u_q8 = 128;
     std::int64_t residual_limit = 0;  ///< squared, 2^-30 spacing^2: dots farther off were left out
 };
 

@@ -1,5 +1,13 @@
-#include <dotpose/status.hpp>
+#include <cstdio>
+#include <vector>
 
+#include <dotpose/locate.hpp>
+
+// A blank frame through the whole public interface: it links, runs, and says why there is no fix.
 int main() {
-    return 0;
+    static dotpose::SmallWorkspace workspace;
+    const std::vector<std::uint8_t> pixels(188 * 120, 200);
+    const dotpose::Fix fix = dotpose::locate({pixels.data(), 188, 120, 188}, {}, workspace);
+    std::printf("%s: %s\n", dotpose::name(fix.status), dotpose::message(fix.status));
+    return fix.status == dotpose::Status::no_contrast ? 0 : 1;
 }

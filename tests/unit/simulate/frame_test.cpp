@@ -183,13 +183,13 @@ TEST(Preset, RangesAreThoseOfTheTable) {
     int with_graphics = 0;
     int nominal_dirt = 0;
     for (int i = 0; i < 2000; ++i) {
-        const Imperfections nominal = draw(Preset::nominal, rng);
+        const Imperfections nominal = draw_imperfections(Preset::nominal, rng);
         EXPECT_TRUE(nominal.paper_level >= 150 && nominal.paper_level <= 220);
         EXPECT_TRUE(nominal.blur_sigma_px >= 0.4 && nominal.blur_sigma_px <= 0.7);
         EXPECT_LE(std::hypot(nominal.motion_px.x, nominal.motion_px.y), 0.5);
         EXPECT_EQ(nominal.graphics, 0);
         nominal_dirt += nominal.dirt_blobs;
-        const Imperfections hard = draw(Preset::hard, rng);
+        const Imperfections hard = draw_imperfections(Preset::hard, rng);
         EXPECT_TRUE(hard.noise_sigma >= 4 && hard.noise_sigma <= 9);
         EXPECT_LE(std::abs(hard.tilt_x_rad), radians(3));
         EXPECT_EQ(hard.dirt_blobs, 3);

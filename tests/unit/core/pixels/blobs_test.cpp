@@ -250,9 +250,9 @@ Flood flood(GreyImage& image, int u, int v) {
 }
 
 bool is_at(const Dot& dot, const Flood& blob) {
-    // Weights vary with the level of the paper around, over at most the blob's size.
+    // Weights vary with the threshold from tile to tile, over at most the blob's size.
     const double size = std::max(blob.right - blob.left, blob.bottom - blob.top) + 1;
-    return dot.area_px == blob.area && length(real(dot.centre_q8, 8) - blob.centre) <= 0.05 * size;
+    return dot.area_px == blob.area && length(real(dot.centre_q8, 8) - blob.centre) <= 0.1 * size;
 }
 
 void compare_with_flooding(GreyImage image) {

@@ -1,0 +1,258 @@
+#include "dotpose/evaluate.hpp"
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "common.hpp"
+#include "progress.hpp"
+
+namespace dotpose::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  dotpose evaluate frames                  frames against the poses in frames/truth.csv\n"
+    "  dotpose evaluate --preset hard           simulated frames; nothing is written\n"
+    "  dotpose evaluate --sweep noise -o out    success and error over the noise: CSV and SVG\n"
+    "  dotpose evaluate --protocol paper -o out the paper's own experiment, simulated\n\n"
+    "A fix that is off by more than half a grid spacing or 2 degrees, or in another section, is\n"
+    "wrong; errors are those of the others. Exit status 1 if truth.csv or an image cannot be\n"
+    "read, 2 for wrong usage.\n";
+
+/// Of the paper, section IV.
+struct PaperProtocol {};
+constexpr std::array kProtocols = {PaperProtocol{}};
+const char* name(PaperProtocol) {
+    return "paper";
+}
+
+struct EvaluateArguments {
+    std::string folder;
+    std::optional<Preset> preset;
+    std::optional<SweepKind> sweep;
+    bool protocol = false;
+    std::string out;
+    std::optional<int> frames;
+    Setup setup;
+    Options options;
+    double spacing_mm = kDefaultSpacing_mm;
+    bool spacing_given = false;
+    bool code_given = false;
+    int threads = 0;
+    bool json = false;
+};
+
+Progress progress_on(ProgressLine& line) {
+    return [&line](int done, int total) {
+        line.update(done, total);
+        return !interrupted();
+    };
+}
+
+nlohmann::ordered_json json_of(const Quantiles& quantiles) {
+    return {{"median", quantiles.median}, {"p95", quantiles.p95}, {"max", quantiles.max}};
+}
+
+/// What is no number, for want of frames, becomes null.
+nlohmann::ordered_json json_of(const Score& score) {
+    nlohmann::ordered_json statuses = nlohmann::ordered_json::object();
+    for (std::size_t i = 1; i < score.by_status.size(); ++i) {
+        if (score.by_status[i] > 0) {
+            statuses[dotpose::name(static_cast<Status>(i))] = score.by_status[i];
+        }
+    }
+    return {
+        {"frames", score.frames},
+        {"unreadable", score.unreadable},
+        {"located", score.located},
+        {"located_share", score.located_share()},
+        {"wrong", score.wrong},
+        {"not_located", statuses},
+        {"position_um", json_of(score.position_um)},
+        {"angle_deg", json_of(score.angle_deg)},
+        {"normalised_squared_error",
+         {{"x", score.normalised[0]}, {"y", score.normalised[1]}, {"theta", score.normalised[2]}}},
+        {"largest_p_wrong", score.largest_p_wrong},
+        {"elapsed_us", json_of(score.elapsed_us)}};
+}
+
+void print_score(const Score& score, bool as_json) {
+    if (as_json) {
+        fmt::print("{}\n", json_of(score).dump(2));
+        return;
+    }
+    for (const auto& [what, value] : described(score))
+        fmt::print("{:<44}{}\n", what, value);
+}
+
+/// Returns the exit status.
+int report(const std::vector<Outcome>& outcomes, bool as_json) {
+    int exit_code = 0;
+    for (const Outcome& outcome : outcomes) {
+        if (outcome.problem.empty()) continue;
+        fmt::print(stderr, "dotpose: {}\n", outcome.problem);
+        exit_code = kExitFailed;
+    }
+    print_score(score_of(outcomes), as_json);
+    return exit_code;
+}
+
+int evaluate_run(const EvaluateArguments& arguments, const std::string& what, FrameRun& run) {
+    ProgressLine line("evaluating " + what);
+    run.options = {arguments.options};
+    run.threads = arguments.threads;
+    run.progress = progress_on(line);
+    return report(evaluate(run).front(), arguments.json);
+}
+
+int evaluate_folder(const EvaluateArguments& arguments) {
+    const fs::path folder = arguments.folder;
+    const auto spacing_mm =
+        arguments.spacing_given ? std::optional(arguments.spacing_mm) : std::nullopt;
+    std::vector<TruthRow> rows = read_truth(folder / "truth.csv", spacing_mm);
+    if (arguments.code_given) {
+        for (TruthRow& row : rows)
+            row.profile = arguments.options.profile;
+    }
+    FrameRun run;
+    run.frames = static_cast<int>(rows.size());
+    run.frame_at = frames_of_folder(folder, std::move(rows));
+    return evaluate_run(arguments, arguments.folder, run);
+}
+
+int evaluate_preset(const EvaluateArguments& arguments) {
+    FrameRun run;
+    run.frames = arguments.frames.value_or(1000);
+    run.frame_at = frames_of_setup(arguments.setup);
+    return evaluate_run(arguments, fmt::format("preset {}", dotpose::name(*arguments.preset)), run);
+}
+
+void make_folder(const fs::path& folder) {
+    std::error_code failed;
+    fs::create_directories(folder, failed);
+    if (failed) throw Error("cannot create " + folder.string() + ": " + failed.message());
+}
+
+int evaluate_sweep(const EvaluateArguments& arguments) {
+    make_folder(arguments.out);
+    const std::string kind = dotpose::name(*arguments.sweep);
+    ProgressLine line("evaluating " + kind);
+    SweepOptions options;
+    options.setup = arguments.setup;
+    options.frames_per_value = arguments.frames.value_or(options.frames_per_value);
+    options.locate = arguments.options;
+    options.threads = arguments.threads;
+    options.progress = progress_on(line);
+    write_sweep(arguments.out, run_sweep(*arguments.sweep, options));
+    fmt::print("{0}/sweep-{1}.csv, {0}/sweep-{1}.svg\n", arguments.out, kind);
+    return 0;
+}
+
+int evaluate_protocol(const EvaluateArguments& arguments) {
+    make_folder(arguments.out);
+    ProgressLine line("evaluating the paper's protocol");
+    ProtocolOptions options;
+    options.setup = arguments.setup;
+    options.samples = arguments.frames.value_or(options.samples);
+    options.locate = arguments.options;
+    options.threads = arguments.threads;
+    options.progress = progress_on(line);
+    const Protocol protocol = run_protocol(options);
+    write_protocol(arguments.out, protocol);
+    fmt::print(
+        "{}\n{}: table-3.md, figure-13.svg, figure-14.svg, figure-15.svg, positions.csv, "
+        "angles.csv\n",
+        table_3(protocol), arguments.out);
+    return 0;
+}
+
+int run(EvaluateArguments& arguments) {
+    const bool writes = arguments.sweep || arguments.protocol;
+    const bool has_folder = !arguments.folder.empty();
+    // A preset alone is a job; with a sweep or the protocol it says in which conditions.
+    const int jobs = static_cast<int>(has_folder) + static_cast<int>(arguments.sweep.has_value()) +
+                     static_cast<int>(arguments.protocol) +
+                     static_cast<int>(arguments.preset && !writes);
+    if (jobs != 1 || (has_folder && arguments.preset)) {
+        throw BadArgument("name one thing to evaluate: DIR, --preset, --sweep or --protocol");
+    }
+    if (writes && arguments.out.empty()) throw BadArgument("name a folder for the results: -o DIR");
+    if (writes && arguments.json) throw BadArgument("--json is for DIR and --preset only");
+    if (has_folder && arguments.frames) throw BadArgument("--frames is for simulated frames only");
+    arguments.setup.preset = arguments.preset.value_or(Preset::nominal);
+    Pattern& pattern = arguments.setup.pattern;
+    pattern.profile = arguments.options.profile;
+    pattern.spacing_mm = arguments.spacing_mm;
+    pattern.displacement_mm = pattern.dot_mm = arguments.spacing_mm / 6;
+    arguments.setup.camera.k = arguments.options.lens.k_q40 * 0x1p-40;
+    catch_interrupts();
+    if (has_folder) return evaluate_folder(arguments);
+    if (arguments.sweep) return evaluate_sweep(arguments);
+    if (arguments.protocol) return evaluate_protocol(arguments);
+    return evaluate_preset(arguments);
+}
+
+void add_jobs(CLI::App& command, const std::shared_ptr<EvaluateArguments>& arguments) {
+    command.add_option("folder", arguments->folder, "Folder with images and their truth.csv")
+        ->type_name("DIR");
+    add_named(command, "--preset", kPresets, "", "Simulate frames in these conditions",
+              [arguments](Preset preset) { arguments->preset = preset; });
+    add_named(command, "--sweep", kSweepKinds, "", "Worsen one condition step by step",
+              [arguments](SweepKind kind) { arguments->sweep = kind; });
+    add_named(command, "--protocol", kProtocols, "", "Simulate a published experiment",
+              [arguments](PaperProtocol) { arguments->protocol = true; });
+    command.add_option("-o,--out", arguments->out, "Folder for the results; made if missing")
+        ->type_name("DIR");
+    command
+        .add_option("--frames", arguments->frames,
+                    "How many; of a sweep for each value, of the protocol at each place")
+        ->type_name("N")
+        ->check(CLI::Range(1, 10'000'000))
+        ->default_str("1000, 200, 20");
+    command.add_option("--seed", arguments->setup.seed, "Another seed, other frames")
+        ->type_name("N")
+        ->capture_default_str();
+    add_size_option(command, arguments->setup.camera);
+}
+
+}  // namespace
+
+void add_evaluate(CLI::App& app, int& exit_code) {
+    const auto arguments = std::make_shared<EvaluateArguments>();
+    CLI::App* command =
+        app.add_subcommand("evaluate", "Measure how often and how well frames are located");
+    command->footer(kExamples);
+    add_jobs(*command, arguments);
+    add_named(*command, "--decoder", kDecoders, name(arguments->options.decoder),
+              "What the position is read from",
+              [arguments](Decoder decoder) { arguments->options.decoder = decoder; });
+    add_named(*command, "--effort", kEfforts, name(arguments->options.effort), "How hard to try",
+              [arguments](Effort effort) { arguments->options.effort = effort; });
+    add_code_option(*command, arguments->options.profile);
+    add_spacing_option(*command, arguments->spacing_mm);
+    add_lens_option(*command, arguments->options.lens);
+    command->get_option("--code")->default_str("as in truth.csv, or anoto");
+    command->get_option("--spacing")->default_str("as in truth.csv, or 0.508");
+    command
+        ->add_option("--threads", arguments->threads, "Results do not depend on it; 0: all cores")
+        ->type_name("N")
+        ->check(CLI::Range(0, 1024))
+        ->capture_default_str();
+    command->add_flag("--json", arguments->json, "Print one JSON object");
+    command->callback([arguments, command, &exit_code] {
+        arguments->spacing_given = command->count("--spacing") > 0;
+        arguments->code_given = command->count("--code") > 0;
+        exit_code = run(*arguments);
+    });
+}
+
+}  // namespace dotpose::cli

@@ -1,0 +1,18 @@
+// Measure: the exact centres of all dots from the image, once the code tells where to look. For the
+// second attempt, whose filter and threshold blur and miss dots.
+// differs: docs/differs-from-paper.md.
+#pragma once
+
+#include "core/decode/nominal.hpp"
+#include "dotpose/image.hpp"
+#include "dotpose/workspace.hpp"
+
+namespace dotpose::core {
+
+/// Replaces the dots found by those measured, one for each cell that shows one where it should be,
+/// and links the cells to them: Gaussian-windowed centroids (Bertin, SExtractor: XWIN), iterated
+/// from the nominal places. Returns the number of dots.
+int measure_dots(const ImageView& image, const PlaneFromImage& pattern_from_image,
+                 const Nominal& nominal, Grid& grid, std::span<Dot> dots);
+
+}  // namespace dotpose::core

@@ -1,0 +1,86 @@
+/// Plot: axes with ticks in a rectangle of a drawing, and curves over them.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "draw/svg.hpp"
+
+namespace dotpose::plot {
+
+using draw::Point;
+using draw::Svg;
+
+namespace style {
+inline constexpr double kFont = 15;
+inline constexpr double kTitleFont = 22;
+inline constexpr const char* kAll = draw::colour::kWindow;
+inline constexpr const char* kWindow = "#ffa726";
+inline constexpr const char* kAbove = "#c62828";  ///< found too far along the axis (paper: red)
+inline constexpr const char* kBelow = "#1565c0";  ///< (paper: blue)
+}  // namespace style
+
+/// The largest of 1, 2, 2.5 or 5 times a power of ten that divides `range` into at least `least`
+/// steps.
+double tick_step(double range, int least);
+
+/// 1, 1.5, 2, 2.5, 3, 4, 5, 6 or 8 times a power of ten, at least `value`.
+double rounded_up(double value);
+
+/// One axis: data to drawing units.
+struct Scale {
+    double first = 0;
+    double last = 1;
+    bool is_log = false;
+    double at_first = 0;  ///< drawing coordinate of `first`
+    double at_last = 1;
+
+    double at(double value) const;
+    std::vector<double> ticks(int least) const;
+};
+
+/// A rectangle with an x axis below and a y axis to the left.
+class Axes {
+  public:
+    struct Area {
+        double left = 0;
+        double top = 0;
+        double width = 0;
+        double height = 0;
+    };
+
+    Axes(Svg& svg, const Area& area, Scale x, Scale y);
+
+    /// Grid lines and numbers; the label stands above the axis, on the left.
+    void draw_y(std::string_view label) const;
+    void draw_x(std::string_view label) const;
+
+    Point at(double x, double y) const { return {x_.at(x), y_.at(y)}; }
+
+    struct Line {
+        const char* colour = draw::colour::kInk;
+        bool is_dashed = false;
+        bool has_marks = true;
+        bool is_wide = false;  ///< so that it shows under a curve that covers it
+    };
+    /// Points that are no numbers interrupt the curve.
+    void curve(std::span<const Point> data, const Line& line) const;
+    /// Fills the area between two curves over the same x.
+    void band(std::span<const Point> low, std::span<const Point> high, const char* colour) const;
+
+  private:
+    Svg& svg_;
+    Area area_;
+    Scale x_;
+    Scale y_;
+};
+
+/// A short line of a legend and what it stands for; returns the x where the next entry may start.
+double legend_entry(Svg& svg, Point at, const Axes::Line& line, std::string_view text);
+
+/// Width of a text of about this many letters.
+double text_width(std::string_view text, double font);
+
+}  // namespace dotpose::plot

@@ -1,0 +1,218 @@
+// The paper's experiment, section IV-A, with a simulated printer and camera.
+#include "evaluate/protocol.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace dotpose {
+namespace {
+
+using namespace evaluate_detail;
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+/// Pattern cell in the middle of the area: a place like any other.
+constexpr Cell kMiddle{10'000, 20'000};
+
+/// Where the device stands, and on what page.
+struct Stand {
+    Vec2 place_mm;
+    double theta_rad = 0;
+    const PrintModel* print = nullptr;  ///< none: a perfect page
+};
+
+/// What the print model does to the camera's view of the pattern: at the place p of the page lies
+/// the ink that was meant for p - shift(p), and the pattern is turned by the shift's gradient. The
+/// stretch within a frame is left out: at most 1 % over 8.6 mm.
+void place(CameraPose& pose, const Stand& stand, double spacing_mm) {
+    Vec2 pattern_mm = stand.place_mm;
+    pose.theta_rad = stand.theta_rad;
+    if (stand.print != nullptr) {
+        const Vec2 shift_mm = stand.print->shift_mm(stand.place_mm);
+        pattern_mm = {pattern_mm.x - shift_mm.x, pattern_mm.y - shift_mm.y};
+        constexpr double kStep_mm = 0.5;
+        const Vec2 along{std::cos(stand.theta_rad), std::sin(stand.theta_rad)};
+        const Vec2 ahead = stand.print->shift_mm(
+            {stand.place_mm.x + kStep_mm * along.x, stand.place_mm.y + kStep_mm * along.y});
+        pose.theta_rad = std::atan2(along.y - (ahead.y - shift_mm.y) / kStep_mm,
+                                    along.x - (ahead.x - shift_mm.x) / kStep_mm);
+    }
+    pose.cell = kMiddle;
+    const double x = pattern_mm.x / spacing_mm;
+    const double y = pattern_mm.y / spacing_mm;
+    pose.cell.x += static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(x)));
+    pose.cell.y += static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(y)));
+    pose.fraction_x = x - std::floor(x);
+    pose.fraction_y = y - std::floor(y);
+}
+
+/// Where the device was sent, as it would be on a perfect page.
+Truth sent_to(const Stand& stand, double spacing_mm) {
+    Truth truth;
+    truth.x_grid = kMiddle.x + stand.place_mm.x / spacing_mm;
+    truth.y_grid = kMiddle.y + stand.place_mm.y / spacing_mm;
+    truth.theta_rad = stand.theta_rad;
+    return truth;
+}
+
+Station station_of(const Stand& stand, std::span<const Outcome> outcomes) {
+    Station station;
+    station.place_mm = stand.place_mm;
+    station.theta_deg = stand.theta_rad * kDegrees;
+    std::vector<double> x_mm;
+    std::vector<double> y_mm;
+    std::vector<double> theta_deg;
+    for (const Outcome& outcome : outcomes) {
+        ++station.samples;
+        if (outcome.is_wrong()) ++station.wrong;
+        if (!outcome.is_fix() || outcome.is_wrong()) continue;
+        ++station.located;
+        const double spacing_mm = outcome.truth.spacing_mm;
+        // Right or wrong is judged by what is printed there, accuracy by where the device was sent.
+        const Deviation off = deviation_of(outcome.fix, sent_to(stand, spacing_mm));
+        x_mm.push_back(off.x_grid * spacing_mm);
+        y_mm.push_back(off.y_grid * spacing_mm);
+        theta_deg.push_back(off.theta_rad * kDegrees);
+    }
+    station.x_mm = spread_of(x_mm);
+    station.y_mm = spread_of(y_mm);
+    station.theta = spread_of(theta_deg);
+    return station;
+}
+
+std::vector<Stand> positions_on(const PrintModel* print) {
+    constexpr double kPitch_mm = PrintModel::kSide_mm / (kPositionsPerSide - 1);
+    std::vector<Stand> stands;
+    for (const Step step : spiral(kPositionsPerSide))
+        stands.push_back({{step.x * kPitch_mm, step.y * kPitch_mm}, 0, print});
+    return stands;
+}
+
+std::vector<Stand> angles_on(const PrintModel* print) {
+    std::vector<Stand> stands;
+    for (int i = 0; i < kAngles; ++i) {
+        const double angle_rad = 2 * std::numbers::pi * i / kAngles;
+        stands.push_back({{0, 0}, std::remainder(angle_rad, 2 * std::numbers::pi), print});
+    }
+    return stands;
+}
+
+}  // namespace
+
+namespace evaluate_detail {
+
+std::vector<Step> spiral(int side) {
+    if (side < 1 || side % 2 == 0) throw BadArgument("a spiral needs an odd side");
+    const auto count = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+    std::vector<Step> steps = {{0, 0}};
+    Step at;
+    Step ahead{1, 0};
+    // Legs of 1, 1, 2, 2, 3, 3, ... steps.
+    for (int leg = 2; steps.size() < count; ++leg) {
+        for (int i = 0; i < leg / 2 && steps.size() < count; ++i) {
+            at = {at.x + ahead.x, at.y + ahead.y};
+            steps.push_back(at);
+        }
+        ahead = {-ahead.y, ahead.x};
+    }
+    return steps;
+}
+
+Spread spread_of(std::span<const double> values) {
+    Spread spread;
+    const auto count = static_cast<double>(values.size());
+    if (values.empty()) return spread;
+    for (const double value : values)
+        spread.bias += value / count;
+    double squares = 0;
+    for (const double value : values)
+        squares += (value - spread.bias) * (value - spread.bias);
+    if (values.size() > 1) spread.sigma = std::sqrt(squares / (count - 1));
+    return spread;
+}
+
+Summary summary_of(std::span<const Station> stations, const SpreadOf& spread) {
+    Summary summary;
+    for (const Station& station : stations) {
+        if (station.located == 0) continue;
+        const Spread here = spread(station);
+        const double accuracy = std::abs(here.bias);
+        summary.best = summary.stations == 0 ? accuracy : std::min(summary.best, accuracy);
+        summary.worst = std::max(summary.worst, accuracy);
+        summary.worst_sigma = std::max(summary.worst_sigma, here.sigma);
+        summary.mean += accuracy;
+        ++summary.stations;
+    }
+    if (summary.stations > 0) summary.mean /= summary.stations;
+    return summary;
+}
+
+}  // namespace evaluate_detail
+
+PrintModel::PrintModel(double worst_x_mm, double worst_y_mm) {
+    // Of the field with unit amplitudes, at the positions of the protocol.
+    Vec2 largest;
+    for (const Stand& stand : positions_on(nullptr)) {
+        const Vec2 shift = shift_mm(stand.place_mm);
+        largest = {std::max(largest.x, std::abs(shift.x)), std::max(largest.y, std::abs(shift.y))};
+    }
+    amplitude_mm_ = {worst_x_mm / largest.x, worst_y_mm / largest.y};
+}
+
+Vec2 PrintModel::shift_mm(Vec2 from_middle_mm) const {
+    // Along the paper's way (y): rollers that turn unevenly, and a feed that slips more on one
+    // side. Across it: a scan line that is bowed and slightly stretched.
+    constexpr double kTurn = 2 * std::numbers::pi;
+    const double x = from_middle_mm.x / kSide_mm;
+    const double y = from_middle_mm.y / kSide_mm;
+    const double across = 0.75 * std::sin(kTurn * (0.62 * x + 0.10)) +
+                          0.45 * std::cos(kTurn * (0.48 * y - 0.17)) * std::sin(kTurn * 0.35 * x) +
+                          0.22 * std::sin(kTurn * (1.30 * y + 0.33)) - 0.28;
+    const double along = 0.85 * std::sin(kTurn * (0.58 * y - 0.06)) +
+                         0.42 * std::sin(kTurn * (1.65 * y + 0.21)) +
+                         0.38 * std::cos(kTurn * (0.42 * x + 0.30 * y + 0.12)) - 0.12;
+    return {amplitude_mm_.x * across, amplitude_mm_.y * along};
+}
+
+Protocol run_protocol(const ProtocolOptions& options) {
+    if (options.samples < 1) throw BadArgument("the protocol needs at least one sample");
+    const PrintModel print;
+    Protocol protocol{options.samples, {}, {}};
+    std::vector<Stand> stands;
+    for (const PrintModel* model : {static_cast<const PrintModel*>(nullptr), &print}) {
+        std::ranges::copy(positions_on(model), std::back_inserter(stands));
+        std::ranges::copy(angles_on(model), std::back_inserter(stands));
+    }
+    Shot device = draw_shot(options.setup, 0);
+    device.page.pattern.section = options.setup.pattern.section;
+    device.imperfections.motion_px = {};  // it stands still
+    device.imperfections.dirt_blobs = 0;
+    device.imperfections.graphics = 0;  // "carrying only the pattern"
+    device.pose.tilt_x_rad = device.pose.tilt_y_rad = 0;
+
+    FrameRun run;
+    run.frames = options.samples * static_cast<int>(stands.size());
+    run.frame_at = [&](int index) {
+        const Stand& stand = stands[static_cast<std::size_t>(index / options.samples)];
+        Shot shot = device;
+        place(shot.pose, stand, shot.page.pattern.spacing_mm);
+        shot.seed = Rng(options.setup.seed, static_cast<std::uint64_t>(index)).bits();
+        return KnownFrame{render(shot), truth_of(shot), shot.page.pattern.profile, {}};
+    };
+    run.options = {options.locate};
+    run.threads = options.threads;
+    run.progress = options.progress;
+    const std::vector<Outcome> outcomes = evaluate(run).front();
+
+    constexpr std::size_t kPositions = kPositionsPerSide * kPositionsPerSide;
+    const auto samples = static_cast<std::size_t>(options.samples);
+    for (std::size_t i = 0; i < stands.size(); ++i) {
+        ProtocolResult& result = stands[i].print ? protocol.printed : protocol.perfect;
+        auto& stations = result.positions.size() < kPositions ? result.positions : result.angles;
+        stations.push_back(
+            station_of(stands[i], std::span(outcomes).subspan(i * samples, samples)));
+    }
+    return protocol;
+}
+
+}  // namespace dotpose

@@ -1,0 +1,40 @@
+/// Parts of the paper's protocol, for the figures and tests.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "dotpose/evaluate.hpp"
+
+namespace dotpose::evaluate_detail {
+
+inline constexpr int kPositionsPerSide = 11;
+inline constexpr int kAngles = 36;
+
+/// Column and row of a position, from the middle; y down.
+struct Step {
+    int x = 0;
+    int y = 0;
+    friend constexpr bool operator==(const Step&, const Step&) = default;
+};
+
+/// All positions of a square with an odd side, from the middle outwards in a spiral: first to the
+/// right, then clockwise as seen on the page.
+std::vector<Step> spiral(int side);
+
+/// Mean, and deviation with n - 1; sigma is 0 for fewer than two values.
+Spread spread_of(std::span<const double> values);
+
+/// Best, mean and worst accuracy, and worst precision, over the stations with fixes.
+struct Summary {
+    double best = 0;
+    double mean = 0;
+    double worst = 0;
+    double worst_sigma = 0;
+    int stations = 0;
+};
+using SpreadOf = std::function<Spread(const Station&)>;
+Summary summary_of(std::span<const Station> stations, const SpreadOf& spread);
+
+}  // namespace dotpose::evaluate_detail

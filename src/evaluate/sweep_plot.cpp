@@ -1,0 +1,135 @@
+// The picture of a sweep: success above, errors below, over the same condition.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <ostream>
+
+#include "evaluate/plot.hpp"
+#include "evaluate/sweep.hpp"
+
+namespace dotpose {
+namespace {
+
+using namespace dotpose::plot;
+
+constexpr double kWidth = 900;
+constexpr double kHeight = 690;
+constexpr double kLeft = 80;
+constexpr double kPlotWidth = kWidth - kLeft - 40;
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+/// Errors of fewer fixes than this say nothing.
+constexpr int kFewestFixes = 5;
+
+struct Words {
+    const char* title;
+    const char* x_label;
+};
+
+Words words_of(SweepKind kind) {
+    switch (kind) {
+        case SweepKind::noise:
+            return {"Sensor noise", "sigma of the noise, grey levels of 255"};
+        case SweepKind::blur:
+            return {"Blur", "sigma of the blur, px"};
+        case SweepKind::missing:
+            return {"Missing dots", "dots that are not printed, %"};
+        case SweepKind::tilt:
+            return {"Tilt of the camera", "tilt about a random axis, degrees"};
+        case SweepKind::spacing:
+            return {"Grid spacing in the image", "grid spacing, px"};
+        case SweepKind::occlusion:
+            return {"Covered part of the frame", "area behind a straight dark edge, %"};
+    }
+    return {"", ""};
+}
+
+using Value = double (*)(const Score&);
+
+std::vector<Point> data_of(const Sweep& sweep, Decoder decoder, Value value) {
+    std::vector<Point> data;
+    for (const SweepPoint& point : sweep.points) {
+        data.push_back({point.value, value(decoder == Decoder::window ? point.window : point.all)});
+    }
+    return data;
+}
+
+double success(const Score& score) {
+    return 100 * score.located_share();
+}
+double median_um(const Score& score) {
+    return score.located >= kFewestFixes ? score.position_um.median : kNone;
+}
+double p95_um(const Score& score) {
+    return score.located >= kFewestFixes ? score.position_um.p95 : kNone;
+}
+
+void draw_head(Svg& svg, const Sweep& sweep) {
+    svg.text({kLeft, 44}, style::kTitleFont, words_of(sweep.kind).title,
+             fmt::format(R"(font-weight="bold" fill="{}")", draw::colour::kInk));
+    svg.text({kLeft, 68}, style::kFont,
+             fmt::format("{} simulated frames for each value; all else as in preset {}",
+                         sweep.frames_per_value, name(sweep.preset)),
+             fmt::format(R"(fill="{}")", draw::colour::kQuiet));
+    double x = 465;
+    x = legend_entry(svg, {x, 39}, {style::kAll}, "all dots (default)");
+    legend_entry(svg, {x, 39}, {style::kWindow, false, false, true}, "8 x 8 window (paper)");
+}
+
+/// A number in a red disc wherever fixes were wrong.
+void mark_wrong(Svg& svg, const Axes& axes, const Sweep& sweep, Decoder decoder) {
+    for (const SweepPoint& point : sweep.points) {
+        const Score& score = decoder == Decoder::window ? point.window : point.all;
+        if (score.wrong == 0) continue;
+        const Point at = axes.at(point.value, success(score)) + Point{0, -20};
+        svg.circle(at, 10, fmt::format(R"(fill="{}")", draw::colour::kBad));
+        svg.text(at + Point{0, 4}, 12, fmt::format("{}", score.wrong),
+                 R"(text-anchor="middle" fill="#ffffff" font-weight="bold")");
+    }
+}
+
+/// Whole steps of 1, 2 or 5 around all errors.
+Scale error_scale(const Sweep& sweep) {
+    double least = 1e300;
+    double most = 0;
+    for (const SweepPoint& point : sweep.points) {
+        for (const Score* score : {&point.window, &point.all}) {
+            if (score->located < kFewestFixes) continue;
+            least = std::min(least, score->position_um.median);
+            most = std::max(most, score->position_um.p95);
+        }
+    }
+    if (most <= 0) return {1, 10, true};
+    return {1 / rounded_up(1 / (0.9 * least)), rounded_up(1.1 * most), true};
+}
+
+}  // namespace
+
+void draw_sweep(std::ostream& out, const Sweep& sweep) {
+    if (sweep.points.size() < 2) throw BadArgument("a sweep needs at least two values");
+    const Words words = words_of(sweep.kind);
+    Svg svg(kWidth, kHeight, words.title);
+    draw_head(svg, sweep);
+    const Scale x{sweep.points.front().value, sweep.points.back().value};
+
+    const Axes above(svg, {kLeft, 120, kPlotWidth, 200}, x, {0, 100});
+    above.draw_y("frames located, %");
+    above.draw_x("");
+    const Axes below(svg, {kLeft, 390, kPlotWidth, 220}, x, error_scale(sweep));
+    below.draw_y("position error of the fixes, µm: median (solid) and 95 % (dashed)");
+    below.draw_x(words.x_label);
+    // The window's curves first: where both are the same, they show on either side of the other's.
+    for (const Decoder decoder : kDecoders) {
+        const bool is_window = decoder == Decoder::window;
+        const char* colour = is_window ? style::kWindow : style::kAll;
+        const std::vector<Point> median = data_of(sweep, decoder, median_um);
+        const std::vector<Point> p95 = data_of(sweep, decoder, p95_um);
+        if (!is_window) below.band(median, p95, colour);
+        above.curve(data_of(sweep, decoder, success), {colour, false, !is_window, is_window});
+        below.curve(p95, {colour, true, false, is_window});
+        below.curve(median, {colour, false, !is_window, is_window});
+        mark_wrong(svg, above, sweep, decoder);
+    }
+    out << std::move(svg).finish();
+}
+
+}  // namespace dotpose

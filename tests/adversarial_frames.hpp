@@ -1,0 +1,410 @@
+/// Frames meant to deceive `locate`, and what may be said about each of them. Every frame depends
+/// on (class, seed, index) alone.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "altered_pattern.hpp"
+#include "dotpose/fix.hpp"
+#include "dotpose/options.hpp"
+
+namespace dotpose::test {
+
+enum class Adversary : std::uint8_t {
+    noise,           ///< dark grains of 1 to 4 px
+    text,            ///< a page of words
+    halftone,        ///< a printed screen of dots whose size varies
+    texture,         ///< 1/f noise, also thresholded
+    plain_grid,      ///< dots on the intersections
+    random_symbols,  ///< a perfect grid whose symbols are drawn at random
+    random_offsets,  ///< dots displaced by the right length in any direction
+    scattered_dots,
+    seam,           ///< two sections, the border anywhere in the frame
+    cut,            ///< two places of the pattern, glued together
+    overlay,        ///< two patterns printed on one another
+    mirrored,       ///< the pattern seen from behind
+    replaced,       ///< 30 to 60 % of the symbols drawn at random
+    flipped,        ///< 5 to 45 % of the bits flipped
+    half_empty,     ///< printed on one side only
+    few_lines,      ///< 5 to 8 columns or rows on blank paper
+    slip,           ///< one column or row of dots removed or doubled
+    other_profile,  ///< printed as anoto, read as published, or the other way round
+};
+inline constexpr std::array kAdversaries = {Adversary::noise,          Adversary::text,
+                                            Adversary::halftone,       Adversary::texture,
+                                            Adversary::plain_grid,     Adversary::random_symbols,
+                                            Adversary::random_offsets, Adversary::scattered_dots,
+                                            Adversary::seam,           Adversary::cut,
+                                            Adversary::overlay,        Adversary::mirrored,
+                                            Adversary::replaced,       Adversary::flipped,
+                                            Adversary::half_empty,     Adversary::few_lines,
+                                            Adversary::slip,           Adversary::other_profile};
+
+constexpr std::string_view name(Adversary adversary) {
+    constexpr std::array<std::string_view, kAdversaries.size()> kNames = {
+        "noise",          "text",      "halftone",   "texture",   "plain grid", "random symbols",
+        "random offsets", "scattered", "seam",       "cut",       "overlay",    "mirrored",
+        "replaced",       "flipped",   "half empty", "few lines", "slip",       "other profile"};
+    return kNames[static_cast<std::size_t>(adversary)];
+}
+
+/// A pose that may be reported.
+struct Answer {
+    CameraPose pose;
+    Section section;
+};
+
+struct AdversarialFrame {
+    GreyImage image;
+    Options options;
+    std::vector<Answer> answers;  ///< none: every fix is wrong; first what the centre shows
+    Pattern printed;
+};
+
+enum class Verdict : std::uint8_t {
+    refused,
+    right,
+    second,  ///< what is printed elsewhere in the frame, as if it reached to the centre
+    twin,    ///< a place that, in the profile asked for, shows the very symbols around the centre
+    wrong,
+};
+
+namespace detail {
+
+inline bool agrees(const Fix& fix, const Answer& answer) {
+    const double theta =
+        std::remainder(fix.theta_rad() - answer.pose.theta_rad, 2 * std::numbers::pi);
+    return std::hypot(fix.x_grid() - x_grid(answer.pose), fix.y_grid() - y_grid(answer.pose)) <
+               0.5 &&
+           std::abs(theta) < 0.1 && fix.section == answer.section;
+}
+
+/// Whether the profile that was read shows at the fix what the printed one shows at the answer.
+inline bool is_twin(const Fix& fix, const AdversarialFrame& frame) {
+    if (frame.answers.empty() || frame.options.profile == frame.printed.profile) return false;
+    const Answer& answer = frame.answers.front();
+    const auto there = [](double value) { return static_cast<std::uint32_t>(std::llround(value)); };
+    const Cell found{there(fix.x_grid()), there(fix.y_grid())};
+    const Cell real{there(x_grid(answer.pose)), there(y_grid(answer.pose))};
+    constexpr std::int32_t kReach = 4;
+    for (std::int32_t y = -kReach; y <= kReach; ++y) {
+        for (std::int32_t x = -kReach; x <= kReach; ++x) {
+            const Place a = moved(frame.options.profile, {found, fix.section}, x, y);
+            const Place b = moved(frame.printed.profile, {real, answer.section}, x, y);
+            if (symbol_at(frame.options.profile, a.cell, a.section) !=
+                symbol_at(frame.printed.profile, b.cell, b.section)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+inline std::uint8_t grey(double level) {
+    return static_cast<std::uint8_t>(std::lround(std::clamp(level, 0.0, 255.0)));
+}
+
+/// An image of the shot's size from level(u, v).
+template <typename Level>
+GreyImage painted(const Shot& shot, Level level) {
+    GreyImage image{{}, shot.camera.width_px, shot.camera.height_px};
+    for (int v = 0; v < image.height_px; ++v) {
+        for (int u = 0; u < image.width_px; ++u)
+            image.pixels.push_back(grey(level(u, v)));
+    }
+    return image;
+}
+
+inline GreyImage noise(const Shot& shot, Rng& rng) {
+    const int grain_px = 1 + static_cast<int>(rng.below(4));
+    const double density = std::exp2(rng.uniform(-8, 0));
+    const Imperfections& seen = shot.imperfections;
+    return painted(shot, [&](int u, int v) {
+        const Cell grain{static_cast<std::uint32_t>(u / grain_px),
+                         static_cast<std::uint32_t>(v / grain_px)};
+        const bool is_dark = rng_of(shot.seed, grain).uniform() < density;
+        return seen.paper_level * (is_dark ? seen.ink_reflectance : 1) +
+               seen.noise_sigma * rng.normal();
+    });
+}
+
+inline GreyImage halftone(const Shot& shot, Rng& rng) {
+    const double pitch_px = rng.uniform(6, 16);
+    const double angle = rng.uniform(0, std::numbers::pi);
+    const double ku = 2 * std::numbers::pi / pitch_px * std::cos(angle);
+    const double kv = 2 * std::numbers::pi / pitch_px * std::sin(angle);
+    const double middle = rng.uniform(0, 1.6);
+    const double swing = rng.uniform(0, 1);
+    const double period_px = rng.uniform(20, 200);
+    const Imperfections& seen = shot.imperfections;
+    return painted(shot, [&](int u, int v) {
+        const double screen = std::cos(ku * u + kv * v) + std::cos(-kv * u + ku * v);
+        const double shade = middle + swing * std::sin((u + 0.7 * v) / period_px);
+        const double ink = std::clamp(2 * (screen - shade) + 0.5, 0.0, 1.0);
+        return seen.paper_level * (1 - ink * (1 - seen.ink_reflectance)) +
+               seen.noise_sigma * rng.normal();
+    });
+}
+
+/// Value noise in octaves, in about [-1, 1].
+inline double fractal(std::uint64_t seed, double x, double y, int octaves, double roughness) {
+    double sum = 0;
+    double amplitude = 1;
+    for (int octave = 0; octave < octaves; ++octave) {
+        const auto node = [&](double i, double j) {
+            const Cell cell{static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)};
+            return rng_of(seed + static_cast<std::uint64_t>(octave), cell).uniform(-1, 1);
+        };
+        const double i = std::floor(x);
+        const double j = std::floor(y);
+        const double top = node(i, j) * (i + 1 - x) + node(i + 1, j) * (x - i);
+        const double bottom = node(i, j + 1) * (i + 1 - x) + node(i + 1, j + 1) * (x - i);
+        sum += amplitude * (top * (j + 1 - y) + bottom * (y - j));
+        amplitude *= roughness;
+        x *= 2;
+        y *= 2;
+    }
+    return sum;
+}
+
+inline GreyImage texture(const Shot& shot, Rng& rng) {
+    const double scale_px = rng.uniform(8, 60);
+    const double roughness = rng.uniform(0.5, 1);
+    const double contrast = rng.uniform(0.05, 0.7);
+    const bool is_binary = rng.below(2) == 0;
+    const double threshold = rng.uniform(-0.8, 0.8);
+    return painted(shot, [&](int u, int v) {
+        double value = fractal(shot.seed, u / scale_px, v / scale_px, 5, roughness);
+        if (is_binary) value = value < threshold ? -1 : 1;
+        return shot.imperfections.paper_level * (1 + contrast * value) / (1 + contrast);
+    });
+}
+
+inline Section random_section(Rng& rng) {
+    return {static_cast<std::uint8_t>(rng.below(kSections)),
+            static_cast<std::uint8_t>(rng.below(kSections))};
+}
+
+/// Half of what the frame shows, in cells.
+inline int reach_cells(const Shot& shot) {
+    const double cells =
+        shot.camera.width_px * shot.camera.mm_per_px / shot.page.pattern.spacing_mm;
+    return static_cast<int>(cells / 2);
+}
+
+/// The pattern up to a border and the same pattern `other` cells on, in another section or not,
+/// beyond it.
+struct Joint {
+    bool is_vertical;
+    std::uint32_t border;
+    std::int32_t other_x, other_y;
+    Section beyond;
+
+    bool is_beyond(Cell cell) const { return (is_vertical ? cell.x : cell.y) >= border; }
+};
+
+inline void render_joint(const Shot& shot, const Joint& joint, AdversarialFrame& frame) {
+    const Pattern pattern = shot.page.pattern;
+    const auto shifted = [&](Cell cell) {
+        return moved(pattern.profile, {cell, joint.beyond}, joint.other_x, joint.other_y);
+    };
+    frame.image = render_dots(shot, [&](Cell cell) {
+        const Place place = joint.is_beyond(cell) ? shifted(cell) : Place{cell, pattern.section};
+        return displacement_of(symbol_at(pattern.profile, place.cell, place.section));
+    });
+    const Place beyond = shifted(shot.pose.cell);
+    Answer answer{shot.pose, beyond.section};
+    answer.pose.cell = beyond.cell;
+    frame.answers = {{shot.pose, pattern.section}, answer};
+    if (joint.is_beyond(shot.pose.cell)) std::swap(frame.answers[0], frame.answers[1]);
+}
+
+inline Joint random_joint(const Shot& shot, Rng& rng) {
+    const int reach = reach_cells(shot);
+    const bool is_vertical = rng.below(2) == 0;
+    const std::uint32_t here = is_vertical ? shot.pose.cell.x : shot.pose.cell.y;
+    const auto offset = static_cast<int>(rng.below(static_cast<unsigned>(2 * reach + 1))) - reach;
+    return {is_vertical, here + static_cast<std::uint32_t>(offset), 0, 0,
+            shot.page.pattern.section};
+}
+
+inline void render_overlay(const Shot& shot, Rng& rng, AdversarialFrame& frame) {
+    const Imperfections& seen = shot.imperfections;
+    Shot other = shot;
+    other.page.pattern.section = random_section(rng);
+    other.pose.cell = {rng.below(kPositionsPerAxis - 200) + 100,
+                       rng.below(kPositionsPerAxis - 200) + 100};
+    other.pose.fraction_x = rng.uniform();
+    other.pose.fraction_y = rng.uniform();
+    if (rng.below(2) == 0) other.pose.theta_rad = rng.uniform(-3, 3);
+    simulate::Ink ink;
+    for (const Shot* s : {&shot, static_cast<const Shot*>(&other)}) {
+        const simulate::View view(s->camera, s->pose, seen);
+        simulate::add_dots(ink, view, s->page, seen, simulate::code_of(s->page.pattern));
+    }
+    const simulate::View view(shot.camera, shot.pose, seen);
+    frame.image =
+        simulate::read_out(simulate::expose(ink, view, shot.page, seen), shot.camera, seen, rng);
+    frame.answers = {{shot.pose, shot.page.pattern.section},
+                     {other.pose, other.page.pattern.section}};
+}
+
+/// The pattern with some symbols changed; the shot's pose stays right.
+inline void render_changed(Adversary adversary, const Shot& shot, Rng& rng,
+                           AdversarialFrame& frame) {
+    const Pattern pattern = shot.page.pattern;
+    const double share =
+        adversary == Adversary::replaced ? rng.uniform(0.3, 0.6) : rng.uniform(0.05, 0.45);
+    frame.image = render_dots(shot, [&](Cell cell) {
+        if (adversary == Adversary::flipped) {
+            return displacement_of(flipped_symbol(pattern, share, shot.seed, cell));
+        }
+        Rng here = rng_of(shot.seed, cell);
+        return displacement_of(here.uniform() < share
+                                   ? static_cast<Symbol>(here.below(4))
+                                   : symbol_at(pattern.profile, cell, pattern.section));
+    });
+    frame.answers = {{shot.pose, pattern.section}};
+}
+
+/// Only some lines are printed.
+inline void render_part(Adversary adversary, Shot shot, Rng& rng, AdversarialFrame& frame) {
+    constexpr std::uint32_t kFar = 1000;
+    const int reach = reach_cells(shot);
+    const bool has_few = adversary == Adversary::few_lines;
+    std::uint32_t lines = has_few ? 5 + rng.below(4) : kFar;
+    // A few lines are anywhere in view; half the pattern begins near the middle.
+    const int spread = has_few ? reach : reach / 3;
+    const auto offset = static_cast<int>(rng.below(static_cast<unsigned>(2 * spread + 1))) - spread;
+    const bool is_vertical = rng.below(2) == 0;
+    const bool is_before = !has_few && rng.below(2) == 0;
+    const auto first = [&](std::uint32_t here) {
+        return static_cast<std::uint32_t>(static_cast<int>(here) + offset -
+                                          static_cast<int>(has_few     ? lines / 2
+                                                           : is_before ? lines
+                                                                       : 0));
+    };
+    shot.page.columns = is_vertical ? lines : 2 * kFar;
+    shot.page.rows = is_vertical ? 2 * kFar : lines;
+    shot.page.origin = is_vertical ? Cell{first(shot.pose.cell.x), shot.pose.cell.y - kFar}
+                                   : Cell{shot.pose.cell.x - kFar, first(shot.pose.cell.y)};
+    frame.image = render(shot);
+    frame.answers = {{shot.pose, shot.page.pattern.section}};
+}
+
+inline void render_random_dots(Adversary adversary, const Shot& shot, AdversarialFrame& frame) {
+    frame.image = render_dots(shot, [&](Cell cell) {
+        Rng here = rng_of(shot.seed, cell);
+        if (adversary == Adversary::plain_grid) return Vec2{};
+        if (adversary == Adversary::random_symbols) {
+            return displacement_of(static_cast<Symbol>(here.below(4)));
+        }
+        const double direction = here.uniform(0, 2 * std::numbers::pi);
+        return Vec2{std::cos(direction), std::sin(direction)};
+    });
+}
+
+inline Shot shot_of(Adversary adversary, std::uint64_t seed, std::uint64_t index) {
+    Setup setup;
+    setup.seed = seed * kAdversaries.size() + static_cast<std::uint64_t>(adversary);
+    setup.preset = kPresets[index % kPresets.size()];
+    if (index % 16 == 15) {
+        setup.camera.width_px = 320;
+        setup.camera.height_px = 240;
+    }
+    return draw_shot(setup, index);
+}
+
+}  // namespace detail
+
+inline AdversarialFrame make_adversarial(Adversary adversary, std::uint64_t seed,
+                                         std::uint64_t index) {
+    Shot shot = detail::shot_of(adversary, seed, index);
+    Rng rng(shot.seed);
+    AdversarialFrame frame;
+    frame.printed = shot.page.pattern;
+    const auto scene = [&](Scene s, double density = 0.5) {
+        frame.image = render_scene(s, shot, density);
+    };
+    switch (adversary) {
+        case Adversary::noise:
+            frame.image = detail::noise(shot, rng);
+            break;
+        case Adversary::text:
+            scene(Scene::text);
+            break;
+        case Adversary::halftone:
+            frame.image = detail::halftone(shot, rng);
+            break;
+        case Adversary::texture:
+            frame.image = detail::texture(shot, rng);
+            break;
+        case Adversary::plain_grid:
+        case Adversary::random_symbols:
+        case Adversary::random_offsets:
+            detail::render_random_dots(adversary, shot, frame);
+            break;
+        case Adversary::scattered_dots:
+            scene(Scene::scattered_dots, rng.uniform(0.1, 1));
+            break;
+        case Adversary::seam: {
+            detail::Joint joint = detail::random_joint(shot, rng);
+            joint.beyond = detail::random_section(rng);
+            detail::render_joint(shot, joint, frame);
+            break;
+        }
+        case Adversary::cut: {
+            detail::Joint joint = detail::random_joint(shot, rng);
+            joint.other_x = static_cast<std::int32_t>(rng.below(2000));
+            joint.other_y = static_cast<std::int32_t>(rng.below(2000));
+            detail::render_joint(shot, joint, frame);
+            break;
+        }
+        case Adversary::overlay:
+            detail::render_overlay(shot, rng, frame);
+            break;
+        case Adversary::mirrored:
+            scene(Scene::mirrored);
+            break;
+        case Adversary::replaced:
+        case Adversary::flipped:
+            detail::render_changed(adversary, shot, rng, frame);
+            break;
+        case Adversary::half_empty:
+        case Adversary::few_lines:
+            detail::render_part(adversary, shot, rng, frame);
+            break;
+        case Adversary::slip: {
+            detail::Joint joint = detail::random_joint(shot, rng);
+            const int step = rng.below(2) == 0 ? 1 : -1;
+            (joint.is_vertical ? joint.other_x : joint.other_y) = step;
+            detail::render_joint(shot, joint, frame);
+            break;
+        }
+        case Adversary::other_profile: {
+            const bool prints_anoto = rng.below(2) == 0;
+            shot.page.pattern.profile = prints_anoto ? Profile::anoto : Profile::published;
+            frame.options.profile = prints_anoto ? Profile::published : Profile::anoto;
+            frame.printed = shot.page.pattern;
+            frame.image = render(shot);
+            frame.answers = {{shot.pose, shot.page.pattern.section}};
+            break;
+        }
+    }
+    return frame;
+}
+
+inline Verdict judge(const Fix& fix, const AdversarialFrame& frame) {
+    if (fix.status != Status::ok) return Verdict::refused;
+    for (std::size_t i = 0; i < frame.answers.size(); ++i) {
+        if (detail::agrees(fix, frame.answers[i])) return i == 0 ? Verdict::right : Verdict::second;
+    }
+    return detail::is_twin(fix, frame) ? Verdict::twin : Verdict::wrong;
+}
+
+}  // namespace dotpose::test

@@ -1,0 +1,113 @@
+// Makes the seeds of the fuzz targets: dotpose_fuzz_corpus DIRECTORY
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+#include "../../unit/capture/encoders.hpp"
+#include "../locate_input.hpp"
+#include "dotpose/simulate.hpp"
+
+namespace {
+
+using namespace dotpose;
+using Bytes = std::vector<std::uint8_t>;
+namespace fs = std::filesystem;
+
+void write(const fs::path& path, const Bytes& bytes) {
+    fs::create_directories(path.parent_path());
+    std::ofstream file(path, std::ios::binary);
+    file.write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
+    if (!file.flush()) throw Error("cannot write " + path.string());
+}
+
+Bytes locate_input(const fuzz::LocateHeader& header, const Bytes& rest) {
+    Bytes bytes(sizeof header);
+    std::memcpy(bytes.data(), &header, sizeof header);
+    bytes.insert(bytes.end(), rest.begin(), rest.end());
+    return bytes;
+}
+
+GreyImage frame(Preset preset, int side_px, double spacing_px, std::uint64_t index) {
+    Setup setup;
+    setup.preset = preset;
+    setup.camera.width_px = setup.camera.height_px = side_px;
+    setup.camera.mm_per_px = kDefaultSpacing_mm / spacing_px;
+    return render(draw_shot(setup, index));
+}
+
+void make_frames(const fs::path& folder) {
+    struct Seed {
+        Preset preset;
+        int side_px;
+        double spacing_px;
+        std::uint8_t flags;
+    };
+    constexpr std::uint8_t kDefault = fuzz::LocateHeader::default_options;
+    const Seed seeds[] = {
+        {Preset::clean, 64, 6.4, kDefault},
+        {Preset::nominal, 72, 7, fuzz::LocateHeader::one_attempt},
+        {Preset::nominal, 96, 8, fuzz::LocateHeader::window_decoder},
+        {Preset::hard, 96, 8, 0},
+    };
+    std::uint64_t n = 0;
+    for (const Seed& seed : seeds) {
+        fuzz::LocateHeader header;
+        header.width_px = header.height_px = static_cast<std::uint16_t>(seed.side_px);
+        header.flags = seed.flags;
+        const GreyImage image = frame(seed.preset, seed.side_px, seed.spacing_px, n);
+        write(folder / ("frame-" + std::to_string(n++)), locate_input(header, image.pixels));
+    }
+}
+
+void make_drawn(const fs::path& folder) {
+    for (std::uint16_t n = 0; n < 3; ++n) {
+        fuzz::LocateHeader header;
+        header.width_px = 96;
+        header.height_px = 80;
+        header.profile = static_cast<std::uint8_t>(n);
+        header.flags = fuzz::LocateHeader::drawn;
+        header.angle = static_cast<std::uint16_t>(n * 11000);
+        Bytes symbols;
+        for (std::uint32_t y = 0; y < fuzz::kDrawnSide; ++y) {
+            for (std::uint32_t x = 0; x < fuzz::kDrawnSide; ++x) {
+                const Cell cell{1000003u * (n + 1u) + x, 4000037u * (n + 1u) + y};
+                symbols.push_back(
+                    static_cast<std::uint8_t>(symbol_at(static_cast<Profile>(n), cell, {3, 5})));
+            }
+        }
+        write(folder / ("drawn-" + std::to_string(n)), locate_input(header, symbols));
+    }
+}
+
+void make_images(const fs::path& folder) {
+    constexpr int kSide_px = 12;
+    for (const int channels : {1, 3, 4}) {
+        test::Raster raster{kSide_px, kSide_px, channels, 8, {}};
+        for (int i = 0; i < kSide_px * kSide_px * channels; ++i) {
+            raster.samples.push_back(static_cast<std::uint16_t>(i * 37 % 256));
+        }
+        const std::string stem = "image-" + std::to_string(channels);
+        write(folder / (stem + ".png"), test::encode_png(raster));
+        write(folder / (stem + ".tif"), test::encode_tiff(raster, channels == 1));
+        test::Raster small = raster;
+        small.width_px = small.height_px = 2;
+        small.samples.resize(static_cast<std::size_t>(4 * channels));
+        write(folder / (stem + ".jpg"), test::encode_jpeg(small));
+        if (channels == 4) continue;
+        write(folder / (stem + ".pnm"), test::encode_pnm(raster, false, 255));
+        write(folder / (stem + "-text.pnm"), test::encode_pnm(small, true, 255));
+        if (channels == 3) write(folder / (stem + ".bmp"), test::encode_bmp(raster));
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc != 2) return std::fputs("usage: dotpose_fuzz_corpus DIRECTORY\n", stderr), 2;
+    const fs::path folder = argv[1];
+    make_frames(folder / "locate");
+    make_drawn(folder / "locate");
+    make_images(folder / "image_file");
+}
