@@ -29,8 +29,8 @@ TEST_P(Adversarial, FramesGiveNoWrongFix) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Classes, Adversarial, testing::ValuesIn(test::kAdversaries),
-                         [](const testing::TestParamInfo<Adversary>& info) {
-                             std::string title(test::name(info.param));
+                         [](const testing::TestParamInfo<Adversary>& adversary) {
+                             std::string title(test::name(adversary.param));
                              std::replace(title.begin(), title.end(), ' ', '_');
                              return title;
                          });
