@@ -1,5 +1,7 @@
 #include "common.hpp"
 
+#include "dotpose/evaluate.hpp"
+
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -116,6 +118,14 @@ void add_lens_option(CLI::App& command, Lens& lens) {
             "Radial distortion, below 0 for barrel: p = m + r / (1 + k r^2)")
         ->type_name("1/PX^2")
         ->default_str("0");
+}
+
+void add_attempt_options(CLI::App& command, Options& options) {
+    add_named(command, "--decoder", kDecoders, name(options.decoder),
+              "What the position is read from",
+              [&options](Decoder decoder) { options.decoder = decoder; });
+    add_named(command, "--effort", kEfforts, name(options.effort), "How hard to try",
+              [&options](Effort effort) { options.effort = effort; });
 }
 
 void add_size_option(CLI::App& command, CameraModel& camera) {

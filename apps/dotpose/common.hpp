@@ -29,6 +29,9 @@ void add_cell_option(CLI::App& command, const std::string& flag, Cell& cell,
 /// --k 1/PX^2: what `locate` corrects.
 void add_lens_option(CLI::App& command, Lens& lens);
 
+/// --decoder and --effort. `options` must outlive the command.
+void add_attempt_options(CLI::App& command, Options& options);
+
 /// --size WxH of a simulated frame.
 void add_size_option(CLI::App& command, CameraModel& camera);
 

@@ -232,11 +232,7 @@ void add_evaluate(CLI::App& app, int& exit_code) {
         app.add_subcommand("evaluate", "Measure how often and how well frames are located");
     command->footer(kExamples);
     add_jobs(*command, arguments);
-    add_named(*command, "--decoder", kDecoders, name(arguments->options.decoder),
-              "What the position is read from",
-              [arguments](Decoder decoder) { arguments->options.decoder = decoder; });
-    add_named(*command, "--effort", kEfforts, name(arguments->options.effort), "How hard to try",
-              [arguments](Effort effort) { arguments->options.effort = effort; });
+    add_attempt_options(*command, arguments->options);
     add_code_option(*command, arguments->options.profile);
     add_spacing_option(*command, arguments->spacing_mm);
     add_lens_option(*command, arguments->options.lens);

@@ -238,6 +238,7 @@ void add_locate(CLI::App& app, int& exit_code) {
     add_spacing_option(*command, arguments->spacing_mm);
     add_code_option(*command, arguments->options.profile);
     add_camera_options(*command, *arguments);
+    add_attempt_options(*command, arguments->options);
     command
         ->add_option_function<std::string>(
             "--format",
