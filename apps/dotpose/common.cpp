@@ -1,7 +1,5 @@
 #include "common.hpp"
 
-#include "dotpose/evaluate.hpp"
-
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -10,6 +8,8 @@
 #include <string_view>
 
 #include <fmt/format.h>
+
+#include "dotpose/evaluate.hpp"
 
 namespace dotpose::cli {
 namespace {

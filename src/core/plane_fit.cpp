@@ -111,13 +111,11 @@ void PlaneFit::add_residual(Vec image_point_q8, Vec target_q16) {
     }
 }
 
-bool PlaneFit::solve(PlaneFromImage& plane, std::int64_t share_q8) const {
+bool PlaneFit::solve(PlaneFromImage& plane) const {
     // target * (1 + sum of terms) = affine: the terms take off what the regressors share with the
     // target beyond an affine map.
     std::array<std::int32_t, kExtra> terms_q30{};
     if (extra() > 0 && !SmallSystem(normal_, right_, extra()).solve(terms_q30)) return false;
-    for (std::int32_t& term : terms_q30)
-        term = static_cast<std::int32_t>(term * share_q8 / 256);
     std::array<std::int64_t, 6> sum{maps_[0].offset_x, maps_[0].offset_y, maps_[0].dx.x,
                                     maps_[0].dx.y,     maps_[0].dy.x,     maps_[0].dy.y};
     for (std::size_t k = 0; k < extra(); ++k) {
@@ -125,7 +123,9 @@ bool PlaneFit::solve(PlaneFromImage& plane, std::int64_t share_q8) const {
         const std::array<std::int64_t, 6> part{m.offset_x, m.offset_y, m.dx.x,
                                                m.dx.y,     m.dy.x,     m.dy.y};
         for (std::size_t i = 0; i < sum.size(); ++i) {
-            sum[i] -= (part[i] >> 8) * terms_q30[k] >> 22;
+            // Offsets have up to 41 bits and need not be as fine as slopes of up to 31.
+            const int coarser = i < 2 ? 11 : 0;
+            sum[i] -= (part[i] >> coarser) * terms_q30[k] >> (30 - coarser);
         }
     }
     plane.centre_q8 = centre_q8_;
@@ -142,6 +142,20 @@ bool PlaneFit::solve(PlaneFromImage& plane, std::int64_t share_q8) const {
     plane.du_q24 = {slope(sum[2], at.x, tilt.x), slope(sum[3], at.y, tilt.x)};
     plane.dv_q24 = {slope(sum[4], at.x, tilt.y), slope(sum[5], at.y, tilt.y)};
     return true;
+}
+
+PlaneFromImage between(const PlaneFromImage& from, const PlaneFromImage& to,
+                       std::int64_t share_q8) {
+    const auto value = [&](std::int64_t a, std::int64_t b) {
+        return static_cast<std::int32_t>(a + ((b - a) * share_q8 >> 8));
+    };
+    const auto vector = [&](Vec a, Vec b) { return Vec{value(a.x, b.x), value(a.y, b.y)}; };
+    return {from.centre_q8,
+            vector(from.at_centre_q16, to.at_centre_q16),
+            vector(from.du_q24, to.du_q24),
+            vector(from.dv_q24, to.dv_q24),
+            vector(from.perspective_q30, to.perspective_q30),
+            value(from.lens_q40, to.lens_q40)};
 }
 
 }  // namespace dotpose::core

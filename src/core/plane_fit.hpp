@@ -35,8 +35,7 @@ class PlaneFit {
     bool reduce();
     void add_residual(Vec image_point_q8, Vec target_q16);
     /// False where they do not determine the further terms.
-    /// `share_q8` of the further terms is kept, in 1/256.
-    bool solve(PlaneFromImage& plane, std::int64_t share_q8 = 256) const;
+    bool solve(PlaneFromImage& plane) const;
 
   private:
     static constexpr std::size_t kExtra = 3;
@@ -53,6 +52,9 @@ class PlaneFit {
     std::array<std::array<std::int64_t, kExtra>, kExtra> normal_{};
     std::array<std::int64_t, kExtra> right_{};
 };
+
+/// The plane a share, in 1/256, of the way from one to another with the same centre.
+PlaneFromImage between(const PlaneFromImage& from, const PlaneFromImage& to, std::int64_t share_q8);
 
 /// A fit with no more terms than are significant.
 struct FittedPlane {
@@ -95,7 +97,7 @@ bool fit_plane(const PlaneFromImage& estimate, Terms most, Visit visit, FittedPl
             const std::int64_t by_chance = more * fitted.squared_residuals / freedom;
             const int needed = terms == Terms::lens ? 6 : 1;
             if (gain <= needed * by_chance) continue;
-            if (!fit.solve(fitted.plane, 256 - by_chance * 256 / gain)) continue;
+            fitted.plane = between(best.plane, fitted.plane, 256 - by_chance * 256 / gain);
         }
         best = fitted;
         found = true;

@@ -77,7 +77,7 @@ std::optional<CellView> look_at(const ImageView& image, const PlaneFromImage& pl
         const std::optional<int> level = level_q4(image, image_point_q8(plane, place));
         if (!level && i < 4) return {};
         levels[i] = level.value_or(paper);
-        paper = std::max(paper, *level);
+        paper = std::max(paper, levels[i]);
     }
     CellView view;
     for (std::size_t i = 0; i < levels.size(); ++i) {

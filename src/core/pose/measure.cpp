@@ -18,7 +18,7 @@ struct Window {
 
     /// For dots that blur has made about a tenth of the spacing wide (one sigma).
     explicit Window(std::int32_t spacing_q8)
-        : half_px(std::min(std::max(spacing_q8 * 9 / 32, 768) / 256, kMostHalf_px)),
+        : half_px(std::min(std::max(spacing_q8 * 9 / 32 + 255, 768) / 256, kMostHalf_px)),
           sigma_q8(std::max(spacing_q8 * 7 / 64, 256)) {}
 
     /// exp(-r^2 / (2 sigma^2)), times 2^16.
@@ -105,8 +105,9 @@ int measure_dots(const ImageView& image, const PlaneFromImage& pattern_from_imag
     for (int j = grid.j0; j < grid.j0 + grid.rows; ++j) {
         for (int i = grid.i0; i < grid.i0 + grid.columns; ++i) {
             GridCell& cell = grid.at(i, j);
-            if (cell.dot == GridCell::kHidden || count == dots.size()) continue;
+            if (cell.dot == GridCell::kHidden) continue;
             cell.dot = GridCell::kNoDot;
+            if (count == dots.size()) continue;
             const Vec step = nominal.pattern_step({i, j});
             const Symbol symbol = nominal.symbol(step);
             const Vec place{step.x * 65536 + dx(symbol) * kNominal_q16,

@@ -1,0 +1,120 @@
+// Bits read from the image itself, from drawn frames whose dots are known.
+#include "core/decode/look.hpp"
+
+#include <gtest/gtest.h>
+
+#include "../canvas.hpp"
+#include "../reading.hpp"
+#include "core/decode/upright.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+using namespace core;
+
+constexpr std::uint64_t kSeed = 44;
+
+GreyImage drawn(const View& view) {
+    GreyImage image = blank(static_cast<int>(view.image_px.x), static_cast<int>(view.image_px.y));
+    for (const PlacedDot& dot : pattern_dots(view))
+        darken(image, dot.centre_px, 0.1 * view.spacing_px, 0.8);
+    return image;
+}
+
+/// The view's cells as a look at an image shows them.
+struct Looked {
+    Looked(const View& view_, Turn turn_, const GreyImage& image)
+        : view(view_), turn(turn_), owned(64) {
+        zero = {static_cast<int>(std::lround(view.at_centre.x)),
+                static_cast<int>(std::lround(view.at_centre.y))};
+        look_at_cells(image.view(),
+                      plane_from_lattice(lattice_of(view.mesh_turned(turn, zero)),
+                                         fixed(view.centre_px(), 8)),
+                      owned.grid);
+    }
+    const Grid& grid() const { return owned.grid; }
+    /// Shows `use(cell, its place in px, its bits on the pattern, the code's symbol)` all cells.
+    template <typename Use>
+    void visit(Use use) const {
+        for (int j = grid().j0; j < grid().j0 + grid().rows; ++j) {
+            for (int i = grid().i0; i < grid().i0 + grid().columns; ++i) {
+                const GridCell& cell = grid().at(i, j);
+                const Vec step = turn({i, j});
+                const Vec on_pattern{zero.x + step.x, zero.y + step.y};
+                const Place at = moved(view.profile, view.place, on_pattern.x, on_pattern.y);
+                use(cell, view.mesh().at(on_pattern.x, on_pattern.y), turned(turn, cell),
+                    symbol_at(view.profile, at.cell, at.section));
+            }
+        }
+    }
+
+    View view;
+    Turn turn;
+    OwnedGrid owned;
+    Vec zero;
+};
+
+bool is_right(Bits bits, Symbol symbol) {
+    return (bits.x > 0) == (x_bit(symbol) == 1) && (bits.y > 0) == (y_bit(symbol) == 1);
+}
+
+TEST(Look, ReadsTheBitsOfACleanFrame) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 20; ++i) {
+        View view = random_view(rng);
+        view.spacing_px = rng.uniform(8, 16);
+        const Looked looked(view, Turn{i % 4}, drawn(view));
+        int inside = 0;
+        looked.visit([&](const GridCell& cell, Vec2 at, Bits bits, Symbol symbol) {
+            SCOPED_TRACE(testing::Message()
+                         << "view " << i << " at " << at.x << ", " << at.y << ", seed " << kSeed);
+            // Nothing is said where a place of the dot lies outside.
+            if (at.x < -1 || at.y < -1 || at.x > view.image_px.x || at.y > view.image_px.y) {
+                EXPECT_EQ(cell.x, 0);
+                EXPECT_EQ(cell.y, 0);
+            }
+            const double margin = view.spacing_px / 6 + 5;
+            if (at.x < margin || at.y < margin || at.x > view.image_px.x - 1 - margin ||
+                at.y > view.image_px.y - 1 - margin) {
+                return;
+            }
+            ++inside;
+            EXPECT_TRUE(is_right(bits, symbol));
+            EXPECT_GE(std::min(std::abs(bits.x), std::abs(bits.y)), 40);
+            EXPECT_NE(cell.dot, GridCell::kHidden);
+        });
+        EXPECT_GE(inside, 40);
+    }
+}
+
+TEST(Look, CellsUnderABlackStrokeSayNothing) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 20; ++i) {
+        const View view = random_view(rng);
+        GreyImage image = drawn(view);
+        constexpr int kTop = 50;
+        constexpr int kBottom = 66;
+        fill(image, 0, kTop, image.width_px, kBottom, 5);
+        const Looked looked(view, Turn{i % 4}, image);
+        int under = 0;
+        int beside = 0;
+        looked.visit([&](const GridCell& cell, Vec2 at, Bits bits, Symbol symbol) {
+            SCOPED_TRACE(testing::Message()
+                         << "view " << i << " at " << at.x << ", " << at.y << ", seed " << kSeed);
+            if (at.x < 8 || at.y < 8 || at.x > 179 || at.y > 111) return;
+            if (at.y > kTop && at.y < kBottom - 1) {
+                EXPECT_EQ(cell.x, 0);
+                EXPECT_EQ(cell.y, 0);
+                ++under;
+            } else if (at.y < kTop - 11 || at.y > kBottom + 10) {
+                EXPECT_TRUE(is_right(bits, symbol));
+                ++beside;
+            }
+        });
+        EXPECT_GE(under, 10);
+        EXPECT_GE(beside, 50);
+    }
+}
+
+}  // namespace
+}  // namespace dotpose::core_test

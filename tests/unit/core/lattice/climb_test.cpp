@@ -1,0 +1,77 @@
+// The grid from the dots' periodogram, from first estimates that are well off.
+#include "core/lattice/climb.hpp"
+
+#include <gtest/gtest.h>
+
+#include "../geometry.hpp"
+#include "core/lattice/neighbours.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+using namespace core;
+
+constexpr std::uint64_t kSeed = 46;
+
+/// Difference of two directions of a square grid, in degrees.
+double turned_degrees(double a_rad, double b_rad) {
+    return std::remainder(a_rad - b_rad, std::numbers::pi / 2) * 180 / std::numbers::pi;
+}
+
+TEST(Climb, RecoversTheGridWithAThirdOfTheDotsMissing) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 100; ++i) {
+        SCOPED_TRACE(testing::Message() << "grid " << i << ", seed " << kSeed);
+        const double spacing = rng.uniform(8, 30);
+        const double angle = rng.uniform(-3.1, 3.1);
+        const Vec2 image{24 * spacing, 20 * spacing};
+        const Vec2 centre{(image.x - 1) / 2, (image.y - 1) / 2};
+        const Mesh mesh = square_mesh(
+            spacing, angle, centre + Vec2{rng.uniform(0, spacing), rng.uniform(0, spacing)});
+        const auto displacement = [&](int, int) { return random_displacement(rng); };
+        std::vector<PlacedDot> placed;
+        for (const PlacedDot& dot : placed_dots(mesh, 40, image, displacement)) {
+            if (rng.uniform() > 0.3) placed.push_back(dot);
+        }
+        const std::vector<Dot> dots = dots_of(placed);
+        std::array<std::uint16_t, kMaxSeeds> seeds;
+        const int count = choose_seeds(dots, fixed(centre, 8), seeds);
+        ASSERT_GE(count, 150);
+
+        const double off = i % 2 == 0 ? 1.06 : 0.94;
+        const double turned = radians(i % 4 < 2 ? 6 : -6);
+        Lattice lattice = lattice_of(square_mesh(off * spacing, angle + turned, centre));
+        climb_periodogram(dots, std::span(seeds).first(static_cast<std::size_t>(count)),
+                          fixed(centre, 8), lattice);
+        const Mesh found = mesh_of(lattice);
+        EXPECT_NEAR(length(found.u) / spacing, 1, 0.005);
+        EXPECT_NEAR(turned_degrees(std::atan2(found.u.y, found.u.x), angle), 0, 0.3);
+        EXPECT_NEAR(found.v.x, -found.u.y, 1e-4 * spacing);
+        EXPECT_NEAR(found.v.y, found.u.x, 1e-4 * spacing);
+        // The origin is some intersection: 150 displacements of 0.12 spacings leave 0.01.
+        const Vec2 at = mesh.inverse(found.origin);
+        EXPECT_NEAR(std::remainder(at.x, 1), 0, 0.06);
+        EXPECT_NEAR(std::remainder(at.y, 1), 0, 0.06);
+    }
+}
+
+TEST(Climb, LeavesAGoodEstimateGood) {
+    const Vec2 centre{150, 120};
+    const Mesh mesh = square_mesh(12, 0.3, {153, 118});
+    const auto dots = dots_of(placed_dots(mesh, 30, {301, 241}, [](int, int) { return Vec2{}; }));
+    std::array<std::uint16_t, kMaxSeeds> seeds;
+    const int count = choose_seeds(dots, fixed(centre, 8), seeds);
+    Lattice lattice = lattice_of(mesh);
+    climb_periodogram(dots, std::span(seeds).first(static_cast<std::size_t>(count)),
+                      fixed(centre, 8), lattice);
+    const Mesh found = mesh_of(lattice);
+    // The finest steps are an eighth of a degree and of an eightieth of the spacing.
+    EXPECT_NEAR(length(found.u), 12, 12.0 / 640);
+    EXPECT_NEAR(turned_degrees(std::atan2(found.u.y, found.u.x), 0.3), 0, 0.13);
+    const Vec2 at = mesh.inverse(found.origin);
+    EXPECT_NEAR(std::remainder(at.x, 1), 0, 0.01);
+    EXPECT_NEAR(std::remainder(at.y, 1), 0, 0.01);
+}
+
+}  // namespace
+}  // namespace dotpose::core_test

@@ -1,0 +1,104 @@
+// What the filter of the second attempt leaves of drawn images.
+#include "core/pixels/smooth.hpp"
+
+#include <gtest/gtest.h>
+
+#include "../canvas.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+using namespace core;
+
+GreyImage smoothed(const GreyImage& image) {
+    static LargeWorkspace workspace;
+    Smoothing& smoothing = workspace.smoothing;
+    begin_smoothing(image.view(), smoothing);
+    GreyImage result{{}, image.width_px, image.height_px};
+    for (int v = 0; v < image.height_px; ++v) {
+        const std::uint8_t* row = next_smooth_row(image.view(), smoothing);
+        result.pixels.insert(result.pixels.end(), row, row + image.width_px);
+    }
+    return result;
+}
+
+void expect_even(const GreyImage& image, int tolerance) {
+    for (int v = 0; v < image.height_px; ++v) {
+        for (int u = 0; u < image.width_px; ++u) {
+            ASSERT_NEAR(image.view().row(v)[u], kEvenLevel, tolerance) << u << ", " << v;
+        }
+    }
+}
+
+TEST(Smooth, AConstantImageStaysConstant) {
+    for (const auto& [width, height] :
+         {std::pair{64, 64}, std::pair{188, 120}, std::pair{301, 77}}) {
+        for (const int level : {1, 20, 100, 200, 255}) {
+            SCOPED_TRACE(testing::Message() << width << " x " << height << ", level " << level);
+            expect_even(smoothed(blank(width, height, level)), 0);
+        }
+    }
+}
+
+TEST(Smooth, SinglePixelsVanish) {
+    for (const int level : {0, 255}) {
+        GreyImage image = blank(188, 120);
+        pixel(image, 90, 60) = static_cast<std::uint8_t>(level);
+        pixel(image, 1, 1) = static_cast<std::uint8_t>(level);
+        pixel(image, 186, 50) = static_cast<std::uint8_t>(level);
+        const GreyImage found = smoothed(image);
+        for (int v = 0; v < 120; ++v) {
+            for (int u = 0; u < 188; ++u) {
+                // The mean of at least 5 x 5 pixels around still counts a bright one: 55 / 25.
+                ASSERT_NEAR(found.view().row(v)[u], kEvenLevel, 3) << u << ", " << v;
+            }
+        }
+        EXPECT_NEAR(found.view().row(60)[90], kEvenLevel, 1);
+    }
+    // Two that touch are no impulse: there is a dark spot.
+    GreyImage image = blank(188, 120);
+    fill(image, 90, 60, 92, 61, 0);
+    EXPECT_LT(smoothed(image).view().row(60)[90], kEvenLevel - 40);
+}
+
+TEST(Smooth, DotsAreWeightedWithTheBinomial) {
+    // A square of 3 x 3 black pixels is wider than an impulse; (1 4 6 4 1) / 16 along each axis
+    // leaves (2 / 16) of the light beside the middle: 1 - (14 / 16)^2.
+    GreyImage image = blank(400, 400);
+    fill(image, 199, 199, 202, 202, 0);
+    const GreyImage found = smoothed(image);
+    EXPECT_NEAR(found.view().row(200)[200], kEvenLevel * (1 - 14.0 * 14 / 256), 2);
+    EXPECT_NEAR(found.view().row(200)[202], kEvenLevel * (1 - 14.0 * 5 / 256), 2);
+    EXPECT_NEAR(found.view().row(200)[204], kEvenLevel, 2);
+}
+
+TEST(Smooth, AGradientOfTheLightBecomesEven) {
+    for (const double angle : {0.0, 0.5, 1.57, 2.5, 4.0}) {
+        SCOPED_TRACE(testing::Message() << "towards " << angle);
+        GreyImage image = blank(188, 120);
+        for (int v = 0; v < 120; ++v) {
+            for (int u = 0; u < 188; ++u) {
+                const double along = (u - 93.5) * std::cos(angle) + (v - 59.5) * std::sin(angle);
+                pixel(image, u, v) = static_cast<std::uint8_t>(std::lround(160 + 0.6 * along));
+            }
+        }
+        const GreyImage found = smoothed(image);
+        for (int v = 4; v < 116; ++v) {
+            for (int u = 4; u < 184; ++u) {
+                ASSERT_NEAR(found.view().row(v)[u], kEvenLevel, 2) << u << ", " << v;
+            }
+        }
+        // Nearer to the border the surroundings reach 4 px inwards only: 2 px of the slope.
+        expect_even(found, 5);
+    }
+}
+
+TEST(Smooth, TheNextImageBeginsAfresh) {
+    GreyImage dark = blank(188, 120, 10);
+    fill(dark, 20, 20, 90, 90, 250);
+    smoothed(dark);
+    expect_even(smoothed(blank(100, 70, 90)), 0);
+}
+
+}  // namespace
+}  // namespace dotpose::core_test
