@@ -84,25 +84,28 @@ inline bool agrees(const Fix& fix, const Answer& answer) {
            std::abs(theta) < 0.1 && fix.section == answer.section;
 }
 
-/// Whether the profile that was read shows at the fix what the printed one shows at the answer.
+/// Whether the profile that was read shows at the fix what the printed one shows at the answer, in
+/// at least three quarters of the bits around: there is nothing in the frame that speaks against
+/// it.
 inline bool is_twin(const Fix& fix, const AdversarialFrame& frame) {
     if (frame.answers.empty() || frame.options.profile == frame.printed.profile) return false;
     const Answer& answer = frame.answers.front();
     const auto there = [](double value) { return static_cast<std::uint32_t>(std::llround(value)); };
     const Cell found{there(fix.x_grid()), there(fix.y_grid())};
     const Cell real{there(x_grid(answer.pose)), there(y_grid(answer.pose))};
-    constexpr std::int32_t kReach = 4;
+    constexpr std::int32_t kReach = 5;
+    constexpr int kBits = 2 * (2 * kReach + 1) * (2 * kReach + 1);
+    int different = 0;
     for (std::int32_t y = -kReach; y <= kReach; ++y) {
         for (std::int32_t x = -kReach; x <= kReach; ++x) {
             const Place a = moved(frame.options.profile, {found, fix.section}, x, y);
             const Place b = moved(frame.printed.profile, {real, answer.section}, x, y);
-            if (symbol_at(frame.options.profile, a.cell, a.section) !=
-                symbol_at(frame.printed.profile, b.cell, b.section)) {
-                return false;
-            }
+            const Symbol one = symbol_at(frame.options.profile, a.cell, a.section);
+            const Symbol other = symbol_at(frame.printed.profile, b.cell, b.section);
+            different += (x_bit(one) != x_bit(other)) + (y_bit(one) != y_bit(other));
         }
     }
-    return true;
+    return 4 * different <= kBits;
 }
 
 inline std::uint8_t grey(double level) {
