@@ -74,14 +74,21 @@ struct Light {
     std::span<Levels> levels;      ///< of the band being thresholded
 };
 
+/// The paper's grey level in the square blocks of an image.
+struct PaperMap {
+    int block_px = 0;
+    int columns = 0;
+    int rows = 0;
+    std::span<std::uint8_t> levels;  ///< row by row
+};
+
 /// Rows of an image that is being filtered for a second attempt.
 struct Smoothing {
     std::span<std::uint16_t> lines;  ///< the five newest, weighted along the row
     std::span<std::uint8_t> row;
     int lines_ready = 0;
     int rows_given = 0;
-    int block_px = 0;                      ///< side of the blocks in which the paper is measured
-    std::span<std::uint8_t> papers;        ///< of all blocks, row by row
+    PaperMap paper;
     std::span<std::uint32_t> column_sums;  ///< over the rows [sums_begin, sums_end)
     int sums_begin = 0;
     int sums_end = 0;
@@ -255,7 +262,7 @@ class WorkspaceOf : public Workspace {
         max_width_px = MaxWidth;
         smoothing.lines = smooth_lines_;
         smoothing.row = smooth_row_;
-        smoothing.papers = smooth_papers_;
+        smoothing.paper.levels = papers_;
         smoothing.column_sums = smooth_sums_;
         light.rows = rows_;
         light.tiles = tiles_;
@@ -281,7 +288,7 @@ class WorkspaceOf : public Workspace {
     std::array<std::uint16_t, 5 * MaxWidth> smooth_lines_{};
     std::array<std::uint8_t, MaxWidth> smooth_row_{};
     // Blocks are a tenth of the shorter side, so at least 6 px: at most 11 x 683 of them.
-    std::array<std::uint8_t, 11 * 683> smooth_papers_{};
+    std::array<std::uint8_t, 11 * 683> papers_{};
     std::array<std::uint32_t, MaxWidth> smooth_sums_{};
     std::array<std::uint8_t, 2 * kTile_px * MaxWidth> rows_{};
     std::array<Tile, 3 * kTiles> tiles_{};

@@ -78,7 +78,9 @@ Status read_position(const Options& options, const ImageView* image, Workspace& 
     Status status =
         core::assign_likelihoods(w.found_dots(), w.grid_from_image, w.grid);  // II-B.4, eq. 7-9
     if (status != Status::ok) return status;
-    if (image != nullptr) core::look_at_cells(*image, w.grid_from_image, w.grid);
+    if (image != nullptr) {
+        core::look_at_cells(*image, w.smoothing.paper, options.lens, w.grid_from_image, w.grid);
+    }
     decoding.window = core::choose_window(w.grid, kWindowSide);  // II-B.5
     decoding.region = core::choose_window(w.grid, static_cast<int>(w.line_scores.size()));
     const auto decode = options.decoder == Decoder::window ? core::decode_window : core::decode_all;
@@ -87,22 +89,28 @@ Status read_position(const Options& options, const ImageView* image, Workspace& 
     return status;
 }
 
-/// Position -> pose, once all dots in view agree with it.
-Status measure_pose(const Options& options, const ImageView* image, Workspace& w) {
+/// Whether all dots in view agree with the position.
+Status verify_position(const Options& options, Workspace& w) {
     const core::Nominal nominal(w.grid, options.profile, w.decoding);
     const Status status = core::verify(w.grid, options.profile, w.decoding, nominal,
                                        options.integrity, w.line_scores, w.fix);
-    if (status != Status::ok) {
-        return core::is_mirrored(w.grid, w.decoding.region) ? Status::mirrored : status;
+    if (status != Status::ok && core::is_mirrored(w.grid, w.decoding.region)) {
+        return Status::mirrored;
     }
+    return status;
+}
 
+/// Position -> pose. With an `image`, dots are measured in it once more.
+Status measure_pose(const Options& options, const ImageView* image, Workspace& w) {
+    const core::Nominal nominal(w.grid, options.profile, w.decoding);
     const Vec centre_q8 = image_centre_q8(w.light);
     const Vec reference_q8{centre_q8.x + options.reference_dx_q8,
                            centre_q8.y + options.reference_dy_q8};
     w.pattern_from_image =
         core::upright_plane(w.grid_from_image, w.decoding.pattern_from_grid);  // II-B.8
     if (image != nullptr) {
-        w.dot_count = core::measure_dots(*image, w.pattern_from_image, nominal, w.grid, w.dots);
+        w.dot_count =
+            core::measure_dots(*image, options.lens, w.pattern_from_image, nominal, w.grid, w.dots);
         core::undistort(options.lens, centre_q8, first(w.dots, w.dot_count));
     }
     core::FitQuality quality;
@@ -112,6 +120,9 @@ Status measure_pose(const Options& options, const ImageView* image, Workspace& w
     core::estimate_covariance(observations, quality, w.pattern_from_image, reference_q8, w.fix);
     return Status::ok;
 }
+
+/// Dots this far, in px, from where the pose has them are worth a second measurement.
+constexpr float kRough_px = 0.35F;
 
 constexpr bool is_within(int value, int low, int high) {
     return value >= low && value <= high;
@@ -136,9 +147,22 @@ Fix locate_dots(const Options& options, const ImageView* image, Workspace& w) {
     Status status = find_dots(options, w);
     if (status == Status::ok) status = find_grid(options, image != nullptr, w);
     if (status == Status::ok) status = read_position(options, image, w);
+    if (status == Status::ok) status = verify_position(options, w);
     if (status == Status::ok) status = measure_pose(options, image, w);
     w.fix.status = status;
     return w.fix;
+}
+
+/// The second attempt, on the image filtered.
+Fix locate_filtered(const ImageView& image, const Options& options, Workspace& w) {
+    Options filtered = options;
+    // Filtered, noise is a third of what it was.
+    filtered.threshold.min_contrast = options.threshold.min_contrast / 3 + 1;
+    w.fix.status = begin(image.width_px, image.height_px, filtered, w);
+    core::begin_smoothing(image, w.smoothing);
+    for (int v = 0; v < image.height_px; ++v)
+        push_row(core::next_smooth_row(image, w.smoothing), filtered, w);
+    return locate_dots(filtered, &image, w);
 }
 
 }  // namespace
@@ -153,14 +177,10 @@ Fix locate(const ImageView& image, const Options& options, Workspace& workspace)
     for (int v = 0; v < image.height_px; ++v)
         push_row(image.row(v), options, workspace);
     const Fix fix = finish(options, workspace);
-    if (fix.status == Status::ok || options.effort == Effort::once) return fix;
-
-    if (begin(image.width_px, image.height_px, options, workspace) != Status::ok) return fix;
-    core::begin_smoothing(image, workspace.smoothing);
-    for (int v = 0; v < image.height_px; ++v) {
-        push_row(core::next_smooth_row(image, workspace.smoothing), options, workspace);
-    }
-    return locate_dots(options, &image, workspace);
+    if (options.effort == Effort::once) return fix;
+    if (fix.status != Status::ok) return locate_filtered(image, options, workspace);
+    if (fix.residual_px < kRough_px) return fix;
+    return measure_pose(options, &image, workspace) == Status::ok ? workspace.fix : fix;
 }
 
 Status begin(int width_px, int height_px, const Options& options, Workspace& w) {

@@ -1,19 +1,21 @@
-// Expected rivals: the odds of all the positions that differ from the one found in the place of two
-// or more secondary sequences. There are 4e8 of them; what is summed is their expectation over the
-// code, with the exact distribution of digit differences. docs/integrity.md.
+// Expected rivals: the odds of all the positions that differ from the one found in the place of
+// several secondary sequences. There are 4e8 of them; what is summed is their expectation over the
+// places that they may have. docs/integrity.md.
 #pragma once
 
 #include <array>
 #include <cstdint>
 
-#include "dotpose/code.hpp"
+#include "code/basis.hpp"
 
 namespace dotpose::core {
 
 class ExpectedRivals {
   public:
-    /// Of those that share at most so many lines in a row with the reading: 3 or 4.
-    explicit ExpectedRivals(int most_shared);
+    /// Of a position that share at most so many lines in a row with it, 3 or 4, and differ in the
+    /// places of at least so many sequences, 2 or 3.
+    ExpectedRivals(const code::Basis& basis, std::uint32_t position, int most_shared,
+                   int fewest_different);
 
     /// Adds the next line: the odds of each roll that a rival may show there, by how much it
     /// exceeds the reading's; odds[0] is 1.
@@ -23,21 +25,27 @@ class ExpectedRivals {
     float sum() const;
 
   private:
-    /// Sets of sequences whose places differ: all of two or more.
-    static constexpr std::size_t kSets = 11;
+    /// Sets of sequences whose places differ: at most all of two or more.
+    static constexpr std::size_t kMostSets = 11;
     static constexpr std::size_t kMostShared = 4;
 
     using ByShift = std::array<float, kSections>;
     struct Set {
-        float rivals = 0;  ///< how many there are
-        ByShift steps{};   ///< probability of a difference between two rolls, modulo 63
-        ByShift sums{};    ///< by the current shift; [0] is not used
+        unsigned different = 0;  ///< a bit for each sequence
+        float rivals = 0;        ///< how many there are
+        float equal = 1;         ///< probability that all digits of a rival are the reading's
+        ByShift sums{};          ///< by the current shift; [0] is not used
         std::array<float, kMostShared>
             shared{};  ///< shift 0, by the number of lines shared in a row
     };
 
+    ByShift after_step(const Set& set, const ByShift& before) const;
+
+    const code::Basis& basis_;
+    std::uint32_t position_;  ///< of the line before the next
     std::size_t most_shared_;
-    std::array<Set, kSets> sets_;
+    std::array<Set, kMostSets> sets_;
+    std::size_t set_count_ = 0;
     bool is_first_ = true;
 };
 

@@ -1,5 +1,6 @@
 #include "core/decode/verify.hpp"
 
+#include "core/decode/confidence.hpp"
 #include "core/decode/lines.hpp"
 #include "core/decode/rivals.hpp"
 #include "core/decode/upright.hpp"
@@ -7,12 +8,14 @@
 namespace dotpose::core {
 namespace {
 
-std::int64_t n_log2_n_q16(int n) {
-    return n == 0 ? 0 : n * log2_q16(static_cast<std::uint32_t>(n));
-}
+/// Bits of one axis that were read and compared with the code.
+struct Agreement {
+    int bits = 0;
+    int errors = 0;
+    Confidence confidence;
+};
 
-Agreement compare(const Grid& grid, Turn pattern_from_grid, const Nominal& nominal, Axis axis,
-                  Confidence& confidence) {
+Agreement compare(const Grid& grid, Turn pattern_from_grid, const Nominal& nominal, Axis axis) {
     Agreement agreement;
     for (int j = grid.j0; j < grid.j0 + grid.rows; ++j) {
         for (int i = grid.i0; i < grid.i0 + grid.columns; ++i) {
@@ -23,7 +26,7 @@ Agreement compare(const Grid& grid, Turn pattern_from_grid, const Nominal& nomin
             const Symbol expected = nominal.symbol(nominal.pattern_step({i, j}));
             const int bit = axis == Axis::x ? x_bit(expected) : y_bit(expected);
             const bool is_wrong = (weight > 0) != (bit == 1);
-            confidence.add(weight, is_wrong);
+            agreement.confidence.add(weight, is_wrong);
             agreement.errors += is_wrong;
             ++agreement.bits;
         }
@@ -38,18 +41,6 @@ AxisReading reading_of(Profile profile, std::uint32_t position, int section, std
 
 }  // namespace
 
-int chance_log2(Agreement agreement) {
-    const int n = agreement.bits;
-    const int errors = std::min(agreement.errors, n / 2);
-    // n H(errors / n) = n log n - errors log errors - (n - errors) log (n - errors). Rounding of
-    // the logarithms is off by at most n 2^-15 in all, which the last term covers.
-    const std::int64_t entropy_q16 =
-        n_log2_n_q16(n) - n_log2_n_q16(errors) - n_log2_n_q16(n - errors) + 4 * n;
-    // log2(410815348 * 63 * 4) = 36.6
-    constexpr std::int64_t kHypotheses_q16 = 37 * 65536;
-    return static_cast<int>((kHypotheses_q16 + entropy_q16 - n * std::int64_t{65536}) >> 16) + 1;
-}
-
 Status verify(const Grid& grid, Profile profile, const Decoding& decoding, const Nominal& nominal,
               const IntegrityOptions& options, std::span<LineScores> storage, Fix& fix) {
     const Upright upright(grid, decoding.region, decoding.pattern_from_grid);
@@ -58,12 +49,13 @@ Status verify(const Grid& grid, Profile profile, const Decoding& decoding, const
     fix.bit_errors = 0;
     int p_wrong_q8 = kNever_q8;
     bool one_pattern = true;
-    // Both axes are read from the same dots, and so are misread alike.
-    Confidence confidence;
     const std::array<Agreement, 2> agreements{
-        compare(grid, decoding.pattern_from_grid, nominal, Axis::x, confidence),
-        compare(grid, decoding.pattern_from_grid, nominal, Axis::y, confidence)};
-    const int odds = odds_per_bit_q8(confidence);
+        compare(grid, decoding.pattern_from_grid, nominal, Axis::x),
+        compare(grid, decoding.pattern_from_grid, nominal, Axis::y)};
+    // Both axes are read from the same dots, and so are misread alike.
+    Confidence both = agreements[0].confidence;
+    both.add(agreements[1].confidence);
+    const int odds = odds_per_bit_q8(both);
     for (const Axis axis : {Axis::x, Axis::y}) {
         const Agreement& agreement = agreements[axis == Axis::x ? 0 : 1];
         const AxisReading reading =
@@ -71,7 +63,8 @@ Status verify(const Grid& grid, Profile profile, const Decoding& decoding, const
                             : reading_of(profile, place.cell.y, place.section.v, place.cell.x);
         const Lines lines = score_lines(upright, axis, storage);
         const int rivals = rivals_log2(profile, lines, reading, odds);
-        p_wrong_q8 = add_log2(p_wrong_q8, add_log2(256 * rivals, 256 * chance_log2(agreement)));
+        p_wrong_q8 = add_log2(
+            p_wrong_q8, add_log2(256 * rivals, 256 * chance_log2(agreement.confidence, odds)));
         fix.bit_errors += agreement.errors;
         one_pattern &= agreement.errors <= agreement.bits * options.max_bit_error_q8 / 256;
     }

@@ -14,17 +14,25 @@ std::int32_t rough_cosine(std::int32_t phase_q16) {
     return rough_sine(phase_q16 + 16384);
 }
 
-/// A square grid: its wave vector, in turns per px, as direction and spacing.
-struct Square {
+/// A wave whose crests are rows of a grid.
+struct Wave {
     std::int32_t direction_bam = 0;
     std::int32_t spacing_q16 = 0;  ///< px
 
-    Vec wave_q30() const {
+    /// In turns per px.
+    Vec vector_q30() const {
         const Vec unit = unit_q30(direction_bam);
         return {static_cast<std::int32_t>((std::int64_t{unit.x} << 16) / spacing_q16),
                 static_cast<std::int32_t>((std::int64_t{unit.y} << 16) / spacing_q16)};
     }
+    Wave turned(std::int32_t angle_bam) const {
+        return {static_cast<std::int32_t>(static_cast<std::uint32_t>(direction_bam) +
+                                          static_cast<std::uint32_t>(angle_bam)),
+                spacing_q16};
+    }
 };
+
+constexpr std::int32_t kQuarter_bam = 1 << 30;
 
 /// Sums of the waves over the dots near the centre.
 class Periodogram {
@@ -34,7 +42,8 @@ class Periodogram {
 
     void set_reach(std::int32_t reach_q8) { reach_q8_ = reach_q8; }
 
-    Vec sum(Vec wave_q30) const {
+    Vec sum(const Wave& wave) const {
+        const Vec wave_q30 = wave.vector_q30();
         Vec total;
         for (const std::uint16_t s : seeds_) {
             const Vec p = dots_[s].centre_q8 - centre_q8_;
@@ -46,9 +55,10 @@ class Periodogram {
         return total;
     }
 
-    std::int64_t power(const Square& square) const {
-        const Vec wave = square.wave_q30();
-        return squared(sum(wave)) + squared(sum({-wave.y, wave.x}));
+    std::int64_t power(const Wave& wave) const { return squared(sum(wave)); }
+    /// Of the wave and the one across: those of a square grid.
+    std::int64_t power_of_square(const Wave& wave) const {
+        return power(wave) + power(wave.turned(kQuarter_bam));
     }
 
   private:
@@ -60,25 +70,61 @@ class Periodogram {
 
 constexpr std::int32_t kDegree_bam = 11930465;
 
-/// The best of a raster of directions and spacings around a square.
-Square best_around(const Periodogram& periodogram, Square around, std::int32_t turn_bam,
-                   std::int32_t stretch_q16, int turns, int stretches) {
-    Square best = around;
+/// Steps of a raster around a wave, and how many to either side.
+struct Raster {
+    std::int32_t turn_bam;
+    std::int32_t stretch_q16;
+    int turns;
+    int stretches;
+};
+
+template <typename Power>
+Wave best_around(const Wave& around, const Raster& raster, Power power) {
+    Wave best = around;
     std::int64_t most = -1;
-    for (int t = -turns; t <= turns; ++t) {
-        for (int s = -stretches; s <= stretches; ++s) {
-            const Square square{
-                static_cast<std::int32_t>(static_cast<std::uint32_t>(around.direction_bam) +
-                                          static_cast<std::uint32_t>(t * turn_bam)),
-                around.spacing_q16 + s * stretch_q16};
-            const std::int64_t power = periodogram.power(square);
-            if (power > most) {
-                most = power;
-                best = square;
+    for (int t = -raster.turns; t <= raster.turns; ++t) {
+        for (int s = -raster.stretches; s <= raster.stretches; ++s) {
+            Wave wave = around.turned(t * raster.turn_bam);
+            wave.spacing_q16 += s * raster.stretch_q16;
+            const std::int64_t here = power(wave);
+            if (here > most) {
+                most = here;
+                best = wave;
             }
         }
     }
     return best;
+}
+
+template <typename Power>
+Wave climb(Wave wave, Power power) {
+    const std::int32_t spacing_q16 = wave.spacing_q16;
+    for (int fineness = 1; fineness <= 8; fineness *= 2) {
+        wave =
+            best_around(wave, {kDegree_bam / fineness, spacing_q16 / 80 / fineness, 1, 1}, power);
+    }
+    return wave;
+}
+
+/// The lattice on whose rows both waves have their crests, as near the centre as can be.
+Lattice lattice_of(const Periodogram& periodogram, const Wave& first, const Wave& second,
+                   Vec centre_q8) {
+    const Vec a = first.vector_q30();
+    const Vec b = second.vector_q30();
+    const std::int64_t area_q44 = std::max<std::int64_t>(cross(a, b) >> 16, 1);
+    const auto entry = [&](std::int32_t part_q30) {
+        return static_cast<std::int32_t>((std::int64_t{part_q30} << 30) / area_q44);
+    };
+    Lattice lattice;
+    lattice.u_q16 = {entry(b.y), entry(-b.x)};
+    lattice.v_q16 = {entry(-a.y), entry(a.x)};
+    // Dots stand at whole turns of both waves, but for the phase that their sum shows.
+    const std::int64_t i_q16 = angle_bam(periodogram.sum(first)) >> 16;
+    const std::int64_t j_q16 = angle_bam(periodogram.sum(second)) >> 16;
+    lattice.origin_q16 = {
+        centre_q8.x * 256 + shift_rounded(i_q16 * lattice.u_q16.x + j_q16 * lattice.v_q16.x, 16),
+        centre_q8.y * 256 + shift_rounded(i_q16 * lattice.u_q16.y + j_q16 * lattice.v_q16.y, 16)};
+    return lattice;
 }
 
 }  // namespace
@@ -87,32 +133,23 @@ void climb_periodogram(std::span<const Dot> dots, std::span<const std::uint16_t>
                        Vec centre_q8, Lattice& lattice) {
     const std::uint32_t length_q16 = square_root(
         static_cast<std::uint64_t>(squared(lattice.u_q16) / 2 + squared(lattice.v_q16) / 2));
-    Square square{angle_bam({lattice.u_q16.x / 2 + lattice.v_q16.y / 2,
-                             lattice.u_q16.y / 2 - lattice.v_q16.x / 2}),
-                  static_cast<std::int32_t>(length_q16)};
+    Wave wave{angle_bam({lattice.u_q16.x / 2 + lattice.v_q16.y / 2,
+                         lattice.u_q16.y / 2 - lattice.v_q16.x / 2}),
+              static_cast<std::int32_t>(length_q16)};
     Periodogram periodogram(dots, seeds, centre_q8);
+    const auto power = [&](const Wave& w) { return periodogram.power(w); };
+    const auto power_of_square = [&](const Wave& w) { return periodogram.power_of_square(w); };
     // A few cells wide, the peak is broad enough for a coarse raster to meet it.
-    periodogram.set_reach(square.spacing_q16 / 256 * 5);
-    square = best_around(periodogram, square, 2 * kDegree_bam, square.spacing_q16 / 40, 6, 4);
-    periodogram.set_reach(square.spacing_q16 / 256 * 8);
-    for (int fineness = 1; fineness <= 8; fineness *= 2) {
-        square = best_around(periodogram, square, kDegree_bam / fineness,
-                             square.spacing_q16 / 80 / fineness, 1, 1);
-    }
-
-    const Vec unit = unit_q30(square.direction_bam);
-    const auto along = [&](std::int32_t part_q30) {
-        return static_cast<std::int32_t>((std::int64_t{part_q30} * square.spacing_q16) >> 30);
-    };
-    lattice.u_q16 = {along(unit.x), along(unit.y)};
-    lattice.v_q16 = {-lattice.u_q16.y, lattice.u_q16.x};
-    // Dots stand at whole turns of both waves, but for the phase that their sum shows.
-    const Vec wave = square.wave_q30();
-    const std::int64_t i_q16 = angle_bam(periodogram.sum(wave)) >> 16;
-    const std::int64_t j_q16 = angle_bam(periodogram.sum({-wave.y, wave.x})) >> 16;
-    lattice.origin_q16 = {
-        centre_q8.x * 256 + shift_rounded(i_q16 * lattice.u_q16.x + j_q16 * lattice.v_q16.x, 16),
-        centre_q8.y * 256 + shift_rounded(i_q16 * lattice.u_q16.y + j_q16 * lattice.v_q16.y, 16)};
+    periodogram.set_reach(wave.spacing_q16 / 256 * 5);
+    wave = best_around(wave, {2 * kDegree_bam, wave.spacing_q16 / 40, 6, 4}, power_of_square);
+    // A tilted camera sees the two at their own spacings and angles.
+    const Raster tilt{3 * kDegree_bam, wave.spacing_q16 / 25, 3, 3};
+    Wave first = best_around(wave, tilt, power);
+    Wave second = best_around(wave.turned(kQuarter_bam), tilt, power);
+    periodogram.set_reach(wave.spacing_q16 / 256 * 8);
+    first = climb(first, power);
+    second = climb(second, power);
+    lattice = lattice_of(periodogram, first, second, centre_q8);
 }
 
 }  // namespace dotpose::core

@@ -87,9 +87,14 @@ Status refine_grid(std::span<const Dot> dots, const LatticeOptions& options, Vec
     centre_origin(dots, plane);
     Regularity regularity;
     for (int reach = kFirstReach_cells;; reach += reach / 2 + 1) {
-        fit(dots, reach, options, plane);
-        if (!is_nearly_square(plane)) return Status::no_grid;
-        regularity = judge(dots, reach, options, plane);
+        // Dots that a better fit puts into other cells make the next one better still.
+        constexpr int kMostRounds = 4;
+        for (int round = 0; round < kMostRounds; ++round) {
+            fit(dots, reach, options, plane);
+            if (!is_nearly_square(plane)) return Status::no_grid;
+            regularity = judge(dots, reach, options, plane);
+            if (20 * regularity.near_intersections >= 19 * regularity.dots) break;
+        }
         if (reach >= regularity.farthest_cell) break;
     }
     fit(dots, regularity.farthest_cell, options, plane);

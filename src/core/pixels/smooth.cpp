@@ -1,8 +1,9 @@
 #include "core/pixels/smooth.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
+
+#include "core/pixels/paper.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -46,50 +47,14 @@ int half_side(int at, int length, int largest) {
     return std::max(std::min({largest, at, length - 1 - at}), kSmallest);
 }
 
-constexpr int kSamplesPerSide = 12;
-
-/// Level that a third of the pixels of one block exceed: of its paper, unless strokes cover most of
-/// it.
-std::uint8_t paper_of_block(const ImageView& image, int u0, int v0, int side) {
-    std::array<std::uint8_t, kSamplesPerSide * kSamplesPerSide> levels{};
-    std::size_t count = 0;
-    const int step = std::max(side / kSamplesPerSide, 1);
-    for (int v = v0; v < std::min(v0 + kSamplesPerSide * step, image.height_px); v += step) {
-        for (int u = u0; u < std::min(u0 + kSamplesPerSide * step, image.width_px); u += step) {
-            levels[count++] = image.row(v)[u];
-        }
-    }
-    const auto third = levels.begin() + static_cast<std::ptrdiff_t>(2 * count / 3);
-    std::nth_element(levels.begin(), third, levels.begin() + static_cast<std::ptrdiff_t>(count));
-    return *third;
-}
-
-int blocks_along(int length_px, int side) {
-    return (length_px - 1) / side + 1;
-}
-
-/// The brightest paper of a block and those around it.
-int paper_near(const ImageView& image, int block, int block_row, const Smoothing& smoothing) {
-    const int columns = blocks_along(image.width_px, smoothing.block_px);
-    const int rows = blocks_along(image.height_px, smoothing.block_px);
-    int brightest = 0;
-    for (int r = std::max(block_row - 1, 0); r <= std::min(block_row + 1, rows - 1); ++r) {
-        for (int c = std::max(block - 1, 0); c <= std::min(block + 1, columns - 1); ++c) {
-            brightest = std::max(brightest,
-                                 int{smoothing.papers[static_cast<std::size_t>(r * columns + c)]});
-        }
-    }
-    return brightest;
-}
-
 /// Adds a row to the sums of the columns, or takes it off again. What is much darker than the paper
 /// around counts as paper: strokes of graphics are no shadow.
 void add_row(const ImageView& image, int v, bool add, Smoothing& smoothing) {
     const std::uint8_t* row = image.row(v);
-    for (int begin = 0; begin < image.width_px; begin += smoothing.block_px) {
-        const int paper =
-            paper_near(image, begin / smoothing.block_px, v / smoothing.block_px, smoothing);
-        const int end = std::min(begin + smoothing.block_px, image.width_px);
+    const int block_px = smoothing.paper.block_px;
+    for (int begin = 0; begin < image.width_px; begin += block_px) {
+        const int paper = brightest_paper_near(smoothing.paper, begin, v);
+        const int end = std::min(begin + block_px, image.width_px);
         for (int u = begin; u < end; ++u) {
             const auto level =
                 static_cast<std::uint32_t>(10 * row[u] < 7 * paper ? paper : int{row[u]});
@@ -107,9 +72,13 @@ void move_sums(const ImageView& image, int begin, int end, Smoothing& smoothing)
         add_row(image, smoothing.sums_begin++, false, smoothing);
 }
 
+/// Level below which all is the same: graphics look no darker than a weak dot, and so do not hide
+/// the contrast of the dots near them.
+constexpr std::uint32_t kDarkest = kEvenLevel * 4 / 5;
+
 /// Divides each pixel by the mean of its surroundings.
 void even_out(const ImageView& image, int v, Smoothing& smoothing) {
-    const int largest = smoothing.block_px;
+    const int largest = smoothing.paper.block_px;
     const int half_height = half_side(v, image.height_px, largest);
     move_sums(image, std::max(v - half_height, 0), std::min(v + half_height + 1, image.height_px),
               smoothing);
@@ -127,7 +96,8 @@ void even_out(const ImageView& image, int v, Smoothing& smoothing) {
         const std::uint32_t mean =
             std::max(sum / (rows * static_cast<std::uint32_t>(end - begin)), 1U);
         std::uint8_t& pixel = smoothing.row[static_cast<std::size_t>(u)];
-        pixel = static_cast<std::uint8_t>(std::min(pixel * std::uint32_t{kEvenLevel} / mean, 255U));
+        pixel = static_cast<std::uint8_t>(
+            std::clamp(pixel * std::uint32_t{kEvenLevel} / mean, kDarkest, 255U));
     }
 }
 
@@ -136,16 +106,10 @@ void even_out(const ImageView& image, int v, Smoothing& smoothing) {
 void begin_smoothing(const ImageView& image, Smoothing& smoothing) {
     smoothing.lines_ready = 0;
     smoothing.rows_given = 0;
-    smoothing.block_px = std::min(image.width_px, image.height_px) / 10;
+    measure_paper(image, smoothing.paper);
     smoothing.sums_begin = 0;
     smoothing.sums_end = 0;
     std::fill_n(smoothing.column_sums.begin(), image.width_px, 0U);
-    std::size_t block = 0;
-    for (int v = 0; v < image.height_px; v += smoothing.block_px) {
-        for (int u = 0; u < image.width_px; u += smoothing.block_px) {
-            smoothing.papers[block++] = paper_of_block(image, u, v, smoothing.block_px);
-        }
-    }
 }
 
 const std::uint8_t* next_smooth_row(const ImageView& image, Smoothing& smoothing) {

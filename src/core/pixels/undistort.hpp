@@ -1,4 +1,4 @@
-// Undistort: where a lens without distortion would have put the dots. Paper eq. 1-2.
+// Undistort: where a lens without distortion would have put the dots, and back. Paper eq. 1-2.
 #pragma once
 
 #include "dotpose/options.hpp"
@@ -6,6 +6,12 @@
 
 namespace dotpose::core {
 
+/// Eq. 1-2.
+Vec undistorted(const Lens& lens, Vec image_centre_q8, Vec point_q8);
+
 void undistort(const Lens& lens, Vec image_centre_q8, std::span<Dot> dots);
+
+/// The inverse of eq. 2: r_d = 2 r_u / (1 + sqrt(1 - 4 k r_u^2)).
+Vec distorted(const Lens& lens, Vec image_centre_q8, Vec point_q8);
 
 }  // namespace dotpose::core

@@ -1,7 +1,9 @@
 #include "core/pose/measure.hpp"
 
+#include <array>
 #include <optional>
 
+#include "core/pixels/undistort.hpp"
 #include "core/plane.hpp"
 
 namespace dotpose::core {
@@ -30,6 +32,24 @@ struct Window {
     }
 };
 
+/// A pixel, brought back into the range of its neighbours where it is far outside: a defect of the
+/// sensor. It has them: windows keep off the border.
+int without_defect(const ImageView& image, int u, int v) {
+    int low = 255;
+    int high = 0;
+    for (int dv = -1; dv <= 1; ++dv) {
+        const std::uint8_t* row = image.row(v + dv) + u;
+        for (int du = -1; du <= 1; ++du) {
+            if (du == 0 && dv == 0) continue;
+            low = std::min(low, int{row[du]});
+            high = std::max(high, int{row[du]});
+        }
+    }
+    const int level = image.row(v)[u];
+    const int far = high / 4;
+    return level < low - far || level > high + far ? std::clamp(level, low, high) : level;
+}
+
 /// The light on the paper around a dot: a plane through the window's rim, in 1/256 grey level.
 struct RimLight {
     int middle_q8 = 0;
@@ -45,10 +65,10 @@ RimLight light_on_rim(const ImageView& image, int u0, int v0, int half) {
     int top = 0;
     int bottom = 0;
     for (int i = -half; i <= half; ++i) {
-        left += image.row(v0 + i)[u0 - half];
-        right += image.row(v0 + i)[u0 + half];
-        top += image.row(v0 - half)[u0 + i];
-        bottom += image.row(v0 + half)[u0 + i];
+        left += without_defect(image, u0 - half, v0 + i);
+        right += without_defect(image, u0 + half, v0 + i);
+        top += without_defect(image, u0 + i, v0 - half);
+        bottom += without_defect(image, u0 + i, v0 + half);
     }
     const int side = 2 * half + 1;
     return {(left + right + top + bottom) * 64 / side, (right - left) * 256 / (2 * half * side),
@@ -59,23 +79,26 @@ RimLight light_on_rim(const ImageView& image, int u0, int v0, int half) {
 std::optional<Dot> measure(const ImageView& image, const Window& window, Vec start_q8) {
     Vec centre_q8 = start_q8;
     std::int64_t mass_q24 = 0;
+    int light_q8 = 0;
     for (int iteration = 0; iteration < kIterations; ++iteration) {
         const int u0 = (centre_q8.x + 128) >> 8;
         const int v0 = (centre_q8.y + 128) >> 8;
         const int half = window.half_px;
-        if (u0 < half || v0 < half || u0 + half >= image.width_px || v0 + half >= image.height_px) {
+        if (u0 <= half || v0 <= half || u0 + half + 1 >= image.width_px ||
+            v0 + half + 1 >= image.height_px) {
             return {};
         }
         const RimLight light = light_on_rim(image, u0, v0, half);
+        light_q8 = light.middle_q8;
         std::int64_t sum_x = 0;
         std::int64_t sum_y = 0;
         mass_q24 = 0;
         for (int v = v0 - half; v <= v0 + half; ++v) {
-            const std::uint8_t* row = image.row(v);
             for (int u = u0 - half; u <= u0 + half; ++u) {
                 const Vec d{u * 256 - centre_q8.x, v * 256 - centre_q8.y};
                 const std::int64_t weight =
-                    window.weight_q16(squared(d)) * (light.at(u - u0, v - v0) - row[u] * 256);
+                    window.weight_q16(squared(d)) *
+                    (light.at(u - u0, v - v0) - without_defect(image, u, v) * 256);
                 mass_q24 += weight;
                 sum_x += weight * d.x;
                 sum_y += weight * d.y;
@@ -89,13 +112,31 @@ std::optional<Dot> measure(const ImageView& image, const Window& window, Vec sta
         const Vec moved = centre_q8 - start_q8;
         if (squared(moved) > std::int64_t{window.sigma_q8} * window.sigma_q8 * 2) return {};
     }
-    return Dot{centre_q8, static_cast<std::uint16_t>(std::min<std::int64_t>(mass_q24 >> 24, 65535)),
-               0};
+    // As a share of the light, which makes dots alike all over the image.
+    const std::int64_t mass = mass_q24 / std::max(light_q8, 256);
+    return Dot{centre_q8, static_cast<std::uint16_t>(std::min<std::int64_t>(mass >> 8, 65535)), 0};
+}
+
+/// Drops what is much lighter or much darker than the typical dot: paper where a dot is missing,
+/// dirt, graphics.
+void drop_strange(Grid& grid, std::span<Dot> dots) {
+    constexpr std::size_t kSample = 256;
+    std::array<std::int32_t, kSample> masses;
+    std::size_t n = 0;
+    const std::size_t step = dots.size() / kSample + 1;
+    for (std::size_t i = 0; i < dots.size(); i += step)
+        masses[n++] = dots[i].mass;
+    const int typical = median(std::span(masses).first(n));
+    for (GridCell& cell : grid.storage.first(static_cast<std::size_t>(grid.columns * grid.rows))) {
+        if (!cell.has_dot()) continue;
+        const int mass = dots[cell.dot].mass;
+        if (3 * mass < 2 * typical || 2 * mass > 3 * typical) cell.dot = GridCell::kNoDot;
+    }
 }
 
 }  // namespace
 
-int measure_dots(const ImageView& image, const PlaneFromImage& pattern_from_image,
+int measure_dots(const ImageView& image, const Lens& lens, const PlaneFromImage& pattern_from_image,
                  const Nominal& nominal, Grid& grid, std::span<Dot> dots) {
     const auto length_q24 =
         square_root(static_cast<std::uint64_t>(squared(pattern_from_image.du_q24)));
@@ -112,12 +153,15 @@ int measure_dots(const ImageView& image, const PlaneFromImage& pattern_from_imag
             const Symbol symbol = nominal.symbol(step);
             const Vec place{step.x * 65536 + dx(symbol) * kNominal_q16,
                             step.y * 65536 + dy(symbol) * kNominal_q16};
-            const auto dot = measure(image, window, image_point_q8(pattern_from_image, place));
+            const auto dot = measure(image, window,
+                                     distorted(lens, pattern_from_image.centre_q8,
+                                               image_point_q8(pattern_from_image, place)));
             if (!dot) continue;
             cell.dot = static_cast<std::uint16_t>(count);
             dots[count++] = *dot;
         }
     }
+    drop_strange(grid, dots.first(count));
     return static_cast<int>(count);
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/decode/nominal.hpp"
 #include "dotpose/image.hpp"
+#include "dotpose/options.hpp"
 #include "dotpose/workspace.hpp"
 
 namespace dotpose::core {
@@ -12,7 +13,7 @@ namespace dotpose::core {
 /// Replaces the dots found by those measured, one for each cell that shows one where it should be,
 /// and links the cells to them: Gaussian-windowed centroids (Bertin, SExtractor: XWIN), iterated
 /// from the nominal places. Returns the number of dots.
-int measure_dots(const ImageView& image, const PlaneFromImage& pattern_from_image,
+int measure_dots(const ImageView& image, const Lens& lens, const PlaneFromImage& pattern_from_image,
                  const Nominal& nominal, Grid& grid, std::span<Dot> dots);
 
 }  // namespace dotpose::core

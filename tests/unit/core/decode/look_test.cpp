@@ -6,6 +6,7 @@
 #include "../canvas.hpp"
 #include "../reading.hpp"
 #include "core/decode/upright.hpp"
+#include "core/pixels/paper.hpp"
 
 namespace dotpose::core_test {
 namespace {
@@ -27,7 +28,11 @@ struct Looked {
         : view(view_), turn(turn_), owned(64) {
         zero = {static_cast<int>(std::lround(view.at_centre.x)),
                 static_cast<int>(std::lround(view.at_centre.y))};
-        look_at_cells(image.view(),
+        std::array<std::uint8_t, 400> levels;
+        PaperMap paper;
+        paper.levels = levels;
+        measure_paper(image.view(), paper);
+        look_at_cells(image.view(), paper, Lens{},
                       plane_from_lattice(lattice_of(view.mesh_turned(turn, zero)),
                                          fixed(view.centre_px(), 8)),
                       owned.grid);
@@ -106,7 +111,8 @@ TEST(Look, CellsUnderABlackStrokeSayNothing) {
                 EXPECT_EQ(cell.x, 0);
                 EXPECT_EQ(cell.y, 0);
                 ++under;
-            } else if (at.y < kTop - 11 || at.y > kBottom + 10) {
+            } else if (at.y < kTop - 0.75 * view.spacing_px ||
+                       at.y > kBottom + 0.75 * view.spacing_px) {
                 EXPECT_TRUE(is_right(bits, symbol));
                 ++beside;
             }

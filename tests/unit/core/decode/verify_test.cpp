@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "../reading.hpp"
+#include "chance.hpp"
 
 namespace dotpose::core_test {
 namespace {
@@ -11,48 +12,6 @@ namespace {
 using namespace core;
 
 constexpr std::uint64_t kSeed = 32;
-
-/// log2((L * 63 * 4) * P(Binomial(n, 1/2) <= e)) for e = 0 to n, the sum of the binomial
-/// coefficients scaled by a power of two.
-std::vector<long double> exact_chance_log2(int n) {
-    const long double hypotheses = std::log2(410815348.0L * 63 * 4);
-    std::vector<long double> result;
-    long double log_coefficient = 0;  // log2 C(n, k)
-    long double log_sum = 0;
-    for (int k = 0; k <= n; ++k) {
-        if (k > 0) {
-            log_coefficient += std::log2(static_cast<long double>(n - k + 1)) -
-                               std::log2(static_cast<long double>(k));
-            const long double larger = std::max(log_sum, log_coefficient);
-            log_sum = larger +
-                      std::log2(std::exp2(log_sum - larger) + std::exp2(log_coefficient - larger));
-        }
-        result.push_back(hypotheses + log_sum - n);
-    }
-    return result;
-}
-
-TEST(Verify, ChanceIsBoundedFromAboveAndNotFarOff) {
-    std::vector<int> sizes;
-    for (int n = 1; n <= 300; ++n)
-        sizes.push_back(n);
-    sizes.insert(sizes.end(), {384, 1000, 4096, 16384, 36864});
-    for (const int n : sizes) {
-        const auto exact = exact_chance_log2(n);
-        for (int e = 0; e <= n; ++e) {
-            const int bound = chance_log2({n, e});
-            ASSERT_GE(bound, exact[static_cast<std::size_t>(e)] - 1e-9L)
-                << n << " bits, " << e << " errors";
-            if (2 * e > n) continue;
-            // The entropy bound gives a factor of up to sqrt(8 n p q) away, the rounding 2 and n /
-            // 2^14.
-            const double slack = 0.5 * std::log2(8.0 * n) + 3 + n / 8192.0;
-            ASSERT_LE(bound, exact[static_cast<std::size_t>(e)] + slack)
-                << n << " bits, " << e << " errors";
-        }
-    }
-    EXPECT_GE(chance_log2({0, 0}), 36);
-}
 
 struct Verdict {
     Status status;

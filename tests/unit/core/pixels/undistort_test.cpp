@@ -37,6 +37,25 @@ TEST(Undistort, IsEquations1And2) {
     }
 }
 
+TEST(Undistort, DistortedIsTheInverse) {
+    Rng rng(kSeed);
+    for (const Vec2 size : {Vec2{64, 64}, Vec2{188, 120}, Vec2{640, 480}, Vec2{4096, 4096}}) {
+        const Vec centre = fixed({(size.x - 1) / 2, (size.y - 1) / 2}, 8);
+        const Vec2 half = real(centre, 8);
+        for (const double at_corner : {-0.12, -0.01, 0.0, 0.05, 0.2}) {
+            const Lens lens = Lens::from_k(at_corner / (half.x * half.x + half.y * half.y));
+            for (int i = 0; i < 200; ++i) {
+                const Vec seen = fixed({rng.uniform(0, size.x), rng.uniform(0, size.y)}, 8);
+                const Vec again =
+                    core::distorted(lens, centre, core::undistorted(lens, centre, seen));
+                // Both round to 1/256 px; a lens of 0.2 magnifies what is lost up to twofold.
+                ASSERT_LE(std::abs(again.x - seen.x), 3) << at_corner << ", seed " << kSeed;
+                ASSERT_LE(std::abs(again.y - seen.y), 3) << at_corner << ", seed " << kSeed;
+            }
+        }
+    }
+}
+
 TEST(Undistort, NoLensMovesNothing) {
     std::vector<Dot> dots{dot_at({1.25, 3.5}), dot_at({4000.75, 12})};
     core::undistort({}, {2048 * 256, 2048 * 256}, dots);

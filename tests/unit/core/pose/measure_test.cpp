@@ -46,7 +46,8 @@ TEST(MeasureDots, FindsTheirCentresInUnevenLight) {
         const Vec2 off{rng.uniform(-0.03, 0.03), rng.uniform(-0.03, 0.03)};
         pose.at_centre_q16 = fixed(real(pose.at_centre_q16, 16) + off, 16);
         std::vector<Dot> measured(1000);
-        const int count = measure_dots(image.view(), pose, nominal, reading.owned.grid, measured);
+        const int count =
+            measure_dots(image.view(), Lens{}, pose, nominal, reading.owned.grid, measured);
         int seen = 0;
         for (int j = reading.grid().j0; j < reading.grid().j0 + reading.grid().rows; ++j) {
             for (int c = reading.grid().i0; c < reading.grid().i0 + reading.grid().columns; ++c) {
@@ -83,16 +84,16 @@ TEST(MeasureDots, BlankPaperAndHiddenCellsHaveNone) {
     ASSERT_EQ(reading.status, Status::ok);
     const Nominal nominal(reading.grid(), view.profile, reading.truth());
     std::vector<Dot> measured(1000);
-    EXPECT_EQ(
-        measure_dots(blank(188, 120).view(), reading.plane, nominal, reading.owned.grid, measured),
-        0);
+    EXPECT_EQ(measure_dots(blank(188, 120).view(), Lens{}, reading.plane, nominal,
+                           reading.owned.grid, measured),
+              0);
     for (GridCell& cell : reading.owned.cells) {
         EXPECT_FALSE(cell.has_dot());
         cell.dot = GridCell::kHidden;
     }
-    EXPECT_EQ(
-        measure_dots(drawn(view, 0).view(), reading.plane, nominal, reading.owned.grid, measured),
-        0);
+    EXPECT_EQ(measure_dots(drawn(view, 0).view(), Lens{}, reading.plane, nominal,
+                           reading.owned.grid, measured),
+              0);
 }
 
 TEST(MeasureDots, StopsWhereTheirMemoryEnds) {
@@ -102,8 +103,8 @@ TEST(MeasureDots, StopsWhereTheirMemoryEnds) {
     ASSERT_EQ(reading.status, Status::ok);
     const Nominal nominal(reading.grid(), view.profile, reading.truth());
     std::vector<Dot> measured(11);
-    EXPECT_EQ(measure_dots(drawn(view, 0).view(), reading.plane, nominal, reading.owned.grid,
-                           std::span(measured).first(10)),
+    EXPECT_EQ(measure_dots(drawn(view, 0).view(), Lens{}, reading.plane, nominal,
+                           reading.owned.grid, std::span(measured).first(10)),
               10);
     EXPECT_EQ(measured[10].centre_q8, Vec{});
     // Cells refer to none but the measured ones.

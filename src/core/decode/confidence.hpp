@@ -1,0 +1,56 @@
+// Confidence: how sure bits are, and how probable it is that chance agrees as well with the code.
+// docs/integrity.md derives both.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace dotpose::core {
+
+/// How strongly bits were read, and how far the code contradicts them.
+class Confidence {
+  public:
+    static constexpr int kMostWeight = 127;
+
+    /// weight: -127 to 127.
+    void add(int weight, bool is_wrong) {
+        Count& count = counts_[static_cast<std::size_t>(weight < 0 ? -weight : weight)];
+        ++count.bits;
+        count.wrong += is_wrong;
+    }
+    void add(const Confidence& other) {
+        for (std::size_t i = 0; i < counts_.size(); ++i) {
+            counts_[i].bits += other.counts_[i].bits;
+            counts_[i].wrong += other.counts_[i].wrong;
+        }
+    }
+    int bits(int weight) const { return counts_[static_cast<std::size_t>(weight)].bits; }
+    int wrong(int weight) const { return counts_[static_cast<std::size_t>(weight)].wrong; }
+    int wrong_weight() const {
+        int sum = 0;
+        for (int weight = 1; weight <= kMostWeight; ++weight)
+            sum += weight * wrong(weight);
+        return sum;
+    }
+
+  private:
+    struct Count {
+        std::int32_t bits = 0;
+        std::int32_t wrong = 0;
+    };
+    std::array<Count, kMostWeight + 1> counts_{};
+};
+
+/// The odds, as a power of two in 2^-8, that a bit of weight 127 is right; those of weaker ones
+/// grow in proportion to their weight. The value (logistic regression, maximum likelihood) at which
+/// as much weight is expected to be wrong as was, and two full bits more; 0 where that says
+/// nothing.
+int odds_per_bit_q8(const Confidence& confidence);
+
+/// Upper bound, as a power of two, of the probability that random bits of these weights agree as
+/// well with some position, section and turn of one axis: L * 63 * 4 hypotheses, each by Chernoff's
+/// bound with the weights scaled to log odds. Valid for any odds, and best for the true ones.
+int chance_log2(const Confidence& axis, int odds_per_bit_q8);
+
+}  // namespace dotpose::core

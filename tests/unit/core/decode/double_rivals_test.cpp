@@ -1,0 +1,98 @@
+// Double rivals against a sum over all of them in double precision.
+#include "core/decode/double_rivals.hpp"
+
+#include <gtest/gtest.h>
+
+#include "../../code/reference.hpp"
+#include "dotpose/random.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+using namespace core;
+
+constexpr std::uint64_t kSeed = 46;
+constexpr int kLines = 9;
+constexpr int kOdds_q8 = 3 * 256;
+
+/// Lines that fit a position, with scores of other rolls at random: none fits by chance.
+struct Case {
+    explicit Case(Rng& rng) : position(rng.below(kPositionsPerAxis)) {
+        lines.scores = storage;
+        std::uint32_t p = position;
+        int here = roll(Profile::anoto, p);
+        for (int line = 0; line < kLines; ++line) {
+            const auto n = static_cast<std::size_t>(line);
+            for (std::int16_t& score : storage[n])
+                score = static_cast<std::int16_t>(-static_cast<int>(rng.below(600)));
+            storage[n][static_cast<std::size_t>(here)] = 1000;
+            here = (here + delta(Profile::anoto, p)) % kSections;
+            p = p + 1 == kPositionsPerAxis ? 0 : p + 1;
+        }
+        reading = {position, static_cast<std::uint8_t>(roll(Profile::anoto, position)), 0, 0};
+    }
+    std::uint32_t position;
+    std::array<LineScores, kLines> storage{};
+    Lines lines;
+    AxisReading reading;
+};
+
+/// Every pair of places in two sequences, every shift, every line: those that share some line.
+double exact_sum(const Case& c) {
+    const auto texts = code_test::secondary_texts(Profile::anoto);
+    const int first_roll = roll(Profile::anoto, c.position);
+    double sum = 0;
+    std::array<std::array<std::array<int, kLines>, 241>, 4> rolls{};
+    for (std::size_t k = 0; k < 4; ++k) {
+        const std::size_t length = texts[k].size();
+        for (std::size_t place = 0; place < length; ++place) {
+            int grown = 0;
+            for (int line = 0; line < kLines; ++line) {
+                rolls[k][place][static_cast<std::size_t>(line)] = grown;
+                grown += code_test::kWeights[k] *
+                         (texts[k][(place + static_cast<std::size_t>(line)) % length] -
+                          texts[k][(c.position + static_cast<std::size_t>(line)) % length]);
+            }
+        }
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+        for (std::size_t l = k + 1; l < 4; ++l) {
+            for (std::size_t i = 0; i < texts[k].size(); ++i) {
+                if (i == c.position % texts[k].size()) continue;
+                for (std::size_t j = 0; j < texts[l].size(); ++j) {
+                    if (j == c.position % texts[l].size()) continue;
+                    for (int shift = 0; shift < 63; ++shift) {
+                        double lost = 0;
+                        bool shares = false;
+                        int own = first_roll;
+                        std::uint32_t p = c.position;
+                        for (std::size_t line = 0; line < kLines; ++line) {
+                            const int further = rolls[k][i][line] + rolls[l][j][line] + shift;
+                            const int other = ((own + further) % 63 + 63) % 63;
+                            shares = shares || other == own;
+                            lost += 1000 - c.storage[line][static_cast<std::size_t>(other)];
+                            own = (own + delta(Profile::anoto, p)) % 63;
+                            ++p;
+                        }
+                        if (shares) sum += std::exp2(-lost * kOdds_q8 / 256 / 254);
+                    }
+                }
+            }
+        }
+    }
+    return sum;
+}
+
+TEST(DoubleRivals, AreSummedOneByOne) {
+    Rng rng(kSeed);
+    const Case c(rng);
+    const Contest contest(Profile::anoto, c.lines, c.reading, kOdds_q8);
+    const double exact = exact_sum(c);
+    ASSERT_GT(exact, 1e-12);
+    // Exponentials are right to 2 %, and exact only down to whole 2^-8 of a power of two.
+    EXPECT_NEAR(static_cast<double>(sum_of_double_rivals(contest)) / exact, 1, 0.04)
+        << "seed " << kSeed;
+}
+
+}  // namespace
+}  // namespace dotpose::core_test
