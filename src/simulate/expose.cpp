@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
+#include <span>
 
 #include "simulate/ink.hpp"
 #include "simulate/kernel.hpp"
@@ -14,6 +14,9 @@
 
 namespace dotpose::simulate {
 namespace {
+
+// Light is added up in fours, which compilers do in one step.
+constexpr std::size_t kLanes = 4;
 
 // Collects light in pixels: that of bare paper, less what ink takes away. Ink covers a few percent
 // of the sub-pixels, so only those are spread over the pixels they reach.
@@ -25,13 +28,13 @@ class Sensor {
           border_(static_cast<std::size_t>(kernel.border_px)),
           kernel_(kernel),
           paper_(paper),
-          levels_(width_ * static_cast<std::size_t>(camera.height_px)),
-          row_(width_ + 2 * border_ + kernel.taps) {
+          row_(whole_lanes(width_ + 2 * border_ + kernel.taps)),
+          levels_(row_.size() * static_cast<std::size_t>(camera.height_px)) {
         collect_paper();
     }
 
     // Takes away the light that ink absorbs in a sub-row, counted from the top of the border.
-    void absorb(int sub_row, const std::vector<Raster::Spot>& spots) {
+    void absorb(int sub_row, std::span<const Raster::Spot> spots) {
         if (spots.empty()) return;
         const int row = sub_row / kernel_.per_pixel;
         gather(spots, paper_row(row));
@@ -45,44 +48,56 @@ class Sensor {
         }
     }
 
-    std::vector<float> take_levels() { return std::move(levels_); }
-
-  private:
-    const float* paper_row(int row) const {
-        return &paper_[static_cast<std::size_t>(row) * (width_ + 2 * border_)];
+    std::vector<float> levels() const {
+        std::vector<float> inside(width_ * static_cast<std::size_t>(height_));
+        const float* in = &levels_[2 * border_];
+        for (auto out = inside.begin(); out != inside.end(); in += row_.size())
+            out = std::copy_n(in, width_, out);
+        return inside;
     }
 
-    // Light lost in the sub-pixels of one pixel; 0 where there is no ink.
-    struct Loss {
-        std::size_t column;
-        std::array<float, Kernel::kMaxPerPixel> light;
-    };
-    // Elements of row_.
+  private:
+    // Elements of row_, as many as whole lanes.
     struct Reach {
         std::size_t from, to;
     };
 
-    // Sorts spots into pixels, and finds the parts of row_ that these reach.
-    void gather(const std::vector<Raster::Spot>& spots, const float* paper) {
-        losses_.clear();
+    static std::size_t whole_lanes(std::size_t count) {
+        return (count + kLanes - 1) / kLanes * kLanes;
+    }
+
+    const float* paper_row(int row) const {
+        return &paper_[static_cast<std::size_t>(row) * (width_ + 2 * border_)];
+    }
+
+    // From ink to lost light, and the parts of row_ that it reaches.
+    void gather(std::span<const Raster::Spot> spots, const float* paper) {
+        losses_.assign(spots.begin(), spots.end());
         reaches_.clear();
-        for (const Raster::Spot spot : spots) {
-            const auto column = static_cast<std::size_t>(spot.x / kernel_.per_pixel);
-            if (losses_.empty() || losses_.back().column != column) {
-                losses_.push_back({column, {}});
-                reaches_.push_back({column, column + kernel_.taps});
+        for (Raster::Spot& loss : losses_) {
+            for (float& light : loss.darkness)
+                light *= paper[loss.pixel];
+            // Neighbours follow each other.
+            if (reaches_.empty() || loss.pixel < reaches_.back().from ||
+                loss.pixel > reaches_.back().to) {
+                reaches_.push_back({loss.pixel, loss.pixel});
             }
-            losses_.back().light[static_cast<std::size_t>(spot.x % kernel_.per_pixel)] =
-                spot.darkness * paper[column];
+            reaches_.back().to = std::max(reaches_.back().to, loss.pixel + kernel_.taps);
         }
         std::sort(reaches_.begin(), reaches_.end(),
                   [](Reach a, Reach b) { return a.from < b.from; });
         std::size_t last = 0;
         for (const Reach reach : reaches_) {
-            if (reach.from > reaches_[last].to) reaches_[++last] = reach;
-            reaches_[last].to = reach.to;
+            Reach& before = reaches_[last];
+            if (reach.from > before.from + whole_lanes(before.to - before.from)) {
+                reaches_[++last] = reach;
+            } else {
+                before.to = std::max(before.to, reach.to);
+            }
         }
         reaches_.resize(last + 1);
+        for (Reach& reach : reaches_)
+            reach.to = reach.from + whole_lanes(reach.to - reach.from);
     }
 
     void spread(const Kernel::Weights& weights) {
@@ -102,13 +117,16 @@ class Sensor {
         std::array<const float*, kPhases> of_phase;
         for (std::size_t phase = 0; phase < kPhases; ++phase)
             of_phase[phase] = weights[phase].data();
-        for (const Loss& loss : losses_) {
-            float* out = &row_[loss.column];
-            for (std::size_t j = 0; j < kernel_.taps; ++j) {
-                float light = out[j];
-                for (std::size_t phase = 0; phase < kPhases; ++phase)
-                    light -= loss.light[phase] * of_phase[phase][j];
-                out[j] = light;
+        for (const Raster::Spot& loss : losses_) {
+            for (std::size_t j = 0; j < kernel_.taps; j += kLanes) {
+                float* out = &row_[loss.pixel + j];
+                std::array<float, kLanes> light;
+                std::copy_n(out, kLanes, light.begin());
+                for (std::size_t phase = 0; phase < kPhases; ++phase) {
+                    for (std::size_t lane = 0; lane < kLanes; ++lane)
+                        light[lane] -= loss.darkness[phase] * of_phase[phase][j + lane];
+                }
+                std::copy_n(light.begin(), kLanes, out);
             }
         }
     }
@@ -116,35 +134,70 @@ class Sensor {
     // Adds a part of row_ to the pixel rows that row `row`, counted from the edge of the border,
     // reaches.
     void add_row(int row, const std::vector<float>& weights, Reach reach) {
-        const std::size_t from = std::max(reach.from, 2 * border_);
-        const std::size_t to = std::min(reach.to, 2 * border_ + width_);
-        if (from >= to) return;
-        const float* in = &row_[from];
-        int v = row - 2 * kernel_.border_px;
-        for (std::size_t j = 0; j <= 2 * border_; ++j, ++v) {
-            if (v < 0 || v >= height_) continue;
-            float* out = &levels_[static_cast<std::size_t>(v) * width_ + from - 2 * border_];
-            for (std::size_t u = 0; u < to - from; ++u)
-                out[u] += weights[j] * in[u];
+        const int top = row - 2 * kernel_.border_px;
+        const int first = std::max(0, -top);
+        const int end = std::min(2 * kernel_.border_px + 1, height_ - top);
+        for (int j = first; j < end; ++j) {
+            const float weight = weights[static_cast<std::size_t>(j)];
+            float* level = &levels_[static_cast<std::size_t>(top + j) * row_.size()];
+            for (std::size_t u = reach.from; u < reach.to; u += kLanes) {
+                std::array<float, kLanes> sum;
+                for (std::size_t lane = 0; lane < kLanes; ++lane)
+                    sum[lane] = level[u + lane] + weight * row_[u + lane];
+                std::copy_n(sum.begin(), kLanes, &level[u]);
+            }
         }
     }
 
-    // The paper is constant over each pixel, so the sub-pixels' weights are summed.
+    // The paper is constant over each pixel, so the sub-pixels' weights are summed. Both passes add
+    // a chunk of a row up in registers.
     void collect_paper() {
+        const auto height = static_cast<std::size_t>(height_);
+        const std::size_t reach = 2 * border_ + 1;
+        const std::size_t stride = row_.size();
+        // Room to the left for taps before the first pixel.
+        std::vector<float> light(2 * border_ + stride);
+        std::vector<float> along_rows(stride * (height + 2 * border_));
         for (const Kernel::Moment& moment : kernel_.moments) {
             const std::vector<float> along = whole_pixels(moment.x);
-            const std::vector<float> across = whole_pixels(moment.y);
-            for (int row = 0; row < height_ + 2 * kernel_.border_px; ++row) {
-                const float* in = paper_row(row);
-                std::fill(row_.begin(), row_.end(), 0.0F);
-                for (std::size_t j = 0; j <= 2 * border_; ++j) {
-                    float* out = &row_[j];
-                    for (std::size_t u = 0; u < width_ + 2 * border_; ++u)
-                        out[u] += along[j] * in[u];
-                }
-                add_row(row, across, {0, row_.size()});
+            std::vector<float> across = whole_pixels(moment.y);
+            across.resize(reach);
+            std::reverse(across.begin(), across.end());
+            for (std::size_t row = 0; row < height + 2 * border_; ++row) {
+                std::copy_n(paper_row(static_cast<int>(row)), width_ + 2 * border_,
+                            &light[2 * border_]);
+                // Tap j takes from j pixels to the left.
+                add_weighted(&along_rows[row * stride], &light[2 * border_], -1, along, reach,
+                             stride);
             }
+            for (std::size_t v = 0; v < height; ++v) {
+                add_weighted(&levels_[v * stride], &along_rows[v * stride],
+                             static_cast<std::ptrdiff_t>(stride), across, reach, stride);
+            }
+            std::fill(along_rows.begin(), along_rows.end(), 0.0F);
         }
+    }
+
+    // out[u] += sum over j < count of weights[j] * in[u + j * step]
+    static void add_weighted(float* out, const float* in, std::ptrdiff_t step,
+                             const std::vector<float>& weights, std::size_t count,
+                             std::size_t width) {
+        constexpr std::size_t kChunk = 4 * kLanes;
+        std::size_t u = 0;
+        const auto add = [&]<std::size_t kWide>() {
+            for (; u + kWide <= width; u += kWide) {
+                std::array<float, kWide> sum;
+                std::copy_n(out + u, kWide, sum.begin());
+                const float* from = in + u;
+                for (std::size_t j = 0; j < count; ++j, from += step) {
+                    for (std::size_t i = 0; i < kWide; ++i)
+                        sum[i] += weights[j] * from[i];
+                }
+                std::copy_n(sum.begin(), kWide, out + u);
+            }
+        };
+        add.template operator()<kChunk>();
+        add.template operator()<kLanes>();
     }
 
     static std::vector<float> whole_pixels(const Kernel::Weights& weights) {
@@ -161,10 +214,10 @@ class Sensor {
     std::size_t border_;
     const Kernel& kernel_;
     const std::vector<float>& paper_;
-    std::vector<float> levels_;
-    std::vector<Loss> losses_;
-    std::vector<Reach> reaches_;  // apart from each other, from left to right
-    std::vector<float> row_;      // one sub-row spread over pixels, with two borders on each side
+    std::vector<Raster::Spot> losses_;  // darkness times the light there
+    std::vector<Reach> reaches_;        // apart from each other, from left to right
+    std::vector<float> row_;     // one sub-row spread over pixels, with two borders on each side
+    std::vector<float> levels_;  // rows as long as row_
 };
 
 }  // namespace
@@ -188,7 +241,7 @@ std::vector<float> expose(const Ink& ink, const View& view, const Page& page,
             sensor.absorb(row, raster.take_row(row - top));
         }
     }
-    return sensor.take_levels();
+    return sensor.levels();
 }
 
 GreyImage read_out(const std::vector<float>& levels, const CameraModel& camera,
@@ -196,14 +249,14 @@ GreyImage read_out(const std::vector<float>& levels, const CameraModel& camera,
     GreyImage image;
     image.width_px = camera.width_px;
     image.height_px = camera.height_px;
-    image.pixels.reserve(levels.size());
-    for (const float exact : levels) {
-        double level = exact;
+    image.pixels.resize(levels.size());
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        double level = levels[i];
         if (imperfections.noise_sigma > 0) level += imperfections.noise_sigma * rng.normal();
         if (imperfections.salt_and_pepper > 0 && rng.uniform() < imperfections.salt_and_pepper) {
             level = rng.uniform() < 0.5 ? 0 : 255;
         }
-        image.pixels.push_back(static_cast<std::uint8_t>(std::clamp(level, 0.0, 255.0) + 0.5));
+        image.pixels[i] = static_cast<std::uint8_t>(std::clamp(level, 0.0, 255.0) + 0.5);
     }
     return image;
 }

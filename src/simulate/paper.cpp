@@ -109,8 +109,7 @@ std::vector<float> bare_paper(const View& view, const Page& page,
             for (std::size_t i = 0; i < width; ++i)
                 levels[i] *= texture.at(offsets_mm[i]);
         }
-        for (const double level : levels)
-            paper.push_back(static_cast<float>(level));
+        paper.insert(paper.end(), levels.begin(), levels.end());
     }
     return paper;
 }
