@@ -52,7 +52,6 @@ template <typename Tally, typename Work>
 Count<Tally> count_on_threads(const std::string& what, std::uint64_t count, unsigned threads,
                               Work work) {
     using namespace std::chrono_literals;
-    constexpr std::uint64_t kBatch = 16;
     const auto start = std::chrono::steady_clock::now();
     std::atomic<std::uint64_t> next{0};
     std::atomic<std::uint64_t> done{0};
@@ -65,12 +64,10 @@ Count<Tally> count_on_threads(const std::string& what, std::uint64_t count, unsi
     for (Tally& tally : tallies) {
         running.emplace_back([&] {
             for (;;) {
-                const std::uint64_t first = cli::interrupted() ? count : next.fetch_add(kBatch);
-                const std::uint64_t end = std::min(first + kBatch, count);
-                if (first >= end) break;
-                for (std::uint64_t i = first; i < end; ++i)
-                    work(i, tally);
-                done += end - first;
+                const std::uint64_t i = next++;
+                if (i >= count || cli::interrupted()) break;
+                work(i, tally);
+                ++done;
             }
             const std::lock_guard lock(mutex);
             --working;
