@@ -3,18 +3,22 @@
 //   dotpose_adversarial [--frames N] [--seed S] [--threads N]
 //
 // N frames, evenly over the classes of tests/adversarial_frames.hpp. Exits 1 if any fix is wrong.
+// Ctrl-C prints the table of the frames seen so far. The times are wall time on one thread.
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdlib>
 #include <memory>
 #include <numeric>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/core.h>
 
 #include "../tests/adversarial_frames.hpp"
+#include "counting.hpp"
 #include "dotpose/locate.hpp"
-#include "workers.hpp"
 
 namespace {
 
@@ -22,107 +26,111 @@ using namespace dotpose;
 using test::Adversary;
 using test::Verdict;
 
-struct Arguments {
-    std::uint64_t frames = 18'000;
-    std::uint64_t seed = 1;
-    unsigned threads = std::max(std::thread::hardware_concurrency(), 1u);
-};
-
-Arguments parse(int argc, char** argv) {
-    Arguments arguments;
-    for (int i = 1; i < argc; i += 2) {
-        const std::string_view name = argv[i];
-        const auto value = i + 1 < argc ? std::strtoull(argv[i + 1], nullptr, 10) : 0;
-        if (name == "--frames" && value > 0) {
-            arguments.frames = value;
-        } else if (name == "--seed" && value > 0) {
-            arguments.seed = value;
-        } else if (name == "--threads" && value > 0) {
-            arguments.threads = static_cast<unsigned>(value);
-        } else {
-            throw BadArgument("usage: dotpose_adversarial [--frames N] [--seed S] [--threads N]");
-        }
-    }
-    return arguments;
-}
-
 constexpr std::array<std::string_view, 5> kVerdicts{"refused", "right", "second", "twin", "wrong"};
 using Counts = std::array<std::uint64_t, kVerdicts.size()>;
 constexpr std::size_t kClasses = test::kAdversaries.size();
 
+using Clock = std::chrono::steady_clock;
+
+/// What became of the frames of one class, and the time that went into them.
+struct ClassTally {
+    Counts verdicts{};
+    std::chrono::duration<double> rendering{};
+    std::chrono::duration<double> locating{};
+
+    ClassTally& operator+=(const ClassTally& other) {
+        for (std::size_t v = 0; v < verdicts.size(); ++v)
+            verdicts[v] += other.verdicts[v];
+        rendering += other.rendering;
+        locating += other.locating;
+        return *this;
+    }
+    std::uint64_t frames() const {
+        return std::accumulate(verdicts.begin(), verdicts.end(), std::uint64_t{0});
+    }
+};
+
 struct Tally {
-    std::array<Counts, kClasses> counts{};
+    std::array<ClassTally, kClasses> classes{};
+    std::vector<std::string> wrong;
 
     Tally& operator+=(const Tally& other) {
         for (std::size_t c = 0; c < kClasses; ++c)
-            add(counts[c], other.counts[c]);
+            classes[c] += other.classes[c];
+        wrong.insert(wrong.end(), other.wrong.begin(), other.wrong.end());
         return *this;
-    }
-    static void add(Counts& sum, const Counts& counts) {
-        for (std::size_t v = 0; v < sum.size(); ++v)
-            sum[v] += counts[v];
     }
 };
 
 void try_frame(std::uint64_t seed, std::uint64_t frame_index, Workspace& workspace, Tally& tally) {
     const std::size_t n = frame_index % kClasses;
     const std::uint64_t index = frame_index / kClasses;
+    const auto start = Clock::now();
     const test::AdversarialFrame frame = test::make_adversarial(test::kAdversaries[n], seed, index);
+    const auto rendered = Clock::now();
     const Fix fix = locate(frame.image.view(), frame.options, workspace);
+    const auto located = Clock::now();
     const Verdict verdict = test::judge(fix, frame);
-    ++tally.counts[n][static_cast<std::size_t>(verdict)];
+    ClassTally& mine = tally.classes[n];
+    ++mine.verdicts[static_cast<std::size_t>(verdict)];
+    mine.rendering += rendered - start;
+    mine.locating += located - rendered;
     if (verdict == Verdict::wrong) {
-        fmt::print(
+        tally.wrong.push_back(fmt::format(
             "wrong: {}, seed {}, index {}: cell {}, {}, theta {:.3f}, section {}, {}, 2^{}, "
-            "{} bit errors\n",
+            "{} bit errors",
             name(test::kAdversaries[n]), seed, index, fix.cell.x, fix.cell.y, fix.theta_rad(),
-            fix.section.u, fix.section.v, fix.p_wrong_log2, fix.bit_errors);
+            fix.section.u, fix.section.v, fix.p_wrong_log2, fix.bit_errors));
     }
 }
 
-/// Returns how many are wrong.
-std::uint64_t print(const Tally& tally) {
-    const auto line = [](std::string_view title, const Counts& counts) {
-        fmt::print("{:<16} {:>9}", title, std::accumulate(counts.begin(), counts.end(), 0ULL));
-        for (const std::uint64_t n : counts)
+void print(Tally& tally) {
+    std::sort(tally.wrong.begin(), tally.wrong.end());
+    for (const std::string& wrong : tally.wrong)
+        fmt::print("{}\n", wrong);
+    const auto line = [](std::string_view title, const ClassTally& counted) {
+        const std::uint64_t frames = counted.frames();
+        fmt::print("{:<16} {:>9}", title, frames);
+        for (const std::uint64_t n : counted.verdicts)
             fmt::print(" {:>9}", n);
+        for (const auto time : {counted.rendering, counted.locating}) {
+            fmt::print(" {:>9.2f}",
+                       frames == 0 ? 0 : 1e3 * time.count() / static_cast<double>(frames));
+        }
         fmt::print("\n");
     };
     fmt::print("{:<16} {:>9}", "", "frames");
     for (const std::string_view verdict : kVerdicts)
         fmt::print(" {:>9}", verdict);
-    fmt::print("\n");
-    Counts all{};
+    fmt::print(" {:>9} {:>9}\n", "render ms", "locate ms");
+    ClassTally all;
     for (std::size_t c = 0; c < kClasses; ++c) {
-        line(name(test::kAdversaries[c]), tally.counts[c]);
-        Tally::add(all, tally.counts[c]);
+        line(name(test::kAdversaries[c]), tally.classes[c]);
+        all += tally.classes[c];
     }
     line("all", all);
-    return all[static_cast<std::size_t>(Verdict::wrong)];
 }
 
-int run(const Arguments& arguments) {
-    const auto start = std::chrono::steady_clock::now();
-    const Tally tally = run_on_threads<Tally>(
-        arguments.frames, arguments.threads, [&](std::uint64_t i, Tally& mine) {
+int run(const Counting& counting, std::uint64_t frames) {
+    Count<Tally> count = count_on_threads<Tally>(
+        "adversarial frames", frames, counting.threads, [&](std::uint64_t i, Tally& mine) {
             thread_local const auto kWorkspace = std::make_unique<LargeWorkspace>();
-            try_frame(arguments.seed, i, *kWorkspace, mine);
+            try_frame(counting.seed, i, *kWorkspace, mine);
         });
-    const std::uint64_t wrong = print(tally);
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    fmt::print("seed {}, {:.0f} s with {} threads, {:.0f} frames/s\n", arguments.seed,
-               seconds.count(), arguments.threads,
-               static_cast<double>(arguments.frames) / seconds.count());
-    return wrong == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    print(count.tally);
+    fmt::print("seed {}, {} threads: {}\n", counting.seed, counting.threads,
+               speed_line("frames", count.asked, count.done, count.seconds));
+    return count.tally.wrong.empty() && count.done == count.asked ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
-        return run(parse(argc, argv));
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "dotpose_adversarial: {}\n", error.what());
-        return 2;
-    }
+    Counting counting;
+    std::uint64_t frames = 18'000;
+    CLI::App app("How often is `locate` deceived? Status 1 if any fix is wrong.",
+                 "dotpose_adversarial");
+    add_count(app, "--frames", frames, "How many, evenly over the classes");
+    counting.add_to(app);
+    return run_program(app, argc, argv, [&] { return run(counting, frames); });
 }

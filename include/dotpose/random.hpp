@@ -2,7 +2,6 @@
 /// distributions of <random> are not. For simulation only; not for secrets.
 #pragma once
 
-#include <bit>
 #include <cstdint>
 
 namespace dotpose {
@@ -49,11 +48,25 @@ class Rng {
     /// digit differs between machines.
     constexpr double normal() noexcept {
         constexpr double kInverseDeviation = 0.1765469659009499;  // 1 / sqrt(128 / 4 + 1 / 12)
-        const int ones = std::popcount(bits()) + std::popcount(bits());
+        const int ones = ones_in(bits(), bits());
         return (ones - 64 + uniform() - 0.5) * kInverseDeviation;
     }
 
   private:
+    /// How many of 128 bits are set. Counted in fields of 2, 4 and 8 bits side by side, because
+    /// std::popcount is a call where the processor may lack the instruction.
+    static constexpr int ones_in(std::uint64_t a, std::uint64_t b) noexcept {
+        constexpr std::uint64_t kOdd2 = 0x3333333333333333u;
+        constexpr std::uint64_t kOdd4 = 0x0F0F0F0F0F0F0F0Fu;
+        const auto in_fours = [](std::uint64_t x) {
+            x -= (x >> 1) & 0x5555555555555555u;
+            return (x & kOdd2) + ((x >> 2) & kOdd2);
+        };
+        const std::uint64_t fours = in_fours(a) + in_fours(b);  // up to 8 in each
+        const std::uint64_t eights = (fours & kOdd4) + ((fours >> 4) & kOdd4);
+        return static_cast<int>((eights * 0x0101010101010101u) >> 56);
+    }
+
     static constexpr std::uint64_t kStep = 0x9E3779B97F4A7C15u;
     std::uint64_t state_;
 };

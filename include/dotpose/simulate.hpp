@@ -19,6 +19,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "dotpose/code.hpp"
 #include "dotpose/error.hpp"
@@ -118,6 +119,8 @@ class Projection {
     /// A point that the camera cannot see at all gives a pixel 1e9 away.
     Vec2 pixel_from_offset(Vec2 offset_mm) const;
     Vec2 offset_from_pixel(Vec2 pixel) const;
+    /// `offset_from_pixel` of pixels one beside the other, from `first_pixel` to the right.
+    void offsets_from_row(Vec2 first_pixel, std::span<Vec2> offsets_mm) const;
 
   private:
     Vec2 centre_px_;

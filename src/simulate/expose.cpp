@@ -3,86 +3,20 @@
 // over sub-pixels, taken along rows first and columns second. Sub-rows are drawn in bands and added
 // to the pixel rows they reach, so that no image larger than the frame is kept.
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <utility>
+#include <span>
 
 #include "simulate/ink.hpp"
 #include "simulate/kernel.hpp"
+#include "simulate/paper.hpp"
 #include "simulate/raster.hpp"
 
 namespace dotpose::simulate {
 namespace {
 
-// Reflectance of bare paper: noise at the nodes of a lattice on the page, linear in between.
-class Texture {
-  public:
-    Texture(const Page& page, const View& view, double deviation)
-        : seed_(page.seed),
-          nodes_per_mm_(1 / (Imperfections::kGrain_px * view.camera.mm_per_px)),
-          origin_{x_grid(view.pose) * page.pattern.spacing_mm * nodes_per_mm_,
-                  y_grid(view.pose) * page.pattern.spacing_mm * nodes_per_mm_},
-          // Uniform in [-1, 1) has deviation 1/sqrt(3), and interpolation leaves 2/3 of it.
-          amplitude_(deviation * std::sqrt(3.0) * 1.5) {}
-
-    double at(Vec2 offset_mm) const {
-        const double x = origin_.x + offset_mm.x * nodes_per_mm_;
-        const double y = origin_.y + offset_mm.y * nodes_per_mm_;
-        const double column = std::floor(x);
-        const double row = std::floor(y);
-        const double fx = x - column;
-        const double fy = y - row;
-        const auto i = static_cast<std::int64_t>(column);
-        const auto j = static_cast<std::int64_t>(row);
-        const double top = node(i, j) * (1 - fx) + node(i + 1, j) * fx;
-        const double bottom = node(i, j + 1) * (1 - fx) + node(i + 1, j + 1) * fx;
-        return 1 + amplitude_ * (top * (1 - fy) + bottom * fy);
-    }
-
-  private:
-    double node(std::int64_t i, std::int64_t j) const {
-        const std::uint64_t place =
-            (static_cast<std::uint64_t>(i) << 32) ^ static_cast<std::uint64_t>(j);
-        return static_cast<double>(scramble(scramble(seed_ + 1) ^ place) >> 11) * 0x1p-52 - 1;
-    }
-
-    std::uint64_t seed_;
-    double nodes_per_mm_;
-    Vec2 origin_;
-    double amplitude_;
-};
-
-// Grey level of bare paper in each pixel of the frame and of `border_px` pixels around it. Constant
-// over a pixel: light and texture change by less than 1 % from one to the next.
-std::vector<float> bare_paper(const View& view, const Page& page,
-                              const Imperfections& imperfections, int border_px) {
-    const CameraModel& camera = view.camera;
-    const Vec2 centre{(camera.width_px - 1) / 2.0, (camera.height_px - 1) / 2.0};
-    const double corner_square = std::max(centre.x * centre.x + centre.y * centre.y, 1.0);
-    const Vec2 towards{std::cos(imperfections.fall_direction_rad),
-                       std::sin(imperfections.fall_direction_rad)};
-    const double across_px =
-        std::abs(towards.x) * camera.width_px + std::abs(towards.y) * camera.height_px;
-    const Texture texture(page, view, imperfections.texture);
-
-    std::vector<float> paper;
-    paper.reserve(static_cast<std::size_t>(camera.width_px + 2 * border_px) *
-                  static_cast<std::size_t>(camera.height_px + 2 * border_px));
-    for (int v = -border_px; v < camera.height_px + border_px; ++v) {
-        for (int u = -border_px; u < camera.width_px + border_px; ++u) {
-            const double dx = u - centre.x;
-            const double dy = v - centre.y;
-            const double shade = imperfections.vignetting * (dx * dx + dy * dy) / corner_square;
-            const double slope = imperfections.fall * (dx * towards.x + dy * towards.y) / across_px;
-            double level =
-                imperfections.paper_level * std::max(0.0, 1 - shade) * std::max(0.0, 1 - slope);
-            if (imperfections.texture > 0) {
-                level *= texture.at(view.projection.offset_from_pixel({1.0 * u, 1.0 * v}));
-            }
-            paper.push_back(static_cast<float>(level));
-        }
-    }
-    return paper;
-}
+// Light is added up in fours, which compilers do in one step.
+constexpr std::size_t kLanes = 4;
 
 // Collects light in pixels: that of bare paper, less what ink takes away. Ink covers a few percent
 // of the sub-pixels, so only those are spread over the pixels they reach.
@@ -94,69 +28,176 @@ class Sensor {
           border_(static_cast<std::size_t>(kernel.border_px)),
           kernel_(kernel),
           paper_(paper),
-          levels_(width_ * static_cast<std::size_t>(camera.height_px)),
-          row_(width_ + 4 * border_) {
+          row_(whole_lanes(width_ + 2 * border_ + kernel.taps)),
+          levels_(row_.size() * static_cast<std::size_t>(camera.height_px)) {
         collect_paper();
     }
 
     // Takes away the light that ink absorbs in a sub-row, counted from the top of the border.
-    void absorb(int sub_row, const std::vector<Raster::Spot>& spots) {
+    void absorb(int sub_row, std::span<const Raster::Spot> spots) {
         if (spots.empty()) return;
         const int row = sub_row / kernel_.per_pixel;
-        const float* paper = paper_row(row);
+        gather(spots, paper_row(row));
         const auto phase = static_cast<std::size_t>(sub_row % kernel_.per_pixel);
         for (const Kernel::Moment& moment : kernel_.moments) {
-            std::fill(row_.begin(), row_.end(), 0.0F);
-            for (const Raster::Spot spot : spots) {
-                const auto column = static_cast<std::size_t>(spot.x / kernel_.per_pixel);
-                const std::vector<float>& weights =
-                    moment.x[static_cast<std::size_t>(spot.x % kernel_.per_pixel)];
-                const float light = spot.darkness * paper[column];
-                float* out = &row_[column];
-                for (std::size_t j = 0; j < weights.size(); ++j)
-                    out[j] -= light * weights[j];
-            }
-            add_row(row, moment.y[phase]);
+            for (const Reach reach : reaches_)
+                std::fill(&row_[reach.from], &row_[reach.to], 0.0F);
+            spread(moment.x);
+            for (const Reach reach : reaches_)
+                add_row(row, moment.y[phase], reach);
         }
     }
 
-    std::vector<float> take_levels() { return std::move(levels_); }
+    std::vector<float> levels() const {
+        std::vector<float> inside(width_ * static_cast<std::size_t>(height_));
+        const float* in = &levels_[2 * border_];
+        for (auto out = inside.begin(); out != inside.end(); in += row_.size())
+            out = std::copy_n(in, width_, out);
+        return inside;
+    }
 
   private:
+    // Elements of row_, as many as whole lanes.
+    struct Reach {
+        std::size_t from, to;
+    };
+
+    static std::size_t whole_lanes(std::size_t count) {
+        return (count + kLanes - 1) / kLanes * kLanes;
+    }
+
     const float* paper_row(int row) const {
         return &paper_[static_cast<std::size_t>(row) * (width_ + 2 * border_)];
     }
 
-    // Adds row_ to the pixel rows that row `row`, counted from the edge of the border, reaches.
-    void add_row(int row, const std::vector<float>& weights) {
-        const float* in = &row_[2 * border_];
-        int v = row - 2 * kernel_.border_px;
-        for (const float weight : weights) {
-            if (v >= 0 && v < height_) {
-                float* out = &levels_[static_cast<std::size_t>(v) * width_];
-                for (std::size_t u = 0; u < width_; ++u)
-                    out[u] += weight * in[u];
+    // From ink to lost light, and the parts of row_ that it reaches.
+    void gather(std::span<const Raster::Spot> spots, const float* paper) {
+        losses_.assign(spots.begin(), spots.end());
+        reaches_.clear();
+        for (Raster::Spot& loss : losses_) {
+            for (float& light : loss.darkness)
+                light *= paper[loss.pixel];
+            // Neighbours follow each other.
+            if (reaches_.empty() || loss.pixel < reaches_.back().from ||
+                loss.pixel > reaches_.back().to) {
+                reaches_.push_back({loss.pixel, loss.pixel});
             }
-            ++v;
+            reaches_.back().to = std::max(reaches_.back().to, loss.pixel + kernel_.taps);
+        }
+        std::sort(reaches_.begin(), reaches_.end(),
+                  [](Reach a, Reach b) { return a.from < b.from; });
+        std::size_t last = 0;
+        for (const Reach reach : reaches_) {
+            Reach& before = reaches_[last];
+            if (reach.from > before.from + whole_lanes(before.to - before.from)) {
+                reaches_[++last] = reach;
+            } else {
+                before.to = std::max(before.to, reach.to);
+            }
+        }
+        reaches_.resize(last + 1);
+        for (Reach& reach : reaches_)
+            reach.to = reach.from + whole_lanes(reach.to - reach.from);
+    }
+
+    void spread(const Kernel::Weights& weights) {
+        switch (kernel_.per_pixel) {
+            case 2:
+                return spread_phases<2>(weights);
+            case 4:
+                return spread_phases<4>(weights);
+            default:
+                return spread_phases<8>(weights);
         }
     }
 
-    // The paper is constant over each pixel, so the sub-pixels' weights are summed.
-    void collect_paper() {
-        for (const Kernel::Moment& moment : kernel_.moments) {
-            const std::vector<float> along = whole_pixels(moment.x);
-            const std::vector<float> across = whole_pixels(moment.y);
-            for (int row = 0; row < height_ + 2 * kernel_.border_px; ++row) {
-                const float* in = paper_row(row);
-                std::fill(row_.begin(), row_.end(), 0.0F);
-                for (std::size_t j = 0; j < along.size(); ++j) {
-                    float* out = &row_[j];
-                    for (std::size_t u = 0; u < width_ + 2 * border_; ++u)
-                        out[u] += along[j] * in[u];
+    // The number of phases is known to the compiler, so that a pixel is loaded and stored once.
+    template <std::size_t kPhases>
+    void spread_phases(const Kernel::Weights& weights) {
+        std::array<const float*, kPhases> of_phase;
+        for (std::size_t phase = 0; phase < kPhases; ++phase)
+            of_phase[phase] = weights[phase].data();
+        for (const Raster::Spot& loss : losses_) {
+            for (std::size_t j = 0; j < kernel_.taps; j += kLanes) {
+                float* out = &row_[loss.pixel + j];
+                std::array<float, kLanes> light;
+                std::copy_n(out, kLanes, light.begin());
+                for (std::size_t phase = 0; phase < kPhases; ++phase) {
+                    for (std::size_t lane = 0; lane < kLanes; ++lane)
+                        light[lane] -= loss.darkness[phase] * of_phase[phase][j + lane];
                 }
-                add_row(row, across);
+                std::copy_n(light.begin(), kLanes, out);
             }
         }
+    }
+
+    // Adds a part of row_ to the pixel rows that row `row`, counted from the edge of the border,
+    // reaches.
+    void add_row(int row, const std::vector<float>& weights, Reach reach) {
+        const int top = row - 2 * kernel_.border_px;
+        const int first = std::max(0, -top);
+        const int end = std::min(2 * kernel_.border_px + 1, height_ - top);
+        for (int j = first; j < end; ++j) {
+            const float weight = weights[static_cast<std::size_t>(j)];
+            float* level = &levels_[static_cast<std::size_t>(top + j) * row_.size()];
+            for (std::size_t u = reach.from; u < reach.to; u += kLanes) {
+                std::array<float, kLanes> sum;
+                for (std::size_t lane = 0; lane < kLanes; ++lane)
+                    sum[lane] = level[u + lane] + weight * row_[u + lane];
+                std::copy_n(sum.begin(), kLanes, &level[u]);
+            }
+        }
+    }
+
+    // The paper is constant over each pixel, so the sub-pixels' weights are summed. Both passes add
+    // a chunk of a row up in registers.
+    void collect_paper() {
+        const auto height = static_cast<std::size_t>(height_);
+        const std::size_t reach = 2 * border_ + 1;
+        const std::size_t stride = row_.size();
+        // Room to the left for taps before the first pixel.
+        std::vector<float> light(2 * border_ + stride);
+        std::vector<float> along_rows(stride * (height + 2 * border_));
+        for (const Kernel::Moment& moment : kernel_.moments) {
+            const std::vector<float> along = whole_pixels(moment.x);
+            std::vector<float> across = whole_pixels(moment.y);
+            across.resize(reach);
+            std::reverse(across.begin(), across.end());
+            for (std::size_t row = 0; row < height + 2 * border_; ++row) {
+                std::copy_n(paper_row(static_cast<int>(row)), width_ + 2 * border_,
+                            &light[2 * border_]);
+                // Tap j takes from j pixels to the left.
+                add_weighted(&along_rows[row * stride], &light[2 * border_], -1, along, reach,
+                             stride);
+            }
+            for (std::size_t v = 0; v < height; ++v) {
+                add_weighted(&levels_[v * stride], &along_rows[v * stride],
+                             static_cast<std::ptrdiff_t>(stride), across, reach, stride);
+            }
+            std::fill(along_rows.begin(), along_rows.end(), 0.0F);
+        }
+    }
+
+    // out[u] += sum over j < count of weights[j] * in[u + j * step]
+    static void add_weighted(float* out, const float* in, std::ptrdiff_t step,
+                             const std::vector<float>& weights, std::size_t count,
+                             std::size_t width) {
+        constexpr std::size_t kChunk = 4 * kLanes;
+        std::size_t u = 0;
+        const auto add = [&]<std::size_t kWide>() {
+            for (; u + kWide <= width; u += kWide) {
+                std::array<float, kWide> sum;
+                std::copy_n(out + u, kWide, sum.begin());
+                const float* from = in + u;
+                for (std::size_t j = 0; j < count; ++j, from += step) {
+                    for (std::size_t i = 0; i < kWide; ++i)
+                        sum[i] += weights[j] * from[i];
+                }
+                std::copy_n(sum.begin(), kWide, out + u);
+            }
+        };
+        add.template operator()<kChunk>();
+        add.template operator()<kLanes>();
     }
 
     static std::vector<float> whole_pixels(const Kernel::Weights& weights) {
@@ -173,8 +214,10 @@ class Sensor {
     std::size_t border_;
     const Kernel& kernel_;
     const std::vector<float>& paper_;
-    std::vector<float> levels_;
-    std::vector<float> row_;  // one sub-row spread over pixels, with two borders on each side
+    std::vector<Raster::Spot> losses_;  // darkness times the light there
+    std::vector<Reach> reaches_;        // apart from each other, from left to right
+    std::vector<float> row_;     // one sub-row spread over pixels, with two borders on each side
+    std::vector<float> levels_;  // rows as long as row_
 };
 
 }  // namespace
@@ -198,7 +241,7 @@ std::vector<float> expose(const Ink& ink, const View& view, const Page& page,
             sensor.absorb(row, raster.take_row(row - top));
         }
     }
-    return sensor.take_levels();
+    return sensor.levels();
 }
 
 GreyImage read_out(const std::vector<float>& levels, const CameraModel& camera,
@@ -206,15 +249,14 @@ GreyImage read_out(const std::vector<float>& levels, const CameraModel& camera,
     GreyImage image;
     image.width_px = camera.width_px;
     image.height_px = camera.height_px;
-    image.pixels.reserve(levels.size());
-    for (const float exact : levels) {
-        double level = exact;
+    image.pixels.resize(levels.size());
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        double level = levels[i];
         if (imperfections.noise_sigma > 0) level += imperfections.noise_sigma * rng.normal();
         if (imperfections.salt_and_pepper > 0 && rng.uniform() < imperfections.salt_and_pepper) {
             level = rng.uniform() < 0.5 ? 0 : 255;
         }
-        image.pixels.push_back(
-            static_cast<std::uint8_t>(std::lround(std::clamp(level, 0.0, 255.0))));
+        image.pixels[i] = static_cast<std::uint8_t>(std::clamp(level, 0.0, 255.0) + 0.5);
     }
     return image;
 }

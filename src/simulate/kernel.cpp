@@ -18,20 +18,24 @@ double integral_of_edge(double x, double sigma) {
 // Shares for a scene moved by `shift_px`. One pixel sees box(1 px) convolved with the lens's
 // Gaussian; its share of a sub-pixel is the integral over that sub-pixel.
 Kernel::Weights weights(const Kernel& kernel, double sigma_px, double shift_px, double share) {
-    const auto collected = [&](double x) {
-        return integral_of_edge(x + 0.5, sigma_px) - integral_of_edge(x - 0.5, sigma_px);
-    };
     const auto pixels = static_cast<std::size_t>(2 * kernel.border_px + 1);
     const auto per_pixel = static_cast<std::size_t>(kernel.per_pixel);
+    // At all sub-pixel borders from half a pixel before the first to half a pixel after the last.
+    std::vector<double> edges;
+    for (std::size_t i = 0; i <= (pixels + 1) * per_pixel; ++i) {
+        edges.push_back(integral_of_edge(
+            static_cast<double>(i) / kernel.per_pixel - kernel.border_px - 1 + shift_px, sigma_px));
+    }
+    const auto collected = [&](std::size_t border) {
+        return edges[border + per_pixel] - edges[border];
+    };
     std::vector<double> exact;
     double sum = 0;
     for (std::size_t i = 0; i < pixels * per_pixel; ++i) {
-        const double from_px =
-            static_cast<double>(i) / kernel.per_pixel - kernel.border_px - 0.5 + shift_px;
-        exact.push_back(collected(from_px + 1.0 / kernel.per_pixel) - collected(from_px));
+        exact.push_back(collected(i + 1) - collected(i));
         sum += exact.back();
     }
-    Kernel::Weights result(per_pixel, std::vector<float>(pixels));
+    Kernel::Weights result(per_pixel, std::vector<float>(kernel.taps));
     for (std::size_t i = 0; i < exact.size(); ++i) {
         // The further right the sub-pixel, the further left of it lies the pixel.
         result[i % per_pixel][pixels - 1 - i / per_pixel] =
@@ -61,6 +65,7 @@ Kernel make_kernel(const Imperfections& imperfections, double dot_px) {
         std::max(0.0, imperfections.blur_sigma_px * imperfections.blur_sigma_px - raster_variance));
     kernel.border_px = static_cast<int>(
         std::ceil(4 * sigma_px + std::max(std::abs(motion_px.x), std::abs(motion_px.y)) / 2));
+    kernel.taps = (static_cast<std::size_t>(2 * kernel.border_px + 1) + 3) / 4 * 4;
     // The scene stands still for moments during which it moves by no more than a sub-pixel.
     const int moments = std::max(1, static_cast<int>(std::ceil(length_px * kernel.per_pixel)));
     for (int moment = 0; moment < moments; ++moment) {

@@ -8,11 +8,13 @@
 namespace dotpose::simulate {
 
 struct Kernel {
-    int per_pixel = 1;  ///< sub-pixels per pixel and axis
-    int border_px = 0;  ///< the kernel reaches this many pixels beyond its own
+    static constexpr int kMaxPerPixel = 8;
+    int per_pixel = 2;     ///< sub-pixels per pixel and axis: 2, 4 or 8
+    int border_px = 0;     ///< the kernel reaches this many pixels beyond its own
+    std::size_t taps = 1;  ///< 2 * border_px + 1, and up to the next multiple of 4
 
     /// weights[phase][j]: share of the light on sub-pixel `phase` of pixel u that pixel
-    /// u + j - border_px collects; j runs from 0 to 2 * border_px.
+    /// u + j - border_px collects; j runs from 0 to 2 * border_px, and up to `taps` with weight 0.
     using Weights = std::vector<std::vector<float>>;
 
     /// The scene as it stands at one moment of the exposure.

@@ -38,14 +38,19 @@ float* Raster::row(int row_in_band) {
     return &band_[static_cast<std::size_t>(row_in_band) * static_cast<std::size_t>(layout_.width)];
 }
 
-const std::vector<Raster::Spot>& Raster::take_row(int row_in_band) {
+std::span<const Raster::Spot> Raster::take_row(int row_in_band) {
     spots_.clear();
     float* darkness = row(row_in_band);
     std::vector<Span>& spans = spans_[static_cast<std::size_t>(row_in_band)];
     for (const Span span : spans) {
-        for (int x = span.from; x < span.to; ++x) {
-            if (darkness[x] > 0) spots_.push_back({x, darkness[x]});
-            darkness[x] = 0;
+        const int end = (span.to + layout_.per_pixel - 1) / layout_.per_pixel;
+        for (int pixel = span.from / layout_.per_pixel; pixel < end; ++pixel) {
+            float* first = darkness + pixel * layout_.per_pixel;
+            float* last = first + layout_.per_pixel;
+            if (std::all_of(first, last, [](float dark) { return dark <= 0; })) continue;
+            spots_.push_back({static_cast<std::size_t>(pixel), {}});
+            std::copy(first, last, spots_.back().darkness.begin());
+            std::fill(first, last, 0.0F);
         }
     }
     spans.clear();
@@ -126,9 +131,14 @@ void Raster::cover(double left, double right, double weight) {
     if (right <= left) return;
     const int first = static_cast<int>(left);
     const int end = static_cast<int>(std::ceil(right));
-    for (int x = first; x < end; ++x) {
-        const double width = std::min(right, x + 1.0) - std::max(left, 1.0 * x);
-        coverage_[static_cast<std::size_t>(x)] += weight * width;
+    const auto at = [&](int x) -> double& { return coverage_[static_cast<std::size_t>(x)]; };
+    if (end - first == 1) {
+        at(first) += weight * (right - left);
+    } else {
+        at(first) += weight * (first + 1.0 - left);
+        for (int x = first + 1; x < end - 1; ++x)
+            at(x) += weight;
+        at(end - 1) += weight * (right - (end - 1.0));
     }
     touched_ = {std::min(touched_.from, first), std::max(touched_.to, end)};
 }

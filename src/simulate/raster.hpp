@@ -1,9 +1,12 @@
 /// Draws ink on sub-pixels, a band of sub-rows at a time.
 #pragma once
 
+#include <array>
+#include <span>
 #include <vector>
 
 #include "simulate/ink.hpp"
+#include "simulate/kernel.hpp"
 
 namespace dotpose::simulate {
 
@@ -12,7 +15,7 @@ class Raster {
     struct Layout {
         int per_pixel = 1;
         int border_px = 0;
-        int width = 0;  ///< sub-pixels per row, border included
+        int width = 0;  ///< sub-pixels per row, border included: whole pixels
         int band_rows = 0;
     };
 
@@ -22,14 +25,15 @@ class Raster {
     /// the band before must have been taken.
     void draw_band(int top);
 
-    /// One sub-pixel with ink.
+    /// The sub-pixels of one pixel in a sub-row.
     struct Spot {
-        int x = 0;
-        float darkness = 0;  ///< share of the light that the ink takes away
+        std::size_t pixel = 0;  ///< counted from the left of the border
+        /// Share of the light that the ink takes away; 0 from Layout::per_pixel on.
+        std::array<float, Kernel::kMaxPerPixel> darkness{};
     };
 
-    /// The inked sub-pixels of a row of the band, each once. The row is empty afterwards.
-    const std::vector<Spot>& take_row(int row_in_band);
+    /// The pixels with ink in a row of the band, each once. The row is empty afterwards.
+    std::span<const Spot> take_row(int row_in_band);
 
   private:
     // Sub-pixel coordinates: sub-pixel i covers [i, i + 1).

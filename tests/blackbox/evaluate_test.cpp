@@ -1,8 +1,6 @@
 // `dotpose evaluate` as its user sees it.
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -10,38 +8,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <stdlib.h>
-#include <sys/wait.h>
 
+#include "tool_command.hpp"
+
+namespace dotpose::test {
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::HasSubstr;
 
-std::string read_file(const fs::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
-/// Runs the tool in a directory of its own.
-class EvaluateCommand : public testing::Test {
+class EvaluateCommand : public ToolCommand {
   protected:
-    void SetUp() override {
-        std::string name = (fs::temp_directory_path() / "dotpose-tool-XXXXXX").string();
-        ASSERT_NE(mkdtemp(name.data()), nullptr);
-        directory_ = name;
-    }
-    void TearDown() override { fs::remove_all(directory_); }
-
-    int run(const std::string& arguments) const {
-        const std::string command = "cd '" + directory_.string() + "' && '" DOTPOSE_TOOL "' " +
-                                    arguments + " >stdout 2>stderr";
-        const int status = std::system(command.c_str());
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    }
-    std::string file(const std::string& name) const { return read_file(directory_ / name); }
-    json result() const { return json::parse(file("stdout")); }
+    json result() const { return json::parse(output_); }
 
     /// Replaces the cells of the first frame's row of truth.csv that `cells` names.
     void tamper(const std::vector<std::pair<std::size_t, std::string>>& cells) const {
@@ -53,8 +31,6 @@ class EvaluateCommand : public testing::Test {
             out << line << '\n';
         }
     }
-
-    fs::path directory_;
 
   private:
     static std::string replaced(const std::string& line,
@@ -78,15 +54,15 @@ constexpr std::size_t kXGrid = 4;
 constexpr std::size_t kSectionU = 6;
 
 TEST_F(EvaluateCommand, AFolderGivesTheNumbersOfTheSameFramesInMemory) {
-    ASSERT_EQ(run("simulate -o frames --frames 10 --seed 7"), 0) << file("stderr");
-    ASSERT_EQ(run("evaluate frames --json"), 0) << file("stderr");
+    ASSERT_EQ(run("simulate -o frames --frames 10 --seed 7"), 0) << errors_;
+    ASSERT_EQ(run("evaluate frames --json"), 0) << errors_;
     const json folder = result();
     EXPECT_EQ(folder["frames"], 10);
     EXPECT_EQ(folder["located"], 10);
     EXPECT_EQ(folder["wrong"], 0);
     EXPECT_GT(folder["position_um"]["median"], 0);
     EXPECT_LT(folder["position_um"]["max"], 10);
-    ASSERT_EQ(run("evaluate --preset nominal --frames 10 --seed 7 --json"), 0) << file("stderr");
+    ASSERT_EQ(run("evaluate --preset nominal --frames 10 --seed 7 --json"), 0) << errors_;
     const json memory = result();
     EXPECT_EQ(memory["located"], folder["located"]);
     // truth.csv has 8 decimals of a grid unit.
@@ -95,22 +71,22 @@ TEST_F(EvaluateCommand, AFolderGivesTheNumbersOfTheSameFramesInMemory) {
 }
 
 TEST_F(EvaluateCommand, ATamperedPositionOrSectionIsAWrongFix) {
-    ASSERT_EQ(run("simulate -o frames --frames 3 --section 3,4"), 0) << file("stderr");
+    ASSERT_EQ(run("simulate -o frames --frames 3 --section 3,4"), 0) << errors_;
     tamper({{kXGrid, "12345"}});
-    ASSERT_EQ(run("evaluate frames --json"), 0) << file("stderr");
+    ASSERT_EQ(run("evaluate frames --json"), 0) << errors_;
     EXPECT_EQ(result()["wrong"], 1);
     EXPECT_EQ(result()["located"], 2);
-    ASSERT_EQ(run("simulate -o frames --frames 3 --section 3,4"), 0) << file("stderr");
+    ASSERT_EQ(run("simulate -o frames --frames 3 --section 3,4"), 0) << errors_;
     tamper({{kSectionU, "5"}});
-    ASSERT_EQ(run("evaluate frames --json"), 0) << file("stderr");
+    ASSERT_EQ(run("evaluate frames --json"), 0) << errors_;
     EXPECT_EQ(result()["wrong"], 1);
 }
 
 TEST_F(EvaluateCommand, FramesWithoutFixAreShownByStatusAndAreNoFailure) {
-    ASSERT_EQ(run("simulate -o frames --frames 2 --scene white"), 0) << file("stderr");
-    ASSERT_EQ(run("evaluate frames"), 0) << file("stderr");
-    EXPECT_THAT(file("stdout"), HasSubstr("not located: "));
-    EXPECT_THAT(file("stdout"), HasSubstr("0 (0.00 %)"));
+    ASSERT_EQ(run("simulate -o frames --frames 2 --scene white"), 0) << errors_;
+    ASSERT_EQ(run("evaluate frames"), 0) << errors_;
+    EXPECT_THAT(output_, HasSubstr("not located: "));
+    EXPECT_THAT(output_, HasSubstr("0 (0.00 %)"));
     ASSERT_EQ(run("evaluate frames --json"), 0);
     EXPECT_TRUE(result()["position_um"]["median"].is_null());
 }
@@ -125,18 +101,18 @@ TEST_F(EvaluateCommand, ProfileAndSpacingAreTakenFromTheTruthUnlessGiven) {
 
 TEST_F(EvaluateCommand, WhatCannotBeReadIsNamedAndTheRestIsDone) {
     EXPECT_EQ(run("evaluate nowhere"), 1);
-    EXPECT_THAT(file("stderr"), HasSubstr("nowhere"));
+    EXPECT_THAT(errors_, HasSubstr("nowhere"));
     ASSERT_EQ(run("simulate -o frames --frames 2"), 0);
     fs::remove(directory_ / "frames/frame_000001.pgm");
     EXPECT_EQ(run("evaluate frames --json"), 1);
-    EXPECT_THAT(file("stderr"), HasSubstr("frame_000001.pgm"));
+    EXPECT_THAT(errors_, HasSubstr("frame_000001.pgm"));
     EXPECT_EQ(result()["frames"], 1);
     EXPECT_EQ(result()["unreadable"], 1);
 }
 
 TEST_F(EvaluateCommand, TheProtocolWritesItsTableAndFigures) {
-    ASSERT_EQ(run("evaluate --protocol paper --frames 1 -o out/deep"), 0) << file("stderr");
-    EXPECT_THAT(file("stdout"), HasSubstr("0.155 mm"));
+    ASSERT_EQ(run("evaluate --protocol paper --frames 1 -o out/deep"), 0) << errors_;
+    EXPECT_THAT(output_, HasSubstr("0.155 mm"));
     for (const char* name : {"table-3.md", "positions.csv", "angles.csv", "figure-13.svg",
                              "figure-14.svg", "figure-15.svg"}) {
         EXPECT_NE(file(std::string("out/deep/") + name), "") << name;
@@ -144,21 +120,22 @@ TEST_F(EvaluateCommand, TheProtocolWritesItsTableAndFigures) {
 }
 
 TEST_F(EvaluateCommand, ASweepWritesItsTableAndPicture) {
-    ASSERT_EQ(run("evaluate --sweep tilt --frames 1 -o out"), 0) << file("stderr");
+    ASSERT_EQ(run("evaluate --sweep tilt --frames 1 -o out"), 0) << errors_;
     EXPECT_THAT(file("out/sweep-tilt.csv"), testing::StartsWith("tilt,decoder,frames,located"));
     EXPECT_THAT(file("out/sweep-tilt.svg"), HasSubstr("</svg>"));
 }
 
 TEST_F(EvaluateCommand, WrongUsageIsNamed) {
     EXPECT_EQ(run("evaluate"), 2);
-    EXPECT_THAT(file("stderr"), HasSubstr("--preset"));
+    EXPECT_THAT(errors_, HasSubstr("--preset"));
     EXPECT_EQ(run("evaluate frames --preset hard"), 2);
     EXPECT_EQ(run("evaluate --preset nice"), 2);
     EXPECT_EQ(run("evaluate --sweep noise"), 2);
-    EXPECT_THAT(file("stderr"), HasSubstr("-o DIR"));
+    EXPECT_THAT(errors_, HasSubstr("-o DIR"));
     EXPECT_EQ(run("evaluate --preset hard --size 12"), 2);
     EXPECT_EQ(run("evaluate --preset hard --decoder best"), 2);
     EXPECT_EQ(run("evaluate frames --frames 5"), 2);
 }
 
 }  // namespace
+}  // namespace dotpose::test

@@ -1,34 +1,23 @@
-/// `dotpose locate` as its user sees it: a program in a directory with files.
+/// `dotpose locate` as its user sees it, with frames and records.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string>
 #include <vector>
 
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <png.h>
-#include <stdlib.h>
-#include <sys/wait.h>
 
 #include "dotpose/image_file.hpp"
 #include "dotpose/simulate.hpp"
+#include "tool_command.hpp"
 
 namespace dotpose::test {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
-
-inline std::string read_file(const fs::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
 
 inline std::vector<std::string> lines_of(const std::string& text) {
     std::vector<std::string> lines;
@@ -63,31 +52,11 @@ inline Shot shot(std::uint64_t index) {
     return draw_shot(setup, index);
 }
 
-/// Runs `dotpose locate ARGUMENTS` in a directory of its own.
-class LocateCommand : public testing::Test {
+/// Runs `dotpose locate ARGUMENTS`.
+class LocateCommand : public ToolCommand {
   protected:
-    void SetUp() override {
-        std::string name = (fs::temp_directory_path() / "dotpose-tool-XXXXXX").string();
-        ASSERT_NE(mkdtemp(name.data()), nullptr);
-        directory_ = name;
-    }
-    void TearDown() override { fs::remove_all(directory_); }
-
-    void run(const std::string& arguments, const std::string& input = "/dev/null") {
-        const std::string command = "cd '" + directory_.string() +
-                                    "' && '" DOTPOSE_TOOL "' locate " + arguments + " <" + input +
-                                    " 2>.stderr";
-        output_.clear();
-        std::FILE* pipe = popen(command.c_str(), "r");
-        ASSERT_NE(pipe, nullptr);
-        std::array<char, 4096> buffer;
-        for (std::size_t n = 1; n > 0;) {
-            n = std::fread(buffer.data(), 1, buffer.size(), pipe);
-            output_.append(buffer.data(), n);
-        }
-        const int status = pclose(pipe);
-        exit_code_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-        errors_ = read_file(directory_ / ".stderr");
+    int run(const std::string& arguments, const std::string& input = "/dev/null") {
+        return ToolCommand::run("locate " + arguments, input);
     }
 
     std::vector<json> records() const {
@@ -125,11 +94,6 @@ class LocateCommand : public testing::Test {
         ASSERT_NE(
             png_image_write_to_file(&png, (directory_ / name).c_str(), 0, samples, 0, nullptr), 0);
     }
-
-    fs::path directory_;
-    int exit_code_ = -1;
-    std::string output_;
-    std::string errors_;
 };
 
 }  // namespace dotpose::test

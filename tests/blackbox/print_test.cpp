@@ -1,100 +1,55 @@
-#include <array>
-#include <cstdio>
+// `dotpose print` as its user sees it.
 #include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <stdexcept>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
-#include <sys/wait.h>
 
+#include "tool_command.hpp"
+
+namespace dotpose::test {
 namespace {
 
-namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::MatchesRegex;
 using testing::StartsWith;
 
-struct Outcome {
-    int exit_code = -1;
-    std::string output;  ///< standard output
-    std::string errors;  ///< standard error
-};
-
-std::string read_file(const fs::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
-/// Runs `dotpose ARGUMENTS` in a directory of its own.
-class PrintCommand : public testing::Test {
+class PrintCommand : public ToolCommand {
   protected:
-    void SetUp() override {
-        std::string name = (fs::temp_directory_path() / "dotpose-tool-XXXXXX").string();
-        ASSERT_NE(mkdtemp(name.data()), nullptr);
-        directory_ = name;
-    }
-    void TearDown() override { fs::remove_all(directory_); }
-
-    Outcome run(const std::string& arguments) {
-        const std::string errors = (directory_ / "stderr").string();
-        const std::string command = "cd '" + directory_.string() + "' && { '" DOTPOSE_TOOL "' " +
-                                    arguments + "; } 2>'" + errors + "'";
-        Outcome outcome;
-        std::FILE* pipe = popen(command.c_str(), "r");
-        if (pipe == nullptr) throw std::runtime_error("cannot run " + command);
-        std::array<char, 4096> buffer;
-        while (std::fgets(buffer.data(), static_cast<int>(buffer.size()), pipe) != nullptr) {
-            outcome.output += buffer.data();
-        }
-        const int status = pclose(pipe);
-        if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
-        outcome.errors = read_file(errors);
-        fs::remove(errors);
-        return outcome;
-    }
-
-    std::string content(const char* name) const { return read_file(directory_ / name); }
     bool is_empty() const { return fs::is_empty(directory_); }
-
-    fs::path directory_;
 };
 
 TEST_F(PrintCommand, writes_a_sheet_and_says_what_is_on_it) {
-    const Outcome outcome = run("print -o sheet.txt");
-    EXPECT_EQ(outcome.exit_code, 0);
-    EXPECT_THAT(outcome.errors, IsEmpty());
-    EXPECT_EQ(outcome.output,
+    run("print -o sheet.txt");
+    EXPECT_EQ(exit_code_, 0);
+    EXPECT_THAT(errors_, IsEmpty());
+    EXPECT_EQ(output_,
               "sheet.txt: page 210 x 297 mm, cells 0,0 to 393,564 (394 x 565), spacing 0.508 mm, "
               "section 0,0, code anoto\n");
-    EXPECT_THAT(content("sheet.txt"), StartsWith("uulluldu"));
-    EXPECT_EQ(content("sheet.txt").size(), 395U * 565U);
+    EXPECT_THAT(file("sheet.txt"), StartsWith("uulluldu"));
+    EXPECT_EQ(file("sheet.txt").size(), 395U * 565U);
 }
 
 TEST_F(PrintCommand, takes_all_options) {
-    const Outcome outcome =
-        run("print --out sheet.txt --paper 30x20 --landscape --margin 2 --spacing 1 --dot 0.2 "
-            "--displacement 0.1 --origin 7,3 --section 10,2 --code microdots --dpi 1200");
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-    EXPECT_EQ(outcome.output,
+    run("print --out sheet.txt --paper 30x20 --landscape --margin 2 --spacing 1 --dot 0.2 "
+        "--displacement 0.1 --origin 7,3 --section 10,2 --code microdots --dpi 1200");
+    EXPECT_EQ(exit_code_, 0) << errors_;
+    EXPECT_EQ(output_,
               "sheet.txt: page 30 x 20 mm, cells 7,3 to 32,18 (26 x 16), spacing 1 mm, section "
               "10,2, code microdots\n");
-    EXPECT_THAT(content("sheet.txt"), StartsWith("drurrdll"));
+    EXPECT_THAT(file("sheet.txt"), StartsWith("drurrdll"));
 }
 
 TEST_F(PrintCommand, writes_every_format) {
-    EXPECT_EQ(run("print --paper 20x20 -o a.svg").exit_code, 0);
-    EXPECT_THAT(content("a.svg"), HasSubstr("width=\"20mm\""));
-    const Outcome png = run("print --paper 20x20 -o a.png --dpi 300");
-    EXPECT_EQ(png.exit_code, 0);
-    EXPECT_THAT(png.output, HasSubstr(", 300 dpi\n"));
-    EXPECT_THAT(content("a.png"), StartsWith("\x89PNG"));
-    EXPECT_EQ(run("print --paper 20x20 -o a.tif").exit_code, 0);
-    EXPECT_THAT(content("a.tif").substr(0, 2), testing::AnyOf("II", "MM"));
+    EXPECT_EQ(run("print --paper 20x20 -o a.svg"), 0);
+    EXPECT_THAT(file("a.svg"), HasSubstr("width=\"20mm\""));
+    run("print --paper 20x20 -o a.png --dpi 300");
+    EXPECT_EQ(exit_code_, 0);
+    EXPECT_THAT(output_, HasSubstr(", 300 dpi\n"));
+    EXPECT_THAT(file("a.png"), StartsWith("\x89PNG"));
+    EXPECT_EQ(run("print --paper 20x20 -o a.tif"), 0);
+    EXPECT_THAT(file("a.tif").substr(0, 2), testing::AnyOf("II", "MM"));
 }
 
 TEST_F(PrintCommand, wrong_usage_is_status_2_with_one_message_and_no_file) {
@@ -119,46 +74,46 @@ TEST_F(PrintCommand, wrong_usage_is_status_2_with_one_message_and_no_file) {
         "-o a.png stray",                    //
     };
     for (const char* arguments : wrong) {
-        const Outcome outcome = run(std::string("print ") + arguments);
-        EXPECT_EQ(outcome.exit_code, 2) << arguments;
-        EXPECT_THAT(outcome.errors, StartsWith("dotpose: ")) << arguments;
-        EXPECT_THAT(outcome.output, IsEmpty()) << arguments;
+        run(std::string("print ") + arguments);
+        EXPECT_EQ(exit_code_, 2) << arguments;
+        EXPECT_THAT(errors_, StartsWith("dotpose: ")) << arguments;
+        EXPECT_THAT(output_, IsEmpty()) << arguments;
         EXPECT_TRUE(is_empty()) << arguments;
     }
 }
 
 TEST_F(PrintCommand, a_file_that_cannot_be_written_is_status_1) {
-    const Outcome outcome = run("print -o missing/a.png");
-    EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_EQ(outcome.errors, "dotpose: cannot create missing/a.png: No such file or directory\n");
-    EXPECT_THAT(outcome.output, IsEmpty());
+    run("print -o missing/a.png");
+    EXPECT_EQ(exit_code_, 1);
+    EXPECT_EQ(errors_, "dotpose: cannot create missing/a.png: No such file or directory\n");
+    EXPECT_THAT(output_, IsEmpty());
 }
 
 TEST_F(PrintCommand, a_signal_leaves_no_litter) {
     // A page that would take minutes.
-    const Outcome outcome = run(
-        "print -o huge.png --paper 20000x20000 --dpi 1200 & tool=$!; sleep 0.5; ls -A | grep -c "
+    run("print -o huge.png --paper 20000x20000 --dpi 1200 & tool=$!; sleep 0.5; ls -A | grep -c "
         "huge; kill $tool; wait $tool");
-    EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_EQ(outcome.output, "1\n") << "the temporary file should have been there";
-    EXPECT_EQ(outcome.errors, "dotpose: stopped; nothing was written\n");
+    EXPECT_EQ(exit_code_, 1);
+    EXPECT_EQ(output_, "1\n") << "the temporary file should have been there";
+    EXPECT_EQ(errors_, "dotpose: stopped; nothing was written\n");
     EXPECT_TRUE(is_empty());
 }
 
 TEST_F(PrintCommand, help_shows_an_example) {
-    const Outcome outcome = run("print --help");
-    EXPECT_EQ(outcome.exit_code, 0);
-    EXPECT_THAT(outcome.output, HasSubstr("dotpose print -o sheet.svg"));
+    run("print --help");
+    EXPECT_EQ(exit_code_, 0);
+    EXPECT_THAT(output_, HasSubstr("dotpose print -o sheet.svg"));
     for (const char* option : {"--out", "--paper", "--landscape", "--margin", "--spacing", "--dot",
                                "--displacement", "--origin", "--section", "--code", "--dpi"}) {
-        EXPECT_THAT(outcome.output, HasSubstr(option));
+        EXPECT_THAT(output_, HasSubstr(option));
     }
 }
 
 TEST_F(PrintCommand, version_is_printed) {
-    const Outcome outcome = run("--version");
-    EXPECT_EQ(outcome.exit_code, 0);
-    EXPECT_THAT(outcome.output, MatchesRegex("dotpose [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+    run("--version");
+    EXPECT_EQ(exit_code_, 0);
+    EXPECT_THAT(output_, MatchesRegex("dotpose [0-9]+\\.[0-9]+\\.[0-9]+\n"));
 }
 
 }  // namespace
+}  // namespace dotpose::test

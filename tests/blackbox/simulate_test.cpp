@@ -1,25 +1,17 @@
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
+// `dotpose simulate` as its user sees it.
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
-#include <sys/wait.h>
 
+#include "tool_command.hpp"
+
+namespace dotpose::test {
 namespace {
 
-namespace fs = std::filesystem;
 using testing::HasSubstr;
-
-std::string read_file(const fs::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
 
 std::vector<std::string> split(const std::string& text, char separator) {
     std::vector<std::string> parts;
@@ -29,34 +21,17 @@ std::vector<std::string> split(const std::string& text, char separator) {
     return parts;
 }
 
-/// Runs `dotpose simulate ARGUMENTS` in a directory of its own.
-class SimulateCommand : public testing::Test {
+/// Runs `dotpose simulate ARGUMENTS`.
+class SimulateCommand : public ToolCommand {
   protected:
-    void SetUp() override {
-        std::string name = (fs::temp_directory_path() / "dotpose-tool-XXXXXX").string();
-        ASSERT_NE(mkdtemp(name.data()), nullptr);
-        directory_ = name;
-    }
-    void TearDown() override { fs::remove_all(directory_); }
-
-    int run(const std::string& arguments) const {
-        const std::string command = "cd '" + directory_.string() +
-                                    "' && '" DOTPOSE_TOOL "' simulate " + arguments +
-                                    " >stdout 2>stderr";
-        const int status = std::system(command.c_str());
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    }
-
-    std::string file(const std::string& name) const { return read_file(directory_ / name); }
+    int run(const std::string& arguments) { return ToolCommand::run("simulate " + arguments); }
     std::vector<std::string> truth_rows(const std::string& folder) const {
         return split(file(folder + "/truth.csv"), '\n');
     }
-
-    fs::path directory_;
 };
 
 TEST_F(SimulateCommand, WritesFramesAndTheirTruth) {
-    ASSERT_EQ(run("-o frames --frames 12 --preset hard --seed 5"), 0) << file("stderr");
+    ASSERT_EQ(run("-o frames --frames 12 --preset hard --seed 5"), 0) << errors_;
     const std::vector<std::string> rows = truth_rows("frames");
     ASSERT_EQ(rows.size(), 13u);
     EXPECT_EQ(rows[0],
@@ -84,7 +59,7 @@ TEST_F(SimulateCommand, OptionsFixWhatIsOtherwiseDrawn) {
     ASSERT_EQ(run("-o frames --frames 3 --at 5000.25,7000.5 --angle 200 --section 3,4 --size 64x80 "
                   "--code published --spacing 0.6 --mm-per-px 0.05"),
               0)
-        << file("stderr");
+        << errors_;
     const std::string expected =
         ",3000.1500000,4200.3000000,-160.000000000,5000.25000000,7000.50000000,3,4,published,0.6,"
         "12,nominal,1";
@@ -102,13 +77,14 @@ TEST_F(SimulateCommand, AForeignSceneHasNoPose) {
 
 TEST_F(SimulateCommand, WrongUsageIsNamed) {
     EXPECT_EQ(run("-o frames --size 188"), 2);
-    EXPECT_THAT(file("stderr"), HasSubstr("188x120"));
+    EXPECT_THAT(errors_, HasSubstr("188x120"));
     EXPECT_EQ(run("-o frames --preset nice"), 2);
-    EXPECT_THAT(file("stderr"), HasSubstr("clean, nominal, hard"));
+    EXPECT_THAT(errors_, HasSubstr("clean, nominal, hard"));
     EXPECT_EQ(run("-o frames --at 500000000,1"), 2);
     EXPECT_EQ(run("-o frames --missing 2"), 2);
     EXPECT_EQ(run("-o /proc/nowhere"), 1);
-    EXPECT_THAT(file("stderr"), HasSubstr("/proc/nowhere"));
+    EXPECT_THAT(errors_, HasSubstr("/proc/nowhere"));
 }
 
 }  // namespace
+}  // namespace dotpose::test

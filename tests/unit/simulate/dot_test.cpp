@@ -128,6 +128,37 @@ TEST(Dot, InkMassIsTheDotsAreaWhateverBlursIt) {
     }
 }
 
+// Light is additive: many dots, apart, touching and cut off by the frame, take away what each takes
+// alone.
+TEST(Dot, ManyTakeAwayTheSumOfEach) {
+    Rng rng(6);
+    CameraModel camera;
+    camera.width_px = 61;
+    camera.height_px = 43;
+    Imperfections seen;
+    seen.blur_sigma_px = 0.9;
+    seen.motion_px = {1.1, -0.8};
+    seen.vignetting = 0.3;
+    const simulate::View view(camera, {}, seen);
+    const std::vector<float> paper = expose({}, view, Page{}, seen);
+    std::vector<double> sum(paper.begin(), paper.end());
+    simulate::Ink all;
+    for (int i = 0; i < 40; ++i) {
+        // In columns 3 px apart, so that none covers another; rows as they come.
+        const double u = 3 * (i % 23) - 2.5;
+        const double v = i < 23 ? rng.uniform(-2, 20) : rng.uniform(23, 45);
+        simulate::Ink one;
+        one.ellipses.push_back({{u, v}, 0.9, 0.3, 1.2, rng.uniform(0.1, 0.5)});
+        const std::vector<float> levels = expose(one, view, Page{}, seen);
+        for (std::size_t k = 0; k < sum.size(); ++k)
+            sum[k] += static_cast<double>(levels[k]) - static_cast<double>(paper[k]);
+        all.ellipses.insert(all.ellipses.begin() + i / 2, one.ellipses.front());
+    }
+    const std::vector<float> levels = expose(all, view, Page{}, seen);
+    for (std::size_t k = 0; k < sum.size(); ++k)
+        ASSERT_NEAR(static_cast<double>(levels[k]), sum[k], 2e-3) << k;
+}
+
 TEST(Dot, BlurAndMotionWidenItAsTheyShould) {
     const CameraModel camera;
     CameraPose pose;

@@ -116,6 +116,41 @@ TEST(Frame, PaperTextureHasItsDeviation) {
     EXPECT_NEAR(std::sqrt(square / count - mean * mean) / mean, 0.05, 0.002);
 }
 
+// A grain of the paper looks the same in a whole frame and in a frame of one pixel.
+TEST(Frame, PaperTextureBelongsToThePage) {
+    Imperfections seen;
+    seen.texture = 0.05;
+    CameraModel whole;
+    whole.width_px = 101;
+    whole.height_px = 61;
+    CameraModel pixel;
+    pixel.width_px = 1;
+    pixel.height_px = 1;
+    const auto level = [&](const CameraModel& camera, const CameraPose& pose) {
+        return expose({}, simulate::View(camera, pose, seen), Page{}, seen);
+    };
+    CameraPose pose;
+    pose.cell = {5000, 300'000'000};
+    const std::vector<float> levels = level(whole, pose);
+    const double cells_per_px = whole.mm_per_px / kDefaultSpacing_mm;
+    double least = 1e9;
+    double most = 0;
+    for (int v = 0; v < whole.height_px; v += 5) {
+        for (int u = 0; u < whole.width_px; u += 5) {
+            CameraPose there = pose;
+            there.fraction_x = (u - 50) * cells_per_px;
+            there.fraction_y = (v - 30) * cells_per_px;
+            const double alone = static_cast<double>(level(pixel, there).front());
+            const double in_frame =
+                static_cast<double>(levels[static_cast<std::size_t>(v * whole.width_px + u)]);
+            ASSERT_NEAR(in_frame, alone, 1e-3) << u << ", " << v;
+            least = std::min(least, alone);
+            most = std::max(most, alone);
+        }
+    }
+    EXPECT_GT(most - least, 20);  // 4 deviations of 10
+}
+
 TEST(Frame, HasAsManyDotsAsCellsInView) {
     const Shot shot = shot_of(Preset::clean, 0);
     const Darkness ink = measure(render(shot).pixels, 188, 200);

@@ -1,5 +1,6 @@
 #include "dotpose/random.hpp"
 
+#include <bitset>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -42,6 +43,19 @@ TEST(Random, BelowTakesEachValueEquallyOften) {
     for (int i = 0; i < 1000; ++i)
         EXPECT_LT(rng.below(0xFFFFFFFFu), 0xFFFFFFFFu);
     EXPECT_EQ(rng.below(1), 0u);
+}
+
+// As random.hpp defines it: the ones among 128 bits, and a uniform step.
+TEST(Random, NormalCountsOnes) {
+    Rng rng(4);
+    Rng same(4);
+    for (int i = 0; i < 100'000; ++i) {
+        const std::bitset<64> first(same.bits());
+        const std::bitset<64> second(same.bits());
+        const double ones = static_cast<double>(first.count() + second.count());
+        const double expected = (ones - 64 + same.uniform() - 0.5) / std::sqrt(32 + 1.0 / 12);
+        ASSERT_NEAR(rng.normal(), expected, 1e-12);
+    }
 }
 
 TEST(Random, NormalHasUnitDeviationAndNormalTails) {

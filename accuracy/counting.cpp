@@ -1,0 +1,47 @@
+#include "counting.hpp"
+
+#include <cstdlib>
+#include <exception>
+
+#include <fmt/core.h>
+
+namespace dotpose {
+
+void Counting::add_to(CLI::App& app) {
+    app.add_option("--seed", seed, "Another seed gives other frames")->capture_default_str();
+    app.add_option("--threads", threads, "Default: one for each processor")
+        ->check(CLI::Range(1, 1024));
+}
+
+void add_count(CLI::App& app, const std::string& flag, std::uint64_t& count,
+               const std::string& what) {
+    constexpr std::uint64_t kMost = 2'000'000'000;
+    app.add_option(flag, count, what)
+        ->check(CLI::Range(std::uint64_t{0}, kMost))
+        ->capture_default_str();
+}
+
+int run_program(CLI::App& app, int argc, char** argv, const std::function<int()>& run) {
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        constexpr int kWrongUsage = 2;
+        return app.exit(error) == 0 ? EXIT_SUCCESS : kWrongUsage;
+    }
+    try {
+        cli::catch_interrupts();
+        return run();
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "{}: {}\n", app.get_name(), error.what());
+        return EXIT_FAILURE;
+    }
+}
+
+std::string speed_line(const std::string& what, std::uint64_t asked, std::uint64_t done,
+                       double seconds) {
+    const double speed = seconds > 0 ? static_cast<double>(done) / seconds : 0;
+    return fmt::format("{} {} in {:.0f} s, {:.0f} {}/s{}", done, what, seconds, speed, what,
+                       done < asked ? fmt::format(" (interrupted; {} were asked for)", asked) : "");
+}
+
+}  // namespace dotpose

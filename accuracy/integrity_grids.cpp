@@ -1,0 +1,235 @@
+#include "integrity_grids.hpp"
+
+#include "core/decode/nominal.hpp"
+#include "core/decode/position.hpp"
+#include "core/decode/rivals.hpp"
+#include "core/decode/upright.hpp"
+#include "core/decode/verify.hpp"
+#include "core/decode/window.hpp"
+#include "dotpose/random.hpp"
+
+namespace dotpose {
+namespace {
+
+constexpr int kMaxSide = 16;
+
+/// Bits as read from a pattern.
+struct Reading {
+    std::array<GridCell, kMaxSide * kMaxSide> cells;
+    Grid grid;
+    Profile profile = Profile::anoto;
+    Turn turn;
+    Place place;  ///< true place of grid cell (0, 0)
+};
+
+/// The cell that `core::turned` turns to these bits.
+GridCell cell_of(Turn turn, int x, int y) {
+    const Vec grid = turn.quarters == 1   ? Vec{-y, x}
+                     : turn.quarters == 3 ? Vec{y, -x}
+                     : turn.quarters == 2 ? Vec{-x, -y}
+                                          : Vec{x, y};
+    return {static_cast<std::int8_t>(grid.x), static_cast<std::int8_t>(grid.y), 0};
+}
+
+/// Statistics of the errors of one reading.
+struct Noise {
+    double odds_log2;  ///< that a bit of full weight is right
+    double missing;    ///< share of the cells
+    int least_weight;
+
+    double chance_of_error(int weight) const {
+        return 1 / (1 + std::exp2(odds_log2 * weight / 127));
+    }
+    int read(int bit, Rng& rng) const {
+        const int range = 127 - least_weight + 1;
+        const int weight = least_weight + static_cast<int>(rng.below(static_cast<unsigned>(range)));
+        const bool is_wrong = rng.uniform() < chance_of_error(weight);
+        return (bit == 1) != is_wrong ? weight : -weight;
+    }
+    /// What a reading says of a bit, in bits: 1 - H(chance of error).
+    double information(int weight) const {
+        const double q = chance_of_error(weight);
+        return 1 + q * std::log2(q) + (1 - q) * std::log2(1 - q);
+    }
+    /// The mean over all cells.
+    double information() const {
+        double sum = 0;
+        for (int weight = least_weight; weight <= 127; ++weight)
+            sum += information(weight);
+        return (1 - missing) * sum / (127 - least_weight + 1);
+    }
+};
+
+/// What a position needs on one axis: log2 of positions, sections and turns is 36.6. With some 30
+/// bits more the rivals leave a doubt of about 2^-13.
+double draw_odds_of_doubt(double cells, Noise noise, Rng& rng) {
+    const double wanted_bits = rng.uniform(60, 80);
+    constexpr double kMostOdds_log2 = 12;
+    noise.odds_log2 = 0;
+    for (double step = kMostOdds_log2 / 2; step > 0.01; step /= 2) {
+        noise.odds_log2 += step;
+        if (cells * noise.information() > wanted_bits) noise.odds_log2 -= step;
+    }
+    return noise.odds_log2;
+}
+
+/// Size, place and turn.
+void draw_frame(Rng& rng, Reading& reading) {
+    Grid& grid = reading.grid;
+    grid.storage = reading.cells;
+    const auto other = static_cast<Profile>(rng.below(3));
+    if (rng.below(3) == 0) reading.profile = other;
+    grid.side = kMaxSide;
+    grid.columns = 8 + static_cast<int>(rng.below(6));
+    grid.rows = 8 + static_cast<int>(rng.below(6));
+    grid.i0 = -static_cast<int>(rng.below(8));
+    grid.j0 = -static_cast<int>(rng.below(8));
+    reading.turn.quarters = static_cast<int>(rng.below(4));
+    reading.place = {{rng.below(kPositionsPerAxis), rng.below(kPositionsPerAxis)},
+                     {static_cast<std::uint8_t>(rng.below(kSections)),
+                      static_cast<std::uint8_t>(rng.below(kSections))}};
+}
+
+void draw(GridKind kind, Rng& rng, Reading& reading) {
+    draw_frame(rng, reading);
+    Grid& grid = reading.grid;
+    Noise noise{rng.uniform(2.5, 9), rng.below(2) == 0 ? 0 : rng.uniform(0, 0.25),
+                rng.below(2) == 0 ? 127 : 8};
+    // In some, blank paper beyond some column.
+    const int visible = rng.below(3) == 0 ? 6 + static_cast<int>(rng.below(3)) : grid.columns;
+    if (kind == GridKind::doubtful) {
+        const int cells = std::min(visible, grid.columns) * grid.rows;
+        noise.odds_log2 = draw_odds_of_doubt(cells, noise, rng);
+    }
+    for (int j = grid.j0; j < grid.j0 + grid.rows; ++j) {
+        for (int i = grid.i0; i < grid.i0 + grid.columns; ++i) {
+            GridCell& cell = grid.at(i, j);
+            cell = {};
+            if (i - grid.i0 >= visible || rng.uniform() < noise.missing) continue;
+            const Vec step = reading.turn({i, j});
+            const Place at = moved(reading.profile, reading.place, step.x, step.y);
+            const Symbol symbol = symbol_at(reading.profile, at.cell, at.section);
+            const int x = noise.read(x_bit(symbol), rng);
+            const int y = noise.read(y_bit(symbol), rng);
+            cell = cell_of(reading.turn, x, y);
+        }
+    }
+}
+
+/// Where the first of some lines stands, and the first of those that cross them.
+struct AxisPlace {
+    std::uint32_t position;
+    int section;
+    std::uint32_t cross;
+};
+
+/// Rolls of `count` lines.
+std::array<int, kMaxSide> rolls_of(Profile profile, const AxisPlace& place, int count) {
+    std::array<int, kMaxSide> rolls{};
+    std::uint32_t position = place.position;
+    int here = roll(profile, position) + place.section + static_cast<int>(place.cross % kSections);
+    for (int i = 0; i < count; ++i) {
+        rolls[static_cast<std::size_t>(i)] = here % kSections;
+        here += delta(profile, position);
+        position = position + 1 == kPositionsPerAxis ? 0 : position + 1;
+    }
+    return rolls;
+}
+
+Wrong kind_on_axis(Profile profile, const AxisPlace& found, const AxisPlace& real, int count) {
+    const auto a = rolls_of(profile, found, count);
+    const auto b = rolls_of(profile, real, count);
+    int shared = 0;
+    int longest = 0;
+    int run = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+        run = a[i] == b[i] ? run + 1 : 0;
+        shared += a[i] == b[i];
+        longest = std::max(longest, run);
+    }
+    if (shared == count) return Wrong::none;
+    if (found.position == real.position) return Wrong::section;
+    if (longest >= 5) return Wrong::near;
+    int different = 0;
+    for (const unsigned length : {236u, 233u, 31u, 241u})
+        different += found.position % length != real.position % length;
+    if (different == 1) return Wrong::single;
+    return shared > 0 ? Wrong::far : Wrong::unrelated;
+}
+
+Wrong kind_of_error(const Reading& reading, const Decoding& decoding) {
+    const Place& found = decoding.place;
+    const Place& real = reading.place;
+    if (decoding.pattern_from_grid.quarters != reading.turn.quarters) return Wrong::unrelated;
+    if (found == real) return Wrong::none;
+    // Compared in the columns and rows in view.
+    const Vec a = reading.turn({reading.grid.i0, reading.grid.j0});
+    const Vec b = reading.turn(
+        {reading.grid.i0 + reading.grid.columns - 1, reading.grid.j0 + reading.grid.rows - 1});
+    const Vec corner{std::min(a.x, b.x), std::min(a.y, b.y)};
+    const Vec size{std::abs(a.x - b.x) + 1, std::abs(a.y - b.y) + 1};
+    const Place f = moved(reading.profile, found, corner.x, corner.y);
+    const Place r = moved(reading.profile, real, corner.x, corner.y);
+    const Wrong x = kind_on_axis(reading.profile, {f.cell.x, f.section.u, f.cell.y},
+                                 {r.cell.x, r.section.u, r.cell.y}, size.x);
+    if (x != Wrong::none) return x;
+    return kind_on_axis(reading.profile, {f.cell.y, f.section.v, f.cell.x},
+                        {r.cell.y, r.section.v, r.cell.x}, size.y);
+}
+
+/// What the bits of a reading say, per axis, if its odds are those that `verify` takes for it: a
+/// cheap measure of how doubtful it is, from nothing but what the decoder sees.
+double apparent_information(const Grid& grid, const Decoding& decoding,
+                            const core::Nominal& nominal) {
+    core::Confidence confidence;
+    for (int j = grid.j0; j < grid.j0 + grid.rows; ++j) {
+        for (int i = grid.i0; i < grid.i0 + grid.columns; ++i) {
+            const core::Bits read = core::turned(decoding.pattern_from_grid, grid.at(i, j));
+            const Symbol expected = nominal.symbol(nominal.pattern_step({i, j}));
+            if (read.x != 0) confidence.add(read.x, (read.x > 0) != (x_bit(expected) == 1));
+            if (read.y != 0) confidence.add(read.y, (read.y > 0) != (y_bit(expected) == 1));
+        }
+    }
+    const Noise noise{core::odds_per_bit_q8(confidence) / 256.0, 0, 127};
+    double bits = 0;
+    for (int bin = 0; bin < core::Confidence::kBins; ++bin)
+        bits += confidence.bits[static_cast<std::size_t>(bin)] * noise.information(8 * bin + 4);
+    return bits / 2;
+}
+
+/// Whether p_wrong is likely to be near 1e-5, the claim that takes the most cases; enough of those
+/// that look so are near 1e-4 and 1e-3. `verify` takes 20 times as long as all before it.
+bool looks_doubtful(const Grid& grid, const Decoding& decoding, const core::Nominal& nominal) {
+    const double bits = apparent_information(grid, decoding, nominal);
+    return bits > 62 && bits < 75;
+}
+
+}  // namespace
+
+void try_grid(GridKind kind, std::uint64_t seed, std::uint64_t index, Tally& tally) {
+    Rng rng(seed, index);
+    Reading reading;
+    draw(kind, rng, reading);
+    Decoding decoding;
+    decoding.window = core::choose_window(reading.grid, kWindowSide);
+    decoding.region = core::choose_window(reading.grid, kMaxSide);
+    std::array<LineScores, kMaxSide> storage;
+    if (core::decode_all(reading.grid, reading.profile, storage, decoding) != Status::ok) {
+        ++tally.unread;
+        return;
+    }
+    const core::Nominal nominal(reading.grid, reading.profile, decoding);
+    if (kind == GridKind::doubtful && !looks_doubtful(reading.grid, decoding, nominal)) {
+        ++tally.passed_over;
+        return;
+    }
+    Fix fix;
+    const Status status =
+        core::verify(reading.grid, reading.profile, decoding, nominal, kAcceptAll, storage, fix);
+    if (status != Status::ok) {
+        ++tally.unread;
+        return;
+    }
+    tally.add(fix.p_wrong_log2, kind_of_error(reading, decoding));
+}
+}  // namespace dotpose

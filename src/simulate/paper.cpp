@@ -1,0 +1,117 @@
+#include "simulate/paper.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dotpose::simulate {
+namespace {
+
+// std::floor is a call where the processor may lack the instruction.
+std::int64_t floor_of(double x) {
+    const auto towards_zero = static_cast<std::int64_t>(x);
+    return towards_zero - (x < static_cast<double>(towards_zero) ? 1 : 0);
+}
+
+// Reflectance of bare paper: noise at the nodes of a lattice on the page, linear in between.
+class Texture {
+  public:
+    Texture(const Page& page, const View& view, double deviation)
+        : seed_(scramble(page.seed + 1)),
+          nodes_per_mm_(1 / (Imperfections::kGrain_px * view.camera.mm_per_px)),
+          origin_{x_grid(view.pose) * page.pattern.spacing_mm * nodes_per_mm_,
+                  y_grid(view.pose) * page.pattern.spacing_mm * nodes_per_mm_},
+          // Uniform in [-1, 1) has deviation 1/sqrt(3), and interpolation leaves 2/3 of it.
+          amplitude_(deviation * std::sqrt(3.0) * 1.5) {
+        if (deviation > 0) tabulate(view);
+    }
+
+    double at(Vec2 offset_mm) const {
+        const double x = origin_.x + offset_mm.x * nodes_per_mm_;
+        const double y = origin_.y + offset_mm.y * nodes_per_mm_;
+        const std::int64_t i = floor_of(x);
+        const std::int64_t j = floor_of(y);
+        const double fx = x - static_cast<double>(i);
+        const double fy = y - static_cast<double>(j);
+        const double top = node(i, j) * (1 - fx) + node(i + 1, j) * fx;
+        const double bottom = node(i, j + 1) * (1 - fx) + node(i + 1, j + 1) * fx;
+        return 1 + amplitude_ * (top * (1 - fy) + bottom * fy);
+    }
+
+  private:
+    double drawn(std::int64_t i, std::int64_t j) const {
+        const std::uint64_t place =
+            (static_cast<std::uint64_t>(i) << 32) ^ static_cast<std::uint64_t>(j);
+        return static_cast<double>(scramble(seed_ ^ place) >> 11) * 0x1p-52 - 1;
+    }
+    double node(std::int64_t i, std::int64_t j) const {
+        const auto column = static_cast<std::uint64_t>(i - first_i_);
+        const auto row = static_cast<std::uint64_t>(j - first_j_);
+        return column < columns_ && row < rows_ ? nodes_[row * columns_ + column] : drawn(i, j);
+    }
+
+    // The nodes in view, each of which some 36 pixels ask for. Under a strong tilt they can be more
+    // than the pixels; then there is no table.
+    void tabulate(const View& view) {
+        const OffsetBox box = visible_offsets(view);
+        const double width = (box.high_mm.x - box.low_mm.x) * nodes_per_mm_ + 3;
+        const double height = (box.high_mm.y - box.low_mm.y) * nodes_per_mm_ + 3;
+        if (width * height > 1.0 * view.camera.width_px * view.camera.height_px) return;
+        first_i_ = floor_of(origin_.x + box.low_mm.x * nodes_per_mm_);
+        first_j_ = floor_of(origin_.y + box.low_mm.y * nodes_per_mm_);
+        columns_ = static_cast<std::uint64_t>(width);
+        rows_ = static_cast<std::uint64_t>(height);
+        nodes_.reserve(columns_ * rows_);
+        for (std::uint64_t row = 0; row < rows_; ++row) {
+            for (std::uint64_t column = 0; column < columns_; ++column)
+                nodes_.push_back(drawn(first_i_ + static_cast<std::int64_t>(column),
+                                       first_j_ + static_cast<std::int64_t>(row)));
+        }
+    }
+
+    std::uint64_t seed_;
+    double nodes_per_mm_;
+    Vec2 origin_;
+    double amplitude_;
+    std::int64_t first_i_ = 0, first_j_ = 0;
+    std::uint64_t columns_ = 0, rows_ = 0;
+    std::vector<double> nodes_;
+};
+
+}  // namespace
+
+std::vector<float> bare_paper(const View& view, const Page& page,
+                              const Imperfections& imperfections, int border_px) {
+    const CameraModel& camera = view.camera;
+    const Vec2 centre{(camera.width_px - 1) / 2.0, (camera.height_px - 1) / 2.0};
+    const double corner_square = std::max(centre.x * centre.x + centre.y * centre.y, 1.0);
+    const Vec2 towards{std::cos(imperfections.fall_direction_rad),
+                       std::sin(imperfections.fall_direction_rad)};
+    const double across_px =
+        std::abs(towards.x) * camera.width_px + std::abs(towards.y) * camera.height_px;
+    const Texture texture(page, view, imperfections.texture);
+
+    const auto width = static_cast<std::size_t>(camera.width_px + 2 * border_px);
+    std::vector<double> levels(width);
+    std::vector<Vec2> offsets_mm(width);
+    std::vector<float> paper;
+    paper.reserve(width * static_cast<std::size_t>(camera.height_px + 2 * border_px));
+    for (int v = -border_px; v < camera.height_px + border_px; ++v) {
+        const double dy = v - centre.y;
+        for (std::size_t i = 0; i < width; ++i) {
+            const double dx = static_cast<int>(i) - border_px - centre.x;
+            const double shade = imperfections.vignetting * (dx * dx + dy * dy) / corner_square;
+            const double slope = imperfections.fall * (dx * towards.x + dy * towards.y) / across_px;
+            levels[i] =
+                imperfections.paper_level * std::max(0.0, 1 - shade) * std::max(0.0, 1 - slope);
+        }
+        if (imperfections.texture > 0) {
+            view.projection.offsets_from_row({-1.0 * border_px, 1.0 * v}, offsets_mm);
+            for (std::size_t i = 0; i < width; ++i)
+                levels[i] *= texture.at(offsets_mm[i]);
+        }
+        paper.insert(paper.end(), levels.begin(), levels.end());
+    }
+    return paper;
+}
+
+}  // namespace dotpose::simulate
