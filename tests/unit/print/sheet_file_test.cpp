@@ -104,6 +104,29 @@ TEST(read_sheets, print_scale_and_world_may_be_missing) {
     EXPECT_FALSE(sheets[0].world);
 }
 
+TEST(read_sheets, reads_the_example_of_the_documentation) {
+    const std::string page = read_file(DOTPOSE_SOURCE_DIR "/docs/sheet-files.md");
+    const std::string start = "```json\n";
+    const std::size_t first = page.find(start) + start.size();
+    const TemporaryDirectory directory;
+    write_file(directory / "s.json", page.substr(first, page.find("```", first) - first));
+    const auto sheets = read_sheets(directory / "s.json");
+    ASSERT_EQ(sheets.size(), 1U);
+    // The page that the text above the example prints.
+    SheetFile file(directory / "other.json");
+    const SheetEntry table = file.allocate("table", make_sheet({}))[0];
+    EXPECT_EQ(sheets[0].sheet.origin, table.sheet.origin);
+    EXPECT_EQ(sheets[0].sheet.columns, table.sheet.columns);
+    EXPECT_EQ(sheets[0].sheet.rows, table.sheet.rows);
+    EXPECT_NEAR(sheets[0].sheet.origin_x_mm, table.sheet.origin_x_mm, 1e-9);
+    EXPECT_TRUE(sheets[0].world);
+    // Saved again, it is the same text.
+    const std::string text = read_file(directory / "s.json");
+    SheetFile same(directory / "s.json");
+    same.save();
+    EXPECT_EQ(read_file(directory / "s.json"), text);
+}
+
 void expect_refused(const std::string& text, const std::string& problem) {
     const TemporaryDirectory directory;
     write_file(directory / "s.json", text);
