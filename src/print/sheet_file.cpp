@@ -38,12 +38,17 @@ std::optional<std::string> text_of(const fs::path& path) {
     return text;
 }
 
-/// Whoever names the file by a link must wait for the same lock as the others.
-fs::path without_links(const fs::path& path) {
+/// Whoever names the file by a link must wait for the same lock as the others, also before there is
+/// a file: a link to none is no canonical path to the standard library.
+fs::path without_links(fs::path path) {
+    constexpr int kMostLinks = 40;  // as many as Linux follows
     std::error_code error;
-    if (!fs::is_symlink(path, error)) return path;
-    const fs::path resolved = fs::weakly_canonical(path, error);
-    return error ? path : resolved;
+    for (int i = 0; i < kMostLinks && fs::is_symlink(path, error); ++i) {
+        const fs::path target = fs::read_symlink(path, error);
+        if (error) break;
+        path = path.parent_path() / target;
+    }
+    return path;
 }
 
 }  // namespace
