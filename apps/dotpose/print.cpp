@@ -31,9 +31,8 @@ constexpr const char* kExamples =
     "  dotpose print -o sheet.svg\n"
     "  dotpose print -o poster.png --paper A3 --landscape --origin 1000,2000 --dpi 1200\n"
     "  dotpose print -o table.svg --sheets sheets.json --name table\n\n"
-    "Print at 100 %, without \"fit to page\". Give each sheet an origin of its own, or let a "
-    "sheet\n"
-    "file do so: it is made if missing, and 'dotpose locate --sheets' reads it.\n";
+    "Print at 100 %, without \"fit to page\". Give each sheet an origin of its own, or let a\n"
+    "sheet file do so: it is made if missing, and 'dotpose locate --sheets' reads it.\n";
 
 bool is_raster(PrintFormat format) {
     return format == PrintFormat::png || format == PrintFormat::tiff;
