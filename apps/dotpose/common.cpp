@@ -4,21 +4,15 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <map>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "dotpose/evaluate.hpp"
+#include "dotpose/sheet_file.hpp"
 
 namespace dotpose::cli {
 namespace {
-
-const std::map<std::string, Profile> kProfiles = {
-    {"anoto", Profile::anoto},
-    {"published", Profile::published},
-    {"microdots", Profile::microdots},
-};
 
 bool parse_whole(std::string_view text, std::uint32_t limit, std::uint32_t& value) {
     const char* end = text.data() + text.size();
@@ -55,13 +49,13 @@ void add_code_option(CLI::App& command, Profile& profile) {
     command
         .add_option_function<std::string>(
             "--code",
-            [&profile](const std::string& name) {
-                const auto found = kProfiles.find(name);
-                if (found == kProfiles.end()) {
+            [&profile](const std::string& asked) {
+                const auto found = profile_by_name(asked);
+                if (!found) {
                     throw CLI::ValidationError(
-                        "--code", fmt::format("'{}' is not anoto, published or microdots", name));
+                        "--code", fmt::format("'{}' is not anoto, published or microdots", asked));
                 }
-                profile = found->second;
+                profile = *found;
             },
             "Code profile: anoto, published or microdots")
         ->type_name("NAME")
@@ -100,6 +94,15 @@ void add_cell_option(CLI::App& command, const std::string& flag, Cell& cell,
             help)
         ->type_name("X,Y")
         ->default_str(fmt::format("{},{}", cell.x, cell.y));
+}
+
+CLI::Option* add_sheets_option(CLI::App& command, std::string& path, const std::string& help) {
+    const auto not_empty = [](const std::string& text) {
+        return text.empty() ? std::string("the name of the sheet file is empty") : std::string();
+    };
+    return command.add_option("--sheets", path, help)
+        ->type_name("FILE")
+        ->check(CLI::Validator(not_empty, ""));
 }
 
 void add_lens_option(CLI::App& command, Lens& lens) {
@@ -169,15 +172,7 @@ Pattern PatternArguments::pattern() const {
 }
 
 const char* profile_name(Profile profile) {
-    switch (profile) {
-        case Profile::anoto:
-            return "anoto";
-        case Profile::published:
-            return "published";
-        case Profile::microdots:
-            return "microdots";
-    }
-    return "";
+    return name(profile);
 }
 
 }  // namespace dotpose::cli

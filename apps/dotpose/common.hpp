@@ -26,6 +26,9 @@ void add_spacing_option(CLI::App& command, double& spacing_mm);
 void add_cell_option(CLI::App& command, const std::string& flag, Cell& cell,
                      const std::string& help);
 
+/// --sheets FILE; what the file is for in this command is in `help`.
+CLI::Option* add_sheets_option(CLI::App& command, std::string& path, const std::string& help);
+
 /// --k 1/PX^2: what `locate` corrects.
 void add_lens_option(CLI::App& command, Lens& lens);
 

@@ -1,10 +1,12 @@
 #include "dotpose/locate.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,6 +17,7 @@
 #include "commands.hpp"
 #include "common.hpp"
 #include "dotpose/image_file.hpp"
+#include "dotpose/sheet_file.hpp"
 #include "locate_record.hpp"
 #include "picture_folder.hpp"
 
@@ -31,6 +34,7 @@ constexpr const char* kExamples =
     "  dotpose locate frame.png\n"
     "  dotpose locate --format csv frames/*.pgm > poses.csv\n"
     "  dotpose locate --draw pictures frame.png\n"
+    "  dotpose locate --sheets sheets.json frame.png\n"
     "  find frames -name '*.png' | sort | dotpose locate --list -\n\n"
     "One line per image, also for those without a fix. Exit status 1 if some image could not be\n"
     "read, 2 for wrong usage.\n";
@@ -46,6 +50,7 @@ struct LocateArguments {
     std::string out;
     std::string draw_folder;
     RecordFormat format = RecordFormat::jsonl;
+    std::string sheets;  ///< sheet file; empty: none
     double spacing_mm = kDefaultSpacing_mm;
     Options options;
     std::optional<PixelPoint> reference_px;
@@ -116,34 +121,83 @@ class Lines {
 class Locator {
   public:
     explicit Locator(const LocateArguments& arguments)
-        : arguments_(arguments), workspace_(std::make_unique<LargeWorkspace>()) {
+        : arguments_(arguments),
+          profiles_{arguments.options.profile},
+          unplaced_spacing_mm_(arguments.spacing_mm),
+          workspace_(std::make_unique<LargeWorkspace>()) {
+        if (!arguments.sheets.empty()) use_sheets();
         if (!arguments.draw_folder.empty()) pictures_.emplace(arguments.draw_folder);
     }
+
+    bool has_sheets() const { return !arguments_.sheets.empty(); }
 
     /// Throws Error if the image cannot be read.
     Record operator()(const std::string& name) {
         image_ = read_image(name);
         options_ = options_for(image_);
         Record record;
-        const auto start = steady_clock::now();
-        record.fix = locate(image_.view(), options_, *workspace_);
-        const std::chrono::duration<double, std::micro> elapsed = steady_clock::now() - start;
         record.file = name;
-        record.elapsed_us = elapsed.count();
+        record.has_sheets = has_sheets();
         record.width_px = image_.width_px;
         record.height_px = image_.height_px;
-        record.spacing_mm = arguments_.spacing_mm;
         record.min_dots = options_.lattice.min_dots;
+        const auto start = steady_clock::now();
+        record.fix = locate_with_any_profile();
+        const std::chrono::duration<double, std::micro> elapsed = steady_clock::now() - start;
+        record.elapsed_us = elapsed.count();
+        record.place = find_sheet(sheets_, options_.profile, record.fix);
+        spacing_mm_ =
+            record.place ? record.place->entry->sheet.pattern.spacing_mm : unplaced_spacing_mm_;
+        record.spacing_mm = spacing_mm_;
         return record;
     }
 
     /// Draws the image just located, if pictures are wanted. Throws Error.
     void draw(const std::string& name) {
         if (!pictures_) return;
-        pictures_->add(name, image_.view(), *workspace_, options_, arguments_.spacing_mm);
+        pictures_->add(name, image_.view(), *workspace_, options_, spacing_mm_);
     }
 
   private:
+    void use_sheets() {
+        sheets_ = read_sheets(arguments_.sheets);
+        if (sheets_.empty()) throw Error(arguments_.sheets + " has no sheets");
+        profiles_.clear();
+        unplaced_spacing_mm_ = sheets_.front().sheet.pattern.spacing_mm;
+        for (const SheetEntry& entry : sheets_) {
+            const Pattern& pattern = entry.sheet.pattern;
+            if (std::ranges::find(profiles_, pattern.profile) == profiles_.end()) {
+                profiles_.push_back(pattern.profile);
+            }
+            if (pattern.spacing_mm != unplaced_spacing_mm_) {
+                unplaced_spacing_mm_ = std::numeric_limits<double>::quiet_NaN();
+            }
+        }
+    }
+
+    /// The first fix that lies on a sheet of its profile; if none does, the first fix; if there is
+    /// none, what the first profile told. Leaves its profile in `options_`.
+    Fix locate_with_any_profile() {
+        Profile best = profiles_.front();
+        bool is_found = false;
+        Fix fix;
+        for (const Profile profile : profiles_) {
+            fix = locate_with(profile);
+            if (profiles_.size() == 1 || find_sheet(sheets_, profile, fix)) return fix;
+            if (fix.status == Status::ok && !is_found) {
+                best = profile;
+                is_found = true;
+            }
+        }
+        // Once more if need be, so that fix and workspace belong together.
+        return options_.profile == best ? fix : locate_with(best);
+    }
+
+    Fix locate_with(Profile profile) {
+        options_.profile = profile;
+        return locate(image_.view(), options_, *workspace_);
+    }
+
     Options options_for(const GreyImage& image) const {
         Options options = arguments_.options;
         if (const auto& reference_px = arguments_.reference_px) {
@@ -157,10 +211,14 @@ class Locator {
     }
 
     const LocateArguments& arguments_;
+    std::vector<SheetEntry> sheets_;
+    std::vector<Profile> profiles_;  ///< to try, in this order
+    double unplaced_spacing_mm_;     ///< for a fix on no sheet; not a number if sheets differ
     std::unique_ptr<LargeWorkspace> workspace_;
     std::optional<PictureFolder> pictures_;
     GreyImage image_;
     Options options_;
+    double spacing_mm_ = 0;
 };
 
 /// Returns the exit status.
@@ -184,7 +242,7 @@ int run(const LocateArguments& arguments) {
             return false;
         }
     };
-    if (is_csv) lines.write(csv_header());
+    if (is_csv) lines.write(csv_header(locator.has_sheets()));
     while (const auto name = names.next()) {
         Record record;
         if (!attempt([&] { record = locator(*name); })) continue;
@@ -237,6 +295,9 @@ void add_locate(CLI::App& app, int& exit_code) {
         ->type_name("FILE|-");
     add_spacing_option(*command, arguments->spacing_mm);
     add_code_option(*command, arguments->options.profile);
+    add_sheets_option(*command, arguments->sheets,
+                      "Sheet file: also tell the sheet, and the place on it and in the world")
+        ->excludes(command->get_option("--spacing"), command->get_option("--code"));
     add_camera_options(*command, *arguments);
     add_attempt_options(*command, arguments->options);
     command

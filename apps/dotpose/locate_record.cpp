@@ -48,13 +48,31 @@ double sigma(const Fix& fix, std::size_t axis) {
     return std::sqrt(static_cast<double>(fix.covariance[axis][axis]));
 }
 
+/// What `--sheets` adds.
+std::vector<Field> sheet_fields(const std::optional<SheetPlace>& place) {
+    std::vector<Field> fields = {
+        {"sheet", {}, true}, {"x_sheet_mm", {}}, {"y_sheet_mm", {}},
+        {"x_m", {}},         {"y_m", {}},        {"yaw_rad", {}},
+    };
+    if (!place) return fields;
+    fields[0].text = place->entry->name;
+    fields[1].text = decimal(place->x_mm, 6);
+    fields[2].text = decimal(place->y_mm, 6);
+    if (const auto world = world_pose(*place)) {
+        fields[3].text = decimal(world->x_m, 9);
+        fields[4].text = decimal(world->y_m, 9);
+        fields[5].text = decimal(world->yaw_rad, 8);
+    }
+    return fields;
+}
+
 /// The single list of fields, in the order of the output. `section` is one field in JSON.
 std::vector<Field> fields(const Record& record) {
     const Fix& fix = record.fix;
     const double spacing_mm = record.spacing_mm;
     const bool ok = fix.status == Status::ok;
     const auto if_ok = [ok](std::string text) { return ok ? std::move(text) : std::string(); };
-    return {
+    std::vector<Field> fields = {
         {"file", record.file, true},
         {"status", name(fix.status), true},
         {"message", reason(record), true},
@@ -76,6 +94,11 @@ std::vector<Field> fields(const Record& record) {
         {"spacing_px", if_ok(decimal(fix.spacing_px(), 4))},
         {"elapsed_us", decimal(record.elapsed_us, 1)},
     };
+    if (record.has_sheets) {
+        for (Field& field : sheet_fields(record.place))
+            fields.push_back(std::move(field));
+    }
+    return fields;
 }
 
 std::string json_string(const std::string& text) {
@@ -139,9 +162,11 @@ std::string json_line(const Record& record) {
     return line + "}\n";
 }
 
-std::string csv_header() {
+std::string csv_header(bool has_sheets) {
     std::string line;
-    for (const Field& field : fields({})) {
+    Record record;
+    record.has_sheets = has_sheets;
+    for (const Field& field : fields(record)) {
         if (!line.empty()) line += ',';
         line += field.name;
     }

@@ -1,9 +1,11 @@
 /// One output line of `dotpose locate`: what one image told.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "dotpose/fix.hpp"
+#include "dotpose/sheet_file.hpp"
 
 namespace dotpose::cli {
 
@@ -12,8 +14,10 @@ enum class RecordFormat { jsonl, csv };
 struct Record {
     std::string file;
     Fix fix;
-    double spacing_mm = 0;
-    double elapsed_us = 0;  ///< of `dotpose::locate` alone
+    double spacing_mm = 0;    ///< not a number if it is not known; then nothing is given in mm
+    bool has_sheets = false;  ///< sheets were searched: their fields are wanted
+    std::optional<SheetPlace> place;  ///< on one of them
+    double elapsed_us = 0;            ///< of `dotpose::locate` alone
     int width_px = 0;
     int height_px = 0;
     int min_dots = 0;  ///< fewest that are worth a try
@@ -25,7 +29,7 @@ std::string reason(const Record& record);
 /// Lines with their line break. JSON holds the fields that mean something, CSV has all columns. In
 /// JSON, bytes of a file name that are no UTF-8 are replaced.
 std::string json_line(const Record& record);
-std::string csv_header();
+std::string csv_header(bool has_sheets);
 std::string csv_line(const Record& record);
 
 }  // namespace dotpose::cli

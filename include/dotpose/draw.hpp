@@ -23,8 +23,9 @@ namespace dotpose {
 
 /// What the caption of `draw_frame` says besides the fix.
 struct DrawOptions {
-    double spacing_mm = kDefaultSpacing_mm;  ///< of the printed grid, for the pose in mm
-    std::string title;                       ///< for example the file's name; default none
+    /// Of the printed grid, for the pose in mm. Not a number: not known, the pose is in spacings.
+    double spacing_mm = kDefaultSpacing_mm;
+    std::string title;  ///< for example the file's name; default none
 };
 
 /// Draws the last frame of `workspace`, whatever stage it got to. `image` and `options` are those

@@ -68,12 +68,20 @@ std::string with_minus(std::string text) {
 
 void draw_pose(const Fix& fix, const DrawOptions& draw_options, double width, Svg& svg) {
     const double spacing_mm = draw_options.spacing_mm;
-    draw_entries({{"x", fmt::format("{:.3f} mm", fix.x_mm(spacing_mm))},
-                  {"y", fmt::format("{:.3f} mm", fix.y_mm(spacing_mm))},
+    const bool has_mm = std::isfinite(spacing_mm);
+    const auto place = [&](double grid) {
+        return has_mm ? fmt::format("{:.3f} mm", grid * spacing_mm)
+                      : fmt::format("{:.3f} spacings", grid);
+    };
+    draw_entries({{"x", place(fix.x_grid())},
+                  {"y", place(fix.y_grid())},
                   {"θ", with_minus(fmt::format("{:.3f}°", degrees(fix.theta_rad())))}},
                  40, width / 3, kBigSize, svg);
-    const auto sigma_um = [&](std::size_t axis) { return 1000 * spacing_mm * sigma(fix, axis); };
-    draw_entries({{"σ of x, y", fmt::format("{:.2f}, {:.2f} µm", sigma_um(0), sigma_um(1))},
+    const auto sigma_text = [&](std::size_t axis) {
+        return has_mm ? fmt::format("{:.2f} µm", 1000 * spacing_mm * sigma(fix, axis))
+                      : fmt::format("{:.5f}", sigma(fix, axis));
+    };
+    draw_entries({{"σ of x, y", sigma_text(0) + ", " + sigma_text(1)},
                   {"σ of θ", fmt::format("{:.4f}°", degrees(sigma(fix, 2)))},
                   {"dots used, seen", fmt::format("{}, {}", fix.dots_used, fix.dots_seen)},
                   {"bit errors", fmt::format("{}", fix.bit_errors)},

@@ -1,9 +1,11 @@
 // `dotpose print` as its user sees it.
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <tiffio.h>
 
 #include "tool_command.hpp"
 
@@ -50,6 +52,57 @@ TEST_F(PrintCommand, writes_every_format) {
     EXPECT_THAT(file("a.png"), StartsWith("\x89PNG"));
     EXPECT_EQ(run("print --paper 20x20 -o a.tif"), 0);
     EXPECT_THAT(file("a.tif").substr(0, 2), testing::AnyOf("II", "MM"));
+}
+
+/// Four bytes, the highest first, as PNG has them.
+std::uint32_t number_at(const std::string& bytes, std::size_t at) {
+    std::uint32_t number = 0;
+    for (std::size_t i = at; i < at + 4; ++i)
+        number = number << 8 | static_cast<unsigned char>(bytes.at(i));
+    return number;
+}
+
+TEST_F(PrintCommand, images_carry_the_resolution_asked_for) {
+    struct Case {
+        const char* option;
+        std::uint32_t dpi;
+        std::uint32_t per_metre;  ///< dpi / 0.0254, to the nearest
+    };
+    for (const auto& [option, dpi, per_metre] :
+         {Case{"--dpi 300", 300, 11811}, {"", 600, 23622}, {"--dpi 1200", 1200, 47244}}) {
+        // A page of 1 x 2 inches.
+        ASSERT_EQ(run(std::string("print --paper 25.4x50.8 -o a.png ") + option), 0);
+        const std::string png = file("a.png");
+        EXPECT_EQ(number_at(png, 16), dpi);
+        EXPECT_EQ(number_at(png, 20), 2 * dpi);
+        EXPECT_EQ(png.at(24), 1) << "bits per sample";
+        EXPECT_EQ(png.at(25), 0) << "grey";
+        const std::size_t physical = png.find("pHYs");
+        ASSERT_NE(physical, std::string::npos);
+        EXPECT_EQ(number_at(png, physical + 4), per_metre);
+        EXPECT_EQ(number_at(png, physical + 8), per_metre);
+        EXPECT_EQ(png.at(physical + 12), 1) << "the unit is the metre";
+
+        ASSERT_EQ(run(std::string("print --paper 25.4x50.8 -o a.tif ") + option), 0);
+        TIFF* tiff = TIFFOpen((directory_ / "a.tif").c_str(), "r");
+        ASSERT_NE(tiff, nullptr);
+        std::uint32_t width = 0;
+        std::uint16_t bits = 0;
+        std::uint16_t unit = 0;
+        float x_dpi = 0;
+        float y_dpi = 0;
+        TIFFGetField(tiff, TIFFTAG_IMAGEWIDTH, &width);
+        TIFFGetField(tiff, TIFFTAG_BITSPERSAMPLE, &bits);
+        TIFFGetField(tiff, TIFFTAG_RESOLUTIONUNIT, &unit);
+        TIFFGetField(tiff, TIFFTAG_XRESOLUTION, &x_dpi);
+        TIFFGetField(tiff, TIFFTAG_YRESOLUTION, &y_dpi);
+        TIFFClose(tiff);
+        EXPECT_EQ(width, dpi);
+        EXPECT_EQ(bits, 1);
+        EXPECT_EQ(unit, RESUNIT_INCH);
+        EXPECT_EQ(x_dpi, static_cast<float>(dpi));
+        EXPECT_EQ(y_dpi, static_cast<float>(dpi));
+    }
 }
 
 TEST_F(PrintCommand, wrong_usage_is_status_2_with_one_message_and_no_file) {
@@ -100,12 +153,22 @@ TEST_F(PrintCommand, a_signal_leaves_no_litter) {
 }
 
 TEST_F(PrintCommand, help_shows_an_example) {
+<<<<<<< HEAD
     run("print --help");
     EXPECT_EQ(exit_code_, 0);
     EXPECT_THAT(output_, HasSubstr("dotpose print -o sheet.svg"));
     for (const char* option : {"--out", "--paper", "--landscape", "--margin", "--spacing", "--dot",
                                "--displacement", "--origin", "--section", "--code", "--dpi"}) {
         EXPECT_THAT(output_, HasSubstr(option));
+=======
+    const Outcome outcome = run("print --help");
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_THAT(outcome.output, HasSubstr("dotpose print -o sheet.svg"));
+    for (const char* option :
+         {"--out", "--paper", "--landscape", "--margin", "--spacing", "--dot", "--displacement",
+          "--origin", "--section", "--code", "--dpi", "--sheets", "--name"}) {
+        EXPECT_THAT(outcome.output, HasSubstr(option));
+>>>>>>> sheets
     }
 }
 

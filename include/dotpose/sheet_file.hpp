@@ -1,0 +1,152 @@
+/// Sheet files: which region of the code plane is which page, and where the page lies in the world.
+/// The format is described in docs/sheet-files.md.
+///
+///     const std::vector<SheetEntry> sheets = read_sheets("sheets.json");
+///     if (const auto place = find_sheet(sheets, Profile::anoto, fix)) use(place->x_mm);
+///
+/// To add sheets, hold the file for as long as it takes to print them:
+///
+///     SheetFile file("sheets.json");  // waits for whoever else is changing it
+///     const auto added = file.allocate("table", make_sheet(options));
+///     write_sheet(added[0].sheet, "table.svg");
+///     file.save();
+///
+/// Frames: *sheet*, mm from the top left corner of the page, x right, y DOWN; *world*, metres,
+/// right-handed, z out of the paper, y up, angles counter-clockwise (ROS REP-103).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dotpose/error.hpp"
+#include "dotpose/fix.hpp"
+#include "dotpose/sheet.hpp"
+
+namespace dotpose {
+
+/// Version of the format that is written, and the only one that is read.
+inline constexpr int kSheetFileVersion = 1;
+
+/// Cells left free around every allocated region. More than the diagonal of the largest frame
+/// (4096 x 4096 px, 6 px per spacing: 966 cells), so that a frame that shows two sheets, located by
+/// the dots of one of them, is never taken for the other.
+inline constexpr std::uint32_t kSheetGap_cells = 1024;
+
+/// Name of a profile: anoto, published, microdots; and the way back.
+const char* name(Profile profile);
+std::optional<Profile> profile_by_name(std::string_view name);
+
+/// A place and a direction in the world.
+struct WorldPose {
+    double x_m = 0;
+    double y_m = 0;
+    double yaw_rad = 0;  ///< counter-clockwise from the world's x axis
+};
+
+/// One page of a sheet file.
+struct SheetEntry {
+    std::string name;  ///< unique in the file
+    int page = 1;      ///< its number among the pages it was printed with, from 1
+    Sheet sheet;
+    /// True length of what was printed as a unit length, 0.5 to 2. The scale is about the first
+    /// intersection, whose place on the page is (sheet.origin_x_mm, sheet.origin_y_mm) whatever the
+    /// scale.
+    double print_scale_x = 1;
+    double print_scale_y = 1;
+    /// Where the top left corner of the page lies in the world, and the direction in which the
+    /// page's upper edge runs from there. None: not known.
+    std::optional<WorldPose> world;
+};
+
+/// Checks one entry: name not empty, of UTF-8 without control characters; page at least 1; scales
+/// in their range; world finite; and `validate(sheet)` (print.hpp). Throws BadArgument.
+void validate(const SheetEntry& entry);
+
+/// Whether some cell belongs to both. Different sections never overlap. The profiles anoto and
+/// published agree on most of the plane, so they count as one; microdots is another.
+bool overlap(const Sheet& a, const Sheet& b);
+
+/// Reads a sheet file. Throws Error, naming the file and the key concerned: the file cannot be
+/// read, is no sheet file or of another version, a key is missing, has the wrong type or a value
+/// out of range, a name occurs twice, two regions overlap.
+std::vector<SheetEntry> read_sheets(const std::filesystem::path& path);
+
+/// Exclusive use of a sheet file, to change it. Others that want to change it wait for the object's
+/// end; who only reads is not kept waiting. Not for use by several threads at once.
+class SheetFile {
+  public:
+    /// Waits for its turn, then reads the file; one that does not exist has no sheets.
+    /// Throws Error as `read_sheets`, or if the file cannot be locked.
+    explicit SheetFile(const std::filesystem::path& path);
+    ~SheetFile();
+    SheetFile(const SheetFile&) = delete;
+    SheetFile& operator=(const SheetFile&) = delete;
+
+    const std::vector<SheetEntry>& sheets() const { return sheets_; }
+
+    /// Adds `count` pages like `sheet`, each in the next free region; `sheet.origin` does not
+    /// matter. A single page gets the name as it is, several get "name-1", "name-2" and so on.
+    ///
+    /// The next free region is the topmost, then leftmost one that keeps kSheetGap_cells from the
+    /// ends of the plane and from the regions of all other sheets, whatever their profile and
+    /// section: allocated sheets differ in their cells alone.
+    ///
+    /// Returns what was added. Throws BadArgument: `validate`, a name that is taken, the plane is
+    /// full, count below 1.
+    std::vector<SheetEntry> allocate(const std::string& name, const Sheet& sheet, int count = 1);
+
+    /// Adds a sheet whose region was chosen by somebody else; it may touch others but not overlap.
+    /// Throws BadArgument: `validate`, the name or the region is taken (and by which sheet).
+    void add(const SheetEntry& entry);
+
+    /// Puts `entry` in the place of the sheet of the same name.
+    /// Throws BadArgument as `add`, or if there is no such sheet.
+    void replace(const SheetEntry& entry);
+
+    /// Writes the file, whole or not at all. Keys of the old file that this version does not know
+    /// are kept. Throws Error: it cannot be written, or an editor changed it in the meantime.
+    void save();
+
+  private:
+    /// The right to change the file, held by a lock on a hidden file beside it.
+    class Lock {
+      public:
+        explicit Lock(const std::filesystem::path& path);
+        ~Lock();
+        Lock(const Lock&) = delete;
+        Lock& operator=(const Lock&) = delete;
+
+      private:
+        std::filesystem::path path_;
+        int descriptor_ = -1;
+    };
+
+    std::filesystem::path path_;
+    Lock lock_;
+    std::optional<std::string> text_;  ///< the file as it was read or saved; none if there was none
+    std::vector<SheetEntry> sheets_;
+};
+
+/// Where a fix lies on a page.
+struct SheetPlace {
+    const SheetEntry* entry = nullptr;  ///< one of those that were searched
+    double x_mm = 0;                    ///< sheet frame, print scale applied
+    double y_mm = 0;
+    double theta_rad = 0;  ///< of the image x axis, from the sheet's +x towards +y, in (-pi, pi]
+};
+
+/// The sheet that shows what was located, with this profile, at `fix`: the one whose region holds
+/// the place, otherwise one on whose margins it lies. None if the fix is not ok or lies elsewhere.
+std::optional<SheetPlace> find_sheet(std::span<const SheetEntry> sheets, Profile profile,
+                                     const Fix& fix);
+
+/// The same place in the world: `x_m`, `y_m`, and in `yaw_rad`, in (-pi, pi], the direction of the
+/// image x axis. None if the sheet's own pose is not known.
+std::optional<WorldPose> world_pose(const SheetPlace& place);
+
+}  // namespace dotpose

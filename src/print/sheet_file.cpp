@@ -1,0 +1,140 @@
+#include "dotpose/sheet_file.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "output_file.hpp"
+#include "sheet_json.hpp"
+#include "sheet_list.hpp"
+
+namespace dotpose {
+namespace fs = std::filesystem;
+namespace {
+
+[[noreturn]] void throw_system(const char* action, const fs::path& path, int error_number) {
+    throw Error(fmt::format("cannot {} {}: {}", action, path.string(),
+                            std::generic_category().message(error_number)));
+}
+
+/// None if there is no such file.
+std::optional<std::string> text_of(const fs::path& path) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (status.type() == fs::file_type::not_found) return std::nullopt;
+    if (fs::is_directory(status)) throw_system("read", path, EISDIR);
+    errno = 0;
+    std::ifstream stream(path, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    if (!stream.is_open() || stream.bad()) throw_system("read", path, errno != 0 ? errno : EIO);
+    return text;
+}
+
+/// Whoever names the file by a link must wait for the same lock as the others, also before there is
+/// a file: a link to none is no canonical path to the standard library.
+fs::path without_links(fs::path path) {
+    constexpr int kMostLinks = 40;  // as many as Linux follows
+    std::error_code error;
+    for (int i = 0; i < kMostLinks && fs::is_symlink(path, error); ++i) {
+        const fs::path target = fs::read_symlink(path, error);
+        if (error) break;
+        path = path.parent_path() / target;
+    }
+    return path;
+}
+
+}  // namespace
+
+std::vector<SheetEntry> read_sheets(const fs::path& path) {
+    const auto text = text_of(path);
+    if (!text) throw_system("read", path, ENOENT);
+    return print::sheets_from_json(*text, path.string());
+}
+
+SheetFile::Lock::Lock(const fs::path& path) : path_(path) {
+    path_.replace_filename(fmt::format(".{}.lock", path.filename().string()));
+    while (true) {
+        descriptor_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        if (descriptor_ < 0) throw_system("lock", path, errno);
+        int result = 0;
+        do {
+            result = flock(descriptor_, LOCK_EX);
+        } while (result != 0 && errno == EINTR);
+        if (result != 0) {
+            const int error_number = errno;
+            close(descriptor_);
+            throw_system("lock", path, error_number);
+        }
+        // The one before removes the file: a lock on what is no longer there locks nobody out.
+        struct stat held {};
+        struct stat named {};
+        if (fstat(descriptor_, &held) == 0 && stat(path_.c_str(), &named) == 0 &&
+            held.st_ino == named.st_ino && held.st_dev == named.st_dev) {
+            return;
+        }
+        close(descriptor_);
+    }
+}
+
+SheetFile::Lock::~Lock() {
+    unlink(path_.c_str());
+    close(descriptor_);
+}
+
+SheetFile::SheetFile(const fs::path& path)
+    : path_(without_links(path)), lock_(path_), text_(text_of(path_)) {
+    if (text_) sheets_ = print::sheets_from_json(*text_, path_.string());
+}
+
+SheetFile::~SheetFile() = default;
+
+std::vector<SheetEntry> SheetFile::allocate(const std::string& name, const Sheet& sheet,
+                                            int count) {
+    if (count < 1) throw BadArgument(fmt::format("{} sheets: at least one is needed", count));
+    std::vector<SheetEntry> sheets = sheets_;
+    for (int page = 1; page <= count; ++page) {
+        SheetEntry entry;
+        entry.name = count == 1 || name.empty() ? name : fmt::format("{}-{}", name, page);
+        entry.page = page;
+        entry.sheet = sheet;
+        entry.sheet.origin = print::free_origin(sheets, sheet.columns, sheet.rows);
+        print::append(entry, sheets);
+    }
+    sheets_ = std::move(sheets);
+    return {sheets_.end() - count, sheets_.end()};
+}
+
+void SheetFile::add(const SheetEntry& entry) {
+    print::append(entry, sheets_);
+}
+
+void SheetFile::replace(const SheetEntry& entry) {
+    const auto found = std::ranges::find(sheets_, entry.name, &SheetEntry::name);
+    if (found == sheets_.end()) {
+        throw BadArgument(fmt::format("{} has no sheet '{}'", path_.string(), entry.name));
+    }
+    print::check_beside(entry, sheets_, &*found);
+    *found = entry;
+}
+
+void SheetFile::save() {
+    if (text_of(path_) != text_) {
+        throw Error(fmt::format("{} was changed by somebody else meanwhile; nothing was written",
+                                path_.string()));
+    }
+    std::string text = print::json_from_sheets(sheets_, text_);
+    print::OutputFile file(path_);
+    file.write(text);
+    file.commit();
+    text_ = std::move(text);
+}
+
+}  // namespace dotpose

@@ -1,0 +1,92 @@
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "dotpose/sheet_file.hpp"
+
+namespace dotpose {
+namespace {
+
+/// From `first` to `cell` along one axis, the shorter way around: left of the first column of the
+/// plane the pattern goes on with the last.
+std::int32_t steps(std::uint32_t first, std::uint32_t cell) {
+    constexpr std::int64_t kPositions = kPositionsPerAxis;
+    std::int64_t difference = std::int64_t{cell} - first;
+    if (difference > kPositions / 2) difference -= kPositions;
+    if (difference < -kPositions / 2) difference += kPositions;
+    return static_cast<std::int32_t>(difference);
+}
+
+/// Grid units from the first intersection of a sheet.
+struct Offset {
+    double x = 0;
+    double y = 0;
+};
+
+/// None if the fix was read in another section.
+std::optional<Offset> offset_on(const Sheet& sheet, const Fix& fix) {
+    const std::int32_t dx = steps(sheet.origin.x, fix.cell.x);
+    const std::int32_t dy = steps(sheet.origin.y, fix.cell.y);
+    const Place first = moved(sheet.pattern.profile, {fix.cell, fix.section}, -dx, -dy);
+    if (first.section != sheet.pattern.section) return std::nullopt;
+    return Offset{dx + fix.fraction_x_q16 / 65536.0, dy + fix.fraction_y_q16 / 65536.0};
+}
+
+/// Each intersection stands for the cell around it.
+bool in_region(const Sheet& sheet, Offset offset) {
+    return offset.x >= -0.5 && offset.x < sheet.columns - 0.5 && offset.y >= -0.5 &&
+           offset.y < sheet.rows - 0.5;
+}
+
+/// In (-pi, pi].
+double wrapped(double angle_rad) {
+    const double angle = std::remainder(angle_rad, 2 * std::numbers::pi);
+    return angle <= -std::numbers::pi ? angle + 2 * std::numbers::pi : angle;
+}
+
+SheetPlace place_on(const SheetEntry& entry, Offset offset, double theta_rad) {
+    const Sheet& sheet = entry.sheet;
+    const double x_scale = entry.print_scale_x;
+    const double y_scale = entry.print_scale_y;
+    return {&entry, sheet.origin_x_mm + offset.x * sheet.pattern.spacing_mm * x_scale,
+            sheet.origin_y_mm + offset.y * sheet.pattern.spacing_mm * y_scale,
+            wrapped(std::atan2(std::sin(theta_rad) * y_scale, std::cos(theta_rad) * x_scale))};
+}
+
+bool on_page(const SheetPlace& place) {
+    const Sheet& sheet = place.entry->sheet;
+    return place.x_mm >= 0 && place.x_mm <= sheet.width_mm && place.y_mm >= 0 &&
+           place.y_mm <= sheet.height_mm;
+}
+
+}  // namespace
+
+std::optional<SheetPlace> find_sheet(std::span<const SheetEntry> sheets, Profile profile,
+                                     const Fix& fix) {
+    if (fix.status != Status::ok) return std::nullopt;
+    std::optional<SheetPlace> on_margin;
+    for (const SheetEntry& entry : sheets) {
+        if (entry.sheet.pattern.profile != profile) continue;
+        const auto offset = offset_on(entry.sheet, fix);
+        if (!offset) continue;
+        const SheetPlace place = place_on(entry, *offset, fix.theta_rad());
+        if (in_region(entry.sheet, *offset)) return place;
+        if (!on_margin && on_page(place)) on_margin = place;
+    }
+    return on_margin;
+}
+
+std::optional<WorldPose> world_pose(const SheetPlace& place) {
+    const auto& world = place.entry->world;
+    if (!world) return std::nullopt;
+    // The one flip: the sheet's y is down and its angles clockwise, the world's are not.
+    const double right_m = place.x_mm / 1000;
+    const double up_m = -place.y_mm / 1000;
+    const double yaw_of_image_rad = -place.theta_rad;
+    const double c = std::cos(world->yaw_rad);
+    const double s = std::sin(world->yaw_rad);
+    return WorldPose{world->x_m + c * right_m - s * up_m, world->y_m + s * right_m + c * up_m,
+                     wrapped(world->yaw_rad + yaw_of_image_rad)};
+}
+
+}  // namespace dotpose

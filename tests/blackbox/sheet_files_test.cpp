@@ -1,0 +1,388 @@
+// From the printed page to the place on it and in the world, by the tool alone: `dotpose print`
+// into a sheet file, frames of the pages, `dotpose locate` with the file.
+#include <cmath>
+#include <complex>
+#include <cstdint>
+#include <cstdlib>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "dotpose/image_file.hpp"
+#include "locate_command.hpp"
+
+namespace dotpose::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+constexpr double kPi = std::numbers::pi;
+
+// What is known of nominal frames: dots are jittered by 0.010 mm and about 170 are seen, so a fix
+// is right to 0.001 mm; 0.02 mm is also what a wrong half pixel of the camera would show.
+constexpr double kTolerance_mm = 0.02;
+
+class SheetFiles : public LocateCommand {
+  protected:
+    /// Runs `dotpose print ARGUMENTS`; returns the exit status. Messages go to `errors_`.
+    int print(const std::string& arguments) {
+        const std::string command = "cd '" + directory_.string() +
+                                    "' && { '" DOTPOSE_TOOL "' print " + arguments +
+                                    "; } >/dev/null 2>.stderr";
+        const int status = std::system(command.c_str());
+        errors_ = read_file(directory_ / ".stderr");
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+    json sheets() const { return json::parse(read_file(directory_ / "sheets.json"))["sheets"]; }
+
+    /// As a user does it, with an editor.
+    template <typename Edit>
+    void edit_sheet(std::size_t index, const Edit& edit) const {
+        json document = json::parse(read_file(directory_ / "sheets.json"));
+        edit(document["sheets"].at(index));
+        write("sheets.json", document.dump());
+    }
+
+    /// One record, of the image given.
+    json locate_with_sheets(const GreyImage& image) {
+        write_pgm(directory_ / "frame.pgm", image.view());
+        run("--sheets sheets.json frame.pgm");
+        EXPECT_EQ(exit_code_, 0) << errors_;
+        return records().at(0);
+    }
+};
+
+/// A nominal frame of a place on a page, given in mm of the page; only the numbers of the sheet
+/// file say where on the code plane that is.
+GreyImage frame_of(const json& sheet, double x_mm, double y_mm, double theta_rad,
+                   std::uint64_t seed) {
+    Setup setup;
+    setup.seed = seed;
+    setup.random_section = false;
+    Shot shot = draw_shot(setup, 0);
+    Pattern& pattern = shot.page.pattern;
+    pattern.profile = sheet["code"] == "microdots"   ? Profile::microdots
+                      : sheet["code"] == "published" ? Profile::published
+                                                     : Profile::anoto;
+    pattern.section = {sheet["section_u"], sheet["section_v"]};
+    pattern.spacing_mm = sheet["spacing_mm"];
+    pattern.displacement_mm = sheet["displacement_mm"];
+    pattern.dot_mm = sheet["dot_mm"];
+    shot.page.origin = {sheet["origin_x"], sheet["origin_y"]};
+    shot.page.columns = sheet["columns"];
+    shot.page.rows = sheet["rows"];
+    const double x = (x_mm - sheet["first_x_mm"].get<double>()) / pattern.spacing_mm;
+    const double y = (y_mm - sheet["first_y_mm"].get<double>()) / pattern.spacing_mm;
+    shot.pose.cell = {shot.page.origin.x + static_cast<std::uint32_t>(std::floor(x)),
+                      shot.page.origin.y + static_cast<std::uint32_t>(std::floor(y))};
+    shot.pose.fraction_x = x - std::floor(x);
+    shot.pose.fraction_y = y - std::floor(y);
+    shot.pose.theta_rad = theta_rad;
+    return render(shot);
+}
+
+TEST_F(SheetFiles, tell_sheet_place_and_world_pose) {
+    ASSERT_EQ(print("-o table.svg --paper 80x60 --sheets sheets.json --name table"), 0) << errors_;
+    ASSERT_EQ(print("-o desk.svg --paper 60x90 --sheets sheets.json --name 'the desk'"), 0);
+    constexpr double kYaw_rad = 2.3;
+    edit_sheet(1, [&](json& desk) {
+        desk["world"] = {{"x_m", 1.25}, {"y_m", -0.5}, {"yaw_rad", kYaw_rad}};
+    });
+    std::mt19937 random(11);
+    std::printf("seed 11\n");
+    const auto uniform = [&random](double low, double high) {
+        return std::uniform_real_distribution(low, high)(random);
+    };
+    const json file = sheets();
+    for (std::uint64_t i = 0; i < 16; ++i) {
+        const json& sheet = file.at(i % 2);
+        const double x_mm = uniform(9, sheet["width_mm"].get<double>() - 9);
+        const double y_mm = uniform(9, sheet["height_mm"].get<double>() - 9);
+        const double theta_rad = uniform(-kPi, kPi);
+        const json record = locate_with_sheets(frame_of(sheet, x_mm, y_mm, theta_rad, i));
+        ASSERT_EQ(record["status"], "ok") << record;
+        EXPECT_EQ(record["sheet"], sheet["name"]);
+        EXPECT_NEAR(record["x_sheet_mm"], x_mm, kTolerance_mm);
+        EXPECT_NEAR(record["y_sheet_mm"], y_mm, kTolerance_mm);
+        EXPECT_EQ(record.contains("x_m"), i % 2 == 1);
+        EXPECT_EQ(record.contains("yaw_rad"), i % 2 == 1);
+        if (i % 2 == 0) continue;
+        // The page's y runs down and the world's up: the place is the conjugate, turned and moved.
+        const std::complex<double> turn = std::polar(1.0, kYaw_rad);
+        const std::complex<double> at =
+            std::complex(1.25, -0.5) + turn * std::conj(std::complex(x_mm, y_mm)) / 1000.0;
+        EXPECT_NEAR(record["x_m"], at.real(), kTolerance_mm / 1000);
+        EXPECT_NEAR(record["y_m"], at.imag(), kTolerance_mm / 1000);
+        const double yaw_rad = std::arg(turn * std::polar(1.0, -theta_rad));
+        EXPECT_NEAR(std::remainder(record["yaw_rad"].get<double>() - yaw_rad, 2 * kPi), 0, 0.005);
+    }
+}
+
+/// What a camera above the printed page sees whose pixels are 2 x 2 of the printer's, its image
+/// centre on the corner between printer pixels (u, v): cut out of the printed file itself. The
+/// table around the page is white.
+GreyImage cut_out(const GreyImage& page, int u, int v, int width_px = 188, int height_px = 120) {
+    const auto level_at = [&page](int column, int row) {
+        const bool is_inside =
+            column >= 0 && column < page.width_px && row >= 0 && row < page.height_px;
+        return is_inside ? page.pixels[static_cast<std::size_t>(row * page.width_px + column)]
+                         : 255;
+    };
+    GreyImage frame{{}, width_px, height_px};
+    for (int row = 0; row < height_px; ++row) {
+        for (int column = 0; column < width_px; ++column) {
+            const int left = u + 2 * column - width_px;
+            const int top = v + 2 * row - height_px;
+            const int sum = level_at(left, top) + level_at(left + 1, top) +
+                            level_at(left, top + 1) + level_at(left + 1, top + 1);
+            frame.pixels.push_back(static_cast<std::uint8_t>(40 + sum / 8));
+        }
+    }
+    return frame;
+}
+
+TEST_F(SheetFiles, agree_with_a_ruler_on_the_printed_page) {
+    ASSERT_EQ(print("-o other.svg --paper 40x40 --sheets sheets.json --name other"), 0);
+    ASSERT_EQ(print("-o page.png --dpi 1200 --paper 50x40 --sheets sheets.json --name page"), 0);
+    const GreyImage page = read_image((directory_ / "page.png").string());
+    // The last two lie on the margins, right of and below which the first intersection is.
+    for (const auto& [u, v] :
+         {std::pair(500, 500), {1111, 700}, {1800, 1333}, {200, 900}, {1200, 190}}) {
+        const json record = locate_with_sheets(cut_out(page, u, v, 280, 260));
+        ASSERT_EQ(record["status"], "ok") << record;
+        EXPECT_EQ(record["sheet"], "page");
+        EXPECT_NEAR(record["x_sheet_mm"], u * 25.4 / 1200, kTolerance_mm);
+        EXPECT_NEAR(record["y_sheet_mm"], v * 25.4 / 1200, kTolerance_mm);
+    }
+}
+
+TEST_F(SheetFiles, may_mix_codes_and_spacings) {
+    ASSERT_EQ(print("-o a.svg --paper 40x40 --sheets sheets.json --name a"), 0);
+    ASSERT_EQ(print("-o b.svg --paper 40x40 --sheets sheets.json --name b --code microdots "
+                    "--spacing 0.6 --section 9,61"),
+              0);
+    ASSERT_EQ(print("-o c.svg --paper 40x40 --sheets sheets.json --name c --code published "
+                    "--spacing 0.45"),
+              0);
+    const json file = sheets();
+    for (std::size_t i = 0; i < file.size(); ++i) {
+        for (const double x_mm : {12.0, 20.25, 27.5}) {
+            const json record = locate_with_sheets(frame_of(file[i], x_mm, 18.5, 0.7, i));
+            ASSERT_EQ(record["status"], "ok") << record;
+            EXPECT_EQ(record["sheet"], file[i]["name"]);
+            EXPECT_NEAR(record["x_sheet_mm"], x_mm, kTolerance_mm);
+            EXPECT_NEAR(record["y_sheet_mm"], 18.5, kTolerance_mm);
+            // The pattern's own millimetres are those of the sheet's spacing.
+            EXPECT_NEAR(record["x_mm"],
+                        record["x_grid"].get<double>() * file[i]["spacing_mm"].get<double>(), 1e-5);
+        }
+    }
+    // Off all sheets no spacing is known, and nothing is given in millimetres.
+    run("frame.pgm --code published");
+    json elsewhere = file[0];
+    elsewhere["origin_x"] = 300'000'000;
+    const json record = locate_with_sheets(frame_of(elsewhere, 20, 20, 0, 5));
+    EXPECT_EQ(record["status"], "ok");
+    EXPECT_NEAR(record["x_grid"], 300'000'000 + (20 - 5.207) / 0.508, 0.04);
+    for (const char* field : {"sheet", "x_sheet_mm", "x_m", "x_mm", "y_mm", "sigma_x_mm"})
+        EXPECT_FALSE(record.contains(field)) << record;
+}
+
+TEST_F(SheetFiles, csv_has_the_same_columns_for_every_frame) {
+    ASSERT_EQ(print("-o a.svg --paper 40x40 --sheets sheets.json --name 'a, b'"), 0);
+    ASSERT_EQ(print("-o b.svg --paper 40x40 --sheets sheets.json --name b"), 0);
+    edit_sheet(1, [](json& b) { b["world"] = {{"x_m", 0}, {"y_m", 0}, {"yaw_rad", 0}}; });
+    const json file = sheets();
+    write_pgm(directory_ / "a.pgm", frame_of(file[0], 20, 20, 0, 1).view());
+    write_pgm(directory_ / "b.pgm", frame_of(file[1], 20, 20, 0, 2).view());
+    write_frame("elsewhere.pgm", 0);
+    write_level("flat.pgm", 64, 64);
+    const std::string arguments = "--sheets sheets.json a.pgm b.pgm elsewhere.pgm flat.pgm";
+    run(arguments);
+    const std::vector<json> expected = records();
+    ASSERT_EQ(expected.size(), 4U);
+    EXPECT_EQ(expected[2]["status"], "ok");
+    // All sheets have one spacing, so this one is taken to have it too.
+    EXPECT_TRUE(expected[2].contains("x_mm"));
+    run("--format csv " + arguments);
+    const std::vector<std::string> lines = lines_of(output_);
+    ASSERT_EQ(lines.size(), 5U);
+    const std::vector<std::string> header = cells_of(lines[0]);
+    const std::vector<std::string> added(header.end() - 6, header.end());
+    EXPECT_THAT(added, ElementsAre("sheet", "x_sheet_mm", "y_sheet_mm", "x_m", "y_m", "yaw_rad"));
+    for (std::size_t row = 0; row < 4; ++row) {
+        const std::vector<std::string> cells = cells_of(lines[row + 1]);
+        ASSERT_EQ(cells.size(), header.size());
+        for (std::size_t i = header.size() - 6; i < header.size(); ++i) {
+            const json value = expected[row].value(header[i], json());
+            if (value.is_null()) {
+                EXPECT_EQ(cells[i], "") << row << header[i];
+            } else if (value.is_string()) {
+                EXPECT_EQ(cells[i], value.get<std::string>());
+            } else {
+                EXPECT_EQ(std::stod(cells[i]), value.get<double>());
+            }
+        }
+    }
+    EXPECT_EQ(expected[0]["sheet"], "a, b");
+    EXPECT_EQ(expected[1]["sheet"], "b");
+    EXPECT_TRUE(expected[1].contains("yaw_rad"));
+    for (const std::size_t row : {2U, 3U})
+        EXPECT_FALSE(expected[row].contains("sheet")) << expected[row];
+}
+
+TEST_F(SheetFiles, the_print_scale_is_applied) {
+    ASSERT_EQ(print("-o a.svg --paper 60x60 --sheets sheets.json --name a"), 0);
+    const GreyImage frame = frame_of(sheets()[0], 30, 40, 0, 3);
+    edit_sheet(0, [](json& a) {
+        a["print_scale_x"] = 0.98;
+        a["print_scale_y"] = 1.01;
+    });
+    const json record = locate_with_sheets(frame);
+    EXPECT_NEAR(record["x_sheet_mm"], 5.207 + (30 - 5.207) * 0.98, kTolerance_mm);
+    EXPECT_NEAR(record["y_sheet_mm"], 5.207 + (40 - 5.207) * 1.01, kTolerance_mm);
+}
+
+TEST_F(SheetFiles, a_frame_of_two_sheets_is_never_on_the_wrong_one) {
+    ASSERT_EQ(print("-o a.png --margin 0 --dpi 1200 --paper 30x30 --sheets sheets.json --name a"),
+              0);
+    // Its margin is so wide that a frame may show dots of a alone and have its centre on b.
+    ASSERT_EQ(print("-o b.png --margin 9 --dpi 1200 --paper 50x30 --sheets sheets.json --name b"),
+              0);
+    const GreyImage a = read_image((directory_ / "a.png").string());
+    const GreyImage b = read_image((directory_ / "b.png").string());
+    // Side by side on the table, without a gap.
+    GreyImage table{{}, a.width_px + b.width_px, a.height_px};
+    for (int row = 0; row < a.height_px; ++row) {
+        for (const GreyImage* page : {&a, &b}) {
+            const auto first = page->pixels.begin() + row * page->width_px;
+            table.pixels.insert(table.pixels.end(), first, first + page->width_px);
+        }
+    }
+    int on_a = 0;
+    int on_b = 0;
+    for (int u = a.width_px - 300; u <= a.width_px + 900; u += 40) {
+        const json record = locate_with_sheets(cut_out(table, u, 700, 280, 260));
+        if (!record.contains("sheet")) continue;
+        const bool is_b = record["sheet"] == "b";
+        ++(is_b ? on_b : on_a);
+        const double x_mm = (is_b ? u - a.width_px : u) * 25.4 / 1200;
+        EXPECT_NEAR(record["x_sheet_mm"], x_mm, kTolerance_mm) << u;
+    }
+    // Frames reach 280 printer pixels to both sides; the dots of b begin 430 from its edge.
+    EXPECT_GE(on_a, 8);
+    EXPECT_GE(on_b, 12);
+}
+
+TEST_F(SheetFiles, a_refused_or_failed_print_changes_nothing) {
+    ASSERT_EQ(print("-o a.svg --paper 40x40 --sheets sheets.json --name a"), 0);
+    const std::string before = read_file(directory_ / "sheets.json");
+    const struct {
+        const char* arguments;
+        int exit_code;
+        const char* problem;
+    } wrong[] = {
+        {"-o b.svg --sheets sheets.json --name a", 2, "there already is a sheet 'a'"},
+        {"-o b.svg --sheets sheets.json --name b --origin 1050,1050", 2,
+         "sheet 'b' would share cells with sheet 'a', which has 1024,1024 to"},
+        {"-o b.svg --sheets sheets.json", 2, "--sheets requires --name"},
+        {"-o b.svg --name b", 2, "--name requires --sheets"},
+        {"-o b.svg --sheets sheets.json --name ''", 2, "a name that is not empty"},
+        {"-o b.svg --sheets '' --name b", 2, "--sheets"},
+        {"-o b.jpg --sheets sheets.json --name b", 2, "the name must end in"},
+        {"-o b.png --dpi 100 --sheets sheets.json --name b", 2, "100 dpi is too low"},
+        {"-o missing/b.svg --sheets sheets.json --name b", 1, "cannot create missing/b.svg"},
+        {"-o b.svg --sheets missing/sheets.json --name b", 1, "cannot lock missing/sheets.json"},
+        {"-o b.svg --sheets a.svg --name b", 1, "a.svg is no sheet file"},
+    };
+    for (const auto& [arguments, exit_code, problem] : wrong) {
+        EXPECT_EQ(print(arguments), exit_code) << arguments;
+        EXPECT_THAT(errors_, StartsWith("dotpose: ")) << arguments;
+        EXPECT_THAT(errors_, HasSubstr(problem)) << arguments;
+        EXPECT_EQ(read_file(directory_ / "sheets.json"), before) << arguments;
+        EXPECT_FALSE(fs::exists(directory_ / "b.svg")) << arguments;
+        EXPECT_FALSE(fs::exists(directory_ / ".sheets.json.lock")) << arguments;
+    }
+    ASSERT_EQ(print("-o b.svg --paper 40x40 --sheets sheets.json --name b --origin 7,9"), 0);
+    EXPECT_EQ(sheets().at(1)["origin_x"], 7);
+    EXPECT_EQ(sheets().at(1)["origin_y"], 9);
+}
+
+TEST_F(SheetFiles, an_interrupted_print_adds_no_sheet) {
+    ASSERT_EQ(print("-o a.svg --paper 40x40 --sheets sheets.json --name a"), 0);
+    const std::string before = read_file(directory_ / "sheets.json");
+    // A page that would take minutes.
+    const int status = print(
+        "-o huge.png --paper 20000x20000 --dpi 1200 --sheets sheets.json --name b & tool=$!; "
+        "sleep 0.5; ls -A > during; kill $tool; wait $tool");
+    EXPECT_EQ(status, 1);
+    EXPECT_THAT(read_file(directory_ / "during"), HasSubstr(".huge.png."));
+    EXPECT_EQ(read_file(directory_ / "sheets.json"), before);
+    EXPECT_FALSE(fs::exists(directory_ / "huge.png"));
+    EXPECT_FALSE(fs::exists(directory_ / ".sheets.json.lock"));
+}
+
+TEST_F(SheetFiles, prints_at_the_same_time_all_get_regions_of_their_own) {
+    const std::string command =
+        "cd '" + directory_.string() +
+        "' && for i in 1 2 3 4 5 6 7 8; do '" DOTPOSE_TOOL
+        "' print -o $i.svg --paper 40x40 --sheets sheets.json --name n$i >/dev/null & done; wait";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    std::vector<std::uint32_t> origins;
+    for (const json& sheet : sheets())
+        origins.push_back(sheet["origin_x"]);
+    // Twice the gap of 1024 would be 8 regions in two rows; they stand in one, 59 columns each.
+    EXPECT_THAT(origins, ElementsAre(1024, 2107, 3190, 4273, 5356, 6439, 7522, 8605));
+}
+
+TEST_F(SheetFiles, locate_refuses_wrong_usage_and_bad_files) {
+    write_frame("a.pgm", 0);
+    ASSERT_EQ(print("-o a.svg --paper 40x40 --sheets sheets.json --name a"), 0);
+    for (const char* option : {"--spacing 0.508", "--code anoto"}) {
+        run(std::string("--sheets sheets.json a.pgm ") + option);
+        EXPECT_EQ(exit_code_, 2);
+        EXPECT_THAT(errors_, HasSubstr("excludes"));
+        EXPECT_THAT(output_, IsEmpty());
+    }
+    edit_sheet(0, [](json& a) { a.erase("rows"); });
+    write("empty.json", R"({"format": "dotpose-sheets", "version": 1, "sheets": []})");
+    const struct {
+        const char* file;
+        const char* problem;
+    } bad[] = {
+        {"missing.json", "dotpose: cannot read missing.json: No such file or directory\n"},
+        {"sheets.json", "dotpose: sheets.json: sheets[0].rows is missing\n"},
+        {"empty.json", "dotpose: empty.json has no sheets\n"},
+    };
+    for (const auto& [file, problem] : bad) {
+        run(std::string("a.pgm --sheets ") + file);
+        EXPECT_EQ(exit_code_, 1) << file;
+        EXPECT_EQ(errors_, problem);
+        EXPECT_THAT(output_, IsEmpty()) << file;
+    }
+}
+
+TEST_F(SheetFiles, pictures_show_the_profile_that_was_found) {
+    ASSERT_EQ(print("-o a.svg --paper 40x40 --sheets sheets.json --name a"), 0);
+    ASSERT_EQ(print("-o b.svg --paper 40x40 --sheets sheets.json --name b --code microdots "
+                    "--spacing 0.6"),
+              0);
+    // Not on a sheet: after the second profile has been tried, the first one's fix is drawn.
+    write_frame("elsewhere.pgm", 0);
+    run("--sheets sheets.json --draw pictures elsewhere.pgm");
+    EXPECT_EQ(records().at(0)["status"], "ok");
+    const std::string picture = read_file(directory_ / "pictures/elsewhere.svg");
+    EXPECT_THAT(picture, HasSubstr(" spacings"));
+    EXPECT_THAT(picture, testing::Not(HasSubstr("no fix")));
+    EXPECT_THAT(picture, testing::Not(HasSubstr("nan")));
+}
+
+}  // namespace
+}  // namespace dotpose::test
