@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <map>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -19,6 +20,24 @@ const std::map<std::string, Profile> kProfiles = {
     {"published", Profile::published},
     {"microdots", Profile::microdots},
 };
+
+const std::map<std::string, DotDrawing> kDrawings = {
+    {"auto", DotDrawing::automatic},
+    {"glyphs", DotDrawing::glyphs},
+    {"strokes", DotDrawing::strokes},
+};
+
+std::vector<std::string> g_arguments;
+
+std::string quoted_for_shell(const std::string& word) {
+    constexpr const char* kPlain =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_./,:=@%+";
+    if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+    std::string quoted = "'";
+    for (const char c : word)
+        quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
+}
 
 bool parse_whole(std::string_view text, std::uint32_t limit, std::uint32_t& value) {
     const char* end = text.data() + text.size();
@@ -145,6 +164,35 @@ void add_size_option(CLI::App& command, CameraModel& camera) {
             "Size of a frame")
         ->type_name("WxH")
         ->default_str(fmt::format("{}x{}", camera.width_px, camera.height_px));
+}
+
+void add_drawing_option(CLI::App& command, DotDrawing& drawing) {
+    command
+        .add_option_function<std::string>(
+            "--dots",
+            [&drawing](const std::string& name) {
+                const auto found = kDrawings.find(name);
+                if (found == kDrawings.end()) {
+                    throw CLI::ValidationError(
+                        "--dots", fmt::format("'{}' is not auto, glyphs or strokes", name));
+                }
+                drawing = found->second;
+            },
+            "Dots of a PDF: glyphs are small and fast, strokes are exact at any spacing; auto "
+            "takes glyphs where they are exact at --dpi")
+        ->type_name("NAME")
+        ->default_str("auto");
+}
+
+void remember_command_line(int argc, char** argv) {
+    g_arguments.assign(argv, argv + argc);
+}
+
+std::string command_line() {
+    std::string line = "dotpose";
+    for (std::size_t i = 1; i < g_arguments.size(); ++i)
+        line += " " + quoted_for_shell(g_arguments[i]);
+    return line;
 }
 
 void PatternArguments::add_to(CLI::App& command) {
