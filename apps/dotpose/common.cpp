@@ -216,6 +216,17 @@ Pattern PatternArguments::pattern() const {
     return pattern;
 }
 
+std::string region_text(const Sheet& sheet) {
+    const Pattern& pattern = sheet.pattern;
+    return fmt::format(
+        "page {:g} x {:g} mm, cells {},{} to {},{} ({} x {}), spacing {:g} mm, section {},{}, code "
+        "{}",
+        sheet.width_mm, sheet.height_mm, sheet.origin.x, sheet.origin.y,
+        sheet.origin.x + static_cast<std::uint32_t>(sheet.columns - 1),
+        sheet.origin.y + static_cast<std::uint32_t>(sheet.rows - 1), sheet.columns, sheet.rows,
+        pattern.spacing_mm, pattern.section.u, pattern.section.v, profile_name(pattern.profile));
+}
+
 const char* profile_name(Profile profile) {
     switch (profile) {
         case Profile::anoto:

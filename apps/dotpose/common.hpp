@@ -82,6 +82,9 @@ void remember_command_line(int argc, char** argv);
 /// The command as the user could type it again, quoted where a shell needs it.
 std::string command_line();
 
+/// The page and the part of the code plane on it, in words.
+std::string region_text(const Sheet& sheet);
+
 /// Name of a profile as --code takes it.
 const char* profile_name(Profile profile);
 

@@ -18,6 +18,7 @@ int run(int argc, char** argv) {
     int exit_code = 0;
     add_locate(app, exit_code);
     add_print(app, exit_code);
+    add_overlay(app, exit_code);
     add_simulate(app, exit_code);
     add_evaluate(app, exit_code);
     try {

@@ -48,14 +48,7 @@ double default_margin_mm(PrintFormat format, const Paper& paper) {
 
 std::string summary(const PrintArguments& arguments, const std::string& prefix,
                     const Sheet& sheet) {
-    const Pattern& pattern = sheet.pattern;
-    std::string line = fmt::format(
-        "{}page {:g} x {:g} mm, cells {},{} to {},{} ({} x {}), spacing {:g} mm, section {},{}, "
-        "code {}",
-        prefix, sheet.width_mm, sheet.height_mm, sheet.origin.x, sheet.origin.y,
-        sheet.origin.x + static_cast<std::uint32_t>(sheet.columns - 1),
-        sheet.origin.y + static_cast<std::uint32_t>(sheet.rows - 1), sheet.columns, sheet.rows,
-        pattern.spacing_mm, pattern.section.u, pattern.section.v, profile_name(pattern.profile));
+    std::string line = prefix + region_text(sheet);
     if (has_resolution(print_format(arguments.out))) {
         line += fmt::format(", {:g} dpi", arguments.print.dpi);
     }

@@ -17,8 +17,8 @@ struct Point {
 std::optional<Point> centroid_px(const GreyPage& page, Point centre, double half_px) {
     double ink = 0;
     Point sum;
-    for (int v = static_cast<int>(std::ceil(centre.y - half_px - 0.5)); v + 0.5 <= centre.y + half_px;
-         ++v) {
+    for (int v = static_cast<int>(std::ceil(centre.y - half_px - 0.5));
+         v + 0.5 <= centre.y + half_px; ++v) {
         for (int u = static_cast<int>(std::ceil(centre.x - half_px - 0.5));
              u + 0.5 <= centre.x + half_px; ++u) {
             if (u < 0 || v < 0 || u >= page.width_px || v >= page.height_px) continue;

@@ -20,7 +20,8 @@ GreyPage read_pgm(const fs::path& path) {
         while (file >> word && word.front() == '#')
             std::getline(file, word);
     }
-    if (header[0] != "P5" || header[3] != "255") throw std::runtime_error("no PGM: " + path.string());
+    if (header[0] != "P5" || header[3] != "255")
+        throw std::runtime_error("no PGM: " + path.string());
     file.get();
     GreyPage page{std::stoi(header[1]), std::stoi(header[2]), {}};
     page.grey.resize(static_cast<std::size_t>(page.width_px) *
@@ -54,7 +55,8 @@ GreyPage render(const std::string& renderer, const fs::path& pdf, int dpi, int p
     if (renderer == "pdftoppm") {
         run(fmt::format("pdftoppm -gray -r {} -f {} -singlefile {} > {}", dpi, page, in, out));
     } else if (renderer == "gs") {
-        run(fmt::format("gs -q -dNOPAUSE -dBATCH -dSAFER -sDEVICE=pgmraw -dTextAlphaBits=4 "
+        run(
+            fmt::format("gs -q -dNOPAUSE -dBATCH -dSAFER -sDEVICE=pgmraw -dTextAlphaBits=4 "
                         "-dGraphicsAlphaBits=4 -r{0} -dFirstPage={1} -dLastPage={1} "
                         "-sOutputFile={2} {3}",
                         dpi, page, out, in));
