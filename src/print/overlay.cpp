@@ -25,9 +25,16 @@ namespace {
                             path.string(), reason, path.string()));
 }
 
-void require_undamaged(QPDF& pdf, const fs::path& path) {
-    const std::vector<QPDFExc> warnings = pdf.getWarnings();
-    if (!warnings.empty()) throw_damaged(path, warnings.front().getMessageDetail());
+/// qpdf goes on after small faults, which the new file no longer has. Data that it cannot unpack is
+/// another matter. Returns the small faults, in words.
+std::set<std::string> small_faults(QPDF& pdf, const fs::path& path) {
+    std::set<std::string> faults;
+    for (const QPDFExc& warning : pdf.getWarnings()) {
+        const std::string& detail = warning.getMessageDetail();
+        if (detail.find("stream data") != std::string::npos) throw_damaged(path, detail);
+        faults.insert(detail);
+    }
+    return faults;
 }
 
 void open(QPDF& pdf, const fs::path& path, const std::string& password) {
@@ -46,7 +53,6 @@ void open(QPDF& pdf, const fs::path& path, const std::string& password) {
             "{}: {}", path.string(),
             password.empty() ? "the file is encrypted; a password is needed" : "wrong password"));
     }
-    require_undamaged(pdf, path);
 }
 
 std::set<int> page_numbers(const std::string& range, int count) {
@@ -109,7 +115,8 @@ class Overlay {
     void write(const fs::path& out) {
         print::OutputFile file(out);
         print::write_document(pdf_, *rows_, file);
-        require_undamaged(pdf_, in_);
+        for (const std::string& fault : small_faults(pdf_, in_))
+            report_.warnings.push_back("the document had a fault that was mended: " + fault);
         file.commit();
     }
 

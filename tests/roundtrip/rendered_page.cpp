@@ -49,9 +49,9 @@ std::string run(const std::string& command) {
 }
 
 GreyPage render(const std::string& renderer, const fs::path& pdf, int dpi, int page) {
-    const fs::path image = pdf.parent_path() / (pdf.stem().string() + "-" + renderer + ".pgm");
-    const std::string in = "'" + pdf.string() + "'";
-    const std::string out = "'" + image.string() + "'";
+    const fs::path image = fmt::format("{}-{}.pgm", pdf.string(), renderer);
+    const std::string in = fmt::format("'{}'", pdf.string());
+    const std::string out = fmt::format("'{}'", image.string());
     if (renderer == "pdftoppm") {
         run(fmt::format("pdftoppm -gray -r {} -f {} -singlefile {} > {}", dpi, page, in, out));
     } else if (renderer == "gs") {
