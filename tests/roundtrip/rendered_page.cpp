@@ -53,13 +53,14 @@ GreyPage render(const std::string& renderer, const fs::path& pdf, int dpi, int p
     const std::string in = fmt::format("'{}'", pdf.string());
     const std::string out = fmt::format("'{}'", image.string());
     if (renderer == "pdftoppm") {
-        run(fmt::format("pdftoppm -gray -r {} -f {} -singlefile {} > {}", dpi, page, in, out));
+        run(fmt::format("pdftoppm -cropbox -gray -r {} -f {} -singlefile {} > {}", dpi, page, in,
+                        out));
     } else if (renderer == "gs") {
-        run(
-            fmt::format("gs -q -dNOPAUSE -dBATCH -dSAFER -sDEVICE=pgmraw -dTextAlphaBits=4 "
-                        "-dGraphicsAlphaBits=4 -r{0} -dFirstPage={1} -dLastPage={1} "
-                        "-sOutputFile={2} {3}",
-                        dpi, page, out, in));
+        run(fmt::format(
+            "gs -q -dNOPAUSE -dBATCH -dSAFER -dUseCropBox -sDEVICE=pgmraw -dTextAlphaBits=4 "
+            "-dGraphicsAlphaBits=4 -r{0} -dFirstPage={1} -dLastPage={1} "
+            "-sOutputFile={2} {3}",
+            dpi, page, out, in));
     } else {
         run(fmt::format("mutool draw -q -F pgm -r {} -o {} {} {}", dpi, out, in, page));
     }
