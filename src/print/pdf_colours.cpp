@@ -154,11 +154,11 @@ void ColourConverter::convert(QPDFPageObjectHelper page) {
 }
 
 QPDFObjectHandle ColourConverter::appearance(QPDFObjectHandle original) {
-    if (original.isStream()) return content(original, true);
-    if (!original.isDictionary()) return original;
+    if (!original.isDictionary()) return content(original, true);
+    // One stream per state, such as /On and /Off; no deeper, so a loop does no harm.
     QPDFObjectHandle copy = original.shallowCopy();
     for (const std::string& state : copy.getKeys())
-        copy.replaceKey(state, appearance(copy.getKey(state)));
+        copy.replaceKey(state, content(copy.getKey(state), true));
     return copy;
 }
 

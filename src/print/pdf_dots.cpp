@@ -48,7 +48,8 @@ std::string glyph(const Pattern& pattern, Symbol symbol) {
            circle(x, y, r);
 }
 
-/// Smallest shift that keeps a glyph's origin away from where renderers round the other way.
+/// Smallest shift, to the right or down, that keeps a glyph's origin away from where renderers
+/// round the other way.
 ///
 /// They count pixels from the top left or from the bottom left corner of the page, and take the
 /// whole part or the nearest number. `near_px` and `far_px` are the distances from either side at
@@ -66,8 +67,8 @@ double clear_shift_px(double near_px, double far_px) {
         return least_px;
     };
     double best_px = 0;
-    for (int step = 0; step <= 50; ++step) {  // 0, 0.01, -0.01, 0.02 ... -0.25
-        const double shift_px = (step % 2 == 1 ? 1 : -1) * 0.01 * ((step + 1) / 2);
+    for (int step = 0; step <= 30; ++step) {
+        const double shift_px = 0.01 * step;
         if (clearance_px(shift_px) >= kClear_px) return shift_px;
         if (clearance_px(shift_px) > clearance_px(best_px)) best_px = shift_px;
     }
