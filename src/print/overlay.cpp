@@ -25,13 +25,16 @@ namespace {
                             path.string(), reason, path.string()));
 }
 
-/// qpdf goes on after small faults, which the new file no longer has. Data that it cannot unpack is
-/// another matter. Returns the small faults, in words.
+/// qpdf goes on after small faults, which the new file no longer has. Content that it cannot unpack
+/// or read would stay as it is. Returns the small faults, in words.
 std::set<std::string> small_faults(QPDF& pdf, const fs::path& path) {
     std::set<std::string> faults;
     for (const QPDFExc& warning : pdf.getWarnings()) {
         const std::string& detail = warning.getMessageDetail();
-        if (detail.find("stream data") != std::string::npos) throw_damaged(path, detail);
+        const bool is_in_content = warning.getObject() == "content";
+        if (is_in_content || detail.find("stream data") != std::string::npos) {
+            throw_damaged(path, detail);
+        }
         faults.insert(detail);
     }
     return faults;
@@ -97,6 +100,7 @@ class Overlay {
 
     void add_dots() {
         std::vector<QPDFPageObjectHelper> pages = QPDFPageDocumentHelper(pdf_).getAllPages();
+        if (pages.empty()) throw Error(fmt::format("{}: the document has no pages", in_.string()));
         for (const int number : page_numbers(options_.pages, static_cast<int>(pages.size()))) {
             try {
                 add_page(number, pages[static_cast<std::size_t>(number - 1)]);

@@ -209,6 +209,19 @@ TEST_F(Documents, keep_links_forms_outlines_and_names) {
     EXPECT_LT(errors.wrong_symbols + errors.missing, errors.dots / 10) << "text hides a few";
 }
 
+TEST_F(Documents, are_refused_without_pages_and_with_content_that_ends_too_early) {
+    std::vector<std::string> objects = rich_document();
+    objects[5] = stream("BT /F 8 Tf (no end");
+    write_pdf(path("cut.pdf"), objects);
+    EXPECT_THAT([&] { overlay_pdf(path("cut.pdf"), path("out.pdf")); },
+                testing::ThrowsMessage<Error>(HasSubstr("damaged PDF")));
+    write_pdf(path("none.pdf"),
+              {"<< /Type /Catalog /Pages 2 0 R >>", "<< /Type /Pages /Kids [] /Count 0 >>"});
+    EXPECT_THAT([&] { overlay_pdf(path("none.pdf"), path("out.pdf")); },
+                testing::ThrowsMessage<Error>(HasSubstr("no pages")));
+    EXPECT_FALSE(fs::exists(path("out.pdf")));
+}
+
 TEST_F(Documents, colours_of_other_pages_stay) {
     write_pdf(path("in.pdf"), rich_document());
     OverlayOptions options;
