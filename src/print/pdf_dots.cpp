@@ -134,9 +134,26 @@ constexpr int kTileColumns = 8;
 // Steps from tile to tile add up a renderer's rounding errors, so a run of tiles starts afresh.
 constexpr int kRunColumns = 16 * kTileColumns;
 
+/// What draws each symbol in each column of a tile.
+using TileDots = std::array<std::array<std::string, 4>, kTileColumns>;
+
+TileDots tile_dots(const WholeUnits& units) {
+    TileDots dots;
+    for (int column = 0; column < kTileColumns; ++column) {
+        for (const Symbol symbol : {Symbol::up, Symbol::left, Symbol::right, Symbol::down}) {
+            const int x = column * units.spacing + dx(symbol) * units.displacement;
+            const int y = dy(symbol) * units.displacement;
+            dots[static_cast<std::size_t>(column)][static_cast<std::size_t>(symbol)] =
+                fmt::format("{0} {1} m {0} {1} l\n", x, y);
+        }
+    }
+    return dots;
+}
+
 void write_stroke_rows(const Sheet& sheet, int first_row, int end_row, RowCount& rows,
                        Pipeline& out) {
     const WholeUnits units = whole_units(sheet.pattern);
+    const TileDots dots = tile_dots(units);
     const double unit_pt = units.unit_mm * kPointsPerMm;
     SymbolRows symbols(sheet);
     std::string line = fmt::format(
@@ -155,10 +172,8 @@ void write_stroke_rows(const Sheet& sheet, int first_row, int end_row, RowCount&
             } else if (in_tile == 0) {
                 fmt::format_to(put, "S 1 0 0 1 {} 0 cm\n", kTileColumns * units.spacing);
             }
-            const Symbol symbol = row[static_cast<std::size_t>(i)];
-            const int x = in_tile * units.spacing + dx(symbol) * units.displacement;
-            const int y = dy(symbol) * units.displacement;
-            fmt::format_to(put, "{0} {1} m {0} {1} l\n", x, y);
+            const auto symbol = static_cast<std::size_t>(row[static_cast<std::size_t>(i)]);
+            line += dots[static_cast<std::size_t>(in_tile)][symbol];
         }
         line += "S Q\n";
         out.writeString(line);
