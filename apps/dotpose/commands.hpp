@@ -11,6 +11,7 @@ inline constexpr int kExitFailed = 1;
 inline constexpr int kExitUsage = 2;
 
 void add_print(CLI::App& app, int& exit_code);
+void add_overlay(CLI::App& app, int& exit_code);
 void add_locate(CLI::App& app, int& exit_code);
 void add_simulate(CLI::App& app, int& exit_code);
 void add_evaluate(CLI::App& app, int& exit_code);

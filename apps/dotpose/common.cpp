@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <map>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -13,6 +15,24 @@
 
 namespace dotpose::cli {
 namespace {
+
+const std::map<std::string, DotDrawing> kDrawings = {
+    {"auto", DotDrawing::automatic},
+    {"glyphs", DotDrawing::glyphs},
+    {"strokes", DotDrawing::strokes},
+};
+
+std::vector<std::string> g_arguments;
+
+std::string quoted_for_shell(const std::string& word) {
+    constexpr const char* kPlain =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_./,:=@%+";
+    if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+    std::string quoted = "'";
+    for (const char c : word)
+        quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
+}
 
 bool parse_whole(std::string_view text, std::uint32_t limit, std::uint32_t& value) {
     const char* end = text.data() + text.size();
@@ -150,6 +170,35 @@ void add_size_option(CLI::App& command, CameraModel& camera) {
         ->default_str(fmt::format("{}x{}", camera.width_px, camera.height_px));
 }
 
+void add_drawing_option(CLI::App& command, DotDrawing& drawing) {
+    command
+        .add_option_function<std::string>(
+            "--dots",
+            [&drawing](const std::string& name) {
+                const auto found = kDrawings.find(name);
+                if (found == kDrawings.end()) {
+                    throw CLI::ValidationError(
+                        "--dots", fmt::format("'{}' is not auto, glyphs or strokes", name));
+                }
+                drawing = found->second;
+            },
+            "Dots of a PDF: glyphs are small and fast, strokes are exact at any spacing; auto "
+            "takes glyphs where they are exact at --dpi")
+        ->type_name("NAME")
+        ->default_str("auto");
+}
+
+void remember_command_line(int argc, char** argv) {
+    g_arguments.assign(argv, argv + argc);
+}
+
+std::string command_line() {
+    std::string line = "dotpose";
+    for (std::size_t i = 1; i < g_arguments.size(); ++i)
+        line += " " + quoted_for_shell(g_arguments[i]);
+    return line;
+}
+
 void PatternArguments::add_to(CLI::App& command) {
     add_code_option(command, given_.profile);
     add_section_option(command, given_.section);
@@ -169,6 +218,17 @@ Pattern PatternArguments::pattern() const {
     pattern.displacement_mm = displacement_mm_.value_or(pattern.spacing_mm / 6);
     pattern.dot_mm = dot_mm_.value_or(pattern.spacing_mm / 6);
     return pattern;
+}
+
+std::string region_text(const Sheet& sheet) {
+    const Pattern& pattern = sheet.pattern;
+    return fmt::format(
+        "page {:g} x {:g} mm, cells {},{} to {},{} ({} x {}), spacing {:g} mm, section {},{}, code "
+        "{}",
+        sheet.width_mm, sheet.height_mm, sheet.origin.x, sheet.origin.y,
+        sheet.origin.x + static_cast<std::uint32_t>(sheet.columns - 1),
+        sheet.origin.y + static_cast<std::uint32_t>(sheet.rows - 1), sheet.columns, sheet.rows,
+        pattern.spacing_mm, pattern.section.u, pattern.section.v, profile_name(pattern.profile));
 }
 
 const char* profile_name(Profile profile) {

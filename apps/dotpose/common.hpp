@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "dotpose/options.hpp"
+#include "dotpose/print.hpp"
 #include "dotpose/sheet.hpp"
 #include "dotpose/simulate.hpp"
 
@@ -74,6 +75,18 @@ class PatternArguments {
     std::optional<double> displacement_mm_;
     std::optional<double> dot_mm_;
 };
+
+/// --dots: how a PDF draws them.
+void add_drawing_option(CLI::App& command, DotDrawing& drawing);
+
+/// Keeps the arguments of `main` for `command_line`.
+void remember_command_line(int argc, char** argv);
+
+/// The command as the user could type it again, quoted where a shell needs it.
+std::string command_line();
+
+/// The page and the part of the code plane on it, in words.
+std::string region_text(const Sheet& sheet);
 
 /// Name of a profile as --code takes it.
 const char* profile_name(Profile profile);

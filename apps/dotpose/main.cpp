@@ -4,18 +4,21 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
+#include "common.hpp"
 #include "dotpose/error.hpp"
 
 namespace {
 
 int run(int argc, char** argv) {
     using namespace dotpose::cli;
+    remember_command_line(argc, argv);
     CLI::App app("Locates a camera on a sheet printed with a dot position code.", "dotpose");
     app.set_version_flag("--version", "dotpose " DOTPOSE_VERSION);
     app.require_subcommand(1);
     int exit_code = 0;
     add_locate(app, exit_code);
     add_print(app, exit_code);
+    add_overlay(app, exit_code);
     add_simulate(app, exit_code);
     add_evaluate(app, exit_code);
     try {

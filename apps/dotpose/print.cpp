@@ -1,6 +1,8 @@
 #include "dotpose/print.hpp"
 
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -9,6 +11,7 @@
 #include "commands.hpp"
 #include "common.hpp"
 #include "dotpose/sheet_file.hpp"
+#include "dotpose/test_page.hpp"
 #include "progress.hpp"
 
 namespace dotpose::cli {
@@ -20,76 +23,124 @@ struct PrintArguments {
     bool landscape = false;
     SheetOptions sheet;
     PatternArguments pattern;
-    double dpi = PrintOptions{}.dpi;
+    std::optional<double> margin_mm;
+    int pages = 1;
+    bool test_page = false;
     std::string sheets;  ///< sheet file; empty: none
     std::string name;
     bool origin_given = false;
+    PrintOptions print;
 };
 
 constexpr const char* kExamples =
     "Examples:\n"
+    "  dotpose print -o sheet.pdf\n"
     "  dotpose print -o sheet.svg\n"
-    "  dotpose print -o poster.png --paper A3 --landscape --origin 1000,2000 --dpi 1200\n"
-    "  dotpose print -o table.svg --sheets sheets.json --name table\n\n"
+    "  dotpose print -o tiles.pdf --pages 12 --origin 5000,0\n"
+    "  dotpose print -o poster.png --paper A3 --landscape --origin 1000,2000 --dpi 1200\n\n"
+    "  dotpose print -o table.pdf --sheets sheets.json --name table\n"
+    "  dotpose print -o test.pdf --test-page\n\n"
     "Print at 100 %, without \"fit to page\". Give each sheet an origin of its own, or let a\n"
     "sheet file do so: it is made if missing, and 'dotpose locate --sheets' reads it.\n";
 
-bool is_raster(PrintFormat format) {
-    return format == PrintFormat::png || format == PrintFormat::tiff;
+bool has_resolution(PrintFormat format) {
+    return format != PrintFormat::text && format != PrintFormat::svg;
 }
 
-std::string summary(const PrintArguments& arguments, const Sheet& sheet) {
-    const Pattern& pattern = sheet.pattern;
-    std::string line = fmt::format(
-        "{}: page {:g} x {:g} mm, cells {},{} to {},{} ({} x {}), spacing {:g} mm, section {},{}, "
-        "code {}",
-        arguments.out, sheet.width_mm, sheet.height_mm, sheet.origin.x, sheet.origin.y,
-        sheet.origin.x + static_cast<std::uint32_t>(sheet.columns - 1),
-        sheet.origin.y + static_cast<std::uint32_t>(sheet.rows - 1), sheet.columns, sheet.rows,
-        pattern.spacing_mm, pattern.section.u, pattern.section.v, profile_name(pattern.profile));
-    if (is_raster(print_format(arguments.out))) line += fmt::format(", {:g} dpi", arguments.dpi);
+/// Labels and rulers of a PDF need more room than printers leave white.
+double default_margin_mm(PrintFormat format, const Paper& paper) {
+    constexpr double kWithLabels_mm = 10;
+    constexpr double kSmallPage_mm = 60;
+    const bool is_small = std::min(paper.width_mm, paper.height_mm) < kSmallPage_mm;
+    return format == PrintFormat::pdf && !is_small ? kWithLabels_mm : SheetOptions{}.margin_mm;
+}
+
+std::string summary(const PrintArguments& arguments, const std::string& prefix,
+                    const Sheet& sheet) {
+    std::string line = prefix + region_text(sheet);
+    if (has_resolution(print_format(arguments.out))) {
+        line += fmt::format(", {:g} dpi", arguments.print.dpi);
+    }
     if (!arguments.sheets.empty()) {
         line += fmt::format(", sheet '{}' of {}", arguments.name, arguments.sheets);
     }
     return line;
 }
 
-/// The sheet, where it stands now that it is in the file: in the next free region unless the user
-/// chose one.
-Sheet add_to(SheetFile& file, const PrintArguments& arguments, const Sheet& sheet) {
-    if (!arguments.origin_given) return file.allocate(arguments.name, sheet).front().sheet;
-    SheetEntry entry;
-    entry.name = arguments.name;
-    entry.sheet = sheet;
-    file.add(entry);
-    return sheet;
+/// The sheets, where they stand now that they are in the file: in the next free regions unless the
+/// user chose one.
+std::vector<Sheet> add_to(SheetFile& file, const PrintArguments& arguments,
+                          std::vector<Sheet> sheets) {
+    if (!arguments.origin_given) {
+        const auto added = file.allocate(arguments.name, sheets.front(), arguments.pages);
+        std::transform(added.begin(), added.end(), sheets.begin(),
+                       [](const SheetEntry& entry) { return entry.sheet; });
+        return sheets;
+    }
+    for (std::size_t i = 0; i < sheets.size(); ++i) {
+        SheetEntry entry;
+        entry.name =
+            sheets.size() > 1 ? fmt::format("{}-{}", arguments.name, i + 1) : arguments.name;
+        entry.sheet = sheets[i];
+        file.add(entry);
+    }
+    return sheets;
+}
+
+/// Runs `write` with progress on the terminal and an ear for Ctrl-C.
+template <typename Write>
+void with_progress(const PrintArguments& arguments, const Write& write) {
+    catch_interrupts();
+    ProgressLine line("printing " + arguments.out);
+    PrintOptions options = arguments.print;
+    options.name = arguments.name.empty() ? std::filesystem::path(arguments.out).stem().string()
+                                          : arguments.name;
+    options.command = command_line();
+    options.progress = [&line](int done, int total) {
+        line.update(done, total);
+        return !interrupted();
+    };
+    write(options);
+}
+
+void print_test_page(const PrintArguments& arguments, const Paper& paper) {
+    TestPageOptions options;
+    options.profile = arguments.pattern.pattern().profile;
+    options.paper = paper;
+    options.margin_mm = std::max(options.margin_mm, arguments.margin_mm.value_or(0));
+    const PrintPage page = make_test_page(options);
+    with_progress(arguments, [&](const PrintOptions& print_options) {
+        write_page(page, arguments.out, print_options);
+    });
+    fmt::print(
+        "{}: test page {:g} x {:g} mm, {} patches; print it, scan it, then run: dotpose "
+        "check-print SCAN\n",
+        arguments.out, page.width_mm, page.height_mm, page.sheets.size());
 }
 
 void run(const PrintArguments& arguments) {
     SheetOptions options = arguments.sheet;
-    options.pattern = arguments.pattern.pattern();
     options.paper = paper_by_name(arguments.paper);
     if (arguments.landscape) options.paper = landscape(options.paper);
-    Sheet sheet = make_sheet(options);
+    if (arguments.test_page) return print_test_page(arguments, options.paper);
+    options.pattern = arguments.pattern.pattern();
+    const PrintFormat format = print_format(arguments.out);
+    options.margin_mm = arguments.margin_mm.value_or(default_margin_mm(format, options.paper));
+    std::vector<Sheet> sheets = make_sheets(options, arguments.pages);
     std::optional<SheetFile> sheet_file;
     if (!arguments.sheets.empty()) {
         sheet_file.emplace(arguments.sheets);
-        sheet = add_to(*sheet_file, arguments, sheet);
+        sheets = add_to(*sheet_file, arguments, std::move(sheets));
     }
-
-    catch_interrupts();
-    {
-        ProgressLine line("printing " + arguments.out);
-        PrintOptions print_options;
-        print_options.dpi = arguments.dpi;
-        print_options.progress = [&line](int rows_done, int rows) {
-            line.update(rows_done, rows);
-            return !interrupted();
-        };
-        write_sheet(sheet, arguments.out, print_options);
-    }
+    with_progress(arguments, [&](const PrintOptions& print_options) {
+        write_sheets(sheets, arguments.out, print_options);
+    });
     if (sheet_file) sheet_file->save();
-    fmt::print("{}\n", summary(arguments, sheet));
+    for (std::size_t i = 0; i < sheets.size(); ++i) {
+        const std::string page =
+            sheets.size() > 1 ? fmt::format("{}/{}, ", i + 1, sheets.size()) : "";
+        fmt::print("{}\n", summary(arguments, arguments.out + ": " + page, sheets[i]));
+    }
 }
 
 }  // namespace
@@ -98,7 +149,7 @@ void add_print(CLI::App& app, int& /*exit_code*/) {
     const auto arguments = std::make_shared<PrintArguments>();
     CLI::App* command = app.add_subcommand("print", "Make a sheet of dots to print");
     command->footer(kExamples);
-    command->add_option("-o,--out", arguments->out, "File to write: .svg, .png, .tif or .txt")
+    command->add_option("-o,--out", arguments->out, "File to write: .pdf, .svg, .png, .tif or .txt")
         ->type_name("FILE")
         ->required();
     command
@@ -107,12 +158,21 @@ void add_print(CLI::App& app, int& /*exit_code*/) {
         ->type_name("SIZE")
         ->capture_default_str();
     command->add_flag("--landscape", arguments->landscape, "Longer side across");
-    command->add_option("--margin", arguments->sheet.margin_mm, "Kept free of ink on all sides")
+    command->add_option("--margin", arguments->margin_mm, "Kept free of dots on all sides")
         ->type_name("MM")
+        ->default_str("5, in a .pdf 10 on pages over 60 mm");
+    command->add_option("--pages", arguments->pages, "Pages of a .pdf, each with cells of its own")
+        ->type_name("N")
         ->capture_default_str();
     arguments->pattern.add_to(*command);
     add_cell_option(*command, "--origin", arguments->sheet.origin,
                     "Cell of the code plane at the top left");
+    command->add_option("--dpi", arguments->print.dpi, "The printer's own resolution")
+        ->type_name("N")
+        ->capture_default_str();
+    add_drawing_option(*command, arguments->print.drawing);
+    command->add_flag("!--no-labels", arguments->print.labels,
+                      "No text and rulers in the margins of a .pdf");
     CLI::Option* sheets =
         add_sheets_option(*command, arguments->sheets,
                           "Sheet file to add the sheet to, in a free region unless --origin");
@@ -120,9 +180,13 @@ void add_print(CLI::App& app, int& /*exit_code*/) {
         command->add_option("--name", arguments->name, "Name of the sheet in the sheet file");
     name->type_name("NAME")->needs(sheets);
     sheets->needs(name);
-    command->add_option("--dpi", arguments->dpi, "Resolution of .png and .tif: the printer's own")
-        ->type_name("N")
-        ->capture_default_str();
+    CLI::Option* test_page = command->add_flag(
+        "--test-page", arguments->test_page,
+        "Patches of dot sizes and spacings, to find what suits a printer with check-print");
+    for (const char* own : {"--spacing", "--dot", "--displacement", "--origin", "--section",
+                            "--pages", "--sheets"}) {
+        test_page->excludes(command->get_option(own));
+    }
     command->callback([arguments, command] {
         arguments->origin_given = command->count("--origin") > 0;
         run(*arguments);

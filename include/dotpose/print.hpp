@@ -1,4 +1,5 @@
-/// Printing: lays a part of the code plane out on a page and writes it as text, SVG, PNG or TIFF.
+/// Printing: lays a part of the code plane out on a page and writes it as text, SVG,
+/// PNG, TIFF or PDF.
 ///
 ///     dotpose::SheetOptions options;                      // A4, 5 mm margin, 0.508 mm spacing
 ///     options.origin = {.x = 1000, .y = 2000};
@@ -12,7 +13,10 @@
 
 #include <filesystem>
 #include <functional>
+#include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "dotpose/error.hpp"
 #include "dotpose/sheet.hpp"
@@ -23,7 +27,9 @@ namespace dotpose {
 inline constexpr double kMaxPage_mm = 100'000;
 /// Fewest columns and rows of a sheet: smaller regions cannot be read (paper section III-A.3).
 inline constexpr int kMinSheetCells = 8;
-/// Largest accepted resolution of PNG and TIFF files.
+/// Most pages of one document.
+inline constexpr int kMaxPages = 10'000;
+/// Largest accepted resolution of PNG, TIFF and PDF files.
 inline constexpr double kMaxResolution_dpi = 19'200;
 
 /// Size of a page; the default is A4, portrait.
@@ -58,6 +64,13 @@ struct SheetOptions {
 /// and rows, and if the region would run past the end of the code plane.
 Sheet make_sheet(const SheetOptions& options);
 
+/// `pages` sheets whose regions lie side by side, none sharing a cell with another: each begins to
+/// the right of the one before; past the end of the plane a new line of regions begins below, at
+/// `options.origin.x`.
+///
+/// Throws BadArgument: see `make_sheet`; also if `pages` is not 1 to kMaxPages.
+std::vector<Sheet> make_sheets(const SheetOptions& options, int pages);
+
 /// Checks a sheet, whoever filled it: lengths positive and finite, dots apart from each other,
 /// section below kSections, at least kMinSheetCells columns and rows, region inside the code plane,
 /// all ink on the page. Throws BadArgument naming the first value that is wrong.
@@ -73,18 +86,34 @@ enum class PrintFormat {
     svg,   ///< true size in mm, black round dots
     png,   ///< 1 bit per pixel
     tiff,  ///< 1 bit per pixel, CCITT group 4
+    pdf,   ///< true size, black ink only (K), labels and rulers in the margins, several pages
 };
 
-/// Format by file ending: .txt .svg .png .tif .tiff, in any case. Throws BadArgument for others.
+/// Format by file ending: .txt .svg .png .tif .tiff .pdf, in any case. Throws BadArgument for
+/// others.
 PrintFormat print_format(const std::filesystem::path& path);
 
 /// Told after each row of the pattern; return false to give up.
 using Progress = std::function<bool(int rows_done, int rows)>;
 
+/// What a dot is in a PDF.
+enum class DotDrawing {
+    automatic,  ///< `glyphs` where they are exact, else `strokes`
+    glyphs,   ///< text in a font of four glyphs: small and fast, but renderers move every glyph to
+              ///< a whole pixel, so spacing, displacement and dot must be whole pixels
+    strokes,  ///< lines of no length with round ends: exact at any spacing
+};
+
 /// How `write_sheet` writes.
 struct PrintOptions {
-    /// Resolution of PNG and TIFF, in dots per inch. Use the printer's own. Not used by text, SVG.
+    /// Resolution of PNG, TIFF and PDF, in dots per inch. Use the printer's own. A PDF has no
+    /// pixels, but this decides how its dots are drawn. Not used by text, SVG.
     double dpi = 600;
+    DotDrawing drawing = DotDrawing::automatic;  ///< PDF only
+    /// PDF only: name, page, region, spacing and a ruler in the margins, as far as there is room.
+    bool labels = true;
+    std::string name;     ///< PDF only: first of the labels, and the document's title
+    std::string command;  ///< PDF only: label that says how to make the sheet again
     /// Called often, so it must be cheap. Default: none.
     Progress progress;
 };
@@ -98,9 +127,15 @@ struct PrintOptions {
 /// directory and renamed at the end. After any error, and when `progress` returned false, a file
 /// that was there before is unchanged and nothing is left behind.
 ///
-/// Throws BadArgument: `print_format`, `validate`, `validate_resolution`. Throws Error: the file
+/// Throws BadArgument: `print_format`, `validate`, `validate_resolution`; DotDrawing::glyphs asked
+/// for where lengths are no whole pixels. Throws Error: the file
 /// cannot be created or written (with the system's reason), or `progress` returned false.
 void write_sheet(const Sheet& sheet, const std::filesystem::path& path,
                  const PrintOptions& options = {});
+
+/// The same for a document of several pages; more than one must be a PDF.
+/// Throws as `write_sheet`, and BadArgument if there is no sheet or the format takes only one.
+void write_sheets(std::span<const Sheet> sheets, const std::filesystem::path& path,
+                  const PrintOptions& options = {});
 
 }  // namespace dotpose

@@ -6,6 +6,7 @@
 
 #include "dotpose/print.hpp"
 #include "geometry.hpp"
+#include "regions.hpp"
 
 namespace dotpose {
 namespace {
@@ -112,6 +113,21 @@ Sheet make_sheet(const SheetOptions& options) {
     sheet.origin_x_mm = first_mm;
     sheet.origin_y_mm = first_mm;
     return sheet;
+}
+
+std::vector<Sheet> make_sheets(const SheetOptions& options, int pages) {
+    if (pages < 1 || pages > kMaxPages) {
+        throw BadArgument(
+            fmt::format("{} pages: a document has 1 to {} of them", pages, kMaxPages));
+    }
+    std::vector<Sheet> sheets(static_cast<std::size_t>(pages), make_sheet(options));
+    print::Regions regions(options.origin);
+    for (Sheet& sheet : sheets) {
+        sheet.origin = regions.take(sheet.columns, sheet.rows);
+        validate_region("columns", 'x', sheet.origin.x, sheet.columns);
+        validate_region("rows", 'y', sheet.origin.y, sheet.rows);
+    }
+    return sheets;
 }
 
 void validate(const Sheet& sheet) {

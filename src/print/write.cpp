@@ -17,18 +17,31 @@ PrintFormat print_format(const std::filesystem::path& path) {
     if (ending == ".txt") return PrintFormat::text;
     if (ending == ".svg") return PrintFormat::svg;
     if (ending == ".png") return PrintFormat::png;
+    if (ending == ".pdf") return PrintFormat::pdf;
     if (ending == ".tif" || ending == ".tiff") return PrintFormat::tiff;
     throw BadArgument(
-        fmt::format("'{}': the name must end in .svg, .png, .tif or .txt", path.string()));
+        fmt::format("'{}': the name must end in .pdf, .svg, .png, .tif or .txt", path.string()));
 }
 
 void write_sheet(const Sheet& sheet, const std::filesystem::path& path,
                  const PrintOptions& options) {
+    write_sheets({&sheet, 1}, path, options);
+}
+
+void write_sheets(std::span<const Sheet> sheets, const std::filesystem::path& path,
+                  const PrintOptions& options) {
     const PrintFormat format = print_format(path);
-    validate(sheet);
-    if (format == PrintFormat::png || format == PrintFormat::tiff) {
-        validate_resolution(sheet, options.dpi);
+    if (sheets.empty()) throw BadArgument("there is no sheet to write");
+    if (sheets.size() > 1 && format != PrintFormat::pdf) {
+        throw BadArgument(fmt::format("'{}': only a .pdf can hold several pages", path.string()));
     }
+    for (const Sheet& each : sheets) {
+        validate(each);
+        if (format != PrintFormat::text && format != PrintFormat::svg) {
+            validate_resolution(each, options.dpi);
+        }
+    }
+    const Sheet& sheet = sheets.front();
     print::OutputFile file(path);
     switch (format) {
         case PrintFormat::text:
@@ -42,6 +55,9 @@ void write_sheet(const Sheet& sheet, const std::filesystem::path& path,
             break;
         case PrintFormat::tiff:
             print::write_tiff(sheet, options.dpi, options.progress, file);
+            break;
+        case PrintFormat::pdf:
+            print::write_pdf(sheets, options, file);
             break;
     }
     file.commit();

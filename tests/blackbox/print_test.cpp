@@ -153,22 +153,13 @@ TEST_F(PrintCommand, a_signal_leaves_no_litter) {
 }
 
 TEST_F(PrintCommand, help_shows_an_example) {
-<<<<<<< HEAD
     run("print --help");
     EXPECT_EQ(exit_code_, 0);
     EXPECT_THAT(output_, HasSubstr("dotpose print -o sheet.svg"));
     for (const char* option : {"--out", "--paper", "--landscape", "--margin", "--spacing", "--dot",
-                               "--displacement", "--origin", "--section", "--code", "--dpi"}) {
+                               "--displacement", "--origin", "--section", "--code", "--dpi", "--sheets",
+                               "--name"}) {
         EXPECT_THAT(output_, HasSubstr(option));
-=======
-    const Outcome outcome = run("print --help");
-    EXPECT_EQ(outcome.exit_code, 0);
-    EXPECT_THAT(outcome.output, HasSubstr("dotpose print -o sheet.svg"));
-    for (const char* option :
-         {"--out", "--paper", "--landscape", "--margin", "--spacing", "--dot", "--displacement",
-          "--origin", "--section", "--code", "--dpi", "--sheets", "--name"}) {
-        EXPECT_THAT(outcome.output, HasSubstr(option));
->>>>>>> sheets
     }
 }
 

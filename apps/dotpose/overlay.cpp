@@ -1,0 +1,89 @@
+#include "dotpose/overlay.hpp"
+
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "commands.hpp"
+#include "common.hpp"
+#include "progress.hpp"
+
+namespace dotpose::cli {
+namespace {
+
+struct OverlayArguments {
+    std::string in;
+    std::string out;
+    OverlayOptions options;
+    PatternArguments pattern;
+};
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  dotpose overlay form.pdf -o form-dots.pdf --origin 5000,0\n"
+    "  dotpose overlay form.pdf -o form-dots.pdf --pages 1-3 --under --cmy-black\n\n"
+    "Each page gets a region of its own. Black ink hides dots from infrared cameras: --cmy-black\n"
+    "prints the document's black from cyan, magenta and yellow, which they do not see.\n";
+
+void run(OverlayArguments& arguments) {
+    OverlayOptions options = arguments.options;
+    options.pattern = arguments.pattern.pattern();
+    catch_interrupts();
+    OverlayReport report;
+    {
+        ProgressLine line("writing " + arguments.out);
+        options.progress = [&line](int rows_done, int rows) {
+            line.update(rows_done, rows);
+            return !interrupted();
+        };
+        report = overlay_pdf(arguments.in, arguments.out, options);
+    }
+    for (const OverlaidPage& page : report.pages)
+        fmt::print("{} {}: {}\n", arguments.out, page.number, region_text(page.sheet));
+    for (const std::string& warning : report.warnings)
+        fmt::print(stderr, "dotpose: warning: {}\n", warning);
+}
+
+void add_ink_options(CLI::App& command, OverlayOptions& options) {
+    command.add_flag("--under", options.under, "Dots below the document instead of above");
+    command.add_flag("--cmy-black", options.black_to_cmy,
+                     "Print the document's black without black ink");
+    command
+        .add_option("--lighten", options.lighten,
+                    "Part of its ink that the document gives up, 0 to under 1")
+        ->type_name("PART")
+        ->capture_default_str();
+}
+
+}  // namespace
+
+void add_overlay(CLI::App& app, int& /*exit_code*/) {
+    const auto arguments = std::make_shared<OverlayArguments>();
+    OverlayOptions& options = arguments->options;
+    CLI::App* command = app.add_subcommand("overlay", "Lay dots over the pages of a PDF");
+    command->footer(kExamples);
+    command->add_option("pdf", arguments->in, "Document that gets dots")
+        ->type_name("FILE")
+        ->required();
+    command->add_option("-o,--out", arguments->out, "PDF to write")->type_name("FILE")->required();
+    command
+        ->add_option("--pages", options.pages, "Pages that get dots, such as 1-3,7; z is the last")
+        ->type_name("RANGE")
+        ->default_str("all");
+    command->add_option("--password", options.password, "Of an encrypted document")
+        ->type_name("TEXT");
+    add_ink_options(*command, options);
+    command->add_option("--margin", options.margin_mm, "Kept free of dots on all sides")
+        ->type_name("MM")
+        ->capture_default_str();
+    arguments->pattern.add_to(*command);
+    add_cell_option(*command, "--origin", options.origin,
+                    "Cell of the code plane at the top left of the first page");
+    command->add_option("--dpi", options.dpi, "The printer's own resolution")
+        ->type_name("N")
+        ->capture_default_str();
+    add_drawing_option(*command, options.drawing);
+    command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace dotpose::cli

@@ -1,0 +1,58 @@
+/// Lays the pattern over, or under, the pages of an existing PDF.
+///
+///     dotpose::OverlayOptions options;
+///     options.origin = {.x = 5000, .y = 0};
+///     const dotpose::OverlayReport report = dotpose::overlay_pdf("in.pdf", "out.pdf", options);
+///
+/// Pages keep what they show and what they can do: text, links, forms, outlines, boxes, rotation.
+/// Each page that gets dots gets a region of the code plane of its own. Functions share no state.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "dotpose/print.hpp"
+
+namespace dotpose {
+
+struct OverlayOptions {
+    Pattern pattern;       ///< code, section and measures of the dots
+    Cell origin;           ///< first cell of the first page; the others follow as in `make_sheets`
+    double margin_mm = 5;  ///< kept free of dots inside the visible page (its crop box)
+    double dpi = 600;      ///< as in PrintOptions
+    DotDrawing drawing = DotDrawing::automatic;
+    /// Pages that get dots, from 1, for example "1-3,7"; "z" is the last page. Empty: all.
+    std::string pages;
+    bool under = false;    ///< dots below what the page shows instead of above
+    std::string password;  ///< of an encrypted file, which stays encrypted
+    bool black_to_cmy =
+        false;           ///< print what is black without black ink, which infrared light sees
+    double lighten = 0;  ///< part of its ink that the document gives up, 0 to under 1
+    Progress progress;
+};
+
+/// One page with dots. Its sheet's frame begins at the top left corner of the page as it is shown.
+struct OverlaidPage {
+    int number = 0;  ///< from 1
+    Sheet sheet;
+};
+
+struct OverlayReport {
+    std::vector<OverlaidPage> pages;
+    std::vector<std::string> warnings;  ///< what may hide dots or was not converted, for the user
+};
+
+/// Writes `in` with dots to `out`, which appears complete or not at all.
+///
+/// `black_to_cmy` and `lighten` change colours of the pages that get dots only: of text, drawings,
+/// forms, fonts and appearances; and of images as far as their colour space allows. What stays as
+/// it was is named in the report.
+///
+/// Throws BadArgument: bad pattern, margin or page range; a page that is too small or whose region
+/// would run past the end of the code plane; `out` is `in`. Throws Error: `in` cannot be read, is
+/// damaged or needs another password; `out` cannot be written; `progress` returned false.
+OverlayReport overlay_pdf(const std::filesystem::path& in, const std::filesystem::path& out,
+                          const OverlayOptions& options = {});
+
+}  // namespace dotpose

@@ -1,0 +1,252 @@
+#include "dotpose/overlay.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <qpdf/QPDFPageDocumentHelper.hh>
+#include <qpdf/QPDFSystemError.hh>
+#include <qpdf/QUtil.hh>
+
+#include "pdf_colours.hpp"
+#include "pdf_file.hpp"
+#include "pdf_page_frame.hpp"
+#include "pdf_scan.hpp"
+#include "regions.hpp"
+
+namespace dotpose {
+namespace fs = std::filesystem;
+namespace {
+
+[[noreturn]] void throw_damaged(const fs::path& path, const std::string& reason) {
+    throw Error(fmt::format("{}: damaged PDF: {}; 'qpdf {} repaired.pdf' may mend it",
+                            path.string(), reason, path.string()));
+}
+
+/// qpdf goes on after small faults, which the new file no longer has. Content that it cannot unpack
+/// or read would stay as it is. Returns the small faults, in words.
+std::set<std::string> small_faults(QPDF& pdf, const fs::path& path) {
+    std::set<std::string> faults;
+    for (const QPDFExc& warning : pdf.getWarnings()) {
+        const std::string& detail = warning.getMessageDetail();
+        const bool is_in_content = warning.getObject() == "content";
+        if (is_in_content || detail.find("stream data") != std::string::npos) {
+            throw_damaged(path, detail);
+        }
+        faults.insert(detail);
+    }
+    return faults;
+}
+
+void open(QPDF& pdf, const fs::path& path, const std::string& password) {
+    pdf.setSuppressWarnings(true);
+    pdf.setAttemptRecovery(false);
+    try {
+        pdf.processFile(path.c_str(), password.c_str());
+    } catch (const QPDFSystemError& error) {
+        throw Error(fmt::format("cannot read {}: {}", path.string(),
+                                std::generic_category().message(error.getErrno())));
+    } catch (const QPDFExc& error) {
+        if (error.getErrorCode() != qpdf_e_password) {
+            throw_damaged(path, error.getMessageDetail());
+        }
+        throw Error(fmt::format(
+            "{}: {}", path.string(),
+            password.empty() ? "the file is encrypted; a password is needed" : "wrong password"));
+    }
+}
+
+std::set<int> page_numbers(const std::string& range, int count) {
+    if (range.empty()) {
+        std::set<int> all;
+        for (int number = 1; number <= count; ++number)
+            all.insert(number);
+        return all;
+    }
+    try {
+        const std::vector<int> numbers = QUtil::parse_numrange(range.c_str(), count);
+        return {numbers.begin(), numbers.end()};
+    } catch (const std::runtime_error&) {
+        throw BadArgument(
+            fmt::format("pages '{}': give numbers from 1 to {} such as 1-3,7; z is the last page",
+                        range, count));
+    }
+}
+
+/// "pages 1, 2, 5"; no more than the first few.
+std::string page_list(const std::vector<int>& numbers) {
+    constexpr std::size_t kShown = 8;
+    const auto shown = std::span(numbers).first(std::min(kShown, numbers.size()));
+    return fmt::format("page{} {}{}", numbers.size() > 1 ? "s" : "", fmt::join(shown, ", "),
+                       numbers.size() > kShown ? " ..." : "");
+}
+
+/// One document being given dots.
+class Overlay {
+  public:
+    Overlay(const fs::path& in, const OverlayOptions& options)
+        : in_(in),
+          options_(options),
+          change_{options.black_to_cmy, options.lighten},
+          rows_(std::make_shared<print::RowCount>()),
+          dots_(pdf_, options.dpi, options.drawing, rows_),
+          regions_(options.origin),
+          colours_(change_) {
+        rows_->progress = options.progress;
+        open(pdf_, in, options.password);
+    }
+
+    void add_dots() {
+        std::vector<QPDFPageObjectHelper> pages = QPDFPageDocumentHelper(pdf_).getAllPages();
+        if (pages.empty()) throw Error(fmt::format("{}: the document has no pages", in_.string()));
+        for (const int number : page_numbers(options_.pages, static_cast<int>(pages.size()))) {
+            try {
+                add_page(number, pages[static_cast<std::size_t>(number - 1)]);
+            } catch (const BadArgument& error) {
+                throw BadArgument(
+                    fmt::format("{}, page {}: {}", in_.string(), number, error.what()));
+            } catch (const Error& error) {
+                throw Error(fmt::format("{}, page {}: {}", in_.string(), number, error.what()));
+            } catch (const QPDFExc& error) {
+                throw_damaged(in_, error.getMessageDetail());
+            }
+        }
+        warn();
+    }
+
+    void write(const fs::path& out) {
+        print::OutputFile file(out);
+        print::write_document(pdf_, *rows_, file);
+        for (const std::string& fault : small_faults(pdf_, in_))
+            report_.warnings.push_back("the document had a fault that was mended: " + fault);
+        file.commit();
+    }
+
+    OverlayReport report() && { return std::move(report_); }
+
+  private:
+    Sheet lay_out(const Paper& paper) {
+        Sheet sheet = make_sheet({.pattern = options_.pattern,
+                                  .origin = options_.origin,
+                                  .paper = paper,
+                                  .margin_mm = options_.margin_mm});
+        sheet.origin = regions_.take(sheet.columns, sheet.rows);
+        validate(sheet);
+        validate_resolution(sheet, options_.dpi);
+        return sheet;
+    }
+
+    void add_page(int number, QPDFPageObjectHelper page) {
+        const print::PageFrame frame = print::page_frame(page);
+        const Sheet sheet = lay_out(frame.paper);
+        const print::PageContent content = print::scan_page(page);
+        if (content.paints_black) black_.push_back(number);
+        if (content.paints_images) images_.push_back(number);
+        if (content.paints_areas) areas_.push_back(number);
+        if (!change_.is_none()) colours_.convert(page);
+        draw(page, frame, sheet, content);
+        report_.pages.push_back({number, sheet});
+    }
+
+    /// The page's own content keeps its streams; q and Q around it restore the start.
+    void draw(QPDFPageObjectHelper page, const print::PageFrame& frame, const Sheet& sheet,
+              const print::PageContent& content) {
+        std::string dots = "q " + frame.matrix + " cm\n";
+        for (const std::string& name : add_forms(page, sheet))
+            dots += name + " Do\n";
+        dots += "Q\n";
+        std::string before = "q\n";
+        std::string after = "\nQ\n";
+        for (int i = 0; i < content.extra_restores; ++i)
+            before += "q\n";
+        for (int i = 0; i < content.unclosed_saves; ++i)
+            after += "Q\n";
+        (options_.under ? before : after).insert(options_.under ? 0 : after.size(), dots);
+        page.addPageContents(QPDFObjectHandle::newStream(&pdf_, before), true);
+        page.addPageContents(QPDFObjectHandle::newStream(&pdf_, after), false);
+    }
+
+    /// Makes the dots known to the page as forms; returns their names.
+    std::vector<std::string> add_forms(QPDFPageObjectHelper page, const Sheet& sheet) {
+        QPDFObjectHandle resources = page.getAttribute("/Resources", true);
+        if (!resources.isDictionary()) {
+            resources = QPDFObjectHandle::newDictionary();
+            page.getObjectHandle().replaceKey("/Resources", resources);
+        }
+        // Pages may share the dictionary of objects even if they do not share the resources.
+        QPDFObjectHandle shared = resources.getKey("/XObject");
+        QPDFObjectHandle objects =
+            shared.isDictionary() ? shared.shallowCopy() : QPDFObjectHandle::newDictionary();
+        resources.replaceKey("/XObject", objects);
+        std::vector<std::string> names;
+        int suffix = 1;
+        for (QPDFObjectHandle& stream : dots_.streams(sheet)) {
+            QPDFObjectHandle dict = stream.getDict();
+            dict.replaceKey("/Type", QPDFObjectHandle::newName("/XObject"));
+            dict.replaceKey("/Subtype", QPDFObjectHandle::newName("/Form"));
+            dict.replaceKey("/BBox",
+                            QPDFObjectHandle::parse(fmt::format(
+                                "[0 0 {:.4f} {:.4f}]", sheet.width_mm * print::kPointsPerMm,
+                                sheet.height_mm * print::kPointsPerMm)));
+            dict.replaceKey("/Resources", dots_.resources(sheet));
+            names.push_back(resources.getUniqueResourceName("/Dots", suffix));
+            objects.replaceKey(names.back(), stream);
+        }
+        return names;
+    }
+
+    void warn() {
+        const auto add = [this](const std::vector<int>& numbers, const char* text) {
+            if (!numbers.empty()) report_.warnings.push_back(page_list(numbers) + ": " + text);
+        };
+        if (!change_.black_to_cmy) {
+            add(black_, "black text or drawings hide dots; black can be changed to a CMY mix");
+            add(images_, "images may hide dots where they are dark");
+        }
+        if (options_.under) add(areas_, "filled areas and images cover the dots below them");
+        for (const std::string& kind : colours_.left_alone()) {
+            report_.warnings.push_back(kind + " were not converted and may hide dots");
+        }
+        QPDFObjectHandle form = pdf_.getRoot().getKey("/AcroForm");
+        if (form.isDictionary() && form.getKey("/SigFlags").isInteger() &&
+            form.getKey("/SigFlags").getIntValue() % 2 == 1) {
+            report_.warnings.emplace_back(
+                "the document is signed: dots make the signature invalid");
+        }
+    }
+
+    fs::path in_;
+    const OverlayOptions& options_;
+    print::InkChange change_;
+    QPDF pdf_;
+    std::shared_ptr<print::RowCount> rows_;
+    print::DotContent dots_;
+    print::Regions regions_;
+    print::ColourConverter colours_;
+    OverlayReport report_;
+    std::vector<int> black_;
+    std::vector<int> images_;
+    std::vector<int> areas_;
+};
+
+}  // namespace
+
+OverlayReport overlay_pdf(const fs::path& in, const fs::path& out, const OverlayOptions& options) {
+    if (!(options.lighten >= 0 && options.lighten < 1)) {
+        throw BadArgument(
+            fmt::format("lighten by {:g}: it must be at least 0 and under 1", options.lighten));
+    }
+    std::error_code error;
+    if (fs::equivalent(in, out, error)) {
+        throw BadArgument(
+            fmt::format("{} is the document itself; give the result another name", out.string()));
+    }
+    Overlay overlay(in, options);
+    overlay.add_dots();
+    overlay.write(out);
+    return std::move(overlay).report();
+}
+
+}  // namespace dotpose

@@ -1,0 +1,66 @@
+#include <fmt/format.h>
+#include <qpdf/QPDFPageDocumentHelper.hh>
+#include <qpdf/QPDFPageObjectHelper.hh>
+
+#include "pdf_dots.hpp"
+#include "pdf_file.hpp"
+#include "pdf_labels.hpp"
+#include "writers.hpp"
+
+namespace dotpose::print {
+namespace {
+
+QPDFObjectHandle make_page(QPDF& pdf, const Sheet& sheet,
+                           const std::vector<QPDFObjectHandle>& contents,
+                           const QPDFObjectHandle& resources) {
+    QPDFObjectHandle page = QPDFObjectHandle::parse(
+        fmt::format("<< /Type /Page /MediaBox [0 0 {:.4f} {:.4f}] >>",
+                    sheet.width_mm * kPointsPerMm, sheet.height_mm * kPointsPerMm));
+    page.replaceKey("/Contents", QPDFObjectHandle::newArray(contents));
+    page.replaceKey("/Resources", resources);
+    return pdf.makeIndirectObject(page);
+}
+
+void set_information(QPDF& pdf, const std::string& title) {
+    QPDFObjectHandle info = QPDFObjectHandle::newDictionary();
+    if (!title.empty()) info.replaceKey("/Title", QPDFObjectHandle::newUnicodeString(title));
+    info.replaceKey("/Creator", QPDFObjectHandle::newString("dotpose"));
+    // A viewer must not offer to fit the page to the paper.
+    pdf.getRoot().replaceKey("/ViewerPreferences",
+                             QPDFObjectHandle::parse("<< /PrintScaling /None >>"));
+    pdf.getTrailer().replaceKey("/Info", pdf.makeIndirectObject(info));
+}
+
+}  // namespace
+
+void write_pdf(std::span<const Sheet> sheets, const PrintOptions& options, OutputFile& file) {
+    QPDF pdf;
+    pdf.emptyPDF();
+    const auto rows = std::make_shared<RowCount>();
+    rows->progress = options.progress;
+    DotContent dots(pdf, options.dpi, options.drawing, rows);
+    QPDFObjectHandle label_font;
+    if (options.labels) {
+        label_font = pdf.makeIndirectObject(QPDFObjectHandle::parse(
+            "<< /Type /Font /Subtype /Type1 /BaseFont /Helvetica /Encoding /WinAnsiEncoding >>"));
+    }
+    PageNumber number{0, static_cast<int>(sheets.size())};
+    for (const Sheet& sheet : sheets) {
+        ++number.number;
+        std::vector<QPDFObjectHandle> contents = dots.streams(sheet);
+        QPDFObjectHandle resources = dots.resources(sheet);
+        if (options.labels) {
+            contents.push_back(
+                QPDFObjectHandle::newStream(&pdf, label_content(sheet, number, options)));
+            if (!resources.hasKey("/Font")) {
+                resources.replaceKey("/Font", QPDFObjectHandle::newDictionary());
+            }
+            resources.getKey("/Font").replaceKey("/Label", label_font);
+        }
+        QPDFPageDocumentHelper(pdf).addPage(make_page(pdf, sheet, contents, resources), false);
+    }
+    set_information(pdf, options.name);
+    write_document(pdf, *rows, file);
+}
+
+}  // namespace dotpose::print

@@ -1,0 +1,44 @@
+/// Rewrites the colour operators of one content stream.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include <qpdf/QPDFObjectHandle.hh>
+
+#include "pdf_ink.hpp"
+
+namespace dotpose::print {
+
+class ColourFilter : public QPDFObjectHandle::TokenFilter {
+  public:
+    /// `spaces` says what the names are that `cs` may select. Content that `starts_black`, as pages
+    /// do, is given the changed black to start with; other content inherits.
+    ColourFilter(InkChange change, std::map<std::string, ColourKind> spaces, bool starts_black);
+
+    void handleToken(QPDFTokenizer::Token const& token) override;
+    void handleEOF() override;
+
+  private:
+    struct Kinds {
+        ColourKind fill = ColourKind::other;
+        ColourKind stroke = ColourKind::other;
+    };
+
+    /// Writes the change of an operator with its operands; false leaves them as they are.
+    bool rewrite(const std::string& name);
+    bool select_space(ColourKind& kind, bool is_stroke);
+    bool write_colour(ColourKind from, std::vector<double> colour, bool is_stroke);
+    bool numbers(std::vector<double>& values) const;
+    void flush();
+
+    InkChange change_;
+    std::map<std::string, ColourKind> spaces_;
+    bool starts_black_;
+    Kinds now_;
+    std::vector<Kinds> saved_;
+    std::vector<QPDFTokenizer::Token> pending_;
+};
+
+}  // namespace dotpose::print

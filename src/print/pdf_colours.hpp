@@ -1,0 +1,42 @@
+/// Rewrites the colours of a page: its content, and copies of everything it draws from.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+
+#include <qpdf/QPDF.hh>
+#include <qpdf/QPDFPageObjectHelper.hh>
+
+#include "pdf_ink.hpp"
+
+namespace dotpose::print {
+
+/// Changed objects are copies, shared by all pages that go through one converter; other pages keep
+/// the originals. Content is rewritten only while the file is written.
+class ColourConverter {
+  public:
+    explicit ColourConverter(InkChange change) : change_(change) {}
+
+    void convert(QPDFPageObjectHelper page);
+
+    /// What was met and left as it was, in words, for example "shadings".
+    const std::set<std::string>& left_alone() const { return left_alone_; }
+
+  private:
+    QPDFObjectHandle resources(QPDFObjectHandle original);
+    QPDFObjectHandle content(QPDFObjectHandle original, bool starts_black);
+    QPDFObjectHandle xobject(QPDFObjectHandle original);
+    QPDFObjectHandle pattern(QPDFObjectHandle original);
+    QPDFObjectHandle font(QPDFObjectHandle original);
+    QPDFObjectHandle image(QPDFObjectHandle original, QPDFObjectHandle spaces);
+    QPDFObjectHandle appearance(QPDFObjectHandle original);
+    template <typename Convert>
+    void replace_all(QPDFObjectHandle resources, const char* kind, Convert convert);
+
+    InkChange change_;
+    std::map<QPDFObjGen, QPDFObjectHandle> converted_;
+    std::set<std::string> left_alone_;
+};
+
+}  // namespace dotpose::print

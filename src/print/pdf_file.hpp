@@ -1,0 +1,30 @@
+/// Hands what qpdf writes to a file that appears complete or not at all.
+#pragma once
+
+#include <qpdf/Pipeline.hh>
+#include <qpdf/QPDF.hh>
+
+#include "output_file.hpp"
+#include "pdf_dots.hpp"
+
+namespace dotpose::print {
+
+class FilePipeline : public Pipeline {
+  public:
+    explicit FilePipeline(OutputFile& file) : Pipeline("output file", nullptr), file_(file) {}
+
+    void write(unsigned char const* data, std::size_t size_bytes) override {
+        file_.write(data, size_bytes);
+        file_.require_good();
+    }
+    void finish() override {}
+
+  private:
+    OutputFile& file_;
+};
+
+/// Writes `pdf` into `file` and leaves the commit to the caller. Throws Error: what stopped `rows`,
+/// what went wrong with the file, or what qpdf says.
+void write_document(QPDF& pdf, const RowCount& rows, OutputFile& file);
+
+}  // namespace dotpose::print
