@@ -1,5 +1,6 @@
 #include "dotpose/print.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -7,6 +8,7 @@
 
 #include "commands.hpp"
 #include "common.hpp"
+#include "dotpose/test_page.hpp"
 #include "progress.hpp"
 
 namespace dotpose::cli {
@@ -16,6 +18,7 @@ struct PrintArguments {
     std::string out;
     std::string paper = "A4";
     bool landscape = false;
+    bool test_page = false;
     SheetOptions sheet;
     PatternArguments pattern;
     double dpi = PrintOptions{}.dpi;
@@ -24,7 +27,8 @@ struct PrintArguments {
 constexpr const char* kExamples =
     "Examples:\n"
     "  dotpose print -o sheet.svg\n"
-    "  dotpose print -o poster.png --paper A3 --landscape --origin 1000,2000 --dpi 1200\n\n"
+    "  dotpose print -o poster.png --paper A3 --landscape --origin 1000,2000 --dpi 1200\n"
+    "  dotpose print -o test.svg --test-page\n\n"
     "Print at 100 %, without \"fit to page\". Give each sheet an origin of its own.\n";
 
 bool is_raster(PrintFormat format) {
@@ -44,24 +48,45 @@ std::string summary(const PrintArguments& arguments, const Sheet& sheet) {
     return line;
 }
 
+/// Runs `write` with progress on the terminal and an ear for Ctrl-C.
+template <typename Write>
+void with_progress(const PrintArguments& arguments, const Write& write) {
+    catch_interrupts();
+    ProgressLine line("printing " + arguments.out);
+    PrintOptions options;
+    options.dpi = arguments.dpi;
+    options.progress = [&line](int done, int total) {
+        line.update(done, total);
+        return !interrupted();
+    };
+    write(options);
+}
+
+void print_test_page(const PrintArguments& arguments, const Paper& paper) {
+    TestPageOptions options;
+    options.profile = arguments.pattern.pattern().profile;
+    options.paper = paper;
+    options.margin_mm = std::max(options.margin_mm, arguments.sheet.margin_mm);
+    const PrintPage page = make_test_page(options);
+    with_progress(arguments, [&](const PrintOptions& print_options) {
+        write_page(page, arguments.out, print_options);
+    });
+    fmt::print("{}: test page {:g} x {:g} mm, {} patches; print it, scan it, then run: dotpose "
+               "check-print SCAN\n",
+               arguments.out, page.width_mm, page.height_mm, page.sheets.size());
+}
+
 void run(const PrintArguments& arguments) {
+    Paper paper = paper_by_name(arguments.paper);
+    if (arguments.landscape) paper = landscape(paper);
+    if (arguments.test_page) return print_test_page(arguments, paper);
     SheetOptions options = arguments.sheet;
     options.pattern = arguments.pattern.pattern();
-    options.paper = paper_by_name(arguments.paper);
-    if (arguments.landscape) options.paper = landscape(options.paper);
+    options.paper = paper;
     const Sheet sheet = make_sheet(options);
-
-    catch_interrupts();
-    {
-        ProgressLine line("printing " + arguments.out);
-        PrintOptions print_options;
-        print_options.dpi = arguments.dpi;
-        print_options.progress = [&line](int rows_done, int rows) {
-            line.update(rows_done, rows);
-            return !interrupted();
-        };
+    with_progress(arguments, [&](const PrintOptions& print_options) {
         write_sheet(sheet, arguments.out, print_options);
-    }
+    });
     fmt::print("{}\n", summary(arguments, sheet));
 }
 
@@ -89,6 +114,11 @@ void add_print(CLI::App& app, int& /*exit_code*/) {
     command->add_option("--dpi", arguments->dpi, "Resolution of .png and .tif: the printer's own")
         ->type_name("N")
         ->capture_default_str();
+    CLI::Option* test_page = command->add_flag(
+        "--test-page", arguments->test_page,
+        "Patches of dot sizes and spacings, to find what suits a printer with check-print");
+    for (const char* own : {"--spacing", "--dot", "--displacement", "--origin", "--section"})
+        test_page->excludes(command->get_option(own));
     command->callback([arguments] { run(*arguments); });
 }
 

@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <functional>
 #include <string_view>
+#include <vector>
 
 #include "dotpose/error.hpp"
 #include "dotpose/sheet.hpp"
@@ -102,5 +103,31 @@ struct PrintOptions {
 /// cannot be created or written (with the system's reason), or `progress` returned false.
 void write_sheet(const Sheet& sheet, const std::filesystem::path& path,
                  const PrintOptions& options = {});
+
+/// A filled rectangle on a page, in sheet coordinates.
+struct InkRectangle {
+    double x_mm = 0;  ///< left edge
+    double y_mm = 0;  ///< upper edge
+    double width_mm = 0;
+    double height_mm = 0;
+};
+
+/// A page with several regions of the code, and other print. Each sheet has the size of the page.
+struct PrintPage {
+    double width_mm = 0;
+    double height_mm = 0;
+    std::vector<Sheet> sheets;
+    std::vector<InkRectangle> marks;
+};
+
+/// Rectangles that show a text: digits, '.', '/', '-', 'x', 'm' and spaces; others stay blank.
+/// `x_mm`, `y_mm`: its upper left corner.
+std::vector<InkRectangle> ink_text(std::string_view text, double x_mm, double y_mm,
+                                   double height_mm);
+
+/// Writes a page as `write_sheet` does; not as text. Where regions overlap, both are printed.
+/// Holds the page at one bit per pixel in memory for PNG and TIFF.
+void write_page(const PrintPage& page, const std::filesystem::path& path,
+                const PrintOptions& options = {});
 
 }  // namespace dotpose

@@ -30,6 +30,9 @@ void write_sheet(const Sheet& sheet, const std::filesystem::path& path,
         validate_resolution(sheet, options.dpi);
     }
     print::OutputFile file(path);
+    const auto rows = [&](const print::RowSink& sink) {
+        print::rasterize(sheet, options.dpi, options.progress, sink);
+    };
     switch (format) {
         case PrintFormat::text:
             print::write_text(sheet, options.progress, file);
@@ -38,10 +41,10 @@ void write_sheet(const Sheet& sheet, const std::filesystem::path& path,
             print::write_svg(sheet, options.progress, file);
             break;
         case PrintFormat::png:
-            print::write_png(sheet, options.dpi, options.progress, file);
+            print::write_png(print::raster_size(sheet, options.dpi), options.dpi, rows, file);
             break;
         case PrintFormat::tiff:
-            print::write_tiff(sheet, options.dpi, options.progress, file);
+            print::write_tiff(print::raster_size(sheet, options.dpi), options.dpi, rows, file);
             break;
     }
     file.commit();
