@@ -9,6 +9,8 @@ namespace {
 
 constexpr double kTileCells = 24;
 constexpr int kLargestTile_px = 2048;
+/// So many crops say how far apart the dots are.
+constexpr std::size_t kEnoughProbes = 40;
 /// Where dots are nearer to each other than this, crops are magnified.
 constexpr double kSmallSpacing_px = 9;
 
@@ -33,7 +35,7 @@ std::optional<Tiling> CropLocator::choose_tiling(const CropDone& done) {
         zoom_ = probe.zoom;
         const Tiling tiling(scan_.width_px, scan_.height_px, probe.side_px);
         std::vector<double> spacings_px;
-        for (int tile = 0; tile < tiling.count(); ++tile) {
+        for (int tile = 0; tile < tiling.count() && spacings_px.size() < kEnoughProbes; ++tile) {
             const auto anchor = locate_in(tiling.rect(tile));
             if (anchor) spacings_px.push_back(anchor->map.spacing_px());
             done();
@@ -109,7 +111,7 @@ ImageView CropLocator::magnified(const PixelRect& rect) {
             const int next = width > 1 ? u + 1 : u;
             const double top = upper[u] + du * (upper[next] - upper[u]);
             const double bottom = lower[u] + du * (lower[next] - lower[u]);
-            *out++ = static_cast<std::uint8_t>(std::lround(top + dv * (bottom - top)));
+            *out++ = static_cast<std::uint8_t>(top + dv * (bottom - top) + 0.5);
         }
     }
     return {magnified_.data(), width * zoom_, height * zoom_, width * zoom_};

@@ -92,7 +92,8 @@ class Meter {
           displacement_(displacement),
           reach_px_(kReach * map.spacing_px()),
           sample_px_(0.5 * displacement * map.spacing_px()),
-          paper_(paper) {}
+          paper_(paper),
+          per_paper_(1 / paper) {}
 
     /// The likeliest of the four places of a dot, and how dark it is there.
     double likeliest(const Vector2d& intersection_px, Vector2d& place_px) const {
@@ -151,9 +152,9 @@ class Meter {
         for (int v = first(p.y()); v <= last(p.y(), scan_.height_px); ++v) {
             const std::uint8_t* row = scan_.row(v);
             for (int u = first(p.x()); u <= last(p.x(), scan_.width_px); ++u) {
-                const double distance = std::hypot(u - p.x(), v - p.y());
+                const double distance = (Vector2d(u, v) - p).norm();
                 const double weight = std::clamp(reach_px_ + 0.5 - distance, 0.0, 1.0);
-                visit(u, v, 1 - row[u] / paper_, weight);
+                visit(u, v, 1 - row[u] * per_paper_, weight);
             }
         }
     }
@@ -183,6 +184,7 @@ class Meter {
     double reach_px_;
     double sample_px_;
     double paper_;
+    double per_paper_;
 };
 
 /// Level of the paper in the corners of the cells, which no dot comes near.

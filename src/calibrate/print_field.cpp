@@ -88,13 +88,32 @@ void refine_anchors(const ImageView& scan, const Tiling& tiling, Field& field) {
     field.paper = median_of(papers);
 }
 
+/// The map by which to look for cells in a tile: its own, or that of a neighbour. A tile that shows
+/// only the edge of a field beside other print has none of its own.
+const LocalMap* map_for(int tile, const Tiling& tiling, const Field& field) {
+    const auto of = [&](int t) -> const LocalMap* {
+        const auto& map = field.maps[static_cast<std::size_t>(t)];
+        return map ? &*map : nullptr;
+    };
+    if (of(tile) != nullptr) return of(tile);
+    for (const int neighbour : neighbours_of(tile, tiling)) {
+        if (of(neighbour) != nullptr) return of(neighbour);
+        for (const int corner : neighbours_of(neighbour, tiling)) {
+            const bool touches = std::abs(corner % tiling.columns - tile % tiling.columns) <= 1 &&
+                                 std::abs(corner / tiling.columns - tile / tiling.columns) <= 1;
+            if (touches && of(corner) != nullptr) return of(corner);
+        }
+    }
+    return nullptr;
+}
+
 /// The rectangle of cells that the maps of a field can reach.
 CellGrid bounding_grid(const Tiling& tiling, const Field& field) {
     Vector2d low = Vector2d::Constant(1e18);
     Vector2d high = -low;
     for (int t = 0; t < tiling.count(); ++t) {
-        const auto& map = field.maps[static_cast<std::size_t>(t)];
-        if (!map) continue;
+        const LocalMap* map = map_for(t, tiling, field);
+        if (map == nullptr) continue;
         const PixelRect rect = tiling.rect(t);
         for (const int u : {rect.u_begin, rect.u_end}) {
             for (const int v : {rect.v_begin, rect.v_end}) {
@@ -237,8 +256,8 @@ CellGrid collect_cells(const ImageView& scan, const Tiling& tiling, const Field&
         }
     }
     for (int t = 0; t < tiling.count(); ++t) {
-        const auto& map = field.maps[static_cast<std::size_t>(t)];
-        if (!map) continue;
+        const LocalMap* map = map_for(t, tiling, field);
+        if (map == nullptr) continue;
         const SeenTile tile = measure_tile(scan, tiling.rect(t), *map, field.code, field.strength);
         for (const SeenCell& cell : tile.cells) {
             const std::int64_t i = std::int64_t{cell.x} - grid.origin.x;
