@@ -44,11 +44,12 @@ void add_field(std::string& text, const PrintField& field) {
     if (field.scale) {
         const PrintScale& scale = *field.scale;
         add(text, "scale       x {:.3f} %, y {:.3f} %", 100 * scale.scale_x, 100 * scale.scale_y);
-        add(text, "rotation    {:.3f} degrees, skew {:.3f} degrees", degrees(scale.rotation_rad),
-            degrees(scale.skew_rad));
+        add(text, "rotation    {:.3f} degrees, skew {:.3f} degrees", rounded(degrees(scale.rotation_rad), 3), rounded(degrees(scale.skew_rad), 3));
     }
-    add(text, "places      {:.4f} mm rms from the fit per axis, regions up to {:.3f} mm",
-        field.residual_mm, field.largest_distortion_mm);
+    add(text,
+        "places      off by {:.4f} mm (rms per axis): single dots by {:.4f} mm, parts of the page "
+        "by up to {:.3f} mm",
+        field.residual_mm, field.scatter_mm, field.largest_distortion_mm);
     add(text, "dots        {:.4f} mm (nominal {:.4f} mm, gain {:+.0f} %), spread {:.4f} mm",
         field.dot_mm, field.pattern.dot_mm, 100 * field.gain(), field.dot_sigma_mm);
     add(text, "contrast    {:.0f} % of the paper's level {:.0f}", 100 * field.contrast,
@@ -108,6 +109,7 @@ ordered_json json_of(const PrintField& field) {
         object["skew_deg"] = rounded(degrees(field.scale->skew_rad), 5);
     }
     object["residual_mm"] = rounded(field.residual_mm, 6);
+    object["scatter_mm"] = rounded(field.scatter_mm, 6);
     object["largest_distortion_mm"] = rounded(field.largest_distortion_mm, 6);
     object["printed_dot_mm"] = rounded(field.dot_mm, 6);
     object["printed_dot_sigma_mm"] = rounded(field.dot_sigma_mm, 6);

@@ -72,6 +72,7 @@ struct PrintField {
     std::optional<PrintScale> scale;  ///< with a known resolution only
     double spacing_px = 0;            ///< mean, in the scan
     double residual_mm = 0;  ///< rms of the dots from their fitted places, per axis, on the paper
+    double scatter_mm = 0;   ///< of single dots about their neighbours, per axis, on the paper
     std::vector<DistortionBin> distortion;
     double largest_distortion_mm = 0;  ///< of the bins
 

@@ -9,18 +9,19 @@ namespace {
 
 constexpr double kTileCells = 24;
 constexpr int kLargestTile_px = 2048;
-/// So many crops say how far apart the dots are.
-constexpr std::size_t kEnoughProbes = 40;
 /// Where dots are nearer to each other than this, crops are magnified.
 constexpr double kSmallSpacing_px = 9;
+/// So many crops say how far apart the dots are.
+constexpr std::size_t kEnoughProbes = 40;
+/// Pixels of the crops of one kind that are looked at first, spread over the page.
+constexpr int kFirstLook_px = 8'000'000;
 
-/// Sides of the crops that are tried, and how they are magnified.
+/// Side of the crops that are tried, and how they are magnified: 8 cells and more have to fit.
 struct Probe {
     int side_px = 0;
     int zoom = 1;
 };
-constexpr std::array kProbes = {Probe{256, 1}, Probe{160, 2}, Probe{512, 1}, Probe{1024, 1},
-                                Probe{2048, 1}};
+constexpr std::array kProbes = {Probe{256, 1}, Probe{160, 2}, Probe{768, 1}};
 
 }  // namespace
 
@@ -30,30 +31,45 @@ CropLocator::CropLocator(const ImageView& scan, Profile profile)
 }
 
 std::optional<Tiling> CropLocator::choose_tiling(const CropDone& done) {
-    for (const Probe& probe : kProbes) {
-        if (probe.side_px > 2 * std::max(scan_.width_px, scan_.height_px)) continue;
-        zoom_ = probe.zoom;
-        const Tiling tiling(scan_.width_px, scan_.height_px, probe.side_px);
-        std::vector<double> spacings_px;
-        for (int tile = 0; tile < tiling.count() && spacings_px.size() < kEnoughProbes; ++tile) {
-            const auto anchor = locate_in(tiling.rect(tile));
-            if (anchor) spacings_px.push_back(anchor->map.spacing_px());
-            done();
+    for (const bool thorough : {true, false}) {
+        // Few crops with all effort, and if they show nothing, every corner of the page with less.
+        options_.effort = thorough ? Effort::twice : Effort::once;
+        for (const Probe& probe : kProbes) {
+            zoom_ = probe.zoom;
+            const Tiling tiling(scan_.width_px, scan_.height_px, probe.side_px);
+            const int first_look =
+                kFirstLook_px / (probe.side_px * probe.side_px * probe.zoom * probe.zoom);
+            const int step = thorough ? std::max(tiling.count() / first_look, 1) : 1;
+            const double spacing_px = probe_spacing_px(tiling, step, done);
+            if (spacing_px == 0) continue;
+            options_.effort = Effort::twice;
+            zoom_ = spacing_px < kSmallSpacing_px ? 2 : 1;
+            const int side_px = static_cast<int>(std::lround(kTileCells * spacing_px));
+            return Tiling(scan_.width_px, scan_.height_px, std::min(side_px, kLargestTile_px));
         }
-        if (spacings_px.empty()) continue;
-        const auto middle = spacings_px.begin() + static_cast<long>(spacings_px.size() / 2);
-        std::ranges::nth_element(spacings_px, middle);
-        zoom_ = *middle < kSmallSpacing_px ? 2 : 1;
-        const int side_px = static_cast<int>(std::lround(kTileCells * *middle));
-        return Tiling(scan_.width_px, scan_.height_px, std::min(side_px, kLargestTile_px));
     }
     return std::nullopt;
 }
 
+/// Median distance of neighbouring dots in every `step`-th tile that shows a pattern; 0: in none.
+double CropLocator::probe_spacing_px(const Tiling& tiling, int step, const CropDone& done) {
+    std::vector<double> spacings_px;
+    for (int tile = 0; tile < tiling.count() && spacings_px.size() < kEnoughProbes; tile += step) {
+        const auto anchor = locate_in(tiling.rect(tile));
+        if (anchor) spacings_px.push_back(anchor->map.spacing_px());
+        done();
+    }
+    if (spacings_px.empty()) return 0;
+    const auto middle = spacings_px.begin() + static_cast<long>(spacings_px.size() / 2);
+    std::ranges::nth_element(spacings_px, middle);
+    return *middle;
+}
+
 std::vector<Anchor> CropLocator::find_anchors(const Tiling& tiling, const CropDone& done) {
     std::vector<Anchor> anchors;
-    const int around_px = tiling.side_px / 4;
+    const int around_px = tiling.side_px / 8;
     for (int tile = 0; tile < tiling.count(); ++tile) {
+        if ((tile % tiling.columns + tile / tiling.columns) % 2 != 0) continue;
         const PixelRect rect = tiling.rect(tile);
         auto anchor = locate_in({std::max(rect.u_begin - around_px, 0),
                                  std::max(rect.v_begin - around_px, 0),

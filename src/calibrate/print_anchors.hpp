@@ -30,10 +30,12 @@ class CropLocator {
     /// The crops may be magnified: `locate` needs 6 px from dot to dot.
     std::optional<Tiling> choose_tiling(const CropDone& done);
 
-    /// Locates in each tile, with some of its surroundings.
+    /// Locates in every second tile, with some of its surroundings, like the black fields of a
+    /// chessboard; the tiles between are quicker followed than located in.
     std::vector<Anchor> find_anchors(const Tiling& tiling, const CropDone& done);
 
   private:
+    double probe_spacing_px(const Tiling& tiling, int step, const CropDone& done);
     std::optional<Anchor> locate_in(const PixelRect& rect);
     ImageView magnified(const PixelRect& rect);
 

@@ -20,7 +20,8 @@ constexpr double kLeastShare = 0.35;
 constexpr double kFloorShare = 0.15;
 /// Dots are summed up to half the way to the nearest neighbour there can be, in spacings.
 constexpr double kReach = 1.0 / 3;
-constexpr int kCentrings = 3;
+constexpr int kCentrings = 4;
+constexpr double kCentred_px = 0.01;
 constexpr int kLeastToFit = 30;
 
 /// Median; reorders.
@@ -91,6 +92,8 @@ class Meter {
           cells_per_px_(map.px_per_cell.inverse()),
           displacement_(displacement),
           reach_px_(kReach * map.spacing_px()),
+          inner_px2_(std::pow(std::max(reach_px_ - 0.5, 0.0), 2)),
+          outer_px2_(std::pow(reach_px_ + 0.5, 2)),
           sample_px_(0.5 * displacement * map.spacing_px()),
           paper_(paper),
           per_paper_(1 / paper) {}
@@ -113,8 +116,12 @@ class Meter {
     /// Centres on the dot near `place_px`, starting there, and measures it.
     void measure(const Vector2d& intersection_px, Vector2d place_px, double strength,
                  SeenCell& cell) const {
-        for (int i = 0; i < kCentrings; ++i)
+        double moved_px = 1;
+        for (int i = 0; i < kCentrings && moved_px > kCentred_px; ++i) {
+            const Vector2d before = place_px;
             place_px = centroid(place_px, kFloorShare * strength);
+            moved_px = (place_px - before).norm();
+        }
         const Vector2d offset = cells_per_px_ * (place_px - intersection_px);
         cell.has_dot = strength_at(place_px) >= kLeastShare * strength &&
                        offset.cwiseAbs().maxCoeff() <= kFarthest;
@@ -152,8 +159,10 @@ class Meter {
         for (int v = first(p.y()); v <= last(p.y(), scan_.height_px); ++v) {
             const std::uint8_t* row = scan_.row(v);
             for (int u = first(p.x()); u <= last(p.x(), scan_.width_px); ++u) {
-                const double distance = (Vector2d(u, v) - p).norm();
-                const double weight = std::clamp(reach_px_ + 0.5 - distance, 0.0, 1.0);
+                const double squared = (Vector2d(u, v) - p).squaredNorm();
+                if (squared >= outer_px2_) continue;
+                const double weight =
+                    squared <= inner_px2_ ? 1 : reach_px_ + 0.5 - std::sqrt(squared);
                 visit(u, v, 1 - row[u] * per_paper_, weight);
             }
         }
@@ -182,6 +191,8 @@ class Meter {
     Eigen::Matrix2d cells_per_px_;
     double displacement_;
     double reach_px_;
+    double inner_px2_;  ///< squared distances from which on and to which pixels count in part
+    double outer_px2_;
     double sample_px_;
     double paper_;
     double per_paper_;

@@ -14,12 +14,15 @@ using Eigen::Vector2d;
 /// distance between them: paper creeps, cameras see in perspective.
 constexpr double kAgree_cells = 1.5;
 constexpr double kAgreeShare = 0.05;
-/// A tile belongs to a field if so many of its dots read right, and this share of all: a quarter
-/// do by chance.
+/// A tile belongs to a field if so many of its dots read right, and this share of all. A quarter do
+/// by chance; half of them in another region if its columns happen to agree with the field's.
 constexpr int kLeastRight = 12;
-constexpr double kLeastRightShare = 0.6;
-/// Outer lines of cells belong to a field if this share of them reads right.
+constexpr double kLeastRightShare = 0.7;
+/// Outer lines of cells belong to a field if this share of the cells, and the share above of the
+/// dots, read right.
 constexpr double kLeastLineShare = 0.5;
+/// And if they have this share of the dots of the longest line.
+constexpr double kLeastLength = 0.15;
 
 /// The map of the tile in `field` that is nearest to a point, if any.
 const LocalMap* nearest_map(const Field& field, const Vector2d& pixel) {
@@ -56,6 +59,20 @@ double median_of(std::vector<double> values) {
     return *middle;
 }
 
+/// The part of a tile that a map of a tile beside it can be trusted in.
+PixelRect part_near(const PixelRect& rect, const Tiling& tiling, const LocalMap& map) {
+    const auto low = [&](double centre) {
+        return static_cast<int>(std::floor(centre)) - tiling.side_px;
+    };
+    const auto high = [&](double centre) {
+        return static_cast<int>(std::ceil(centre)) + tiling.side_px;
+    };
+    return {std::max(rect.u_begin, low(map.centre_px.x())),
+            std::max(rect.v_begin, low(map.centre_px.y())),
+            std::min(rect.u_end, high(map.centre_px.x())),
+            std::min(rect.v_end, high(map.centre_px.y()))};
+}
+
 std::vector<int> neighbours_of(int tile, const Tiling& tiling) {
     std::vector<int> neighbours;
     const int column = tile % tiling.columns;
@@ -86,6 +103,21 @@ void refine_anchors(const ImageView& scan, const Tiling& tiling, Field& field) {
     }
     field.strength = median_of(strengths);
     field.paper = median_of(papers);
+}
+
+/// The map of a tile, continued from that of its neighbour; nothing if the tile shows no part of the
+/// field. First from the dots next to the neighbour, because perspective bends the grid away from
+/// where its map leads. With few dots, the neighbour's map is the better one.
+std::optional<LocalMap> continued(const ImageView& scan, const Tiling& tiling, const Field& field,
+                                  int t, const LocalMap& from) {
+    const PixelRect rect = tiling.rect(t);
+    const SeenTile part =
+        measure_tile(scan, part_near(rect, tiling, from), from, field.code, field.strength);
+    if (!belongs(part)) return std::nullopt;
+    const LocalMap map = fit_map(part, field.code).value_or(from);
+    const SeenTile whole = measure_tile(scan, rect, map, field.code, field.strength);
+    if (!belongs(whole)) return map;
+    return fit_map(whole, field.code).value_or(map);
 }
 
 /// The map by which to look for cells in a tile: its own, or that of a neighbour. A tile that shows
@@ -132,11 +164,11 @@ CellGrid bounding_grid(const Tiling& tiling, const Field& field) {
     return grid;
 }
 
-/// Looked at (nonzero) cells of a grid under construction.
+/// How much of a column or row of cells was looked at, and how much of that reads right.
 struct Coverage {
     int seen = 0;
+    int dots = 0;
     int right = 0;
-    bool is_enough() const { return seen > 0 && right >= kLeastLineShare * seen; }
 };
 
 /// Takes outer columns and rows off a grid until they read right.
@@ -145,16 +177,20 @@ class Trimmer {
     Trimmer(const CellGrid& grid, const std::vector<bool>& seen) : grid_(grid), seen_(seen) {
         i_end_ = grid.columns;
         j_end_ = grid.rows;
+        for (int i = 0; i < grid.columns; ++i)
+            longest_column_ = std::max(longest_column_, column(i).right);
+        for (int j = 0; j < grid.rows; ++j)
+            longest_row_ = std::max(longest_row_, row(j).right);
     }
 
     CellGrid trimmed() {
         bool changed = true;
         while (changed && i_begin_ < i_end_ && j_begin_ < j_end_) {
             changed = false;
-            if (!column(i_begin_).is_enough()) changed = true, ++i_begin_;
-            if (i_begin_ < i_end_ && !column(i_end_ - 1).is_enough()) changed = true, --i_end_;
-            if (!row(j_begin_).is_enough()) changed = true, ++j_begin_;
-            if (j_begin_ < j_end_ && !row(j_end_ - 1).is_enough()) changed = true, --j_end_;
+            if (!has_column(i_begin_)) changed = true, ++i_begin_;
+            if (i_begin_ < i_end_ && !has_column(i_end_ - 1)) changed = true, --i_end_;
+            if (!has_row(j_begin_)) changed = true, ++j_begin_;
+            if (j_begin_ < j_end_ && !has_row(j_end_ - 1)) changed = true, --j_end_;
         }
         CellGrid result;
         result.origin = {grid_.origin.x + static_cast<std::uint32_t>(i_begin_),
@@ -173,6 +209,7 @@ class Trimmer {
         const auto index = static_cast<std::size_t>(j) * static_cast<std::size_t>(grid_.columns) +
                            static_cast<std::size_t>(i);
         coverage.seen += seen_[index] ? 1 : 0;
+        coverage.dots += grid_.cells[index].has_dot ? 1 : 0;
         coverage.right += grid_.cells[index].is_right() ? 1 : 0;
     }
     Coverage column(int i) const {
@@ -188,8 +225,18 @@ class Trimmer {
         return coverage;
     }
 
+    /// A few cells of a line that is cut off, or of other print, do not make it a line of dots.
+    static bool is_enough(const Coverage& line, int longest) {
+        return line.right >= kLeastLineShare * line.seen &&
+               line.right >= kLeastRightShare * line.dots && line.right > kLeastLength * longest;
+    }
+    bool has_column(int i) const { return is_enough(column(i), longest_column_); }
+    bool has_row(int j) const { return is_enough(row(j), longest_row_); }
+
     const CellGrid& grid_;
     const std::vector<bool>& seen_;
+    int longest_column_ = 0;
+    int longest_row_ = 0;
     int i_begin_ = 0;
     int i_end_ = 0;
     int j_begin_ = 0;
@@ -228,12 +275,8 @@ bool follow(const ImageView& scan, const Tiling& tiling, Field& field) {
         for (const int t : neighbours_of(from, tiling)) {
             auto& there = field.maps[static_cast<std::size_t>(t)];
             if (there) continue;
-            const SeenTile tile =
-                measure_tile(scan, tiling.rect(t), map, field.code, field.strength);
-            if (!belongs(tile)) continue;
-            // With few dots in it, the neighbour's map is the better one.
-            there = fit_map(tile, field.code).value_or(map);
-            queue.push_back(t);
+            there = continued(scan, tiling, field, t, map);
+            if (there) queue.push_back(t);
         }
     }
     return is_borne_out;
@@ -258,7 +301,10 @@ CellGrid collect_cells(const ImageView& scan, const Tiling& tiling, const Field&
     for (int t = 0; t < tiling.count(); ++t) {
         const LocalMap* map = map_for(t, tiling, field);
         if (map == nullptr) continue;
-        const SeenTile tile = measure_tile(scan, tiling.rect(t), *map, field.code, field.strength);
+        const bool is_own = field.maps[static_cast<std::size_t>(t)].has_value();
+        const PixelRect rect =
+            is_own ? tiling.rect(t) : part_near(tiling.rect(t), tiling, *map);
+        const SeenTile tile = measure_tile(scan, rect, *map, field.code, field.strength);
         for (const SeenCell& cell : tile.cells) {
             const std::int64_t i = std::int64_t{cell.x} - grid.origin.x;
             const std::int64_t j = std::int64_t{cell.y} - grid.origin.y;

@@ -26,9 +26,11 @@ constexpr double kSwollenGain = 0.5;
 constexpr double kThinGain = -0.3;
 constexpr double kNotableShare = 0.01;
 constexpr double kLeastContrast = 0.2;
-/// Fewer pixels from dot to dot show the dots' places only roughly; how roughly, in spacings.
+/// Where there are fewer pixels from dot to dot, faults of single dots are the scan's own: scatter,
+/// in spacings, and share of wrong bits from which on it is to blame.
 constexpr double kCoarse_px = 10;
-constexpr double kCoarseResidual = 0.05;
+constexpr double kCoarseScatter = 0.05;
+constexpr double kCoarseWrongShare = 0.001;
 constexpr double kLeastSpacing_px = 5;
 /// A patch of a test page is good if no more of its cells than this are bad.
 constexpr double kGoodPatch = 0.005;
@@ -101,46 +103,15 @@ class Findings {
     }
 
     void judge_dots(const PrintField& field) {
-        const double gain = field.gain();
-        if (gain > kSwollenGain || field.merged_share() > kNotableShare) {
-            fault(FindingKind::swollen,
-                  fmt::format("dots are swollen: {:.3f} mm instead of {:.3f} mm{}; choose a "
-                              "smaller --dot, better paper, or less ink",
-                              field.dot_mm, field.pattern.dot_mm,
-                              field.merged_share() > kNotableShare
-                                  ? fmt::format(", and {} of them run together",
-                                                percent(field.merged_share()))
-                                  : ""));
-        } else if (gain < kThinGain) {
-            fault(FindingKind::thin,
-                  fmt::format("dots are thin or pale: as dark as solid dots of {:.3f} mm instead "
-                              "of {:.3f} mm; choose a larger --dot, and switch off toner saving",
-                              field.dot_mm, field.pattern.dot_mm));
-        }
-        if (field.missing_share() > kNotableShare) {
-            fault(FindingKind::missing,
-                  fmt::format("{} of the dots are missing: clean the printer's nozzles or drum, "
-                              "choose a larger --dot, and keep other print off the dots",
-                              percent(field.missing_share())));
-        }
-        const double residual = field.residual_mm / field.pattern.spacing_mm;
-        const bool is_rough = residual > kCoarseResidual || field.wrong_share() > kNotableShare;
-        if (field.spacing_px < kCoarse_px && is_rough) {
+        if (is_too_coarse(field)) {
             fault(FindingKind::too_coarse,
-                  fmt::format("the image is too coarse: {:.1f} pixels from dot to dot, whose "
-                              "places scatter by {:.3f} mm; scan at 600 dpi, as PNG or TIFF",
-                              field.spacing_px, field.residual_mm));
-        } else if (field.wrong_share() > kNotableShare) {
-            fault(FindingKind::bits_wrong,
-                  fmt::format("{} of the bits are wrong, because dots stand in the wrong place: "
-                              "print at the printer's own resolution, with a larger spacing",
-                              percent(field.wrong_share())));
-        }
-        if (field.contrast < kLeastContrast) {
-            fault(FindingKind::pale,
-                  fmt::format("the dots are only {} darker than the paper: print in black, "
-                              "without toner saving",
-                              percent(field.contrast, 0)));
+                  fmt::format("the image is too coarse to judge single dots: {:.1f} pixels from "
+                              "dot to dot, whose places scatter by {:.3f} mm; scan at 600 dpi, as "
+                              "PNG or TIFF",
+                              field.spacing_px, field.scatter_mm));
+        } else {
+            judge_size(field);
+            judge_faulty_dots(field);
         }
         if (field.largest_distortion_mm > kNotableDistortion_mm) {
             remark(FindingKind::distorted,
@@ -165,6 +136,55 @@ class Findings {
     }
 
   private:
+    static bool is_too_coarse(const PrintField& field) {
+        const bool is_blurred_together =
+            field.merged_share() > kNotableShare && field.gain() < kSwollenGain;
+        return field.spacing_px < kCoarse_px &&
+               (field.scatter_mm > kCoarseScatter * field.pattern.spacing_mm ||
+                field.wrong_share() > kCoarseWrongShare || is_blurred_together);
+    }
+
+    void judge_size(const PrintField& field) {
+        const double gain = field.gain();
+        if (gain > kSwollenGain || field.merged_share() > kNotableShare) {
+            fault(FindingKind::swollen,
+                  fmt::format("dots are swollen: {:.3f} mm instead of {:.3f} mm{}; choose a "
+                              "smaller --dot, better paper, or less ink",
+                              field.dot_mm, field.pattern.dot_mm,
+                              field.merged_share() > kNotableShare
+                                  ? fmt::format(", and {} of them run together",
+                                                percent(field.merged_share()))
+                                  : ""));
+        } else if (gain < kThinGain) {
+            fault(FindingKind::thin,
+                  fmt::format("dots are thin or pale: as dark as solid dots of {:.3f} mm instead "
+                              "of {:.3f} mm; choose a larger --dot, and switch off toner saving",
+                              field.dot_mm, field.pattern.dot_mm));
+        }
+        // Where pixels are as large as dots, no dot is dark; its size says the same.
+        if (field.spacing_px >= kCoarse_px && field.contrast < kLeastContrast) {
+            fault(FindingKind::pale,
+                  fmt::format("the dots are only {} darker than the paper: print in black, "
+                              "without toner saving",
+                              percent(field.contrast, 0)));
+        }
+    }
+
+    void judge_faulty_dots(const PrintField& field) {
+        if (field.missing_share() > kNotableShare) {
+            fault(FindingKind::missing,
+                  fmt::format("{} of the dots are missing: clean the printer's nozzles or drum, "
+                              "choose a larger --dot, and keep other print off the dots",
+                              percent(field.missing_share())));
+        }
+        if (field.wrong_share() > kNotableShare) {
+            fault(FindingKind::bits_wrong,
+                  fmt::format("{} of the bits are wrong, because dots stand in the wrong place: "
+                              "print at the printer's own resolution, with a larger spacing",
+                              percent(field.wrong_share())));
+        }
+    }
+
     void judge_angles(const PrintScale& s) {
         const double upright_rad = std::remainder(s.rotation_rad, std::numbers::pi / 2);
         if (std::abs(upright_rad) > kNotableRotation_rad) {
@@ -232,7 +252,7 @@ void add_findings(const CheckPrintOptions& options, PrintCheck& check) {
             findings.judge_dots(check.fields.front());
         }
         const bool has_fault = std::ranges::any_of(list, &Finding::is_fault);
-        if (!has_fault) findings.remark(FindingKind::good, "the print is as it should be");
+        if (!has_fault) findings.remark(FindingKind::good, "the print can be used as it is");
     }
     std::ranges::stable_partition(list, &Finding::is_fault);
     check.findings = std::move(list);

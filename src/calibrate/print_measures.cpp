@@ -61,6 +61,27 @@ PrintScale scale_of(const Eigen::Matrix2d& linear) {
     return scale;
 }
 
+/// From the differences of neighbours, which distortion moves together.
+/// `mm_per_unit`: paper per unit of the fit.
+double measure_scatter_mm(const Measuring& m, const PlaneFit& fit, const Units& units,
+                          double mm_per_unit, const Pattern& pattern) {
+    std::vector<double> steps_mm;
+    const auto off = [&](const SeenCell& cell) {
+        return Vector2d(units.from_px(cell.centre_px()) - fit.seen(nominal_mm(m, pattern, cell)));
+    };
+    for (int j = 0; j < m.grid.rows; ++j) {
+        for (int i = 0; i + 1 < m.grid.columns; ++i) {
+            const SeenCell& cell = m.grid.at(i, j);
+            const SeenCell& next = m.grid.at(i + 1, j);
+            if (!cell.is_right() || !next.is_right()) continue;
+            const Vector2d step = mm_per_unit * (off(next) - off(cell));
+            steps_mm.push_back(std::abs(step.x()));
+            steps_mm.push_back(std::abs(step.y()));
+        }
+    }
+    return kSigmaPerDeviation * quantile(steps_mm, 0.5) / std::numbers::sqrt2;
+}
+
 /// `mm_per_unit`: paper per unit of the fit.
 void measure_distortion(const Measuring& m, const PlaneFit& fit, const Units& units,
                         double mm_per_unit, PrintField& result) {
@@ -173,6 +194,7 @@ bool measure_field(const Measuring& m, std::size_t least_dots, PrintField& resul
     result.spacing_px = result.pattern.spacing_mm * units_per_mm * px_per_unit;
     result.residual_mm = fit.residual * mm_per_unit;
     if (m.resolution) result.scale = scale_of(fit.linear);
+    result.scatter_mm = measure_scatter_mm(m, fit, units, mm_per_unit, result.pattern);
     measure_distortion(m, fit, units, mm_per_unit, result);
     count_cells(m, fit, units, result);
     measure_dots(m, mm_per_unit / px_per_unit, result);
