@@ -20,11 +20,11 @@ struct ScanSettings {
     double dpi = 600;
     double scale_x = 1;  ///< of the print
     double scale_y = 1;
-    double rotation_rad = 0;    ///< of the page in the scan, clockwise as seen
-    double dot_growth = 1;      ///< of the dots' diameters
-    double missing = 0;         ///< share of the dots
-    double jitter_mm = 0.004;   ///< of each dot, per axis
-    double wave_mm = 0;         ///< the carriage runs unevenly: sine along y, over 100 mm
+    double rotation_rad = 0;   ///< of the page in the scan, clockwise as seen
+    double dot_growth = 1;     ///< of the dots' diameters
+    double missing = 0;        ///< share of the dots
+    double jitter_mm = 0.004;  ///< of each dot, per axis
+    double wave_mm = 0;        ///< the carriage runs unevenly: sine along y, over 100 mm
     double blur_sigma_px = 0.6;
     double noise_sigma = 2;
     double paper_level = 230;
@@ -113,10 +113,10 @@ class InkLayer {
                     for (int k = -reach; k <= reach; ++k) {
                         const int x = along_rows ? std::clamp(u + k, 0, width_ - 1) : u;
                         const int y = along_rows ? v : std::clamp(v + k, 0, height_ - 1);
-                        value += kernel[static_cast<std::size_t>(k + reach)] *
-                                 before[static_cast<std::size_t>(y) *
-                                            static_cast<std::size_t>(width_) +
-                                        static_cast<std::size_t>(x)];
+                        value +=
+                            kernel[static_cast<std::size_t>(k + reach)] *
+                            before[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+                                   static_cast<std::size_t>(x)];
                     }
                     at(u, v) = value;
                 }
@@ -156,8 +156,7 @@ inline GreyImage scan_page(std::span<const Sheet> sheets, const ScanSettings& se
     std::uniform_real_distribution<double> chance(0, 1);
     for (const Sheet& sheet : sheets) {
         const Pattern& pattern = sheet.pattern;
-        const double radius_px =
-            0.5 * pattern.dot_mm * settings.dot_growth * settings.dpi / 25.4;
+        const double radius_px = 0.5 * pattern.dot_mm * settings.dot_growth * settings.dpi / 25.4;
         for (int j = 0; j < sheet.rows; ++j) {
             for (int i = 0; i < sheet.columns; ++i) {
                 if (chance(random) < settings.missing) continue;

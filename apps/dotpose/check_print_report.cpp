@@ -44,7 +44,8 @@ void add_field(std::string& text, const PrintField& field) {
     if (field.scale) {
         const PrintScale& scale = *field.scale;
         add(text, "scale       x {:.3f} %, y {:.3f} %", 100 * scale.scale_x, 100 * scale.scale_y);
-        add(text, "rotation    {:.3f} degrees, skew {:.3f} degrees", rounded(degrees(scale.rotation_rad), 3), rounded(degrees(scale.skew_rad), 3));
+        add(text, "rotation    {:.3f} degrees, skew {:.3f} degrees",
+            rounded(degrees(scale.rotation_rad), 3), rounded(degrees(scale.skew_rad), 3));
     }
     add(text,
         "places      off by {:.4f} mm (rms per axis): single dots by {:.4f} mm, parts of the page "
@@ -79,17 +80,18 @@ bool is_best(const PrintCheck& check, std::size_t index) {
 }
 
 void add_patches(std::string& text, const PrintCheck& check) {
-    add(text, "test page: {} patches were read; those not listed were not",
-        patches_in_order(check).size());
-    add(text, "{:>8} {:>8} {:>8} {:>8} {:>9} {:>8} {:>9} {:>10}", "spacing", "dot", "printed",
+    add(text, "test page: {} patches were read, lengths in mm", patches_in_order(check).size());
+    add(text, "{:>8} {:>8} {:>8} {:>8} {:>9} {:>8} {:>9} {:>9}", "spacing", "dot", "printed",
         "gain", "missing", "merged", "bits", "residual");
     for (const std::size_t i : patches_in_order(check)) {
         const PrintField& f = check.fields[i];
-        add(text, "{:8.4f} {:8.4f} {:8.4f} {:+7.0f}% {:8.2f}% {:7.2f}% {:8.2f}% {:7.4f} mm{}",
+        add(text, "{:8.4f} {:8.4f} {:8.4f} {:+7.0f}% {:8.2f}% {:7.2f}% {:8.2f}% {:9.4f}{}",
             f.pattern.spacing_mm, f.pattern.dot_mm, f.dot_mm, 100 * f.gain(),
-            100 * f.missing_share(), 100 * f.merged_share(), 100 * f.wrong_share(),
-            f.residual_mm, is_best(check, i) ? "  best for this spacing" : "");
+            100 * f.missing_share(), 100 * f.merged_share(), 100 * f.wrong_share(), f.residual_mm,
+            is_best(check, i) ? "  best for this spacing" : "");
     }
+    for (const Pattern& pattern : check.unread_patches)
+        add(text, "{:8.4f} {:8.4f} could not be read", pattern.spacing_mm, pattern.dot_mm);
 }
 
 ordered_json json_of(const PrintField& field) {
@@ -167,11 +169,12 @@ std::string json_report(const CheckedScan& scan, const PrintCheck& check) {
         for (const std::size_t index : check.best_per_spacing)
             object["best_per_spacing"].push_back(json_of(check.fields[index].pattern));
     }
+    for (const Pattern& pattern : check.unread_patches)
+        object["unread"].push_back(json_of(pattern));
     object["findings"] = ordered_json::array();
     for (const Finding& finding : check.findings) {
-        object["findings"].push_back({{"kind", name(finding.kind)},
-                                      {"fault", finding.is_fault},
-                                      {"text", finding.text}});
+        object["findings"].push_back(
+            {{"kind", name(finding.kind)}, {"fault", finding.is_fault}, {"text", finding.text}});
     }
     return object.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
 }

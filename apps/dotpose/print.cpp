@@ -71,9 +71,10 @@ void print_test_page(const PrintArguments& arguments, const Paper& paper) {
     with_progress(arguments, [&](const PrintOptions& print_options) {
         write_page(page, arguments.out, print_options);
     });
-    fmt::print("{}: test page {:g} x {:g} mm, {} patches; print it, scan it, then run: dotpose "
-               "check-print SCAN\n",
-               arguments.out, page.width_mm, page.height_mm, page.sheets.size());
+    fmt::print(
+        "{}: test page {:g} x {:g} mm, {} patches; print it, scan it, then run: dotpose "
+        "check-print SCAN\n",
+        arguments.out, page.width_mm, page.height_mm, page.sheets.size());
 }
 
 void run(const PrintArguments& arguments) {

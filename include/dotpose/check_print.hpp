@@ -36,8 +36,8 @@ struct CheckPrintOptions {
     /// Of the scan. Without it the image is taken as a photo: perspective is allowed for, and
     /// nothing is said about scale.
     std::optional<Resolution> resolution;
-    /// How light solid ink is, relative to the paper, 0 to 0.9; dots smaller than a few pixels never
-    /// show it. Diameters are those of discs of this ink with the darkness of the dots.
+    /// How light solid ink is, relative to the paper, 0 to 0.9; dots smaller than a few pixels
+    /// never show it. Diameters are those of discs of this ink with the darkness of the dots.
     double ink_reflectance = 0.15;
     /// Told after each part of the work; return false to give up (throws Error).
     std::function<bool(int done, int total)> progress;
@@ -52,6 +52,9 @@ struct PrintScale {
     double skew_rad = 0;      ///< by how much the angle from the x to the y axis exceeds 90 degrees
 };
 
+/// Side of the parts of a page whose distortion is told, in cells.
+inline constexpr int kDistortionCells = 20;
+
 /// Mean deviation of the dots of one part of the page from where the fit puts them.
 struct DistortionBin {
     double u_px = 0;  ///< centre of the dots
@@ -63,10 +66,10 @@ struct DistortionBin {
 
 /// One contiguous region of the code.
 struct PrintField {
-    Pattern pattern;     ///< nominal, with the section that was read
-    Cell origin;         ///< first cell of the region
-    int columns = 0;     ///< of the region
-    int rows = 0;        ///< of the region
+    Pattern pattern;        ///< nominal, with the section that was read
+    Cell origin;            ///< first cell of the region
+    int columns = 0;        ///< of the region
+    int rows = 0;           ///< of the region
     bool is_patch = false;  ///< of a test page
 
     std::optional<PrintScale> scale;  ///< with a known resolution only
@@ -76,12 +79,12 @@ struct PrintField {
     std::vector<DistortionBin> distortion;
     double largest_distortion_mm = 0;  ///< of the bins
 
-    int cells = 0;         ///< of the region and in view
-    int missing = 0;       ///< cells without a dot
-    int merged = 0;        ///< dots that touch a neighbour
-    int dots = 0;          ///< dots found
-    int bits_wrong = 0;    ///< of two for each dot found
-    double dot_mm = 0;     ///< median equivalent diameter, see ink_reflectance
+    int cells = 0;            ///< of the region and in view
+    int missing = 0;          ///< cells without a dot
+    int merged = 0;           ///< dots that touch a neighbour
+    int dots = 0;             ///< dots found
+    int bits_wrong = 0;       ///< of two for each dot found
+    double dot_mm = 0;        ///< median equivalent diameter, see ink_reflectance
     double dot_sigma_mm = 0;  ///< its spread, from the median absolute deviation
     double paper_level = 0;   ///< median grey level of blank paper
     double contrast = 0;      ///< darkness of the dots' middles relative to the paper, 0 to 1
@@ -97,20 +100,20 @@ struct PrintField {
 
 /// What is wrong, or worth knowing.
 enum class FindingKind {
-    good,            ///< nothing to complain of
-    scaled,          ///< the page as a whole is too large or too small
-    uneven_scale,    ///< horizontal and vertical scale differ
-    rotated,         ///< harmless
-    skewed,          ///< the axes do not stand at right angles
-    distorted,       ///< dots are displaced by region
-    swollen,         ///< dots are too large or run together
-    thin,            ///< dots are too small or too pale
-    missing,         ///< dots are missing
-    bits_wrong,      ///< dots are displaced so much that they read wrong
-    too_coarse,      ///< the scan shows too little of each dot
-    pale,            ///< little contrast
-    no_resolution,   ///< scale could not be checked
-    best_settings,   ///< of a test page
+    good,           ///< nothing to complain of
+    scaled,         ///< the page as a whole is too large or too small
+    uneven_scale,   ///< horizontal and vertical scale differ
+    rotated,        ///< harmless
+    skewed,         ///< the axes do not stand at right angles
+    distorted,      ///< dots are displaced by region
+    swollen,        ///< dots are too large or run together
+    thin,           ///< dots are too small or too pale
+    missing,        ///< dots are missing
+    bits_wrong,     ///< dots are displaced so much that they read wrong
+    too_coarse,     ///< the scan shows too little of each dot
+    pale,           ///< little contrast
+    no_resolution,  ///< scale could not be checked
+    best_settings,  ///< of a test page
 };
 /// Identifier as written in output, for example "uneven_scale".
 const char* name(FindingKind kind);
@@ -118,7 +121,7 @@ const char* name(FindingKind kind);
 struct Finding {
     FindingKind kind = FindingKind::good;
     bool is_fault = false;  ///< something to mend; else a remark
-    std::string text;       ///< one or two sentences for the user: what, the likely cause, what to do
+    std::string text;  ///< one or two sentences for the user: what, the likely cause, what to do
 };
 
 struct PrintCheck {
@@ -126,6 +129,8 @@ struct PrintCheck {
     std::vector<PrintField> fields;
     std::optional<Resolution> resolution;  ///< as used; none for a photo
     bool is_test_page = false;
+    /// Patches of the usual test page (make_test_page's defaults) that are not among the fields.
+    std::vector<Pattern> unread_patches;
     /// In a test page: index of the field with the best settings for each spacing, finest first.
     std::vector<std::size_t> best_per_spacing;
     std::size_t best = 0;  ///< of the test page; meaningless if best_per_spacing is empty

@@ -6,8 +6,9 @@
 ///     x = kTestPageCell + kTestPatchCells * (spacing in 1/1200 inch)
 ///     y = kTestPageCell + kTestPatchCells * (diameter of a dot in 1/1200 inch)
 ///
-/// so that wherever `locate` reads it, the position names the patch. Cells from kTestPageCell on both axes
-/// are kept for test pages: do not print sheets there. The displacement is a sixth of the spacing.
+/// so that wherever `locate` reads it, the position names the patch. Cells from kTestPageCell on
+/// both axes are kept for test pages: do not print sheets there. The displacement is a sixth of the
+/// spacing.
 #pragma once
 
 #include <optional>

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "calibrate/print_anchors.hpp"
+#include "calibrate/print_cells.hpp"
 #include "calibrate/print_field.hpp"
 #include "calibrate/print_findings.hpp"
 #include "calibrate/print_measures.hpp"
@@ -46,9 +47,10 @@ void validate(const CheckPrintOptions& options) {
         throw BadArgument(fmt::format("a length of {:g} mm: it must be over 0", mm));
     }
     if (2 * pattern.displacement_mm >= pattern.spacing_mm) {
-        throw BadArgument(fmt::format("a displacement of {:g} mm is too large for a spacing of "
-                                      "{:g} mm",
-                                      pattern.displacement_mm, pattern.spacing_mm));
+        throw BadArgument(
+            fmt::format("a displacement of {:g} mm is too large for a spacing of "
+                        "{:g} mm",
+                        pattern.displacement_mm, pattern.spacing_mm));
     }
     if (!(options.ink_reflectance >= 0 && options.ink_reflectance <= 0.9)) {
         throw BadArgument(fmt::format("an ink reflectance of {:g}: it must be 0 to 0.9",
@@ -131,7 +133,7 @@ PrintCheck check_print(const ImageView& scan, const CheckPrintOptions& options) 
     if (check.fields.empty()) check.resolution.reset();
     std::ranges::stable_sort(check.fields, std::ranges::greater{}, &PrintField::dots);
     check.is_test_page = std::ranges::any_of(check.fields, &PrintField::is_patch);
-    if (check.is_test_page) rank_patches(check);
+    if (check.is_test_page) rank_patches(options.pattern.profile, check);
     add_findings(options, check);
     return check;
 }

@@ -71,10 +71,10 @@ std::vector<Anchor> CropLocator::find_anchors(const Tiling& tiling, const CropDo
     for (int tile = 0; tile < tiling.count(); ++tile) {
         if ((tile % tiling.columns + tile / tiling.columns) % 2 != 0) continue;
         const PixelRect rect = tiling.rect(tile);
-        auto anchor = locate_in({std::max(rect.u_begin - around_px, 0),
-                                 std::max(rect.v_begin - around_px, 0),
-                                 std::min(rect.u_end + around_px, scan_.width_px),
-                                 std::min(rect.v_end + around_px, scan_.height_px)});
+        auto anchor =
+            locate_in({std::max(rect.u_begin - around_px, 0), std::max(rect.v_begin - around_px, 0),
+                       std::min(rect.u_end + around_px, scan_.width_px),
+                       std::min(rect.v_end + around_px, scan_.height_px)});
         if (anchor) {
             anchor->tile = tile;
             anchors.push_back(*anchor);

@@ -103,8 +103,7 @@ class Meter {
         double best = -1e9;
         for (const Symbol symbol : kSymbols) {
             const Vector2d offset(dx(symbol), dy(symbol));
-            const Vector2d place =
-                intersection_px + map_.px_per_cell * (displacement_ * offset);
+            const Vector2d place = intersection_px + map_.px_per_cell * (displacement_ * offset);
             const double strength = strength_at(place);
             if (strength <= best) continue;
             best = strength;

@@ -1,4 +1,4 @@
-// Fields: contiguous regions of the code in a scan, with all their cells.
+// Fields: contiguous regions of the code in a scan, and where they lie.
 #pragma once
 
 #include <optional>
@@ -8,6 +8,10 @@
 #include "calibrate/print_dots.hpp"
 
 namespace dotpose::calibrate {
+
+/// Of the dots of a region that are seen, this share at least reads right. A quarter would by
+/// chance; half of them in another region if its columns happen to agree.
+inline constexpr double kLeastRightShare = 0.7;
 
 /// One region of the code in the scan: which tiles show it, and where.
 struct Field {
@@ -24,21 +28,7 @@ std::vector<Field> group_anchors(const std::vector<Anchor>& anchors, const Tilin
 /// right, and fits all maps to the dots. False if no dots bear the anchors out.
 bool follow(const ImageView& scan, const Tiling& tiling, Field& field);
 
-/// The cells of a field: a rectangle of the code, row by row.
-struct CellGrid {
-    Cell origin;
-    int columns = 0;
-    int rows = 0;
-    std::vector<SeenCell> cells;  ///< those never looked at have no dot
-
-    const SeenCell& at(int i, int j) const {
-        return cells[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) +
-                     static_cast<std::size_t>(i)];
-    }
-};
-
-/// Measures all cells of a field. Outer columns and rows in which fewer than half of the cells read
-/// right are not part of it. No columns if nothing is left.
-CellGrid collect_cells(const ImageView& scan, const Tiling& tiling, const Field& field);
+/// The part of a tile in which a map of a tile beside it can be trusted.
+PixelRect part_near(const PixelRect& rect, const Tiling& tiling, const LocalMap& map);
 
 }  // namespace dotpose::calibrate

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "dotpose/test_page.hpp"
+
 namespace dotpose::calibrate {
 namespace {
 
@@ -131,8 +133,7 @@ class Findings {
         const PrintField& best = check_.fields[check_.best];
         remark(FindingKind::best_settings,
                fmt::format("best for this printer: --spacing {:.4f} --dot {:.4f}{}",
-                           best.pattern.spacing_mm, best.pattern.dot_mm,
-                           others(check_.best)));
+                           best.pattern.spacing_mm, best.pattern.dot_mm, others(check_.best)));
     }
 
   private:
@@ -222,11 +223,9 @@ double dot_error(const PrintField& field) {
     return std::abs(std::log(std::max(field.dot_mm, 1e-6) / wanted_mm));
 }
 
-}  // namespace
-
 /// Of the patches that read well, for each spacing the one whose dots came out nearest to a sixth
 /// of it; of the spacings the finest, which gives the most dots in view.
-void rank_patches(PrintCheck& check) {
+void choose_best(PrintCheck& check) {
     std::map<double, std::size_t> best;
     for (std::size_t i = 0; i < check.fields.size(); ++i) {
         const PrintField& field = check.fields[i];
@@ -237,6 +236,21 @@ void rank_patches(PrintCheck& check) {
     for (const auto& [spacing_mm, index] : best)
         check.best_per_spacing.push_back(index);
     if (!check.best_per_spacing.empty()) check.best = check.best_per_spacing.front();
+}
+
+}  // namespace
+
+void rank_patches(Profile profile, PrintCheck& check) {
+    choose_best(check);
+    TestPageOptions usual;
+    usual.profile = profile;
+    for (const Sheet& sheet : make_test_page(usual).sheets) {
+        const bool was_read = std::ranges::any_of(check.fields, [&](const PrintField& field) {
+            return field.pattern.spacing_mm == sheet.pattern.spacing_mm &&
+                   field.pattern.dot_mm == sheet.pattern.dot_mm;
+        });
+        if (!was_read) check.unread_patches.push_back(sheet.pattern);
+    }
 }
 
 void add_findings(const CheckPrintOptions& options, PrintCheck& check) {

@@ -5,8 +5,8 @@
 
 namespace dotpose::calibrate {
 
-/// Sets `best_per_spacing` and `best` of a test page.
-void rank_patches(PrintCheck& check);
+/// Sets `best_per_spacing`, `best` and `unread_patches` of a test page.
+void rank_patches(Profile profile, PrintCheck& check);
 
 /// Fills the findings from the fields, faults first.
 void add_findings(const CheckPrintOptions& options, PrintCheck& check);

@@ -17,8 +17,8 @@ using Parameters = Eigen::Matrix<double, 8, 1>;
 
 /// One Gauss-Newton step over the matches whose residual is at most `limit`. Lengths are divided by
 /// `reach_mm`, so that all parameters are of one size. Returns the rms residual before the step.
-double step(const std::vector<Match>& matches, bool with_perspective, double reach_mm,
-            double limit, PlaneFit& fit) {
+double step(const std::vector<Match>& matches, bool with_perspective, double reach_mm, double limit,
+            PlaneFit& fit) {
     Eigen::Matrix<double, 8, 8> normal = Eigen::Matrix<double, 8, 8>::Zero();
     Parameters right = Parameters::Zero();
     double squares = 0;
@@ -71,7 +71,8 @@ PlaneFit fit_plane(const std::vector<Match>& matches, bool with_perspective) {
     for (int round = 0; round < kRounds; ++round) {
         // The first steps go without perspective, which needs a start that is nearly right.
         for (int i = 0; i < kSteps; ++i)
-            fit.residual = step(matches, with_perspective && (round > 0 || i > 0), reach_mm, limit, fit);
+            fit.residual =
+                step(matches, with_perspective && (round > 0 || i > 0), reach_mm, limit, fit);
         limit = kOutlier_sigmas * std::sqrt(2.0) * fit.residual;
     }
     return fit;

@@ -17,8 +17,7 @@ using Eigen::Vector2d;
 constexpr double kInch_mm = 25.4;
 /// Two dots have run together if it is nearly as dark between them as on them.
 constexpr double kMergedShare = 0.6;
-/// Side of the parts of the page whose distortion is told, in cells, and the fewest dots for it.
-constexpr int kBinCells = 20;
+/// Fewest dots of a part of the page whose distortion is told.
 constexpr int kLeastBinDots = 60;
 /// Ink is taken to be as dark as the darkest dots if these are darker than expected.
 constexpr double kDarkest = 0.98;
@@ -56,8 +55,7 @@ PrintScale scale_of(const Eigen::Matrix2d& linear) {
     scale.scale_x = x.norm();
     scale.scale_y = y.norm();
     scale.rotation_rad = std::atan2(x.y(), x.x());
-    scale.skew_rad =
-        std::atan2(x.x() * y.y() - x.y() * y.x(), x.dot(y)) - std::numbers::pi / 2;
+    scale.skew_rad = std::atan2(x.x() * y.y() - x.y() * y.x(), x.dot(y)) - std::numbers::pi / 2;
     return scale;
 }
 
@@ -92,7 +90,7 @@ void measure_distortion(const Measuring& m, const PlaneFit& fit, const Units& un
             if (!cell.is_right()) continue;
             const Vector2d off = mm_per_unit * (units.from_px(cell.centre_px()) -
                                                 fit.seen(nominal_mm(m, result.pattern, cell)));
-            DistortionBin& bin = bins[{j / kBinCells, i / kBinCells}];
+            DistortionBin& bin = bins[{j / kDistortionCells, i / kDistortionCells}];
             ++bin.dots;
             bin.u_px += double(cell.u_px);
             bin.v_px += double(cell.v_px);
@@ -118,8 +116,7 @@ bool have_merged(const Measuring& m, const SeenCell& a, const SeenCell& b) {
     return between > kMergedShare * double(std::min(a.peak, b.peak));
 }
 
-void count_cells(const Measuring& m, const PlaneFit& fit, const Units& units,
-                 PrintField& result) {
+void count_cells(const Measuring& m, const PlaneFit& fit, const Units& units, PrintField& result) {
     const PixelRect whole{0, 0, m.scan.width_px, m.scan.height_px};
     std::vector<bool> merged(m.grid.cells.size());
     for (int j = 0; j < m.grid.rows; ++j) {
@@ -179,8 +176,7 @@ bool measure_field(const Measuring& m, std::size_t least_dots, PrintField& resul
     std::vector<Match> matches;
     for (const SeenCell& cell : m.grid.cells) {
         if (!cell.is_right()) continue;
-        matches.push_back(
-            {nominal_mm(m, result.pattern, cell), units.from_px(cell.centre_px())});
+        matches.push_back({nominal_mm(m, result.pattern, cell), units.from_px(cell.centre_px())});
     }
     if (m.grid.columns < 2 || m.grid.rows < 2 || matches.size() < least_dots) return false;
     result.origin = m.grid.origin;

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "calibrate/print_field.hpp"
+#include "calibrate/print_cells.hpp"
 #include "dotpose/check_print.hpp"
 
 namespace dotpose::calibrate {

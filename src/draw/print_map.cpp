@@ -15,8 +15,9 @@ using namespace dotpose::draw;
 constexpr double kMargin = 40;
 constexpr double kHead = 110;
 constexpr double kLongestSide = 1000;
-/// The longest arrow, in units of the drawing.
+/// The longest arrow, in units of the drawing, or of the distance of the arrows if that is less.
 constexpr double kLongestArrow = 45;
+constexpr double kLongestStep = 0.95;
 /// Arrows are not enlarged beyond what this distortion needs: noise is to look like noise.
 constexpr double kLeastFullScale_mm = 0.01;
 
@@ -38,11 +39,14 @@ class PrintMap {
           height_(scan.height_px * scale_),
           svg_(std::max(width_, 560.0) + 2 * kMargin, height_ + kHead + 2 * kMargin,
                "Distortion of a print") {
-        double largest_mm = kLeastFullScale_mm;
-        for (const PrintField& field : check.fields)
-            largest_mm = std::max(largest_mm, field.largest_distortion_mm);
-        per_mm_ = kLongestArrow / largest_mm;
-        full_mm_ = largest_mm;
+        full_mm_ = kLeastFullScale_mm;
+        double longest = kLongestArrow;
+        for (const PrintField& field : check.fields) {
+            full_mm_ = std::max(full_mm_, field.largest_distortion_mm);
+            longest =
+                std::min(longest, kLongestStep * kDistortionCells * field.spacing_px * scale_);
+        }
+        per_mm_ = longest / full_mm_;
     }
 
     std::string draw() && {
@@ -66,7 +70,7 @@ class PrintMap {
         svg_.arrow({kMargin, y}, {kMargin + shown_mm * per_mm_, y}, 2.5, colour::kEdge);
         svg_.text({kMargin + shown_mm * per_mm_ + 14, y + 7}, 20,
                   fmt::format("{:g} mm; largest {:.3f} mm, one arrow for about {} x {} dots",
-                              shown_mm, full_mm_, kBinSide, kBinSide),
+                              shown_mm, full_mm_, kDistortionCells, kDistortionCells),
                   R"(fill="#6b7885")");
     }
 
@@ -76,13 +80,12 @@ class PrintMap {
         const Point tip = at + per_mm_ * Point{bin.du_mm, bin.dv_mm};
         const double share = std::min(std::hypot(bin.du_mm, bin.dv_mm) / full_mm_, 1.0);
         // From blue, small, to red, large.
+        const auto strength = [](double part) { return static_cast<int>(std::lround(210 * part)); };
         const std::string colour =
-            fmt::format("hsl({:.0f},85%,45%)", 220 * (1 - share));
+            fmt::format("#{:02x}40{:02x}", strength(share), strength(1 - share));
         svg_.circle(at, 2.2, fmt::format(R"(fill="{}")", colour));
         svg_.arrow(at, tip, 2, colour);
     }
-
-    static constexpr int kBinSide = 20;
 
     const PrintCheck& check_;
     double scale_;

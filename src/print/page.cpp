@@ -109,8 +109,8 @@ std::vector<InkRectangle> ink_text(std::string_view text, double x_mm, double y_
             const unsigned bits = glyph->rows[static_cast<std::size_t>(row)];
             for (int column = 0; column < kGlyphColumns; ++column) {
                 if ((bits >> (kGlyphColumns - 1 - column) & 1) == 0) continue;
-                marks.push_back({x_mm + column * pixel_mm, y_mm + row * pixel_mm, pixel_mm,
-                                 pixel_mm});
+                marks.push_back(
+                    {x_mm + column * pixel_mm, y_mm + row * pixel_mm, pixel_mm, pixel_mm});
             }
         }
         x_mm += (kGlyphColumns + 1) * pixel_mm;

@@ -33,9 +33,10 @@ std::string head(double width_mm, double height_mm, const std::string& title) {
 /// A dot is a line of no length with round ends: a full circle in a dozen bytes. One path per row.
 void write_dots(const Sheet& sheet, const std::function<void(int)>& row_done, OutputFile& file) {
     SymbolRows symbols(sheet);
-    file.write(fmt::format("<g fill=\"none\" stroke=\"#000\" stroke-width=\"{}\" "
-                           "stroke-linecap=\"round\">\n",
-                           sheet.pattern.dot_mm * kUnitsPer_mm));
+    file.write(
+        fmt::format("<g fill=\"none\" stroke=\"#000\" stroke-width=\"{}\" "
+                    "stroke-linecap=\"round\">\n",
+                    sheet.pattern.dot_mm * kUnitsPer_mm));
     std::string line;
     for (int j = 0; j < sheet.rows; ++j) {
         line = "<path d=\"";
@@ -68,7 +69,8 @@ void write_svg(const Sheet& sheet, const Progress& progress, OutputFile& file) {
                                 "spacing {} mm",
                                 sheet.columns, sheet.rows, sheet.origin.x, sheet.origin.y,
                                 pattern.section.u, pattern.section.v, pattern.spacing_mm)));
-    write_dots(sheet, [&](int rows_done) { report(progress, rows_done, sheet.rows); }, file);
+    write_dots(
+        sheet, [&](int rows_done) { report(progress, rows_done, sheet.rows); }, file);
     file.write("</svg>\n");
 }
 
@@ -82,7 +84,8 @@ void write_svg_page(const PrintPage& page, const Progress& progress, OutputFile&
     }
     int sheets_done = 0;
     for (const Sheet& sheet : page.sheets) {
-        write_dots(sheet, [](int) {}, file);
+        write_dots(
+            sheet, [](int) {}, file);
         report(progress, ++sheets_done, static_cast<int>(page.sheets.size()));
     }
     file.write("</svg>\n");

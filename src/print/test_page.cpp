@@ -17,8 +17,8 @@ void validate(const std::vector<int>& settings) {
     if (settings.empty()) throw BadArgument("a test page needs spacings and dot sizes");
     for (const int setting : settings) {
         if (setting >= 1 && setting <= kLargestSetting) continue;
-        throw BadArgument(fmt::format("a setting of {}/1200 inch: it must be 1 to {}", setting,
-                                      kLargestSetting));
+        throw BadArgument(
+            fmt::format("a setting of {}/1200 inch: it must be 1 to {}", setting, kLargestSetting));
     }
 }
 
