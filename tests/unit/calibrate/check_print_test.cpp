@@ -137,9 +137,9 @@ TEST_P(FaultyPrint, is_measured_and_named) {
     EXPECT_EQ(faults(result), fault.verdict);
 }
 
-INSTANTIATE_TEST_SUITE_P(all, FaultyPrint, testing::ValuesIn(all_faults()), [](const auto& info) {
-    return std::string(info.param.name) + "_" +
-           std::to_string(static_cast<int>(info.param.settings.dpi));
+INSTANTIATE_TEST_SUITE_P(all, FaultyPrint, testing::ValuesIn(all_faults()), [](const auto& test) {
+    return std::string(test.param.name) + "_" +
+           std::to_string(static_cast<int>(test.param.settings.dpi));
 });
 
 TEST(CheckPrint, finds_the_whole_region) {
@@ -329,7 +329,7 @@ TEST(CheckPrint, draws_the_distortion) {
     std::ifstream stream(path);
     const std::string text{std::istreambuf_iterator<char>(stream), {}};
     std::filesystem::remove(path);
-    EXPECT_EQ(test::xml_problem(text), "");
+    EXPECT_THAT(test::XmlCheck(text).problem(), IsEmpty());
     const auto count = [&](const std::string& part) {
         std::size_t n = 0;
         for (std::size_t at = text.find(part); at != std::string::npos;
