@@ -21,6 +21,7 @@ struct ScanSettings {
     double scale_x = 1;  ///< of the print
     double scale_y = 1;
     double rotation_rad = 0;   ///< of the page in the scan, clockwise as seen
+    double skew_rad = 0;       ///< the page's y axis turned away from its x axis
     double dot_growth = 1;     ///< of the dots' diameters
     double missing = 0;        ///< share of the dots
     double jitter_mm = 0.004;  ///< of each dot, per axis
@@ -46,8 +47,9 @@ class ScanGeometry {
     int width_px() const { return width_px_; }
     int height_px() const { return height_px_; }
     void see(double x_mm, double y_mm, double& u_px, double& v_px) const {
-        const double x = s_.scale_x * (x_mm - centre_x_mm_);
-        const double y = s_.scale_y * (y_mm - centre_y_mm_);
+        const double down_mm = s_.scale_y * (y_mm - centre_y_mm_);
+        const double x = s_.scale_x * (x_mm - centre_x_mm_) - std::sin(s_.skew_rad) * down_mm;
+        const double y = std::cos(s_.skew_rad) * down_mm;
         const double c = std::cos(s_.rotation_rad);
         const double s = std::sin(s_.rotation_rad);
         const double along = s * x + c * y;

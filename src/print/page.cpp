@@ -97,6 +97,24 @@ void validate(const PrintPage& page) {
     }
 }
 
+void write_raster(const PrintPage& page, PrintFormat format, const PrintOptions& options,
+                  print::OutputFile& file) {
+    for (const Sheet& sheet : page.sheets)
+        validate_resolution(sheet, options.dpi);
+    const print::RasterSize size = print::raster_size(page.sheets.front(), options.dpi);
+    Bitmap bitmap(size);
+    int sheets_done = 0;
+    for (const Sheet& sheet : page.sheets) {
+        bitmap.add(sheet, options.dpi);
+        print::report(options.progress, ++sheets_done, static_cast<int>(page.sheets.size()));
+    }
+    for (const InkRectangle& mark : page.marks)
+        bitmap.add(mark, options.dpi);
+    const auto rows = [&](const print::RowSink& sink) { bitmap.hand_out(sink); };
+    const auto write = format == PrintFormat::png ? print::write_png : print::write_tiff;
+    write(size, options.dpi, rows, file);
+}
+
 }  // namespace
 
 std::vector<InkRectangle> ink_text(std::string_view text, double x_mm, double y_mm,
@@ -122,32 +140,16 @@ void write_page(const PrintPage& page, const std::filesystem::path& path,
                 const PrintOptions& options) {
     const PrintFormat format = print_format(path);
     validate(page);
-    if (format == PrintFormat::text) {
-        throw BadArgument(
-            fmt::format("'{}': a page of several regions cannot be text", path.string()));
+    const bool is_raster = format == PrintFormat::png || format == PrintFormat::tiff;
+    if (!is_raster && format != PrintFormat::svg) {
+        throw BadArgument(fmt::format(
+            "'{}': a page of several regions is written as .svg, .png or .tif", path.string()));
     }
     print::OutputFile file(path);
-    if (format == PrintFormat::svg) {
-        print::write_svg_page(page, options.progress, file);
-        file.commit();
-        return;
-    }
-    for (const Sheet& sheet : page.sheets)
-        validate_resolution(sheet, options.dpi);
-    const print::RasterSize size = print::raster_size(page.sheets.front(), options.dpi);
-    Bitmap bitmap(size);
-    int sheets_done = 0;
-    for (const Sheet& sheet : page.sheets) {
-        bitmap.add(sheet, options.dpi);
-        print::report(options.progress, ++sheets_done, static_cast<int>(page.sheets.size()));
-    }
-    for (const InkRectangle& mark : page.marks)
-        bitmap.add(mark, options.dpi);
-    const auto rows = [&](const print::RowSink& sink) { bitmap.hand_out(sink); };
-    if (format == PrintFormat::png) {
-        print::write_png(size, options.dpi, rows, file);
+    if (is_raster) {
+        write_raster(page, format, options, file);
     } else {
-        print::write_tiff(size, options.dpi, rows, file);
+        print::write_svg_page(page, options.progress, file);
     }
     file.commit();
 }

@@ -106,6 +106,10 @@ std::vector<Fault> all_faults() {
             s.rotation_rad = 91.5 * kDegree_rad;
             s.scale_x = 1.001;
         });
+        add("skewed", {"skewed"}, [](ScanSettings& s) {
+            s.skew_rad = -0.3 * kDegree_rad;
+            s.scale_y = 1.001;
+        });
         add("swollen", {"swollen"}, [](ScanSettings& s) { s.dot_growth = 1.8; });
         add("thin", {"thin"}, [](ScanSettings& s) { s.dot_growth = 0.62; });
         add("gaps", {"missing"}, [](ScanSettings& s) { s.missing = 0.05; });
@@ -126,7 +130,7 @@ TEST_P(FaultyPrint, is_measured_and_named) {
     EXPECT_NEAR(field.scale->scale_x, truth.scale_x, kScaleTolerance);
     EXPECT_NEAR(field.scale->scale_y, truth.scale_y, kScaleTolerance);
     EXPECT_NEAR(field.scale->rotation_rad, truth.rotation_rad, kRotationTolerance_rad);
-    EXPECT_NEAR(field.scale->skew_rad, 0, kRotationTolerance_rad);
+    EXPECT_NEAR(field.scale->skew_rad, truth.skew_rad, kRotationTolerance_rad);
     EXPECT_NEAR(field.residual_mm, truth.jitter_mm, 0.005);
     EXPECT_EQ(field.pattern.section.u, 5);
     EXPECT_EQ(field.pattern.section.v, 41);
