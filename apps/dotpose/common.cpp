@@ -199,9 +199,9 @@ std::string command_line() {
     return line;
 }
 
-void PatternArguments::add_to(CLI::App& command) {
+void PatternArguments::add_to(CLI::App& command, Use use) {
     add_code_option(command, given_.profile);
-    add_section_option(command, given_.section);
+    if (use == Use::made) add_section_option(command, given_.section);
     add_spacing_option(command, given_.spacing_mm);
     command.add_option("--displacement", displacement_mm_, "From intersection to dot centre")
         ->type_name("MM")

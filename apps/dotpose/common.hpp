@@ -64,7 +64,10 @@ CLI::Option* add_named(CLI::App& command, const std::string& flag, const Values&
 /// --code, --section, --spacing, --displacement and --dot.
 class PatternArguments {
   public:
-    void add_to(CLI::App& command);
+    /// What the pattern is for. The section of one that is expected is found in the image, so it is
+    /// no option.
+    enum class Use { made, expected };
+    void add_to(CLI::App& command, Use use = Use::made);
 
     /// The pattern asked for. Displacement and dot diameter follow the spacing (one sixth of it)
     /// unless they were given.

@@ -21,6 +21,7 @@ int run(int argc, char** argv) {
     add_overlay(app, exit_code);
     add_simulate(app, exit_code);
     add_evaluate(app, exit_code);
+    add_check_print(app, exit_code);
     try {
         app.parse(argc, argv);
         return exit_code;

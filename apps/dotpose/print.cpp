@@ -39,7 +39,7 @@ constexpr const char* kExamples =
     "  dotpose print -o tiles.pdf --pages 12 --origin 5000,0\n"
     "  dotpose print -o poster.png --paper A3 --landscape --origin 1000,2000 --dpi 1200\n\n"
     "  dotpose print -o table.pdf --sheets sheets.json --name table\n"
-    "  dotpose print -o test.pdf --test-page\n\n"
+    "  dotpose print -o test.svg --test-page\n\n"
     "Print at 100 %, without \"fit to page\". Give each sheet an origin of its own, or let a\n"
     "sheet file do so: it is made if missing, and 'dotpose locate --sheets' reads it.\n";
 
@@ -183,8 +183,8 @@ void add_print(CLI::App& app, int& /*exit_code*/) {
     CLI::Option* test_page = command->add_flag(
         "--test-page", arguments->test_page,
         "Patches of dot sizes and spacings, to find what suits a printer with check-print");
-    for (const char* own : {"--spacing", "--dot", "--displacement", "--origin", "--section",
-                            "--pages", "--sheets"}) {
+    for (const char* own :
+         {"--spacing", "--dot", "--displacement", "--origin", "--section", "--pages", "--sheets"}) {
         test_page->excludes(command->get_option(own));
     }
     command->callback([arguments, command] {

@@ -15,6 +15,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "dotpose/error.hpp"
 #include "dotpose/grey_image.hpp"
@@ -30,6 +31,17 @@ inline constexpr int kMaxImagePixels = 1 << 28;
 /// no known image format, cut short, damaged, too large, not enough memory.
 /// Thread-safe. The first call sets up the decoding library, which takes some milliseconds.
 GreyImage read_image(const std::filesystem::path& path);
+
+/// Pixels per inch along both axes.
+struct Resolution {
+    double x_dpi = 0;
+    double y_dpi = 0;
+};
+
+/// The resolution that the file itself states: PNG pHYs, JPEG density, TIFF and BMP resolution.
+/// Nothing if it states none. Beware: photos state made-up numbers, often 72 dpi.
+/// Throws Error as `read_image`.
+std::optional<Resolution> read_resolution(const std::filesystem::path& path);
 
 /// Writes binary PGM (P5), replacing the file. Throws Error if the image is empty or the file
 /// cannot be written.

@@ -138,4 +138,30 @@ void write_sheet(const Sheet& sheet, const std::filesystem::path& path,
 void write_sheets(std::span<const Sheet> sheets, const std::filesystem::path& path,
                   const PrintOptions& options = {});
 
+/// A filled rectangle on a page, in sheet coordinates.
+struct InkRectangle {
+    double x_mm = 0;  ///< left edge
+    double y_mm = 0;  ///< upper edge
+    double width_mm = 0;
+    double height_mm = 0;
+};
+
+/// A page with several regions of the code, and other print. Each sheet has the size of the page.
+struct PrintPage {
+    double width_mm = 0;
+    double height_mm = 0;
+    std::vector<Sheet> sheets;
+    std::vector<InkRectangle> marks;
+};
+
+/// Rectangles that show a text: digits, '.', '/', '-', 'x', 'm' and spaces; others stay blank.
+/// `x_mm`, `y_mm`: its upper left corner.
+std::vector<InkRectangle> ink_text(std::string_view text, double x_mm, double y_mm,
+                                   double height_mm);
+
+/// Writes a page as `write_sheet` does, as SVG, PNG or TIFF; BadArgument for others. Where regions
+/// overlap, both are printed. Holds the page at one bit per pixel in memory for PNG and TIFF.
+void write_page(const PrintPage& page, const std::filesystem::path& path,
+                const PrintOptions& options = {});
+
 }  // namespace dotpose

@@ -138,6 +138,19 @@ GreyImage decode_image(ImageFormat format, std::span<const std::uint8_t> bytes) 
     return grey;
 }
 
+std::optional<Resolution> decode_resolution(ImageFormat format,
+                                            std::span<const std::uint8_t> bytes) {
+    start_library();
+    Report report;
+    const InfoPointer info = make_info(format);
+    const ImagePointer image(PingBlob(info.get(), bytes.data(), bytes.size(), &report));
+    if (!image) fail(format, bytes, report);
+    const bool is_stated = image->x_resolution > 0 && image->y_resolution > 0;
+    if (!is_stated || image->units == UndefinedResolution) return std::nullopt;
+    const double per_inch = image->units == PixelsPerCentimeterResolution ? 2.54 : 1;
+    return Resolution{per_inch * image->x_resolution, per_inch * image->y_resolution};
+}
+
 std::vector<std::uint8_t> encode_png(const GreyImage& image) {
     start_library();
     Report report;

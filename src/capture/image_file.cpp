@@ -121,6 +121,14 @@ GreyImage read_image(const std::filesystem::path& path) {
     });
 }
 
+std::optional<Resolution> read_resolution(const std::filesystem::path& path) {
+    return with_name("read", path, [&]() -> std::optional<Resolution> {
+        const Content content = read_file(path);
+        if (content.format == ImageFormat::pnm) return std::nullopt;
+        return capture::decode_resolution(content.format, content.bytes);
+    });
+}
+
 void write_pgm(const std::filesystem::path& path, ImageView image) {
     with_name("write", path, [&] {
         const std::string header = "P5\n" + std::to_string(image.width_px) + " " +

@@ -6,7 +6,6 @@
 #include <png.h>
 
 #include "geometry.hpp"
-#include "raster.hpp"
 #include "writers.hpp"
 
 namespace dotpose::print {
@@ -76,10 +75,10 @@ class PngWriter {
 
 }  // namespace
 
-void write_png(const Sheet& sheet, double dpi, const Progress& progress, OutputFile& file) {
+void write_png(RasterSize size, double dpi, const RowSource& rows, OutputFile& file) {
     PngWriter png(file);
-    png.begin(raster_size(sheet, dpi), dpi);
-    rasterize(sheet, dpi, progress, [&](std::span<const std::uint8_t> bits) {
+    png.begin(size, dpi);
+    rows([&](std::span<const std::uint8_t> bits) {
         png.row(bits);
         file.require_good();
     });

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <string>
 
@@ -19,26 +20,23 @@ std::int64_t to_units(double mm) {
     return std::llround(mm * kUnitsPer_mm);
 }
 
-std::string head(const Sheet& sheet) {
-    const Pattern& pattern = sheet.pattern;
+/// The first lines of a drawing that is as large as the page.
+std::string head(double width_mm, double height_mm, const std::string& title) {
     return fmt::format(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}mm\" height=\"{}mm\" "
         "viewBox=\"0 0 {} {}\">\n"
-        "<title>Position code: {} x {} cells from ({}, {}), section ({}, {}), "
-        "spacing {} mm</title>\n"
-        "<g fill=\"none\" stroke=\"#000\" stroke-width=\"{}\" stroke-linecap=\"round\">\n",
-        sheet.width_mm, sheet.height_mm, to_units(sheet.width_mm), to_units(sheet.height_mm),
-        sheet.columns, sheet.rows, sheet.origin.x, sheet.origin.y, pattern.section.u,
-        pattern.section.v, pattern.spacing_mm, pattern.dot_mm * kUnitsPer_mm);
+        "<title>{}</title>\n",
+        width_mm, height_mm, to_units(width_mm), to_units(height_mm), title);
 }
 
-}  // namespace
-
 /// A dot is a line of no length with round ends: a full circle in a dozen bytes. One path per row.
-void write_svg(const Sheet& sheet, const Progress& progress, OutputFile& file) {
+void write_dots(const Sheet& sheet, const std::function<void(int)>& row_done, OutputFile& file) {
     SymbolRows symbols(sheet);
-    file.write(head(sheet));
+    file.write(
+        fmt::format("<g fill=\"none\" stroke=\"#000\" stroke-width=\"{}\" "
+                    "stroke-linecap=\"round\">\n",
+                    sheet.pattern.dot_mm * kUnitsPer_mm));
     std::string line;
     for (int j = 0; j < sheet.rows; ++j) {
         line = "<path d=\"";
@@ -57,9 +55,40 @@ void write_svg(const Sheet& sheet, const Progress& progress, OutputFile& file) {
         line += "\"/>\n";
         file.write(line);
         file.require_good();
-        report(progress, j + 1, sheet.rows);
+        row_done(j + 1);
     }
-    file.write("</g>\n</svg>\n");
+    file.write("</g>\n");
+}
+
+}  // namespace
+
+void write_svg(const Sheet& sheet, const Progress& progress, OutputFile& file) {
+    const Pattern& pattern = sheet.pattern;
+    file.write(head(sheet.width_mm, sheet.height_mm,
+                    fmt::format("Position code: {} x {} cells from ({}, {}), section ({}, {}), "
+                                "spacing {} mm",
+                                sheet.columns, sheet.rows, sheet.origin.x, sheet.origin.y,
+                                pattern.section.u, pattern.section.v, pattern.spacing_mm)));
+    write_dots(
+        sheet, [&](int rows_done) { report(progress, rows_done, sheet.rows); }, file);
+    file.write("</svg>\n");
+}
+
+void write_svg_page(const PrintPage& page, const Progress& progress, OutputFile& file) {
+    file.write(head(page.width_mm, page.height_mm,
+                    fmt::format("Position code: {} regions", page.sheets.size())));
+    for (const InkRectangle& mark : page.marks) {
+        file.write(fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>\n",
+                               to_units(mark.x_mm), to_units(mark.y_mm), to_units(mark.width_mm),
+                               to_units(mark.height_mm)));
+    }
+    int sheets_done = 0;
+    for (const Sheet& sheet : page.sheets) {
+        write_dots(
+            sheet, [](int) {}, file);
+        report(progress, ++sheets_done, static_cast<int>(page.sheets.size()));
+    }
+    file.write("</svg>\n");
 }
 
 }  // namespace dotpose::print

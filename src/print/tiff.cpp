@@ -3,7 +3,6 @@
 
 #include <tiffio.h>
 
-#include "raster.hpp"
 #include "writers.hpp"
 
 namespace dotpose::print {
@@ -56,11 +55,11 @@ Tiff open_tiff(RasterSize size, double dpi, OutputFile& file) {
 
 }  // namespace
 
-void write_tiff(const Sheet& sheet, double dpi, const Progress& progress, OutputFile& file) {
-    const Tiff tiff = open_tiff(raster_size(sheet, dpi), dpi, file);
+void write_tiff(RasterSize size, double dpi, const RowSource& rows, OutputFile& file) {
+    const Tiff tiff = open_tiff(size, dpi, file);
     std::vector<std::uint8_t> row;
     std::uint32_t row_index = 0;
-    rasterize(sheet, dpi, progress, [&](std::span<const std::uint8_t> bits) {
+    rows([&](std::span<const std::uint8_t> bits) {
         row.assign(bits.begin(), bits.end());  // libtiff may change what it is given
         if (TIFFWriteScanline(tiff.get(), row.data(), row_index++, 0) != 1) {
             throw Error("cannot write TIFF: libtiff refused a row");

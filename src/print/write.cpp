@@ -43,6 +43,9 @@ void write_sheets(std::span<const Sheet> sheets, const std::filesystem::path& pa
     }
     const Sheet& sheet = sheets.front();
     print::OutputFile file(path);
+    const auto rows = [&](const print::RowSink& sink) {
+        print::rasterize(sheet, options.dpi, options.progress, sink);
+    };
     switch (format) {
         case PrintFormat::text:
             print::write_text(sheet, options.progress, file);
@@ -51,10 +54,10 @@ void write_sheets(std::span<const Sheet> sheets, const std::filesystem::path& pa
             print::write_svg(sheet, options.progress, file);
             break;
         case PrintFormat::png:
-            print::write_png(sheet, options.dpi, options.progress, file);
+            print::write_png(print::raster_size(sheet, options.dpi), options.dpi, rows, file);
             break;
         case PrintFormat::tiff:
-            print::write_tiff(sheet, options.dpi, options.progress, file);
+            print::write_tiff(print::raster_size(sheet, options.dpi), options.dpi, rows, file);
             break;
         case PrintFormat::pdf:
             print::write_pdf(sheets, options, file);

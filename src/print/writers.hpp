@@ -6,14 +6,20 @@
 
 #include "dotpose/print.hpp"
 #include "output_file.hpp"
+#include "raster.hpp"
 
 namespace dotpose::print {
 
 void write_text(const Sheet& sheet, const Progress& progress, OutputFile& file);
 void write_svg(const Sheet& sheet, const Progress& progress, OutputFile& file);
-void write_png(const Sheet& sheet, double dpi, const Progress& progress, OutputFile& file);
-void write_tiff(const Sheet& sheet, double dpi, const Progress& progress, OutputFile& file);
+
+/// Hands all pixel rows of an image to a sink, top to bottom.
+using RowSource = std::function<void(const RowSink&)>;
+void write_png(RasterSize size, double dpi, const RowSource& rows, OutputFile& file);
+void write_tiff(RasterSize size, double dpi, const RowSource& rows, OutputFile& file);
+
 void write_pdf(std::span<const Sheet> sheets, const PrintOptions& options, OutputFile& file);
+void write_svg_page(const PrintPage& page, const Progress& progress, OutputFile& file);
 
 /// Reports one more finished row; throws Error if the caller wants to stop.
 void report(const Progress& progress, int rows_done, int rows);

@@ -156,9 +156,9 @@ TEST_F(PrintCommand, help_shows_an_example) {
     run("print --help");
     EXPECT_EQ(exit_code_, 0);
     EXPECT_THAT(output_, HasSubstr("dotpose print -o sheet.svg"));
-    for (const char* option : {"--out", "--paper", "--landscape", "--margin", "--spacing", "--dot",
-                               "--displacement", "--origin", "--section", "--code", "--dpi", "--sheets",
-                               "--name"}) {
+    for (const char* option :
+         {"--out", "--paper", "--landscape", "--margin", "--spacing", "--dot", "--displacement",
+          "--origin", "--section", "--code", "--dpi", "--sheets", "--name"}) {
         EXPECT_THAT(output_, HasSubstr(option));
     }
 }

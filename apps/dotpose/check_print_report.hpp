@@ -1,0 +1,22 @@
+/// What `check-print` says, for people and for machines.
+#pragma once
+
+#include <string>
+
+#include "dotpose/check_print.hpp"
+
+namespace dotpose::cli {
+
+/// The image that was checked.
+struct CheckedScan {
+    std::string file;
+    int width_px = 0;
+    int height_px = 0;
+};
+
+std::string text_report(const CheckedScan& scan, const PrintCheck& check);
+
+/// One JSON object.
+std::string json_report(const CheckedScan& scan, const PrintCheck& check);
+
+}  // namespace dotpose::cli

@@ -1,0 +1,45 @@
+/// Test page: patches of dot sizes against spacings, to find out what a printer can do.
+///
+/// Each patch says by its position in the code how it was printed: of the cell (x, y) at its top
+/// left,
+///
+///     x = kTestPageCell + kTestPatchCells * (spacing in 1/1200 inch)
+///     y = kTestPageCell + kTestPatchCells * (diameter of a dot in 1/1200 inch)
+///
+/// so that wherever `locate` reads it, the position names the patch. Cells from kTestPageCell on
+/// both axes are kept for test pages: do not print sheets there. The displacement is a sixth of the
+/// spacing.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "dotpose/error.hpp"
+#include "dotpose/print.hpp"
+#include "dotpose/sheet.hpp"
+
+namespace dotpose {
+
+inline constexpr std::uint32_t kTestPageCell = 410'000'000;
+/// Cells between the patches of neighbouring settings; a patch has at most half as many per axis.
+inline constexpr std::uint32_t kTestPatchCells = 10'000;
+/// Unit of spacings and diameters on a test page.
+inline constexpr double kTestUnit_mm = 25.4 / 1200;
+
+struct TestPageOptions {
+    Profile profile = Profile::anoto;
+    Paper paper;
+    double margin_mm = 10;
+    /// Columns and rows of the page, in 1/1200 inch; each 1 to 80.
+    std::vector<int> spacings = {18, 24, 30, 36};  ///< 0.381, 0.508, 0.635, 0.762 mm
+    std::vector<int> dots = {2, 3, 4, 6, 8};       ///< 0.042, 0.064, 0.085, 0.127, 0.169 mm
+};
+
+/// Lays the patches out, with a label "spacing/dot" in mm above each. Combinations whose dots would
+/// touch are left out. Throws BadArgument: as `make_sheet`, and for settings outside 1 to 80.
+PrintPage make_test_page(const TestPageOptions& options);
+
+/// How the patch that holds this cell was printed; nothing for cells that belong to no test page.
+std::optional<Pattern> test_patch_at(Profile profile, Cell cell);
+
+}  // namespace dotpose

@@ -1,0 +1,141 @@
+// The check of a print: crops -> anchors -> fields -> dots -> scale, sizes, faults.
+#include "dotpose/check_print.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "calibrate/print_anchors.hpp"
+#include "calibrate/print_cells.hpp"
+#include "calibrate/print_field.hpp"
+#include "calibrate/print_findings.hpp"
+#include "calibrate/print_measures.hpp"
+#include "dotpose/test_page.hpp"
+
+namespace dotpose {
+namespace {
+
+using namespace dotpose::calibrate;
+
+/// A file that states a resolution at which the dots would be this many times too far apart, or too
+/// near, does not know: it is a photo.
+constexpr double kUnbelievableScale = 2;
+constexpr std::size_t kLeastDots = 30;
+
+/// Tells how far the work is. Its length is not known before: each part closes in on the end.
+class Work {
+  public:
+    explicit Work(const CheckPrintOptions& options) : options_(options) {}
+    void step() {
+        ++done_;
+        constexpr int kHalf = 300;
+        if (options_.progress && !options_.progress(done_, done_ + kHalf)) {
+            throw Error("stopped; nothing was written");
+        }
+    }
+
+  private:
+    const CheckPrintOptions& options_;
+    int done_ = 0;
+};
+
+void validate(const CheckPrintOptions& options) {
+    const Pattern& pattern = options.pattern;
+    for (const double mm : {pattern.spacing_mm, pattern.displacement_mm, pattern.dot_mm}) {
+        if (mm > 0 && std::isfinite(mm)) continue;
+        throw BadArgument(fmt::format("a length of {:g} mm: it must be over 0", mm));
+    }
+    if (2 * pattern.displacement_mm >= pattern.spacing_mm) {
+        throw BadArgument(
+            fmt::format("a displacement of {:g} mm is too large for a spacing of "
+                        "{:g} mm",
+                        pattern.displacement_mm, pattern.spacing_mm));
+    }
+    if (!(options.ink_reflectance >= 0 && options.ink_reflectance <= 0.9)) {
+        throw BadArgument(fmt::format("an ink reflectance of {:g}: it must be 0 to 0.9",
+                                      options.ink_reflectance));
+    }
+    if (const auto& resolution = options.resolution) {
+        for (const double dpi : {resolution->x_dpi, resolution->y_dpi}) {
+            if (dpi > 0 && std::isfinite(dpi)) continue;
+            throw BadArgument(fmt::format("a resolution of {:g} dpi: it must be over 0", dpi));
+        }
+    }
+}
+
+/// What a field was printed as: its place says so on test pages.
+Pattern nominal_pattern(const Field& field, const CheckPrintOptions& options, bool& is_patch) {
+    for (const auto& map : field.maps) {
+        if (!map) continue;
+        const Cell cell{static_cast<std::uint32_t>(std::max(map->centre_cell.x(), 0.0)),
+                        static_cast<std::uint32_t>(std::max(map->centre_cell.y(), 0.0))};
+        const auto patch = test_patch_at(options.pattern.profile, cell);
+        is_patch = patch.has_value();
+        Pattern pattern = patch.value_or(options.pattern);
+        pattern.section = field.code.section;
+        return pattern;
+    }
+    return options.pattern;
+}
+
+/// The mean distance of neighbouring dots in a field.
+double spacing_px(const Field& field) {
+    double sum = 0;
+    int count = 0;
+    for (const auto& map : field.maps) {
+        if (!map) continue;
+        sum += map->spacing_px();
+        ++count;
+    }
+    return count > 0 ? sum / count : 0;
+}
+
+/// The resolution, unless the dots show that it is none.
+std::optional<Resolution> believable(const std::optional<Resolution>& resolution,
+                                     const Pattern& pattern, const Field& field) {
+    if (!resolution) return std::nullopt;
+    const double px_per_mm = std::sqrt(resolution->x_dpi * resolution->y_dpi) / 25.4;
+    const double scale = spacing_px(field) / (pattern.spacing_mm * px_per_mm);
+    const bool is_believable = scale < kUnbelievableScale && scale > 1 / kUnbelievableScale;
+    return is_believable ? resolution : std::nullopt;
+}
+
+}  // namespace
+
+double PrintField::bad_share() const {
+    return std::min(missing_share() + merged_share() + wrong_share(), 1.0);
+}
+
+PrintCheck check_print(const ImageView& scan, const CheckPrintOptions& options) {
+    validate(options);
+    PrintCheck check;
+    Work work(options);
+    const CropDone done = [&work] { work.step(); };
+    CropLocator locator(scan, options.pattern.profile);
+    const auto tiling = locator.choose_tiling(done);
+    if (tiling) {
+        check.resolution = options.resolution;
+        for (Field& field : group_anchors(locator.find_anchors(*tiling, done), *tiling)) {
+            PrintField result;
+            result.pattern = nominal_pattern(field, options, result.is_patch);
+            field.code.profile = result.pattern.profile;
+            field.code.displacement = result.pattern.displacement_mm / result.pattern.spacing_mm;
+            if (!follow(scan, *tiling, field)) continue;
+            const CellGrid grid = collect_cells(scan, *tiling, field);
+            done();
+            const auto resolution = believable(options.resolution, result.pattern, field);
+            if (!resolution) check.resolution.reset();
+            const Measuring measuring{scan, field, grid, resolution, options.ink_reflectance};
+            if (measure_field(measuring, kLeastDots, result)) check.fields.push_back(result);
+        }
+    }
+    if (check.fields.empty()) check.resolution.reset();
+    std::ranges::stable_sort(check.fields, std::ranges::greater{}, &PrintField::dots);
+    check.is_test_page = std::ranges::any_of(check.fields, &PrintField::is_patch);
+    if (check.is_test_page) rank_patches(options.pattern.profile, check);
+    add_findings(options, check);
+    return check;
+}
+
+}  // namespace dotpose

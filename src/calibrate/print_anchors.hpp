@@ -1,0 +1,49 @@
+// Anchors: places of the scan where `locate` read the position by itself.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "calibrate/print_map.hpp"
+#include "dotpose/image.hpp"
+#include "dotpose/locate.hpp"
+
+namespace dotpose::calibrate {
+
+struct Anchor {
+    int tile = 0;
+    LocalMap map;
+    Section section;
+};
+
+/// Told after each crop.
+using CropDone = std::function<void()>;
+
+/// Runs `locate` on crops of a scan.
+class CropLocator {
+  public:
+    CropLocator(const ImageView& scan, Profile profile);
+
+    /// Side of tiles that hold some 24 x 24 cells; nothing if no crop of any size shows a pattern.
+    /// The crops may be magnified: `locate` needs 6 px from dot to dot.
+    std::optional<Tiling> choose_tiling(const CropDone& done);
+
+    /// Locates in every second tile, with some of its surroundings, like the black fields of a
+    /// chessboard; the tiles between are quicker followed than located in.
+    std::vector<Anchor> find_anchors(const Tiling& tiling, const CropDone& done);
+
+  private:
+    double probe_spacing_px(const Tiling& tiling, int step, const CropDone& done);
+    std::optional<Anchor> locate_in(const PixelRect& rect);
+    ImageView magnified(const PixelRect& rect);
+
+    ImageView scan_;
+    Options options_;
+    int zoom_ = 1;
+    std::unique_ptr<LargeWorkspace> workspace_;
+    std::vector<std::uint8_t> magnified_;
+};
+
+}  // namespace dotpose::calibrate

@@ -1,0 +1,175 @@
+#include "calibrate/print_cells.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace dotpose::calibrate {
+namespace {
+
+using Eigen::Vector2d;
+
+/// Outer lines of cells belong to a field if this share of the cells, and the share above of the
+/// dots, read right.
+constexpr double kLeastLineShare = 0.5;
+/// And if they have this share of the dots of the longest line.
+constexpr double kLeastLength = 0.15;
+
+/// A part of the scan with the map by which to look for cells in it.
+struct View {
+    LocalMap map;
+    PixelRect rect;
+};
+
+/// A tile with its own map, or with those of its neighbours: a tile that shows only the edge of a
+/// field, beside other print, has none.
+std::vector<View> views_of(int tile, const Tiling& tiling, const Field& field) {
+    const PixelRect rect = tiling.rect(tile);
+    if (const auto& own = field.maps[static_cast<std::size_t>(tile)]) return {{*own, rect}};
+    std::vector<View> views;
+    const int column = tile % tiling.columns;
+    const int row = tile / tiling.columns;
+    for (int j = std::max(row - 1, 0); j <= std::min(row + 1, tiling.rows - 1); ++j) {
+        for (int i = std::max(column - 1, 0); i <= std::min(column + 1, tiling.columns - 1); ++i) {
+            const auto& map = field.maps[static_cast<std::size_t>(j * tiling.columns + i)];
+            if (map) views.push_back({*map, part_near(rect, tiling, *map)});
+        }
+    }
+    return views;
+}
+
+/// The rectangle of cells that the maps of a field can reach, none of them seen yet.
+CellGrid empty_grid(const Tiling& tiling, const Field& field) {
+    Vector2d low = Vector2d::Constant(1e18);
+    Vector2d high = -low;
+    for (int t = 0; t < tiling.count(); ++t) {
+        for (const View& view : views_of(t, tiling, field)) {
+            for (const int u : {view.rect.u_begin, view.rect.u_end}) {
+                for (const int v : {view.rect.v_begin, view.rect.v_end}) {
+                    const Vector2d cell = view.map.cell(Vector2d(u, v));
+                    low = low.cwiseMin(cell - Vector2d::Constant(2));
+                    high = high.cwiseMax(cell + Vector2d::Constant(2));
+                }
+            }
+        }
+    }
+    low = low.cwiseMax(Vector2d::Zero());
+    high = high.cwiseMin(Vector2d::Constant(kPositionsPerAxis - 1));
+    CellGrid grid;
+    grid.origin = {static_cast<std::uint32_t>(low.x()), static_cast<std::uint32_t>(low.y())};
+    grid.columns = static_cast<int>(high.x() - grid.origin.x) + 1;
+    grid.rows = static_cast<int>(high.y() - grid.origin.y) + 1;
+    for (int j = 0; j < grid.rows; ++j) {
+        for (int i = 0; i < grid.columns; ++i) {
+            SeenCell& cell = grid.cells.emplace_back();
+            cell.x = grid.origin.x + static_cast<std::uint32_t>(i);
+            cell.y = grid.origin.y + static_cast<std::uint32_t>(j);
+            cell.nominal = field.code.symbol(cell.x, cell.y);
+        }
+    }
+    return grid;
+}
+
+/// How much of a column or row of cells was looked at, and how much of that reads right.
+struct Coverage {
+    int seen = 0;
+    int dots = 0;
+    int right = 0;
+};
+
+/// Takes outer columns and rows off a grid until they read right.
+class Trimmer {
+  public:
+    Trimmer(const CellGrid& grid, const std::vector<bool>& seen) : grid_(grid), seen_(seen) {
+        i_end_ = grid.columns;
+        j_end_ = grid.rows;
+        for (int i = 0; i < grid.columns; ++i)
+            longest_column_ = std::max(longest_column_, column(i).right);
+        for (int j = 0; j < grid.rows; ++j)
+            longest_row_ = std::max(longest_row_, row(j).right);
+    }
+
+    CellGrid trimmed() {
+        bool changed = true;
+        while (changed && i_begin_ < i_end_ && j_begin_ < j_end_) {
+            changed = false;
+            if (!has_column(i_begin_)) changed = true, ++i_begin_;
+            if (i_begin_ < i_end_ && !has_column(i_end_ - 1)) changed = true, --i_end_;
+            if (!has_row(j_begin_)) changed = true, ++j_begin_;
+            if (j_begin_ < j_end_ && !has_row(j_end_ - 1)) changed = true, --j_end_;
+        }
+        CellGrid result;
+        result.origin = {grid_.origin.x + static_cast<std::uint32_t>(i_begin_),
+                         grid_.origin.y + static_cast<std::uint32_t>(j_begin_)};
+        result.columns = std::max(i_end_ - i_begin_, 0);
+        result.rows = result.columns > 0 ? std::max(j_end_ - j_begin_, 0) : 0;
+        for (int j = j_begin_; j < j_begin_ + result.rows; ++j) {
+            for (int i = i_begin_; i < i_end_; ++i)
+                result.cells.push_back(grid_.at(i, j));
+        }
+        return result;
+    }
+
+  private:
+    void count(int i, int j, Coverage& coverage) const {
+        const auto index = static_cast<std::size_t>(j) * static_cast<std::size_t>(grid_.columns) +
+                           static_cast<std::size_t>(i);
+        coverage.seen += seen_[index] ? 1 : 0;
+        coverage.dots += grid_.cells[index].has_dot ? 1 : 0;
+        coverage.right += grid_.cells[index].is_right() ? 1 : 0;
+    }
+    Coverage column(int i) const {
+        Coverage coverage;
+        for (int j = j_begin_; j < j_end_; ++j)
+            count(i, j, coverage);
+        return coverage;
+    }
+    Coverage row(int j) const {
+        Coverage coverage;
+        for (int i = i_begin_; i < i_end_; ++i)
+            count(i, j, coverage);
+        return coverage;
+    }
+
+    /// A few cells of a line that is cut off, or of other print, do not make it a line of dots.
+    static bool is_enough(const Coverage& line, int longest) {
+        return line.right >= kLeastLineShare * line.seen &&
+               line.right >= kLeastRightShare * line.dots && line.right > kLeastLength * longest;
+    }
+    bool has_column(int i) const { return is_enough(column(i), longest_column_); }
+    bool has_row(int j) const { return is_enough(row(j), longest_row_); }
+
+    const CellGrid& grid_;
+    const std::vector<bool>& seen_;
+    int longest_column_ = 0;
+    int longest_row_ = 0;
+    int i_begin_ = 0;
+    int i_end_ = 0;
+    int j_begin_ = 0;
+    int j_end_ = 0;
+};
+
+}  // namespace
+
+CellGrid collect_cells(const ImageView& scan, const Tiling& tiling, const Field& field) {
+    CellGrid grid = empty_grid(tiling, field);
+    std::vector<bool> seen(grid.cells.size());
+    for (int t = 0; t < tiling.count(); ++t) {
+        for (const View& view : views_of(t, tiling, field)) {
+            const SeenTile tile =
+                measure_tile(scan, view.rect, view.map, field.code, field.strength);
+            for (const SeenCell& cell : tile.cells) {
+                const std::int64_t i = std::int64_t{cell.x} - grid.origin.x;
+                const std::int64_t j = std::int64_t{cell.y} - grid.origin.y;
+                if (i < 0 || j < 0 || i >= grid.columns || j >= grid.rows) continue;
+                const auto index = static_cast<std::size_t>(j * grid.columns + i);
+                // Views overlap: what reads right counts.
+                if (!grid.cells[index].is_right()) grid.cells[index] = cell;
+                seen[index] = true;
+            }
+        }
+    }
+    return Trimmer(grid, seen).trimmed();
+}
+
+}  // namespace dotpose::calibrate

@@ -1,0 +1,27 @@
+// All cells of one field.
+#pragma once
+
+#include <vector>
+
+#include "calibrate/print_field.hpp"
+
+namespace dotpose::calibrate {
+
+/// The cells of a field: a rectangle of the code, row by row.
+struct CellGrid {
+    Cell origin;
+    int columns = 0;
+    int rows = 0;
+    std::vector<SeenCell> cells;  ///< those never looked at have no dot
+
+    const SeenCell& at(int i, int j) const {
+        return cells[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) +
+                     static_cast<std::size_t>(i)];
+    }
+};
+
+/// Measures all cells of a field. Outer columns and rows in which fewer than half of the cells read
+/// right are not part of it. No columns if nothing is left.
+CellGrid collect_cells(const ImageView& scan, const Tiling& tiling, const Field& field);
+
+}  // namespace dotpose::calibrate

@@ -1,0 +1,284 @@
+#include "calibrate/print_dots.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+namespace dotpose::calibrate {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr std::array kSymbols = {Symbol::up, Symbol::left, Symbol::right, Symbol::down};
+/// Farther from its intersection than this, in spacings, ink belongs to another dot.
+constexpr double kFarthest = 0.42;
+/// Less dark than this share of a dot is no dot.
+constexpr double kLeastShare = 0.35;
+/// Darkness below this share of a dot's does not move its centre: noise, and ringing of JPEG.
+constexpr double kFloorShare = 0.15;
+/// Dots are summed up to half the way to the nearest neighbour there can be, in spacings.
+constexpr double kReach = 1.0 / 3;
+constexpr int kCentrings = 4;
+constexpr double kCentred_px = 0.01;
+constexpr int kLeastToFit = 30;
+
+/// Median; reorders.
+double median(std::vector<double>& values) {
+    if (values.empty()) return 0;
+    const auto middle = values.begin() + static_cast<long>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
+}
+
+/// Mean of the middle half.
+double middle_mean(std::vector<double>& values) {
+    if (values.empty()) return 0;
+    std::ranges::sort(values);
+    const std::size_t quarter = values.size() / 4;
+    double sum = 0;
+    for (std::size_t i = quarter; i < values.size() - quarter; ++i)
+        sum += values[i];
+    return sum / static_cast<double>(values.size() - 2 * quarter);
+}
+
+double level_at(const ImageView& scan, const Vector2d& pixel) {
+    const double u = std::clamp(pixel.x(), 0.0, scan.width_px - 1.001);
+    const double v = std::clamp(pixel.y(), 0.0, scan.height_px - 1.001);
+    const auto first_u = static_cast<int>(u);
+    const auto first_v = static_cast<int>(v);
+    const std::uint8_t* upper = scan.row(first_v) + first_u;
+    const std::uint8_t* lower = upper + scan.stride_bytes;
+    const double du = u - first_u;
+    const double top = upper[0] + du * (upper[1] - upper[0]);
+    const double bottom = lower[0] + du * (lower[1] - lower[0]);
+    return top + (v - first_v) * (bottom - top);
+}
+
+struct CellRange {
+    std::int64_t x_begin = 0;
+    std::int64_t x_end = 0;
+    std::int64_t y_begin = 0;
+    std::int64_t y_end = 0;
+};
+
+/// Cells that can lie in a rectangle.
+CellRange cells_in(const PixelRect& rect, const LocalMap& map) {
+    Vector2d low = Vector2d::Constant(1e18);
+    Vector2d high = -low;
+    for (const int u : {rect.u_begin, rect.u_end}) {
+        for (const int v : {rect.v_begin, rect.v_end}) {
+            const Vector2d cell = map.cell(Vector2d(u, v));
+            low = low.cwiseMin(cell);
+            high = high.cwiseMax(cell);
+        }
+    }
+    const auto first = [](double cell) {
+        return std::max<std::int64_t>(std::llround(std::floor(cell - 0.5)), 0);
+    };
+    const auto end = [](double cell) {
+        return std::min<std::int64_t>(std::llround(std::ceil(cell + 1.5)), kPositionsPerAxis);
+    };
+    return {first(low.x()), end(high.x()), first(low.y()), end(high.y())};
+}
+
+/// Measures dots in the light of one tile.
+class Meter {
+  public:
+    Meter(const ImageView& scan, const LocalMap& map, double displacement, double paper)
+        : scan_(scan),
+          map_(map),
+          cells_per_px_(map.px_per_cell.inverse()),
+          displacement_(displacement),
+          reach_px_(kReach * map.spacing_px()),
+          inner_px2_(std::pow(std::max(reach_px_ - 0.5, 0.0), 2)),
+          outer_px2_(std::pow(reach_px_ + 0.5, 2)),
+          sample_px_(0.5 * displacement * map.spacing_px()),
+          paper_(paper),
+          per_paper_(1 / paper) {}
+
+    /// The likeliest of the four places of a dot, and how dark it is there.
+    double likeliest(const Vector2d& intersection_px, Vector2d& place_px) const {
+        double best = -1e9;
+        for (const Symbol symbol : kSymbols) {
+            const Vector2d offset(dx(symbol), dy(symbol));
+            const Vector2d place = intersection_px + map_.px_per_cell * (displacement_ * offset);
+            const double strength = strength_at(place);
+            if (strength <= best) continue;
+            best = strength;
+            place_px = place;
+        }
+        return best;
+    }
+
+    /// Centres on the dot near `place_px`, starting there, and measures it.
+    void measure(const Vector2d& intersection_px, Vector2d place_px, double strength,
+                 SeenCell& cell) const {
+        double moved_px = 1;
+        for (int i = 0; i < kCentrings && moved_px > kCentred_px; ++i) {
+            const Vector2d before = place_px;
+            place_px = centroid(place_px, kFloorShare * strength);
+            moved_px = (place_px - before).norm();
+        }
+        const Vector2d offset = cells_per_px_ * (place_px - intersection_px);
+        cell.has_dot = strength_at(place_px) >= kLeastShare * strength &&
+                       offset.cwiseAbs().maxCoeff() <= kFarthest;
+        if (!cell.has_dot) return;
+        const bool is_horizontal = std::abs(offset.x()) > std::abs(offset.y());
+        cell.read = is_horizontal ? (offset.x() > 0 ? Symbol::right : Symbol::left)
+                                  : (offset.y() > 0 ? Symbol::down : Symbol::up);
+        cell.u_px = static_cast<float>(place_px.x());
+        cell.v_px = static_cast<float>(place_px.y());
+        cell.peak = static_cast<float>(darkness_at(scan_, place_px, paper_));
+        cell.mass_px2 = static_cast<float>(mass(place_px));
+    }
+
+  private:
+    /// Mean darkness of five points.
+    double strength_at(const Vector2d& p) const {
+        double sum = darkness_at(scan_, p, paper_);
+        for (const double step : {-sample_px_, sample_px_}) {
+            sum += darkness_at(scan_, p + Vector2d(step, 0), paper_);
+            sum += darkness_at(scan_, p + Vector2d(0, step), paper_);
+        }
+        return sum / 5;
+    }
+
+    /// Visits the pixels within reach of a point, with their darkness and a weight that fades out
+    /// over the last pixel, so that sums change smoothly with the point.
+    template <typename Visit>
+    void visit_around(const Vector2d& p, Visit visit) const {
+        const auto first = [&](double centre) {
+            return std::max(static_cast<int>(std::ceil(centre - reach_px_ - 0.5)), 0);
+        };
+        const auto last = [&](double centre, int count) {
+            return std::min(static_cast<int>(std::floor(centre + reach_px_ + 0.5)), count - 1);
+        };
+        for (int v = first(p.y()); v <= last(p.y(), scan_.height_px); ++v) {
+            const std::uint8_t* row = scan_.row(v);
+            for (int u = first(p.x()); u <= last(p.x(), scan_.width_px); ++u) {
+                const double squared = (Vector2d(u, v) - p).squaredNorm();
+                if (squared >= outer_px2_) continue;
+                const double weight =
+                    squared <= inner_px2_ ? 1 : reach_px_ + 0.5 - std::sqrt(squared);
+                visit(u, v, 1 - row[u] * per_paper_, weight);
+            }
+        }
+    }
+
+    Vector2d centroid(const Vector2d& p, double floor) const {
+        double sum = 0;
+        Vector2d moment = Vector2d::Zero();
+        visit_around(p, [&](int u, int v, double darkness, double weight) {
+            const double share = weight * std::max(darkness - floor, 0.0);
+            sum += share;
+            moment += share * Vector2d(u, v);
+        });
+        return sum > 0 ? Vector2d(moment / sum) : p;
+    }
+
+    double mass(const Vector2d& p) const {
+        double sum = 0;
+        visit_around(p,
+                     [&](int, int, double darkness, double weight) { sum += weight * darkness; });
+        return sum;
+    }
+
+    const ImageView& scan_;
+    const LocalMap& map_;
+    Eigen::Matrix2d cells_per_px_;
+    double displacement_;
+    double reach_px_;
+    double inner_px2_;  ///< squared distances from which on and to which pixels count in part
+    double outer_px2_;
+    double sample_px_;
+    double paper_;
+    double per_paper_;
+};
+
+/// Level of the paper in the corners of the cells, which no dot comes near.
+double paper_level(const ImageView& scan, const PixelRect& rect, const LocalMap& map) {
+    const CellRange range = cells_in(rect, map);
+    std::vector<double> levels;
+    for (std::int64_t y = range.y_begin; y < range.y_end; ++y) {
+        for (std::int64_t x = range.x_begin; x < range.x_end; ++x) {
+            const auto corner = map.pixel(Vector2d(double(x) + 0.5, double(y) + 0.5));
+            if (rect.contains(corner, 0)) levels.push_back(level_at(scan, corner));
+        }
+    }
+    return middle_mean(levels);
+}
+
+}  // namespace
+
+Symbol Code::symbol(std::int64_t x, std::int64_t y) const {
+    return symbol_at(profile, {static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)},
+                     section);
+}
+
+Vector2d Code::dot_cell(std::int64_t x, std::int64_t y, Symbol symbol) const {
+    return {static_cast<double>(x) + displacement * dx(symbol),
+            static_cast<double>(y) + displacement * dy(symbol)};
+}
+
+double darkness_at(const ImageView& scan, const Vector2d& pixel, double paper) {
+    return 1 - level_at(scan, pixel) / paper;
+}
+
+SeenTile measure_tile(const ImageView& scan, const PixelRect& rect, const LocalMap& map,
+                      const Code& code, std::optional<double> strength) {
+    SeenTile tile;
+    tile.paper = paper_level(scan, rect, map);
+    if (tile.paper <= 0) return tile;
+    const Meter meter(scan, map, code.displacement, tile.paper);
+    const CellRange range = cells_in(rect, map);
+    const PixelRect whole{0, 0, scan.width_px, scan.height_px};
+    const double half_px = 0.5 * map.spacing_px();
+    std::vector<Vector2d> places_px;
+    std::vector<double> strengths;
+    for (std::int64_t y = range.y_begin; y < range.y_end; ++y) {
+        for (std::int64_t x = range.x_begin; x < range.x_end; ++x) {
+            const Vector2d p = map.pixel(Vector2d(double(x), double(y)));
+            if (!rect.contains(p, half_px) || !whole.contains(p, -half_px)) continue;
+            SeenCell& cell = tile.cells.emplace_back();
+            cell.x = static_cast<std::uint32_t>(x);
+            cell.y = static_cast<std::uint32_t>(y);
+            cell.nominal = code.symbol(x, y);
+            strengths.push_back(meter.likeliest(p, places_px.emplace_back()));
+        }
+    }
+    tile.strength = median(strengths);
+    for (std::size_t i = 0; i < tile.cells.size(); ++i) {
+        SeenCell& cell = tile.cells[i];
+        meter.measure(map.pixel(Vector2d(cell.x, cell.y)), places_px[i],
+                      strength.value_or(tile.strength), cell);
+        tile.dots += cell.has_dot ? 1 : 0;
+        tile.right += cell.is_right() ? 1 : 0;
+    }
+    return tile;
+}
+
+std::optional<LocalMap> fit_map(const SeenTile& tile, const Code& code) {
+    if (tile.right < kLeastToFit) return std::nullopt;
+    LocalMap map;
+    for (const SeenCell& cell : tile.cells) {
+        if (!cell.is_right()) continue;
+        map.centre_px += cell.centre_px() / tile.right;
+        map.centre_cell += code.dot_cell(cell.x, cell.y, cell.nominal) / tile.right;
+    }
+    Eigen::Matrix2d cells = Eigen::Matrix2d::Zero();
+    Eigen::Matrix2d products = Eigen::Matrix2d::Zero();
+    for (const SeenCell& cell : tile.cells) {
+        if (!cell.is_right()) continue;
+        const Vector2d c = code.dot_cell(cell.x, cell.y, cell.nominal) - map.centre_cell;
+        cells += c * c.transpose();
+        products += (cell.centre_px() - map.centre_px) * c.transpose();
+    }
+    // A single line of dots says nothing across it.
+    if (cells.determinant() < 1e-3 * cells.trace() * cells.trace()) return std::nullopt;
+    map.px_per_cell = products * cells.inverse();
+    return map;
+}
+
+}  // namespace dotpose::calibrate

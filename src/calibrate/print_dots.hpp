@@ -1,0 +1,59 @@
+// Measures the dots of one tile of a scan where a map says they should be.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "calibrate/print_map.hpp"
+#include "dotpose/image.hpp"
+
+namespace dotpose::calibrate {
+
+/// What is known of the print before measuring: which dots stand where.
+struct Code {
+    Profile profile = Profile::anoto;
+    Section section;
+    double displacement = 1.0 / 6;  ///< in spacings
+
+    Symbol symbol(std::int64_t x, std::int64_t y) const;
+    /// Nominal place of a dot, in cells.
+    Eigen::Vector2d dot_cell(std::int64_t x, std::int64_t y, Symbol symbol) const;
+};
+
+/// One cell, as seen. Darkness is relative to the paper: 0 paper, 1 black.
+struct SeenCell {
+    std::uint32_t x = 0;  ///< the cell
+    std::uint32_t y = 0;
+    Symbol nominal = Symbol::up;
+    Symbol read = Symbol::up;  ///< with a dot only, as all below
+    bool has_dot = false;
+    float u_px = 0;  ///< centre
+    float v_px = 0;
+    float mass_px2 = 0;  ///< darkness summed over the dot
+    float peak = 0;      ///< darkness of its middle
+
+    Eigen::Vector2d centre_px() const { return {u_px, v_px}; }
+    bool is_right() const { return has_dot && read == nominal; }
+};
+
+struct SeenTile {
+    std::vector<SeenCell> cells;
+    double paper = 0;     ///< grey level of the blank paper between dots; 0: none to be seen
+    double strength = 0;  ///< median over the cells of the darkness of the likeliest place
+    int dots = 0;
+    int right = 0;  ///< dots that read as they should
+};
+
+/// Measures all cells of the code plane whose intersections lie in `rect` or within half a spacing
+/// of it. `strength`: darkness to be expected of a dot; without it, that of the tile itself.
+SeenTile measure_tile(const ImageView& scan, const PixelRect& rect, const LocalMap& map,
+                      const Code& code, std::optional<double> strength);
+
+/// Darkness between paper and black at a point, by interpolation.
+double darkness_at(const ImageView& scan, const Eigen::Vector2d& pixel, double paper);
+
+/// The map fitted to the dots that read right; nothing if there are too few of them.
+std::optional<LocalMap> fit_map(const SeenTile& tile, const Code& code);
+
+}  // namespace dotpose::calibrate

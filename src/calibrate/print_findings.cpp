@@ -1,0 +1,313 @@
+#include "calibrate/print_findings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "dotpose/test_page.hpp"
+
+namespace dotpose::calibrate {
+namespace {
+
+constexpr double kDegree_rad = std::numbers::pi / 180;
+
+/// Deviations of the scale that no printer or paper makes by itself, and those worth a remark.
+constexpr double kDriverScale = 0.015;
+constexpr double kNotableScale = 0.002;
+constexpr double kUnevenScale = 0.002;
+/// Beyond this, the pattern or the resolution is not what was said.
+constexpr double kImplausibleScale = 0.25;
+constexpr double kNotableRotation_rad = 0.2 * kDegree_rad;
+constexpr double kNotableSkew_rad = 0.1 * kDegree_rad;
+constexpr double kNotableDistortion_mm = 0.1;
+/// Dots that grew or shrank by more than what usual printers do.
+constexpr double kSwollenGain = 0.5;
+constexpr double kThinGain = -0.3;
+constexpr double kNotableShare = 0.01;
+constexpr double kLeastContrast = 0.2;
+/// Where there are fewer pixels from dot to dot, faults of single dots are the scan's own: scatter,
+/// in spacings, and share of wrong bits from which on it is to blame.
+constexpr double kCoarse_px = 10;
+constexpr double kCoarseScatter = 0.05;
+constexpr double kCoarseWrongShare = 0.001;
+constexpr double kLeastSpacing_px = 5;
+/// A patch of a test page is good if no more of its cells than this are bad.
+constexpr double kGoodPatch = 0.005;
+
+std::string percent(double share, int decimals = 1) {
+    return fmt::format("{:.{}f} %", 100 * share, decimals);
+}
+
+class Findings {
+  public:
+    Findings(const CheckPrintOptions& options, const PrintCheck& check,
+             std::vector<Finding>& findings)
+        : options_(options), check_(check), findings_(findings) {}
+
+    void fault(FindingKind kind, std::string text) {
+        findings_.push_back({kind, true, std::move(text)});
+    }
+    void remark(FindingKind kind, std::string text) {
+        findings_.push_back({kind, false, std::move(text)});
+    }
+
+    void judge_nothing_found() {
+        if (options_.resolution) {
+            const double dpi = std::min(options_.resolution->x_dpi, options_.resolution->y_dpi);
+            const double spacing_px = options_.pattern.spacing_mm * dpi / 25.4;
+            if (spacing_px < kLeastSpacing_px) {
+                fault(FindingKind::too_coarse,
+                      fmt::format("at {:.0f} dpi the dots are only {:.1f} pixels apart, too near "
+                                  "to be told apart: scan at 600 dpi",
+                                  dpi, spacing_px));
+            }
+        }
+    }
+
+    void judge_scale(const PrintField& field) {
+        if (!field.scale) {
+            remark(FindingKind::no_resolution,
+                   "scale was not checked, because the image states no resolution that can be "
+                   "true: scan on a flatbed, or give --dpi");
+            return;
+        }
+        const PrintScale& s = *field.scale;
+        const double mean = std::sqrt(s.scale_x * s.scale_y);
+        if (std::abs(mean - 1) > kImplausibleScale) {
+            fault(FindingKind::scaled,
+                  fmt::format("the spacing is {} of what it should be: check --spacing and --dpi",
+                              percent(mean)));
+        } else if (std::abs(mean - 1) > kDriverScale) {
+            fault(FindingKind::scaled,
+                  fmt::format("the driver scaled the page to {}: print at 100 %, without \"fit to "
+                              "page\"",
+                              percent(mean)));
+        } else if (std::abs(mean - 1) > kNotableScale) {
+            remark(FindingKind::scaled,
+                   fmt::format("the page is {} too {}, as paper and printers often have it: "
+                               "reckon with a spacing of {:.5f} mm",
+                               percent(std::abs(mean - 1), 2), mean > 1 ? "large" : "small",
+                               field.pattern.spacing_mm * mean));
+        }
+        const double ratio = s.scale_x / s.scale_y - 1;
+        if (std::abs(ratio) > kUnevenScale) {
+            fault(FindingKind::uneven_scale,
+                  fmt::format("horizontal and vertical scale differ by {} ({} and {}): the "
+                              "printer's feed is off, or the scanner's; scan again, turned by 90 "
+                              "degrees, to tell which",
+                              percent(std::abs(ratio), 2), percent(s.scale_x, 2),
+                              percent(s.scale_y, 2)));
+        }
+        judge_angles(s);
+    }
+
+    void judge_dots(const PrintField& field) {
+        if (is_too_coarse(field)) {
+            fault(FindingKind::too_coarse,
+                  fmt::format("the image is too coarse to judge single dots: {:.1f} pixels from "
+                              "dot to dot, whose places scatter by {:.3f} mm; scan at 600 dpi, as "
+                              "PNG or TIFF",
+                              field.spacing_px, field.scatter_mm));
+        } else {
+            judge_size(field);
+            judge_faulty_dots(field);
+        }
+        if (field.largest_distortion_mm > kNotableDistortion_mm) {
+            remark(FindingKind::distorted,
+                   fmt::format("parts of the page are off by up to {:.2f} mm: the paper or the "
+                               "scanner's carriage moved unevenly, or the sheet did not lie flat",
+                               field.largest_distortion_mm));
+        }
+    }
+
+    void judge_test_page() {
+        if (check_.best_per_spacing.empty()) {
+            fault(FindingKind::best_settings,
+                  "no patch of the test page can be read without errors: scan at 600 dpi or "
+                  "more, print at the printer's own resolution");
+            return;
+        }
+        const PrintField& best = check_.fields[check_.best];
+        remark(FindingKind::best_settings,
+               fmt::format("best for this printer: --spacing {:.4f} --dot {:.4f}{}",
+                           best.pattern.spacing_mm, best.pattern.dot_mm, others(check_.best)));
+    }
+
+  private:
+    static bool is_too_coarse(const PrintField& field) {
+        const bool is_blurred_together =
+            field.merged_share() > kNotableShare && field.gain() < kSwollenGain;
+        return field.spacing_px < kCoarse_px &&
+               (field.scatter_mm > kCoarseScatter * field.pattern.spacing_mm ||
+                field.wrong_share() > kCoarseWrongShare || is_blurred_together);
+    }
+
+    void judge_size(const PrintField& field) {
+        const double gain = field.gain();
+        if (gain > kSwollenGain || field.merged_share() > kNotableShare) {
+            fault(FindingKind::swollen,
+                  fmt::format("dots are swollen: {:.3f} mm instead of {:.3f} mm{}; choose a "
+                              "smaller --dot, better paper, or less ink",
+                              field.dot_mm, field.pattern.dot_mm,
+                              field.merged_share() > kNotableShare
+                                  ? fmt::format(", and {} of them run together",
+                                                percent(field.merged_share()))
+                                  : ""));
+        } else if (gain < kThinGain) {
+            fault(FindingKind::thin,
+                  fmt::format("dots are thin or pale: as dark as solid dots of {:.3f} mm instead "
+                              "of {:.3f} mm; choose a larger --dot, and switch off toner saving",
+                              field.dot_mm, field.pattern.dot_mm));
+        }
+        // Where pixels are as large as dots, no dot is dark; its size says the same.
+        if (field.spacing_px >= kCoarse_px && field.contrast < kLeastContrast) {
+            fault(FindingKind::pale,
+                  fmt::format("the dots are only {} darker than the paper: print in black, "
+                              "without toner saving",
+                              percent(field.contrast, 0)));
+        }
+    }
+
+    void judge_faulty_dots(const PrintField& field) {
+        if (field.missing_share() > kNotableShare) {
+            fault(FindingKind::missing,
+                  fmt::format("{} of the dots are missing: clean the printer's nozzles or drum, "
+                              "choose a larger --dot, and keep other print off the dots",
+                              percent(field.missing_share())));
+        }
+        if (field.wrong_share() > kNotableShare) {
+            fault(FindingKind::bits_wrong,
+                  fmt::format("{} of the bits are wrong, because dots stand in the wrong place: "
+                              "print at the printer's own resolution, with a larger spacing",
+                              percent(field.wrong_share())));
+        }
+    }
+
+    void judge_angles(const PrintScale& s) {
+        const double upright_rad = std::remainder(s.rotation_rad, std::numbers::pi / 2);
+        if (std::abs(upright_rad) > kNotableRotation_rad) {
+            remark(FindingKind::rotated,
+                   fmt::format("the page lies {:.2f} degrees askew, which does no harm",
+                               std::abs(upright_rad) / kDegree_rad));
+        }
+        if (std::abs(s.skew_rad) > kNotableSkew_rad) {
+            fault(FindingKind::skewed,
+                  fmt::format("the axes stand at {:.2f} degrees instead of 90: the paper was "
+                              "pulled in askew",
+                              90 + s.skew_rad / kDegree_rad));
+        }
+    }
+
+    std::string others(std::size_t best) const {
+        std::string text;
+        for (const std::size_t index : check_.best_per_spacing) {
+            if (index == best) continue;
+            const Pattern& pattern = check_.fields[index].pattern;
+            text += fmt::format("{} --spacing {:.4f} --dot {:.4f}", text.empty() ? "; also" : ",",
+                                pattern.spacing_mm, pattern.dot_mm);
+        }
+        return text;
+    }
+
+    const CheckPrintOptions& options_;
+    const PrintCheck& check_;
+    std::vector<Finding>& findings_;
+};
+
+/// How far a printed dot is from what the pattern wants: a sixth of the spacing.
+double dot_error(const PrintField& field) {
+    const double wanted_mm = field.pattern.spacing_mm / 6;
+    return std::abs(std::log(std::max(field.dot_mm, 1e-6) / wanted_mm));
+}
+
+/// Of the patches that read well, for each spacing the one whose dots came out nearest to a sixth
+/// of it; of the spacings the finest, which gives the most dots in view.
+void choose_best(PrintCheck& check) {
+    std::map<double, std::size_t> best;
+    for (std::size_t i = 0; i < check.fields.size(); ++i) {
+        const PrintField& field = check.fields[i];
+        if (!field.is_patch || field.bad_share() > kGoodPatch) continue;
+        const auto [place, is_new] = best.try_emplace(field.pattern.spacing_mm, i);
+        if (!is_new && dot_error(field) < dot_error(check.fields[place->second])) place->second = i;
+    }
+    for (const auto& [spacing_mm, index] : best)
+        check.best_per_spacing.push_back(index);
+    if (!check.best_per_spacing.empty()) check.best = check.best_per_spacing.front();
+}
+
+}  // namespace
+
+void rank_patches(Profile profile, PrintCheck& check) {
+    choose_best(check);
+    TestPageOptions usual;
+    usual.profile = profile;
+    for (const Sheet& sheet : make_test_page(usual).sheets) {
+        const bool was_read = std::ranges::any_of(check.fields, [&](const PrintField& field) {
+            return field.pattern.spacing_mm == sheet.pattern.spacing_mm &&
+                   field.pattern.dot_mm == sheet.pattern.dot_mm;
+        });
+        if (!was_read) check.unread_patches.push_back(sheet.pattern);
+    }
+}
+
+void add_findings(const CheckPrintOptions& options, PrintCheck& check) {
+    std::vector<Finding> list;
+    Findings findings(options, check, list);
+    if (check.fields.empty()) {
+        findings.judge_nothing_found();
+    } else {
+        findings.judge_scale(check.fields.front());
+        if (check.is_test_page) {
+            findings.judge_test_page();
+        } else {
+            findings.judge_dots(check.fields.front());
+        }
+        const bool has_fault = std::ranges::any_of(list, &Finding::is_fault);
+        if (!has_fault) findings.remark(FindingKind::good, "the print can be used as it is");
+    }
+    std::ranges::stable_partition(list, &Finding::is_fault);
+    check.findings = std::move(list);
+}
+
+}  // namespace dotpose::calibrate
+
+namespace dotpose {
+
+const char* name(FindingKind kind) {
+    switch (kind) {
+        case FindingKind::good:
+            return "good";
+        case FindingKind::scaled:
+            return "scaled";
+        case FindingKind::uneven_scale:
+            return "uneven_scale";
+        case FindingKind::rotated:
+            return "rotated";
+        case FindingKind::skewed:
+            return "skewed";
+        case FindingKind::distorted:
+            return "distorted";
+        case FindingKind::swollen:
+            return "swollen";
+        case FindingKind::thin:
+            return "thin";
+        case FindingKind::missing:
+            return "missing";
+        case FindingKind::bits_wrong:
+            return "bits_wrong";
+        case FindingKind::too_coarse:
+            return "too_coarse";
+        case FindingKind::pale:
+            return "pale";
+        case FindingKind::no_resolution:
+            return "no_resolution";
+        case FindingKind::best_settings:
+            return "best_settings";
+    }
+    return "";
+}
+
+}  // namespace dotpose

@@ -1,0 +1,14 @@
+// What the measures of a print mean for its user.
+#pragma once
+
+#include "dotpose/check_print.hpp"
+
+namespace dotpose::calibrate {
+
+/// Sets `best_per_spacing`, `best` and `unread_patches` of a test page.
+void rank_patches(Profile profile, PrintCheck& check);
+
+/// Fills the findings from the fields, faults first.
+void add_findings(const CheckPrintOptions& options, PrintCheck& check);
+
+}  // namespace dotpose::calibrate

@@ -1,0 +1,65 @@
+// Where the cells of the code are seen in a scan: to first order around one place.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+#include "dotpose/code.hpp"
+
+namespace dotpose::calibrate {
+
+/// Maps between the code plane, in cells, and the scan, in px. Good for some tens of cells.
+struct LocalMap {
+    Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
+    Eigen::Vector2d centre_cell = Eigen::Vector2d::Zero();
+    Eigen::Matrix2d px_per_cell = Eigen::Matrix2d::Identity();
+
+    Eigen::Vector2d pixel(const Eigen::Vector2d& cell) const {
+        return centre_px + px_per_cell * (cell - centre_cell);
+    }
+    Eigen::Vector2d cell(const Eigen::Vector2d& pixel) const {
+        return centre_cell + px_per_cell.inverse() * (pixel - centre_px);
+    }
+    double spacing_px() const { return std::sqrt(std::abs(px_per_cell.determinant())); }
+};
+
+/// A rectangle of pixels, ends exclusive.
+struct PixelRect {
+    int u_begin = 0;
+    int v_begin = 0;
+    int u_end = 0;
+    int v_end = 0;
+
+    Eigen::Vector2d centre_px() const {
+        return {0.5 * (u_begin + u_end - 1), 0.5 * (v_begin + v_end - 1)};
+    }
+    /// Whether a point lies in it or at most `border_px` outside.
+    bool contains(const Eigen::Vector2d& pixel, double border_px) const {
+        return pixel.x() >= u_begin - 0.5 - border_px && pixel.x() < u_end - 0.5 + border_px &&
+               pixel.y() >= v_begin - 0.5 - border_px && pixel.y() < v_end - 0.5 + border_px;
+    }
+};
+
+/// Cells of the scan are looked for tile by tile.
+struct Tiling {
+    int width_px = 0;
+    int height_px = 0;
+    int side_px = 0;
+    int columns = 0;
+    int rows = 0;
+
+    Tiling(int width, int height, int side)
+        : width_px(width),
+          height_px(height),
+          side_px(side),
+          columns((width + side - 1) / side),
+          rows((height + side - 1) / side) {}
+    int count() const { return columns * rows; }
+    PixelRect rect(int tile) const {
+        const int u = tile % columns * side_px;
+        const int v = tile / columns * side_px;
+        return {u, v, std::min(u + side_px, width_px), std::min(v + side_px, height_px)};
+    }
+};
+
+}  // namespace dotpose::calibrate

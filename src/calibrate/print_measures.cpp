@@ -1,0 +1,200 @@
+#include "calibrate/print_measures.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "calibrate/print_fit.hpp"
+
+namespace dotpose::calibrate {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kInch_mm = 25.4;
+/// Two dots have run together if it is nearly as dark between them as on them.
+constexpr double kMergedShare = 0.6;
+/// Fewest dots of a part of the page whose distortion is told.
+constexpr int kLeastBinDots = 60;
+/// Ink is taken to be as dark as the darkest dots if these are darker than expected.
+constexpr double kDarkest = 0.98;
+constexpr double kSigmaPerDeviation = 1.4826;
+
+double quantile(std::vector<double>& values, double share) {
+    if (values.empty()) return 0;
+    const auto index = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
+    std::ranges::nth_element(values, values.begin() + static_cast<long>(index));
+    return values[index];
+}
+
+/// Between pixels and the units of the fit: mm of the scan, or px of a photo.
+struct Units {
+    Vector2d per_px = Vector2d::Ones();
+
+    explicit Units(const std::optional<Resolution>& resolution) {
+        if (!resolution) return;
+        per_px = {kInch_mm / resolution->x_dpi, kInch_mm / resolution->y_dpi};
+    }
+    Vector2d from_px(const Vector2d& px) const { return px.cwiseProduct(per_px); }
+    Vector2d to_px(const Vector2d& value) const { return value.cwiseQuotient(per_px); }
+};
+
+/// Places on the paper from the first cell of the region: small numbers.
+Vector2d nominal_mm(const Measuring& m, const Pattern& pattern, const SeenCell& cell) {
+    const Vector2d origin(m.grid.origin.x, m.grid.origin.y);
+    return pattern.spacing_mm * (m.field.code.dot_cell(cell.x, cell.y, cell.nominal) - origin);
+}
+
+PrintScale scale_of(const Eigen::Matrix2d& linear) {
+    PrintScale scale;
+    const Vector2d x = linear.col(0);
+    const Vector2d y = linear.col(1);
+    scale.scale_x = x.norm();
+    scale.scale_y = y.norm();
+    scale.rotation_rad = std::atan2(x.y(), x.x());
+    scale.skew_rad = std::atan2(x.x() * y.y() - x.y() * y.x(), x.dot(y)) - std::numbers::pi / 2;
+    return scale;
+}
+
+/// From the differences of neighbours, which distortion moves together.
+/// `mm_per_unit`: paper per unit of the fit.
+double measure_scatter_mm(const Measuring& m, const PlaneFit& fit, const Units& units,
+                          double mm_per_unit, const Pattern& pattern) {
+    std::vector<double> steps_mm;
+    const auto off = [&](const SeenCell& cell) {
+        return Vector2d(units.from_px(cell.centre_px()) - fit.seen(nominal_mm(m, pattern, cell)));
+    };
+    for (int j = 0; j < m.grid.rows; ++j) {
+        for (int i = 0; i + 1 < m.grid.columns; ++i) {
+            const SeenCell& cell = m.grid.at(i, j);
+            const SeenCell& next = m.grid.at(i + 1, j);
+            if (!cell.is_right() || !next.is_right()) continue;
+            const Vector2d step = mm_per_unit * (off(next) - off(cell));
+            steps_mm.push_back(std::abs(step.x()));
+            steps_mm.push_back(std::abs(step.y()));
+        }
+    }
+    return kSigmaPerDeviation * quantile(steps_mm, 0.5) / std::numbers::sqrt2;
+}
+
+/// `mm_per_unit`: paper per unit of the fit.
+void measure_distortion(const Measuring& m, const PlaneFit& fit, const Units& units,
+                        double mm_per_unit, PrintField& result) {
+    std::map<std::pair<int, int>, DistortionBin> bins;
+    for (int j = 0; j < m.grid.rows; ++j) {
+        for (int i = 0; i < m.grid.columns; ++i) {
+            const SeenCell& cell = m.grid.at(i, j);
+            if (!cell.is_right()) continue;
+            const Vector2d off = mm_per_unit * (units.from_px(cell.centre_px()) -
+                                                fit.seen(nominal_mm(m, result.pattern, cell)));
+            DistortionBin& bin = bins[{j / kDistortionCells, i / kDistortionCells}];
+            ++bin.dots;
+            bin.u_px += double(cell.u_px);
+            bin.v_px += double(cell.v_px);
+            bin.du_mm += off.x();
+            bin.dv_mm += off.y();
+        }
+    }
+    for (auto& [place, bin] : bins) {
+        if (bin.dots < kLeastBinDots) continue;
+        for (double* sum : {&bin.u_px, &bin.v_px, &bin.du_mm, &bin.dv_mm})
+            *sum /= bin.dots;
+        result.largest_distortion_mm =
+            std::max(result.largest_distortion_mm, std::hypot(bin.du_mm, bin.dv_mm));
+        result.distortion.push_back(bin);
+    }
+}
+
+/// Whether it is dark between two dots, too.
+bool have_merged(const Measuring& m, const SeenCell& a, const SeenCell& b) {
+    if (!a.has_dot || !b.has_dot) return false;
+    const double between =
+        darkness_at(m.scan, 0.5 * (a.centre_px() + b.centre_px()), m.field.paper);
+    return between > kMergedShare * double(std::min(a.peak, b.peak));
+}
+
+void count_cells(const Measuring& m, const PlaneFit& fit, const Units& units, PrintField& result) {
+    const PixelRect whole{0, 0, m.scan.width_px, m.scan.height_px};
+    std::vector<bool> merged(m.grid.cells.size());
+    for (int j = 0; j < m.grid.rows; ++j) {
+        for (int i = 0; i < m.grid.columns; ++i) {
+            const SeenCell& cell = m.grid.at(i, j);
+            const Vector2d p = units.to_px(fit.seen(nominal_mm(m, result.pattern, cell)));
+            const bool is_in_view = whole.contains(p, -result.spacing_px);
+            if (!is_in_view && !cell.has_dot) continue;
+            ++result.cells;
+            if (!cell.has_dot) {
+                ++result.missing;
+                continue;
+            }
+            ++result.dots;
+            result.bits_wrong += std::popcount(static_cast<unsigned>(cell.read) ^
+                                               static_cast<unsigned>(cell.nominal));
+            const std::size_t index = static_cast<std::size_t>(&cell - m.grid.cells.data());
+            const auto compare = [&](int step_i, int step_j) {
+                if (i + step_i >= m.grid.columns || j + step_j >= m.grid.rows) return;
+                const SeenCell& other = m.grid.at(i + step_i, j + step_j);
+                if (!have_merged(m, cell, other)) return;
+                merged[index] = true;
+                merged[static_cast<std::size_t>(&other - m.grid.cells.data())] = true;
+            };
+            compare(1, 0);
+            compare(0, 1);
+        }
+    }
+    result.merged = static_cast<int>(std::ranges::count(merged, true));
+}
+
+/// `mm_per_px`: paper per pixel.
+void measure_dots(const Measuring& m, double mm_per_px, PrintField& result) {
+    std::vector<double> peaks;
+    for (const SeenCell& cell : m.grid.cells) {
+        if (cell.is_right()) peaks.push_back(double(cell.peak));
+    }
+    const double ink = std::max(1 - m.ink_reflectance, quantile(peaks, kDarkest));
+    result.contrast = quantile(peaks, 0.5);
+    result.paper_level = m.field.paper;
+    std::vector<double> diameters_mm;
+    for (const SeenCell& cell : m.grid.cells) {
+        if (!cell.is_right()) continue;
+        const double area_px2 = std::max(double(cell.mass_px2), 0.0) / ink;
+        diameters_mm.push_back(mm_per_px * 2 * std::sqrt(area_px2 / std::numbers::pi));
+    }
+    result.dot_mm = quantile(diameters_mm, 0.5);
+    for (double& diameter_mm : diameters_mm)
+        diameter_mm = std::abs(diameter_mm - result.dot_mm);
+    result.dot_sigma_mm = kSigmaPerDeviation * quantile(diameters_mm, 0.5);
+}
+
+}  // namespace
+
+bool measure_field(const Measuring& m, std::size_t least_dots, PrintField& result) {
+    const Units units(m.resolution);
+    std::vector<Match> matches;
+    for (const SeenCell& cell : m.grid.cells) {
+        if (!cell.is_right()) continue;
+        matches.push_back({nominal_mm(m, result.pattern, cell), units.from_px(cell.centre_px())});
+    }
+    if (m.grid.columns < 2 || m.grid.rows < 2 || matches.size() < least_dots) return false;
+    result.origin = m.grid.origin;
+    result.columns = m.grid.columns;
+    result.rows = m.grid.rows;
+
+    const PlaneFit fit = fit_plane(matches, !m.resolution);
+    const double units_per_mm = std::sqrt(std::abs(fit.linear.determinant()));
+    const double px_per_unit = 1 / std::sqrt(units.per_px.x() * units.per_px.y());
+    const double mm_per_unit = m.resolution ? 1 : 1 / units_per_mm;
+    result.spacing_px = result.pattern.spacing_mm * units_per_mm * px_per_unit;
+    result.residual_mm = fit.residual * mm_per_unit;
+    if (m.resolution) result.scale = scale_of(fit.linear);
+    result.scatter_mm = measure_scatter_mm(m, fit, units, mm_per_unit, result.pattern);
+    measure_distortion(m, fit, units, mm_per_unit, result);
+    count_cells(m, fit, units, result);
+    measure_dots(m, mm_per_unit / px_per_unit, result);
+    return true;
+}
+
+}  // namespace dotpose::calibrate

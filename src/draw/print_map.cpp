@@ -1,0 +1,106 @@
+// The distortion of a print as a map: one arrow for each part of the page, enlarged.
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+#include <string>
+
+#include "dotpose/check_print.hpp"
+#include "draw/svg.hpp"
+
+namespace dotpose {
+namespace {
+
+using namespace dotpose::draw;
+
+constexpr double kMargin = 40;
+constexpr double kHead = 110;
+constexpr double kLongestSide = 1000;
+/// The longest arrow, in units of the drawing, or of the distance of the arrows if that is less.
+constexpr double kLongestArrow = 45;
+constexpr double kLongestStep = 0.95;
+/// Arrows are not enlarged beyond what this distortion needs: noise is to look like noise.
+constexpr double kLeastFullScale_mm = 0.01;
+
+/// 1, 2 or 5 times a power of ten, at most `value`.
+double round_down(double value) {
+    const double power = std::pow(10, std::floor(std::log10(value)));
+    for (const double factor : {5.0, 2.0}) {
+        if (factor * power <= value) return factor * power;
+    }
+    return power;
+}
+
+class PrintMap {
+  public:
+    PrintMap(const ImageView& scan, const PrintCheck& check)
+        : check_(check),
+          scale_(kLongestSide / std::max(scan.width_px, scan.height_px)),
+          width_(scan.width_px * scale_),
+          height_(scan.height_px * scale_),
+          svg_(std::max(width_, 560.0) + 2 * kMargin, height_ + kHead + 2 * kMargin,
+               "Distortion of a print") {
+        full_mm_ = kLeastFullScale_mm;
+        double longest = kLongestArrow;
+        for (const PrintField& field : check.fields) {
+            full_mm_ = std::max(full_mm_, field.largest_distortion_mm);
+            longest =
+                std::min(longest, kLongestStep * kDistortionCells * field.spacing_px * scale_);
+        }
+        per_mm_ = longest / full_mm_;
+    }
+
+    std::string draw() && {
+        draw_head();
+        svg_.add(R"(<rect x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}" fill="none" )"
+                 R"(stroke="{}" stroke-width="2"/>)",
+                 kMargin, kMargin + kHead, width_, height_, colour::kFrame);
+        for (const PrintField& field : check_.fields) {
+            for (const DistortionBin& bin : field.distortion)
+                draw_bin(bin);
+        }
+        return std::move(svg_).finish();
+    }
+
+  private:
+    void draw_head() {
+        const double shown_mm = round_down(full_mm_);
+        const double y = kMargin + 80;
+        svg_.text({kMargin, kMargin + 28}, 30, "Where dots stand, against the fitted page",
+                  R"(font-weight="bold" fill="#17202a")");
+        svg_.arrow({kMargin, y}, {kMargin + shown_mm * per_mm_, y}, 2.5, colour::kEdge);
+        svg_.text({kMargin + shown_mm * per_mm_ + 14, y + 7}, 20,
+                  fmt::format("{:g} mm; largest {:.3f} mm, one arrow for about {} x {} dots",
+                              shown_mm, full_mm_, kDistortionCells, kDistortionCells),
+                  R"(fill="#6b7885")");
+    }
+
+    void draw_bin(const DistortionBin& bin) {
+        const Point at{kMargin + (bin.u_px + 0.5) * scale_,
+                       kMargin + kHead + (bin.v_px + 0.5) * scale_};
+        const Point tip = at + per_mm_ * Point{bin.du_mm, bin.dv_mm};
+        const double share = std::min(std::hypot(bin.du_mm, bin.dv_mm) / full_mm_, 1.0);
+        // From blue, small, to red, large.
+        const auto strength = [](double part) { return static_cast<int>(std::lround(210 * part)); };
+        const std::string colour =
+            fmt::format("#{:02x}40{:02x}", strength(share), strength(1 - share));
+        svg_.circle(at, 2.2, fmt::format(R"(fill="{}")", colour));
+        svg_.arrow(at, tip, 2, colour);
+    }
+
+    const PrintCheck& check_;
+    double scale_;
+    double width_;
+    double height_;
+    double per_mm_ = 1;
+    double full_mm_ = 0;
+    Svg svg_;
+};
+
+}  // namespace
+
+void draw_distortion(const std::filesystem::path& path, const ImageView& scan,
+                     const PrintCheck& check) {
+    write_file(path, [&](std::ostream& out) { out << PrintMap(scan, check).draw(); });
+}
+
+}  // namespace dotpose

@@ -1,0 +1,214 @@
+// `dotpose print --test-page` and `dotpose check-print` as their user sees them.
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <stdlib.h>
+#include <sys/wait.h>
+
+#include "../jpeg.hpp"
+#include "../scanned_page.hpp"
+#include "dotpose/image_file.hpp"
+#include "dotpose/print.hpp"
+#include "dotpose/test_page.hpp"
+
+namespace dotpose {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test::ScanSettings;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
+
+class CheckPrintCommand : public testing::Test {
+  protected:
+    void SetUp() override {
+        std::string name = (fs::temp_directory_path() / "dotpose-tool-XXXXXX").string();
+        ASSERT_NE(mkdtemp(name.data()), nullptr);
+        directory_ = name;
+    }
+    void TearDown() override { fs::remove_all(directory_); }
+
+    void run(const std::string& arguments) {
+        const std::string command =
+            "cd '" + directory_.string() + "' && '" DOTPOSE_TOOL "' " + arguments + " 2>.stderr";
+        output_.clear();
+        std::FILE* pipe = popen(command.c_str(), "r");
+        ASSERT_NE(pipe, nullptr);
+        std::array<char, 4096> buffer;
+        while (std::fgets(buffer.data(), static_cast<int>(buffer.size()), pipe) != nullptr)
+            output_ += buffer.data();
+        const int status = pclose(pipe);
+        exit_code_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+        errors_ = content(".stderr");
+        fs::remove(directory_ / ".stderr");
+    }
+
+    std::string content(const char* name) const {
+        std::ifstream stream(directory_ / name, std::ios::binary);
+        return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    }
+    void write_jpeg(const char* name, const GreyImage& image, int dpi) const {
+        std::ofstream(directory_ / name, std::ios::binary) << test::jpeg_of(image, 90, dpi);
+    }
+
+    fs::path directory_;
+    int exit_code_ = -1;
+    std::string output_;
+    std::string errors_;
+};
+
+GreyImage scan_of_60_x_50_mm(const ScanSettings& settings) {
+    SheetOptions options;
+    options.paper = {60, 50};
+    options.origin = {700, 800};
+    return test::scan_page(make_sheet(options), settings);
+}
+
+TEST_F(CheckPrintCommand, tells_people_what_is_wrong_and_why) {
+    ScanSettings settings;
+    settings.dpi = 600;
+    settings.scale_x = settings.scale_y = 0.97;
+    settings.missing = 0.05;
+    write_jpeg("scan.jpg", scan_of_60_x_50_mm(settings), 600);
+    run("check-print scan.jpg -o map.svg");
+    EXPECT_EQ(exit_code_, 0) << errors_;
+    EXPECT_THAT(errors_, IsEmpty());
+    EXPECT_THAT(output_, StartsWith("scan.jpg: 1417 x 1181 px, 600 dpi\n"));
+    EXPECT_THAT(output_, HasSubstr("cells 700,800 to "));
+    EXPECT_THAT(output_, HasSubstr("scale       x 97.00"));
+    EXPECT_THAT(output_, HasSubstr("FAULT: the driver scaled the page to 97.0 %: print at 100 %"));
+    EXPECT_THAT(output_, HasSubstr("of the dots are missing"));
+    EXPECT_THAT(content("map.svg"), StartsWith("<?xml"));
+}
+
+TEST_F(CheckPrintCommand, tells_machines_the_same) {
+    ScanSettings settings;
+    settings.dpi = 300;
+    settings.rotation_rad = 0.02;
+    write_png(directory_ / "scan.png", scan_of_60_x_50_mm(settings).view());
+    run("check-print scan.png --dpi 300 --format json");
+    EXPECT_EQ(exit_code_, 0) << errors_;
+    const json report = json::parse(output_);
+    EXPECT_EQ(report["status"], "ok");
+    EXPECT_EQ(report["file"], "scan.png");
+    EXPECT_EQ(report["test_page"], false);
+    ASSERT_EQ(report["fields"].size(), 1U);
+    const json field = report["fields"][0];
+    EXPECT_NEAR(field["scale_x"].get<double>(), 1, 0.0002);
+    EXPECT_NEAR(field["scale_y"].get<double>(), 1, 0.0002);
+    EXPECT_NEAR(field["rotation_deg"].get<double>(), 0.02 * 57.29578, 0.02);
+    EXPECT_EQ(field["origin"], json({700, 800}));
+    EXPECT_EQ(field["missing"], 0);
+    EXPECT_EQ(report["findings"].back()["kind"], "good");
+}
+
+TEST_F(CheckPrintCommand, without_a_resolution_nothing_is_said_of_scale) {
+    write_pgm(directory_ / "scan.pgm", scan_of_60_x_50_mm({}).view());
+    run("check-print scan.pgm");
+    EXPECT_EQ(exit_code_, 0) << errors_;
+    EXPECT_THAT(output_, Not(HasSubstr("scale   ")));
+    EXPECT_THAT(output_, HasSubstr("note:  scale was not checked"));
+}
+
+TEST_F(CheckPrintCommand, a_scan_without_a_pattern_is_status_1) {
+    const GreyImage blank{std::vector<std::uint8_t>(400 * 300, 230), 400, 300};
+    write_pgm(directory_ / "blank.pgm", blank.view());
+    run("check-print blank.pgm -o map.svg");
+    EXPECT_EQ(exit_code_, 1);
+    EXPECT_EQ(output_, "blank.pgm: 400 x 300 px\nno pattern was found in this image\n");
+    EXPECT_FALSE(fs::exists(directory_ / "map.svg"));
+    run("check-print blank.pgm --format json");
+    EXPECT_EQ(exit_code_, 1);
+    EXPECT_EQ(json::parse(output_)["status"], "no_pattern");
+}
+
+TEST_F(CheckPrintCommand, recognises_the_test_page) {
+    TestPageOptions options;
+    options.paper = {100, 90};
+    options.margin_mm = 5;
+    options.spacings = {24};
+    options.dots = {4, 6};
+    const PrintPage page = make_test_page(options);
+    write_jpeg("scan.jpg", test::scan_page(page.sheets, {}), 600);
+    run("check-print scan.jpg");
+    EXPECT_EQ(exit_code_, 0) << errors_;
+    EXPECT_THAT(output_, HasSubstr("test page: 2 patches were read"));
+    EXPECT_THAT(output_, HasSubstr("best for this printer: --spacing 0.5080 --dot 0.0847\n"));
+    EXPECT_THAT(output_, HasSubstr("0.3810   0.0423 could not be read"));
+    run("check-print scan.jpg --format json");
+    const json report = json::parse(output_);
+    EXPECT_EQ(report["test_page"], true);
+    EXPECT_EQ(report["best"], json({{"spacing_mm", 0.508}, {"dot_mm", 0.084667}}));
+    EXPECT_EQ(report["unread"].size(), 18U);
+}
+
+TEST_F(CheckPrintCommand, test_page_is_printed_in_every_format_but_text) {
+    for (const char* name : {"test.svg", "test.png", "test.tif"}) {
+        run(std::string("print --test-page -o ") + name);
+        EXPECT_EQ(exit_code_, 0) << errors_;
+        EXPECT_THAT(output_, HasSubstr("test page 210 x 297 mm, 20 patches"));
+        EXPECT_TRUE(fs::exists(directory_ / name));
+    }
+    run("check-print test.png");
+    EXPECT_EQ(exit_code_, 0) << errors_;
+    EXPECT_THAT(output_, HasSubstr("test page: "));
+    EXPECT_THAT(output_, HasSubstr("best for this printer: "));
+}
+
+TEST_F(CheckPrintCommand, wrong_usage_is_status_2) {
+    const GreyImage blank{std::vector<std::uint8_t>(100 * 100, 230), 100, 100};
+    write_pgm(directory_ / "blank.pgm", blank.view());
+    const char* const wrong[] = {
+        "check-print",                                  // no scan
+        "check-print blank.pgm --dpi 0",                //
+        "check-print blank.pgm --dpi x",                //
+        "check-print blank.pgm --format csv",           //
+        "check-print blank.pgm -o map.jpg",             //
+        "check-print blank.pgm --spacing 0",            //
+        "check-print blank.pgm --displacement 0.4",     //
+        "check-print blank.pgm --section 1,1",          // it is found
+        "check-print blank.pgm stray",                  //
+        "print --test-page -o test.txt",                //
+        "print --test-page -o test.png --spacing 0.5",  // a test page has its own
+        "print --test-page -o test.png --origin 1,1",   //
+        "print --test-page -o test.png --dpi 300",      // too coarse for 0.381 mm
+        "print --test-page -o test.png --paper 40x40",  // no room
+    };
+    for (const char* arguments : wrong) {
+        run(arguments);
+        EXPECT_EQ(exit_code_, 2) << arguments;
+        EXPECT_THAT(errors_, StartsWith("dotpose: ")) << arguments;
+        EXPECT_THAT(output_, IsEmpty()) << arguments;
+    }
+    EXPECT_FALSE(fs::exists(directory_ / "test.png"));
+}
+
+TEST_F(CheckPrintCommand, a_file_that_cannot_be_read_is_status_1) {
+    run("check-print missing.png");
+    EXPECT_EQ(exit_code_, 1);
+    EXPECT_EQ(errors_, "dotpose: cannot read missing.png: no such file\n");
+}
+
+TEST_F(CheckPrintCommand, help_shows_an_example) {
+    run("check-print --help");
+    EXPECT_EQ(exit_code_, 0);
+    EXPECT_THAT(output_, HasSubstr("dotpose check-print scan.png"));
+    for (const char* option :
+         {"--dpi", "--spacing", "--dot", "--displacement", "--code", "--format", "--out"}) {
+        EXPECT_THAT(output_, HasSubstr(option));
+    }
+}
+
+}  // namespace
+}  // namespace dotpose

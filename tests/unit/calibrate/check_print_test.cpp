@@ -1,0 +1,377 @@
+// Prints with known faults, scanned by a renderer of the tests' own (tests/scanned_page.hpp).
+#include "dotpose/check_print.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <numbers>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "../../jpeg.hpp"
+#include "../../scanned_page.hpp"
+#include "../../xml_check.hpp"
+#include "dotpose/image_file.hpp"
+#include "dotpose/print.hpp"
+#include "dotpose/simulate.hpp"
+#include "dotpose/test_page.hpp"
+
+namespace dotpose {
+namespace {
+
+using test::scan_page;
+using test::ScanSettings;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr double kDegree_rad = std::numbers::pi / 180;
+constexpr double kScaleTolerance = 0.0002;
+constexpr double kRotationTolerance_rad = 0.02 * kDegree_rad;
+
+Sheet small_sheet() {
+    SheetOptions options;
+    options.paper = {70, 90};
+    options.origin = {123'456, 7'890};
+    options.pattern.section = {5, 41};
+    return make_sheet(options);
+}
+
+PrintCheck check(const GreyImage& scan, double dpi, const Pattern& pattern = {}) {
+    CheckPrintOptions options;
+    options.pattern = pattern;
+    options.resolution = Resolution{dpi, dpi};
+    return check_print(scan.view(), options);
+}
+
+/// What is left of a scan that was saved as JPEG.
+GreyImage through_jpeg(const GreyImage& scan, int quality) {
+    const auto path = std::filesystem::temp_directory_path() / "dotpose-check-print-test.jpg";
+    std::ofstream(path, std::ios::binary) << test::jpeg_of(scan, quality);
+    GreyImage image = read_image(path);
+    std::filesystem::remove(path);
+    return image;
+}
+
+std::vector<std::string> faults(const PrintCheck& check) {
+    std::vector<std::string> names;
+    for (const Finding& finding : check.findings) {
+        if (finding.is_fault) names.emplace_back(name(finding.kind));
+    }
+    return names;
+}
+
+std::vector<std::string> remarks(const PrintCheck& check) {
+    std::vector<std::string> names;
+    for (const Finding& finding : check.findings) {
+        if (!finding.is_fault) names.emplace_back(name(finding.kind));
+    }
+    return names;
+}
+
+struct Fault {
+    const char* name;
+    ScanSettings settings;
+    std::vector<std::string> verdict;  ///< faults to be found, no others
+};
+void PrintTo(const Fault& fault, std::ostream* out) {
+    *out << fault.name << " at " << fault.settings.dpi << " dpi";
+}
+
+std::vector<Fault> all_faults() {
+    std::vector<Fault> list;
+    for (const double dpi : {300.0, 600.0}) {
+        const auto add = [&](const char* name, std::vector<std::string> verdict, auto change) {
+            ScanSettings settings;
+            settings.dpi = dpi;
+            change(settings);
+            list.push_back({name, settings, std::move(verdict)});
+        };
+        add("flawless", {}, [](ScanSettings&) {});
+        add("97_percent", {"scaled"}, [](ScanSettings& s) { s.scale_x = s.scale_y = 0.97; });
+        add("103_percent", {"scaled"}, [](ScanSettings& s) { s.scale_x = s.scale_y = 1.03; });
+        add("uneven", {"uneven_scale"}, [](ScanSettings& s) {
+            s.scale_x = 1.0025;
+            s.scale_y = 0.9975;
+        });
+        add("rotated", {}, [](ScanSettings& s) { s.rotation_rad = 1.5 * kDegree_rad; });
+        add("rotated_by_a_quarter", {}, [](ScanSettings& s) {
+            s.rotation_rad = 91.5 * kDegree_rad;
+            s.scale_x = 1.001;
+        });
+        add("skewed", {"skewed"}, [](ScanSettings& s) {
+            s.skew_rad = -0.3 * kDegree_rad;
+            s.scale_y = 1.001;
+        });
+        add("swollen", {"swollen"}, [](ScanSettings& s) { s.dot_growth = 1.8; });
+        add("thin", {"thin"}, [](ScanSettings& s) { s.dot_growth = 0.62; });
+        add("gaps", {"missing"}, [](ScanSettings& s) { s.missing = 0.05; });
+    }
+    return list;
+}
+
+class FaultyPrint : public testing::TestWithParam<Fault> {};
+
+TEST_P(FaultyPrint, is_measured_and_named) {
+    const Fault& fault = GetParam();
+    const ScanSettings& truth = fault.settings;
+    const Sheet sheet = small_sheet();
+    const PrintCheck result = check(scan_page(sheet, truth), truth.dpi);
+    ASSERT_EQ(result.fields.size(), 1U);
+    const PrintField& field = result.fields[0];
+    ASSERT_TRUE(field.scale);
+    EXPECT_NEAR(field.scale->scale_x, truth.scale_x, kScaleTolerance);
+    EXPECT_NEAR(field.scale->scale_y, truth.scale_y, kScaleTolerance);
+    EXPECT_NEAR(field.scale->rotation_rad, truth.rotation_rad, kRotationTolerance_rad);
+    EXPECT_NEAR(field.scale->skew_rad, truth.skew_rad, kRotationTolerance_rad);
+    EXPECT_NEAR(field.residual_mm, truth.jitter_mm, 0.005);
+    EXPECT_EQ(field.pattern.section.u, 5);
+    EXPECT_EQ(field.pattern.section.v, 41);
+    EXPECT_NEAR(field.missing_share(), truth.missing, 0.006);
+    EXPECT_LE(field.wrong_share(), 0.001);
+    EXPECT_NEAR(field.dot_mm, sheet.pattern.dot_mm * truth.dot_growth, 0.1 * field.dot_mm);
+    EXPECT_NEAR(field.paper_level, truth.paper_level, 1);
+    EXPECT_EQ(faults(result), fault.verdict);
+}
+
+INSTANTIATE_TEST_SUITE_P(all, FaultyPrint, testing::ValuesIn(all_faults()), [](const auto& test) {
+    return std::string(test.param.name) + "_" +
+           std::to_string(static_cast<int>(test.param.settings.dpi));
+});
+
+TEST(CheckPrint, finds_the_whole_region) {
+    const Sheet sheet = small_sheet();
+    const PrintCheck result = check(scan_page(sheet, {}), 600);
+    ASSERT_EQ(result.fields.size(), 1U);
+    EXPECT_EQ(result.fields[0].origin, sheet.origin);
+    EXPECT_EQ(result.fields[0].columns, sheet.columns);
+    EXPECT_EQ(result.fields[0].rows, sheet.rows);
+    EXPECT_EQ(result.fields[0].cells, sheet.columns * sheet.rows);
+    EXPECT_THAT(remarks(result), ElementsAre("good"));
+}
+
+TEST(CheckPrint, looks_through_jpeg) {
+    const Sheet sheet = small_sheet();
+    for (const int dpi : {300, 600}) {
+        ScanSettings settings;
+        settings.dpi = dpi;
+        settings.scale_x = settings.scale_y = 0.97;
+        const PrintCheck result = check(through_jpeg(scan_page(sheet, settings), 60), dpi);
+        ASSERT_EQ(result.fields.size(), 1U);
+        EXPECT_NEAR(result.fields[0].scale->scale_x, 0.97, kScaleTolerance);
+        EXPECT_NEAR(result.fields[0].scale->scale_y, 0.97, kScaleTolerance);
+        EXPECT_NEAR(result.fields[0].scale->rotation_rad, 0, kRotationTolerance_rad);
+        EXPECT_THAT(faults(result), ElementsAre("scaled"));
+        EXPECT_THAT(result.findings[0].text, HasSubstr("97.0 %: print at 100 %"));
+    }
+}
+
+TEST(CheckPrint, says_when_a_scan_is_too_coarse) {
+    const Sheet sheet = small_sheet();
+    ScanSettings settings;
+    settings.dpi = 300;
+    EXPECT_THAT(faults(check(through_jpeg(scan_page(sheet, settings), 15), 300)),
+                ElementsAre("too_coarse"));
+    settings.dpi = 75;
+    const PrintCheck nothing = check(scan_page(sheet, settings), 75);
+    EXPECT_THAT(nothing.fields, IsEmpty());
+    EXPECT_THAT(faults(nothing), ElementsAre("too_coarse"));
+}
+
+TEST(CheckPrint, finds_dots_that_run_together) {
+    // Dots of 0.3 mm touch where neighbours are displaced towards each other: 0.339 mm apart.
+    ScanSettings settings;
+    settings.dot_growth = 3.7;
+    const PrintCheck result = check(scan_page(small_sheet(), settings), 600);
+    ASSERT_EQ(result.fields.size(), 1U);
+    EXPECT_GT(result.fields[0].merged_share(), 0.03);
+    EXPECT_THAT(faults(result), ElementsAre("swollen"));
+    EXPECT_THAT(result.findings[0].text, HasSubstr("run together"));
+}
+
+TEST(CheckPrint, maps_distortion) {
+    SheetOptions options;
+    options.paper = {120, 210};
+    ScanSettings settings;
+    settings.dpi = 300;
+    settings.wave_mm = 0.3;
+    const PrintCheck result = check(scan_page(make_sheet(options), settings), 300);
+    ASSERT_EQ(result.fields.size(), 1U);
+    // Part of a sine is taken up by the fitted scale.
+    EXPECT_NEAR(result.fields[0].largest_distortion_mm, settings.wave_mm, 0.1);
+    EXPECT_LT(result.fields[0].scatter_mm, 0.01);
+    EXPECT_THAT(remarks(result), Contains("distorted"));
+    const double height_mm = 210;
+    for (const DistortionBin& bin : result.fields[0].distortion) {
+        EXPECT_NEAR(bin.du_mm, 0, 0.005);
+        const double along_mm = bin.v_px * 25.4 / settings.dpi - height_mm / 2;
+        // What the fit takes up is a line through the middle.
+        const double line_mm = (result.fields[0].scale->scale_y - 1) * along_mm;
+        const double wave_mm = settings.wave_mm * std::sin(2 * std::numbers::pi * along_mm / 100);
+        EXPECT_NEAR(bin.dv_mm, wave_mm - line_mm, 0.03);
+    }
+}
+
+TEST(CheckPrint, bits_of_another_place_are_wrong) {
+    // The lower 12 rows were printed from another cell, as a driver that tiles pages may do.
+    Sheet upper = small_sheet();
+    Sheet lower = upper;
+    upper.rows -= 12;
+    lower.origin = {1000, 2000};
+    lower.origin_y_mm += upper.rows * upper.pattern.spacing_mm;
+    lower.rows = 12;
+    const Sheet both[] = {upper, lower};
+    const PrintCheck result = check(scan_page(both, {}), 600);
+    ASSERT_FALSE(result.fields.empty());
+    EXPECT_EQ(result.fields[0].rows, upper.rows);
+    EXPECT_EQ(result.fields[0].columns, upper.columns);
+    EXPECT_EQ(result.fields[0].bits_wrong, 0);
+}
+
+TEST(CheckPrint, sees_a_photo_without_scale) {
+    const Sheet sheet = small_sheet();
+    CameraModel camera;
+    camera.width_px = 1600;
+    camera.height_px = 1200;
+    camera.mm_per_px = 0.03;
+    camera.working_distance_mm = 200;
+    CameraPose pose;
+    pose.cell = {sheet.origin.x + 60, sheet.origin.y + 80};
+    pose.theta_rad = 0.3;
+    pose.tilt_x_rad = 0.25;
+    Imperfections imperfections;
+    imperfections.blur_sigma_px = 0.8;
+    imperfections.noise_sigma = 3;
+    imperfections.missing = 0.03;
+    const GreyImage photo = render(page_of(sheet), camera, pose, imperfections, 1);
+    const PrintCheck result = check(photo, 72);  // what phones write into files
+    ASSERT_EQ(result.fields.size(), 1U);
+    EXPECT_FALSE(result.fields[0].scale);
+    EXPECT_FALSE(result.resolution);
+    EXPECT_NEAR(result.fields[0].missing_share(), imperfections.missing, 0.006);
+    EXPECT_LT(result.fields[0].residual_mm, 0.003);
+    EXPECT_THAT(remarks(result), Contains("no_resolution"));
+}
+
+TEST(CheckPrint, scan_without_a_pattern) {
+    GreyImage blank{std::vector<std::uint8_t>(800 * 600, 230), 800, 600};
+    EXPECT_THAT(check(blank, 300).fields, IsEmpty());
+    EXPECT_THAT(check(blank, 300).findings, IsEmpty());
+    Shot shot = draw_shot({}, 1);
+    shot.camera.width_px = 800;
+    shot.camera.height_px = 600;
+    EXPECT_THAT(check(render_scene(Scene::text, shot), 300).fields, IsEmpty());
+    EXPECT_THAT(check(render_scene(Scene::random_symbols, shot), 300).fields, IsEmpty());
+}
+
+TEST(CheckPrint, a_whole_page_at_600_dpi) {
+    ScanSettings settings;
+    settings.scale_x = 0.998;
+    settings.scale_y = 1.0005;
+    settings.rotation_rad = -1.5 * kDegree_rad;
+    const Sheet sheet = make_sheet({});
+    const PrintCheck result = check(scan_page(sheet, settings), 600);
+    ASSERT_EQ(result.fields.size(), 1U);
+    EXPECT_EQ(result.fields[0].columns, sheet.columns);
+    EXPECT_EQ(result.fields[0].rows, sheet.rows);
+    EXPECT_NEAR(result.fields[0].scale->scale_x, settings.scale_x, 0.00002);
+    EXPECT_NEAR(result.fields[0].scale->scale_y, settings.scale_y, 0.00002);
+    EXPECT_NEAR(result.fields[0].scale->rotation_rad, settings.rotation_rad, 0.002 * kDegree_rad);
+    EXPECT_EQ(result.fields[0].missing, 0);
+    EXPECT_THAT(faults(result), ElementsAre("uneven_scale"));
+}
+
+TEST(CheckPrint, test_page_tells_the_best_settings) {
+    TestPageOptions options;
+    options.paper = {110, 100};
+    options.margin_mm = 5;
+    options.spacings = {24, 36};
+    options.dots = {2, 4, 6};
+    const PrintPage page = make_test_page(options);
+    ScanSettings settings;
+    settings.dot_growth = 1.5;  // the printer swells its dots
+    settings.rotation_rad = 0.3 * kDegree_rad;
+    const PrintCheck result = check(scan_page(page.sheets, settings), 600);
+    EXPECT_TRUE(result.is_test_page);
+    ASSERT_EQ(result.fields.size(), page.sheets.size());
+    for (const Sheet& sheet : page.sheets) {
+        const auto field = std::ranges::find(result.fields, sheet.origin, &PrintField::origin);
+        ASSERT_NE(field, result.fields.end());
+        EXPECT_TRUE(field->is_patch);
+        EXPECT_DOUBLE_EQ(field->pattern.spacing_mm, sheet.pattern.spacing_mm);
+        EXPECT_DOUBLE_EQ(field->pattern.dot_mm, sheet.pattern.dot_mm);
+        EXPECT_EQ(field->columns, sheet.columns);
+        EXPECT_EQ(field->rows, sheet.rows);
+        EXPECT_EQ(field->missing, 0);
+        EXPECT_EQ(field->bits_wrong, 0);
+        EXPECT_NEAR(field->gain(), 0.5, 0.1);
+    }
+    // Wanted is a sixth of the spacing: 4 and 6 units, printed as 6 (or 3) and as 9 (or 6).
+    ASSERT_EQ(result.best_per_spacing.size(), 2U);
+    const auto dot_of = [&](std::size_t i) {
+        return std::lround(result.fields[result.best_per_spacing[i]].pattern.dot_mm / kTestUnit_mm);
+    };
+    EXPECT_EQ(dot_of(0), 2);
+    EXPECT_EQ(dot_of(1), 4);
+    EXPECT_EQ(result.best, result.best_per_spacing[0]);
+    EXPECT_THAT(remarks(result), Contains("best_settings"));
+    EXPECT_EQ(result.unread_patches.size(), 20U - 6U);
+}
+
+TEST(CheckPrint, draws_the_distortion) {
+    const GreyImage scan = scan_page(small_sheet(), {});
+    const PrintCheck result = check(scan, 600);
+    const auto path = std::filesystem::temp_directory_path() / "dotpose-check-print-test.svg";
+    draw_distortion(path, scan.view(), result);
+    std::ifstream stream(path);
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    std::filesystem::remove(path);
+    EXPECT_THAT(test::XmlCheck(text).problem(), IsEmpty());
+    const auto count = [&](const std::string& part) {
+        std::size_t n = 0;
+        for (std::size_t at = text.find(part); at != std::string::npos;
+             at = text.find(part, at + 1))
+            ++n;
+        return n;
+    };
+    EXPECT_EQ(count("<circle"), result.fields[0].distortion.size());
+    EXPECT_THROW(draw_distortion("/nowhere/map.svg", scan.view(), result), Error);
+}
+
+TEST(CheckPrint, refuses_what_cannot_be) {
+    const GreyImage blank{std::vector<std::uint8_t>(100 * 100, 230), 100, 100};
+    CheckPrintOptions options;
+    options.resolution = Resolution{0, 600};
+    EXPECT_THROW(check_print(blank.view(), options), BadArgument);
+    options = {};
+    options.pattern.spacing_mm = -1;
+    EXPECT_THROW(check_print(blank.view(), options), BadArgument);
+    options = {};
+    options.pattern.displacement_mm = 0.3;
+    EXPECT_THROW(check_print(blank.view(), options), BadArgument);
+    options = {};
+    options.ink_reflectance = 1;
+    EXPECT_THROW(check_print(blank.view(), options), BadArgument);
+}
+
+TEST(CheckPrint, can_be_stopped) {
+    CheckPrintOptions options;
+    int calls = 0;
+    options.progress = [&](int done, int total) {
+        EXPECT_LT(done, total);
+        return ++calls < 3;
+    };
+    const GreyImage scan = scan_page(small_sheet(), {});
+    EXPECT_THROW(check_print(scan.view(), options), Error);
+    EXPECT_EQ(calls, 3);
+}
+
+}  // namespace
+}  // namespace dotpose
