@@ -1,8 +1,8 @@
 #include "integrity_grids.hpp"
 
+#include "core/decode/confidence.hpp"
 #include "core/decode/nominal.hpp"
 #include "core/decode/position.hpp"
-#include "core/decode/rivals.hpp"
 #include "core/decode/upright.hpp"
 #include "core/decode/verify.hpp"
 #include "core/decode/window.hpp"
@@ -192,8 +192,8 @@ double apparent_information(const Grid& grid, const Decoding& decoding,
     }
     const Noise noise{core::odds_per_bit_q8(confidence) / 256.0, 0, 127};
     double bits = 0;
-    for (int bin = 0; bin < core::Confidence::kBins; ++bin)
-        bits += confidence.bits[static_cast<std::size_t>(bin)] * noise.information(8 * bin + 4);
+    for (int weight = 1; weight <= core::Confidence::kMostWeight; ++weight)
+        bits += confidence.bits(weight) * noise.information(weight);
     return bits / 2;
 }
 

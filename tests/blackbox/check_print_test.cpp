@@ -1,28 +1,24 @@
 // `dotpose print --test-page` and `dotpose check-print` as their user sees them.
-#include <array>
-#include <cstdio>
-#include <filesystem>
 #include <fstream>
-#include <iterator>
-#include <stdexcept>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <stdlib.h>
-#include <sys/wait.h>
 
 #include "../jpeg.hpp"
 #include "../scanned_page.hpp"
 #include "dotpose/image_file.hpp"
 #include "dotpose/print.hpp"
+#include "dotpose/sheet_file.hpp"
 #include "dotpose/test_page.hpp"
+#include "tool_command.hpp"
 
 namespace dotpose {
 namespace {
 
 namespace fs = std::filesystem;
+
 using nlohmann::json;
 using test::ScanSettings;
 using testing::HasSubstr;
@@ -30,42 +26,11 @@ using testing::IsEmpty;
 using testing::Not;
 using testing::StartsWith;
 
-class CheckPrintCommand : public testing::Test {
+class CheckPrintCommand : public test::ToolCommand {
   protected:
-    void SetUp() override {
-        std::string name = (fs::temp_directory_path() / "dotpose-tool-XXXXXX").string();
-        ASSERT_NE(mkdtemp(name.data()), nullptr);
-        directory_ = name;
-    }
-    void TearDown() override { fs::remove_all(directory_); }
-
-    void run(const std::string& arguments) {
-        const std::string command =
-            "cd '" + directory_.string() + "' && '" DOTPOSE_TOOL "' " + arguments + " 2>.stderr";
-        output_.clear();
-        std::FILE* pipe = popen(command.c_str(), "r");
-        ASSERT_NE(pipe, nullptr);
-        std::array<char, 4096> buffer;
-        while (std::fgets(buffer.data(), static_cast<int>(buffer.size()), pipe) != nullptr)
-            output_ += buffer.data();
-        const int status = pclose(pipe);
-        exit_code_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-        errors_ = content(".stderr");
-        fs::remove(directory_ / ".stderr");
-    }
-
-    std::string content(const char* name) const {
-        std::ifstream stream(directory_ / name, std::ios::binary);
-        return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    }
     void write_jpeg(const char* name, const GreyImage& image, int dpi) const {
         std::ofstream(directory_ / name, std::ios::binary) << test::jpeg_of(image, 90, dpi);
     }
-
-    fs::path directory_;
-    int exit_code_ = -1;
-    std::string output_;
-    std::string errors_;
 };
 
 GreyImage scan_of_60_x_50_mm(const ScanSettings& settings) {
@@ -89,7 +54,7 @@ TEST_F(CheckPrintCommand, tells_people_what_is_wrong_and_why) {
     EXPECT_THAT(output_, HasSubstr("scale       x 97.00"));
     EXPECT_THAT(output_, HasSubstr("FAULT: the driver scaled the page to 97.0 %: print at 100 %"));
     EXPECT_THAT(output_, HasSubstr("of the dots are missing"));
-    EXPECT_THAT(content("map.svg"), StartsWith("<?xml"));
+    EXPECT_THAT(file("map.svg"), StartsWith("<?xml"));
 }
 
 TEST_F(CheckPrintCommand, tells_machines_the_same) {
@@ -111,6 +76,31 @@ TEST_F(CheckPrintCommand, tells_machines_the_same) {
     EXPECT_EQ(field["origin"], json({700, 800}));
     EXPECT_EQ(field["missing"], 0);
     EXPECT_EQ(report["findings"].back()["kind"], "good");
+}
+
+TEST_F(CheckPrintCommand, fit_makes_the_millimetres_of_the_sheet_file_true) {
+    ASSERT_EQ(run("print --paper 60x50 -o a.svg --sheets sheets.json --name a"), 0);
+    ASSERT_EQ(run("print --paper 60x50 -o b.svg --sheets sheets.json --name b"), 0);
+    const auto sheets = [&] { return read_sheets(directory_ / "sheets.json"); };
+    ScanSettings settings;
+    settings.dpi = 600;
+    settings.scale_x = 0.97;
+    settings.scale_y = 0.98;
+    write_jpeg("scan.jpg", test::scan_page(sheets()[1].sheet, settings), 600);
+    run("check-print scan.jpg --fit --sheets sheets.json");
+    EXPECT_EQ(exit_code_, 0);
+    EXPECT_THAT(errors_, StartsWith("sheet 'b' of sheets.json: print scale x 0.97"));
+    EXPECT_NEAR(sheets()[1].print_scale_x, 0.97, 2e-4);
+    EXPECT_NEAR(sheets()[1].print_scale_y, 0.98, 2e-4);
+    EXPECT_EQ(sheets()[0].print_scale_x, 1);
+
+    // A sheet that is not in the file changes nothing.
+    const std::string before = file("sheets.json");
+    write_jpeg("other.jpg", scan_of_60_x_50_mm(settings), 600);
+    EXPECT_EQ(run("check-print other.jpg --fit --sheets sheets.json"), 1);
+    EXPECT_THAT(errors_, HasSubstr("no sheet of it is on the scan"));
+    EXPECT_EQ(file("sheets.json"), before);
+    EXPECT_EQ(run("check-print other.jpg --fit"), 2);
 }
 
 TEST_F(CheckPrintCommand, without_a_resolution_nothing_is_said_of_scale) {

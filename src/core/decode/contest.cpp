@@ -7,6 +7,7 @@ Contest::Contest(Profile profile, const Lines& lines_, const AxisReading& readin
       lines(lines_),
       position(reading.position),
       odds_per_bit_q8_(odds_q8) {
+    int most_regained = 0;  // score by which better rolls than the reading's exceed it, in all
     int roll = reading.roll;
     std::uint32_t p = reading.position;
     for (int i = 0; i < lines.count(); ++i) {
@@ -14,9 +15,11 @@ Contest::Contest(Profile profile, const Lines& lines_, const AxisReading& readin
         roll = (roll + delta(profile, p)) % kSections;
         p = p + 1 == kPositionsPerAxis ? 0 : p + 1;
         const LineScores& scores = lines[i];
-        most_regained_ += *std::max_element(scores.begin(), scores.end()) -
-                          scores[rolls_[static_cast<std::size_t>(i)]];
+        most_regained += *std::max_element(scores.begin(), scores.end()) -
+                         scores[rolls_[static_cast<std::size_t>(i)]];
     }
+    hopeless_score_ =
+        most_regained + static_cast<int>(-std::int64_t{kNegligible_q8} * 2 * 127 / odds_q8);
 }
 
 }  // namespace dotpose::core

@@ -31,9 +31,7 @@ class Contest {
         return std::ldexp(static_cast<float>(exp2_q16(log2_q8 - whole * 256)), whole - 16);
     }
     /// Whether the odds of a rival that has lost so much already are negligible, come what may.
-    bool is_hopeless(int lost) const {
-        return log2_odds_q8(lost - most_regained_) < kNegligible_q8;
-    }
+    bool is_hopeless(int lost) const { return lost > hopeless_score_; }
 
     const code::Basis& basis;
     const Lines& lines;
@@ -45,7 +43,7 @@ class Contest {
     }
 
     int odds_per_bit_q8_;
-    int most_regained_ = 0;  ///< score by which better rolls than the reading's exceed it, in all
+    int hopeless_score_ = 0;
     std::array<std::uint8_t, kMaxLines> rolls_{};
 };
 

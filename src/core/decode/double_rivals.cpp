@@ -14,6 +14,8 @@ struct Ranking {
     int anchors = 0;
     /// Expected odds of a rival that shares no anchor.
     float odds_without_anchor = 1;
+    /// What a rival loses in a line of the ranking, by how much further its roll is plus 126.
+    std::array<std::array<std::int16_t, 4 * kSections>, kMaxLines> losses;
 };
 
 float mean_odds(const Contest& contest, int line) {
@@ -38,27 +40,59 @@ Ranking::Ranking(const Contest& contest) {
         odds_without_anchor *= odds[lines[static_cast<std::size_t>(anchors++)]];
     }
     odds_without_anchor = std::max(odds_without_anchor, kNegligible);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+        for (int shift = 0; shift < 4 * kSections; ++shift) {
+            losses[i][static_cast<std::size_t>(shift)] =
+                static_cast<std::int16_t>(contest.loss(lines[i], shift % kSections));
+        }
+    }
 }
 
 /// By how much the roll of a sequence's place grows beyond the reading's, up to each line of a
-/// ranking.
-using Growth = std::array<std::int8_t, kMaxLines>;
+/// ranking, modulo 63.
+using Growth = std::array<std::uint8_t, kMaxLines>;
 
-void grow(const Contest& contest, const Ranking& ranking, const code::Secondary& a,
-          std::uint32_t rival, Growth& growth) {
-    std::array<std::int8_t, kMaxLines> by_line;
-    std::uint32_t own = contest.position % a.length;
-    int grown = 0;
-    for (int line = 0; line < contest.lines.count(); ++line) {
-        by_line[static_cast<std::size_t>(line)] = static_cast<std::int8_t>(grown);
-        grown = (grown + a.weight * (a.digits[rival] - a.digits[own])) % kSections;
-        own = own + 1 == a.length ? 0 : own + 1;
-        rival = rival + 1 == a.length ? 0 : rival + 1;
+/// Of all places of a sequence.
+class Growths {
+  public:
+    Growths(const Contest& contest, const Ranking& ranking, const code::Secondary& a)
+        : own_(contest.position % a.length), length_(a.length) {
+        for (std::uint32_t rival = 0; rival < length_; ++rival)
+            grow(contest, ranking, a, rival);
     }
-    for (std::size_t i = 0; i < static_cast<std::size_t>(contest.lines.count()); ++i) {
-        growth[i] = by_line[ranking.lines[i]];
+
+    /// Shows `use` the growth of every place but the reading's own.
+    template <typename Use>
+    void visit(Use use) const {
+        for (std::uint32_t rival = 0; rival < length_; ++rival) {
+            if (rival != own_) use(growths_[rival]);
+        }
     }
-}
+
+  private:
+    void grow(const Contest& contest, const Ranking& ranking, const code::Secondary& a,
+              std::uint32_t rival) {
+        std::array<std::uint8_t, kMaxLines> by_line;
+        std::uint32_t ours = own_;
+        std::uint32_t theirs = rival;
+        int grown = 0;
+        for (int line = 0; line < contest.lines.count(); ++line) {
+            by_line[static_cast<std::size_t>(line)] = static_cast<std::uint8_t>(grown);
+            grown =
+                (grown + a.weight * (a.digits[theirs] - a.digits[ours]) + kSections) % kSections;
+            ours = ours + 1 == length_ ? 0 : ours + 1;
+            theirs = theirs + 1 == length_ ? 0 : theirs + 1;
+        }
+        for (std::size_t i = 0; i < static_cast<std::size_t>(contest.lines.count()); ++i) {
+            growths_[rival][i] = by_line[ranking.lines[i]];
+        }
+    }
+
+    static constexpr std::size_t kLongest = 241;
+    std::uint32_t own_;
+    std::uint32_t length_;
+    std::array<Growth, kLongest> growths_;
+};
 
 /// Odds of the rival that shares an anchor, and none before it.
 float odds_of_anchored(const Contest& contest, const Ranking& ranking, const Growth& a,
@@ -67,36 +101,27 @@ float odds_of_anchored(const Contest& contest, const Ranking& ranking, const Gro
         const auto n = static_cast<std::size_t>(i);
         return a[n] + b[n];
     };
-    const int base = growth(anchor);
+    const int base = growth(anchor) - 2 * kSections;
     int lost = 0;
     for (int i = 0; i < contest.lines.count(); ++i) {
-        const int shift = (growth(i) - base) % kSections;
-        if (shift == 0) {
-            if (i < anchor) return 0;
-            continue;
-        }
-        lost += contest.loss(ranking.lines[static_cast<std::size_t>(i)], shift);
+        const int shift = growth(i) - base;
+        if (i < anchor && shift % kSections == 0) return 0;
+        lost += ranking.losses[static_cast<std::size_t>(i)][static_cast<std::size_t>(shift)];
         if (contest.is_hopeless(lost)) return kNegligible;
     }
     return contest.odds(lost);
 }
 
-float sum_of_pair(const Contest& contest, const Ranking& ranking, const code::Secondary& first,
-                  const code::Secondary& second) {
+float sum_of_pair(const Contest& contest, const Ranking& ranking, const Growths& first,
+                  const Growths& second) {
     float sum = 0;
-    Growth a;
-    Growth b;
-    for (std::uint32_t i = 0; i < first.length; ++i) {
-        if (i == contest.position % first.length) continue;
-        grow(contest, ranking, first, i, a);
-        for (std::uint32_t j = 0; j < second.length; ++j) {
-            if (j == contest.position % second.length) continue;
-            grow(contest, ranking, second, j, b);
+    first.visit([&](const Growth& a) {
+        second.visit([&](const Growth& b) {
             for (int anchor = 0; anchor < ranking.anchors; ++anchor)
                 sum += odds_of_anchored(contest, ranking, a, b, anchor);
             sum += kSections * ranking.odds_without_anchor;
-        }
-    }
+        });
+    });
     return sum;
 }
 
@@ -106,8 +131,11 @@ float sum_of_double_rivals(const Contest& contest) {
     const Ranking ranking(contest);
     float sum = 0;
     for (std::size_t k = 0; k < contest.basis.size(); ++k) {
-        for (std::size_t l = k + 1; l < contest.basis.size(); ++l)
-            sum += sum_of_pair(contest, ranking, contest.basis[k], contest.basis[l]);
+        const Growths first(contest, ranking, contest.basis[k]);
+        for (std::size_t l = k + 1; l < contest.basis.size(); ++l) {
+            sum +=
+                sum_of_pair(contest, ranking, first, Growths(contest, ranking, contest.basis[l]));
+        }
     }
     return sum;
 }

@@ -13,8 +13,9 @@ namespace {
 
 /// Consecutive lines that distinct positions can share: one more, and five differences are equal.
 constexpr int kMostShared = code::kOrder;
-/// Odds at which a closer look at the rivals changes nothing any more.
+/// Odds at which a closer look at the rivals changes nothing any more, or cannot help.
 constexpr float kFarBelowDoubt = 1e-12F;
+constexpr float kBeyondHelp = 1e-4F;
 static_assert(4 * code::kA3.size() >= kMaxLines, "steps back from any line stay positive");
 
 using Places = std::array<std::uint32_t, 4>;
@@ -154,7 +155,7 @@ int rivals_log2(Profile profile, const Lines& lines, const AxisReading& reading,
                   sum_of_near_rivals(contest, kMostShared);
     float expected = sum_of_far_rivals(contest, kMostShared, 2);
     // The more rivals are looked at one by one, the fewer remain to be feared for their number.
-    if (known + expected > kFarBelowDoubt && expected > known) {
+    if (known + expected > kFarBelowDoubt && expected > known && expected < kBeyondHelp) {
         known += sum_of_double_rivals(contest) + sum_of_near_rivals(contest, kMostShared - 1);
         expected = sum_of_far_rivals(contest, kMostShared - 1, 3);
     }

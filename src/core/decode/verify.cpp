@@ -46,31 +46,36 @@ Status verify(const Grid& grid, Profile profile, const Decoding& decoding, const
     const Upright upright(grid, decoding.region, decoding.pattern_from_grid);
     const Vec corner = decoding.pattern_from_grid(upright.corner());
     const Place place = moved(profile, decoding.place, corner.x, corner.y);
-    fix.bit_errors = 0;
-    int p_wrong_q8 = kNever_q8;
-    bool one_pattern = true;
     const std::array<Agreement, 2> agreements{
         compare(grid, decoding.pattern_from_grid, nominal, Axis::x),
         compare(grid, decoding.pattern_from_grid, nominal, Axis::y)};
+    fix.bit_errors = agreements[0].errors + agreements[1].errors;
+    fix.p_wrong_log2 = 0;
+    for (const Agreement& agreement : agreements) {
+        // Two patterns in view.
+        if (agreement.errors > agreement.bits * options.max_bit_error_q8 / 256) {
+            return Status::not_certain;
+        }
+    }
     // Both axes are read from the same dots, and so are misread alike.
     Confidence both = agreements[0].confidence;
     both.add(agreements[1].confidence);
     const int odds = odds_per_bit_q8(both);
+    int p_wrong_q8 = kNever_q8;
+    for (const Agreement& agreement : agreements) {
+        p_wrong_q8 = add_log2(p_wrong_q8, 256 * chance_log2(agreement.confidence, odds));
+    }
+    // Rivals take long to count, and only add to this.
+    if (p_wrong_q8 > 256 * options.max_p_wrong_log2) return Status::not_certain;
     for (const Axis axis : {Axis::x, Axis::y}) {
-        const Agreement& agreement = agreements[axis == Axis::x ? 0 : 1];
         const AxisReading reading =
             axis == Axis::x ? reading_of(profile, place.cell.x, place.section.u, place.cell.y)
                             : reading_of(profile, place.cell.y, place.section.v, place.cell.x);
         const Lines lines = score_lines(upright, axis, storage);
-        const int rivals = rivals_log2(profile, lines, reading, odds);
-        p_wrong_q8 = add_log2(
-            p_wrong_q8, add_log2(256 * rivals, 256 * chance_log2(agreement.confidence, odds)));
-        fix.bit_errors += agreement.errors;
-        one_pattern &= agreement.errors <= agreement.bits * options.max_bit_error_q8 / 256;
+        p_wrong_q8 = add_log2(p_wrong_q8, 256 * rivals_log2(profile, lines, reading, odds));
     }
     fix.p_wrong_log2 = std::min((p_wrong_q8 + 255) >> 8, 0);
-    const bool certain = one_pattern && fix.p_wrong_log2 <= options.max_p_wrong_log2;
-    return certain ? Status::ok : Status::not_certain;
+    return fix.p_wrong_log2 <= options.max_p_wrong_log2 ? Status::ok : Status::not_certain;
 }
 
 }  // namespace dotpose::core

@@ -81,8 +81,8 @@ TEST(Chance, ChanceIsBoundedFromAboveAndNotFarOff) {
             ASSERT_GE(bound, std::min(exact[static_cast<std::size_t>(e)], 37.0L) - 1e-9L);
             if (2 * e > n) continue;
             // Chernoff's bound gives a factor of up to sqrt(8 n p q) away; odds for two errors more
-            // than there were, up to (e + 2) log2((e + 2) / e) or so; the rounding 2 and n / 2^7.
-            const double slack = 0.5 * std::log2(8.0 * n) + 10 + n / 128.0;
+            // than there were, up to (e + 2) log2((e + 2) / e) or so; the rounding 2 and n / 2^6.
+            const double slack = 0.5 * std::log2(8.0 * n) + 10 + n / 64.0;
             ASSERT_LE(bound, exact[static_cast<std::size_t>(e)] + slack);
         }
     }
