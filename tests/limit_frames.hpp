@@ -90,7 +90,7 @@ inline void add_light(std::vector<Limit>& limits) {
                  worse.ink_reflectance = 1 - contrast / worse.paper_level;
              }});
     }
-    limits.push_back({"white on black, inverted", [](Shot&) {}});
+    limits.push_back({"white dots on black paper, inverted", [](Shot&) {}});
     limits.back().is_white_on_black = true;
 }
 

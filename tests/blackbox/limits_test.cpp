@@ -21,7 +21,7 @@ std::uint64_t frames_of(const CameraModel& camera) {
     constexpr int kSmall_px = 200 * 200;
     constexpr int kMedium_px = 1280 * 960;
     const int area_px = camera.width_px * camera.height_px;
-    return area_px <= kSmall_px ? 6 : area_px < kMedium_px ? 3 : 1;
+    return area_px <= kSmall_px ? 6 : area_px < kMedium_px ? 5 : 1;
 }
 
 class Limits : public testing::TestWithParam<Limit> {};
@@ -60,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(Held, Limits, testing::ValuesIn(held_limits()), test_na
 
 TEST(MirroredFrames, AreRefusedAsSuch) {
     const auto workspace = std::make_unique<LargeWorkspace>();
-    for (std::uint64_t i = 0; i < 5; ++i) {
+    for (std::uint64_t i = 0; i < 3; ++i) {
         dotpose::Setup setup;
         setup.seed = kSeed;
         const GreyImage image = render_scene(Scene::mirrored, draw_shot(setup, i));
