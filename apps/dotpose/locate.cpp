@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -52,6 +53,7 @@ struct LocateArguments {
     RecordFormat format = RecordFormat::jsonl;
     std::string sheets;  ///< sheet file; empty: none
     double spacing_mm = kDefaultSpacing_mm;
+    bool is_inverted = false;
     Options options;
     std::optional<PixelPoint> reference_px;
 };
@@ -117,6 +119,11 @@ class Lines {
     std::unique_ptr<std::FILE, Closer> file_;
 };
 
+void invert(GreyImage& image) {
+    for (std::uint8_t& grey : image.pixels)
+        grey = static_cast<std::uint8_t>(255 - grey);
+}
+
 /// Reads and locates one image after the other.
 class Locator {
   public:
@@ -134,6 +141,7 @@ class Locator {
     /// Throws Error if the image cannot be read.
     Record operator()(const std::string& name) {
         image_ = read_image(name);
+        if (arguments_.is_inverted) invert(image_);
         options_ = options_for(image_);
         Record record;
         record.file = name;
@@ -298,6 +306,7 @@ void add_locate(CLI::App& app, int& exit_code) {
     add_sheets_option(*command, arguments->sheets,
                       "Sheet file: also tell the sheet, and the place on it and in the world")
         ->excludes(command->get_option("--spacing"), command->get_option("--code"));
+    command->add_flag("--inverted", arguments->is_inverted, "The dots are white on black");
     add_camera_options(*command, *arguments);
     add_attempt_options(*command, arguments->options);
     command

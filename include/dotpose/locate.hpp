@@ -3,6 +3,10 @@
 /// Or row by row, as a camera delivers them, without a frame buffer: `begin`, then `push_row` for
 /// every row from the top, then `finish`. `locate` does just that.
 ///
+/// Dots are dark on light paper. Who sees white dots on black inverts the pixels first:
+///
+///     for (std::uint8_t& grey : pixels) grey = 255 - grey;
+///
 /// Memory: the caller owns one workspace for each thread (LargeWorkspace is about 1 MB: make it
 /// static or on the heap) and may use it for any number of frames; afterwards it shows every
 /// stage's output. Nothing is allocated, printed or thrown; there are no globals. Calls with

@@ -72,7 +72,8 @@ struct Imperfections {
     double ink_reflectance = 0.15;  ///< relative to paper
     double ink_variation = 0;       ///< deviation of a dot's reflectance, relative to paper
     double vignetting = 0;          ///< loss of light in the image corners, growing with r^2
-    double fall = 0;                ///< linear change of light from one side to the other
+    /// Linear change of light from one side to the other, relative to that at the centre; 0 to 2.
+    double fall = 0;
     double fall_direction_rad = 0;  ///< image direction of less light, from +u towards +v
     double blur_sigma_px = 0;
     Vec2 motion_px;  ///< of the scene in the image during exposure; the pose is that of its middle

@@ -60,10 +60,11 @@ void check(const Page& page, const CameraModel& camera, const CameraPose& pose,
             "the section must be 0 to 62");
     const Imperfections& i = imperfections;
     require(within(i.paper_level, 0, 255), "the paper level must be 0 to 255");
-    for (const double fraction : {i.ink_reflectance, i.ink_variation, i.vignetting, i.fall,
+    for (const double fraction : {i.ink_reflectance, i.ink_variation, i.vignetting,
                                   i.salt_and_pepper, i.missing, i.texture}) {
         require(within(fraction, 0, 1), "fractions and reflectances must be 0 to 1");
     }
+    require(within(i.fall, 0, 2), "the fall of light must be 0 to 2");
     require(within(i.blur_sigma_px, 0, 100), "the blur must be 0 to 100 px");
     require(std::hypot(i.motion_px.x, i.motion_px.y) <= 100, "the motion must be 0 to 100 px");
     require(within(i.fall_direction_rad, -1e6, 1e6), "the direction of the fall is not a number");

@@ -250,6 +250,35 @@ TEST_F(LocateCommand, the_lens_is_used) {
     EXPECT_TRUE(without["status"] != "ok" || without["residual_px"] > 1) << without;
 }
 
+TEST_F(LocateCommand, white_dots_on_black_are_read_if_told) {
+    GreyImage image = render(shot(3));
+    for (std::uint8_t& grey : image.pixels)
+        grey = static_cast<std::uint8_t>(255 - grey);
+    write_pgm(directory_ / "inverted.pgm", image.view());
+    write_frame("usual.pgm", 3);
+
+    run("inverted.pgm");
+    EXPECT_NE(records().at(0)["status"], "ok");
+    run("--inverted --draw . inverted.pgm usual.pgm");
+    EXPECT_EQ(exit_code_, 0);
+    const json found = records().at(0);
+    ASSERT_EQ(found["status"], "ok");
+    const Shot truth = shot(3);
+    EXPECT_NEAR(found["x_grid"], x_grid(truth.pose), 0.03);
+    EXPECT_NEAR(found["y_grid"], y_grid(truth.pose), 0.03);
+    EXPECT_NE(records().at(1)["status"], "ok");
+
+    // The picture shows what was located: dark dots.
+    run("--draw . usual.pgm");
+    const auto pixels_in = [this](const std::string& picture) {
+        const std::string svg = file(picture);
+        const std::size_t begin = svg.find("data:image/png;base64,");
+        EXPECT_NE(begin, std::string::npos);
+        return svg.substr(begin, svg.find('"', begin) - begin);
+    };
+    EXPECT_EQ(pixels_in("inverted.svg"), pixels_in("usual.svg"));
+}
+
 TEST_F(LocateCommand, draws_a_picture_for_each_image) {
     write_frame("a.pgm", 0);
     write_png(directory_ / "a.png", render(shot(1)).view());
@@ -337,7 +366,7 @@ TEST_F(LocateCommand, help_shows_an_example_and_all_options) {
     EXPECT_EQ(exit_code_, 0);
     EXPECT_THAT(output_, HasSubstr("dotpose locate --format csv frames/*.pgm > poses.csv"));
     for (const char* option : {"--list", "--spacing", "--code", "--k", "--reference", "--format",
-                               "--out", "--draw", "--sheets", "IMAGE"}) {
+                               "--out", "--draw", "--sheets", "--inverted", "IMAGE"}) {
         EXPECT_THAT(output_, HasSubstr(option));
     }
 }

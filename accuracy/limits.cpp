@@ -1,0 +1,123 @@
+// How bad may a frame be? The table of docs/limits.md, in Markdown.
+//
+//   dotpose_limits [--frames N] [--seed S] [--threads N]
+//
+// N frames of each condition of tests/limit_frames.hpp, fewer of large images and of mirror images,
+// which take long. Exits 1 if any fix is wrong.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "../tests/limit_frames.hpp"
+#include "counting.hpp"
+#include "dotpose/evaluate.hpp"
+
+namespace {
+
+using namespace dotpose;
+
+struct Arguments {
+    Counting counting;
+    std::uint64_t frames = 200;
+};
+
+/// At least these, unless fewer were asked for.
+constexpr std::uint64_t kFewest = 4;
+
+/// As many pixels in all as `frames` images of 320 x 240.
+int frames_of(const CameraModel& camera, std::uint64_t frames) {
+    constexpr std::uint64_t kFull_px = 320 * 240;
+    const std::uint64_t area_px =
+        static_cast<std::uint64_t>(camera.width_px) * static_cast<std::uint64_t>(camera.height_px);
+    const std::uint64_t affordable = std::max(frames * kFull_px / area_px, kFewest);
+    return static_cast<int>(std::min(affordable, frames));
+}
+
+std::string micrometres(double value) {
+    return std::isnan(value) ? "-" : fmt::format("{:.1f}", value);
+}
+
+using Outcomes = std::vector<std::vector<Outcome>>;
+
+/// Locates all frames at the first attempt, and with both. Throws Error if interrupted.
+Outcomes locate_all(const std::string& what, FrameRun run, const Arguments& arguments,
+                    const Options& options) {
+    static_assert(kEfforts.front() == Effort::once && kEfforts.back() == Effort::twice);
+    cli::ProgressLine progress(what);
+    run.threads = static_cast<int>(arguments.counting.threads);
+    run.progress = [&progress](int done, int total) {
+        progress.update(done, total);
+        return !cli::interrupted();
+    };
+    run.options.assign(kEfforts.size(), options);
+    for (std::size_t i = 0; i < kEfforts.size(); ++i)
+        run.options[i].effort = kEfforts[i];
+    return evaluate(run);
+}
+
+/// Prints the row of one condition; returns how many fixes are wrong.
+int print_limit(const test::Limit& limit, const Arguments& arguments) {
+    FrameRun run;
+    run.frames = frames_of(limit.camera, arguments.frames);
+    run.frame_at = [&](int index) {
+        const Shot shot =
+            shot_at(limit, arguments.counting.seed, static_cast<std::uint64_t>(index));
+        return KnownFrame{picture_of(limit, shot), truth_of(shot), {}, {}};
+    };
+    const Outcomes outcomes = locate_all(limit.condition, run, arguments, options_of(limit));
+    const Score once = score_of(outcomes.front());
+    const Score twice = score_of(outcomes.back());
+    fmt::print("| {} | {} | {:.1f} | {:.1f} | {} | {} | {} |\n", limit.condition, run.frames,
+               100 * once.located_share(), 100 * twice.located_share(), twice.wrong,
+               micrometres(twice.position_um.median), micrometres(twice.position_um.p95));
+    std::fflush(stdout);
+    return twice.wrong;
+}
+
+/// Prints how often a mirror image is refused as one; returns how many fixes there are.
+int print_mirrored(const Arguments& arguments) {
+    FrameRun run;
+    run.frames =
+        static_cast<int>(std::min(std::max(arguments.frames / 10, kFewest), arguments.frames));
+    run.frame_at = [&](int index) {
+        Setup setup;
+        setup.seed = arguments.counting.seed;
+        const Shot shot = draw_shot(setup, static_cast<std::uint64_t>(index));
+        KnownFrame frame{render_scene(Scene::mirrored, shot), truth_of(shot), {}, {}};
+        frame.truth.has_pose = false;
+        return frame;
+    };
+    const Score score = score_of(locate_all("mirror images", run, arguments, {}).back());
+    const int refused = score.by_status[static_cast<std::size_t>(Status::mirrored)];
+    fmt::print(
+        "\nOf {} nominal frames seen from behind, {} are refused as `mirrored`, {} located.\n",
+        run.frames, refused, score.wrong);
+    return score.wrong;
+}
+
+int run(const Arguments& arguments) {
+    fmt::print(
+        "| condition | frames | located at once, % | located, % | wrong | median error, µm "
+        "| 95 %, µm |\n|---|--:|--:|--:|--:|--:|--:|\n");
+    int wrong = 0;
+    for (const test::Limit& limit : test::all_limits())
+        wrong += print_limit(limit, arguments);
+    wrong += print_mirrored(arguments);
+    return wrong == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Arguments arguments;
+    CLI::App app("How bad may a frame be? Status 1 if any fix is wrong.", "dotpose_limits");
+    add_count(app, "--frames", arguments.frames, "How many for each condition");
+    arguments.counting.add_to(app);
+    return run_program(app, argc, argv, [&] { return run(arguments); });
+}
