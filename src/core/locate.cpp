@@ -156,8 +156,8 @@ Fix locate_dots(const Options& options, const ImageView* image, Workspace& w) {
 /// The second attempt, on the image filtered.
 Fix locate_filtered(const ImageView& image, const Options& options, Workspace& w) {
     Options filtered = options;
-    // Filtered, noise is a third of what it was.
-    filtered.threshold.min_contrast = options.threshold.min_contrast / 3 + 1;
+    // Filtered, noise is a third of what it was, and dots are paler.
+    filtered.threshold.min_contrast = options.threshold.min_contrast / 2 + 1;
     w.fix.status = begin(image.width_px, image.height_px, filtered, w);
     core::begin_smoothing(image, w.smoothing);
     for (int v = 0; v < image.height_px; ++v)
