@@ -28,7 +28,8 @@ class Sensor {
           border_(static_cast<std::size_t>(kernel.border_px)),
           kernel_(kernel),
           paper_(paper),
-          row_(whole_lanes(width_ + 2 * border_ + kernel.taps)),
+          // A reach may begin anywhere, and is filled up to whole lanes.
+          row_(whole_lanes(width_ + 2 * border_ + kernel.taps) + kLanes),
           levels_(row_.size() * static_cast<std::size_t>(camera.height_px)) {
         collect_paper();
     }
@@ -41,7 +42,7 @@ class Sensor {
         const auto phase = static_cast<std::size_t>(sub_row % kernel_.per_pixel);
         for (const Kernel::Moment& moment : kernel_.moments) {
             for (const Reach reach : reaches_)
-                std::fill(&row_[reach.from], &row_[reach.to], 0.0F);
+                std::fill(row_.data() + reach.from, row_.data() + reach.to, 0.0F);
             spread(moment.x);
             for (const Reach reach : reaches_)
                 add_row(row, moment.y[phase], reach);
@@ -50,7 +51,7 @@ class Sensor {
 
     std::vector<float> levels() const {
         std::vector<float> inside(width_ * static_cast<std::size_t>(height_));
-        const float* in = &levels_[2 * border_];
+        const float* in = levels_.data() + (2 * border_);
         for (auto out = inside.begin(); out != inside.end(); in += row_.size())
             out = std::copy_n(in, width_, out);
         return inside;
@@ -67,7 +68,7 @@ class Sensor {
     }
 
     const float* paper_row(int row) const {
-        return &paper_[static_cast<std::size_t>(row) * (width_ + 2 * border_)];
+        return paper_.data() + (static_cast<std::size_t>(row) * (width_ + 2 * border_));
     }
 
     // From ink to lost light, and the parts of row_ that it reaches.
@@ -119,7 +120,7 @@ class Sensor {
             of_phase[phase] = weights[phase].data();
         for (const Raster::Spot& loss : losses_) {
             for (std::size_t j = 0; j < kernel_.taps; j += kLanes) {
-                float* out = &row_[loss.pixel + j];
+                float* out = row_.data() + (loss.pixel + j);
                 std::array<float, kLanes> light;
                 std::copy_n(out, kLanes, light.begin());
                 for (std::size_t phase = 0; phase < kPhases; ++phase) {
@@ -139,7 +140,7 @@ class Sensor {
         const int end = std::min(2 * kernel_.border_px + 1, height_ - top);
         for (int j = first; j < end; ++j) {
             const float weight = weights[static_cast<std::size_t>(j)];
-            float* level = &levels_[static_cast<std::size_t>(top + j) * row_.size()];
+            float* level = levels_.data() + (static_cast<std::size_t>(top + j) * row_.size());
             for (std::size_t u = reach.from; u < reach.to; u += kLanes) {
                 std::array<float, kLanes> sum;
                 for (std::size_t lane = 0; lane < kLanes; ++lane)
@@ -165,13 +166,13 @@ class Sensor {
             std::reverse(across.begin(), across.end());
             for (std::size_t row = 0; row < height + 2 * border_; ++row) {
                 std::copy_n(paper_row(static_cast<int>(row)), width_ + 2 * border_,
-                            &light[2 * border_]);
+                            light.data() + (2 * border_));
                 // Tap j takes from j pixels to the left.
-                add_weighted(&along_rows[row * stride], &light[2 * border_], -1, along, reach,
-                             stride);
+                add_weighted(along_rows.data() + (row * stride), light.data() + (2 * border_), -1,
+                             along, reach, stride);
             }
             for (std::size_t v = 0; v < height; ++v) {
-                add_weighted(&levels_[v * stride], &along_rows[v * stride],
+                add_weighted(levels_.data() + (v * stride), along_rows.data() + (v * stride),
                              static_cast<std::ptrdiff_t>(stride), across, reach, stride);
             }
             std::fill(along_rows.begin(), along_rows.end(), 0.0F);
