@@ -192,8 +192,8 @@ double apparent_information(const Grid& grid, const Decoding& decoding,
     }
     const Noise noise{core::odds_per_bit_q8(confidence) / 256.0, 0, 127};
     double bits = 0;
-    for (int weight = 1; weight <= core::Confidence::kMostWeight; ++weight)
-        bits += confidence.bits(weight) * noise.information(weight);
+    for (int level = 0; level < core::Confidence::kLevels; ++level)
+        bits += confidence.bits(level) * noise.information(core::Confidence::weight_of(level));
     return bits / 2;
 }
 
@@ -213,7 +213,7 @@ void try_grid(GridKind kind, std::uint64_t seed, std::uint64_t index, Tally& tal
     Decoding decoding;
     decoding.window = core::choose_window(reading.grid, kWindowSide);
     decoding.region = core::choose_window(reading.grid, kMaxSide);
-    std::array<LineScores, kMaxSide> storage;
+    std::array<LineScores, 2 * kMaxSide> storage;
     if (core::decode_all(reading.grid, reading.profile, storage, decoding) != Status::ok) {
         ++tally.unread;
         return;
@@ -225,7 +225,7 @@ void try_grid(GridKind kind, std::uint64_t seed, std::uint64_t index, Tally& tal
     }
     Fix fix;
     const Status status =
-        core::verify(reading.grid, reading.profile, decoding, nominal, kAcceptAll, storage, fix);
+        core::verify(reading.grid, reading.profile, decoding, kAcceptAll, storage, fix);
     if (status != Status::ok) {
         ++tally.unread;
         return;

@@ -56,8 +56,9 @@ struct IntegrityOptions {
 
 /// How hard `locate` tries.
 enum class Effort : std::uint8_t {
-    once,   ///< one attempt, as a device does that gets its frame row by row
-    twice,  ///< a frame that could not be read is filtered and tried again
+    device,  ///< one attempt in integers, as `finish_device` does it
+    once,    ///< one attempt, as a device does that gets its frame row by row
+    twice,   ///< a frame that could not be read is filtered and tried again
 };
 
 /// What the position is read from.

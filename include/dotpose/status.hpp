@@ -16,7 +16,6 @@ enum class [[nodiscard]] Status : std::uint8_t{
     too_few_dots,
     // src/core/lattice
     no_grid,
-    no_intact_neighbourhood,
     no_displacement,
     // src/core/decode
     grid_too_small,
@@ -31,7 +30,7 @@ enum class [[nodiscard]] Status : std::uint8_t{
 };
 
 /// Number of values of Status, for tables.
-inline constexpr int kStatusCount = 16;
+inline constexpr int kStatusCount = 15;
 
 /// The identifier of a status as written in output lines, for example "too_few_dots".
 const char* name(Status status) noexcept;

@@ -49,7 +49,6 @@ struct Dot {
 
 /// Light of one tile.
 struct Tile {
-    std::uint16_t sum = 0;  ///< of its pixels
     std::uint8_t mean = 0;
     std::uint8_t darkest = 255;
 };
@@ -57,7 +56,7 @@ struct Tile {
 /// What counts as dark in one tile, in grey levels.
 struct Levels {
     std::uint8_t paper = 0;   ///< 0 where nothing is dark
-    std::uint8_t extent = 0;  ///< pixels darker than this belong to a blob
+    std::uint8_t extent = 0;  ///< pixels darker than this, an even level, belong to a blob
     std::uint8_t core = 0;    ///< some pixel of a blob must be darker than this
 };
 
@@ -65,13 +64,21 @@ struct Levels {
 struct Light {
     int width_px = 0;
     int height_px = 0;
-    int tile_px = 0;
+    int tile_px = 0;  ///< 2^tile_shift
+    int tile_shift = 0;
     int tiles_per_band = 0;
     int rows_taken = 0;
-    bool has_contrast = false;     ///< anywhere so far
-    std::span<std::uint8_t> rows;  ///< pixels of the two newest bands
-    std::span<Tile> tiles;         ///< of the three newest bands
-    std::span<Levels> levels;      ///< of the band being thresholded
+    bool has_contrast = false;  ///< anywhere so far
+    /// Pixels of the two newest bands; rows are filled up to whole tiles.
+    std::span<std::uint8_t> rows;
+    /// Of the newest band, for every four columns: sums of their pixels, in two halves, and how
+    /// dark each is together with its neighbour, in seven bits.
+    std::span<std::uint32_t> sums;
+    std::span<std::uint32_t> darkest;
+    std::span<Tile> tiles;     ///< of the three newest bands
+    std::span<Levels> levels;  ///< of the band being thresholded
+    /// Half of `Levels::extent` in each byte, for every eight columns.
+    std::span<std::uint32_t> half_levels;
 };
 
 /// The paper's grey level in the square blocks of an image.
@@ -215,6 +222,8 @@ struct Decoding {
     Region region;  ///< all that is decoded: at most kMaxLines x kMaxLines cells
     Turn pattern_from_grid;
     Place place;  ///< where grid cell (0, 0) stands in the code, seen or not
+    /// Whether `Workspace::line_scores` are those of the region, turned so.
+    bool lines_are_scored = false;
 };
 
 /// All stages' memory and results. Use one of the aliases below; the stages see spans only.
@@ -228,17 +237,16 @@ struct Workspace {
     int dot_count = 0;
     int dots_kept_within_px = 0;  ///< of the image centre, per axis; shrinks when `dots` is full
     // lattice
-    std::array<std::uint16_t, kMaxSeeds> seeds{};  ///< indices of dots
+    std::span<std::uint16_t> seeds;  ///< indices of dots
     int seed_count = 0;
-    std::array<std::array<std::int16_t, 4>, kMaxSeeds> neighbours{};
-    std::array<Edge, 2 * kMaxSeeds> edges{};
+    std::span<std::array<std::int16_t, 4>> neighbours;  ///< of each seed
+    std::span<Edge> edges;                              ///< two for each seed
     int edge_count = 0;
     Lattice lattice;
-    int origin_seed = -1;  ///< centre of the intact neighbourhood, if any
     PlaneFromImage grid_from_image;
     // decode
     Grid grid;
-    std::span<LineScores> line_scores;  ///< of one axis
+    std::span<LineScores> line_scores;  ///< of the columns, and in the second half of the rows
     Decoding decoding;
     // pose
     PlaneFromImage pattern_from_image;  ///< relative to `Decoding::place`
@@ -265,11 +273,17 @@ class WorkspaceOf : public Workspace {
         smoothing.paper.levels = papers_;
         smoothing.column_sums = smooth_sums_;
         light.rows = rows_;
+        light.sums = sums_;
+        light.darkest = darkest_;
         light.tiles = tiles_;
         light.levels = levels_;
+        light.half_levels = half_levels_;
         open.runs = runs_;
         open.blobs = blobs_;
         dots = dots_;
+        seeds = seeds_;
+        neighbours = neighbours_;
+        edges = edges_;
         grid.storage = cells_;
         grid.side = GridSide;
         line_scores = line_scores_;
@@ -290,14 +304,74 @@ class WorkspaceOf : public Workspace {
     // Blocks are a tenth of the shorter side, so at least 6 px: at most 11 x 683 of them.
     std::array<std::uint8_t, 11 * 683> papers_{};
     std::array<std::uint32_t, MaxWidth> smooth_sums_{};
-    std::array<std::uint8_t, 2 * kTile_px * MaxWidth> rows_{};
+    alignas(8) std::array<std::uint8_t, 2 * kTile_px*(MaxWidth + kTile_px)> rows_{};
+    std::array<std::uint32_t, (MaxWidth + kTile_px) / 4> sums_{};
+    std::array<std::uint32_t, (MaxWidth + kTile_px) / 4> darkest_{};
     std::array<Tile, 3 * kTiles> tiles_{};
     std::array<Levels, kTiles> levels_{};
+    std::array<std::uint32_t, kTiles + 1> half_levels_{};
     std::array<Run, 2 * kRuns> runs_{};
     std::array<OpenBlob, 2 * kRuns> blobs_{};
     std::array<Dot, MaxDots> dots_{};
+    std::array<std::uint16_t, kMaxSeeds> seeds_{};
+    std::array<std::array<std::int16_t, 4>, kMaxSeeds> neighbours_{};
+    std::array<Edge, 2 * kMaxSeeds> edges_{};
     std::array<GridCell, GridSide * GridSide> cells_{};
-    std::array<LineScores, std::min(GridSide, kMaxLines)> line_scores_{};
+    std::array<LineScores, 2 * std::min(GridSide, kMaxLines)> line_scores_{};
+};
+
+/// For `finish_device` on a small microcontroller and a 188 x 120 px sensor: less than 12 KB.
+/// Stages use the same memory one after the other, so afterwards only what the last one left is to
+/// be seen.
+class DeviceWorkspace : public Workspace {
+  public:
+    DeviceWorkspace() {
+        max_width_px = kWidth_px;
+        dots = dots_;
+        Shelf pixels{memory_};
+        pixels.take(light.rows, 2 * kSmallestTile_px * kTiles * kSmallestTile_px);
+        pixels.take(light.sums, kTiles * kSmallestTile_px / 4);
+        pixels.take(light.darkest, kTiles * kSmallestTile_px / 4);
+        pixels.take(light.half_levels, kTiles);
+        pixels.take(light.tiles, 3 * kTiles);
+        pixels.take(open.blobs, kBlobs);
+        pixels.take(open.runs, 2 * kRuns);
+        pixels.take(light.levels, kTiles);
+        Shelf lattices{memory_};
+        lattices.take(edges, 2 * kSeeds);
+        lattices.take(neighbours, kSeeds);
+        lattices.take(seeds, kSeeds);
+        Shelf decoders{memory_};
+        decoders.take(grid.storage, kGridSide * kGridSide);
+        decoders.take(line_scores, 2 * kGridSide);
+        grid.side = kGridSide;
+    }
+    DeviceWorkspace(const DeviceWorkspace&) = delete;
+    DeviceWorkspace& operator=(const DeviceWorkspace&) = delete;
+
+  private:
+    static constexpr int kWidth_px = 188;
+    static constexpr int kTiles = kWidth_px / kSmallestTile_px + 1;
+    static constexpr int kDots = 256;
+    static constexpr int kSeeds = 80;
+    static constexpr int kGridSide = 24;
+    // Runs and blobs of one row: many more than dots; what exceeds them is noise or graphics.
+    static constexpr int kRuns = 64;
+    static constexpr int kBlobs = 48;
+
+    /// Hands out memory from the beginning on; larger alignments first.
+    struct Shelf {
+        std::span<std::byte> free;
+        template <typename T>
+        void take(std::span<T>& room, std::size_t count) {
+            room = {reinterpret_cast<T*>(free.data()), count};
+            free = free.subspan(count * sizeof(T));
+        }
+    };
+
+    std::array<Dot, kDots> dots_{};
+    alignas(8) std::array<std::byte, kGridSide * kGridSide * sizeof(GridCell) +
+                                         2 * kGridSide * sizeof(LineScores)> memory_{};
 };
 
 /// For the paper's 188 x 120 px sensor.

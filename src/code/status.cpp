@@ -22,8 +22,6 @@ constexpr std::array<Text, kStatusCount> kTexts{{
     {Status::no_contrast, "no_contrast", "the image has no dark marks on a lighter ground"},
     {Status::too_few_dots, "too_few_dots", "too few dots"},
     {Status::no_grid, "no_grid", "the dots do not lie on a regular grid"},
-    {Status::no_intact_neighbourhood, "no_intact_neighbourhood",
-     "no dot has all its eight neighbours"},
     {Status::no_displacement, "no_displacement",
      "the dots lie on the grid intersections and carry no symbols"},
     {Status::grid_too_small, "grid_too_small", "fewer than 8 x 8 dots of one grid are in view"},

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -68,15 +69,29 @@ constexpr std::int64_t exp2_q16(int n_q8) {
 /// log2 of zero, as good as, in 2^-8.
 inline constexpr int kNever_q8 = -(1 << 20);
 
-/// log2(2^a + 2^b) in 2^-8, rounded up: log2(1 + 2^-d) is at most 1 and at most 2^-d / ln 2.
+/// log2(2^a + 2^b) in 2^-8, rounded up.
 constexpr int add_log2(int a_q8, int b_q8) {
+    // log2(1 + 2^-d) for d = 0, 1, ...; it is convex, and so below the chord in between.
+    constexpr std::array<std::uint8_t, 12> kGain{255, 150, 83, 44, 23, 12, 6, 3, 2, 1, 1, 1};
     const int larger = std::max(a_q8, b_q8);
-    const int whole = (larger - std::min(a_q8, b_q8)) >> 8;
-    return larger + std::min(256, whole > 10 ? 1 : (370 >> whole) + 1);
+    const int d = larger - std::min(a_q8, b_q8);
+    const auto whole = static_cast<std::size_t>(d >> 8);
+    if (whole + 1 >= kGain.size()) return larger + 1;
+    const int fall = (kGain[whole] - kGain[whole + 1]) * (d & 255);
+    return larger + kGain[whole] + 1 - (fall >> 8);
 }
 
 /// Median (the lower one of two); the order of the values is lost. Empty gives 0.
 std::int32_t median(std::span<std::int32_t> values);
+
+/// A sine to 6 %: two parabolas. Phases are in 2^-16 turns, values times 2^14.
+constexpr std::int32_t rough_sine(std::int32_t phase_q16) {
+    const std::int32_t x = static_cast<std::int16_t>(phase_q16 & 0xFFFF);
+    return x * (32768 - (x < 0 ? -x : x)) >> 14;
+}
+constexpr std::int32_t rough_cosine(std::int32_t phase_q16) {
+    return rough_sine(phase_q16 + 16384);
+}
 
 /// Angle of a vector from +x towards +y, to about 1e-9 turns; (0, 0) gives 0. |x|, |y| < 2^29.
 std::int32_t angle_bam(Vec direction);

@@ -10,6 +10,7 @@
 #include "core/decode/window.hpp"
 #include "core/lattice/axes.hpp"
 #include "core/lattice/climb.hpp"
+#include "core/lattice/grow.hpp"
 #include "core/lattice/neighbours.hpp"
 #include "core/lattice/origin.hpp"
 #include "core/lattice/refine.hpp"
@@ -17,6 +18,7 @@
 #include "core/pixels/light.hpp"
 #include "core/pixels/smooth.hpp"
 #include "core/pixels/undistort.hpp"
+#include "core/pose/affine_pose.hpp"
 #include "core/pose/covariance.hpp"
 #include "core/pose/measure.hpp"
 #include "core/pose/refine.hpp"
@@ -40,6 +42,10 @@ Vec image_centre_q8(const Light& light) {
     return {(light.width_px - 1) * 128, (light.height_px - 1) * 128};
 }
 
+std::span<const std::uint16_t> found_seeds(const Workspace& w) {
+    return first(w.seeds, w.seed_count);
+}
+
 /// Blobs -> dots where a lens without distortion would see them.
 Status find_dots(const Options& options, Workspace& w) {
     core::sift_dots(options.blobs, dot_list(w));  // II-B.1
@@ -50,74 +56,101 @@ Status find_dots(const Options& options, Workspace& w) {
     return Status::ok;
 }
 
-/// Dots -> the grid they lie on.
-Status find_grid(const Options& options, bool thorough, Workspace& w) {
+/// Dots that give the first grid of a first attempt.
+constexpr int kFirstSeeds = 80;
+
+/// Dots -> their connections -> directions and spacings of the grid.
+Status find_axes(int most_seeds, Workspace& w) {
     const auto dots = w.found_dots();
-    const Vec centre_q8 = image_centre_q8(w.light);
-    w.seed_count = core::choose_seeds(dots, centre_q8, w.seeds);
-    const auto seeds = first(std::span<const std::uint16_t>(w.seeds), w.seed_count);
+    const int room = std::min(most_seeds, static_cast<int>(w.seeds.size()));
+    w.seed_count = core::choose_seeds(dots, image_centre_q8(w.light), first(w.seeds, room));
+    const auto seeds = found_seeds(w);
     core::find_neighbours(dots, seeds, w.neighbours);  // II-B.2, Fig. 3
     w.edge_count = core::connect_symmetric(dots, seeds, w.neighbours, w.edges);
-    const auto edges = first(std::span<const Edge>(w.edges), w.edge_count);
-
-    Status status = core::estimate_axes(edges, w.lattice);  // Fig. 4-5
-    if (status != Status::ok) return status;
-    if (thorough) {
-        core::climb_periodogram(dots, seeds, centre_q8, w.lattice);
-    } else {
-        status = core::find_origin(dots, seeds, w.neighbours, centre_q8, w.lattice, w.origin_seed);
-        if (status != Status::ok) return status;
-    }
-    return core::refine_grid(dots, options.lattice, centre_q8, w.lattice,
-                             w.grid_from_image);  // II-B.3
+    return core::estimate_axes(first(w.edges, w.edge_count), w.lattice);  // Fig. 4-5
 }
 
-/// Dots and grid -> bits -> position in the code.
-Status read_position(const Options& options, const ImageView* image, Workspace& w) {
-    Decoding& decoding = w.decoding;
-    Status status =
-        core::assign_likelihoods(w.found_dots(), w.grid_from_image, w.grid);  // II-B.4, eq. 7-9
+/// Dots -> the grid they lie on.
+Status find_grid(const Options& options, Workspace& w) {
+    const Status status = find_axes(kFirstSeeds, w);
     if (status != Status::ok) return status;
-    if (image != nullptr) {
-        core::look_at_cells(*image, w.smoothing.paper, options.lens, w.grid_from_image, w.grid);
-    }
+    const Vec centre_q8 = image_centre_q8(w.light);
+    core::find_origin(w.found_dots(), found_seeds(w), centre_q8, w.lattice);
+    return core::grow_grid(w.found_dots(), options.lattice, centre_q8, w.lattice,
+                           w.grid_from_image);  // II-B.3
+}
+
+/// The same with more patience, and for tilted cameras and lenses that bend.
+Status find_grid_thoroughly(const Options& options, Workspace& w) {
+    const Status status = find_axes(kMaxSeeds, w);
+    if (status != Status::ok) return status;
+    const Vec centre_q8 = image_centre_q8(w.light);
+    core::climb_periodogram(w.found_dots(), found_seeds(w), centre_q8, w.lattice);
+    return core::refine_grid(w.found_dots(), options.lattice, centre_q8, w.lattice,
+                             w.grid_from_image);
+}
+
+/// Dots and grid -> bits.
+Status read_bits(Workspace& w) {
+    return core::assign_likelihoods(w.found_dots(), w.grid_from_image, w.grid);  // II-B.4, eq. 7-9
+}
+
+/// Bits -> position in the code.
+Status read_position(const Options& options, Workspace& w) {
+    Decoding& decoding = w.decoding;
     decoding.window = core::choose_window(w.grid, kWindowSide);  // II-B.5
-    decoding.region = core::choose_window(w.grid, static_cast<int>(w.line_scores.size()));
+    decoding.region = core::choose_window(w.grid, static_cast<int>(w.line_scores.size() / 2));
     const auto decode = options.decoder == Decoder::window ? core::decode_window : core::decode_all;
-    status = decode(w.grid, options.profile, w.line_scores, decoding);  // II-B.6-7
+    const Status status = decode(w.grid, options.profile, w.line_scores, decoding);  // II-B.6-7
     if (status != Status::ok && core::is_mirrored(w.grid, decoding.region)) return Status::mirrored;
     return status;
 }
 
 /// Whether all dots in view agree with the position.
-Status verify_position(const Options& options, Workspace& w) {
-    const core::Nominal nominal(w.grid, options.profile, w.decoding);
-    const Status status = core::verify(w.grid, options.profile, w.decoding, nominal,
-                                       options.integrity, w.line_scores, w.fix);
+Status verify_position(const Options& options, decltype(core::verify) verify, Workspace& w) {
+    const Status status =
+        verify(w.grid, options.profile, w.decoding, options.integrity, w.line_scores, w.fix);
     if (status != Status::ok && core::is_mirrored(w.grid, w.decoding.region)) {
         return Status::mirrored;
     }
     return status;
 }
 
+/// The point whose pose is wanted.
+Vec reference_q8(const Options& options, const Workspace& w) {
+    const Vec centre_q8 = image_centre_q8(w.light);
+    return {centre_q8.x + options.reference_dx_q8, centre_q8.y + options.reference_dy_q8};
+}
+
+/// Position -> pose, in integers, as a device without floating point does it.
+Status measure_affine_pose(const Options& options, Workspace& w) {
+    const core::Nominal nominal(w.grid, options.profile, w.decoding);
+    w.pattern_from_image =
+        core::upright_plane(w.grid_from_image, w.decoding.pattern_from_grid);  // II-B.8
+    const core::Observations observations(w.found_dots(), w.grid, nominal);
+    w.fix.dots_used = core::fit_affine_pose(observations, w.pattern_from_image);
+    if (w.fix.dots_used == 0) return Status::no_grid;
+    core::write_pose(w.pattern_from_image, reference_q8(options, w), options.profile,
+                     w.decoding.place, w.fix);
+    return Status::ok;
+}
+
 /// Position -> pose. With an `image`, dots are measured in it once more.
 Status measure_pose(const Options& options, const ImageView* image, Workspace& w) {
     const core::Nominal nominal(w.grid, options.profile, w.decoding);
-    const Vec centre_q8 = image_centre_q8(w.light);
-    const Vec reference_q8{centre_q8.x + options.reference_dx_q8,
-                           centre_q8.y + options.reference_dy_q8};
     w.pattern_from_image =
         core::upright_plane(w.grid_from_image, w.decoding.pattern_from_grid);  // II-B.8
     if (image != nullptr) {
         w.dot_count =
             core::measure_dots(*image, options.lens, w.pattern_from_image, nominal, w.grid, w.dots);
-        core::undistort(options.lens, centre_q8, first(w.dots, w.dot_count));
+        core::undistort(options.lens, image_centre_q8(w.light), first(w.dots, w.dot_count));
     }
     core::FitQuality quality;
     const core::Observations observations(w.found_dots(), w.grid, nominal);
     if (!core::refine_pose(observations, w.pattern_from_image, quality)) return Status::no_grid;
-    core::write_pose(w.pattern_from_image, reference_q8, options.profile, w.decoding.place, w.fix);
-    core::estimate_covariance(observations, quality, w.pattern_from_image, reference_q8, w.fix);
+    const Vec reference = reference_q8(options, w);
+    core::write_pose(w.pattern_from_image, reference, options.profile, w.decoding.place, w.fix);
+    core::estimate_covariance(observations, quality, w.pattern_from_image, reference, w.fix);
     return Status::ok;
 }
 
@@ -142,27 +175,26 @@ bool are_valid(const Options& options) {
            is_within(options.reference_dy_q8, -kFarthestReference_q8, kFarthestReference_q8);
 }
 
-/// Everything after the last row. With an `image`, bits are read from it rather than from blobs.
-Fix locate_dots(const Options& options, const ImageView* image, Workspace& w) {
-    Status status = find_dots(options, w);
-    if (status == Status::ok) status = find_grid(options, image != nullptr, w);
-    if (status == Status::ok) status = read_position(options, image, w);
-    if (status == Status::ok) status = verify_position(options, w);
-    if (status == Status::ok) status = measure_pose(options, image, w);
-    w.fix.status = status;
-    return w.fix;
-}
-
-/// The second attempt, on the image filtered.
+/// The second attempt, on the image filtered; bits are read from it rather than from blobs.
 Fix locate_filtered(const ImageView& image, const Options& options, Workspace& w) {
     Options filtered = options;
     // Filtered, noise is a third of what it was, and dots are paler.
     filtered.threshold.min_contrast = options.threshold.min_contrast / 2 + 1;
-    w.fix.status = begin(image.width_px, image.height_px, filtered, w);
+    Status status = begin(image.width_px, image.height_px, filtered, w);
     core::begin_smoothing(image, w.smoothing);
     for (int v = 0; v < image.height_px; ++v)
         push_row(core::next_smooth_row(image, w.smoothing), filtered, w);
-    return locate_dots(filtered, &image, w);
+    if (status == Status::ok) status = find_dots(filtered, w);
+    if (status == Status::ok) status = find_grid_thoroughly(filtered, w);
+    if (status == Status::ok) status = read_bits(w);
+    if (status == Status::ok) {
+        core::look_at_cells(image, w.smoothing.paper, options.lens, w.grid_from_image, w.grid);
+        status = read_position(filtered, w);
+    }
+    if (status == Status::ok) status = verify_position(filtered, core::verify, w);
+    if (status == Status::ok) status = measure_pose(filtered, &image, w);
+    w.fix.status = status;
+    return w.fix;
 }
 
 }  // namespace
@@ -176,8 +208,9 @@ Fix locate(const ImageView& image, const Options& options, Workspace& workspace)
     if (status != Status::ok) return workspace.fix;
     for (int v = 0; v < image.height_px; ++v)
         push_row(image.row(v), options, workspace);
+    if (options.effort == Effort::device) return finish_device(options, workspace);
     const Fix fix = finish(options, workspace);
-    if (options.effort == Effort::once) return fix;
+    if (options.effort == Effort::once || workspace.smoothing.row.empty()) return fix;
     if (fix.status != Status::ok) return locate_filtered(image, options, workspace);
     if (fix.residual_px < kRough_px) return fix;
     return measure_pose(options, &image, workspace) == Status::ok ? workspace.fix : fix;
@@ -186,7 +219,7 @@ Fix locate(const ImageView& image, const Options& options, Workspace& workspace)
 Status begin(int width_px, int height_px, const Options& options, Workspace& w) {
     w.fix = Fix{};
     w.dot_count = w.seed_count = w.edge_count = 0;
-    w.origin_seed = -1;
+    w.lattice = {};
     w.decoding = {};
     w.grid.columns = w.grid.rows = 0;
     if (!are_valid(options)) return w.fix.status = Status::bad_argument;
@@ -213,8 +246,26 @@ void push_row(const std::uint8_t* pixels, const Options& options, Workspace& w) 
     }
 }
 
-Fix finish(const Options& options, Workspace& workspace) {
-    return locate_dots(options, nullptr, workspace);
+Fix finish(const Options& options, Workspace& w) {
+    Status status = find_dots(options, w);
+    if (status == Status::ok) status = find_grid(options, w);
+    if (status == Status::ok) status = read_bits(w);
+    if (status == Status::ok) status = read_position(options, w);
+    if (status == Status::ok) status = verify_position(options, core::verify, w);
+    if (status == Status::ok) status = measure_pose(options, nullptr, w);
+    w.fix.status = status;
+    return w.fix;
+}
+
+Fix finish_device(const Options& options, Workspace& w) {
+    Status status = find_dots(options, w);
+    if (status == Status::ok) status = find_grid(options, w);
+    if (status == Status::ok) status = read_bits(w);
+    if (status == Status::ok) status = read_position(options, w);
+    if (status == Status::ok) status = verify_position(options, core::verify_quickly, w);
+    if (status == Status::ok) status = measure_affine_pose(options, w);
+    w.fix.status = status;
+    return w.fix;
 }
 
 }  // namespace dotpose

@@ -5,10 +5,6 @@ namespace {
 
 constexpr std::int64_t kOne_q30 = std::int64_t{1} << 30;
 
-bool is_affine(const PlaneFromImage& plane) {
-    return plane.perspective_q30 == Vec{} && plane.lens_q40 == 0;
-}
-
 /// du x + dv y
 Vec linear_q16(const PlaneFromImage& plane, Vec from_centre_q8) {
     const std::int64_t x = from_centre_q8.x;

@@ -12,6 +12,11 @@ struct GridPoint {
     Vec offset_q16;  ///< eq. 5, in spacings, each in [-1/2, 1/2)
 };
 
+/// Whether a plane is without perspective and lens.
+inline bool is_affine(const PlaneFromImage& plane) {
+    return plane.perspective_q30 == Vec{} && plane.lens_q40 == 0;
+}
+
 /// A plane without perspective or lens. |u x v| > 0.
 PlaneFromImage plane_from_lattice(const Lattice& lattice, Vec centre_q8);
 

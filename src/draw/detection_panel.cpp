@@ -47,9 +47,8 @@ void draw_detection(const FrameView& view, Svg& svg) {
         svg.circle(view.at_dot(dot), radius_px * view.scale() + 2 * stroke, {});
     }
     svg.add("</g>");
-    if (view.reached().origin) {
-        svg.circle(view.at_dot(dot_of_seed(workspace, workspace.origin_seed)),
-                   0.42 * view.spacing(),
+    if (view.reached().axes) {
+        svg.circle(view.at(from_q16(workspace.lattice.origin_q16)), 0.42 * view.spacing(),
                    fmt::format(R"(class="origin" fill="none" stroke="{}" stroke-width="{:.2f}")",
                                colour::kBad, 7 * stroke));
     }

@@ -20,10 +20,8 @@ Reached reached(const Workspace& workspace) {
     Reached result;
     result.undistorted = workspace.dot_count > 0 && status != Status::too_few_dots;
     result.edges = workspace.edge_count > 0;
-    result.origin = workspace.origin_seed >= 0;
+    result.axes = result.edges && workspace.lattice.u_q16 != Vec{};
     result.cells = workspace.grid.columns > 0;
-    result.axes = result.edges &&
-                  (result.cells || result.origin || status == Status::no_intact_neighbourhood);
     const Region& window = workspace.decoding.window;
     result.window = result.cells && window.columns > 0 && window.rows > 0 &&
                     workspace.grid.contains(window.i0, window.j0) &&

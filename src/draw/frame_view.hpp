@@ -11,7 +11,6 @@ struct Reached {
     bool undistorted = false;  ///< dot centres are where a camera without distortion sees them
     bool edges = false;        ///< connections between neighbours
     bool axes = false;         ///< the grid vectors
-    bool origin = false;       ///< an intact neighbourhood
     bool cells = false;        ///< likelihoods
     bool window = false;       ///< the 8 x 8 cells read most clearly
     bool place = false;        ///< a position and which way up, be it certain or not

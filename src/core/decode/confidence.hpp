@@ -8,14 +8,17 @@
 
 namespace dotpose::core {
 
-/// How strongly bits were read, and how far the code contradicts them.
+/// How strongly bits were read, and how far the code contradicts them. Weights are kept in steps
+/// of 8.
 class Confidence {
   public:
-    static constexpr int kMostWeight = 127;
+    static constexpr int kLevels = 16;
+    /// The weight that stands for all of a level.
+    static constexpr int weight_of(int level) { return 8 * level + 4; }
 
     /// weight: -127 to 127.
     void add(int weight, bool is_wrong) {
-        Count& count = counts_[static_cast<std::size_t>(weight < 0 ? -weight : weight)];
+        Count& count = counts_[static_cast<std::size_t>((weight < 0 ? -weight : weight) / 8)];
         ++count.bits;
         count.wrong += is_wrong;
     }
@@ -25,27 +28,21 @@ class Confidence {
             counts_[i].wrong += other.counts_[i].wrong;
         }
     }
-    int bits(int weight) const { return counts_[static_cast<std::size_t>(weight)].bits; }
-    int wrong(int weight) const { return counts_[static_cast<std::size_t>(weight)].wrong; }
-    int wrong_weight() const {
-        int sum = 0;
-        for (int weight = 1; weight <= kMostWeight; ++weight)
-            sum += weight * wrong(weight);
-        return sum;
-    }
+    int bits(int level) const { return counts_[static_cast<std::size_t>(level)].bits; }
+    int wrong(int level) const { return counts_[static_cast<std::size_t>(level)].wrong; }
 
   private:
     struct Count {
         std::int32_t bits = 0;
         std::int32_t wrong = 0;
     };
-    std::array<Count, kMostWeight + 1> counts_{};
+    std::array<Count, kLevels> counts_{};
 };
 
 /// The odds, as a power of two in 2^-8, that a bit of weight 127 is right; those of weaker ones
 /// grow in proportion to their weight. The value (logistic regression, maximum likelihood) at which
 /// as much weight is expected to be wrong as was, and two full bits more; 0 where that says
-/// nothing.
+/// nothing. At most 16 * 256.
 int odds_per_bit_q8(const Confidence& confidence);
 
 /// Upper bound, as a power of two, of the probability that random bits of these weights agree as

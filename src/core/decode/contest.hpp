@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 
 #include "code/basis.hpp"
 #include "core/decode/lines.hpp"
@@ -20,11 +21,23 @@ class Contest {
     /// Score that a rival gives up in a line whose roll it puts `shift` further; |shift| < 63.
     int loss(int line, int shift) const {
         const int own = rolls_[static_cast<std::size_t>(line)];
-        const int other = (own + shift + kSections) % kSections;
+        const int moved = own + shift;
+        const int other =
+            moved < 0 ? moved + kSections : (moved < kSections ? moved : moved - kSections);
         return lines[line][static_cast<std::size_t>(own)] -
                lines[line][static_cast<std::size_t>(other)];
     }
-    /// Odds of a rival, against the reading, that has lost so much score.
+    /// The least that a rival loses in a line which it does not share; may be negative.
+    int least_loss(int line) const { return least_losses_[static_cast<std::size_t>(line)]; }
+    /// Odds of a rival, against the reading, that has lost so much score: a power of two in 2^-8.
+    int log2_odds_q8(int lost) const {
+        // Half of the score is weight; 129 / 2^15 is 1 / (2 * 127). More loss makes no difference.
+        constexpr int kMost = 1 << 18;
+        return -(((std::min(lost, kMost) * odds_per_bit_q8_) >> 8) * 129 >> 7);
+    }
+    /// The least loss that takes odds that far down.
+    int loss_for(int log2_odds_q8) const { return -log2_odds_q8 * 254 / odds_per_bit_q8_ + 1; }
+    /// Odds as a number.
     float odds(int lost) const {
         const int log2_q8 = std::max(log2_odds_q8(lost), kNegligible_q8);
         const int whole = log2_q8 >> 8;
@@ -38,13 +51,22 @@ class Contest {
     const std::uint32_t position;  ///< of the first line, as read
 
   private:
-    int log2_odds_q8(int lost) const {
-        return static_cast<int>(-std::int64_t{lost} * odds_per_bit_q8_ / (2 * 127));
-    }
-
     int odds_per_bit_q8_;
     int hopeless_score_ = 0;
     std::array<std::uint8_t, kMaxLines> rolls_{};
+    std::array<std::int16_t, kMaxLines> least_losses_{};
 };
+
+/// By how much the roll of a rival grows beyond that of the reading from the first line to each
+/// other, modulo 63.
+using Growth = std::array<std::uint8_t, kMaxLines>;
+
+/// Of a rival whose place differs in one sequence only.
+Growth growth_of(const Contest& contest, const code::Secondary& sequence,
+                 std::uint32_t rival_place);
+
+/// What a rival that shares the line `shared`, and none before, has lost when that gets hopeless,
+/// or in all; nothing if it shares one before.
+std::optional<int> loss_of_growth(const Contest& contest, const Growth& growth, int shared);
 
 }  // namespace dotpose::core

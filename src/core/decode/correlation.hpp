@@ -19,6 +19,10 @@ struct Match {
 /// that do not; the weights soften doubtful bits. At most 256 weights in [-127, 127].
 void correlate(std::span<const std::int8_t> weights, LineScores& scores);
 
+/// The same for two lines in little more time.
+void correlate_both(std::span<const std::int8_t> a, std::span<const std::int8_t> b,
+                    LineScores& scores_a, LineScores& scores_b);
+
 /// The best of all offsets; the smallest of equal ones.
 Match best_match(const LineScores& scores);
 

@@ -48,17 +48,16 @@ Ranking::Ranking(const Contest& contest) {
     }
 }
 
-/// By how much the roll of a sequence's place grows beyond the reading's, up to each line of a
-/// ranking, modulo 63.
-using Growth = std::array<std::uint8_t, kMaxLines>;
-
-/// Of all places of a sequence.
+/// Growth of all places of a sequence, line by line of a ranking.
 class Growths {
   public:
     Growths(const Contest& contest, const Ranking& ranking, const code::Secondary& a)
         : own_(contest.position % a.length), length_(a.length) {
-        for (std::uint32_t rival = 0; rival < length_; ++rival)
-            grow(contest, ranking, a, rival);
+        for (std::uint32_t rival = 0; rival < length_; ++rival) {
+            const Growth by_line = growth_of(contest, a, rival);
+            for (std::size_t i = 0; i < static_cast<std::size_t>(contest.lines.count()); ++i)
+                growths_[rival][i] = by_line[ranking.lines[i]];
+        }
     }
 
     /// Shows `use` the growth of every place but the reading's own.
@@ -70,24 +69,6 @@ class Growths {
     }
 
   private:
-    void grow(const Contest& contest, const Ranking& ranking, const code::Secondary& a,
-              std::uint32_t rival) {
-        std::array<std::uint8_t, kMaxLines> by_line;
-        std::uint32_t ours = own_;
-        std::uint32_t theirs = rival;
-        int grown = 0;
-        for (int line = 0; line < contest.lines.count(); ++line) {
-            by_line[static_cast<std::size_t>(line)] = static_cast<std::uint8_t>(grown);
-            grown =
-                (grown + a.weight * (a.digits[theirs] - a.digits[ours]) + kSections) % kSections;
-            ours = ours + 1 == length_ ? 0 : ours + 1;
-            theirs = theirs + 1 == length_ ? 0 : theirs + 1;
-        }
-        for (std::size_t i = 0; i < static_cast<std::size_t>(contest.lines.count()); ++i) {
-            growths_[rival][i] = by_line[ranking.lines[i]];
-        }
-    }
-
     static constexpr std::size_t kLongest = 241;
     std::uint32_t own_;
     std::uint32_t length_;

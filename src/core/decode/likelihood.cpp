@@ -1,12 +1,9 @@
 #include "core/decode/likelihood.hpp"
 
-#include "core/plane.hpp"
+#include "core/cells.hpp"
 
 namespace dotpose::core {
 namespace {
-
-/// Nominal offset r0: the displacement, a sixth of the spacing.
-constexpr std::int32_t kNominal_q16 = 65536 / 6;
 
 struct Extent {
     int first = 0;
@@ -33,19 +30,24 @@ void lay_out(Vec least, Vec most, Grid& grid) {
 }
 
 std::int8_t quasi_probability(std::int32_t projection_q16) {
-    const int r_q8 = projection_q16 * 256 / kNominal_q16;  // r / r0
-    if (r_q8 * r_q8 >= 3 * 65536) return 0;
+    // Nominal offset r0: the displacement, a sixth of the spacing.
+    const int r_q8 = (projection_q16 * 6 + 128) >> 8;  // r / r0
+    const int square_q16 = r_q8 * r_q8;
+    if (square_q16 >= 3 * 65536) return 0;
     // Eq. 9: (3 r - r^3) / 2 in units of r0
-    const int f_q8 = (3 * r_q8 - r_q8 * r_q8 / 256 * r_q8 / 256) / 2;
-    return static_cast<std::int8_t>(f_q8 * 127 / 256);
+    const int f_q8 = (r_q8 * (3 * 65536 - square_q16)) >> 17;
+    return static_cast<std::int8_t>((f_q8 * 127 + 128) >> 8);
 }
 
-Status assign_likelihoods(std::span<const Dot> dots, const PlaneFromImage& grid_from_image,
-                          Grid& grid) {
+namespace {
+
+/// `point_of(dot)` gives the place of a dot in the grid.
+template <typename PointOf>
+Status assign(std::span<const Dot> dots, PointOf point_of, Grid& grid) {
     Vec least{INT32_MAX, INT32_MAX};
     Vec most{INT32_MIN, INT32_MIN};
     for (const Dot& dot : dots) {
-        const Vec cell = grid_point(grid_from_image, dot.centre_q8).cell;
+        const Vec cell = point_of(dot).cell;
         least = {std::min(least.x, cell.x), std::min(least.y, cell.y)};
         most = {std::max(most.x, cell.x), std::max(most.y, cell.y)};
     }
@@ -55,7 +57,7 @@ Status assign_likelihoods(std::span<const Dot> dots, const PlaneFromImage& grid_
     lay_out(least, most, grid);
 
     for (std::size_t d = 0; d < dots.size(); ++d) {
-        const GridPoint g = grid_point(grid_from_image, dots[d].centre_q8);
+        const GridPoint g = point_of(dots[d]);
         if (!grid.contains(g.cell.x, g.cell.y)) continue;
         // Eq. 7-8. differs: with y down, left and down mean x bit 1, right and down y bit 1.
         const GridCell read{quasi_probability(g.offset_q16.y - g.offset_q16.x),
@@ -65,6 +67,17 @@ Status assign_likelihoods(std::span<const Dot> dots, const PlaneFromImage& grid_
         if (quality(read) > quality(cell)) cell = read;  // Fig. 8
     }
     return Status::ok;
+}
+
+}  // namespace
+
+Status assign_likelihoods(std::span<const Dot> dots, const PlaneFromImage& grid_from_image,
+                          Grid& grid) {
+    const auto exactly = [&](const Dot& dot) { return grid_point(grid_from_image, dot.centre_q8); };
+    if (!is_affine(grid_from_image)) return assign(dots, exactly, grid);
+    const Cells cells(grid_from_image);
+    const auto quickly = [&](const Dot& dot) { return cells(cells.from_centre_q3(dot.centre_q8)); };
+    return assign(dots, quickly, grid);
 }
 
 }  // namespace dotpose::core

@@ -4,18 +4,24 @@
 
 namespace dotpose::core {
 
-Lines score_lines(const Upright& upright, Axis axis, std::span<LineScores> storage) {
+Lines scored_lines(const Upright& upright, Axis axis, std::span<LineScores> storage) {
     const int count = axis == Axis::x ? upright.columns() : upright.rows();
-    Lines lines;
-    Line weights;
-    for (int i = 0; i < count; ++i) {
-        const auto n = static_cast<std::size_t>(i);
-        const auto line = axis == Axis::x ? upright.column(i, weights) : upright.row(i, weights);
-        correlate(line, storage[n]);
-        lines.dots[n] = static_cast<std::uint8_t>(
-            std::count_if(line.begin(), line.end(), [](std::int8_t w) { return w != 0; }));
+    return {storage.first(static_cast<std::size_t>(count))};
+}
+
+Lines score_lines(const Upright& upright, Axis axis, std::span<LineScores> storage) {
+    const Lines lines = scored_lines(upright, axis, storage);
+    const auto weights = [&](std::size_t i, Line& line) {
+        const int n = static_cast<int>(i);
+        return axis == Axis::x ? upright.column(n, line) : upright.row(n, line);
+    };
+    Line one;
+    Line other;
+    std::size_t i = 0;
+    for (; i + 1 < lines.scores.size(); i += 2) {
+        correlate_both(weights(i, one), weights(i + 1, other), storage[i], storage[i + 1]);
     }
-    lines.scores = storage.first(static_cast<std::size_t>(count));
+    if (i < lines.scores.size()) correlate(weights(i, one), storage[i]);
     return lines;
 }
 

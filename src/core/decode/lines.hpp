@@ -16,14 +16,21 @@ enum class Axis : std::uint8_t {
 
 struct Lines {
     std::span<const LineScores> scores;
-    std::array<std::uint8_t, kMaxLines> dots{};  ///< read in each line
-
     int count() const { return static_cast<int>(scores.size()); }
     const LineScores& operator[](int line) const { return scores[static_cast<std::size_t>(line)]; }
 };
 
+/// The half of the storage that is for one axis.
+inline std::span<LineScores> scores_of(Axis axis, std::span<LineScores> storage) {
+    const std::size_t half = storage.size() / 2;
+    return axis == Axis::x ? storage.first(half) : storage.last(half);
+}
+
 /// The region may have at most as many lines as `storage` holds.
 Lines score_lines(const Upright& upright, Axis axis, std::span<LineScores> storage);
+
+/// The same, of what is in the storage since `score_lines`.
+Lines scored_lines(const Upright& upright, Axis axis, std::span<LineScores> storage);
 
 /// What one axis was read as.
 struct AxisReading {

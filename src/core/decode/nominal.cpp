@@ -1,17 +1,22 @@
 #include "core/decode/nominal.hpp"
 
+#include "code/rolls.hpp"
+#include "code/sequences.hpp"
+
 namespace dotpose::core {
 namespace {
 
-/// Rolls of the columns from `position` on, the first of which has roll `value`. Stepping by
-/// differences carries over the end of the code.
-void fill_rolls(Profile profile, std::uint32_t position, int value, int count,
-                std::array<std::uint8_t, kMaxGridSide>& rolls) {
-    for (int i = 0; i < count; ++i) {
-        rolls[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(value % kSections);
-        value = (value + delta(profile, position)) % kSections;
-        position = position + 1 == kPositionsPerAxis ? 0 : position + 1;
-    }
+/// The main sequence as often as any line is long, from any index.
+constexpr auto kMainRepeated = [] {
+    std::array<std::uint8_t, kSections + kMaxGridSide> bits{};
+    for (std::size_t i = 0; i < bits.size(); ++i)
+        bits[i] = code::kMain[i % kSections];
+    return bits;
+}();
+
+/// Index at which a line begins in the first row (column) of an area.
+int first_index(Profile profile, std::uint32_t position, int section, std::uint32_t cross) {
+    return (roll(profile, position) + section + static_cast<int>(cross % kSections)) % kSections;
 }
 
 }  // namespace
@@ -22,20 +27,21 @@ Nominal::Nominal(const Grid& grid, Profile profile, const Decoding& decoding)
     const Vec b = pattern_step({grid.i0 + grid.columns - 1, grid.j0 + grid.rows - 1});
     first_ = {std::min(a.x, b.x), std::min(a.y, b.y)};
     const Place corner = moved(profile, decoding.place, first_.x, first_.y);
-    first_x_ = corner.cell.x;
-    first_y_ = corner.cell.y;
-    fill_rolls(profile, first_x_, roll(profile, first_x_) + corner.section.u,
-               std::max(a.x, b.x) - first_.x + 1, column_rolls_);
-    fill_rolls(profile, first_y_, roll(profile, first_y_) + corner.section.v,
-               std::max(a.y, b.y) - first_.y + 1, row_rolls_);
+    const auto follow = [&](std::uint32_t position, int section, std::uint32_t cross, int count,
+                            std::array<std::uint8_t, kMaxGridSide>& indices) {
+        code::follow_rolls(profile, position, first_index(profile, position, section, cross),
+                           std::span(indices).first(static_cast<std::size_t>(count)));
+    };
+    follow(corner.cell.x, corner.section.u, corner.cell.y, std::max(a.x, b.x) - first_.x + 1,
+           columns_);
+    follow(corner.cell.y, corner.section.v, corner.cell.x, std::max(a.y, b.y) - first_.y + 1,
+           rows_);
 }
 
 Symbol Nominal::symbol(Vec pattern_step) const {
-    const Vec step = pattern_step - first_;
-    const std::uint32_t column = column_rolls_[static_cast<std::size_t>(step.x)];
-    const std::uint32_t row = row_rolls_[static_cast<std::size_t>(step.y)];
-    return make_symbol(main_bit(column + first_y_ + static_cast<std::uint32_t>(step.y)),
-                       main_bit(row + first_x_ + static_cast<std::uint32_t>(step.x)));
+    const auto column = static_cast<std::size_t>(pattern_step.x - first_.x);
+    const auto row = static_cast<std::size_t>(pattern_step.y - first_.y);
+    return make_symbol(kMainRepeated[columns_[column] + row], kMainRepeated[rows_[row] + column]);
 }
 
 }  // namespace dotpose::core

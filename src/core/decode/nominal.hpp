@@ -19,11 +19,10 @@ class Nominal {
 
   private:
     Turn turn_;
-    Vec first_;                  ///< least pattern step of the grid's cells
-    std::uint32_t first_x_ = 0;  ///< their position in the code
-    std::uint32_t first_y_ = 0;
-    std::array<std::uint8_t, kMaxGridSide> column_rolls_;
-    std::array<std::uint8_t, kMaxGridSide> row_rolls_;
+    Vec first_;  ///< least pattern step of the grid's cells
+    /// Index in the main sequence of the first cell of each.
+    std::array<std::uint8_t, kMaxGridSide> columns_;
+    std::array<std::uint8_t, kMaxGridSide> rows_;
 };
 
 }  // namespace dotpose::core

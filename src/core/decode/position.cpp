@@ -71,16 +71,19 @@ Status decode_all(const Grid& grid, Profile profile, std::span<LineScores> stora
     Status status = Status::not_in_code;
     for (const Turn turn : {turns[0], turns[1]}) {
         const Upright upright(grid, decoding.region, turn);
+        const Lines columns = score_lines(upright, Axis::x, scores_of(Axis::x, storage));
+        const Lines rows = score_lines(upright, Axis::y, scores_of(Axis::y, storage));
+        decoding.lines_are_scored = false;
         AxisReading x;
         AxisReading y;
-        if (find_axis(profile, score_lines(upright, Axis::x, storage), x) != Status::ok ||
-            find_axis(profile, score_lines(upright, Axis::y, storage), y) != Status::ok ||
-            x.score + y.score <= best) {
+        if (find_axis(profile, columns, x) != Status::ok ||
+            find_axis(profile, rows, y) != Status::ok || x.score + y.score <= best) {
             continue;
         }
         best = x.score + y.score;
         status = Status::ok;
         set_place(profile, upright, turn, x, y, decoding);
+        decoding.lines_are_scored = true;
         if (x.is_clear() && y.is_clear()) break;
     }
     return status;

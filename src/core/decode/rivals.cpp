@@ -33,22 +33,6 @@ float sum_of_far_rivals(const Contest& contest, int shared_lines, int fewest_dif
     return expected.sum();
 }
 
-/// Odds of a rival that shares the line `shared`, and none before.
-float odds_of_growth(const Contest& contest, const std::array<std::int16_t, kMaxLines>& growth,
-                     int shared) {
-    const int base = growth[static_cast<std::size_t>(shared)];
-    int lost = 0;
-    for (int i = 1; i < contest.lines.count(); ++i) {
-        // Outwards from the shared line, where most is lost soonest; its predecessors last.
-        const int line = (shared + i) % contest.lines.count();
-        const int shift = (growth[static_cast<std::size_t>(line)] - base) % kSections;
-        if (shift == 0 && line < shared) return 0;
-        lost += contest.loss(line, shift);
-        if (contest.is_hopeless(lost)) return kNegligible;
-    }
-    return contest.odds(lost);
-}
-
 /// Rivals whose place differs in one sequence only: one by one, with every shift at which they
 /// share some line with the reading.
 float sum_of_single_rivals(const Contest& contest) {
@@ -57,18 +41,10 @@ float sum_of_single_rivals(const Contest& contest) {
         const std::uint32_t own = contest.position % a.length;
         for (std::uint32_t rival = 0; rival < a.length; ++rival) {
             if (rival == own) continue;
-            std::array<std::int16_t, kMaxLines> growth;  // of the rival's roll beyond the reading's
-            std::uint32_t o = own;
-            std::uint32_t r = rival;
-            int grown = 0;
-            for (int line = 0; line < contest.lines.count(); ++line) {
-                growth[static_cast<std::size_t>(line)] = static_cast<std::int16_t>(grown);
-                grown = (grown + a.weight * (a.digits[r] - a.digits[o])) % kSections;
-                o = o + 1 == a.length ? 0 : o + 1;
-                r = r + 1 == a.length ? 0 : r + 1;
-            }
+            const Growth growth = growth_of(contest, a, rival);
             for (int shared = 0; shared < contest.lines.count(); ++shared) {
-                sum += odds_of_growth(contest, growth, shared);
+                const std::optional<int> lost = loss_of_growth(contest, growth, shared);
+                if (lost) sum += contest.odds(*lost);
             }
         }
     }

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "core/decode/correlation.hpp"
+#include "code/rolls.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -22,40 +22,51 @@ Choices best_choices(const LineScores& scores) {
     Choices choices;
     choices.scores.fill(INT16_MIN);
     for (std::size_t o = 0; o < scores.size(); ++o) {
-        std::size_t i = kChoices;
-        for (; i > 0 && scores[o] > choices.scores[i - 1]; --i) {
-            if (i == kChoices) continue;
+        const std::int16_t score = scores[o];
+        if (score <= choices.scores[kChoices - 1]) continue;
+        std::size_t i = kChoices - 1;
+        for (; i > 0 && score > choices.scores[i - 1]; --i) {
             choices.scores[i] = choices.scores[i - 1];
             choices.rolls[i] = choices.rolls[i - 1];
         }
-        if (i == kChoices) continue;
-        choices.scores[i] = scores[o];
+        choices.scores[i] = score;
         choices.rolls[i] = static_cast<std::uint8_t>(o);
     }
     return choices;
 }
 
-std::uint32_t next(std::uint32_t p) {
-    return p + 1 == kPositionsPerAxis ? 0 : p + 1;
-}
-std::uint32_t previous(std::uint32_t p) {
-    return p == 0 ? kPositionsPerAxis - 1 : p - 1;
+/// By how much the best offset of a line leads the second best, and its score.
+struct Lead {
+    std::int16_t best = INT16_MIN;
+    std::int16_t lead = 0;
+};
+
+Lead lead_of(const LineScores& scores) {
+    std::int16_t best = INT16_MIN;
+    std::int16_t second = INT16_MIN;
+    for (const std::int16_t score : scores) {
+        if (score <= second) continue;
+        second = std::min(best, score);
+        best = std::max(best, score);
+    }
+    return {best, static_cast<std::int16_t>(best - second)};
 }
 
 /// Sum over all lines for the hypothesis that line `line` stands at `position` with `roll`.
 AxisReading evaluate(Profile profile, const Lines& lines, int line, std::uint32_t position,
                      int roll) {
-    AxisReading reading{position, static_cast<std::uint8_t>(roll), 0, 0};
-    for (int i = line - 1; i >= 0; --i) {
-        reading.position = previous(reading.position);
-        reading.roll = static_cast<std::uint8_t>(
-            (reading.roll + kSections - delta(profile, reading.position)) % kSections);
-        reading.score += lines[i][reading.roll];
-    }
-    for (int i = line; i < lines.count(); ++i) {
-        reading.score += lines[i][static_cast<std::size_t>(roll)];
-        roll = (roll + delta(profile, position)) % kSections;
-        position = next(position);
+    const auto before = static_cast<std::uint32_t>(line);
+    AxisReading reading;
+    reading.position =
+        position >= before ? position - before : position + kPositionsPerAxis - before;
+    std::array<std::uint8_t, kMaxLines> rolls;
+    code::follow_rolls(profile, reading.position, 0, std::span(rolls).first(lines.scores.size()));
+    const int first_roll = roll - rolls[before] + (roll < rolls[before] ? kSections : 0);
+    reading.roll = static_cast<std::uint8_t>(first_roll);
+    for (int i = 0; i < lines.count(); ++i) {
+        const int here = first_roll + rolls[static_cast<std::size_t>(i)];
+        reading.score +=
+            lines[i][static_cast<std::size_t>(here < kSections ? here : here - kSections)];
     }
     return reading;
 }
@@ -84,13 +95,16 @@ std::array<int, kMaxRunLength> widen(const Choices* run, int length) {
     }
 }
 
-/// Reads one run in all combinations of its lines' choices; true if one of them is the best so far.
-bool try_run(Profile profile, const Lines& lines, const Choices* run, int first, int length,
+/// Reads one run in all combinations of its lines' choices, until one is clear.
+void try_run(Profile profile, const Lines& lines, int first, int length, std::int32_t most_possible,
              AxisReading& best) {
+    std::array<Choices, kMaxRunLength> storage;
+    for (int i = 0; i < length; ++i)
+        storage[static_cast<std::size_t>(i)] = best_choices(lines[first + i]);
+    const Choices* run = storage.data();
     const auto widths = widen(run, length);
     std::array<int, kMaxRunLength> choice{};
     std::array<std::uint8_t, kMaxRunLength> rolls{};
-    bool found = false;
     for (int digit = 0; digit < length;) {
         for (int i = 0; i < length; ++i) {
             const auto n = static_cast<std::size_t>(i);
@@ -103,7 +117,8 @@ bool try_run(Profile profile, const Lines& lines, const Choices* run, int first,
             const AxisReading reading = evaluate(profile, lines, first, position, rolls[0]);
             if (reading.score > best.score) {
                 best = reading;
-                found = true;
+                best.most_possible = most_possible;
+                if (best.is_clear()) return;
             }
         }
         // Counts up, the last line fastest.
@@ -113,20 +128,18 @@ bool try_run(Profile profile, const Lines& lines, const Choices* run, int first,
             choice[n] = 0;
         }
     }
-    return found;
 }
 
 /// Start of the clearest run not taken yet, or -1: that whose lines lead their runners-up by most.
-int clearest_run(const Choices* choices, int lines, int length,
+int clearest_run(const std::array<Lead, kMaxLines>& leads, int lines, int length,
                  const std::array<bool, kMaxLines>& taken) {
     int clearest = -1;
     int most = INT32_MIN;
     for (int first = 0; first + length <= lines; ++first) {
         if (taken[static_cast<std::size_t>(first)]) continue;
         int lead = 0;
-        for (int i = first; i < first + length; ++i) {
-            lead += choices[i].scores[0] - choices[i].scores[1];
-        }
+        for (int i = first; i < first + length; ++i)
+            lead += leads[static_cast<std::size_t>(i)].lead;
         if (lead > most) {
             most = lead;
             clearest = first;
@@ -140,24 +153,21 @@ int clearest_run(const Choices* choices, int lines, int length,
 Status find_axis(Profile profile, const Lines& lines, AxisReading& best) {
     // The misprinted sequence tells positions apart only by 7 differences.
     const int length = profile == Profile::published ? 8 : 6;
-    std::array<Choices, kMaxLines> choices;
+    std::array<Lead, kMaxLines> leads;
     std::int32_t most_possible = 0;
     for (int i = 0; i < lines.count(); ++i) {
-        choices[static_cast<std::size_t>(i)] = best_choices(lines[i]);
-        most_possible += choices[static_cast<std::size_t>(i)].scores[0];
+        const Lead lead = lead_of(lines[i]);
+        leads[static_cast<std::size_t>(i)] = lead;
+        most_possible += lead.best;
     }
     best = {0, 0, INT32_MIN, 0};
     std::array<bool, kMaxLines> taken{};
     for (int run = 0; run < kMaxRuns; ++run) {
-        const int first = clearest_run(choices.data(), lines.count(), length, taken);
+        const int first = clearest_run(leads, lines.count(), length, taken);
         if (first < 0) break;
         taken[static_cast<std::size_t>(first)] = true;
-        const Choices* run_choices = choices.data() + first;
-        if (!try_run(profile, lines, run_choices, first, length, best)) continue;
-        best.most_possible = most_possible;
-        if (best.is_clear()) {
-            break;
-        }
+        try_run(profile, lines, first, length, most_possible, best);
+        if (best.is_clear()) break;
     }
     return best.score == INT32_MIN ? Status::not_in_code : Status::ok;
 }

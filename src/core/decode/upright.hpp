@@ -41,11 +41,23 @@ constexpr Bits turned(Turn pattern_from_grid, const GridCell& cell) {
 class Upright {
   public:
     Upright(const Grid& grid, const Region& region, Turn pattern_from_grid)
-        : grid_(grid), region_(region), turn_(pattern_from_grid) {
+        : region_(region), turn_(pattern_from_grid) {
         const int right = region.i0 + region.columns - 1;
         const int bottom = region.j0 + region.rows - 1;
         const int q = turn_.quarters;
         corner_ = {q == 0 || q == 1 ? region.i0 : right, q == 0 || q == 3 ? region.j0 : bottom};
+        first_ = &grid.at(corner_.x, corner_.y);
+        const auto stride = [&](Vec step) {
+            const Vec d = turn_.inverse()(step);
+            return d.y * grid.columns + d.x;
+        };
+        to_right_ = stride({1, 0});
+        downwards_ = stride({0, 1});
+        // `turned`, taken apart.
+        x_bit_ = is_sideways() ? &GridCell::y : &GridCell::x;
+        y_bit_ = is_sideways() ? &GridCell::x : &GridCell::y;
+        x_sign_ = q == 0 || q == 1 ? 1 : -1;
+        y_sign_ = q == 0 || q == 3 ? 1 : -1;
     }
 
     int columns() const { return is_sideways() ? region_.rows : region_.columns; }
@@ -55,29 +67,33 @@ class Upright {
 
     /// Weights of the x bits down a column; of the y bits along a row.
     std::span<const std::int8_t> column(int a, Line& line) const {
-        for (int b = 0; b < rows(); ++b)
-            line[static_cast<std::size_t>(b)] = x_weight(a, b);
-        return std::span(line).first(static_cast<std::size_t>(rows()));
+        return weights(first_ + a * to_right_, downwards_, rows(), x_bit_, x_sign_, line);
     }
     std::span<const std::int8_t> row(int b, Line& line) const {
-        for (int a = 0; a < columns(); ++a)
-            line[static_cast<std::size_t>(a)] = y_weight(a, b);
-        return std::span(line).first(static_cast<std::size_t>(columns()));
+        return weights(first_ + b * downwards_, to_right_, columns(), y_bit_, y_sign_, line);
     }
 
   private:
     bool is_sideways() const { return turn_.quarters % 2 == 1; }
-    const GridCell& cell(int a, int b) const {
-        const Vec c = corner_ + turn_.inverse()({a, b});
-        return grid_.at(c.x, c.y);
+    static std::span<const std::int8_t> weights(const GridCell* cell, int stride, int count,
+                                                std::int8_t GridCell::*bit, int sign, Line& line) {
+        for (int i = 0; i < count; ++i) {
+            line[static_cast<std::size_t>(i)] =
+                static_cast<std::int8_t>(cell[i * stride].*bit * sign);
+        }
+        return std::span(line).first(static_cast<std::size_t>(count));
     }
-    std::int8_t x_weight(int a, int b) const { return turned(turn_, cell(a, b)).x; }
-    std::int8_t y_weight(int a, int b) const { return turned(turn_, cell(a, b)).y; }
 
-    const Grid& grid_;
     Region region_;
     Turn turn_;
     Vec corner_;
+    const GridCell* first_;
+    int to_right_;
+    int downwards_;
+    std::int8_t GridCell::*x_bit_;
+    std::int8_t GridCell::*y_bit_;
+    int x_sign_;
+    int y_sign_;
 };
 
 }  // namespace dotpose::core

@@ -1,7 +1,10 @@
 #include "core/decode/verify.hpp"
 
+#include "code/rolls.hpp"
+#include "code/sequences.hpp"
 #include "core/decode/confidence.hpp"
 #include "core/decode/lines.hpp"
+#include "core/decode/quick_rivals.hpp"
 #include "core/decode/rivals.hpp"
 #include "core/decode/upright.hpp"
 
@@ -15,17 +18,31 @@ struct Agreement {
     Confidence confidence;
 };
 
-Agreement compare(const Grid& grid, Turn pattern_from_grid, const Nominal& nominal, Axis axis) {
+AxisReading reading_of(Profile profile, const Place& place, Axis axis) {
+    const bool is_x = axis == Axis::x;
+    const std::uint32_t position = is_x ? place.cell.x : place.cell.y;
+    const std::uint32_t cross = is_x ? place.cell.y : place.cell.x;
+    const int section = is_x ? place.section.u : place.section.v;
+    const int here = roll(profile, position) + section + static_cast<int>(cross % kSections);
+    return {position, static_cast<std::uint8_t>(here % kSections), 0, 0};
+}
+
+/// Of all lines of an upright grid.
+Agreement compare(Profile profile, const Upright& upright, Axis axis, const AxisReading& reading) {
     Agreement agreement;
-    for (int j = grid.j0; j < grid.j0 + grid.rows; ++j) {
-        for (int i = grid.i0; i < grid.i0 + grid.columns; ++i) {
-            const GridCell& cell = grid.at(i, j);
-            const Bits read = turned(pattern_from_grid, cell);
-            const int weight = axis == Axis::x ? read.x : read.y;
+    Line storage;
+    const int lines = axis == Axis::x ? upright.columns() : upright.rows();
+    std::array<std::uint8_t, kMaxGridSide> rolls;
+    code::follow_rolls(profile, reading.position, reading.roll,
+                       std::span(rolls).first(static_cast<std::size_t>(lines)));
+    for (int i = 0; i < lines; ++i) {
+        const auto line = axis == Axis::x ? upright.column(i, storage) : upright.row(i, storage);
+        std::size_t index = rolls[static_cast<std::size_t>(i)];
+        for (const std::int8_t weight : line) {
+            const bool bit = code::kMain[index] != 0;
+            index = index + 1 == kSections ? 0 : index + 1;
             if (weight == 0) continue;
-            const Symbol expected = nominal.symbol(nominal.pattern_step({i, j}));
-            const int bit = axis == Axis::x ? x_bit(expected) : y_bit(expected);
-            const bool is_wrong = (weight > 0) != (bit == 1);
+            const bool is_wrong = (weight > 0) != bit;
             agreement.confidence.add(weight, is_wrong);
             agreement.errors += is_wrong;
             ++agreement.bits;
@@ -34,48 +51,100 @@ Agreement compare(const Grid& grid, Turn pattern_from_grid, const Nominal& nomin
     return agreement;
 }
 
-AxisReading reading_of(Profile profile, std::uint32_t position, int section, std::uint32_t cross) {
-    const int here = roll(profile, position) + section + static_cast<int>(cross % kSections);
-    return {position, static_cast<std::uint8_t>(here % kSections), 0, 0};
+/// The place of the top left symbol.
+Place corner_place(Profile profile, const Decoding& decoding, const Upright& upright) {
+    const Vec corner = decoding.pattern_from_grid(upright.corner());
+    return moved(profile, decoding.place, corner.x, corner.y);
 }
 
-}  // namespace
+/// What all bits in view say before rivals are counted.
+struct Doubt {
+    bool is_too_much = true;
+    int odds_per_bit_q8 = 0;
+    int by_chance_q8 = 0;  ///< log2 of the probability that chance agrees as well
+};
 
-Status verify(const Grid& grid, Profile profile, const Decoding& decoding, const Nominal& nominal,
-              const IntegrityOptions& options, std::span<LineScores> storage, Fix& fix) {
-    const Upright upright(grid, decoding.region, decoding.pattern_from_grid);
-    const Vec corner = decoding.pattern_from_grid(upright.corner());
-    const Place place = moved(profile, decoding.place, corner.x, corner.y);
-    const std::array<Agreement, 2> agreements{
-        compare(grid, decoding.pattern_from_grid, nominal, Axis::x),
-        compare(grid, decoding.pattern_from_grid, nominal, Axis::y)};
+Doubt compare_with_chance(const Grid& grid, Profile profile, const Decoding& decoding,
+                          const IntegrityOptions& options, Fix& fix) {
+    const Upright upright(grid, {grid.i0, grid.j0, grid.columns, grid.rows},
+                          decoding.pattern_from_grid);
+    const Place place = corner_place(profile, decoding, upright);
+    const std::array agreements{
+        compare(profile, upright, Axis::x, reading_of(profile, place, Axis::x)),
+        compare(profile, upright, Axis::y, reading_of(profile, place, Axis::y))};
     fix.bit_errors = agreements[0].errors + agreements[1].errors;
     fix.p_wrong_log2 = 0;
     for (const Agreement& agreement : agreements) {
         // Two patterns in view.
-        if (agreement.errors > agreement.bits * options.max_bit_error_q8 / 256) {
-            return Status::not_certain;
-        }
+        if (agreement.errors > agreement.bits * options.max_bit_error_q8 / 256) return {};
     }
     // Both axes are read from the same dots, and so are misread alike.
     Confidence both = agreements[0].confidence;
     both.add(agreements[1].confidence);
-    const int odds = odds_per_bit_q8(both);
-    int p_wrong_q8 = kNever_q8;
+    Doubt doubt{false, odds_per_bit_q8(both), kNever_q8};
     for (const Agreement& agreement : agreements) {
-        p_wrong_q8 = add_log2(p_wrong_q8, 256 * chance_log2(agreement.confidence, odds));
+        doubt.by_chance_q8 = add_log2(
+            doubt.by_chance_q8, 256 * chance_log2(agreement.confidence, doubt.odds_per_bit_q8));
     }
-    // Rivals take long to count, and only add to this.
-    if (p_wrong_q8 > 256 * options.max_p_wrong_log2) return Status::not_certain;
+    // Where nothing is known of the bits, chance is as good; rivals only add to this.
+    doubt.is_too_much = doubt.by_chance_q8 > 256 * options.max_p_wrong_log2;
+    return doubt;
+}
+
+/// The probability of being wrong; `rivals_q8(lines, reading)` gives the odds of one axis' rivals.
+template <typename Rivals>
+int with_rivals(const Grid& grid, Profile profile, const Decoding& decoding,
+                std::span<LineScores> storage, const Doubt& doubt, Rivals rivals_q8) {
+    const Upright upright(grid, decoding.region, decoding.pattern_from_grid);
+    const Place place = corner_place(profile, decoding, upright);
+    int p_wrong_q8 = doubt.by_chance_q8;
     for (const Axis axis : {Axis::x, Axis::y}) {
-        const AxisReading reading =
-            axis == Axis::x ? reading_of(profile, place.cell.x, place.section.u, place.cell.y)
-                            : reading_of(profile, place.cell.y, place.section.v, place.cell.x);
-        const Lines lines = score_lines(upright, axis, storage);
-        p_wrong_q8 = add_log2(p_wrong_q8, 256 * rivals_log2(profile, lines, reading, odds));
+        const auto half = scores_of(axis, storage);
+        const Lines lines = decoding.lines_are_scored ? scored_lines(upright, axis, half)
+                                                      : score_lines(upright, axis, half);
+        p_wrong_q8 = add_log2(p_wrong_q8, rivals_q8(lines, reading_of(profile, place, axis)));
     }
+    return p_wrong_q8;
+}
+
+Status judge(int p_wrong_q8, const IntegrityOptions& options, Fix& fix) {
     fix.p_wrong_log2 = std::min((p_wrong_q8 + 255) >> 8, 0);
     return fix.p_wrong_log2 <= options.max_p_wrong_log2 ? Status::ok : Status::not_certain;
+}
+
+/// By quick_rivals.
+int estimate_quickly(const Grid& grid, Profile profile, const Decoding& decoding,
+                     std::span<LineScores> storage, const Doubt& doubt) {
+    return with_rivals(
+        grid, profile, decoding, storage, doubt,
+        [&](const Lines& lines, const AxisReading& reading) {
+            return quick_rivals_log2_q8(Contest(profile, lines, reading, doubt.odds_per_bit_q8));
+        });
+}
+
+}  // namespace
+
+Status verify_quickly(const Grid& grid, Profile profile, const Decoding& decoding,
+                      const IntegrityOptions& options, std::span<LineScores> storage, Fix& fix) {
+    const Doubt doubt = compare_with_chance(grid, profile, decoding, options, fix);
+    if (doubt.is_too_much || doubt.odds_per_bit_q8 == 0) return Status::not_certain;
+    return judge(estimate_quickly(grid, profile, decoding, storage, doubt), options, fix);
+}
+
+Status verify(const Grid& grid, Profile profile, const Decoding& decoding,
+              const IntegrityOptions& options, std::span<LineScores> storage, Fix& fix) {
+    const Doubt doubt = compare_with_chance(grid, profile, decoding, options, fix);
+    if (doubt.is_too_much || doubt.odds_per_bit_q8 == 0) return Status::not_certain;
+    const int quick_q8 = estimate_quickly(grid, profile, decoding, storage, doubt);
+    // Whoever accepts more doubt than usual wants to know how much there is.
+    constexpr int kUsual_q8 = -30 * 256;
+    if (judge(quick_q8, options, fix) == Status::ok && quick_q8 <= kUsual_q8) return Status::ok;
+    const int p_wrong_q8 =
+        with_rivals(grid, profile, decoding, storage, doubt,
+                    [&](const Lines& lines, const AxisReading& reading) {
+                        return 256 * rivals_log2(profile, lines, reading, doubt.odds_per_bit_q8);
+                    });
+    return judge(std::min(quick_q8, p_wrong_q8), options, fix);
 }
 
 }  // namespace dotpose::core

@@ -1,6 +1,7 @@
 #include "core/lattice/axes.hpp"
 
 #include <array>
+#include <cstdlib>
 
 #include "core/fixed.hpp"
 
@@ -13,87 +14,106 @@ constexpr std::size_t kFewestEdges = 12;
 
 using Values = std::array<std::int32_t, kMostEdges>;
 
-std::int32_t length(Vec a) {
-    return static_cast<std::int32_t>(square_root(static_cast<std::uint64_t>(squared(a))));
-}
-
 std::int32_t median_length(std::span<const Edge> edges, Values& scratch) {
     std::size_t n = 0;
-    for (const Edge& edge : edges)
-        scratch[n++] = length(edge.step_q8);
-    return median(std::span(scratch).first(n));
+    for (const Edge& edge : edges) {
+        // Steps are within 128 px per axis: half of the square fits.
+        const auto x = static_cast<std::uint32_t>(edge.step_q8.x * edge.step_q8.x);
+        const auto y = static_cast<std::uint32_t>(edge.step_q8.y * edge.step_q8.y);
+        scratch[n++] = static_cast<std::int32_t>((x + y) / 2);
+    }
+    const auto half_square = static_cast<std::uint32_t>(median(std::span(scratch).first(n)));
+    return static_cast<std::int32_t>(square_root(std::uint64_t{half_square} * 2));
 }
 
 /// Direction of the grid, modulo a quarter turn: the fourth powers of the edges as complex numbers
 /// point the same way for all four directions of a grid.
 std::int32_t common_direction_bam(std::span<const Edge> edges, std::int32_t length_q8) {
-    std::int64_t sum_re = 0;
-    std::int64_t sum_im = 0;
+    const std::int32_t inverse_q16 = 1024 * 65536 / length_q8;
+    std::int32_t sum_re = 0;
+    std::int32_t sum_im = 0;
     for (const Edge& edge : edges) {
-        const std::int64_t x = std::int64_t{edge.step_q8.x} * 1024 / length_q8;
-        const std::int64_t y = std::int64_t{edge.step_q8.y} * 1024 / length_q8;
-        const std::int64_t squared_length = x * x + y * y;
+        const Vec step = edge.step_q8;
+        if (std::max(std::abs(step.x), step.y) > 2 * length_q8) continue;
+        const std::int32_t x = (step.x * inverse_q16) >> 16;
+        const std::int32_t y = (step.y * inverse_q16) >> 16;
+        const std::int32_t squared_length = x * x + y * y;
         // Diagonals would pull the wrong way, and would count fourfold.
         if (squared_length > 1280 * 1280 || squared_length < 512 * 512) continue;
-        const std::int64_t re = (x * x - y * y) >> 10;
-        const std::int64_t im = (2 * x * y) >> 10;
+        const std::int32_t re = (x * x - y * y) >> 10;
+        const std::int32_t im = (2 * x * y) >> 10;
         sum_re += (re * re - im * im) >> 10;
         sum_im += (2 * re * im) >> 10;
     }
     // At most 2^9 edges of at most (5/4)^4 2^10.
-    const std::int32_t four_fold =
-        angle_bam({static_cast<std::int32_t>(sum_re), static_cast<std::int32_t>(sum_im)});
-    return four_fold / 4;
+    return angle_bam({sum_re, sum_im}) / 4;
 }
 
 /// The two clusters that are kept, of four: the others are their mirror images in the origin, which
-/// is the constraint of Fig. 5. Returns the index of the nearest one and turns the edge towards it.
-int nearest_cluster(Vec& edge, const std::array<Vec, 2>& means) {
-    std::array<std::int64_t, 2> cost;
-    std::array<std::int64_t, 2> projection;
-    for (std::size_t k = 0; k < 2; ++k) {
-        projection[k] = dot(edge, means[k]);
-        // |edge -+ mean|^2 without the common |edge|^2
-        cost[k] = squared(means[k]) - 2 * (projection[k] < 0 ? -projection[k] : projection[k]);
+/// is the constraint of Fig. 5.
+class Clusters {
+  public:
+    explicit Clusters(const std::array<Vec, 2>& means_q8) : means_q8_(means_q8) {
+        for (std::size_t k = 0; k < 2; ++k) {
+            means_q6_[k] = {means_q8[k].x >> 2, means_q8[k].y >> 2};
+            const Vec m = means_q6_[k];
+            half_squares_[k] = (m.x * m.x + m.y * m.y) / 2;
+        }
     }
-    const std::size_t k = cost[1] < cost[0] ? 1 : 0;
-    if (projection[k] < 0) edge = -edge;
-    return static_cast<int>(k);
-}
+    const std::array<Vec, 2>& means_q8() const { return means_q8_; }
 
-std::array<Vec, 2> constrained_k_means(std::span<const Edge> edges, std::array<Vec, 2> means) {
+    /// Returns the index of the nearest one and turns the edge towards it.
+    std::size_t nearest(Vec& edge_q8) const {
+        const Vec e{edge_q8.x >> 2, edge_q8.y >> 2};
+        const std::int32_t along_0 = e.x * means_q6_[0].x + e.y * means_q6_[0].y;
+        const std::int32_t along_1 = e.x * means_q6_[1].x + e.y * means_q6_[1].y;
+        // |edge -+ mean|^2 / 2 without the common |edge|^2
+        const bool is_second =
+            half_squares_[1] - std::abs(along_1) < half_squares_[0] - std::abs(along_0);
+        if ((is_second ? along_1 : along_0) < 0) edge_q8 = -edge_q8;
+        return is_second ? 1 : 0;
+    }
+
+  private:
+    std::array<Vec, 2> means_q8_;
+    std::array<Vec, 2> means_q6_;  ///< so that products fit 32 bits
+    std::array<std::int32_t, 2> half_squares_;
+};
+
+Clusters constrained_k_means(std::span<const Edge> edges, Clusters clusters) {
     for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
         std::array<Vec, 2> sums{};
         std::array<std::int32_t, 2> counts{};
         for (const Edge& edge : edges) {
             Vec step = edge.step_q8;
-            const auto k = static_cast<std::size_t>(nearest_cluster(step, means));
+            const std::size_t k = clusters.nearest(step);
             sums[k] = sums[k] + step;
             ++counts[k];
         }
-        const std::array<Vec, 2> before = means;
+        std::array<Vec, 2> means = clusters.means_q8();
         for (std::size_t k = 0; k < 2; ++k) {
             if (counts[k] == 0) continue;
             means[k] = {sums[k].x / counts[k], sums[k].y / counts[k]};
         }
-        if (means == before) break;
+        if (means == clusters.means_q8()) break;
+        clusters = Clusters(means);
     }
-    return means;
+    return clusters;
 }
 
 /// Medians of the edges of one cluster, separately in x and y (last lines of Fig. 5).
-Vec cluster_median(std::span<const Edge> edges, const std::array<Vec, 2>& means, int cluster,
+Vec cluster_median(std::span<const Edge> edges, const Clusters& clusters, std::size_t cluster,
                    Values& scratch) {
-    Vec result;
-    for (const auto member : {&Vec::x, &Vec::y}) {
-        std::size_t n = 0;
-        for (const Edge& edge : edges) {
-            Vec step = edge.step_q8;
-            if (nearest_cluster(step, means) == cluster) scratch[n++] = step.*member;
-        }
-        result.*member = median(std::span(scratch).first(n));
+    const auto x = std::span(scratch).first(scratch.size() / 2);
+    const auto y = std::span(scratch).last(scratch.size() / 2);
+    std::size_t n = 0;
+    for (const Edge& edge : edges) {
+        Vec step = edge.step_q8;
+        if (clusters.nearest(step) != cluster || n == x.size()) continue;
+        x[n] = step.x;
+        y[n++] = step.y;
     }
-    return result;
+    return {median(x.first(n)), median(y.first(n))};
 }
 
 }  // namespace
@@ -106,9 +126,9 @@ Status estimate_axes(std::span<const Edge> edges, Lattice& lattice) {
     const Vec unit = unit_q30(common_direction_bam(edges, length_q8));
     const Vec along{shift_rounded(std::int64_t{unit.x} * length_q8, 30),
                     shift_rounded(std::int64_t{unit.y} * length_q8, 30)};
-    const auto means = constrained_k_means(edges, {along, Vec{-along.y, along.x}});
-    const Vec u = cluster_median(edges, means, 0, scratch);
-    const Vec v = cluster_median(edges, means, 1, scratch);
+    const Clusters clusters = constrained_k_means(edges, Clusters({along, Vec{-along.y, along.x}}));
+    const Vec u = cluster_median(edges, clusters, 0, scratch);
+    const Vec v = cluster_median(edges, clusters, 1, scratch);
     // Symmetric edges are 4 % too short on average, because each dot chose its nearest: the
     // displacements along an edge that shorten it favour it. Measured in docs/pipeline.md.
     constexpr std::int32_t kLengthening_q8 = 267;

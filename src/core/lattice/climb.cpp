@@ -5,15 +5,6 @@
 namespace dotpose::core {
 namespace {
 
-/// A sine to 6 %: two parabolas. Phases are in 2^-16 turns, values times 2^14.
-std::int32_t rough_sine(std::int32_t phase_q16) {
-    const std::int32_t x = static_cast<std::int16_t>(phase_q16 & 0xFFFF);
-    return x * (32768 - (x < 0 ? -x : x)) >> 14;
-}
-std::int32_t rough_cosine(std::int32_t phase_q16) {
-    return rough_sine(phase_q16 + 16384);
-}
-
 /// A wave whose crests are rows of a grid.
 struct Wave {
     std::int32_t direction_bam = 0;

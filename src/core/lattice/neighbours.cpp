@@ -1,6 +1,7 @@
 #include "core/lattice/neighbours.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "core/fixed.hpp"
 
@@ -19,31 +20,27 @@ class Buckets {
   public:
     Buckets(std::span<const Dot> dots, std::span<const std::uint16_t> seeds);
 
-    int per_side() const { return per_side_; }
-    std::int32_t size_q8() const { return size_q8_; }
+    int columns() const { return columns_; }
+    int rows() const { return rows_; }
+    std::int32_t size_q8() const { return 1 << shift_; }
     int first(int column, int row) const {
-        return first_[static_cast<std::size_t>(row * per_side_ + column)];
+        return first_[static_cast<std::size_t>(row * columns_ + column)];
     }
     int next(int seed) const { return next_[static_cast<std::size_t>(seed)]; }
-    int index(std::int32_t offset_q8) const {
-        return std::clamp(offset_q8 / size_q8_, 0, per_side_ - 1);
-    }
-    Vec corner() const { return corner_; }
+    int column(Vec point_q8) const { return (point_q8.x - corner_.x) >> shift_; }
+    int row(Vec point_q8) const { return (point_q8.y - corner_.y) >> shift_; }
 
   private:
-    static constexpr int kMostPerSide = 11;
-    int per_side_ = 1;
-    std::int32_t size_q8_ = 1;
+    static constexpr int kMost = kMaxSeeds;
+    int shift_ = 0;
+    int columns_ = 1;
+    int rows_ = 1;
     Vec corner_;
-    std::array<std::int16_t, kMostPerSide * kMostPerSide> first_;
+    std::array<std::int16_t, kMost> first_;
     std::array<std::int16_t, kMaxSeeds> next_;
 };
 
 Buckets::Buckets(std::span<const Dot> dots, std::span<const std::uint16_t> seeds) {
-    // About two seeds a bucket: then the four nearest lie in the 3 x 3 buckets around.
-    while (per_side_ < kMostPerSide && 2 * per_side_ * per_side_ < static_cast<int>(seeds.size())) {
-        ++per_side_;
-    }
     corner_ = dots[seeds[0]].centre_q8;
     Vec end = corner_;
     for (const std::uint16_t s : seeds) {
@@ -51,22 +48,32 @@ Buckets::Buckets(std::span<const Dot> dots, std::span<const std::uint16_t> seeds
         corner_ = {std::min(corner_.x, p.x), std::min(corner_.y, p.y)};
         end = {std::max(end.x, p.x), std::max(end.y, p.y)};
     }
-    size_q8_ = std::max(end.x - corner_.x, end.y - corner_.y) / per_side_ + 1;
-    first_.fill(-1);
+    // One to four seeds a bucket: then the four nearest lie in the 3 x 3 buckets around.
+    do {
+        ++shift_;
+        columns_ = column(end) + 1;
+        rows_ = row(end) + 1;
+    } while (columns_ > kMost || rows_ > kMost ||
+             columns_ * rows_ > std::max(static_cast<int>(seeds.size()), 1));
+    std::fill_n(first_.begin(), columns_ * rows_, std::int16_t{-1});
     for (std::size_t s = 0; s < seeds.size(); ++s) {
-        const Vec p = dots[seeds[s]].centre_q8 - corner_;
-        std::int16_t& head = first_[static_cast<std::size_t>(index(p.y) * per_side_ + index(p.x))];
+        const Vec p = dots[seeds[s]].centre_q8;
+        std::int16_t& head = first_[static_cast<std::size_t>(row(p) * columns_ + column(p))];
         next_[s] = head;
         head = static_cast<std::int16_t>(s);
     }
 }
 
+/// Distances squared, in 2^-16 px^2, up to 128 px per axis: no grid is coarser.
+constexpr std::int32_t kFarthest_q8 = 1 << 15;
+constexpr std::uint32_t kNone = UINT32_MAX;
+
 /// The four nearest found so far, nearest first.
 struct Nearest {
     std::array<std::int16_t, 4> seeds{-1, -1, -1, -1};
-    std::array<std::int64_t, 4> squared_q16{INT64_MAX, INT64_MAX, INT64_MAX, INT64_MAX};
+    std::array<std::uint32_t, 4> squared_q16{kNone, kNone, kNone, kNone};
 
-    void offer(int seed, std::int64_t distance) {
+    void offer(int seed, std::uint32_t distance) {
         if (distance >= squared_q16[3]) return;
         std::size_t i = 3;
         for (; i > 0 && distance < squared_q16[i - 1]; --i) {
@@ -79,17 +86,22 @@ struct Nearest {
 };
 
 Nearest search(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
-               const Buckets& buckets, std::size_t self, int reach) {
-    const Vec p = dots[seeds[self]].centre_q8;
-    const int column = buckets.index(p.x - buckets.corner().x);
-    const int row = buckets.index(p.y - buckets.corner().y);
-    const int last = buckets.per_side() - 1;
+               const Buckets& buckets, int self, int reach) {
+    const Vec p = dots[seeds[static_cast<std::size_t>(self)]].centre_q8;
+    const int column = buckets.column(p);
+    const int row = buckets.row(p);
+    const int last_column = std::min(column + reach, buckets.columns() - 1);
+    const int last_row = std::min(row + reach, buckets.rows() - 1);
     Nearest nearest;
-    for (int r = std::max(row - reach, 0); r <= std::min(row + reach, last); ++r) {
-        for (int c = std::max(column - reach, 0); c <= std::min(column + reach, last); ++c) {
+    for (int r = std::max(row - reach, 0); r <= last_row; ++r) {
+        for (int c = std::max(column - reach, 0); c <= last_column; ++c) {
             for (int s = buckets.first(c, r); s >= 0; s = buckets.next(s)) {
-                if (s == static_cast<int>(self)) continue;
-                nearest.offer(s, squared(dots[seeds[static_cast<std::size_t>(s)]].centre_q8 - p));
+                const Vec d = dots[seeds[static_cast<std::size_t>(s)]].centre_q8 - p;
+                if (s == self || std::abs(d.x) >= kFarthest_q8 || std::abs(d.y) >= kFarthest_q8) {
+                    continue;
+                }
+                nearest.offer(s, static_cast<std::uint32_t>(d.x * d.x) +
+                                     static_cast<std::uint32_t>(d.y * d.y));
             }
         }
     }
@@ -103,10 +115,12 @@ int choose_seeds(std::span<const Dot> dots, Vec centre_q8, std::span<std::uint16
     for (const Dot& dot : dots) {
         farthest = std::max(farthest, square_distance(dot.centre_q8, centre_q8));
     }
+    int shift = 0;
+    while (farthest >> shift >= kDistanceBins)
+        ++shift;
     std::array<std::uint16_t, kDistanceBins> histogram{};
     const auto bin_of = [&](const Dot& dot) {
-        const std::int64_t distance = square_distance(dot.centre_q8, centre_q8);
-        return static_cast<std::size_t>(distance * (kDistanceBins - 1) / farthest);
+        return static_cast<std::size_t>(square_distance(dot.centre_q8, centre_q8) >> shift);
     };
     for (const Dot& dot : dots)
         ++histogram[bin_of(dot)];
@@ -130,10 +144,14 @@ void find_neighbours(std::span<const Dot> dots, std::span<const std::uint16_t> s
     const Buckets buckets(dots, seeds);
     for (std::size_t s = 0; s < seeds.size(); ++s) {
         Nearest nearest;
-        for (int reach = 1; reach <= buckets.per_side(); ++reach) {
-            nearest = search(dots, seeds, buckets, s, reach);
-            const std::int64_t sure_q8 = std::int64_t{reach} * buckets.size_q8();
-            if (nearest.squared_q16[3] <= sure_q8 * sure_q8) break;
+        const int most_reach = std::max(buckets.columns(), buckets.rows());
+        for (int reach = 1; reach <= most_reach; ++reach) {
+            nearest = search(dots, seeds, buckets, static_cast<int>(s), reach);
+            const std::int32_t sure_q8 = reach * buckets.size_q8();
+            if (sure_q8 >= kFarthest_q8 ||
+                nearest.squared_q16[3] <= static_cast<std::uint32_t>(sure_q8 * sure_q8)) {
+                break;
+            }
         }
         neighbours[s] = nearest.seeds;
     }

@@ -1,61 +1,44 @@
 #include "core/lattice/origin.hpp"
 
-#include "core/fixed.hpp"
-#include "core/lattice/neighbours.hpp"
+#include <cstdlib>
+
+#include "core/cells.hpp"
 
 namespace dotpose::core {
 namespace {
 
-using Neighbours = std::span<const std::array<std::int16_t, 4>>;
+/// Dots farther off, in cells, may be a third of a cell beside the first grid.
+constexpr int kReach_cells = 4;
 
-/// Section II-B.2: (1) all four neighbours of the start are connected to it symmetrically, and
-/// (2) exactly four other dots are connected to two of these sides.
-bool is_intact(Neighbours neighbours, int start) {
-    const auto& sides = neighbours[static_cast<std::size_t>(start)];
-    for (const std::int16_t side : sides) {
-        if (side < 0 || !counts(neighbours, side, start)) return false;
+/// Sum over dots, as a complex number, of one coordinate's place in its cell.
+struct Phase {
+    Vec sum;
+
+    void add(std::int32_t offset_q16) {
+        sum = sum + Vec{rough_cosine(offset_q16), rough_sine(offset_q16)};
     }
-    std::array<std::int16_t, 16> reached{};
-    std::size_t reached_count = 0;
-    int corners = 0;
-    for (const std::int16_t side : sides) {
-        for (const std::int16_t other : neighbours[static_cast<std::size_t>(side)]) {
-            if (other < 0 || other == start || !counts(neighbours, other, side)) continue;
-            if (std::find(sides.begin(), sides.end(), other) != sides.end()) continue;
-            int times_before = 0;
-            for (std::size_t i = 0; i < reached_count; ++i)
-                times_before += reached[i] == other;
-            reached[reached_count++] = other;
-            corners += times_before == 1;
-            if (times_before == 2) return false;
-        }
-    }
-    return corners == 4;
-}
+    std::int32_t mean_q16() const { return angle_bam(sum) >> 16; }
+};
 
 }  // namespace
 
-Status find_origin(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
-                   Neighbours neighbours, Vec centre_q8, Lattice& lattice, int& origin_seed) {
-    origin_seed = -1;
-    std::int64_t nearest = INT64_MAX;
-    for (std::size_t s = 0; s < seeds.size(); ++s) {
-        const std::int64_t distance = squared(dots[seeds[s]].centre_q8 - centre_q8);
-        if (distance < nearest && is_intact(neighbours, static_cast<int>(s))) {
-            nearest = distance;
-            origin_seed = static_cast<int>(s);
-        }
+void find_origin(std::span<const Dot> dots, std::span<const std::uint16_t> seeds, Vec near_q8,
+                 Lattice& lattice) {
+    lattice.origin_q16 = {near_q8.x * 256, near_q8.y * 256};
+    const Cells cells(plane_from_lattice(lattice, near_q8));
+    Phase i;
+    Phase j;
+    for (const std::uint16_t seed : seeds) {
+        const GridPoint g = cells(cells.from_centre_q3(dots[seed].centre_q8));
+        if (std::max(std::abs(g.cell.x), std::abs(g.cell.y)) > kReach_cells) continue;
+        i.add(g.offset_q16.x);
+        j.add(g.offset_q16.y);
     }
-    if (origin_seed < 0) return Status::no_intact_neighbourhood;
-    // The mean of the start and its sides: five displaced dots, none of them more exact than
-    // another.
-    Vec sum = dots[seeds[static_cast<std::size_t>(origin_seed)]].centre_q8;
-    for (const std::int16_t side : neighbours[static_cast<std::size_t>(origin_seed)]) {
-        sum = sum + dots[seeds[static_cast<std::size_t>(side)]].centre_q8;
-    }
-    lattice.origin_q16 = {static_cast<std::int32_t>(std::int64_t{sum.x} * 256 / 5),
-                          static_cast<std::int32_t>(std::int64_t{sum.y} * 256 / 5)};
-    return Status::ok;
+    const std::int64_t i_q16 = i.mean_q16();
+    const std::int64_t j_q16 = j.mean_q16();
+    lattice.origin_q16 = lattice.origin_q16 +
+                         Vec{shift_rounded(i_q16 * lattice.u_q16.x + j_q16 * lattice.v_q16.x, 16),
+                             shift_rounded(i_q16 * lattice.u_q16.y + j_q16 * lattice.v_q16.y, 16)};
 }
 
 }  // namespace dotpose::core

@@ -1,16 +1,15 @@
-// Origin: the centre of an intact 3 x 3 neighbourhood near the middle of the image. Paper section
-// II-B.2, Fig. 3.
+// Origin: where the intersections of the first grid lie. Paper section II-B.2. differs: the paper
+// takes a dot whose eight neighbours are all connected as they should; displaced dots and missing
+// ones leave few such, so the phase of all dots near the centre is taken, as in a Fourier
+// transform.
 #pragma once
 
-#include "dotpose/status.hpp"
 #include "dotpose/workspace.hpp"
 
 namespace dotpose::core {
 
-/// Sets `lattice.origin_q16` and the seed it was found at.
-/// Errors: no_intact_neighbourhood.
-Status find_origin(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
-                   std::span<const std::array<std::int16_t, 4>> neighbours, Vec centre_q8,
-                   Lattice& lattice, int& origin_seed);
+/// Sets the origin of the lattice, near a point, from the dots up to a few cells from there.
+void find_origin(std::span<const Dot> dots, std::span<const std::uint16_t> seeds, Vec near_q8,
+                 Lattice& lattice);
 
 }  // namespace dotpose::core

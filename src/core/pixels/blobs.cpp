@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstring>
+#include <type_traits>
 
 #include "core/fixed.hpp"
 #include "core/pixels/light.hpp"
@@ -14,6 +17,8 @@ namespace {
 constexpr int kMaxDotArea_px = 1024;
 constexpr int kMaxDotSide_px = 48;
 constexpr int kMaxMass = 65535;
+/// Of runs that found no room.
+constexpr std::int16_t kNoBlob = -1;
 
 /// Gives up the outer dots, and all that will follow there, so that the inner ones find room.
 void make_room(const Light& light, DotList list) {
@@ -35,13 +40,23 @@ bool is_kept(Vec centre_q8, const Light& light, const DotList& list) {
     return std::max(dx, -dx) <= reach_q8 && std::max(dy, -dy) <= reach_q8;
 }
 
+/// sum / mass in 1/256, rounded: 32 bits are enough for all but the largest blobs, which are cut by
+/// a bit or two.
+std::int32_t mean_q8(std::int32_t sum, std::int32_t mass) {
+    const bool is_negative = sum < 0;
+    auto n = static_cast<std::uint32_t>(is_negative ? -sum : sum);
+    auto d = static_cast<std::uint32_t>(mass);
+    for (; n >= 1U << 23; n /= 2)
+        d /= 2;
+    const auto mean = static_cast<std::int32_t>((n * 256 + d / 2) / d);
+    return is_negative ? -mean : mean;
+}
+
 void close_blob(OpenBlob& blob, const Light& light, DotList list) {
     blob.in_use = false;
     if (!blob.has_core || !blob.is_dot) return;
-    const auto centre = [&](int first, std::int32_t sum) {
-        return first * 256 + static_cast<std::int32_t>(divide_rounded(sum * 256LL, blob.mass));
-    };
-    const Vec centre_q8{centre(blob.first_u, blob.sum_x), centre(blob.first_v, blob.sum_y)};
+    const Vec centre_q8{blob.first_u * 256 + mean_q8(blob.sum_x, blob.mass),
+                        blob.first_v * 256 + mean_q8(blob.sum_y, blob.mass)};
     if (!is_kept(centre_q8, light, list)) return;
     while (list.count == static_cast<int>(list.dots.size()))
         make_room(light, list);
@@ -50,15 +65,18 @@ void close_blob(OpenBlob& blob, const Light& light, DotList list) {
         centre_q8, static_cast<std::uint16_t>(std::min(blob.mass, kMaxMass)), blob.area_px};
 }
 
-/// The index of a fresh blob that begins at a pixel.
+/// The index of a fresh blob that begins at a pixel; kNoBlob if there are too many already.
 std::int16_t open_blob(int u, int v, OpenBlobs& open) {
     const int capacity = static_cast<int>(open.blobs.size());
-    while (open.blobs[static_cast<std::size_t>(open.next_free)].in_use) {
+    for (int tries = 0; open.blobs[static_cast<std::size_t>(open.next_free)].in_use; ++tries) {
+        if (tries == capacity) return kNoBlob;
         open.next_free = open.next_free + 1 == capacity ? 0 : open.next_free + 1;
     }
     OpenBlob& blob = open.blobs[static_cast<std::size_t>(open.next_free)];
-    blob = OpenBlob{};
-    blob.in_use = true;
+    blob.sum_x = blob.sum_y = blob.mass = 0;
+    blob.area_px = 0;
+    blob.has_core = false;
+    blob.is_dot = blob.in_use = true;
     blob.first_u = static_cast<std::int16_t>(u);
     blob.first_v = static_cast<std::int16_t>(v);
     return static_cast<std::int16_t>(open.next_free);
@@ -77,15 +95,21 @@ void add_run(const Run& run, int v, const Light& light, OpenBlob& blob) {
     }
     if (!blob.is_dot) return;
     const std::uint8_t* row = kept_row(light, v);
-    for (int u = run.begin; u < run.end; ++u) {
-        const Levels& level = light.levels[static_cast<std::size_t>(u / light.tile_px)];
-        // From the threshold, not from the paper: a pixel that just passes it moves nothing.
-        const int weight = level.extent - row[u];
-        blob.mass += weight;
-        blob.sum_x += weight * (u - blob.first_u);
-        blob.sum_y += weight * (v - blob.first_v);
-        blob.has_core |= row[u] < level.core;
+    std::int32_t mass = 0;
+    for (int u = run.begin; u < run.end;) {
+        const int tile = u >> light.tile_shift;
+        const Levels level = light.levels[static_cast<std::size_t>(tile)];
+        const int end = std::min<int>((tile + 1) << light.tile_shift, run.end);
+        for (; u < end; ++u) {
+            // From the threshold, not from the paper: a pixel that just passes it moves nothing.
+            const int weight = level.extent - row[u];
+            mass += weight;
+            blob.sum_x += weight * (u - blob.first_u);
+            blob.has_core |= row[u] < level.core;
+        }
     }
+    blob.mass += mass;
+    blob.sum_y += mass * (v - blob.first_v);
     blob.area_px = static_cast<std::uint16_t>(blob.area_px + width);
 }
 
@@ -105,27 +129,77 @@ void unite(OpenBlob& blob, OpenBlob& other) {
     other.in_use = false;
 }
 
-int find_runs(int v, const Light& light, std::span<Run> runs) {
-    const std::uint8_t* row = kept_row(light, v);
-    int count = 0;
-    bool dark_before = false;
-    int u = 0;
-    for (int tile = 0; tile < light.tiles_per_band; ++tile) {
-        const int threshold = light.levels[static_cast<std::size_t>(tile)].extent;
-        const int end = std::min(u + light.tile_px, light.width_px);
-        for (; u < end; ++u) {
-            const bool dark = row[u] < threshold;
-            if (dark == dark_before) continue;
-            if (dark) {
-                runs[static_cast<std::size_t>(count)].begin = static_cast<std::int16_t>(u);
-            } else {
-                runs[static_cast<std::size_t>(count++)].end = static_cast<std::int16_t>(u);
+/// As many pixels at a time as fit a register, the first in the lowest byte.
+using Word = std::conditional_t<sizeof(void*) == 8, std::uint64_t, std::uint32_t>;
+static_assert(std::endian::native == std::endian::little);
+constexpr Word kTops = static_cast<Word>(0x8080808080808080);
+
+/// The top bit of each byte: whether the pixel is at least as light as an even level.
+Word light_pixels(const std::uint8_t* pixels, Word half_level) {
+    Word word = 0;
+    std::memcpy(&word, __builtin_assume_aligned(pixels, sizeof(Word)), sizeof word);
+    return ((word >> 1 | kTops) - half_level) & kTops;
+}
+
+/// Stretches of dark pixels, from the chunks of eight pixels that have some.
+class RunFinder {
+  public:
+    explicit RunFinder(std::span<Run> runs) : runs_(runs) {}
+
+    // Not inlined: rare, and in the way of the loop over all chunks.
+    [[gnu::noinline]] void take(int u, const std::uint8_t* pixels, Word half_level) {
+        if (u != next_u_) close(next_u_);
+        next_u_ = u + kSmallestTile_px;
+        for (; u < next_u_; u += static_cast<int>(sizeof(Word)), pixels += sizeof(Word)) {
+            const Word dark = light_pixels(pixels, half_level) ^ kTops;
+            Word changes = dark ^ (dark << 8 | (is_open_ ? 0x80U : 0U));
+            for (; changes != 0; changes &= changes - 1) {
+                const int at = u + std::countr_zero(changes) / 8;
+                if (is_open_) {
+                    close(at);
+                } else {
+                    open(at);
+                }
             }
-            dark_before = dark;
         }
     }
-    if (dark_before) runs[static_cast<std::size_t>(count++)].end = static_cast<std::int16_t>(u);
-    return count;
+    int finish(int width_px) {
+        close(std::min(next_u_, width_px));
+        return static_cast<int>(count_);
+    }
+
+  private:
+    void open(int u) {
+        if (count_ == runs_.size()) return;
+        runs_[count_].begin = static_cast<std::int16_t>(u);
+        is_open_ = true;
+    }
+    void close(int u) {
+        if (is_open_) runs_[count_++].end = static_cast<std::int16_t>(u);
+        is_open_ = false;
+    }
+
+    std::span<Run> runs_;
+    std::size_t count_ = 0;
+    int next_u_ = 0;
+    bool is_open_ = false;
+};
+
+[[gnu::noinline]] int find_runs(int v, const Light& light, std::span<Run> runs) {
+    RunFinder finder(runs);
+    const auto used = light.half_levels.first(static_cast<std::size_t>(light.width_px + 7) / 8);
+    const std::uint8_t* pixels = kept_row(light, v);
+    int u = 0;
+    for (const std::uint32_t four_levels : used) {
+        const Word half_level = static_cast<Word>(std::uint64_t{four_levels} << 32 | four_levels);
+        Word all = kTops;
+        for (std::size_t k = 0; k < kSmallestTile_px; k += sizeof(Word))
+            all &= light_pixels(pixels + k, half_level);
+        if (all != kTops) finder.take(u, pixels, half_level);
+        pixels += kSmallestTile_px;
+        u += kSmallestTile_px;
+    }
+    return finder.finish(light.width_px);
 }
 
 /// Gives each run of the new row the blob of the runs above that it touches (corners count).
@@ -133,13 +207,13 @@ void connect(std::span<Run> above, std::span<Run> below, int v, OpenBlobs& open)
     std::size_t first = 0;
     for (std::size_t r = 0; r < below.size(); ++r) {
         Run& run = below[r];
-        run.blob = -1;
+        run.blob = kNoBlob;
         while (first < above.size() && above[first].end < run.begin)
             ++first;
         for (std::size_t a = first; a < above.size() && above[a].begin <= run.end; ++a) {
             const std::int16_t other = above[a].blob;
-            if (run.blob < 0) run.blob = other;
-            if (run.blob == other) continue;
+            if (run.blob == kNoBlob) run.blob = other;
+            if (run.blob == other || other == kNoBlob) continue;
             unite(open.blobs[static_cast<std::size_t>(run.blob)],
                   open.blobs[static_cast<std::size_t>(other)]);
             const auto rename = [&](Run& named) {
@@ -148,7 +222,7 @@ void connect(std::span<Run> above, std::span<Run> below, int v, OpenBlobs& open)
             std::for_each(above.begin(), above.end(), rename);
             std::for_each(below.begin(), below.begin() + static_cast<std::ptrdiff_t>(r), rename);
         }
-        if (run.blob < 0) run.blob = open_blob(run.begin, v, open);
+        if (run.blob == kNoBlob) run.blob = open_blob(run.begin, v, open);
     }
 }
 
@@ -174,26 +248,28 @@ void grow_blobs(int v, const Light& light, OpenBlobs& open, DotList list) {
     const auto below = newer.first(static_cast<std::size_t>(open.run_count));
     connect(above, below, v, open);
     for (const Run& run : below) {
+        if (run.blob == kNoBlob) continue;
         add_run(run, v, light, open.blobs[static_cast<std::size_t>(run.blob)]);
     }
     for (const Run& run : above) {
+        if (run.blob == kNoBlob) continue;
         OpenBlob& blob = open.blobs[static_cast<std::size_t>(run.blob)];
         if (blob.in_use && blob.last_v < v) close_blob(blob, light, list);
     }
 }
 
 void sift_dots(const BlobOptions& options, DotList list) {
-    constexpr int kSample = 256;
-    std::array<std::int32_t, kSample> masses;
-    std::array<std::int32_t, kSample> areas;
-    const int step = std::max(list.count / kSample, 1);
-    std::size_t n = 0;
-    for (int i = 0; i < list.count && n < kSample; i += step, ++n) {
-        masses[n] = list.dots[static_cast<std::size_t>(i)].mass;
-        areas[n] = list.dots[static_cast<std::size_t>(i)].area_px;
-    }
-    const std::int32_t min_mass = median(std::span(masses).first(n)) * options.min_mass_q8 / 256;
-    const std::int32_t max_area = median(std::span(areas).first(n)) * options.max_area_ratio;
+    constexpr std::size_t kSample = 256;
+    const std::size_t step = static_cast<std::size_t>(list.count) / kSample + 1;
+    const auto median_of = [&](auto member) {
+        std::array<std::int32_t, kSample> values;
+        std::size_t n = 0;
+        for (std::size_t i = 0; i < static_cast<std::size_t>(list.count); i += step)
+            values[n++] = list.dots[i].*member;
+        return median(std::span(values).first(n));
+    };
+    const std::int32_t min_mass = median_of(&Dot::mass) * options.min_mass_q8 / 256;
+    const std::int32_t max_area = median_of(&Dot::area_px) * options.max_area_ratio;
     const auto found = list.dots.first(static_cast<std::size_t>(list.count));
     const auto end = std::remove_if(found.begin(), found.end(), [&](const Dot& dot) {
         return dot.area_px < options.min_area_px || dot.mass < min_mass || dot.area_px > max_area;

@@ -31,10 +31,12 @@ inline int band_begin(const Light& light, int band) {
 inline int band_end(const Light& light, int band) {
     return std::min((band + 1) * light.tile_px, light.height_px);
 }
-/// A row of one of the two newest bands.
+/// A row of one of the two newest bands: whole tiles, past `width_px` filled with the last pixel.
+/// Begins at a multiple of 8 bytes.
 inline std::uint8_t* kept_row(const Light& light, int v) {
+    const int slot = v & (2 * light.tile_px - 1);
     return light.rows.data() +
-           static_cast<std::ptrdiff_t>(v % (2 * light.tile_px)) * light.width_px;
+           static_cast<std::ptrdiff_t>(slot) * light.tile_px * light.tiles_per_band;
 }
 
 }  // namespace dotpose::core

@@ -23,7 +23,6 @@ constexpr std::pair<Status, const char*> kNames[] = {
     NAMED(no_contrast),
     NAMED(too_few_dots),
     NAMED(no_grid),
-    NAMED(no_intact_neighbourhood),
     NAMED(no_displacement),
     NAMED(grid_too_small),
     NAMED(no_orientation),

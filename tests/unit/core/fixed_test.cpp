@@ -104,7 +104,8 @@ TEST(Fixed, SumsOfPowersOfTwoAreRoundedUp) {
         for (int b = -40 * 256; b <= 0; b += 41) {
             const double exact = 256 * std::log2(std::exp2(a / 256.0) + std::exp2(b / 256.0));
             ASSERT_GE(add_log2(a, b), exact) << a << ", " << b;
-            ASSERT_LE(add_log2(a, b), exact + 150) << a << ", " << b;
+            // A chord of log2(1 + 2^-d) is 0.021 above the curve; two roundings.
+            ASSERT_LE(add_log2(a, b), exact + 5.5 + 2) << a << ", " << b;
         }
         ASSERT_LE(add_log2(a, kNever_q8), a + 1);
     }
@@ -145,6 +146,14 @@ TEST(Fixed, AnglesAreThoseOfAtan2) {
         const double expected = std::atan2(d.y, d.x);
         ASSERT_NEAR(bam_difference(angle_bam(d), expected), 0, kTolerance)
             << d.x << ", " << d.y << ", seed " << kSeed;
+    }
+}
+
+TEST(Fixed, RoughSinesAreWithinSixPercent) {
+    for (int phase = -70000; phase <= 140000; phase += 13) {
+        const double turns = 2 * std::numbers::pi * phase / 65536;
+        ASSERT_NEAR(std::ldexp(rough_sine(phase), -14), std::sin(turns), 0.06) << phase;
+        ASSERT_NEAR(std::ldexp(rough_cosine(phase), -14), std::cos(turns), 0.06) << phase;
     }
 }
 

@@ -20,6 +20,33 @@ Confidence confidence(int bits, int weight, int wrong) {
     return result;
 }
 
+TEST(Confidence, KeepsEachWeightInAStepAroundIt) {
+    for (int weight = 0; weight <= 127; ++weight) {
+        Confidence found;
+        found.add(weight, false);
+        found.add(-weight, true);
+        int bits = 0;
+        for (int level = 0; level < Confidence::kLevels; ++level) {
+            bits += found.bits(level);
+            if (found.bits(level) == 0) continue;
+            EXPECT_EQ(found.bits(level), 2) << weight;
+            EXPECT_EQ(found.wrong(level), 1) << weight;
+            EXPECT_LE(std::abs(Confidence::weight_of(level) - weight), 4) << weight;
+        }
+        EXPECT_EQ(bits, 2) << weight;
+    }
+}
+
+TEST(Confidence, OfTwoAxesIsThatOfAllTheirBits) {
+    Confidence sum = confidence(30, 100, 3);
+    sum.add(confidence(12, 101, 2));
+    sum.add(confidence(7, 20, 7));
+    EXPECT_EQ(sum.bits(100 / 8), 42);
+    EXPECT_EQ(sum.wrong(100 / 8), 5);
+    EXPECT_EQ(sum.bits(20 / 8), 7);
+    EXPECT_EQ(sum.wrong(20 / 8), 7);
+}
+
 TEST(OddsPerBit, AreThoseAtWhichTwoMoreAreExpectedWrongThanWere) {
     for (const int bits : {100, 400, 3000}) {
         for (const int wrong : {0, 1, 5, 20}) {
@@ -51,15 +78,14 @@ TEST(OddsPerBit, HalfOfTheWeightWrongSaysNothing) {
 }
 
 TEST(OddsPerBit, FallWithTheWrongWeight) {
-    int before = INT32_MAX;
-    for (int wrong = 0; wrong <= 400; ++wrong) {
-        const int odds = odds_per_bit_q8(confidence(400, 127, wrong));
-        ASSERT_LE(odds, before) << wrong;
+    const auto odds_of = [](int wrong) { return odds_per_bit_q8(confidence(400, 127, wrong)); };
+    for (int wrong = 0; wrong < 400; ++wrong) {
+        ASSERT_LE(odds_of(wrong + 1), odds_of(wrong)) << wrong;
+        // They are told to 2^-5, and fall by at least 2^-6 per bit up to here.
         if (wrong < 150) {
-            ASSERT_LT(odds, before) << wrong;
+            ASSERT_LT(odds_of(wrong + 3), odds_of(wrong)) << wrong;
         }
-        ASSERT_GE(odds, 0);
-        before = odds;
+        ASSERT_GE(odds_of(wrong), 0);
     }
 }
 
@@ -87,6 +113,43 @@ TEST(Chance, ChanceIsBoundedFromAboveAndNotFarOff) {
         }
     }
     EXPECT_GE(chance_log2({}, 8 * 256), 36);
+}
+
+TEST(Chance, EachBitThatAgreesHasItsFactor) {
+    // So many bits that the sum tells the logarithm of one factor, (1 + 2^-y) / 2, to 2^-20.
+    constexpr int kDoublings = 20;
+    for (const int weight : {4, 12, 60, 124}) {
+        Confidence bits = confidence(1, weight, 0);
+        for (int i = 0; i < kDoublings; ++i)
+            bits.add(Confidence(bits));
+        for (int odds_q8 = 0; odds_q8 <= 16 * 256; odds_q8 += 7) {
+            const double y = odds_q8 / 256.0 * weight / 127;
+            const double exact = std::log2(1 + std::exp2(-y)) - 1;
+            const double found = std::ldexp(chance_log2(bits, odds_q8) - 37, -kDoublings);
+            ASSERT_GE(found, exact - 1e-6) << weight << " at " << odds_q8;
+            // y is rounded down to 2^-8, where the slope is 1/2 at most; a chord over half a unit
+            // is 0.173 / 2^5 above the curve.
+            ASSERT_LE(found, exact + 0.002 + 0.0055) << weight << " at " << odds_q8;
+        }
+    }
+}
+
+TEST(Chance, EachBitThatContradictsHasItsFactor) {
+    // 2^y more than one that agrees.
+    constexpr int kBits = 1 << 12;
+    for (const int weight : {12, 60, 124}) {
+        const Confidence agree = confidence(kBits, weight, 0);
+        const Confidence contradict = confidence(kBits, weight, kBits / 16);
+        for (int odds_q8 = 256; odds_q8 <= 4 * 256; odds_q8 += 64) {
+            const int before = chance_log2(agree, odds_q8);
+            const int after = chance_log2(contradict, odds_q8);
+            if (after > 30) continue;  // more than certainty is not told
+            const double y = odds_q8 / 256.0 * weight / 127;
+            // y in steps of 2^-8; both are whole numbers.
+            EXPECT_NEAR(after - before, y * kBits / 16, kBits / 16 / 256.0 + 1.01)
+                << weight << " at " << odds_q8;
+        }
+    }
 }
 
 TEST(Chance, WeakBitsThatContradictSayLittle) {

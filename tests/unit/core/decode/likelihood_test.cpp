@@ -107,6 +107,31 @@ TEST(Likelihood, TheMiddleOfALargerGridIsKept) {
     EXPECT_EQ(owned.grid.columns, 16);
 }
 
+TEST(Likelihood, PerspectiveAndLensAreUndone) {
+    // A dot where the formula of PlaneFromImage puts that of a cell.
+    PlaneFromImage bent = kPlane;
+    bent.perspective_q30 = {1 << 19, -(1 << 18)};
+    bent.lens_q40 = 3 << 20;
+    std::vector<Dot> dots;
+    for (int j = -4; j <= 4; ++j) {
+        for (int i = -4; i <= 4; ++i) {
+            const Vec2 on_plane{i + 1 / 6.0, static_cast<double>(j)};
+            const Vec centre_q8 = core::image_point_q8(bent, fixed(on_plane, 16));
+            dots.push_back({centre_q8, 500, 9});
+        }
+    }
+    OwnedGrid owned(16);
+    ASSERT_EQ(assign_likelihoods(dots, bent, owned.grid), Status::ok);
+    ASSERT_EQ(owned.grid.columns, 9);
+    for (int j = -4; j <= 4; ++j) {
+        for (int i = -4; i <= 4; ++i) {
+            // To the right: x bit 0, y bit 1.
+            EXPECT_NEAR(owned.grid.at(i, j).x, -127, 4) << i << ", " << j;
+            EXPECT_NEAR(owned.grid.at(i, j).y, 127, 4) << i << ", " << j;
+        }
+    }
+}
+
 TEST(Likelihood, EightByEightCellsAreTheLeast) {
     OwnedGrid owned(16);
     EXPECT_EQ(assign_likelihoods(corners(0, 0, 8, 8), kPlane, owned.grid), Status::ok);

@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "../geometry.hpp"
-#include "core/plane.hpp"
+#include "grids.hpp"
 
 namespace dotpose::core_test {
 namespace {
@@ -12,47 +11,6 @@ namespace {
 using namespace core;
 
 constexpr std::uint64_t kSeed = 27;
-
-/// Off by a share of its length, an angle and a share of a cell, as the first estimate may be.
-Mesh spoilt(const Mesh& mesh, Rng& rng) {
-    const auto turned = [&](Vec2 a) {
-        const double angle = radians(rng.uniform(-1, 1));
-        const double stretch = rng.uniform(0.97, 1.03);
-        return Vec2{stretch * (a.x * std::cos(angle) - a.y * std::sin(angle)),
-                    stretch * (a.x * std::sin(angle) + a.y * std::cos(angle))};
-    };
-    Mesh result{turned(mesh.u), turned(mesh.v), {}};
-    result.origin = mesh.at(rng.uniform(-0.05, 0.05), rng.uniform(-0.05, 0.05));
-    return result;
-}
-
-/// The plane gives every dot its cell, and intersections their place to within a tolerance in
-/// spacings. The grid may count from another intersection than the mesh.
-void expect_grid(const PlaneFromImage& plane, const std::vector<PlacedDot>& dots,
-                 const std::vector<Vec2>& intersections_px, double tolerance) {
-    const Vec2 shift{std::round(real(plane_point_q16(plane, fixed(intersections_px[0], 8)), 16).x -
-                                dots[0].cell.x),
-                     std::round(real(plane_point_q16(plane, fixed(intersections_px[0], 8)), 16).y -
-                                dots[0].cell.y)};
-    for (std::size_t d = 0; d < dots.size(); ++d) {
-        const Vec2 at = real(plane_point_q16(plane, fixed(intersections_px[d], 8)), 16) - shift;
-        ASSERT_NEAR(at.x, dots[d].cell.x, tolerance)
-            << "cell " << dots[d].cell.x << ", " << dots[d].cell.y;
-        ASSERT_NEAR(at.y, dots[d].cell.y, tolerance)
-            << "cell " << dots[d].cell.x << ", " << dots[d].cell.y;
-    }
-}
-
-std::vector<Vec2> intersections(const Mesh& mesh, const std::vector<PlacedDot>& dots) {
-    std::vector<Vec2> places;
-    for (const PlacedDot& d : dots)
-        places.push_back(mesh.at(d.cell.x, d.cell.y));
-    return places;
-}
-
-Vec centre_q8(Vec2 image_px) {
-    return fixed({(image_px.x - 1) / 2, (image_px.y - 1) / 2}, 8);
-}
 
 TEST(RefineGrid, ReachesOverTheWholeImage) {
     Rng rng(kSeed);

@@ -289,8 +289,9 @@ TEST(Blobs, RandomPixelsFormTheSetsThatFloodingFinds) {
         GreyImage image =
             blank(64 + static_cast<int>(rng.below(220)), 64 + static_cast<int>(rng.below(220)));
         const double density = rng.uniform(0.04, 0.42);
-        // Single dark pixels are taken for ink only where others lie beside them.
-        const int side = density < 0.2 ? 2 : 1;
+        // Single dark pixels are taken for ink only where others lie beside them, in every second
+        // row: of some 170 pairs around any tile at the border one must be dark.
+        const int side = density < 0.3 ? 2 : 1;
         for (int v = 0; v + side <= image.height_px; v += side) {
             for (int u = 0; u + side <= image.width_px; u += side) {
                 if (rng.uniform() < density) fill(image, u, v, u + side, v + side, 40);

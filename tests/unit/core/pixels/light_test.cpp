@@ -68,17 +68,83 @@ TEST(Light, ThresholdsLieAtTheirSharesOfTheContrast) {
         for_each_band(dotted(120, 80, paper, ink), options, w.light, [&, p = paper, i = ink](int) {
             for (int t = 0; t < 15; ++t) {
                 const Levels level = w.light.levels[static_cast<std::size_t>(t)];
-                // 4 of 64 pixels of a tile are ink.
-                const double mean = (60.0 * p + 4.0 * i) / 64;
+                // Of a tile every fourth row counts: 2 of those 16 pixels are ink.
+                const double mean = (14.0 * p + 2.0 * i) / 16;
                 ASSERT_NEAR(level.paper, mean, 1);
-                // The contrast is known in steps of 1/64 of the paper's level.
-                const double step = mean / 64;
+                // The contrast is known in steps of 1/64 of the paper's level, from ink in steps
+                // of 2 grey levels.
+                const double step = mean / 64 + 1;
                 const double extent = mean - (mean - i) * options.extent_q8 / 256;
                 const double core = mean - (mean - i) * options.core_q8 / 256;
-                ASSERT_NEAR(level.extent, extent, step * options.extent_q8 / 256 + 1.5);
+                // Rounded down to an even level.
+                ASSERT_NEAR(level.extent, extent - 0.5, step * options.extent_q8 / 256 + 2);
+                ASSERT_EQ(level.extent % 2, 0);
                 ASSERT_NEAR(level.core, core, step * options.core_q8 / 256 + 1.5);
             }
         });
+    }
+}
+
+TEST(Light, HalfOfTheLevelStandsForEveryEightColumns) {
+    LargeWorkspace w;
+    // Small tiles and large ones; whole tiles and cut ones; light that changes from tile to tile.
+    for (const auto& [width, height] :
+         {std::pair{120, 80}, std::pair{101, 64}, std::pair{400, 256}, std::pair{397, 250}}) {
+        SCOPED_TRACE(testing::Message() << width << " x " << height);
+        GreyImage image = dotted(width, height, 220, 40);
+        for (int v = 0; v < height; ++v) {
+            for (int u = 0; u < width; ++u) {
+                std::uint8_t& level = pixel(image, u, v);
+                level = static_cast<std::uint8_t>(level * (2 * width - u) / (2 * width));
+            }
+        }
+        for_each_band(image, {}, w.light, [&](int) {
+            for (int u = 0; u < w.light.width_px; ++u) {
+                const auto tile = static_cast<std::size_t>(u / w.light.tile_px);
+                const unsigned half = w.light.levels[tile].extent / 2U;
+                const std::uint32_t four = w.light.half_levels[static_cast<std::size_t>(u / 8)];
+                for (int byte = 0; byte < 4; ++byte)
+                    ASSERT_EQ(four >> 8 * byte & 0xFF, half) << "column " << u;
+            }
+            EXPECT_GT(w.light.levels[0].extent, w.light.levels[5].extent);
+        });
+    }
+}
+
+TEST(Light, RowsAreFilledUpToWholeTiles) {
+    LargeWorkspace w;
+    for (const int width : {64, 65, 71, 72, 93}) {
+        GreyImage image = blank(width, 70);
+        for (int v = 0; v < 70; ++v) {
+            for (int u = 0; u < width; ++u)
+                pixel(image, u, v) = static_cast<std::uint8_t>(u + v);
+        }
+        for_each_band(image, {}, w.light, [&](int band) {
+            for (int v = band_begin(w.light, band); v < band_end(w.light, band); ++v) {
+                const std::uint8_t* row = kept_row(w.light, v);
+                EXPECT_EQ(reinterpret_cast<std::uintptr_t>(row) % 8, 0u);
+                for (int u = 0; u < (width + 7) / 8 * 8; ++u)
+                    ASSERT_EQ(row[u], std::min(u, width - 1) + v) << u << ", " << v;
+            }
+        });
+    }
+}
+
+TEST(Light, ASingleDarkPixelIsNoInk) {
+    SmallWorkspace w;
+    for (int u = 30; u < 38; ++u) {
+        for (const int width : {1, 2}) {
+            GreyImage image = blank(120, 80);
+            // On an even row: dots are higher than one.
+            fill(image, u, 36, u + width, 37, 20);
+            int dark_tiles = 0;
+            for_each_band(image, {}, w.light, [&](int) {
+                for (int t = 0; t < w.light.tiles_per_band; ++t)
+                    dark_tiles += w.light.levels[static_cast<std::size_t>(t)].extent > 0;
+            });
+            // Two side by side are, in the tile of the second and all around it.
+            EXPECT_EQ(dark_tiles, width == 2 ? 9 : 0) << "column " << u;
+        }
     }
 }
 

@@ -1,0 +1,64 @@
+#include "core/cell_fit.hpp"
+
+#include "core/affine.hpp"
+
+namespace dotpose::core {
+namespace {
+
+constexpr std::int64_t magnitude(std::int64_t a) {
+    return a < 0 ? -a : a;
+}
+
+/// Shift to the right after which a value fits so many bits.
+int excess_bits(std::int64_t value, int bits) {
+    int shift = 0;
+    while (value >> shift >> bits != 0)
+        ++shift;
+    return shift;
+}
+
+}  // namespace
+
+void CellFit::carry_over() {
+    all_.xx += recent_.xx;
+    all_.xy += recent_.xy;
+    all_.yy += recent_.yy;
+    all_.ix += recent_.ix;
+    all_.iy += recent_.iy;
+    all_.jx += recent_.jx;
+    all_.jy += recent_.jy;
+    recent_ = {};
+}
+
+bool CellFit::solve(int bits, PlaneFromImage& plane) {
+    carry_over();
+    if (n_ < 3) return false;
+    const std::int64_t mxx = moment(all_.xx, p_.x, p_.x);
+    const std::int64_t myy = moment(all_.yy, p_.y, p_.y);
+    const int shift = excess_bits(std::max(mxx, myy), 30);
+    const std::int64_t xx = mxx >> shift;
+    const std::int64_t yy = myy >> shift;
+    const std::int64_t xy = moment(all_.xy, p_.x, p_.y) >> shift;
+    const std::int64_t determinant = xx * yy - xy * xy;
+    // Dots spread 16 times less across than along count as a line.
+    if (determinant <= 0 || determinant >> 8 < (xx + yy) * (xx + yy) >> 18) return false;
+
+    const auto solve_one = [&](std::int32_t sum, std::int64_t of_x, std::int64_t of_y,
+                               std::int32_t& du_q24, std::int32_t& dv_q24) {
+        const std::int64_t mx = moment(of_x, sum, p_.x);
+        const std::int64_t my = moment(of_y, sum, p_.y);
+        const int own = excess_bits(std::max(magnitude(mx), magnitude(my)), 29);
+        const std::int64_t x = mx >> own;
+        const std::int64_t y = my >> own;
+        const int scale = 24 + 3 + own - shift - bits;
+        du_q24 = scaled_quotient(x * yy - y * xy, determinant, scale);
+        dv_q24 = scaled_quotient(y * xx - x * xy, determinant, scale);
+        const std::int64_t slope = std::int64_t{du_q24} * p_.x + std::int64_t{dv_q24} * p_.y;
+        return static_cast<std::int32_t>(((sum * 65536LL >> bits) - (slope >> 11)) / n_);
+    };
+    plane.at_centre_q16.x = solve_one(target_.x, all_.ix, all_.iy, plane.du_q24.x, plane.dv_q24.x);
+    plane.at_centre_q16.y = solve_one(target_.y, all_.jx, all_.jy, plane.du_q24.y, plane.dv_q24.y);
+    return true;
+}
+
+}  // namespace dotpose::core

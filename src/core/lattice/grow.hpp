@@ -1,0 +1,19 @@
+// Grow: the grid from its first estimate out to the last dot, without perspective or lens. Paper
+// section II-B.3. differs: eq. 6 continues with median lengths between neighbours; a least-squares
+// fit to the dots within reach, displacements taken as noise, gives all terms at once, and reaches
+// on from there.
+#pragma once
+
+#include "dotpose/options.hpp"
+#include "dotpose/status.hpp"
+#include "dotpose/workspace.hpp"
+
+namespace dotpose::core {
+
+/// Errors: no_grid where dots do not lie on one, no_displacement where they all lie in its
+/// intersections. A camera that is tilted by more than some degrees, or a lens that bends the grid
+/// by more than a third of a spacing, needs `refine_grid`.
+Status grow_grid(std::span<const Dot> dots, const LatticeOptions& options, Vec image_centre_q8,
+                 const Lattice& first, PlaneFromImage& grid_from_image);
+
+}  // namespace dotpose::core

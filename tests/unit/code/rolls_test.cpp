@@ -1,0 +1,72 @@
+// Rolls of consecutive lines against those of each by itself and a second implementation.
+#include "code/rolls.hpp"
+
+#include <gtest/gtest.h>
+
+#include "reference.hpp"
+
+namespace dotpose::code_test {
+namespace {
+
+constexpr std::uint32_t kSeed = 50;
+
+/// Rolls of `count` lines; the first shows `first_roll`.
+std::vector<std::uint8_t> followed(Profile profile, std::uint32_t position, int first_roll,
+                                   std::size_t count) {
+    std::vector<std::uint8_t> rolls(count, 99);
+    code::follow_rolls(profile, position, first_roll, rolls);
+    return rolls;
+}
+
+TEST(FollowRolls, AreTheRollsOfEachPosition) {
+    std::mt19937 rng(kSeed);
+    for (int i = 0; i < 300; ++i) {
+        const Profile profile = kProfiles[static_cast<std::size_t>(i % 3)];
+        const Place place = random_place(rng);
+        const std::uint32_t position = place.cell.x / 2;
+        const auto rolls = followed(profile, position, roll(profile, position), 256);
+        for (std::size_t line = 0; line < rolls.size(); ++line) {
+            const auto at = position + static_cast<std::uint32_t>(line);
+            ASSERT_EQ(rolls[line], roll(profile, at)) << describe(profile, place) << ", " << line;
+            if (line % 50 == 0) {
+                ASSERT_EQ(rolls[line], reference_roll(profile, at));
+            }
+        }
+    }
+}
+
+TEST(FollowRolls, CountFromTheFirstRollGiven) {
+    std::mt19937 rng(kSeed);
+    for (int first = 0; first < 63; ++first) {
+        const Profile profile = kProfiles[static_cast<std::size_t>(first % 3)];
+        const std::uint32_t position = random_place(rng).cell.x;
+        int expected = first;
+        std::uint64_t at = position;
+        for (const std::uint8_t found : followed(profile, position, first, 64)) {
+            ASSERT_EQ(found, expected) << position << " + " << at - position << ", seed " << kSeed;
+            expected = (expected + reference_delta(profile, at++)) % 63;
+        }
+    }
+}
+
+TEST(FollowRolls, CarryOverTheEndOfTheCode) {
+    // The sequences all end with the code, and begin again; the roll goes on.
+    for (const Profile profile : kProfiles) {
+        for (const std::uint32_t before : {1U, 2U, 31U, 200U}) {
+            const std::uint32_t position = kL - before;
+            const auto rolls = followed(profile, position, roll(profile, position), 256);
+            for (std::size_t line = 0; line < rolls.size(); ++line) {
+                ASSERT_EQ(rolls[line], reference_roll(profile, std::uint64_t{position} + line))
+                    << before << " before the end, line " << line;
+            }
+        }
+    }
+}
+
+TEST(FollowRolls, OneLineShowsTheFirstRollAndNoneNothing) {
+    EXPECT_EQ(followed(Profile::anoto, 12345, 62, 1), (std::vector<std::uint8_t>{62}));
+    EXPECT_TRUE(followed(Profile::anoto, 12345, 62, 0).empty());
+}
+
+}  // namespace
+}  // namespace dotpose::code_test

@@ -1,0 +1,51 @@
+// First estimates of grids, as far off as they may be, and what a stage should make of them.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "../geometry.hpp"
+#include "core/plane.hpp"
+
+namespace dotpose::core_test {
+
+/// Off by a share of its length, an angle and a share of a cell, as the first estimate may be.
+inline Mesh spoilt(const Mesh& mesh, Rng& rng) {
+    const auto turned = [&](Vec2 a) {
+        const double angle = radians(rng.uniform(-1, 1));
+        const double stretch = rng.uniform(0.97, 1.03);
+        return Vec2{stretch * (a.x * std::cos(angle) - a.y * std::sin(angle)),
+                    stretch * (a.x * std::sin(angle) + a.y * std::cos(angle))};
+    };
+    Mesh result{turned(mesh.u), turned(mesh.v), {}};
+    result.origin = mesh.at(rng.uniform(-0.05, 0.05), rng.uniform(-0.05, 0.05));
+    return result;
+}
+
+/// The plane gives every dot its cell, and intersections their place to within a tolerance in
+/// spacings. The grid may count from another intersection than the mesh.
+inline void expect_grid(const PlaneFromImage& plane, const std::vector<PlacedDot>& dots,
+                        const std::vector<Vec2>& intersections_px, double tolerance) {
+    const auto at = [&](Vec2 p) { return real(core::plane_point_q16(plane, fixed(p, 8)), 16); };
+    const Vec2 shift{std::round(at(intersections_px[0]).x - dots[0].cell.x),
+                     std::round(at(intersections_px[0]).y - dots[0].cell.y)};
+    for (std::size_t d = 0; d < dots.size(); ++d) {
+        const Vec2 found = at(intersections_px[d]) - shift;
+        ASSERT_NEAR(found.x, dots[d].cell.x, tolerance)
+            << "cell " << dots[d].cell.x << ", " << dots[d].cell.y;
+        ASSERT_NEAR(found.y, dots[d].cell.y, tolerance)
+            << "cell " << dots[d].cell.x << ", " << dots[d].cell.y;
+    }
+}
+
+inline std::vector<Vec2> intersections(const Mesh& mesh, const std::vector<PlacedDot>& dots) {
+    std::vector<Vec2> places;
+    for (const PlacedDot& d : dots)
+        places.push_back(mesh.at(d.cell.x, d.cell.y));
+    return places;
+}
+
+inline Vec centre_q8(Vec2 image_px) {
+    return fixed({(image_px.x - 1) / 2, (image_px.y - 1) / 2}, 8);
+}
+
+}  // namespace dotpose::core_test

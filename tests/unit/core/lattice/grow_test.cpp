@@ -1,0 +1,164 @@
+// The grid without perspective over the whole image, from a rough estimate in its middle.
+#include "core/lattice/grow.hpp"
+
+#include <gtest/gtest.h>
+
+#include "grids.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+using namespace core;
+
+constexpr std::uint64_t kSeed = 47;
+constexpr Vec2 kImage_px{188, 120};
+
+Mesh small_mesh(Rng& rng) {
+    return square_mesh(rng.uniform(8, 13), rng.uniform(0, 6.3),
+                       {rng.uniform(88, 99), rng.uniform(55, 65)});
+}
+
+std::vector<PlacedDot> displaced_dots(const Mesh& mesh, int reach, Vec2 image_px, Rng& rng) {
+    return placed_dots(mesh, reach, image_px, [&](int, int) { return random_displacement(rng); });
+}
+
+/// The error at an image's corner of the fit of three parameters per axis to dots that are
+/// displaced by 1/6 along one axis at random: 0.12 per dot. The variance there is 1 / n for the
+/// mean and 3 / n for each slope. Five times the deviation.
+double fit_tolerance(const std::vector<PlacedDot>& dots) {
+    return 5 * 0.118 * std::sqrt(7.0 / static_cast<double>(dots.size()));
+}
+
+TEST(GrowGrid, ReachesOverTheWholeImage) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 200; ++i) {
+        const double spacing = rng.uniform(6, 60);
+        const Vec2 image{std::min(spacing * rng.uniform(12, 50), 4096.0),
+                         std::min(spacing * rng.uniform(10, 40), 4096.0)};
+        SCOPED_TRACE(testing::Message() << "grid " << i << ", seed " << kSeed << ", " << image.x
+                                        << " x " << image.y << " at " << spacing);
+        Mesh mesh = square_mesh(spacing, rng.uniform(0, 6.3), {image.x / 2, image.y / 2});
+        if (i % 2 == 1) mesh.v = mesh.v + rng.uniform(-0.1, 0.1) * mesh.u;  // seen from aside
+        const auto placed = displaced_dots(mesh, 45, image, rng);
+        PlaneFromImage plane;
+        ASSERT_EQ(
+            grow_grid(dots_of(placed), {}, centre_q8(image), lattice_of(spoilt(mesh, rng)), plane),
+            Status::ok);
+        EXPECT_TRUE(is_affine(plane));
+        expect_grid(plane, placed, intersections(mesh, placed), fit_tolerance(placed));
+        if (testing::Test::HasFatalFailure()) return;
+    }
+}
+
+TEST(GrowGrid, ReachesOverTheLargestImage) {
+    Rng rng(kSeed);
+    for (const double angle : {0.0, 0.3, 0.785}) {
+        SCOPED_TRACE(testing::Message() << "angle " << angle << ", seed " << kSeed);
+        // As many dots as the largest workspace keeps, out to the corners.
+        constexpr Vec2 kLargest_px{4096, 4096};
+        const Mesh mesh = square_mesh(33, angle, {2048, 2048});
+        const auto placed = displaced_dots(mesh, 95, kLargest_px, rng);
+        ASSERT_GT(placed.size(), 14000u);
+        ASSERT_LE(placed.size(), 16384u);
+        PlaneFromImage plane;
+        ASSERT_EQ(grow_grid(dots_of(placed), {}, centre_q8(kLargest_px),
+                            lattice_of(spoilt(mesh, rng)), plane),
+                  Status::ok);
+        expect_grid(plane, placed, intersections(mesh, placed), fit_tolerance(placed));
+        if (testing::Test::HasFatalFailure()) return;
+    }
+}
+
+TEST(GrowGrid, BearsGapsAndDotsWhereNoneShouldBe) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 200; ++i) {
+        SCOPED_TRACE(testing::Message() << "grid " << i << ", seed " << kSeed);
+        const Mesh mesh = small_mesh(rng);
+        const auto placed = displaced_dots(mesh, 20, kImage_px, rng);
+        // One in six is missing; of the rest one in twelve is joined by one anywhere; a stroke
+        // hides a strip.
+        const double strip = rng.uniform(20, 160);
+        std::vector<Dot> dots;
+        for (const PlacedDot& d : placed) {
+            if (std::abs(d.centre_px.x - strip) < 8) continue;
+            const double fate = rng.uniform();
+            if (fate > 1 / 6.0) dots.push_back(dot_at(d.centre_px));
+            if (fate > 11 / 12.0)
+                dots.push_back(dot_at({rng.uniform(2, 185), rng.uniform(2, 117)}));
+        }
+        PlaneFromImage plane;
+        ASSERT_EQ(grow_grid(dots, {}, centre_q8(kImage_px), lattice_of(spoilt(mesh, rng)), plane),
+                  Status::ok);
+        // Every second dot is enough to tell cells, in which dots lie 1/6 off, apart; false ones
+        // pull.
+        expect_grid(plane, placed, intersections(mesh, placed), 0.25);
+        if (testing::Test::HasFatalFailure()) return;
+    }
+}
+
+TEST(GrowGrid, LeavesOutWhatLiesBetweenIntersections) {
+    Rng rng(kSeed);
+    const Mesh mesh = square_mesh(11, 0.3, {93, 60});
+    const auto placed =
+        placed_dots(mesh, 20, kImage_px, [&](int, int) { return random_displacement(rng); });
+    auto dots = dots_of(placed);
+    PlaneFromImage without;
+    PlaneFromImage with;
+    const Lattice first = lattice_of(spoilt(mesh, rng));
+    ASSERT_EQ(grow_grid(dots, {}, centre_q8(kImage_px), first, without), Status::ok);
+    for (int i = -6; i < 6; ++i)
+        dots.push_back(dot_at(mesh.at(i + 0.5, i % 4 + 0.46)));
+    ASSERT_EQ(grow_grid(dots, {}, centre_q8(kImage_px), first, with), Status::ok);
+    EXPECT_EQ(with.at_centre_q16, without.at_centre_q16) << "seed " << kSeed;
+    EXPECT_EQ(with.du_q24, without.du_q24);
+    EXPECT_EQ(with.dv_q24, without.dv_q24);
+}
+
+TEST(GrowGrid, RefusesAPlainGrid) {
+    Rng rng(kSeed);
+    for (const double jitter : {0.0, 0.03}) {
+        const Mesh mesh = square_mesh(11, 0.7, {93, 60});
+        const auto placed = placed_dots(mesh, 20, kImage_px, [&](int, int) {
+            return Vec2{jitter * rng.normal(), jitter * rng.normal()};
+        });
+        PlaneFromImage plane;
+        EXPECT_EQ(grow_grid(dots_of(placed), {}, centre_q8(kImage_px),
+                            lattice_of(spoilt(mesh, rng)), plane),
+                  Status::no_displacement)
+            << "seed " << kSeed;
+        // Dots are taken in 1/8 px.
+        expect_grid(plane, placed, intersections(mesh, placed), jitter == 0 ? 0.006 : 0.06);
+    }
+}
+
+TEST(GrowGrid, RefusesScatteredDots) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 100; ++i) {
+        const int count = 60 + static_cast<int>(rng.below(200));
+        std::vector<Dot> dots;
+        for (int d = 0; d < count; ++d)
+            dots.push_back(dot_at({rng.uniform(2, 185), rng.uniform(2, 117)}));
+        const Lattice lattice =
+            lattice_of(square_mesh(rng.uniform(8, 16), rng.uniform(0, 6.3), {93, 60}));
+        PlaneFromImage plane;
+        EXPECT_EQ(grow_grid(dots, {}, centre_q8(kImage_px), lattice, plane), Status::no_grid)
+            << "set " << i << ", seed " << kSeed;
+    }
+}
+
+TEST(GrowGrid, RefusesWhatDoesNotSpanAPlane) {
+    const Mesh mesh = square_mesh(11, 0, {93, 60});
+    PlaneFromImage plane;
+    const auto status_of = [&](const std::vector<Dot>& dots) {
+        return grow_grid(dots, {}, centre_q8(kImage_px), lattice_of(mesh), plane);
+    };
+    EXPECT_EQ(status_of({}), Status::no_grid);
+    EXPECT_EQ(status_of({dot_at({93, 60}), dot_at({104, 62})}), Status::no_grid);
+    std::vector<Dot> row;
+    for (int i = -8; i <= 8; ++i)
+        row.push_back(dot_at(mesh.at(i, 0)));
+    EXPECT_EQ(status_of(row), Status::no_grid);
+}
+
+}  // namespace
+}  // namespace dotpose::core_test
