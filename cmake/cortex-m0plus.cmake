@@ -14,4 +14,5 @@ set(CMAKE_ASM_FLAGS_INIT "${machine}")
 set(CMAKE_CXX_FLAGS_INIT "${machine} -U__INT32_TYPE__ -D__INT32_TYPE__=int -U__UINT32_TYPE__ -D__UINT32_TYPE__=unsigned")
 
 set(DOTPOSE_FIRMWARE cortex-m0plus)
-set(DOTPOSE_FIRMWARE_LIBRARIES -lm -lc -lgcc)
+# No C library, and so no mathematical function.
+set(DOTPOSE_FIRMWARE_LIBRARIES -lgcc)

@@ -20,7 +20,7 @@ std::array<std::uint8_t, kMaxWidth_px> row;
 
 constexpr Options kOptions = [] {
     Options options;
-    options.effort = Effort::once;
+    options.effort = Effort::device;
     return options;
 }();
 
@@ -70,7 +70,7 @@ bool locate_frame(FrameSize size) {
     }
     if (status == Status::ok) {
         markers::resume();
-        finish(kOptions, workspace);
+        finish_device(kOptions, workspace);
         markers::pause();
     }
     markers::end_frame();
