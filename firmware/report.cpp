@@ -114,7 +114,7 @@ void read_counts(const fs::path& path, Run& run) {
         run.stages[i].cost = cost_of(counts_of[i]);
 }
 
-/// The number after `name` at the start of a line.
+/// The number after `name` at the start of a line; 0 where there is no such line.
 Count number_after(const fs::path& path, std::string_view name) {
     std::istringstream lines(read_document(path));
     for (std::string line; std::getline(lines, line);) {
@@ -123,7 +123,7 @@ Count number_after(const fs::path& path, std::string_view name) {
         Count number = 0;
         if (words >> word && word == name && words >> number) return number;
     }
-    throw Error(fmt::format("no '{}' in {}", name, path.string()));
+    return 0;
 }
 
 Run read_run(const fs::path& folder, const Target& target, const char* preset) {
@@ -136,6 +136,20 @@ Run read_run(const fs::path& folder, const Target& target, const char* preset) {
         data_bytes + number_after(sizes, ".bss") + number_after(file.string() + ".txt", "stack");
     run.code_bytes = number_after(sizes, ".text") + data_bytes;
     return run;
+}
+
+/// How many of the frames were located, which is the same on all targets.
+std::string located(const fs::path& folder) {
+    std::string text;
+    for (const char* preset : kPresets) {
+        std::istringstream lines(read_document(folder / fmt::format("desktop-{}.txt", preset)));
+        int frames = 0;
+        int found = 0;
+        for (std::string line; std::getline(lines, line); ++frames)
+            found += line.starts_with("ok ") ? 1 : 0;
+        text += fmt::format("- {} of {} `{}` frames\n", found, frames, preset);
+    }
+    return text;
 }
 
 std::string summary(const std::vector<Run>& runs) {
@@ -248,9 +262,12 @@ bool report(bool is_update, const fs::path& document, const fs::path& folder) {
     }
     for (const Run& run : runs)
         fmt::print("{}\n", line_of(run));
-    const Blocks blocks = {
-        {"budget", summary(runs)}, {"stages", stage_tables(runs)}, {"rates", rate_table(runs)}};
-    fmt::print("\n{}\n{}", blocks[1].text, blocks[2].text);
+    const Blocks blocks = {{"budget", summary(runs)},
+                           {"located", located(folder)},
+                           {"stages", stage_tables(runs)},
+                           {"rates", rate_table(runs)}};
+    fmt::print("\nLocated, on each target:\n\n{}\n{}\n{}", blocks[1].text, blocks[2].text,
+               blocks[3].text);
     if (!is_update) return keeps_budget(document, runs);
     update_document(document, blocks);
     return true;
