@@ -10,7 +10,7 @@ BUILD = env -u MAKEFLAGS cmake --build --preset
 RELEASE = build/release
 
 .DEFAULT_GOAL := release
-.PHONY: release setup demo test asan fuzz bench accuracy format check install clean
+.PHONY: release setup demo test asan fuzz bench accuracy budget format check install clean
 
 release: setup $(RELEASE)/build.ninja
 	$(BUILD) release -j $(JOBS)
@@ -46,6 +46,14 @@ bench: setup $(RELEASE)/build.ninja
 accuracy: setup $(RELEASE)/build.ninja
 	$(BUILD) release -j $(JOBS) --target dotpose_accuracy
 	$(RELEASE)/bin/dotpose_accuracy $(ARGS)
+
+budget: SETUP += --firmware
+budget: setup $(RELEASE)/build.ninja build/cortex-m0plus/build.ninja build/mips32r2/build.ninja
+	$(BUILD) release -j $(JOBS) \
+	    --target dotpose_cli dotpose_frames dotpose_count dotpose_budget
+	$(BUILD) cortex-m0plus -j $(JOBS)
+	$(BUILD) mips32r2 -j $(JOBS)
+	firmware/budget $(ARGS)
 
 format: setup
 	scripts/format

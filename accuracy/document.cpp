@@ -17,7 +17,7 @@ std::string read_document(const fs::path& path) {
     return text;
 }
 
-void update_document(const fs::path& path, const Blocks& blocks, const fs::path& folder) {
+void update_document(const fs::path& path, const Blocks& blocks) {
     std::string text = read_document(path);
     for (const Block& block : blocks) {
         const std::string begin = fmt::format("<!-- begin {} -->\n", block.name);
@@ -29,6 +29,13 @@ void update_document(const fs::path& path, const Blocks& blocks, const fs::path&
         const std::size_t start = from + begin.size();
         text.replace(start, to - start, block.text);
     }
+    std::ofstream stream(path, std::ios::binary);
+    stream << text;
+    stream.close();
+    if (!stream) throw Error("cannot write " + path.string());
+}
+
+void update_pictures(const fs::path& path, const fs::path& folder) {
     const fs::path pictures = path.parent_path() / path.stem();
     fs::create_directories(pictures);
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
@@ -36,8 +43,4 @@ void update_document(const fs::path& path, const Blocks& blocks, const fs::path&
         fs::copy_file(entry.path(), pictures / entry.path().filename(),
                       fs::copy_options::overwrite_existing);
     }
-    std::ofstream stream(path, std::ios::binary);
-    stream << text;
-    stream.close();
-    if (!stream) throw Error("cannot write " + path.string());
 }

@@ -15,7 +15,8 @@ using Blocks = std::vector<Block>;
 /// Throws dotpose::Error.
 std::string read_document(const std::filesystem::path& path);
 
-/// Replaces the blocks, and copies all pictures (SVG) of `folder` to the folder beside the document
-/// that has its name. Throws dotpose::Error.
-void update_document(const std::filesystem::path& path, const Blocks& blocks,
-                     const std::filesystem::path& folder);
+/// Replaces the blocks. Throws dotpose::Error.
+void update_document(const std::filesystem::path& path, const Blocks& blocks);
+
+/// Copies all pictures (SVG) of `folder` to the folder beside the document that has its name.
+void update_pictures(const std::filesystem::path& path, const std::filesystem::path& folder);

@@ -228,7 +228,9 @@ void run(const Arguments& arguments) {
     }
     tables.close();
     if (!tables) throw Error("cannot write " + (arguments.out / "tables.md").string());
-    if (!arguments.document.empty()) update_document(arguments.document, blocks, arguments.out);
+    if (arguments.document.empty()) return;
+    update_document(arguments.document, blocks);
+    update_pictures(arguments.document, arguments.out);
 }
 
 }  // namespace

@@ -1,0 +1,57 @@
+/// Calls to the debugger or emulator: Arm's "Semihosting for AArch32 and AArch64".
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace semihosting {
+
+enum class Call : std::uint32_t {
+    open = 0x01,
+    write = 0x05,
+    read = 0x06,
+    command_line = 0x15,
+    exit = 0x20,
+};
+
+/// File modes, as of fopen. The file ":tt" is the console: standard output where it is written.
+inline constexpr std::uint32_t kRead = 1;
+inline constexpr std::uint32_t kWrite = 4;
+
+/// `arguments` is an array of words, as the call wants.
+inline std::int32_t call(Call number, const void* arguments) {
+    register auto r0 asm("r0") = static_cast<std::int32_t>(number);
+    register const void* r1 asm("r1") = arguments;
+    asm volatile("bkpt 0xab" : "+r"(r0) : "r"(r1) : "memory");
+    return r0;
+}
+
+inline std::uint32_t word(const void* pointer) {
+    return reinterpret_cast<std::uint32_t>(pointer);
+}
+
+inline std::int32_t open(const char* path, std::size_t length, std::uint32_t mode) {
+    const std::uint32_t arguments[] = {word(path), mode, length};
+    return call(Call::open, arguments);
+}
+
+/// Number of bytes that were not read, or not written.
+inline std::int32_t transfer(Call number, std::int32_t file, const void* bytes, std::size_t size) {
+    const std::uint32_t arguments[] = {static_cast<std::uint32_t>(file), word(bytes), size};
+    return call(number, arguments);
+}
+
+/// Whether `text` received what stands on the command line after `-semihosting-config`.
+inline bool command_line(char* text, std::size_t size) {
+    const std::uint32_t arguments[] = {word(text), size};
+    return call(Call::command_line, arguments) == 0;
+}
+
+[[noreturn]] inline void exit(int status) {
+    constexpr std::uint32_t kApplicationExit = 0x20026;
+    const std::uint32_t arguments[] = {kApplicationExit, static_cast<std::uint32_t>(status)};
+    for (;;)
+        call(Call::exit, arguments);
+}
+
+}  // namespace semihosting

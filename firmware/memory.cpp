@@ -1,0 +1,75 @@
+// What the compiler calls by itself. No C library is linked: Debian's for MIPS wants an FPU, and
+// counts would change with its versions.
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace {
+
+using Word [[gnu::may_alias]] = std::uint32_t;
+
+bool are_aligned(const void* a, const void* b) {
+    const auto bits = reinterpret_cast<std::uintptr_t>(a) | reinterpret_cast<std::uintptr_t>(b);
+    return bits % sizeof(Word) == 0;
+}
+
+}  // namespace
+
+extern "C" {
+
+void* memcpy(void* __restrict to, const void* __restrict from, std::size_t size) {
+    auto* target_word = static_cast<Word*>(to);
+    const auto* source_word = static_cast<const Word*>(from);
+    if (are_aligned(to, from)) {
+        for (; size >= sizeof(Word); size -= sizeof(Word))
+            *target_word++ = *source_word++;
+    }
+    auto* target = reinterpret_cast<unsigned char*>(target_word);
+    const auto* source = reinterpret_cast<const unsigned char*>(source_word);
+    while (size-- > 0)
+        *target++ = *source++;
+    return to;
+}
+
+void* memmove(void* to, const void* from, std::size_t size) {
+    auto* target = static_cast<unsigned char*>(to);
+    const auto* source = static_cast<const unsigned char*>(from);
+    if (target < source) {
+        while (size-- > 0)
+            *target++ = *source++;
+    } else {
+        while (size-- > 0)
+            target[size] = source[size];
+    }
+    return to;
+}
+
+void* memset(void* to, int value, std::size_t size) {
+    const auto byte = static_cast<unsigned char>(value);
+    auto* word = static_cast<Word*>(to);
+    if (are_aligned(to, nullptr)) {
+        for (; size >= sizeof(Word); size -= sizeof(Word))
+            *word++ = 0x01010101U * byte;
+    }
+    auto* target = reinterpret_cast<unsigned char*>(word);
+    while (size-- > 0)
+        *target++ = byte;
+    return to;
+}
+
+int memcmp(const void* a, const void* b, std::size_t size) {
+    const auto* left = static_cast<const unsigned char*>(a);
+    const auto* right = static_cast<const unsigned char*>(b);
+    for (; size > 0; --size, ++left, ++right) {
+        if (*left != *right) return *left - *right;
+    }
+    return 0;
+}
+
+std::size_t strlen(const char* text) {
+    const char* end = text;
+    while (*end != '\0')
+        ++end;
+    return static_cast<std::size_t>(end - text);
+}
+}

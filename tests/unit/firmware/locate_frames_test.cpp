@@ -1,0 +1,121 @@
+// The program of all devices, on a device made of strings.
+#include "locate_frames.hpp"
+
+#include <cstring>
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "dotpose/locate.hpp"
+#include "dotpose/simulate.hpp"
+#include "host.hpp"
+
+namespace {
+
+/// What the device can read, and what it has printed.
+std::string input;
+std::string output;
+std::size_t taken = 0;
+
+}  // namespace
+
+namespace host {
+
+bool open(const char* path) {
+    taken = 0;
+    output.clear();
+    return std::string(path) == "frames";
+}
+
+bool read(void* bytes, std::size_t size) {
+    if (input.size() - taken < size) return false;
+    std::memcpy(bytes, input.data() + taken, size);
+    taken += size;
+    return true;
+}
+
+void print(const char* text) {
+    output += text;
+}
+
+}  // namespace host
+
+namespace dotpose {
+namespace {
+
+std::string pgm(const GreyImage& image) {
+    return fmt::format("P5\n{} {}\n255\n", image.width_px, image.height_px) +
+           std::string(image.pixels.begin(), image.pixels.end());
+}
+
+GreyImage frame(Preset preset, std::uint64_t index, int width_px = 188, int height_px = 120) {
+    Setup setup;
+    setup.preset = preset;
+    setup.seed = 71;
+    setup.camera.width_px = width_px;
+    setup.camera.height_px = height_px;
+    return render(draw_shot(setup, index));
+}
+
+/// The line of a frame, from `locate` with the whole image at hand.
+std::string expected_line(const GreyImage& image) {
+    const auto workspace = std::make_unique<SmallWorkspace>();
+    Options options;
+    options.effort = Effort::device;
+    const Fix fix = locate(image.view(), options, *workspace);
+    return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {}\n", name(fix.status), fix.cell.x,
+                       fix.cell.y, fix.fraction_x_q16, fix.fraction_y_q16, fix.theta_bam,
+                       fix.section.u, fix.section.v, fix.spacing_px_q16, fix.dots_seen,
+                       fix.dots_used, fix.bit_errors, fix.p_wrong_log2);
+}
+
+TEST(LocateFrames, PrintsALineForEachFrame) {
+    input.clear();
+    std::string expected;
+    for (std::uint64_t i = 0; i < 6; ++i) {
+        for (const Preset preset : {Preset::nominal, Preset::hard}) {
+            const GreyImage image = frame(preset, i);
+            input += pgm(image);
+            expected += expected_line(image);
+        }
+    }
+    EXPECT_EQ(locate_frames("frames"), 0);
+    EXPECT_EQ(output, expected);
+    EXPECT_NE(output.find("ok "), std::string::npos);
+}
+
+TEST(LocateFrames, GoesOnAfterAFrameOfAnotherSize) {
+    const GreyImage small = frame(Preset::nominal, 1, 40, 30);
+    const GreyImage narrow = frame(Preset::nominal, 2, 150, 110);
+    input = pgm(small) + pgm(narrow);
+    EXPECT_EQ(locate_frames("frames"), 0);
+    EXPECT_EQ(output.substr(0, output.find(' ')), "image_too_small");
+    EXPECT_EQ(output.substr(output.find('\n') + 1), expected_line(narrow));
+}
+
+TEST(LocateFrames, AnEmptyFileHoldsNoFrame) {
+    input.clear();
+    EXPECT_EQ(locate_frames("frames"), 0);
+    EXPECT_EQ(output, "");
+}
+
+TEST(LocateFrames, RefusesWhatIsNoFileOfFrames) {
+    EXPECT_EQ(locate_frames("nothing"), 1);
+    EXPECT_EQ(output, "cannot open the file of frames\n");
+    for (const char* text : {"P", "P2\n188 120\n255\n", "P5\n188\n", "P5\n-1 2\n255\n", "P5\n",
+                             "P5\n189 120\n255\n", "P5\n188 120\n65535\n", "P5\n0 120\n255\n"}) {
+        SCOPED_TRACE(text);
+        input = text;
+        EXPECT_EQ(locate_frames("frames"), 1);
+        EXPECT_EQ(output, "not a binary PGM of 8 bits, at most 188 px wide\n");
+    }
+    const std::string whole = pgm(frame(Preset::nominal, 1));
+    input = whole.substr(0, whole.size() - 1);
+    EXPECT_EQ(locate_frames("frames"), 1);
+    EXPECT_EQ(output, "the file ends within a frame\n");
+}
+
+}  // namespace
+}  // namespace dotpose
