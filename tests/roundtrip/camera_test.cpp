@@ -13,10 +13,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "../temporary_directory.hpp"
 #include "dotpose/image_file.hpp"
 #include "dotpose/simulate.hpp"
 #include "rendered_page.hpp"
-#include "temporary_directory.hpp"
 
 namespace dotpose::roundtrip {
 namespace {
@@ -110,7 +110,7 @@ class OverlaidBook : public testing::TestWithParam<Camera> {
         return truths;
     }
 
-    TemporaryDirectory directory_;
+    test::TemporaryDirectory directory_;
 };
 
 TEST_P(OverlaidBook, is_located_on_the_right_page_in_the_right_place) {

@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "../temporary_directory.hpp"
 #include "dot_places.hpp"
 #include "dotpose/print.hpp"
 #include "rendered_page.hpp"
-#include "temporary_directory.hpp"
 
 namespace dotpose::roundtrip {
 namespace {
@@ -57,7 +57,7 @@ TEST_P(RenderedPdf, shows_every_dot_in_its_place) {
     PrintOptions print;
     print.drawing = dots.drawing;
     print.labels = false;
-    const TemporaryDirectory directory;
+    const test::TemporaryDirectory directory;
     const auto pdf = directory.path() / "sheet.pdf";
     write_sheet(sheet, pdf, print);
 

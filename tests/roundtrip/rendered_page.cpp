@@ -1,14 +1,14 @@
 #include "rendered_page.hpp"
 
 #include <array>
-#include <cstdio>
 #include <fstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
-#include <sys/wait.h>
+
+#include "../shell.hpp"
 
 namespace dotpose::roundtrip {
 namespace fs = std::filesystem;
@@ -72,17 +72,9 @@ std::string ghostscript(const char* device, int dpi, int page) {
 }  // namespace
 
 std::string run(const std::string& command) {
-    std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-    if (pipe == nullptr) throw std::runtime_error("cannot run " + command);
-    std::string output;
-    std::array<char, 4096> buffer;
-    while (const std::size_t size = std::fread(buffer.data(), 1, buffer.size(), pipe))
-        output.append(buffer.data(), size);
-    const int status = pclose(pipe);
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-        throw std::runtime_error(command + "\n" + output);
-    }
-    return output;
+    const test::ShellOutcome outcome = test::run_shell("{ " + command + "; } 2>&1");
+    if (outcome.exit_code != 0) throw std::runtime_error(command + "\n" + outcome.output);
+    return outcome.output;
 }
 
 GreyPage render(const std::string& renderer, const fs::path& pdf, int dpi, int page) {
