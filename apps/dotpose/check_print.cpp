@@ -25,7 +25,7 @@ constexpr const char* kExamples =
     "  dotpose check-print scan.png\n"
     "  dotpose check-print scan.jpg --dpi 600 --spacing 0.508 --dot 0.085 -o map.svg\n"
     "  dotpose check-print scan.png --fit --sheets sheets.json\n"
-    "  dotpose print --test-page -o test.svg    (print and scan it, then)\n"
+    "  dotpose print --test-page -o test.pdf    (print and scan it, then)\n"
     "  dotpose check-print test-scan.png\n\n"
     "Scan the whole page at 600 dpi, without sharpening. Exit status 1 if there is no pattern.\n";
 

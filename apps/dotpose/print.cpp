@@ -37,7 +37,7 @@ constexpr const char* kExamples =
     "  dotpose print -o tiles.pdf --pages 12 --origin 5000,0\n"
     "  dotpose print -o poster.png --paper A3 --landscape --origin 1000,2000 --dpi 1200\n\n"
     "  dotpose print -o table.pdf --sheets sheets.json --name table\n"
-    "  dotpose print -o test.svg --test-page\n\n"
+    "  dotpose print -o test.pdf --test-page\n\n"
     "Print at 100 %, without \"fit to page\". Give each sheet an origin of its own, or let a\n"
     "sheet file do so: it is made if missing, and 'dotpose locate --sheets' reads it.\n";
 

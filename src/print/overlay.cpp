@@ -191,17 +191,9 @@ class Overlay {
         resources.replaceKey("/XObject", objects);
         std::vector<std::string> names;
         int suffix = 1;
-        for (QPDFObjectHandle& stream : dots_.streams(sheet)) {
-            QPDFObjectHandle dict = stream.getDict();
-            dict.replaceKey("/Type", QPDFObjectHandle::newName("/XObject"));
-            dict.replaceKey("/Subtype", QPDFObjectHandle::newName("/Form"));
-            dict.replaceKey("/BBox",
-                            QPDFObjectHandle::parse(fmt::format(
-                                "[0 0 {:.4f} {:.4f}]", sheet.width_mm * print::kPointsPerMm,
-                                sheet.height_mm * print::kPointsPerMm)));
-            dict.replaceKey("/Resources", dots_.resources(sheet));
+        for (const QPDFObjectHandle& form : dots_.forms(sheet)) {
             names.push_back(resources.getUniqueResourceName("/Dots", suffix));
-            objects.replaceKey(names.back(), stream);
+            objects.replaceKey(names.back(), form);
         }
         return names;
     }

@@ -144,16 +144,22 @@ TEST_F(CheckPrintCommand, recognises_the_test_page) {
 }
 
 TEST_F(CheckPrintCommand, test_page_is_printed_in_every_format_but_text) {
-    for (const char* name : {"test.svg", "test.png", "test.tif"}) {
+    for (const char* name : {"test.svg", "test.pdf", "test.tif", "test.png"}) {
         run(std::string("print --test-page -o ") + name);
         EXPECT_EQ(exit_code_, 0) << errors_;
         EXPECT_THAT(output_, HasSubstr("test page 210 x 297 mm, 20 patches"));
         EXPECT_TRUE(fs::exists(directory_ / name));
     }
-    run("check-print test.png");
-    EXPECT_EQ(exit_code_, 0) << errors_;
-    EXPECT_THAT(output_, HasSubstr("test page: "));
-    EXPECT_THAT(output_, HasSubstr("best for this printer: "));
+    // What a perfect printer and scanner make of two of them.
+    ASSERT_EQ(
+        shell("qpdf --check test.pdf && pdftoppm -gray -r 600 -png -singlefile test.pdf scan"), 0)
+        << output_ << errors_;
+    for (const char* scan : {"test.png", "scan.png"}) {
+        run(std::string("check-print --dpi 600 ") + scan);
+        EXPECT_EQ(exit_code_, 0) << errors_;
+        EXPECT_THAT(output_, HasSubstr("test page: ")) << scan;
+        EXPECT_THAT(output_, HasSubstr("best for this printer: ")) << scan;
+    }
 }
 
 TEST_F(CheckPrintCommand, wrong_usage_is_status_2) {
