@@ -33,6 +33,9 @@ struct CheckPrintOptions {
     /// What was printed. The section is found, not believed. Patches of a test page say themselves
     /// how they were printed; of them only the profile counts.
     Pattern pattern;
+    /// Sheets that may be on the scan, such as those of a sheet file: what is found in the region
+    /// of one of them is judged by its pattern. Only those of the profile of `pattern` are found.
+    std::vector<Sheet> sheets;
     /// Of the scan. Without it the image is taken as a photo: perspective is allowed for, and
     /// nothing is said about scale.
     std::optional<Resolution> resolution;
@@ -66,11 +69,12 @@ struct DistortionBin {
 
 /// One contiguous region of the code.
 struct PrintField {
-    Pattern pattern;        ///< nominal, with the section that was read
-    Cell origin;            ///< first cell of the region
-    int columns = 0;        ///< of the region
-    int rows = 0;           ///< of the region
-    bool is_patch = false;  ///< of a test page
+    Pattern pattern;                   ///< nominal, with the section that was read
+    Cell origin;                       ///< first cell of the region
+    int columns = 0;                   ///< of the region
+    int rows = 0;                      ///< of the region
+    bool is_patch = false;             ///< of a test page
+    std::optional<std::size_t> sheet;  ///< whose region it is, in CheckPrintOptions::sheets
 
     std::optional<PrintScale> scale;  ///< with a known resolution only
     double spacing_px = 0;            ///< mean, in the scan
@@ -120,7 +124,8 @@ const char* name(FindingKind kind);
 
 struct Finding {
     FindingKind kind = FindingKind::good;
-    bool is_fault = false;  ///< something to mend; else a remark
+    bool is_fault = false;             ///< something to mend; else a remark
+    std::optional<std::size_t> field;  ///< that it is about; none: the scan as a whole
     std::string text;  ///< one or two sentences for the user: what, the likely cause, what to do
 };
 
