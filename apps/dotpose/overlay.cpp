@@ -28,9 +28,9 @@ constexpr const char* kExamples =
     "  dotpose overlay form.pdf -o form-dots.pdf --sheets sheets.json --name form\n"
     "  dotpose overlay form.pdf -o form-dots.pdf --pages 1-3 --under --cmy-black\n\n"
     "Each page gets a region of its own, with --sheets one that no other sheet of the file has;\n"
-    "its name then is that of the sheet and the number of the page, as in form-3.\n\n"
-    "Black ink hides dots from infrared cameras: --cmy-black\n"
-    "prints the document's black from cyan, magenta and yellow, which they do not see.\n";
+    "the sheet of page 3 then is called form-3.\n\n"
+    "Black ink hides dots from infrared cameras: --cmy-black prints the document's black from\n"
+    "cyan, magenta and yellow, which they do not see.\n";
 
 void run(OverlayArguments& arguments) {
     OverlayOptions options = arguments.options;

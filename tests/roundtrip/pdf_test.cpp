@@ -41,6 +41,17 @@ bool is_whole(double px) {
     return std::abs(px - std::round(px)) < 1e-6;
 }
 
+/// What a renderer makes of a sheet that was written for 600 dpi.
+DotErrors rendered_errors(const Sheet& sheet, DotDrawing drawing, const char* renderer, int dpi) {
+    PrintOptions print;
+    print.drawing = drawing;
+    print.labels = false;
+    const test::TemporaryDirectory directory;
+    const auto pdf = directory.path() / "sheet.pdf";
+    write_sheet(sheet, pdf, print);
+    return measure_dots(render(renderer, pdf, dpi), sheet, dpi);
+}
+
 class RenderedPdf : public testing::TestWithParam<std::tuple<Dots, const char*, int>> {};
 
 TEST_P(RenderedPdf, shows_every_dot_in_its_place) {
@@ -59,14 +70,7 @@ TEST_P(RenderedPdf, shows_every_dot_in_its_place) {
                      21.3};  // no whole number of pixels high; long enough to see errors add up
     options.margin_mm = 5;
     const Sheet sheet = make_sheet(options);
-    PrintOptions print;
-    print.drawing = dots.drawing;
-    print.labels = false;
-    const test::TemporaryDirectory directory;
-    const auto pdf = directory.path() / "sheet.pdf";
-    write_sheet(sheet, pdf, print);
-
-    const DotErrors errors = measure_dots(render(renderer, pdf, dpi), sheet, dpi);
+    const DotErrors errors = rendered_errors(sheet, dots.drawing, renderer, dpi);
     fmt::print(
         "{} mm {}, {} at {} dpi: {} dots, mean {:.2f} um, largest {:.2f} um, offset {:.1f} "
         "{:.1f} um\n",
@@ -94,6 +98,28 @@ INSTANTIATE_TEST_SUITE_P(
                                      Dots{0.55, DotDrawing::automatic, "strokes"}),
                      testing::ValuesIn(kRenderers), testing::Values(300, 600, 1200)),
     case_name);
+
+class OddResolution : public testing::TestWithParam<const char*> {};
+
+// Why letters are for whole pixels only: a renderer moves each to its own pixels (or parts of
+// them), and a stroke to where it belongs.
+TEST_P(OddResolution, moves_letters_and_leaves_strokes) {
+    constexpr int kOdd_dpi = 310;  // 6.2 pixels from dot to dot
+    SheetOptions options;
+    options.pattern.dot_mm = options.pattern.spacing_mm / 3;
+    options.paper = {150, 21.3};
+    const Sheet sheet = make_sheet(options);
+    const DotErrors letters = rendered_errors(sheet, DotDrawing::glyphs, GetParam(), kOdd_dpi);
+    const DotErrors strokes = rendered_errors(sheet, DotDrawing::strokes, GetParam(), kOdd_dpi);
+    fmt::print("{}: letters {:.1f} / {:.1f} um, strokes {:.1f} / {:.1f} um\n", GetParam(),
+               letters.mean_um, letters.largest_um, strokes.mean_um, strokes.largest_um);
+    EXPECT_GT(letters.mean_um, 2 * kUsual.mean_um);
+    EXPECT_LE(strokes.mean_um, kUsual.mean_um);
+    EXPECT_LE(strokes.largest_um, kUsual.largest_um);
+}
+
+INSTANTIATE_TEST_SUITE_P(renderers, OddResolution, testing::ValuesIn(kRenderers),
+                         [](const auto& test) { return std::string(test.param); });
 
 }  // namespace
 }  // namespace dotpose::roundtrip
