@@ -57,6 +57,8 @@ void add_field(std::string& text, const CheckedScan& scan, const PrintField& fie
         field.dot_mm, field.pattern.dot_mm, 100 * field.gain(), field.dot_sigma_mm);
     add(text, "contrast    {:.0f} % of the paper's level {:.0f}", 100 * field.contrast,
         field.paper_level);
+    add(text, "covered     {} of {} ({:.2f} %), not counted below", field.covered,
+        field.covered + field.cells, 100 * field.covered_share());
     add(text, "missing     {} of {} ({:.2f} %)", field.missing, field.cells,
         100 * field.missing_share());
     add(text, "merged      {} ({:.2f} %)", field.merged, 100 * field.merged_share());
@@ -131,6 +133,7 @@ ordered_json json_of(const CheckedScan& scan, const PrintField& field) {
     object["gain"] = rounded(field.gain(), 4);
     object["contrast"] = rounded(field.contrast, 4);
     object["paper_level"] = rounded(field.paper_level, 1);
+    object["covered"] = field.covered;
     object["cells"] = field.cells;
     object["dots"] = field.dots;
     object["missing"] = field.missing;

@@ -83,7 +83,8 @@ struct PrintField {
     std::vector<DistortionBin> distortion;
     double largest_distortion_mm = 0;  ///< of the bins
 
-    int cells = 0;            ///< of the region and in view
+    int covered = 0;          ///< cells with other print, such as text: not counted below
+    int cells = 0;            ///< of the region, in view and not covered
     int missing = 0;          ///< cells without a dot
     int merged = 0;           ///< dots that touch a neighbour
     int dots = 0;             ///< dots found
@@ -93,6 +94,7 @@ struct PrintField {
     double paper_level = 0;   ///< median grey level of blank paper
     double contrast = 0;      ///< darkness of the dots' middles relative to the paper, 0 to 1
 
+    double covered_share() const { return covered > 0 ? double(covered) / (covered + cells) : 0; }
     double missing_share() const { return cells > 0 ? double(missing) / cells : 0; }
     double merged_share() const { return dots > 0 ? double(merged) / dots : 0; }
     double wrong_share() const { return dots > 0 ? 0.5 * bits_wrong / dots : 0; }
@@ -113,6 +115,7 @@ enum class FindingKind {
     swollen,        ///< dots are too large or run together
     thin,           ///< dots are too small or too pale
     missing,        ///< dots are missing
+    covered,        ///< other print lies over dots
     bits_wrong,     ///< dots are displaced so much that they read wrong
     too_coarse,     ///< the scan shows too little of each dot
     pale,           ///< little contrast

@@ -132,6 +132,12 @@ class Findings {
             judge_size(field);
             judge_faulty_dots(field);
         }
+        if (field.covered_share() > kNotableShare) {
+            remark(FindingKind::covered,
+                   fmt::format("{} of the dots are covered or touched by other print, which a "
+                               "camera that sees it has to do without",
+                               percent(field.covered_share())));
+        }
         if (field.largest_distortion_mm > kNotableDistortion_mm) {
             remark(FindingKind::distorted,
                    fmt::format("parts of the page are off by up to {:.2f} mm: the paper or the "
@@ -311,6 +317,8 @@ const char* name(FindingKind kind) {
             return "thin";
         case FindingKind::missing:
             return "missing";
+        case FindingKind::covered:
+            return "covered";
         case FindingKind::bits_wrong:
             return "bits_wrong";
         case FindingKind::too_coarse:
