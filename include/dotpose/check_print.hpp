@@ -100,7 +100,7 @@ struct PrintField {
     double wrong_share() const { return dots > 0 ? 0.5 * bits_wrong / dots : 0; }
     /// Growth of the dot's diameter over the nominal one, relative to it; below 0: shrunk.
     double gain() const { return dot_mm / pattern.dot_mm - 1; }
-    /// Share of cells that cannot be used: missing, merged or with a wrong bit.
+    /// Share of cells that cannot be used: covered, missing, merged or with a wrong bit.
     double bad_share() const;
 };
 

@@ -123,7 +123,7 @@ std::optional<Resolution> believable(const std::optional<Resolution>& resolution
 }  // namespace
 
 double PrintField::bad_share() const {
-    return std::min(missing_share() + merged_share() + wrong_share(), 1.0);
+    return std::min(covered_share() + missing_share() + merged_share() + wrong_share(), 1.0);
 }
 
 PrintCheck check_print(const ImageView& scan, const CheckPrintOptions& options) {

@@ -358,6 +358,20 @@ TEST(CheckPrint, test_page_tells_the_best_settings) {
     EXPECT_EQ(result.unread_patches.size(), 20U - 6U);
 }
 
+TEST(CheckPrint, patches_whose_dots_reach_all_around_are_not_good) {
+    // Dots of 0.27 mm, 0.25 mm apart where they come nearest, 0.38 mm elsewhere.
+    TestPageOptions options;
+    options.paper = {60, 60};
+    options.margin_mm = 5;
+    options.spacings = {18};
+    options.dots = {8};
+    ScanSettings settings;
+    settings.dot_growth = 1.6;
+    const PrintCheck result = check(scan_page(make_test_page(options).sheets, settings), 600);
+    ASSERT_EQ(result.fields.size(), 1U);
+    EXPECT_THAT(result.best_per_spacing, IsEmpty());
+}
+
 TEST(CheckPrint, draws_the_distortion) {
     const GreyImage scan = scan_page(small_sheet(), {});
     const PrintCheck result = check(scan, 600);
