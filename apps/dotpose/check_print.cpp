@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,7 @@ constexpr const char* kExamples =
     "  dotpose check-print scan.png\n"
     "  dotpose check-print scan.jpg --dpi 600 --spacing 0.508 --dot 0.085 -o map.svg\n"
     "  dotpose check-print scan.png --fit --sheets sheets.json\n"
-    "  dotpose print --test-page -o test.svg    (print and scan it, then)\n"
+    "  dotpose print --test-page -o test.pdf    (print and scan it, then)\n"
     "  dotpose check-print test-scan.png\n\n"
     "Scan the whole page at 600 dpi, without sharpening. Exit status 1 if there is no pattern.\n";
 
@@ -36,6 +37,7 @@ struct CheckPrintArguments {
     bool as_json = false;
     bool fit = false;
     std::string sheets;
+    bool code_given = false;
     PatternArguments pattern;
 };
 
@@ -45,32 +47,25 @@ void require_svg(const std::string& path) {
     throw BadArgument(fmt::format("'{}': the name of the map must end in .svg", path));
 }
 
-/// Part of the code plane that was seen on the scan.
-Sheet seen(const PrintField& field) {
-    Sheet sheet;
-    sheet.pattern = field.pattern;
-    sheet.origin = field.origin;
-    sheet.columns = field.columns;
-    sheet.rows = field.rows;
-    return sheet;
-}
-
-/// Writes the scale of every field into the sheet that it belongs to; returns what it did.
-std::string fit_sheets(const std::string& path, const PrintCheck& check) {
+/// Writes the scale of every field into the sheet that it belongs to; returns what it did. `sheets`
+/// are those that the fields name.
+std::string fit_sheets(const std::string& path, const std::vector<SheetEntry>& sheets,
+                       const PrintCheck& check) {
     SheetFile file(path);
     std::string done;
+    std::set<std::size_t> fitted;
     for (const PrintField& field : check.fields) {
-        if (!field.scale) continue;
-        const std::vector<SheetEntry> entries = file.sheets();
-        const auto found = std::find_if(
-            entries.begin(), entries.end(),
-            [&](const SheetEntry& entry) { return overlap(entry.sheet, seen(field)); });
-        if (found == entries.end()) continue;
+        // A sheet may show in several parts, of which the largest comes first.
+        if (!field.scale || !field.sheet || !fitted.insert(*field.sheet).second) continue;
+        // As it is now: somebody may have changed it during the check.
+        const std::string& name = sheets[*field.sheet].name;
+        const auto found = std::ranges::find(file.sheets(), name, &SheetEntry::name);
+        if (found == file.sheets().end()) {
+            throw Error(fmt::format("{} no longer has the sheet '{}'", path, name));
+        }
         SheetEntry entry = *found;
-        // The scale was measured against the spacing that this command was told.
-        const double ratio = field.pattern.spacing_mm / entry.sheet.pattern.spacing_mm;
-        entry.print_scale_x = field.scale->scale_x * ratio;
-        entry.print_scale_y = field.scale->scale_y * ratio;
+        entry.print_scale_x = field.scale->scale_x;
+        entry.print_scale_y = field.scale->scale_y;
         file.replace(entry);
         done += fmt::format("sheet '{}' of {}: print scale x {:.5f}, y {:.5f}\n", entry.name, path,
                             entry.print_scale_x, entry.print_scale_y);
@@ -82,13 +77,39 @@ std::string fit_sheets(const std::string& path, const PrintCheck& check) {
     return done;
 }
 
+/// The profile that all sheets have; crops are read with one alone.
+Profile common_profile(const std::string& path, const std::vector<SheetEntry>& sheets) {
+    if (sheets.empty()) throw Error(fmt::format("{} has no sheets", path));
+    const Profile profile = sheets.front().sheet.pattern.profile;
+    const bool is_common = std::ranges::all_of(
+        sheets, [&](const SheetEntry& entry) { return entry.sheet.pattern.profile == profile; });
+    if (!is_common) {
+        throw BadArgument(
+            fmt::format("{} has sheets of several codes: give the --code of this one", path));
+    }
+    return profile;
+}
+
+CheckPrintOptions options_of(const CheckPrintArguments& arguments,
+                             const std::vector<SheetEntry>& sheets) {
+    CheckPrintOptions options;
+    options.pattern = arguments.pattern.pattern();
+    if (!arguments.sheets.empty() && !arguments.code_given) {
+        options.pattern.profile = common_profile(arguments.sheets, sheets);
+    }
+    for (const SheetEntry& entry : sheets)
+        options.sheets.push_back(entry.sheet);
+    options.resolution = arguments.dpi ? Resolution{*arguments.dpi, *arguments.dpi}
+                                       : read_resolution(arguments.scan);
+    return options;
+}
+
 /// Returns the exit status.
 int run(const CheckPrintArguments& arguments) {
     if (!arguments.out.empty()) require_svg(arguments.out);
-    CheckPrintOptions options;
-    options.pattern = arguments.pattern.pattern();
-    options.resolution = arguments.dpi ? Resolution{*arguments.dpi, *arguments.dpi}
-                                       : read_resolution(arguments.scan);
+    std::vector<SheetEntry> sheets;
+    if (!arguments.sheets.empty()) sheets = read_sheets(arguments.sheets);
+    CheckPrintOptions options = options_of(arguments, sheets);
     const GreyImage scan = read_image(arguments.scan);
     catch_interrupts();
     PrintCheck check;
@@ -103,11 +124,11 @@ int run(const CheckPrintArguments& arguments) {
     if (!arguments.out.empty() && !check.fields.empty()) {
         draw_distortion(arguments.out, scan.view(), check);
     }
-    const CheckedScan checked{arguments.scan, scan.width_px, scan.height_px};
+    const CheckedScan checked{arguments.scan, scan.width_px, scan.height_px, sheets};
     const std::string report =
         arguments.as_json ? json_report(checked, check) : text_report(checked, check);
     std::fputs(report.c_str(), stdout);
-    if (arguments.fit) std::fputs(fit_sheets(arguments.sheets, check).c_str(), stderr);
+    if (arguments.fit) std::fputs(fit_sheets(arguments.sheets, sheets, check).c_str(), stderr);
     return check.fields.empty() ? kExitFailed : 0;
 }
 
@@ -139,10 +160,15 @@ void add_check_print(CLI::App& app, int& exit_code) {
     CLI::Option* fit = command->add_flag(
         "--fit", arguments->fit, "Write the scale found into the sheet file, for true millimetres");
     CLI::Option* sheets =
-        add_sheets_option(*command, arguments->sheets, "Sheet file that the sheet is in");
+        add_sheets_option(*command, arguments->sheets,
+                          "Sheet file that says how the sheets on the scan were printed");
     fit->needs(sheets);
-    sheets->needs(fit);
-    command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+    for (const char* own : {"--spacing", "--displacement", "--dot"})
+        sheets->excludes(command->get_option(own));
+    command->callback([arguments, command, &exit_code] {
+        arguments->code_given = command->count("--code") > 0;
+        exit_code = run(*arguments);
+    });
 }
 
 }  // namespace dotpose::cli

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -39,8 +40,9 @@ std::string where(const PrintField& field) {
                        field.rows, field.pattern.section.u, field.pattern.section.v);
 }
 
-void add_field(std::string& text, const PrintField& field) {
+void add_field(std::string& text, const CheckedScan& scan, const PrintField& field) {
     add(text, "pattern     {}, spacing {:g} mm", where(field), field.pattern.spacing_mm);
+    if (field.sheet) add(text, "sheet       {}", scan.sheets[*field.sheet].name);
     if (field.scale) {
         const PrintScale& scale = *field.scale;
         add(text, "scale       x {:.3f} %, y {:.3f} %", 100 * scale.scale_x, 100 * scale.scale_y);
@@ -55,11 +57,22 @@ void add_field(std::string& text, const PrintField& field) {
         field.dot_mm, field.pattern.dot_mm, 100 * field.gain(), field.dot_sigma_mm);
     add(text, "contrast    {:.0f} % of the paper's level {:.0f}", 100 * field.contrast,
         field.paper_level);
+    add(text, "covered     {} of {} ({:.2f} %), not counted below", field.covered,
+        field.covered + field.cells, 100 * field.covered_share());
     add(text, "missing     {} of {} ({:.2f} %)", field.missing, field.cells,
         100 * field.missing_share());
     add(text, "merged      {} ({:.2f} %)", field.merged, 100 * field.merged_share());
     add(text, "bits wrong  {} of {} ({:.2f} %)", field.bits_wrong, 2 * field.dots,
         100 * field.wrong_share());
+}
+
+/// "sheet 'table': " or its cells, if there are several fields to tell apart.
+std::string about(const CheckedScan& scan, const PrintCheck& check,
+                  std::optional<std::size_t> index) {
+    if (!index || check.fields.size() == 1) return "";
+    const PrintField& field = check.fields[*index];
+    if (field.sheet) return fmt::format("sheet '{}': ", scan.sheets[*field.sheet].name);
+    return fmt::format("from cell {},{} on: ", field.origin.x, field.origin.y);
 }
 
 /// Patches by spacing, then by dot.
@@ -94,8 +107,10 @@ void add_patches(std::string& text, const PrintCheck& check) {
         add(text, "{:8.4f} {:8.4f} could not be read", pattern.spacing_mm, pattern.dot_mm);
 }
 
-ordered_json json_of(const PrintField& field) {
-    ordered_json object = {
+ordered_json json_of(const CheckedScan& scan, const PrintField& field) {
+    ordered_json object;
+    if (field.sheet) object["sheet"] = scan.sheets[*field.sheet].name;
+    object.update({
         {"spacing_mm", rounded(field.pattern.spacing_mm, 6)},
         {"dot_mm", rounded(field.pattern.dot_mm, 6)},
         {"section", {field.pattern.section.u, field.pattern.section.v}},
@@ -103,7 +118,7 @@ ordered_json json_of(const PrintField& field) {
         {"columns", field.columns},
         {"rows", field.rows},
         {"spacing_px", rounded(field.spacing_px, 4)},
-    };
+    });
     if (field.scale) {
         object["scale_x"] = rounded(field.scale->scale_x, 7);
         object["scale_y"] = rounded(field.scale->scale_y, 7);
@@ -118,6 +133,7 @@ ordered_json json_of(const PrintField& field) {
     object["gain"] = rounded(field.gain(), 4);
     object["contrast"] = rounded(field.contrast, 4);
     object["paper_level"] = rounded(field.paper_level, 1);
+    object["covered"] = field.covered;
     object["cells"] = field.cells;
     object["dots"] = field.dots;
     object["missing"] = field.missing;
@@ -142,10 +158,13 @@ std::string text_report(const CheckedScan& scan, const PrintCheck& check) {
         add_patches(text, check);
     } else {
         for (const PrintField& field : check.fields)
-            add_field(text, field);
+            add_field(text, scan, field);
     }
-    for (const Finding& finding : check.findings)
-        add(text, "{} {}", finding.is_fault ? "FAULT:" : "note: ", finding.text);
+    for (const Finding& finding : check.findings) {
+        add(text, "{} {}{}",
+            finding.is_fault ? "FAULT:" : "note: ", about(scan, check, finding.field),
+            finding.text);
+    }
     return text;
 }
 
@@ -163,7 +182,7 @@ std::string json_report(const CheckedScan& scan, const PrintCheck& check) {
     }
     object["fields"] = ordered_json::array();
     for (const PrintField& field : check.fields)
-        object["fields"].push_back(json_of(field));
+        object["fields"].push_back(json_of(scan, field));
     if (!check.best_per_spacing.empty()) {
         object["best"] = json_of(check.fields[check.best].pattern);
         for (const std::size_t index : check.best_per_spacing)
@@ -173,8 +192,9 @@ std::string json_report(const CheckedScan& scan, const PrintCheck& check) {
         object["unread"].push_back(json_of(pattern));
     object["findings"] = ordered_json::array();
     for (const Finding& finding : check.findings) {
-        object["findings"].push_back(
-            {{"kind", name(finding.kind)}, {"fault", finding.is_fault}, {"text", finding.text}});
+        ordered_json& last = object["findings"].emplace_back(ordered_json{
+            {"kind", name(finding.kind)}, {"fault", finding.is_fault}, {"text", finding.text}});
+        if (finding.field) last["field"] = *finding.field;
     }
     return object.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
 }

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "dotpose/check_print.hpp"
+#include "dotpose/sheet_file.hpp"
 
 namespace dotpose::cli {
 
@@ -12,6 +14,7 @@ struct CheckedScan {
     std::string file;
     int width_px = 0;
     int height_px = 0;
+    std::vector<SheetEntry> sheets;  ///< in the order of CheckPrintOptions::sheets
 };
 
 std::string text_report(const CheckedScan& scan, const PrintCheck& check);

@@ -1,12 +1,15 @@
 #include "dotpose/overlay.hpp"
 
 #include <memory>
+#include <optional>
+#include <span>
 
 #include <fmt/format.h>
 
 #include "commands.hpp"
 #include "common.hpp"
 #include "progress.hpp"
+#include "sheet_entries.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -16,18 +19,30 @@ struct OverlayArguments {
     std::string out;
     OverlayOptions options;
     PatternArguments pattern;
+    SheetEntryArguments entries;
 };
 
 constexpr const char* kExamples =
     "Examples:\n"
     "  dotpose overlay form.pdf -o form-dots.pdf --origin 5000,0\n"
+    "  dotpose overlay form.pdf -o form-dots.pdf --sheets sheets.json --name form\n"
     "  dotpose overlay form.pdf -o form-dots.pdf --pages 1-3 --under --cmy-black\n\n"
-    "Each page gets a region of its own. Black ink hides dots from infrared cameras: --cmy-black\n"
-    "prints the document's black from cyan, magenta and yellow, which they do not see.\n";
+    "Each page gets a region of its own, with --sheets one that no other sheet of the file has;\n"
+    "the sheet of page 3 then is called form-3.\n\n"
+    "Black ink hides dots from infrared cameras: --cmy-black prints the document's black from\n"
+    "cyan, magenta and yellow, which they do not see.\n";
 
 void run(OverlayArguments& arguments) {
     OverlayOptions options = arguments.options;
     options.pattern = arguments.pattern.pattern();
+    std::optional<SheetFile> sheet_file;
+    if (arguments.entries.given()) {
+        sheet_file.emplace(arguments.entries.path());
+        options.place = [&](std::span<OverlaidPage> pages) {
+            for (auto& [number, sheet] : pages)
+                sheet = arguments.entries.enter(*sheet_file, sheet, {number, pages.size() == 1});
+        };
+    }
     catch_interrupts();
     OverlayReport report;
     {
@@ -38,8 +53,10 @@ void run(OverlayArguments& arguments) {
         };
         report = overlay_pdf(arguments.in, arguments.out, options);
     }
-    for (const OverlaidPage& page : report.pages)
-        fmt::print("{} {}: {}\n", arguments.out, page.number, region_text(page.sheet));
+    if (sheet_file) sheet_file->save();
+    for (const auto& [number, sheet] : report.pages)
+        fmt::print("{} {}: {}{}\n", arguments.out, number, region_text(sheet),
+                   arguments.entries.summary({number, report.pages.size() == 1}));
     for (const std::string& warning : report.warnings)
         fmt::print(stderr, "dotpose: warning: {}\n", warning);
 }
@@ -79,6 +96,7 @@ void add_overlay(CLI::App& app, int& /*exit_code*/) {
     arguments->pattern.add_to(*command);
     add_cell_option(*command, "--origin", options.origin,
                     "Cell of the code plane at the top left of the first page");
+    arguments->entries.add_to(*command);
     command->add_option("--dpi", options.dpi, "The printer's own resolution")
         ->type_name("N")
         ->capture_default_str();

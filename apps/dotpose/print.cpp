@@ -10,9 +10,9 @@
 
 #include "commands.hpp"
 #include "common.hpp"
-#include "dotpose/sheet_file.hpp"
 #include "dotpose/test_page.hpp"
 #include "progress.hpp"
+#include "sheet_entries.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -26,9 +26,7 @@ struct PrintArguments {
     std::optional<double> margin_mm;
     int pages = 1;
     bool test_page = false;
-    std::string sheets;  ///< sheet file; empty: none
-    std::string name;
-    bool origin_given = false;
+    SheetEntryArguments entries;
     PrintOptions print;
 };
 
@@ -39,7 +37,7 @@ constexpr const char* kExamples =
     "  dotpose print -o tiles.pdf --pages 12 --origin 5000,0\n"
     "  dotpose print -o poster.png --paper A3 --landscape --origin 1000,2000 --dpi 1200\n\n"
     "  dotpose print -o table.pdf --sheets sheets.json --name table\n"
-    "  dotpose print -o test.svg --test-page\n\n"
+    "  dotpose print -o test.pdf --test-page\n\n"
     "Print at 100 %, without \"fit to page\". Give each sheet an origin of its own, or let a\n"
     "sheet file do so: it is made if missing, and 'dotpose locate --sheets' reads it.\n";
 
@@ -55,46 +53,14 @@ double default_margin_mm(PrintFormat format, const Paper& paper) {
     return format == PrintFormat::pdf && !is_small ? kWithLabels_mm : SheetOptions{}.margin_mm;
 }
 
-std::string summary(const PrintArguments& arguments, const std::string& prefix,
-                    const Sheet& sheet) {
-    std::string line = prefix + region_text(sheet);
-    if (has_resolution(print_format(arguments.out))) {
-        line += fmt::format(", {:g} dpi", arguments.print.dpi);
-    }
-    if (!arguments.sheets.empty()) {
-        line += fmt::format(", sheet '{}' of {}", arguments.name, arguments.sheets);
-    }
-    return line;
-}
-
-/// The sheets, where they stand now that they are in the file: in the next free regions unless the
-/// user chose one.
-std::vector<Sheet> add_to(SheetFile& file, const PrintArguments& arguments,
-                          std::vector<Sheet> sheets) {
-    if (!arguments.origin_given) {
-        const auto added = file.allocate(arguments.name, sheets.front(), arguments.pages);
-        std::transform(added.begin(), added.end(), sheets.begin(),
-                       [](const SheetEntry& entry) { return entry.sheet; });
-        return sheets;
-    }
-    for (std::size_t i = 0; i < sheets.size(); ++i) {
-        SheetEntry entry;
-        entry.name =
-            sheets.size() > 1 ? fmt::format("{}-{}", arguments.name, i + 1) : arguments.name;
-        entry.sheet = sheets[i];
-        file.add(entry);
-    }
-    return sheets;
-}
-
 /// Runs `write` with progress on the terminal and an ear for Ctrl-C.
 template <typename Write>
 void with_progress(const PrintArguments& arguments, const Write& write) {
     catch_interrupts();
     ProgressLine line("printing " + arguments.out);
     PrintOptions options = arguments.print;
-    options.name = arguments.name.empty() ? std::filesystem::path(arguments.out).stem().string()
-                                          : arguments.name;
+    options.name = arguments.entries.given() ? arguments.entries.name()
+                                             : std::filesystem::path(arguments.out).stem().string();
     options.command = command_line();
     options.progress = [&line](int done, int total) {
         line.update(done, total);
@@ -127,19 +93,26 @@ void run(const PrintArguments& arguments) {
     const PrintFormat format = print_format(arguments.out);
     options.margin_mm = arguments.margin_mm.value_or(default_margin_mm(format, options.paper));
     std::vector<Sheet> sheets = make_sheets(options, arguments.pages);
+    const auto page = [&sheets](std::size_t i) {
+        return SheetEntryArguments::Page{static_cast<int>(i + 1), sheets.size() == 1};
+    };
     std::optional<SheetFile> sheet_file;
-    if (!arguments.sheets.empty()) {
-        sheet_file.emplace(arguments.sheets);
-        sheets = add_to(*sheet_file, arguments, std::move(sheets));
+    if (arguments.entries.given()) {
+        sheet_file.emplace(arguments.entries.path());
+        for (std::size_t i = 0; i < sheets.size(); ++i)
+            sheets[i] = arguments.entries.enter(*sheet_file, sheets[i], page(i));
     }
     with_progress(arguments, [&](const PrintOptions& print_options) {
         write_sheets(sheets, arguments.out, print_options);
     });
     if (sheet_file) sheet_file->save();
+    const std::string resolution =
+        has_resolution(format) ? fmt::format(", {:g} dpi", arguments.print.dpi) : "";
     for (std::size_t i = 0; i < sheets.size(); ++i) {
-        const std::string page =
+        const std::string number =
             sheets.size() > 1 ? fmt::format("{}/{}, ", i + 1, sheets.size()) : "";
-        fmt::print("{}\n", summary(arguments, arguments.out + ": " + page, sheets[i]));
+        fmt::print("{}: {}{}{}{}\n", arguments.out, number, region_text(sheets[i]), resolution,
+                   arguments.entries.summary(page(i)));
     }
 }
 
@@ -173,13 +146,7 @@ void add_print(CLI::App& app, int& /*exit_code*/) {
     add_drawing_option(*command, arguments->print.drawing);
     command->add_flag("!--no-labels", arguments->print.labels,
                       "No text and rulers in the margins of a .pdf");
-    CLI::Option* sheets =
-        add_sheets_option(*command, arguments->sheets,
-                          "Sheet file to add the sheet to, in a free region unless --origin");
-    CLI::Option* name =
-        command->add_option("--name", arguments->name, "Name of the sheet in the sheet file");
-    name->type_name("NAME")->needs(sheets);
-    sheets->needs(name);
+    arguments->entries.add_to(*command);
     CLI::Option* test_page = command->add_flag(
         "--test-page", arguments->test_page,
         "Patches of dot sizes and spacings, to find what suits a printer with check-print");
@@ -187,10 +154,7 @@ void add_print(CLI::App& app, int& /*exit_code*/) {
          {"--spacing", "--dot", "--displacement", "--origin", "--section", "--pages", "--sheets"}) {
         test_page->excludes(command->get_option(own));
     }
-    command->callback([arguments, command] {
-        arguments->origin_given = command->count("--origin") > 0;
-        run(*arguments);
-    });
+    command->callback([arguments] { run(*arguments); });
 }
 
 }  // namespace dotpose::cli

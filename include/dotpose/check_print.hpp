@@ -33,6 +33,9 @@ struct CheckPrintOptions {
     /// What was printed. The section is found, not believed. Patches of a test page say themselves
     /// how they were printed; of them only the profile counts.
     Pattern pattern;
+    /// Sheets that may be on the scan, such as those of a sheet file: what is found in the region
+    /// of one of them is judged by its pattern. Only those of the profile of `pattern` are found.
+    std::vector<Sheet> sheets;
     /// Of the scan. Without it the image is taken as a photo: perspective is allowed for, and
     /// nothing is said about scale.
     std::optional<Resolution> resolution;
@@ -66,11 +69,12 @@ struct DistortionBin {
 
 /// One contiguous region of the code.
 struct PrintField {
-    Pattern pattern;        ///< nominal, with the section that was read
-    Cell origin;            ///< first cell of the region
-    int columns = 0;        ///< of the region
-    int rows = 0;           ///< of the region
-    bool is_patch = false;  ///< of a test page
+    Pattern pattern;                   ///< nominal, with the section that was read
+    Cell origin;                       ///< first cell of the region
+    int columns = 0;                   ///< of the region
+    int rows = 0;                      ///< of the region
+    bool is_patch = false;             ///< of a test page
+    std::optional<std::size_t> sheet;  ///< whose region it is, in CheckPrintOptions::sheets
 
     std::optional<PrintScale> scale;  ///< with a known resolution only
     double spacing_px = 0;            ///< mean, in the scan
@@ -79,7 +83,8 @@ struct PrintField {
     std::vector<DistortionBin> distortion;
     double largest_distortion_mm = 0;  ///< of the bins
 
-    int cells = 0;            ///< of the region and in view
+    int covered = 0;          ///< cells with other print, such as text: not counted below
+    int cells = 0;            ///< of the region, in view and not covered
     int missing = 0;          ///< cells without a dot
     int merged = 0;           ///< dots that touch a neighbour
     int dots = 0;             ///< dots found
@@ -89,12 +94,13 @@ struct PrintField {
     double paper_level = 0;   ///< median grey level of blank paper
     double contrast = 0;      ///< darkness of the dots' middles relative to the paper, 0 to 1
 
+    double covered_share() const { return covered > 0 ? double(covered) / (covered + cells) : 0; }
     double missing_share() const { return cells > 0 ? double(missing) / cells : 0; }
     double merged_share() const { return dots > 0 ? double(merged) / dots : 0; }
     double wrong_share() const { return dots > 0 ? 0.5 * bits_wrong / dots : 0; }
     /// Growth of the dot's diameter over the nominal one, relative to it; below 0: shrunk.
     double gain() const { return dot_mm / pattern.dot_mm - 1; }
-    /// Share of cells that cannot be used: missing, merged or with a wrong bit.
+    /// Share of cells that cannot be used: covered, missing, merged or with a wrong bit.
     double bad_share() const;
 };
 
@@ -109,6 +115,7 @@ enum class FindingKind {
     swollen,        ///< dots are too large or run together
     thin,           ///< dots are too small or too pale
     missing,        ///< dots are missing
+    covered,        ///< other print lies over dots
     bits_wrong,     ///< dots are displaced so much that they read wrong
     too_coarse,     ///< the scan shows too little of each dot
     pale,           ///< little contrast
@@ -120,7 +127,8 @@ const char* name(FindingKind kind);
 
 struct Finding {
     FindingKind kind = FindingKind::good;
-    bool is_fault = false;  ///< something to mend; else a remark
+    bool is_fault = false;             ///< something to mend; else a remark
+    std::optional<std::size_t> field;  ///< that it is about; none: the scan as a whole
     std::string text;  ///< one or two sentences for the user: what, the likely cause, what to do
 };
 

@@ -9,12 +9,20 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "dotpose/print.hpp"
 
 namespace dotpose {
+
+/// One page with dots. Its sheet's frame begins at the top left corner of the page as it is shown.
+struct OverlaidPage {
+    int number = 0;  ///< from 1
+    Sheet sheet;
+};
 
 struct OverlayOptions {
     Pattern pattern;       ///< code, section and measures of the dots
@@ -30,12 +38,9 @@ struct OverlayOptions {
         false;           ///< print what is black without black ink, which infrared light sees
     double lighten = 0;  ///< part of its ink that the document gives up, 0 to under 1
     Progress progress;
-};
-
-/// One page with dots. Its sheet's frame begins at the top left corner of the page as it is shown.
-struct OverlaidPage {
-    int number = 0;  ///< from 1
-    Sheet sheet;
+    /// Called once, with all pages that get dots, before anything is written: may change each
+    /// `sheet.origin`, for example to where a SheetFile has room. What it throws ends the work.
+    std::function<void(std::span<OverlaidPage>)> place;
 };
 
 struct OverlayReport {

@@ -159,8 +159,9 @@ struct PrintPage {
 std::vector<InkRectangle> ink_text(std::string_view text, double x_mm, double y_mm,
                                    double height_mm);
 
-/// Writes a page as `write_sheet` does, as SVG, PNG or TIFF; BadArgument for others. Where regions
-/// overlap, both are printed. Holds the page at one bit per pixel in memory for PNG and TIFF.
+/// Writes a page as `write_sheet` does, as PDF, SVG, PNG or TIFF; BadArgument for text. Where
+/// regions overlap, both are printed. Holds the page at one bit per pixel in memory for PNG and
+/// TIFF. A PDF has no labels but the marks.
 void write_page(const PrintPage& page, const std::filesystem::path& path,
                 const PrintOptions& options = {});
 

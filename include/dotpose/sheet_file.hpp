@@ -100,6 +100,9 @@ class SheetFile {
     /// full, count below 1.
     std::vector<SheetEntry> allocate(const std::string& name, const Sheet& sheet, int count = 1);
 
+    /// The same for one page with a name and number of its own.
+    SheetEntry allocate(SheetEntry entry);
+
     /// Adds a sheet whose region was chosen by somebody else; it may touch others but not overlap.
     /// Throws BadArgument: `validate`, the name or the region is taken (and by which sheet).
     void add(const SheetEntry& entry);

@@ -142,6 +142,20 @@ GreyImage render(const Page& page, const CameraModel& camera, const CameraPose& 
 GreyImage render(const Pattern& pattern, const CameraModel& camera, const CameraPose& pose,
                  const Imperfections& imperfections, std::uint64_t seed);
 
+/// A page given as an image, for example a PDF as a renderer paints it at 1200 dpi: pixels are read
+/// as if the paper darkened linearly from one to the next.
+struct PageImage {
+    ImageView image;  ///< 255 is bare paper, 0 is solid ink; paper without end around it
+    double mm_per_px = 25.4 / 1200;
+    /// What lies under the image centre, from the upper left corner of the image: x right, y down.
+    Vec2 centre_mm;
+};
+
+/// What the camera sees of it. Of the pose only the angles count; of the imperfections, the
+/// printer's own (jitter, missing dots) and dirt and graphics do not.
+GreyImage render(const PageImage& page, const CameraModel& camera, const CameraPose& pose,
+                 const Imperfections& imperfections, std::uint64_t seed);
+
 /// What a run of frames has in common.
 struct Setup {
     Preset preset = Preset::nominal;

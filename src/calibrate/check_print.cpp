@@ -11,6 +11,7 @@
 #include "calibrate/print_field.hpp"
 #include "calibrate/print_findings.hpp"
 #include "calibrate/print_measures.hpp"
+#include "dotpose/sheet_file.hpp"
 #include "dotpose/test_page.hpp"
 
 namespace dotpose {
@@ -64,19 +65,37 @@ void validate(const CheckPrintOptions& options) {
     }
 }
 
-/// What a field was printed as: its place says so on test pages.
-Pattern nominal_pattern(const Field& field, const CheckPrintOptions& options, bool& is_patch) {
+/// The sheet whose region holds a cell.
+std::optional<std::size_t> sheet_at(const CheckPrintOptions& options, Section section, Cell cell) {
+    Sheet place;
+    place.pattern.profile = options.pattern.profile;
+    place.pattern.section = section;
+    place.origin = cell;
+    place.columns = place.rows = 1;
+    const auto found = std::ranges::find_if(
+        options.sheets, [&](const Sheet& sheet) { return overlap(sheet, place); });
+    if (found == options.sheets.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - options.sheets.begin());
+}
+
+/// Finds out what a field was printed as: its place in the code says so on test pages and on sheets
+/// that are known.
+void identify(const Field& field, const CheckPrintOptions& options, PrintField& result) {
+    result.pattern = options.pattern;
     for (const auto& map : field.maps) {
         if (!map) continue;
         const Cell cell{static_cast<std::uint32_t>(std::max(map->centre_cell.x(), 0.0)),
                         static_cast<std::uint32_t>(std::max(map->centre_cell.y(), 0.0))};
         const auto patch = test_patch_at(options.pattern.profile, cell);
-        is_patch = patch.has_value();
-        Pattern pattern = patch.value_or(options.pattern);
-        pattern.section = field.code.section;
-        return pattern;
+        result.is_patch = patch.has_value();
+        result.sheet = sheet_at(options, field.code.section, cell);
+        if (patch) result.pattern = *patch;
+        if (result.sheet) result.pattern = options.sheets[*result.sheet].pattern;
+        // The middle of a tile may lie on the margin.
+        if (patch || result.sheet) break;
     }
-    return options.pattern;
+    result.pattern.profile = options.pattern.profile;
+    result.pattern.section = field.code.section;
 }
 
 /// The mean distance of neighbouring dots in a field.
@@ -104,7 +123,7 @@ std::optional<Resolution> believable(const std::optional<Resolution>& resolution
 }  // namespace
 
 double PrintField::bad_share() const {
-    return std::min(missing_share() + merged_share() + wrong_share(), 1.0);
+    return std::min(covered_share() + missing_share() + merged_share() + wrong_share(), 1.0);
 }
 
 PrintCheck check_print(const ImageView& scan, const CheckPrintOptions& options) {
@@ -118,7 +137,7 @@ PrintCheck check_print(const ImageView& scan, const CheckPrintOptions& options) 
         check.resolution = options.resolution;
         for (Field& field : group_anchors(locator.find_anchors(*tiling, done), *tiling)) {
             PrintField result;
-            result.pattern = nominal_pattern(field, options, result.is_patch);
+            identify(field, options, result);
             field.code.profile = result.pattern.profile;
             field.code.displacement = result.pattern.displacement_mm / result.pattern.spacing_mm;
             if (!follow(scan, *tiling, field)) continue;

@@ -20,6 +20,8 @@ constexpr double kLeastShare = 0.35;
 constexpr double kFloorShare = 0.15;
 /// Dots are summed up to half the way to the nearest neighbour there can be, in spacings.
 constexpr double kReach = 1.0 / 3;
+/// Print on a cell's border is no dot if it is darker than this share of one: text or pictures.
+constexpr double kOtherPrintShare = 0.35;
 constexpr int kCentrings = 4;
 constexpr double kCentred_px = 0.01;
 constexpr int kLeastToFit = 30;
@@ -130,8 +132,25 @@ class Meter {
                                   : (offset.y() > 0 ? Symbol::down : Symbol::up);
         cell.u_px = static_cast<float>(place_px.x());
         cell.v_px = static_cast<float>(place_px.y());
+        cell.paper = static_cast<float>(paper_);
         cell.peak = static_cast<float>(darkness_at(scan_, place_px, paper_));
         cell.mass_px2 = static_cast<float>(mass(place_px));
+    }
+
+    /// Whether the border of a cell is no blank paper: darker, or, where most of the tile is filled
+    /// with grey, lighter. Left out are the middles of its sides, where swollen dots may run
+    /// together.
+    bool is_covered(const Vector2d& cell, double strength) const {
+        for (const double along : {-0.5, -0.25, 0.25, 0.5}) {
+            for (const double across : {-0.5, 0.5}) {
+                for (const Vector2d& step : {Vector2d(along, across), Vector2d(across, along)}) {
+                    const Vector2d p = map_.pixel(cell + step);
+                    const double darkness = darkness_at(scan_, p, paper_);
+                    if (std::abs(darkness) > kOtherPrintShare * strength) return true;
+                }
+            }
+        }
+        return false;
     }
 
   private:
@@ -251,8 +270,9 @@ SeenTile measure_tile(const ImageView& scan, const PixelRect& rect, const LocalM
     tile.strength = median(strengths);
     for (std::size_t i = 0; i < tile.cells.size(); ++i) {
         SeenCell& cell = tile.cells[i];
-        meter.measure(map.pixel(Vector2d(cell.x, cell.y)), places_px[i],
-                      strength.value_or(tile.strength), cell);
+        const double expected = strength.value_or(tile.strength);
+        meter.measure(map.pixel(Vector2d(cell.x, cell.y)), places_px[i], expected, cell);
+        cell.is_covered = meter.is_covered(Vector2d(cell.x, cell.y), expected);
         tile.dots += cell.has_dot ? 1 : 0;
         tile.right += cell.is_right() ? 1 : 0;
     }

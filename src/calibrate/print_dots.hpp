@@ -26,12 +26,14 @@ struct SeenCell {
     std::uint32_t x = 0;  ///< the cell
     std::uint32_t y = 0;
     Symbol nominal = Symbol::up;
+    bool is_covered = false;   ///< other print crosses the cell's border, where no dot comes near
     Symbol read = Symbol::up;  ///< with a dot only, as all below
     bool has_dot = false;
     float u_px = 0;  ///< centre
     float v_px = 0;
     float mass_px2 = 0;  ///< darkness summed over the dot
     float peak = 0;      ///< darkness of its middle
+    float paper = 0;     ///< grey level of the blank paper around
 
     Eigen::Vector2d centre_px() const { return {u_px, v_px}; }
     bool is_right() const { return has_dot && read == nominal; }

@@ -48,10 +48,27 @@ class Findings {
         : options_(options), check_(check), findings_(findings) {}
 
     void fault(FindingKind kind, std::string text) {
-        findings_.push_back({kind, true, std::move(text)});
+        findings_.push_back({kind, true, field_, std::move(text)});
     }
     void remark(FindingKind kind, std::string text) {
-        findings_.push_back({kind, false, std::move(text)});
+        findings_.push_back({kind, false, field_, std::move(text)});
+    }
+
+    void judge_sheets() {
+        for (std::size_t i = 0; i < check_.fields.size(); ++i) {
+            const std::size_t before = findings_.size();
+            field_ = i;
+            judge_scale(check_.fields[i]);
+            judge_dots(check_.fields[i]);
+            judge_as_a_whole(before);
+        }
+    }
+
+    void judge_as_a_whole(std::size_t first_finding) {
+        const bool has_fault =
+            std::any_of(findings_.begin() + static_cast<std::ptrdiff_t>(first_finding),
+                        findings_.end(), [](const Finding& finding) { return finding.is_fault; });
+        if (!has_fault) remark(FindingKind::good, "the print can be used as it is");
     }
 
     void judge_nothing_found() {
@@ -114,6 +131,12 @@ class Findings {
         } else {
             judge_size(field);
             judge_faulty_dots(field);
+        }
+        if (field.covered_share() > kNotableShare) {
+            remark(FindingKind::covered,
+                   fmt::format("{} of the dots are covered or touched by other print, which a "
+                               "camera that sees it has to do without",
+                               percent(field.covered_share())));
         }
         if (field.largest_distortion_mm > kNotableDistortion_mm) {
             remark(FindingKind::distorted,
@@ -215,6 +238,7 @@ class Findings {
     const CheckPrintOptions& options_;
     const PrintCheck& check_;
     std::vector<Finding>& findings_;
+    std::optional<std::size_t> field_;  ///< being judged
 };
 
 /// How far a printed dot is from what the pattern wants: a sixth of the spacing.
@@ -258,15 +282,12 @@ void add_findings(const CheckPrintOptions& options, PrintCheck& check) {
     Findings findings(options, check, list);
     if (check.fields.empty()) {
         findings.judge_nothing_found();
-    } else {
+    } else if (check.is_test_page) {
         findings.judge_scale(check.fields.front());
-        if (check.is_test_page) {
-            findings.judge_test_page();
-        } else {
-            findings.judge_dots(check.fields.front());
-        }
-        const bool has_fault = std::ranges::any_of(list, &Finding::is_fault);
-        if (!has_fault) findings.remark(FindingKind::good, "the print can be used as it is");
+        findings.judge_test_page();
+        findings.judge_as_a_whole(0);
+    } else {
+        findings.judge_sheets();
     }
     std::ranges::stable_partition(list, &Finding::is_fault);
     check.findings = std::move(list);
@@ -296,6 +317,8 @@ const char* name(FindingKind kind) {
             return "thin";
         case FindingKind::missing:
             return "missing";
+        case FindingKind::covered:
+            return "covered";
         case FindingKind::bits_wrong:
             return "bits_wrong";
         case FindingKind::too_coarse:

@@ -110,9 +110,9 @@ void measure_distortion(const Measuring& m, const PlaneFit& fit, const Units& un
 
 /// Whether it is dark between two dots, too.
 bool have_merged(const Measuring& m, const SeenCell& a, const SeenCell& b) {
-    if (!a.has_dot || !b.has_dot) return false;
-    const double between =
-        darkness_at(m.scan, 0.5 * (a.centre_px() + b.centre_px()), m.field.paper);
+    if (!a.has_dot || !b.has_dot || a.is_covered || b.is_covered) return false;
+    const double paper = 0.5 * (double(a.paper) + double(b.paper));
+    const double between = darkness_at(m.scan, 0.5 * (a.centre_px() + b.centre_px()), paper);
     return between > kMergedShare * double(std::min(a.peak, b.peak));
 }
 
@@ -125,6 +125,10 @@ void count_cells(const Measuring& m, const PlaneFit& fit, const Units& units, Pr
             const Vector2d p = units.to_px(fit.seen(nominal_mm(m, result.pattern, cell)));
             const bool is_in_view = whole.contains(p, -result.spacing_px);
             if (!is_in_view && !cell.has_dot) continue;
+            if (cell.is_covered) {
+                ++result.covered;
+                continue;
+            }
             ++result.cells;
             if (!cell.has_dot) {
                 ++result.missing;

@@ -101,17 +101,13 @@ class Overlay {
     void add_dots() {
         std::vector<QPDFPageObjectHelper> pages = QPDFPageDocumentHelper(pdf_).getAllPages();
         if (pages.empty()) throw Error(fmt::format("{}: the document has no pages", in_.string()));
+        const auto page = [&](int number) { return pages[static_cast<std::size_t>(number - 1)]; };
         for (const int number : page_numbers(options_.pages, static_cast<int>(pages.size()))) {
-            try {
-                add_page(number, pages[static_cast<std::size_t>(number - 1)]);
-            } catch (const BadArgument& error) {
-                throw BadArgument(
-                    fmt::format("{}, page {}: {}", in_.string(), number, error.what()));
-            } catch (const Error& error) {
-                throw Error(fmt::format("{}, page {}: {}", in_.string(), number, error.what()));
-            } catch (const QPDFExc& error) {
-                throw_damaged(in_, error.getMessageDetail());
-            }
+            on_page(number, [&] { lay_out(number, page(number)); });
+        }
+        if (options_.place) options_.place(report_.pages);
+        for (const OverlaidPage& laid_out : report_.pages) {
+            on_page(laid_out.number, [&] { add_page(laid_out, page(laid_out.number)); });
         }
         warn();
     }
@@ -127,27 +123,40 @@ class Overlay {
     OverlayReport report() && { return std::move(report_); }
 
   private:
-    Sheet lay_out(const Paper& paper) {
-        Sheet sheet = make_sheet({.pattern = options_.pattern,
-                                  .origin = options_.origin,
-                                  .paper = paper,
-                                  .margin_mm = options_.margin_mm});
-        sheet.origin = regions_.take(sheet.columns, sheet.rows);
-        validate(sheet);
-        validate_resolution(sheet, options_.dpi);
-        return sheet;
+    /// Runs `work`; its errors then name the page.
+    template <typename Work>
+    void on_page(int number, const Work& work) {
+        try {
+            work();
+        } catch (const BadArgument& error) {
+            throw BadArgument(fmt::format("{}, page {}: {}", in_.string(), number, error.what()));
+        } catch (const Error& error) {
+            throw Error(fmt::format("{}, page {}: {}", in_.string(), number, error.what()));
+        } catch (const QPDFExc& error) {
+            throw_damaged(in_, error.getMessageDetail());
+        }
     }
 
-    void add_page(int number, QPDFPageObjectHelper page) {
+    void lay_out(int number, const QPDFPageObjectHelper& page) {
+        Sheet sheet = make_sheet({.pattern = options_.pattern,
+                                  .origin = options_.origin,
+                                  .paper = print::page_frame(page).paper,
+                                  .margin_mm = options_.margin_mm});
+        validate_resolution(sheet, options_.dpi);
+        sheet.origin = regions_.take(sheet.columns, sheet.rows);
+        report_.pages.push_back({number, sheet});
+    }
+
+    void add_page(const OverlaidPage& laid_out, QPDFPageObjectHelper page) {
+        const auto& [number, sheet] = laid_out;
+        validate(sheet);
         const print::PageFrame frame = print::page_frame(page);
-        const Sheet sheet = lay_out(frame.paper);
         const print::PageContent content = print::scan_page(page);
         if (content.paints_black) black_.push_back(number);
         if (content.paints_images) images_.push_back(number);
         if (content.paints_areas) areas_.push_back(number);
         if (!change_.is_none()) colours_.convert(page);
         draw(page, frame, sheet, content);
-        report_.pages.push_back({number, sheet});
     }
 
     /// The page's own content keeps its streams; q and Q around it restore the start.
@@ -182,17 +191,9 @@ class Overlay {
         resources.replaceKey("/XObject", objects);
         std::vector<std::string> names;
         int suffix = 1;
-        for (QPDFObjectHandle& stream : dots_.streams(sheet)) {
-            QPDFObjectHandle dict = stream.getDict();
-            dict.replaceKey("/Type", QPDFObjectHandle::newName("/XObject"));
-            dict.replaceKey("/Subtype", QPDFObjectHandle::newName("/Form"));
-            dict.replaceKey("/BBox",
-                            QPDFObjectHandle::parse(fmt::format(
-                                "[0 0 {:.4f} {:.4f}]", sheet.width_mm * print::kPointsPerMm,
-                                sheet.height_mm * print::kPointsPerMm)));
-            dict.replaceKey("/Resources", dots_.resources(sheet));
+        for (const QPDFObjectHandle& form : dots_.forms(sheet)) {
             names.push_back(resources.getUniqueResourceName("/Dots", suffix));
-            objects.replaceKey(names.back(), stream);
+            objects.replaceKey(names.back(), form);
         }
         return names;
     }

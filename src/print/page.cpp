@@ -99,8 +99,6 @@ void validate(const PrintPage& page) {
 
 void write_raster(const PrintPage& page, PrintFormat format, const PrintOptions& options,
                   print::OutputFile& file) {
-    for (const Sheet& sheet : page.sheets)
-        validate_resolution(sheet, options.dpi);
     const print::RasterSize size = print::raster_size(page.sheets.front(), options.dpi);
     Bitmap bitmap(size);
     int sheets_done = 0;
@@ -140,16 +138,21 @@ void write_page(const PrintPage& page, const std::filesystem::path& path,
                 const PrintOptions& options) {
     const PrintFormat format = print_format(path);
     validate(page);
-    const bool is_raster = format == PrintFormat::png || format == PrintFormat::tiff;
-    if (!is_raster && format != PrintFormat::svg) {
-        throw BadArgument(fmt::format(
-            "'{}': a page of several regions is written as .svg, .png or .tif", path.string()));
+    if (format == PrintFormat::text) {
+        throw BadArgument(fmt::format("'{}': a page of several regions cannot be written as text",
+                                      path.string()));
+    }
+    if (format != PrintFormat::svg) {
+        for (const Sheet& sheet : page.sheets)
+            validate_resolution(sheet, options.dpi);
     }
     print::OutputFile file(path);
-    if (is_raster) {
-        write_raster(page, format, options, file);
-    } else {
+    if (format == PrintFormat::svg) {
         print::write_svg_page(page, options.progress, file);
+    } else if (format == PrintFormat::pdf) {
+        print::write_pdf_page(page, options, file);
+    } else {
+        write_raster(page, format, options, file);
     }
     file.commit();
 }

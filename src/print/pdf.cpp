@@ -10,15 +10,25 @@
 namespace dotpose::print {
 namespace {
 
-QPDFObjectHandle make_page(QPDF& pdf, const Sheet& sheet,
+QPDFObjectHandle make_page(QPDF& pdf, const Paper& paper,
                            const std::vector<QPDFObjectHandle>& contents,
                            const QPDFObjectHandle& resources) {
     QPDFObjectHandle page = QPDFObjectHandle::parse(
         fmt::format("<< /Type /Page /MediaBox [0 0 {:.4f} {:.4f}] >>",
-                    sheet.width_mm * kPointsPerMm, sheet.height_mm * kPointsPerMm));
+                    paper.width_mm * kPointsPerMm, paper.height_mm * kPointsPerMm));
     page.replaceKey("/Contents", QPDFObjectHandle::newArray(contents));
     page.replaceKey("/Resources", resources);
     return pdf.makeIndirectObject(page);
+}
+
+std::string mark_content(const PrintPage& page) {
+    std::string content = "0 0 0 1 k\n";
+    for (const InkRectangle& mark : page.marks) {
+        content += fmt::format("{:.4f} {:.4f} {:.4f} {:.4f} re\n", mark.x_mm * kPointsPerMm,
+                               (page.height_mm - mark.y_mm - mark.height_mm) * kPointsPerMm,
+                               mark.width_mm * kPointsPerMm, mark.height_mm * kPointsPerMm);
+    }
+    return content + "f\n";
 }
 
 void set_information(QPDF& pdf, const std::string& title) {
@@ -57,8 +67,35 @@ void write_pdf(std::span<const Sheet> sheets, const PrintOptions& options, Outpu
             }
             resources.getKey("/Font").replaceKey("/Label", label_font);
         }
-        QPDFPageDocumentHelper(pdf).addPage(make_page(pdf, sheet, contents, resources), false);
+        QPDFPageDocumentHelper(pdf).addPage(
+            make_page(pdf, {sheet.width_mm, sheet.height_mm}, contents, resources), false);
     }
+    set_information(pdf, options.name);
+    write_document(pdf, *rows, file);
+}
+
+void write_pdf_page(const PrintPage& page, const PrintOptions& options, OutputFile& file) {
+    QPDF pdf;
+    pdf.emptyPDF();
+    const auto rows = std::make_shared<RowCount>();
+    rows->progress = options.progress;
+    DotContent dots(pdf, options.dpi, options.drawing, rows);
+    std::string content = mark_content(page);
+    QPDFObjectHandle forms = QPDFObjectHandle::newDictionary();
+    int count = 0;
+    for (const Sheet& sheet : page.sheets) {
+        for (const QPDFObjectHandle& form : dots.forms(sheet)) {
+            const std::string name = fmt::format("/Dots{}", ++count);
+            forms.replaceKey(name, form);
+            content += name + " Do\n";
+        }
+    }
+    QPDFObjectHandle resources = QPDFObjectHandle::newDictionary();
+    resources.replaceKey("/XObject", forms);
+    QPDFPageDocumentHelper(pdf).addPage(
+        make_page(pdf, {page.width_mm, page.height_mm},
+                  {QPDFObjectHandle::newStream(&pdf, content)}, resources),
+        false);
     set_information(pdf, options.name);
     write_document(pdf, *rows, file);
 }

@@ -284,6 +284,20 @@ QPDFObjectHandle DotContent::resources(const Sheet& sheet) {
     return resources;
 }
 
+std::vector<QPDFObjectHandle> DotContent::forms(const Sheet& sheet) {
+    std::vector<QPDFObjectHandle> forms = streams(sheet);
+    for (QPDFObjectHandle& form : forms) {
+        QPDFObjectHandle dict = form.getDict();
+        dict.replaceKey("/Type", QPDFObjectHandle::newName("/XObject"));
+        dict.replaceKey("/Subtype", QPDFObjectHandle::newName("/Form"));
+        dict.replaceKey("/BBox", QPDFObjectHandle::parse(fmt::format(
+                                     "[0 0 {:.4f} {:.4f}]", sheet.width_mm * kPointsPerMm,
+                                     sheet.height_mm * kPointsPerMm)));
+        dict.replaceKey("/Resources", resources(sheet));
+    }
+    return forms;
+}
+
 QPDFObjectHandle DotContent::font(const Pattern& pattern) {
     if (font_.isInitialized() && same_dots(pattern, font_pattern_)) return font_;
     QPDFObjectHandle glyphs = QPDFObjectHandle::newDictionary();

@@ -46,6 +46,9 @@ class DotContent {
     /// Resource dictionary that these streams need; may be empty.
     QPDFObjectHandle resources(const Sheet& sheet);
 
+    /// The same streams as forms with resources of their own.
+    std::vector<QPDFObjectHandle> forms(const Sheet& sheet);
+
   private:
     QPDFObjectHandle font(const Pattern& pattern);
 

@@ -112,6 +112,12 @@ std::vector<SheetEntry> SheetFile::allocate(const std::string& name, const Sheet
     return {sheets_.end() - count, sheets_.end()};
 }
 
+SheetEntry SheetFile::allocate(SheetEntry entry) {
+    entry.sheet.origin = print::free_origin(sheets_, entry.sheet.columns, entry.sheet.rows);
+    print::append(entry, sheets_);
+    return entry;
+}
+
 void SheetFile::add(const SheetEntry& entry) {
     print::append(entry, sheets_);
 }

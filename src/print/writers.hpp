@@ -19,6 +19,7 @@ void write_png(RasterSize size, double dpi, const RowSource& rows, OutputFile& f
 void write_tiff(RasterSize size, double dpi, const RowSource& rows, OutputFile& file);
 
 void write_pdf(std::span<const Sheet> sheets, const PrintOptions& options, OutputFile& file);
+void write_pdf_page(const PrintPage& page, const PrintOptions& options, OutputFile& file);
 void write_svg_page(const PrintPage& page, const Progress& progress, OutputFile& file);
 
 /// Reports one more finished row; throws Error if the caller wants to stop.

@@ -221,6 +221,73 @@ class Sensor {
     std::vector<float> levels_;  // rows as long as row_
 };
 
+// The ink of a page image in the sub-rows of a frame.
+class ImageRows {
+  public:
+    ImageRows(const PageImage& page, const View& view, const Imperfections& imperfections,
+              const Kernel& kernel)
+        : page_(page),
+          view_(view),
+          kernel_(kernel),
+          darkest_(1 - imperfections.ink_reflectance),
+          offsets_mm_(static_cast<std::size_t>(view.camera.width_px + 2 * kernel.border_px)) {}
+
+    std::span<const Raster::Spot> row(int sub_row) {
+        spots_.assign(offsets_mm_.size(), {});
+        for (std::size_t i = 0; i < spots_.size(); ++i)
+            spots_[i].pixel = i;
+        const double v = pixel_of(sub_row);
+        for (int phase = 0; phase < kernel_.per_pixel; ++phase) {
+            view_.projection.offsets_from_row({pixel_of(phase), v}, offsets_mm_);
+            for (std::size_t i = 0; i < spots_.size(); ++i)
+                spots_[i].darkness[static_cast<std::size_t>(phase)] = darkness_at(offsets_mm_[i]);
+        }
+        std::erase_if(spots_, [](const Raster::Spot& spot) {
+            return std::ranges::all_of(spot.darkness, [](float dark) { return dark <= 0; });
+        });
+        return spots_;
+    }
+
+  private:
+    // Of a sub-pixel's centre; sub-pixels are counted from the edge of the border.
+    double pixel_of(int sub_pixel) const {
+        return (sub_pixel + 0.5) / kernel_.per_pixel - 0.5 - kernel_.border_px;
+    }
+
+    float darkness_at(Vec2 offset_mm) const {
+        // Pixel centres are whole numbers.
+        const double u = (page_.centre_mm.x + offset_mm.x) / page_.mm_per_px - 0.5;
+        const double v = (page_.centre_mm.y + offset_mm.y) / page_.mm_per_px - 0.5;
+        if (!(u > -1 && v > -1 && u < page_.image.width_px && v < page_.image.height_px)) return 0;
+        const int left = static_cast<int>(std::floor(u));
+        const int top = static_cast<int>(std::floor(v));
+        const double right_share = u - left;
+        const double lower_share = v - top;
+        const double ink = (1 - lower_share) * ((1 - right_share) * ink_at(left, top) +
+                                                right_share * ink_at(left + 1, top)) +
+                           lower_share * ((1 - right_share) * ink_at(left, top + 1) +
+                                          right_share * ink_at(left + 1, top + 1));
+        return static_cast<float>(darkest_ * ink);
+    }
+
+    double ink_at(int u, int v) const {
+        const ImageView& image = page_.image;
+        if (u < 0 || v < 0 || u >= image.width_px || v >= image.height_px) return 0;
+        return (255 - image.row(v)[u]) / 255.0;
+    }
+
+    const PageImage& page_;
+    const View& view_;
+    const Kernel& kernel_;
+    double darkest_;
+    std::vector<Vec2> offsets_mm_;
+    std::vector<Raster::Spot> spots_;
+};
+
+int sub_rows(const CameraModel& camera, const Kernel& kernel) {
+    return (camera.height_px + 2 * kernel.border_px) * kernel.per_pixel;
+}
+
 }  // namespace
 
 std::vector<float> expose(const Ink& ink, const View& view, const Page& page,
@@ -235,13 +302,25 @@ std::vector<float> expose(const Ink& ink, const View& view, const Page& page,
                         .width = (camera.width_px + 2 * kernel.border_px) * kernel.per_pixel,
                         .band_rows = kBandRows});
     Sensor sensor(camera, kernel, paper);
-    const int sub_rows = (camera.height_px + 2 * kernel.border_px) * kernel.per_pixel;
-    for (int top = 0; top < sub_rows; top += kBandRows) {
+    const int rows = sub_rows(camera, kernel);
+    for (int top = 0; top < rows; top += kBandRows) {
         raster.draw_band(top);
-        for (int row = top; row < std::min(top + kBandRows, sub_rows); ++row) {
+        for (int row = top; row < std::min(top + kBandRows, rows); ++row) {
             sensor.absorb(row, raster.take_row(row - top));
         }
     }
+    return sensor.levels();
+}
+
+std::vector<float> expose(const PageImage& page, const View& view,
+                          const Imperfections& imperfections) {
+    // Ink is as fine as the default pattern's dots.
+    const Kernel kernel = make_kernel(imperfections, Pattern{}.dot_mm / view.camera.mm_per_px);
+    const std::vector<float> paper = bare_paper(view, Page{}, imperfections, kernel.border_px);
+    ImageRows rows(page, view, imperfections, kernel);
+    Sensor sensor(view.camera, kernel, paper);
+    for (int row = 0; row < sub_rows(view.camera, kernel); ++row)
+        sensor.absorb(row, rows.row(row));
     return sensor.levels();
 }
 

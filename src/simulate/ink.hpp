@@ -93,6 +93,9 @@ void check(const Page& page, const CameraModel& camera, const CameraPose& pose,
 /// Paper, light, blur, motion, integration over each pixel: exact grey levels, row by row.
 std::vector<float> expose(const Ink& ink, const View& view, const Page& page,
                           const Imperfections& imperfections);
+/// The same of a page given as an image.
+std::vector<float> expose(const PageImage& page, const View& view,
+                          const Imperfections& imperfections);
 
 /// Noise, clipping, rounding.
 GreyImage read_out(const std::vector<float>& levels, const CameraModel& camera,

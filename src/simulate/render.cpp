@@ -96,6 +96,16 @@ GreyImage render(const Pattern& pattern, const CameraModel& camera, const Camera
     return render(page, camera, pose, imperfections, seed);
 }
 
+GreyImage render(const PageImage& page, const CameraModel& camera, const CameraPose& pose,
+                 const Imperfections& imperfections, std::uint64_t seed) {
+    simulate::check({}, camera, pose, imperfections);
+    simulate::require(page.mm_per_px > 0, "the pixels of the page must have a size");
+    Rng rng(seed);
+    return simulate::read_out(
+        simulate::expose(page, simulate::View(camera, pose, imperfections), imperfections), camera,
+        imperfections, rng);
+}
+
 GreyImage render(const Shot& shot) {
     return render(shot.page, shot.camera, shot.pose, shot.imperfections, shot.seed);
 }

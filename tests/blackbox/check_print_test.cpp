@@ -1,6 +1,7 @@
 // `dotpose print --test-page` and `dotpose check-print` as their user sees them.
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -103,6 +104,46 @@ TEST_F(CheckPrintCommand, fit_makes_the_millimetres_of_the_sheet_file_true) {
     EXPECT_EQ(run("check-print other.jpg --fit"), 2);
 }
 
+TEST_F(CheckPrintCommand, judges_every_sheet_on_the_scan_by_what_the_sheet_file_says) {
+    ASSERT_EQ(run("print --paper 50x50 -o a.svg --sheets sheets.json --name a --section 3,4"), 0);
+    ASSERT_EQ(run("print --paper 50x50 -o b.svg --sheets sheets.json --name b --spacing 0.6"), 0);
+    ASSERT_EQ(run("print --paper 50x50 -o c.svg --sheets sheets.json --name c"), 0);
+    std::vector<Sheet> on_table;
+    for (const SheetEntry& entry : read_sheets(directory_ / "sheets.json"))
+        on_table.push_back(entry.sheet);
+    on_table.pop_back();
+    // The second was printed at 96 %, with dots twice as wide.
+    on_table[1].pattern.spacing_mm *= 0.96;
+    on_table[1].pattern.displacement_mm *= 0.96;
+    on_table[1].pattern.dot_mm *= 2;
+    on_table[1].origin_x_mm += 52;
+    for (Sheet& sheet : on_table)
+        sheet.width_mm = 105;
+    write_jpeg("scan.jpg", test::scan_page(on_table, {}), 600);
+
+    run("check-print scan.jpg --sheets sheets.json");
+    EXPECT_EQ(exit_code_, 0) << errors_;
+    EXPECT_THAT(output_, HasSubstr("FAULT: sheet 'b': the driver scaled the page to 96.0 %"));
+    EXPECT_THAT(output_, HasSubstr("FAULT: sheet 'b': dots are swollen"));
+    EXPECT_THAT(output_, HasSubstr("note:  sheet 'a': the print can be used as it is"));
+    EXPECT_THAT(output_, Not(HasSubstr("FAULT: sheet 'a'")));
+    run("check-print scan.jpg --sheets sheets.json --format json --fit");
+    const json report = json::parse(output_);
+    ASSERT_EQ(report["fields"].size(), 2U);
+    for (const json& finding : report["findings"]) {
+        const bool is_about_b = report["fields"][finding["field"].get<int>()]["sheet"] == "b";
+        EXPECT_EQ(finding["fault"], is_about_b) << finding;
+    }
+    const std::vector<SheetEntry> fitted = read_sheets(directory_ / "sheets.json");
+    EXPECT_NEAR(fitted[0].print_scale_x, 1, 2e-4);
+    EXPECT_NEAR(fitted[1].print_scale_y, 0.96, 2e-4);
+    EXPECT_EQ(fitted[2].print_scale_x, 1);
+
+    // Without the file, all are judged by one pattern.
+    run("check-print scan.jpg");
+    EXPECT_THAT(output_, HasSubstr("FAULT: from cell "));
+}
+
 TEST_F(CheckPrintCommand, without_a_resolution_nothing_is_said_of_scale) {
     write_pgm(directory_ / "scan.pgm", scan_of_60_x_50_mm({}).view());
     run("check-print scan.pgm");
@@ -144,16 +185,22 @@ TEST_F(CheckPrintCommand, recognises_the_test_page) {
 }
 
 TEST_F(CheckPrintCommand, test_page_is_printed_in_every_format_but_text) {
-    for (const char* name : {"test.svg", "test.png", "test.tif"}) {
-        run(std::string("print --test-page -o ") + name);
+    for (const char* name : {"test.svg", "test.pdf", "test.tif", "test.png"}) {
+        run(std::string("print --test-page --paper A5 -o ") + name);
         EXPECT_EQ(exit_code_, 0) << errors_;
-        EXPECT_THAT(output_, HasSubstr("test page 210 x 297 mm, 20 patches"));
+        EXPECT_THAT(output_, HasSubstr("test page 148 x 210 mm, 20 patches"));
         EXPECT_TRUE(fs::exists(directory_ / name));
     }
-    run("check-print test.png");
-    EXPECT_EQ(exit_code_, 0) << errors_;
-    EXPECT_THAT(output_, HasSubstr("test page: "));
-    EXPECT_THAT(output_, HasSubstr("best for this printer: "));
+    // What a perfect printer and scanner make of two of them.
+    ASSERT_EQ(
+        shell("qpdf --check test.pdf && pdftoppm -gray -r 600 -png -singlefile test.pdf scan"), 0)
+        << output_ << errors_;
+    for (const char* scan : {"test.png", "scan.png"}) {
+        run(std::string("check-print --dpi 600 ") + scan);
+        EXPECT_EQ(exit_code_, 0) << errors_;
+        EXPECT_THAT(output_, HasSubstr("test page: ")) << scan;
+        EXPECT_THAT(output_, HasSubstr("best for this printer: ")) << scan;
+    }
 }
 
 TEST_F(CheckPrintCommand, wrong_usage_is_status_2) {
@@ -168,6 +215,7 @@ TEST_F(CheckPrintCommand, wrong_usage_is_status_2) {
         "check-print blank.pgm --spacing 0",            //
         "check-print blank.pgm --displacement 0.4",     //
         "check-print blank.pgm --section 1,1",          // it is found
+        "check-print blank.pgm --sheets s --dot 0.1",   // the file says so
         "check-print blank.pgm stray",                  //
         "print --test-page -o test.txt",                //
         "print --test-page -o test.png --spacing 0.5",  // a test page has its own

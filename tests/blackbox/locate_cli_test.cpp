@@ -1,6 +1,5 @@
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -329,9 +328,7 @@ TEST_F(LocateCommand, lines_leave_at_once) {
     write("names.sh",
           "echo a.pgm\n"
           "for i in $(seq 100); do [ -s out ] && echo yes > came && break; sleep 0.1; done\n");
-    const std::string command = "cd '" + directory_.string() +
-                                "' && sh names.sh | '" DOTPOSE_TOOL "' locate --list - > out";
-    ASSERT_EQ(std::system(command.c_str()), 0);
+    ASSERT_EQ(shell("sh names.sh | $T locate --list - > out"), 0);
     EXPECT_EQ(read_file(directory_ / "came"), "yes\n");
 }
 

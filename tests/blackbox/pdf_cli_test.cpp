@@ -1,69 +1,41 @@
 #include <array>
-#include <cstdio>
-#include <filesystem>
-#include <stdexcept>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
-#include <sys/wait.h>
+#include <nlohmann/json.hpp>
 
+#include "tool_command.hpp"
+
+namespace dotpose::test {
 namespace {
 
-namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-struct Outcome {
-    int exit_code = -1;
-    std::string output;  ///< standard output and standard error
-};
-
-/// Shell commands in a directory of their own, in which $T is the tool.
-class PdfCommands : public testing::Test {
+class PdfCommands : public ToolCommand {
   protected:
-    void SetUp() override {
-        std::string name = (fs::temp_directory_path() / "dotpose-pdf-XXXXXX").string();
-        ASSERT_NE(mkdtemp(name.data()), nullptr);
-        directory_ = name;
-    }
-    void TearDown() override { fs::remove_all(directory_); }
+    /// Runs shell commands, in which $T is the tool. What they print on either stream is in
+    /// `output_`.
+    int run(const std::string& commands) { return shell("{ " + commands + "; } 2>&1"); }
 
-    Outcome run(const std::string& commands) const {
-        const std::string line = "cd '" + directory_.string() + "' && T='" DOTPOSE_TOOL "' && { " +
-                                 commands + "; } 2>&1";
-        std::FILE* pipe = popen(line.c_str(), "r");
-        if (pipe == nullptr) throw std::runtime_error("cannot run " + line);
-        Outcome outcome;
-        std::array<char, 4096> buffer;
-        while (std::fgets(buffer.data(), static_cast<int>(buffer.size()), pipe) != nullptr)
-            outcome.output += buffer.data();
-        const int status = pclose(pipe);
-        if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
-        return outcome;
-    }
     bool exists(const char* name) const { return fs::exists(directory_ / name); }
-
-    fs::path directory_;
 };
 
 TEST_F(PdfCommands, print_makes_pages_with_text_that_can_be_selected) {
-    const Outcome printed =
-        run("$T print -o 'my sheet.pdf' --pages 3 --paper A6 --section 1,2 --origin 9,8");
-    EXPECT_EQ(printed.exit_code, 0);
+    run("$T print -o 'my sheet.pdf' --pages 3 --paper A6 --section 1,2 --origin 9,8");
+    EXPECT_EQ(exit_code_, 0);
     // 85 mm and 128 mm between the margins of 10 mm hold 167 and 252 cells of 0.508 mm.
-    EXPECT_THAT(printed.output,
-                HasSubstr("my sheet.pdf: 1/3, page 105 x 148 mm, cells 9,8 to 175,259 "));
-    EXPECT_THAT(printed.output, HasSubstr("3/3, page 105 x 148 mm, cells 343,8 to 509,259 "));
-    const Outcome text = run("qpdf --check 'my sheet.pdf' && pdftotext -f 2 -l 2 'my sheet.pdf' -");
-    EXPECT_EQ(text.exit_code, 0);
-    EXPECT_THAT(text.output, HasSubstr("my sheet, page 2 of 3, cells 176,8 to 342,259"));
-    EXPECT_THAT(text.output, HasSubstr("section 1,2"));
-    EXPECT_THAT(text.output, HasSubstr("print at 100 %"));
-    EXPECT_THAT(text.output, HasSubstr("--section 1,2 --origin 9,8"));
-    EXPECT_THAT(text.output, Not(HasSubstr("uulu"))) << "the dots are letters, but no text";
+    EXPECT_THAT(output_, HasSubstr("my sheet.pdf: 1/3, page 105 x 148 mm, cells 9,8 to 175,259 "));
+    EXPECT_THAT(output_, HasSubstr("3/3, page 105 x 148 mm, cells 343,8 to 509,259 "));
+    run("qpdf --check 'my sheet.pdf' && pdftotext -f 2 -l 2 'my sheet.pdf' -");
+    EXPECT_EQ(exit_code_, 0);
+    EXPECT_THAT(output_, HasSubstr("my sheet, page 2 of 3, cells 176,8 to 342,259"));
+    EXPECT_THAT(output_, HasSubstr("section 1,2"));
+    EXPECT_THAT(output_, HasSubstr("print at 100 %"));
+    EXPECT_THAT(output_, HasSubstr("--section 1,2 --origin 9,8"));
+    EXPECT_THAT(output_, Not(HasSubstr("uulu"))) << "the dots are letters, but no text";
 }
 
 TEST_F(PdfCommands, paper_sizes_and_landscape_are_true) {
@@ -74,46 +46,114 @@ TEST_F(PdfCommands, paper_sizes_and_landscape_are_true) {
          {"Tabloid", "792 x 1224"},
          {"40x25.4", "113.386 x 72"}}};
     for (const auto& [paper, points] : sizes) {
-        const Outcome outcome =
-            run(std::string("$T print -o a.pdf --margin 3 --paper ") + paper + " && pdfinfo a.pdf");
-        EXPECT_THAT(outcome.output, HasSubstr(std::string(points) + " pts")) << paper;
+        run(std::string("$T print -o a.pdf --margin 3 --paper ") + paper + " && pdfinfo a.pdf");
+        EXPECT_THAT(output_, HasSubstr(std::string(points) + " pts")) << paper;
     }
 }
 
 TEST_F(PdfCommands, only_black_ink_is_used) {
-    const Outcome inks =
-        run("$T print -o a.pdf --paper A6 && gs -q -sDEVICE=ink_cov -r600 -o - a.pdf");
-    EXPECT_EQ(inks.exit_code, 0);
-    EXPECT_THAT(inks.output, HasSubstr(" 0.00000  0.00000  0.00000 "));
-    EXPECT_THAT(inks.output, Not(HasSubstr(" 0.00000 CMYK"))) << "but there is some";
+    run("$T print -o a.pdf --paper A6 && gs -q -sDEVICE=ink_cov -r600 -o - a.pdf");
+    EXPECT_EQ(exit_code_, 0);
+    EXPECT_THAT(output_, HasSubstr(" 0.00000  0.00000  0.00000 "));
+    EXPECT_THAT(output_, Not(HasSubstr(" 0.00000 CMYK"))) << "but there is some";
 }
 
 TEST_F(PdfCommands, print_refuses_what_a_pdf_cannot_be) {
     for (const char* arguments : {"-o a.png --pages 2", "-o a.pdf --pages 0", "-o a.pdf --dots ink",
                                   "-o a.pdf --spacing 0.5 --dots glyphs", "-o a.pdf --dpi 100"}) {
-        const Outcome outcome = run(std::string("$T print ") + arguments);
-        EXPECT_EQ(outcome.exit_code, 2) << arguments;
-        EXPECT_THAT(outcome.output, StartsWith("dotpose: ")) << arguments;
+        run(std::string("$T print ") + arguments);
+        EXPECT_EQ(exit_code_, 2) << arguments;
+        EXPECT_THAT(output_, StartsWith("dotpose: ")) << arguments;
         EXPECT_TRUE(fs::is_empty(directory_)) << arguments;
     }
 }
 
 TEST_F(PdfCommands, overlay_says_which_region_each_page_got) {
-    const Outcome outcome =
-        run("$T print -o in.pdf --pages 3 --paper 80x60 > /dev/null && "
-            "$T overlay in.pdf -o out.pdf --pages 1,z --origin 5000,10 --spacing 1");
-    EXPECT_EQ(outcome.exit_code, 0);
+    run("$T print -o in.pdf --pages 3 --paper 80x60 > /dev/null && "
+        "$T overlay in.pdf -o out.pdf --pages 1,z --origin 5000,10 --spacing 1");
+    EXPECT_EQ(exit_code_, 0);
     // 70 mm and 50 mm between the margins of 5 mm.
-    EXPECT_THAT(outcome.output, HasSubstr("out.pdf 1: page 80 x 60 mm, cells 5000,10 to 5069,59 "));
-    EXPECT_THAT(outcome.output, HasSubstr("out.pdf 3: page 80 x 60 mm, cells 5070,10 to 5139,59 "));
-    EXPECT_THAT(outcome.output, HasSubstr("warning: pages 1, 3: black text or drawings hide dots"));
+    EXPECT_THAT(output_, HasSubstr("out.pdf 1: page 80 x 60 mm, cells 5000,10 to 5069,59 "));
+    EXPECT_THAT(output_, HasSubstr("out.pdf 3: page 80 x 60 mm, cells 5070,10 to 5139,59 "));
+    EXPECT_THAT(output_, HasSubstr("warning: pages 1, 3: black text or drawings hide dots"));
+}
+
+TEST_F(PdfCommands, overlay_enters_its_pages_in_a_sheet_file) {
+    ASSERT_EQ(run("$T print -o in.pdf --pages 3 --paper 80x60 && "
+                  "$T print -o desk.svg --paper 40x40 --sheets sheets.json --name desk && "
+                  "$T overlay in.pdf -o out.pdf --pages 1,z --sheets sheets.json --name form && "
+                  "$T overlay in.pdf -o letter.pdf --pages 2 --sheets sheets.json --name letter "
+                  "--origin 7,9 --spacing 1 --section 3,4"),
+              0)
+        << output_;
+    EXPECT_THAT(output_, HasSubstr(", sheet 'form-3' of sheets.json"));
+    EXPECT_THAT(output_, HasSubstr(", sheet 'letter' of sheets.json"));
+    const nlohmann::json sheets = nlohmann::json::parse(file("sheets.json"))["sheets"];
+    ASSERT_EQ(sheets.size(), 4U);
+    const struct {
+        const char* name;
+        int page;
+        int origin_x;
+        int origin_y;
+        int columns;
+    } expected[] = {
+        // Between margins of 5 mm n dots take (n - 0.5) * 0.508 mm; free regions are 1024 cells
+        // apart.
+        {"desk", 1, 1024, 1024, 59},
+        {"form-1", 1, 1024 + 59 + 1024, 1024, 138},
+        {"form-3", 3, 1024 + 59 + 1024 + 138 + 1024, 1024, 138},
+        {"letter", 2, 7, 9, 70},
+    };
+    for (std::size_t i = 0; i < sheets.size(); ++i) {
+        EXPECT_EQ(sheets[i]["name"], expected[i].name);
+        EXPECT_EQ(sheets[i]["page"], expected[i].page) << i;
+        EXPECT_EQ(sheets[i]["origin_x"], expected[i].origin_x) << i;
+        EXPECT_EQ(sheets[i]["origin_y"], expected[i].origin_y) << i;
+        EXPECT_EQ(sheets[i]["columns"], expected[i].columns) << i;
+    }
+    EXPECT_NEAR(sheets[1]["width_mm"], 80, 1e-4);
+    EXPECT_EQ(sheets[3]["spacing_mm"], 1);
+    EXPECT_EQ(sheets[3]["section_v"], 4);
+}
+
+TEST_F(PdfCommands, a_refused_or_stopped_overlay_leaves_the_sheet_file_alone) {
+    ASSERT_EQ(run("$T print -o in.pdf --pages 2 --paper 80x60 && "
+                  "$T overlay in.pdf -o a.pdf --sheets sheets.json --name a"),
+              0)
+        << output_;
+    const std::string before = file("sheets.json");
+    const struct {
+        const char* arguments;
+        int exit_code;
+        const char* message;
+    } refused[] = {
+        {"in.pdf --sheets sheets.json --name a", 2, "there already is a sheet 'a-1'"},
+        {"in.pdf --sheets sheets.json --name b --origin 1100,1100", 2,
+         "sheet 'b-1' would share cells with sheet 'a-1', which has 1024,1024 to"},
+        {"in.pdf --sheets sheets.json", 2, "--sheets requires --name"},
+        {"in.pdf --name b", 2, "--name requires --sheets"},
+        {"in.pdf --sheets sheets.json --name b --pages 3", 2, "give numbers from 1 to 2"},
+        {"missing.pdf --sheets sheets.json --name b", 1, "cannot read missing.pdf"},
+        {"in.pdf --sheets in.pdf --name b", 1, "in.pdf is no sheet file"},
+        {"in.pdf --sheets no/sheets.json --name b", 1, "cannot lock no/sheets.json"},
+    };
+    for (const auto& [arguments, exit_code, message] : refused) {
+        EXPECT_EQ(run(std::string("$T overlay -o out.pdf ") + arguments), exit_code) << arguments;
+        EXPECT_THAT(output_, HasSubstr(message)) << arguments;
+    }
+    run("$T print -o large.pdf --paper 8000x8000 --spacing 50 > /dev/null; "
+        "$T overlay large.pdf -o out.pdf --sheets sheets.json --name b & "
+        "tool=$!; sleep 0.5; kill $tool; wait $tool");
+    EXPECT_EQ(exit_code_, 1);
+    EXPECT_EQ(file("sheets.json"), before);
+    run("ls -A");
+    EXPECT_EQ(output_, "a.pdf\nin.pdf\nlarge.pdf\nsheets.json\n");
 }
 
 TEST_F(PdfCommands, overlay_refuses_and_writes_nothing) {
     ASSERT_EQ(
         run("$T print -o in.pdf --paper 80x60 && head -c 900 in.pdf > cut.pdf && echo x > no.pdf "
-            "&& cp in.pdf same.pdf && qpdf --encrypt u o 256 -- in.pdf locked.pdf")
-            .exit_code,
+            "&& cp in.pdf same.pdf && qpdf --encrypt u o 256 -- in.pdf locked.pdf"),
         0);
     struct Case {
         const char* arguments;
@@ -135,28 +175,29 @@ TEST_F(PdfCommands, overlay_refuses_and_writes_nothing) {
         {"in.pdf -o out.pdf --lighten 1", 2, "under 1"},
     };
     for (const Case& tried : cases) {
-        const Outcome outcome = run(std::string("$T overlay ") + tried.arguments);
-        EXPECT_EQ(outcome.exit_code, tried.exit_code) << tried.arguments;
-        EXPECT_THAT(outcome.output, HasSubstr(tried.message)) << tried.arguments;
+        run(std::string("$T overlay ") + tried.arguments);
+        EXPECT_EQ(exit_code_, tried.exit_code) << tried.arguments;
+        EXPECT_THAT(output_, HasSubstr(tried.message)) << tried.arguments;
         EXPECT_FALSE(exists("out.pdf")) << tried.arguments;
     }
-    EXPECT_EQ(run("cmp in.pdf same.pdf").exit_code, 0);
+    EXPECT_EQ(run("cmp in.pdf same.pdf"), 0);
 }
 
 TEST_F(PdfCommands, a_signal_stops_overlay_and_leaves_no_litter) {
-    const Outcome outcome =
-        run("$T print -o in.pdf --paper 8000x8000 --spacing 50 > /dev/null; $T overlay in.pdf -o "
-            "out.pdf & "
-            "tool=$!; sleep 0.5; kill $tool; wait $tool");
-    EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_EQ(outcome.output, "dotpose: stopped; nothing was written\n");
-    EXPECT_EQ(run("ls -A").output, "in.pdf\n");
+    run("$T print -o in.pdf --paper 8000x8000 --spacing 50 > /dev/null; $T overlay in.pdf -o "
+        "out.pdf & "
+        "tool=$!; sleep 0.5; kill $tool; wait $tool");
+    EXPECT_EQ(exit_code_, 1);
+    EXPECT_EQ(output_, "dotpose: stopped; nothing was written\n");
+    run("ls -A");
+    EXPECT_EQ(output_, "in.pdf\n");
 }
 
 TEST_F(PdfCommands, overlay_help_shows_an_example) {
-    const Outcome outcome = run("$T overlay --help");
-    EXPECT_EQ(outcome.exit_code, 0);
-    EXPECT_THAT(outcome.output, HasSubstr("dotpose overlay form.pdf -o form-dots.pdf"));
+    run("$T overlay --help");
+    EXPECT_EQ(exit_code_, 0);
+    EXPECT_THAT(output_, HasSubstr("dotpose overlay form.pdf -o form-dots.pdf"));
 }
 
 }  // namespace
+}  // namespace dotpose::test

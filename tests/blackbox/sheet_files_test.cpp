@@ -3,7 +3,6 @@
 #include <cmath>
 #include <complex>
 #include <cstdint>
-#include <cstdlib>
 #include <numbers>
 #include <random>
 #include <string>
@@ -31,15 +30,7 @@ constexpr double kTolerance_mm = 0.02;
 
 class SheetFiles : public LocateCommand {
   protected:
-    /// Runs `dotpose print ARGUMENTS`; returns the exit status. Messages go to `errors_`.
-    int print(const std::string& arguments) {
-        const std::string command = "cd '" + directory_.string() +
-                                    "' && { '" DOTPOSE_TOOL "' print " + arguments +
-                                    "; } >/dev/null 2>.stderr";
-        const int status = std::system(command.c_str());
-        errors_ = read_file(directory_ / ".stderr");
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    }
+    int print(const std::string& arguments) { return ToolCommand::run("print " + arguments); }
     json sheets() const { return json::parse(read_file(directory_ / "sheets.json"))["sheets"]; }
 
     /// As a user does it, with an editor.
@@ -330,11 +321,9 @@ TEST_F(SheetFiles, an_interrupted_print_adds_no_sheet) {
 }
 
 TEST_F(SheetFiles, prints_at_the_same_time_all_get_regions_of_their_own) {
-    const std::string command =
-        "cd '" + directory_.string() +
-        "' && for i in 1 2 3 4 5 6 7 8; do '" DOTPOSE_TOOL
-        "' print -o $i.svg --paper 40x40 --sheets sheets.json --name n$i >/dev/null & done; wait";
-    ASSERT_EQ(std::system(command.c_str()), 0);
+    ASSERT_EQ(shell("for i in 1 2 3 4 5 6 7 8; do $T print -o $i.svg --paper 40x40 "
+                    "--sheets sheets.json --name n$i & done; wait"),
+              0);
     std::vector<std::uint32_t> origins;
     for (const json& sheet : sheets())
         origins.push_back(sheet["origin_x"]);

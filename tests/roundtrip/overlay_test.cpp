@@ -10,10 +10,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "../temporary_directory.hpp"
 #include "dot_places.hpp"
 #include "rendered_page.hpp"
 #include "small_pdf.hpp"
-#include "temporary_directory.hpp"
 
 namespace dotpose::roundtrip {
 namespace {
@@ -23,25 +23,29 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-/// Makes in.pdf from two pages of text (page.roff) or a picture (page.pgm) in its directory.
+/// Makes in.pdf from two pages of text (page.roff) or a picture (page.ps) in its directory, or
+/// brings one.
 struct Producer {
     const char* name;
     const char* command;
 };
 
 constexpr Producer kProducers[] = {
-    {"groff", "groff -P-p105m,148m -Tpdf page.roff > in.pdf"},
+    {"groff", "groff -P-p14.8c,10.5c -Tpdf page.roff > in.pdf"},
     {"ghostscript",
-     "groff -P-p105m,148m -Tps page.roff > p.ps && gs -q -o in.pdf -sDEVICE=pdfwrite p.ps"},
-    {"cairo", "groff -P-p105m,148m -Tpdf page.roff > p.pdf && pdftocairo -pdf p.pdf in.pdf"},
-    {"mupdf", "groff -P-p105m,148m -Tpdf page.roff > p.pdf && mutool convert -o in.pdf p.pdf"},
+     "groff -P-p14.8c,10.5c -Tps page.roff > p.ps && gs -q -o in.pdf -sDEVICE=pdfwrite p.ps"},
+    {"cairo", "groff -P-p14.8c,10.5c -Tpdf page.roff > p.pdf && pdftocairo -pdf p.pdf in.pdf"},
+    {"mupdf", "groff -P-p14.8c,10.5c -Tpdf page.roff > p.pdf && mutool convert -o in.pdf p.pdf"},
     {"libtiff", "gs -q -o p.tif -sDEVICE=tifflzw -r72 page.ps && tiff2pdf -o in.pdf p.tif"},
+    {"libreoffice", "cp " DOTPOSE_SOURCE_DIR "/tests/roundtrip/documents/letter.pdf in.pdf"},
+    {"pdftex", "cp " DOTPOSE_SOURCE_DIR "/tests/roundtrip/documents/report.pdf in.pdf"},
 };
 
 class Documents : public testing::Test {
   protected:
     void SetUp() override {
-        std::ofstream(path("page.roff")) << ".sp 2\nThe quick brown fox.\n.bp\nPage two.\n";
+        std::ofstream(path("page.roff"))
+            << ".pl 14.8c\n.sp 2\nThe quick brown fox.\n.bp\nPage two.\n";
         std::ofstream(path("page.ps"))
             << "%!\n<< /PageSize [144 144] >> setpagedevice\n"
                "0.5 setgray 30 30 50 50 rectfill 0 setgray 60 60 40 40 rectfill showpage\n";
@@ -67,7 +71,7 @@ class Documents : public testing::Test {
         overlay_pdf(path("blank.pdf"), path("dots.pdf"), options);
     }
 
-    TemporaryDirectory directory_;
+    test::TemporaryDirectory directory_;
 };
 
 class OverlaidDocument : public Documents, public testing::WithParamInterface<Producer> {};

@@ -1,16 +1,31 @@
 #include "rendered_page.hpp"
 
 #include <array>
-#include <cstdio>
 #include <fstream>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
-#include <sys/wait.h>
+
+#include "../shell.hpp"
 
 namespace dotpose::roundtrip {
 namespace fs = std::filesystem;
 namespace {
+
+/// The samples after a header that has been read.
+std::vector<std::uint8_t> read_samples(std::ifstream& file, std::size_t count,
+                                       const fs::path& path) {
+    std::vector<std::uint8_t> samples(count);
+    file.read(reinterpret_cast<char*>(samples.data()), static_cast<std::streamsize>(count));
+    if (!file) throw std::runtime_error("too short: " + path.string());
+    return samples;
+}
+
+std::size_t area(const GreyPage& page) {
+    return static_cast<std::size_t>(page.width_px) * static_cast<std::size_t>(page.height_px);
+}
 
 /// Binary PGM with 8 bits, as all three renderers write it; '#' begins a comment.
 GreyPage read_pgm(const fs::path& path) {
@@ -24,28 +39,42 @@ GreyPage read_pgm(const fs::path& path) {
         throw std::runtime_error("no PGM: " + path.string());
     file.get();
     GreyPage page{std::stoi(header[1]), std::stoi(header[2]), {}};
-    page.grey.resize(static_cast<std::size_t>(page.width_px) *
-                     static_cast<std::size_t>(page.height_px));
-    file.read(reinterpret_cast<char*>(page.grey.data()),
-              static_cast<std::streamsize>(page.grey.size()));
-    if (!file) throw std::runtime_error("PGM too short: " + path.string());
+    page.grey = read_samples(file, area(page), path);
     return page;
+}
+
+/// The black ink of a PAM with 8 bits of cyan, magenta, yellow and black, where 255 is ink.
+GreyPage read_black_of_pam(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    GreyPage page;
+    std::string type;
+    for (std::string word; file >> word && word != "ENDHDR";) {
+        if (word == "WIDTH") file >> page.width_px;
+        if (word == "HEIGHT") file >> page.height_px;
+        if (word == "TUPLTYPE") file >> type;
+        std::getline(file, word);
+    }
+    file.get();
+    if (type != "CMYK") throw std::runtime_error("no CMYK: " + path.string());
+    const std::vector<std::uint8_t> inks = read_samples(file, 4 * area(page), path);
+    for (std::size_t i = 3; i < inks.size(); i += 4)
+        page.grey.push_back(static_cast<std::uint8_t>(255 - inks[i]));
+    return page;
+}
+
+std::string ghostscript(const char* device, int dpi, int page) {
+    return fmt::format(
+        "gs -q -dSAFER -dUseCropBox -sDEVICE={0} -dTextAlphaBits=4 -dGraphicsAlphaBits=4 -r{1} "
+        "-dFirstPage={2} -dLastPage={2}",
+        device, dpi, page);
 }
 
 }  // namespace
 
 std::string run(const std::string& command) {
-    std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-    if (pipe == nullptr) throw std::runtime_error("cannot run " + command);
-    std::string output;
-    std::array<char, 4096> buffer;
-    while (const std::size_t size = std::fread(buffer.data(), 1, buffer.size(), pipe))
-        output.append(buffer.data(), size);
-    const int status = pclose(pipe);
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-        throw std::runtime_error(command + "\n" + output);
-    }
-    return output;
+    const test::ShellOutcome outcome = test::run_shell("{ " + command + "; } 2>&1");
+    if (outcome.exit_code != 0) throw std::runtime_error(command + "\n" + outcome.output);
+    return outcome.output;
 }
 
 GreyPage render(const std::string& renderer, const fs::path& pdf, int dpi, int page) {
@@ -56,15 +85,20 @@ GreyPage render(const std::string& renderer, const fs::path& pdf, int dpi, int p
         run(fmt::format("pdftoppm -cropbox -gray -r {} -f {} -singlefile {} > {}", dpi, page, in,
                         out));
     } else if (renderer == "gs") {
-        run(fmt::format(
-            "gs -q -dNOPAUSE -dBATCH -dSAFER -dUseCropBox -sDEVICE=pgmraw -dTextAlphaBits=4 "
-            "-dGraphicsAlphaBits=4 -r{0} -dFirstPage={1} -dLastPage={1} "
-            "-sOutputFile={2} {3}",
-            dpi, page, out, in));
+        run(ghostscript("pgmraw", dpi, page) + fmt::format(" -o {} {}", out, in));
     } else {
         run(fmt::format("mutool draw -q -F pgm -r {} -o {} {} {}", dpi, out, in, page));
     }
     GreyPage result = read_pgm(image);
+    fs::remove(image);
+    return result;
+}
+
+GreyPage render_black(const fs::path& pdf, int dpi, int page) {
+    const fs::path image = pdf.string() + "-inks.pam";
+    run(ghostscript("pamcmyk32", dpi, page) +
+        fmt::format(" -o '{}' '{}'", image.string(), pdf.string()));
+    GreyPage result = read_black_of_pam(image);
     fs::remove(image);
     return result;
 }

@@ -26,6 +26,10 @@ inline constexpr const char* kRenderers[] = {"pdftoppm", "gs", "mutool"};
 GreyPage render(const std::string& renderer, const std::filesystem::path& pdf, int dpi,
                 int page = 1);
 
+/// Its black ink alone, by Ghostscript: what infrared light shows, which passes through cyan,
+/// magenta and yellow.
+GreyPage render_black(const std::filesystem::path& pdf, int dpi, int page);
+
 /// Runs a shell command; throws std::runtime_error with its output unless it ends with status 0.
 /// Returns what it printed.
 std::string run(const std::string& command);

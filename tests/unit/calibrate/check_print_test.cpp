@@ -196,6 +196,39 @@ TEST(CheckPrint, finds_dots_that_run_together) {
     EXPECT_THAT(result.findings[0].text, HasSubstr("run together"));
 }
 
+TEST(CheckPrint, tells_other_print_from_faults) {
+    // Bars of 1 mm every 5 mm, as black as the dots, and a grey area.
+    const Sheet sheet = small_sheet();
+    ScanSettings settings;
+    GreyImage scan = scan_page(sheet, settings);
+    const double px_per_mm = settings.dpi / 25.4;
+    for (int v = 0; v < scan.height_px; ++v) {
+        for (int u = 0; u < scan.width_px; ++u) {
+            auto& pixel = scan.pixels[static_cast<std::size_t>(v * scan.width_px + u)];
+            const double x_mm = u / px_per_mm;
+            const double y_mm = v / px_per_mm;
+            if (x_mm > 10 && x_mm < 40 && std::fmod(y_mm, 5) < 1)
+                pixel = std::min<std::uint8_t>(pixel, 40);
+            if (x_mm > 45 && y_mm > 30 && y_mm < 60) pixel = static_cast<std::uint8_t>(pixel * 0.6);
+        }
+    }
+    const PrintCheck result = check(scan, settings.dpi);
+    ASSERT_EQ(result.fields.size(), 1U);
+    const PrintField& field = result.fields[0];
+    EXPECT_THAT(faults(result), IsEmpty());
+    EXPECT_THAT(remarks(result), Contains("covered"));
+    EXPECT_LT(field.missing_share(), 0.002);
+    EXPECT_LT(field.merged_share(), 0.002);
+    EXPECT_LT(field.wrong_share(), 0.002);
+    // A bar touches a row of cells if it is no farther than half a cell from its intersections: 1
+    // mm and a cell, of every 5 mm, on 30 of the 60 mm across. Along the edge of the grey, cells
+    // differ from the paper in up to a tile of 24 cells (12 mm).
+    const double bars = (1 + 0.508) / 5 * 30 / 60;
+    const double edge = 12.0 * (25 + 30 + 25) / (60 * 80);
+    EXPECT_GT(field.covered_share(), 0.9 * bars);
+    EXPECT_LT(field.covered_share(), bars + edge);
+}
+
 TEST(CheckPrint, maps_distortion) {
     SheetOptions options;
     options.paper = {120, 210};
@@ -323,6 +356,20 @@ TEST(CheckPrint, test_page_tells_the_best_settings) {
     EXPECT_EQ(result.best, result.best_per_spacing[0]);
     EXPECT_THAT(remarks(result), Contains("best_settings"));
     EXPECT_EQ(result.unread_patches.size(), 20U - 6U);
+}
+
+TEST(CheckPrint, patches_whose_dots_reach_all_around_are_not_good) {
+    // Dots of 0.27 mm, 0.25 mm apart where they come nearest, 0.38 mm elsewhere.
+    TestPageOptions options;
+    options.paper = {60, 60};
+    options.margin_mm = 5;
+    options.spacings = {18};
+    options.dots = {8};
+    ScanSettings settings;
+    settings.dot_growth = 1.6;
+    const PrintCheck result = check(scan_page(make_test_page(options).sheets, settings), 600);
+    ASSERT_EQ(result.fields.size(), 1U);
+    EXPECT_THAT(result.best_per_spacing, IsEmpty());
 }
 
 TEST(CheckPrint, draws_the_distortion) {

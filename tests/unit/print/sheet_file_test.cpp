@@ -110,6 +110,27 @@ TEST(SheetFile, the_gap_is_wider_than_the_largest_frame) {
     EXPECT_GT(kSheetGap_cells, std::sqrt(2.0) * 4096 / 6);
 }
 
+TEST(SheetFile, allocates_for_one_page_with_all_that_is_known_of_it) {
+    const TemporaryDirectory directory;
+    SheetFile file(directory / "s.json");
+    const auto columns = static_cast<std::uint32_t>(page().columns);
+    file.allocate("first", page());
+    SheetEntry third;
+    third.name = "form-3";
+    third.page = 3;
+    third.sheet = page();
+    third.print_scale_x = 0.97;
+    const SheetEntry added = file.allocate(third);
+    EXPECT_EQ(added.sheet.origin, (Cell{1024 + columns + 1024, 1024}));
+    ASSERT_EQ(file.sheets().size(), 2U);
+    EXPECT_EQ(file.sheets()[1].sheet.origin, added.sheet.origin);
+    EXPECT_EQ(file.sheets()[1].name, "form-3");
+    EXPECT_EQ(file.sheets()[1].page, 3);
+    EXPECT_EQ(file.sheets()[1].print_scale_x, 0.97);
+    EXPECT_THROW(file.allocate(third), BadArgument) << "the name is taken";
+    EXPECT_EQ(file.sheets().size(), 2U);
+}
+
 TEST(SheetFile, allocates_from_the_top_left_and_fills_holes) {
     const TemporaryDirectory directory;
     SheetFile file(directory / "s.json");

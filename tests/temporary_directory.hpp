@@ -7,13 +7,13 @@
 
 #include <stdlib.h>
 
-namespace dotpose::roundtrip {
+namespace dotpose::test {
 
 class TemporaryDirectory {
   public:
     TemporaryDirectory() {
         std::string name =
-            (std::filesystem::temp_directory_path() / "dotpose-roundtrip-XXXXXX").string();
+            (std::filesystem::temp_directory_path() / "dotpose-test-XXXXXX").string();
         if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary directory");
         path_ = name;
     }
@@ -30,4 +30,4 @@ class TemporaryDirectory {
     std::filesystem::path path_;
 };
 
-}  // namespace dotpose::roundtrip
+}  // namespace dotpose::test

@@ -1,0 +1,44 @@
+/// --sheets FILE --name NAME: entering what is printed in a sheet file.
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "dotpose/sheet_file.hpp"
+
+namespace dotpose::cli {
+
+class SheetEntryArguments {
+  public:
+    /// To be called after the command's --origin has been added.
+    void add_to(CLI::App& command);
+
+    /// Whether there is a sheet file at all; the others ask for one.
+    bool given() const { return !path_.empty(); }
+    const std::string& path() const { return path_; }
+    const std::string& name() const { return name_; }
+
+    /// A page of the document.
+    struct Page {
+        int number = 1;  ///< from 1
+        bool is_only = true;
+    };
+
+    /// What the file calls a page: NAME, or NAME-NUMBER if there are others.
+    std::string page_name(Page page) const;
+
+    /// Adds a page to the file, in the next free region unless the user chose an origin. Returns
+    /// the sheet where it stands now.
+    Sheet enter(SheetFile& file, const Sheet& sheet, Page page) const;
+
+    /// ", sheet 'NAME' of FILE"; empty if there is no sheet file.
+    std::string summary(Page page) const;
+
+  private:
+    std::string path_;
+    std::string name_;
+    const CLI::Option* origin_ = nullptr;
+};
+
+}  // namespace dotpose::cli

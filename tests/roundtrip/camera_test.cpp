@@ -1,0 +1,154 @@
+// From a document to the place on its pages: `dotpose overlay`, a renderer in place of the printer,
+// the simulated camera, `dotpose locate`.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "../temporary_directory.hpp"
+#include "dotpose/image_file.hpp"
+#include "dotpose/simulate.hpp"
+#include "rendered_page.hpp"
+
+namespace dotpose::roundtrip {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr int kPages = 20;
+constexpr double kPageWidth_mm = 60;
+constexpr double kPageHeight_mm = 80;
+// Nothing but the document's own margin lies within; frames reach 5.2 mm around their centre.
+constexpr double kEdge_mm = 8;
+constexpr int kResolution_dpi = 1200;
+// A renderer may move all dots by one of its pixels (0.021 mm); a fix adds 0.002 mm.
+constexpr double kTolerance_mm = 0.03;
+
+/// Where a frame was taken.
+struct Truth {
+    int page = 1;
+    Vec2 at_mm;
+    double theta_rad = 0;
+};
+
+/// What the camera sees, and how the document is printed for it.
+struct Camera {
+    const char* name;
+    const char* overlay_options;
+    bool is_infrared;
+    int places;
+    int least_found;  ///< of the places; black text hides dots from a camera that sees it
+};
+
+class OverlaidBook : public testing::TestWithParam<Camera> {
+  protected:
+    std::string in_directory(const std::string& command) const {
+        return run(fmt::format("cd '{}' && {}", directory_.path().string(), command));
+    }
+
+    /// Pages of text in in.pdf, the same with dots in out.pdf, both in sheets.json beside others.
+    void make_book() const {
+        std::ofstream roff(directory_.path() / "book.roff");
+        roff << ".pl 8c\n.po 0.6c\n.ll 4.8c\n.ps 9\n.vs 11\n.hy 0\n";
+        for (int page = 1; page <= kPages; ++page) {
+            roff << (page > 1 ? ".bp\n" : "") << ".sp 0.5c\nPage " << page << ". ";
+            for (int line = 0; line < 12; ++line)
+                roff << "The quick brown fox " << page * line << " jumps over the lazy dog.\n";
+        }
+        roff.close();
+        in_directory(fmt::format("groff -P-p{}c,{}c -Tpdf book.roff > in.pdf", kPageHeight_mm / 10,
+                                 kPageWidth_mm / 10));
+        const std::string tool = "'" DOTPOSE_TOOL "'";
+        in_directory(tool + " print -o a.svg --paper 60x80 --sheets sheets.json --name table");
+        in_directory(tool + " overlay in.pdf -o out.pdf --sheets sheets.json --name book " +
+                     GetParam().overlay_options);
+    }
+
+    /// Frames of random places; their names, in the order of the list, stand in list.txt.
+    std::vector<Truth> take_frames() const {
+        constexpr std::uint64_t kSeed = 41;
+        fmt::print("seed {}\n", kSeed);
+        Rng rng(kSeed);
+        std::vector<Truth> truths(static_cast<std::size_t>(GetParam().places));
+        for (Truth& truth : truths) {
+            truth.page = 1 + static_cast<int>(rng.uniform() * kPages);
+            truth.at_mm = {kEdge_mm + rng.uniform() * (kPageWidth_mm - 2 * kEdge_mm),
+                           kEdge_mm + rng.uniform() * (kPageHeight_mm - 2 * kEdge_mm)};
+            truth.theta_rad = (2 * rng.uniform() - 1) * std::numbers::pi;
+        }
+        std::ranges::stable_sort(truths, {}, &Truth::page);
+        std::ofstream list(directory_.path() / "list.txt");
+        GreyPage page;
+        for (std::size_t i = 0; i < truths.size(); ++i) {
+            const Truth& truth = truths[i];
+            if (i == 0 || truth.page != truths[i - 1].page) {
+                const fs::path pdf = directory_.path() / "out.pdf";
+                page = GetParam().is_infrared
+                           ? render_black(pdf, kResolution_dpi, truth.page)
+                           : render("pdftoppm", pdf, kResolution_dpi, truth.page);
+            }
+            const ImageView view{page.grey.data(), page.width_px, page.height_px, page.width_px};
+            const PageImage seen{view, 25.4 / kResolution_dpi, truth.at_mm};
+            CameraPose pose;
+            pose.theta_rad = truth.theta_rad;
+            const std::string name = fmt::format("{}.pgm", i);
+            write_pgm(directory_.path() / name,
+                      dotpose::render(seen, CameraModel{}, pose,
+                                      draw_imperfections(Preset::nominal, rng), i)
+                          .view());
+            list << name << '\n';
+        }
+        return truths;
+    }
+
+    test::TemporaryDirectory directory_;
+};
+
+TEST_P(OverlaidBook, is_located_on_the_right_page_in_the_right_place) {
+    make_book();
+    const std::vector<Truth> truths = take_frames();
+    std::istringstream lines(
+        in_directory("'" DOTPOSE_TOOL "' locate --sheets sheets.json --list list.txt"));
+    int found = 0;
+    double largest_mm = 0;
+    for (const Truth& truth : truths) {
+        std::string line;
+        ASSERT_TRUE(std::getline(lines, line));
+        const json record = json::parse(line);
+        if (record["status"] != "ok") continue;
+        ++found;
+        EXPECT_EQ(record["sheet"], fmt::format("book-{}", truth.page)) << line;
+        const double error_mm = std::hypot(record["x_sheet_mm"].get<double>() - truth.at_mm.x,
+                                           record["y_sheet_mm"].get<double>() - truth.at_mm.y);
+        EXPECT_LE(error_mm, kTolerance_mm) << line;
+        largest_mm = std::max(largest_mm, error_mm);
+        const double theta_rad = record["theta_deg"].get<double>() * std::numbers::pi / 180;
+        EXPECT_NEAR(std::remainder(theta_rad - truth.theta_rad, 2 * std::numbers::pi), 0, 0.01)
+            << line;
+    }
+    fmt::print("{} of {} places found, largest error {:.1f} um\n", found, GetParam().places,
+               largest_mm * 1000);
+    EXPECT_GE(found, GetParam().least_found);
+}
+
+std::string camera_name(const testing::TestParamInfo<Camera>& tested) {
+    return tested.param.name;
+}
+
+INSTANTIATE_TEST_SUITE_P(cameras, OverlaidBook,
+                         testing::Values(Camera{"infrared", "--cmy-black", true, 500, 500},
+                                         Camera{"light_text", "--lighten 0.75", false, 500, 500},
+                                         Camera{"black_text", "", false, 200, 190}),
+                         camera_name);
+
+}  // namespace
+}  // namespace dotpose::roundtrip
