@@ -15,7 +15,7 @@ using namespace dotpose;
 
 constexpr int kMaxWidth_px = 188;
 
-SmallWorkspace workspace;
+DeviceWorkspace workspace;
 std::array<std::uint8_t, kMaxWidth_px> row;
 
 constexpr Options kOptions = [] {

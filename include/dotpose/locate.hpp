@@ -37,9 +37,10 @@ void push_row(const std::uint8_t* pixels, const Options& options, Workspace& wor
 /// Locates once all `height_px` rows have been pushed.
 Fix finish(const Options& options, Workspace& workspace);
 
-/// The same as `finish` in integers only and in little, bounded time, whatever `options.effort`
-/// says: for a camera that looks straight at the paper. Gives neither covariance nor residual.
-/// What may be wrong with more than the limit by a quick estimate is refused, with not_certain.
+/// The same as `finish` in integers only and in little, bounded time, whatever `options.effort` and
+/// `options.decoder` say: for a camera that looks straight at the paper. Gives neither covariance
+/// nor residual. What may be wrong with more than the limit by a quick estimate is refused, with
+/// not_certain.
 Fix finish_device(const Options& options, Workspace& workspace);
 
 }  // namespace dotpose

@@ -95,12 +95,15 @@ Status read_bits(Workspace& w) {
     return core::assign_likelihoods(w.found_dots(), w.grid_from_image, w.grid);  // II-B.4, eq. 7-9
 }
 
+auto* decoder(const Options& options) {
+    return options.decoder == Decoder::window ? core::decode_window : core::decode_all;
+}
+
 /// Bits -> position in the code.
-Status read_position(const Options& options, Workspace& w) {
+Status read_position(const Options& options, decltype(core::decode_all) decode, Workspace& w) {
     Decoding& decoding = w.decoding;
     decoding.window = core::choose_window(w.grid, kWindowSide);  // II-B.5
     decoding.region = core::choose_window(w.grid, static_cast<int>(w.line_scores.size() / 2));
-    const auto decode = options.decoder == Decoder::window ? core::decode_window : core::decode_all;
     const Status status = decode(w.grid, options.profile, w.line_scores, decoding);  // II-B.6-7
     if (status != Status::ok && core::is_mirrored(w.grid, decoding.region)) return Status::mirrored;
     return status;
@@ -189,7 +192,7 @@ Fix locate_filtered(const ImageView& image, const Options& options, Workspace& w
     if (status == Status::ok) status = read_bits(w);
     if (status == Status::ok) {
         core::look_at_cells(image, w.smoothing.paper, options.lens, w.grid_from_image, w.grid);
-        status = read_position(filtered, w);
+        status = read_position(filtered, decoder(options), w);
     }
     if (status == Status::ok) status = verify_position(filtered, core::verify, w);
     if (status == Status::ok) status = measure_pose(filtered, &image, w);
@@ -250,7 +253,7 @@ Fix finish(const Options& options, Workspace& w) {
     Status status = find_dots(options, w);
     if (status == Status::ok) status = find_grid(options, w);
     if (status == Status::ok) status = read_bits(w);
-    if (status == Status::ok) status = read_position(options, w);
+    if (status == Status::ok) status = read_position(options, decoder(options), w);
     if (status == Status::ok) status = verify_position(options, core::verify, w);
     if (status == Status::ok) status = measure_pose(options, nullptr, w);
     w.fix.status = status;
@@ -261,7 +264,7 @@ Fix finish_device(const Options& options, Workspace& w) {
     Status status = find_dots(options, w);
     if (status == Status::ok) status = find_grid(options, w);
     if (status == Status::ok) status = read_bits(w);
-    if (status == Status::ok) status = read_position(options, w);
+    if (status == Status::ok) status = read_position(options, core::decode_briefly, w);
     if (status == Status::ok) status = verify_position(options, core::verify_quickly, w);
     if (status == Status::ok) status = measure_affine_pose(options, w);
     w.fix.status = status;

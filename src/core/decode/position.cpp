@@ -38,6 +38,34 @@ void set_place(Profile profile, const Upright& upright, Turn turn, const AxisRea
     decoding.place = moved(profile, corner, step.x, step.y);
 }
 
+Status decode_lines(const Grid& grid, Profile profile, std::span<LineScores> storage,
+                    SearchLimits limits, Decoding& decoding) {
+    if (decoding.region.columns < kFewestLines || decoding.region.rows < kFewestLines) {
+        return Status::grid_too_small;
+    }
+    const std::array<Turn, 4> turns = rank_turns(grid, decoding.region);
+    std::int32_t best = INT32_MIN;
+    Status status = Status::not_in_code;
+    for (const Turn turn : {turns[0], turns[1]}) {
+        const Upright upright(grid, decoding.region, turn);
+        const Lines columns = score_lines(upright, Axis::x, scores_of(Axis::x, storage));
+        const Lines rows = score_lines(upright, Axis::y, scores_of(Axis::y, storage));
+        decoding.lines_are_scored = false;
+        AxisReading x;
+        AxisReading y;
+        if (find_axis(profile, columns, x, limits) != Status::ok ||
+            find_axis(profile, rows, y, limits) != Status::ok || x.score + y.score <= best) {
+            continue;
+        }
+        best = x.score + y.score;
+        status = Status::ok;
+        set_place(profile, upright, turn, x, y, decoding);
+        decoding.lines_are_scored = true;
+        if (x.is_clear() && y.is_clear()) break;
+    }
+    return status;
+}
+
 }  // namespace
 
 Status decode_window(const Grid& grid, Profile profile, std::span<LineScores> storage,
@@ -63,30 +91,12 @@ Status decode_window(const Grid& grid, Profile profile, std::span<LineScores> st
 
 Status decode_all(const Grid& grid, Profile profile, std::span<LineScores> storage,
                   Decoding& decoding) {
-    if (decoding.region.columns < kFewestLines || decoding.region.rows < kFewestLines) {
-        return Status::grid_too_small;
-    }
-    const std::array<Turn, 4> turns = rank_turns(grid, decoding.region);
-    std::int32_t best = INT32_MIN;
-    Status status = Status::not_in_code;
-    for (const Turn turn : {turns[0], turns[1]}) {
-        const Upright upright(grid, decoding.region, turn);
-        const Lines columns = score_lines(upright, Axis::x, scores_of(Axis::x, storage));
-        const Lines rows = score_lines(upright, Axis::y, scores_of(Axis::y, storage));
-        decoding.lines_are_scored = false;
-        AxisReading x;
-        AxisReading y;
-        if (find_axis(profile, columns, x) != Status::ok ||
-            find_axis(profile, rows, y) != Status::ok || x.score + y.score <= best) {
-            continue;
-        }
-        best = x.score + y.score;
-        status = Status::ok;
-        set_place(profile, upright, turn, x, y, decoding);
-        decoding.lines_are_scored = true;
-        if (x.is_clear() && y.is_clear()) break;
-    }
-    return status;
+    return decode_lines(grid, profile, storage, {}, decoding);
+}
+
+Status decode_briefly(const Grid& grid, Profile profile, std::span<LineScores> storage,
+                      Decoding& decoding) {
+    return decode_lines(grid, profile, storage, kBrief, decoding);
 }
 
 }  // namespace dotpose::core

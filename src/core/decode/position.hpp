@@ -18,4 +18,8 @@ Status decode_window(const Grid& grid, Profile profile, std::span<LineScores> st
 Status decode_all(const Grid& grid, Profile profile, std::span<LineScores> storage,
                   Decoding& decoding);
 
+/// The same in bounded time, for devices.
+Status decode_briefly(const Grid& grid, Profile profile, std::span<LineScores> storage,
+                      Decoding& decoding);
+
 }  // namespace dotpose::core

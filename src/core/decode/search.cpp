@@ -7,9 +7,7 @@
 namespace dotpose::core {
 namespace {
 
-constexpr int kChoices = 8;       // offsets tried in one line
-constexpr int kMaxReadings = 64;  // of one run
-constexpr int kMaxRuns = 24;
+constexpr int kChoices = 8;  // offsets tried in one line
 constexpr int kMaxRunLength = 8;
 
 /// The offsets of one line that agree best, best first.
@@ -73,7 +71,7 @@ AxisReading evaluate(Profile profile, const Lines& lines, int line, std::uint32_
 
 /// How many choices of each line of a run are combined: the next-cheapest choice of any line is
 /// added as long as the combinations stay few.
-std::array<int, kMaxRunLength> widen(const Choices* run, int length) {
+std::array<int, kMaxRunLength> widen(const Choices* run, int length, int most_readings) {
     std::array<int, kMaxRunLength> widths;
     widths.fill(1);
     for (int readings = 1;;) {
@@ -81,7 +79,7 @@ std::array<int, kMaxRunLength> widen(const Choices* run, int length) {
         int least_loss = INT32_MAX;
         for (int i = 0; i < length; ++i) {
             const int width = widths[static_cast<std::size_t>(i)];
-            if (width == kChoices || readings / width * (width + 1) > kMaxReadings) continue;
+            if (width == kChoices || readings / width * (width + 1) > most_readings) continue;
             const int loss = run[i].scores[0] - run[i].scores[static_cast<std::size_t>(width)];
             if (loss < least_loss) {
                 least_loss = loss;
@@ -96,13 +94,13 @@ std::array<int, kMaxRunLength> widen(const Choices* run, int length) {
 }
 
 /// Reads one run in all combinations of its lines' choices, until one is clear.
-void try_run(Profile profile, const Lines& lines, int first, int length, std::int32_t most_possible,
-             AxisReading& best) {
+void try_run(Profile profile, const Lines& lines, int first, int length, int most_readings,
+             std::int32_t most_possible, AxisReading& best) {
     std::array<Choices, kMaxRunLength> storage;
     for (int i = 0; i < length; ++i)
         storage[static_cast<std::size_t>(i)] = best_choices(lines[first + i]);
     const Choices* run = storage.data();
-    const auto widths = widen(run, length);
+    const auto widths = widen(run, length, most_readings);
     std::array<int, kMaxRunLength> choice{};
     std::array<std::uint8_t, kMaxRunLength> rolls{};
     for (int digit = 0; digit < length;) {
@@ -150,7 +148,7 @@ int clearest_run(const std::array<Lead, kMaxLines>& leads, int lines, int length
 
 }  // namespace
 
-Status find_axis(Profile profile, const Lines& lines, AxisReading& best) {
+Status find_axis(Profile profile, const Lines& lines, AxisReading& best, SearchLimits limits) {
     // The misprinted sequence tells positions apart only by 7 differences.
     const int length = profile == Profile::published ? 8 : 6;
     std::array<Lead, kMaxLines> leads;
@@ -162,11 +160,11 @@ Status find_axis(Profile profile, const Lines& lines, AxisReading& best) {
     }
     best = {0, 0, INT32_MIN, 0};
     std::array<bool, kMaxLines> taken{};
-    for (int run = 0; run < kMaxRuns; ++run) {
+    for (int run = 0; run < limits.runs; ++run) {
         const int first = clearest_run(leads, lines.count(), length, taken);
         if (first < 0) break;
         taken[static_cast<std::size_t>(first)] = true;
-        try_run(profile, lines, first, length, most_possible, best);
+        try_run(profile, lines, first, length, limits.readings, most_possible, best);
         if (best.is_clear()) break;
     }
     return best.score == INT32_MIN ? Status::not_in_code : Status::ok;

@@ -133,6 +133,31 @@ TEST(Locate, ADeviceLocatesNominalFrames) {
     EXPECT_LT(errors_um[errors_um.size() / 2], 1.3) << "seed " << kSeed;
 }
 
+TEST(Locate, LittleMemoryIsEnoughForADevice) {
+    EXPECT_LT(sizeof(DeviceWorkspace), 12u * 1024);
+    DeviceWorkspace little;
+    SmallWorkspace small;
+    int found = 0;
+    for (std::uint64_t i = 0; i < 60; ++i) {
+        SCOPED_TRACE(testing::Message() << "shot " << i << ", seed " << kSeed);
+        const GreyImage frame = render(shot_of(Preset::nominal, i));
+        const Fix fix = pushed(frame, {}, small, finish_device);
+        expect_same(pushed(frame, {}, little, finish_device), fix);
+        found += fix.status == Status::ok;
+        // Noise and graphics fill it up; afterwards it is as good as new.
+        const Shot hard = shot_of(Preset::hard, i);
+        const Fix full = pushed(render(hard), {}, little, finish_device);
+        if (full.status == Status::ok) {
+            EXPECT_NEAR(full.x_grid(), x_grid(hard.pose), 0.2);
+            EXPECT_NEAR(full.y_grid(), y_grid(hard.pose), 0.2);
+        }
+        const GreyImage noise = render_scene(Scene::noise, shot_of(Preset::clean, i), 0.3);
+        EXPECT_NE(pushed(noise, {}, little, finish_device).status, Status::ok);
+    }
+    EXPECT_GE(found, 57) << "seed " << kSeed;
+    EXPECT_EQ(begin(189, 120, {}, little), Status::image_too_large);
+}
+
 TEST(Locate, ADeviceRefusesWhatHasNoPosition) {
     SmallWorkspace workspace;
     Options device;
