@@ -48,16 +48,15 @@ using Outcomes = std::vector<std::vector<Outcome>>;
 /// Locates all frames at the first attempt, and with both. Throws Error if interrupted.
 Outcomes locate_all(const std::string& what, FrameRun run, const Arguments& arguments,
                     const Options& options) {
-    static_assert(kEfforts.front() == Effort::once && kEfforts.back() == Effort::twice);
     cli::ProgressLine progress(what);
     run.threads = static_cast<int>(arguments.counting.threads);
     run.progress = [&progress](int done, int total) {
         progress.update(done, total);
         return !cli::interrupted();
     };
-    run.options.assign(kEfforts.size(), options);
-    for (std::size_t i = 0; i < kEfforts.size(); ++i)
-        run.options[i].effort = kEfforts[i];
+    run.options.assign(2, options);
+    run.options[0].effort = Effort::once;
+    run.options[1].effort = Effort::twice;
     return evaluate(run);
 }
 

@@ -94,6 +94,7 @@ struct Way {
 constexpr std::array kWays = {
     Way{"all dots (default)", Decoder::all, Effort::twice},
     Way{"all dots, `--effort once`", Decoder::all, Effort::once},
+    Way{"all dots, `--effort device`", Decoder::all, Effort::device},
     Way{"8 x 8 window (paper)", Decoder::window, Effort::twice},
     Way{"8 x 8 window, `--effort once`", Decoder::window, Effort::once},
 };

@@ -72,6 +72,9 @@ std::vector<Field> fields(const Record& record) {
     const double spacing_mm = record.spacing_mm;
     const bool ok = fix.status == Status::ok;
     const auto if_ok = [ok](std::string text) { return ok ? std::move(text) : std::string(); };
+    const auto if_judged = [&](double value, int decimals) {
+        return ok && fix.has_covariance() ? decimal(value, decimals) : std::string();
+    };
     std::vector<Field> fields = {
         {"file", record.file, true},
         {"status", name(fix.status), true},
@@ -87,10 +90,10 @@ std::vector<Field> fields(const Record& record) {
         {"dots_used", if_ok(fmt::format("{}", fix.dots_used))},
         {"bit_errors", if_ok(fmt::format("{}", fix.bit_errors))},
         {"p_wrong", if_ok(p_wrong(fix))},
-        {"sigma_x_mm", if_ok(decimal(sigma(fix, 0) * spacing_mm, 6))},
-        {"sigma_y_mm", if_ok(decimal(sigma(fix, 1) * spacing_mm, 6))},
-        {"sigma_theta_deg", if_ok(decimal(sigma(fix, 2) * 180 / std::numbers::pi, 6))},
-        {"residual_px", if_ok(decimal(static_cast<double>(fix.residual_px), 4))},
+        {"sigma_x_mm", if_judged(sigma(fix, 0) * spacing_mm, 6)},
+        {"sigma_y_mm", if_judged(sigma(fix, 1) * spacing_mm, 6)},
+        {"sigma_theta_deg", if_judged(sigma(fix, 2) * 180 / std::numbers::pi, 6)},
+        {"residual_px", if_judged(static_cast<double>(fix.residual_px), 4)},
         {"spacing_px", if_ok(decimal(fix.spacing_px(), 4))},
         {"elapsed_us", decimal(record.elapsed_us, 1)},
     };

@@ -106,7 +106,7 @@ struct Deviation {
 Deviation deviation_of(const Fix& fix, const Truth& truth);
 
 inline constexpr std::array kDecoders = {Decoder::window, Decoder::all};
-inline constexpr std::array kEfforts = {Effort::once, Effort::twice};
+inline constexpr std::array kEfforts = {Effort::device, Effort::once, Effort::twice};
 const char* name(Decoder decoder);
 const char* name(Effort effort);
 

@@ -35,6 +35,8 @@ struct Fix {
 
     /// Covariance of (x, y, theta) in (spacing, spacing, radian) squared.
     float covariance[3][3] = {};
+    /// False from `finish_device`, which gives no residual either.
+    bool has_covariance() const { return covariance[0][0] > 0; }
 
     // Double precision only here, outside the core's object code.
     double x_grid() const { return cell.x + fraction_x_q16 / 65536.0; }

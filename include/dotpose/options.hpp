@@ -32,9 +32,9 @@ struct ThresholdOptions {
 struct BlobOptions {
     /// Fewest pixels of a dot. 1 keeps salt and pepper noise.
     int min_area_px = 2;
-    /// Dots lighter than this share (in 1/256) of the median dot are noise.
-    int min_mass_q8 = 72;
-    /// Blobs larger than this multiple of the median dot are graphics.
+    /// Blobs with less darkness than this share (in 1/256) of the upper quartile are noise.
+    int min_mass_q8 = 64;
+    /// Blobs larger than this multiple of the upper quartile are graphics.
     int max_area_ratio = 5;
 };
 

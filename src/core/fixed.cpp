@@ -17,6 +17,12 @@ constexpr std::int32_t kCordicGain_q30 = 652032874;
 
 constexpr std::int32_t kHalfTurn = INT32_MIN;
 
+std::int32_t of_rank(std::size_t rank, std::span<std::int32_t> values) {
+    const auto place = values.begin() + static_cast<std::ptrdiff_t>(rank);
+    std::nth_element(values.begin(), place, values.end());
+    return *place;
+}
+
 }  // namespace
 
 std::int64_t log2_q16(std::uint32_t n) {
@@ -38,10 +44,11 @@ std::int64_t log2_q16(std::uint32_t n) {
 }
 
 std::int32_t median(std::span<std::int32_t> values) {
-    if (values.empty()) return 0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
+    return values.empty() ? 0 : of_rank((values.size() - 1) / 2, values);
+}
+
+std::int32_t upper_quartile(std::span<std::int32_t> values) {
+    return values.empty() ? 0 : of_rank((values.size() - 1) * 3 / 4, values);
 }
 
 std::int32_t angle_bam(Vec direction) {

@@ -84,6 +84,9 @@ constexpr int add_log2(int a_q8, int b_q8) {
 /// Median (the lower one of two); the order of the values is lost. Empty gives 0.
 std::int32_t median(std::span<std::int32_t> values);
 
+/// The value that a quarter of all exceed; likewise.
+std::int32_t upper_quartile(std::span<std::int32_t> values);
+
 /// A sine to 6 %: two parabolas. Phases are in 2^-16 turns, values times 2^14.
 constexpr std::int32_t rough_sine(std::int32_t phase_q16) {
     const std::int32_t x = static_cast<std::int16_t>(phase_q16 & 0xFFFF);

@@ -79,7 +79,15 @@ const char* name(Decoder decoder) {
 }
 
 const char* name(Effort effort) {
-    return effort == Effort::once ? "once" : "twice";
+    switch (effort) {
+        case Effort::device:
+            return "device";
+        case Effort::once:
+            return "once";
+        case Effort::twice:
+            break;
+    }
+    return "twice";
 }
 
 std::vector<std::vector<Outcome>> evaluate(const FrameRun& run) {

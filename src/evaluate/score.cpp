@@ -1,6 +1,7 @@
 // From outcomes to numbers.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -79,7 +80,9 @@ Score score_of(std::span<const Outcome> outcomes) {
         const double errors[] = {off.x_grid, off.y_grid, off.theta_rad};
         for (std::size_t i = 0; i < score.normalised.size(); ++i) {
             const auto variance = static_cast<double>(outcome.fix.covariance[i][i]);
-            score.normalised[i] += errors[i] * errors[i] / variance;
+            score.normalised[i] += outcome.fix.has_covariance()
+                                       ? errors[i] * errors[i] / variance
+                                       : std::numeric_limits<double>::quiet_NaN();
         }
     }
     for (double& sum : score.normalised)

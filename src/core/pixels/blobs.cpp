@@ -261,15 +261,16 @@ void grow_blobs(int v, const Light& light, OpenBlobs& open, DotList list) {
 void sift_dots(const BlobOptions& options, DotList list) {
     constexpr std::size_t kSample = 256;
     const std::size_t step = static_cast<std::size_t>(list.count) / kSample + 1;
-    const auto median_of = [&](auto member) {
+    // Blobs of noise may be as many as dots; hardly anything is larger.
+    const auto typical = [&](auto member) {
         std::array<std::int32_t, kSample> values;
         std::size_t n = 0;
         for (std::size_t i = 0; i < static_cast<std::size_t>(list.count); i += step)
             values[n++] = list.dots[i].*member;
-        return median(std::span(values).first(n));
+        return upper_quartile(std::span(values).first(n));
     };
-    const std::int32_t min_mass = median_of(&Dot::mass) * options.min_mass_q8 / 256;
-    const std::int32_t max_area = median_of(&Dot::area_px) * options.max_area_ratio;
+    const std::int32_t min_mass = typical(&Dot::mass) * options.min_mass_q8 / 256;
+    const std::int32_t max_area = typical(&Dot::area_px) * options.max_area_ratio;
     const auto found = list.dots.first(static_cast<std::size_t>(list.count));
     const auto end = std::remove_if(found.begin(), found.end(), [&](const Dot& dot) {
         return dot.area_px < options.min_area_px || dot.mass < min_mass || dot.area_px > max_area;

@@ -154,10 +154,10 @@ TEST(QuickRivals, CountOthersThatLinesFitBetter) {
     int told = 0;
     for (int i = 0; i < 300; ++i) {
         SCOPED_TRACE(testing::Message() << "case " << i << ", seed " << kSeed);
-        Case c = random_place(rng, 10 + static_cast<int>(rng.below(20)));
+        Case c = random_place(rng, 15 + static_cast<int>(rng.below(30)));
         for (const int own : c.rolls) {
-            const int shown = rng.below(6) == 0 ? static_cast<int>(rng.below(63)) : own;
-            c.storage.push_back(line_scores(shown, 20, 0.05, 127, rng));
+            const int shown = rng.below(15) == 0 ? static_cast<int>(rng.below(63)) : own;
+            c.storage.push_back(line_scores(shown, 40, 0.05, 127, rng));
         }
         c.odds_q8 = static_cast<int>(256 * rng.uniform(1, 4));
         told += checked(c) < 0;
@@ -177,7 +177,7 @@ TEST(QuickRivals, AreNoFewerThanACloseLookShows) {
         EXPECT_GE(quick, rivals_log2(c.profile, c.lines(), c.reading(), c.odds_q8) - 2)
             << "case " << i << ", seed " << kSeed;
     }
-    EXPECT_GE(told, 60) << "seed " << kSeed;
+    EXPECT_GE(told, 40) << "seed " << kSeed;
 }
 
 TEST(QuickRivals, FewLinesOrWeakOddsDoNotTell) {
