@@ -6,10 +6,9 @@
 
 #include "dotpose/fix.hpp"
 #include "dotpose/sheet_file.hpp"
+#include "fields.hpp"
 
 namespace dotpose::cli {
-
-enum class RecordFormat { jsonl, csv };
 
 struct Record {
     std::string file;
