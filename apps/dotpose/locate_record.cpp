@@ -34,41 +34,6 @@ std::vector<Field> sheet_fields(const std::optional<SheetPlace>& place) {
     return fields;
 }
 
-/// The single list of fields, in the order of the output. `section` is one field in JSON.
-std::vector<Field> fields(const Record& record) {
-    const Fix& fix = record.fix;
-    const double spacing_mm = record.spacing_mm;
-    const bool ok = fix.status == Status::ok;
-    const auto if_ok = [ok](std::string text) { return ok ? std::move(text) : std::string(); };
-    std::vector<Field> fields = {
-        {"file", record.file, true},
-        {"status", name(fix.status), true},
-        {"message", reason(record), true},
-        {"x_mm", if_ok(decimal(fix.x_mm(spacing_mm), 6))},
-        {"y_mm", if_ok(decimal(fix.y_mm(spacing_mm), 6))},
-        {"theta_deg", if_ok(degrees(fix.theta_rad()))},
-        {"x_grid", if_ok(decimal(fix.x_grid(), 6))},
-        {"y_grid", if_ok(decimal(fix.y_grid(), 6))},
-        {"section_u", if_ok(fmt::format("{}", fix.section.u))},
-        {"section_v", if_ok(fmt::format("{}", fix.section.v))},
-        {"dots_seen", fmt::format("{}", fix.dots_seen)},
-        {"dots_used", if_ok(fmt::format("{}", fix.dots_used))},
-        {"bit_errors", if_ok(fmt::format("{}", fix.bit_errors))},
-        {"p_wrong", if_ok(p_wrong_text(fix.p_wrong()))},
-        {"sigma_x_mm", if_ok(decimal(sigma(fix, 0) * spacing_mm, 6))},
-        {"sigma_y_mm", if_ok(decimal(sigma(fix, 1) * spacing_mm, 6))},
-        {"sigma_theta_deg", if_ok(decimal(sigma(fix, 2) * 180 / std::numbers::pi, 6))},
-        {"residual_px", if_ok(decimal(static_cast<double>(fix.residual_px), 4))},
-        {"spacing_px", if_ok(decimal(fix.spacing_px(), 4))},
-        {"elapsed_us", decimal(record.elapsed_us, 1)},
-    };
-    if (record.has_sheets) {
-        for (Field& field : sheet_fields(record.place))
-            fields.push_back(std::move(field));
-    }
-    return fields;
-}
-
 }  // namespace
 
 std::string reason(const Record& record) {
@@ -93,6 +58,40 @@ std::string reason(const Record& record) {
         default:
             return message(fix.status);
     }
+}
+
+std::vector<Field> fields(const Record& record) {
+    const Fix& fix = record.fix;
+    const double spacing_mm = record.spacing_mm;
+    const bool ok = fix.status == Status::ok;
+    const auto if_ok = [ok](std::string text) { return ok ? std::move(text) : std::string(); };
+    std::vector<Field> all = {
+        {"file", record.file, true},
+        {"status", name(fix.status), true},
+        {"message", reason(record), true},
+        {"x_mm", if_ok(decimal(fix.x_mm(spacing_mm), 6))},
+        {"y_mm", if_ok(decimal(fix.y_mm(spacing_mm), 6))},
+        {"theta_deg", if_ok(degrees(fix.theta_rad()))},
+        {"x_grid", if_ok(decimal(fix.x_grid(), 6))},
+        {"y_grid", if_ok(decimal(fix.y_grid(), 6))},
+        {"section_u", if_ok(fmt::format("{}", fix.section.u))},
+        {"section_v", if_ok(fmt::format("{}", fix.section.v))},
+        {"dots_seen", fmt::format("{}", fix.dots_seen)},
+        {"dots_used", if_ok(fmt::format("{}", fix.dots_used))},
+        {"bit_errors", if_ok(fmt::format("{}", fix.bit_errors))},
+        {"p_wrong", if_ok(p_wrong_text(fix.p_wrong()))},
+        {"sigma_x_mm", if_ok(decimal(sigma(fix, 0) * spacing_mm, 6))},
+        {"sigma_y_mm", if_ok(decimal(sigma(fix, 1) * spacing_mm, 6))},
+        {"sigma_theta_deg", if_ok(decimal(sigma(fix, 2) * 180 / std::numbers::pi, 6))},
+        {"residual_px", if_ok(decimal(static_cast<double>(fix.residual_px), 4))},
+        {"spacing_px", if_ok(decimal(fix.spacing_px(), 4))},
+        {"elapsed_us", decimal(record.elapsed_us, 1)},
+    };
+    if (record.has_sheets) {
+        for (Field& field : sheet_fields(record.place))
+            all.push_back(std::move(field));
+    }
+    return all;
 }
 
 std::string json_line(const Record& record) {
