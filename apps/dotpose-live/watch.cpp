@@ -111,7 +111,7 @@ void add_source_options(CLI::App& command, video::SourceOptions& source) {
         ->type_name("WxH");
     command.add_option("--fps", source.fps, "Frames per second, where the frames tell no time")
         ->type_name("N")
-        ->check(CLI::Range(0.001, 1e6));
+        ->check(CLI::Range(0.001, 1e6).description(""));
     command.add_option("--exposure", source.exposure, "Of a camera, in its driver's unit")
         ->type_name("N");
     command.add_option("--gain", source.gain, "Of a camera, in its driver's unit")->type_name("N");
@@ -137,7 +137,7 @@ void add_output_options(CLI::App& command, WatchArguments& arguments) {
                      "Show nothing, even where there is a display");
     command.add_option("--frames", arguments.frames, "End after so many")
         ->type_name("N")
-        ->check(CLI::PositiveNumber);
+        ->check(CLI::Range(1, 2'000'000'000).description(""));
 }
 
 void add_track_options(CLI::App& command, TrackOptions& track) {

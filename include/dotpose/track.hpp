@@ -74,8 +74,8 @@ struct TrackOptions {
     std::int64_t stationary_after_us = 500'000;
 
     /// Added to what a sighting claims: printing errors, which the same place shows in every frame.
-    float least_sigma_mm = 0.001F;
-    float least_sigma_rad = 0.0001F;
+    float least_sigma_mm = 0.0002F;
+    float least_sigma_rad = 0.00002F;
 
     /// A sighting, together with the prior, may be wrong with 2^this.
     int max_p_wrong_log2 = -30;

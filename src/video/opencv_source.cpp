@@ -2,11 +2,13 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <thread>
 
 #include <fmt/format.h>
+#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
@@ -31,6 +33,13 @@ void to_grey(const cv::Mat& picture, GreyImage& image) {
     image.pixels.clear();
     for (int v = 0; v < grey.rows; ++v)
         image.pixels.insert(image.pixels.end(), grey.ptr(v), grey.ptr(v) + grey.cols);
+}
+
+/// What fails is told in our own words; what OpenCV and its decoder write on standard error is not
+/// for the user. To be called before either is used.
+void silence() {
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+    setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);  // AV_LOG_QUIET
 }
 
 /// Whatever a driver or decoder throws becomes an Error with the source's name.
@@ -194,10 +203,12 @@ class Camera : public FrameSource {
 }  // namespace
 
 std::unique_ptr<FrameSource> open_video(const SourceOptions& options) {
+    silence();
     return std::make_unique<VideoFile>(options);
 }
 
 std::unique_ptr<FrameSource> open_camera(const SourceOptions& options) {
+    silence();
     return std::make_unique<Camera>(options);
 }
 
