@@ -16,6 +16,7 @@ void add_simulate(CLI::App& app, int& exit_code);
 void add_evaluate(CLI::App& app, int& exit_code);
 void add_check_print(CLI::App& app, int& exit_code);
 void add_listen(CLI::App& app, int& exit_code);
+void add_replay(CLI::App& app, int& exit_code);
 
 /// The commands that another program does: see apps/dotpose-live.
 void add_live(CLI::App& app);

@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
         add_evaluate(app, exit_code);
         add_check_print(app, exit_code);
         add_listen(app, exit_code);
+        add_replay(app, exit_code);
         add_live(app);
     });
 }
