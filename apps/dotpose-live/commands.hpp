@@ -8,5 +8,6 @@
 namespace dotpose::cli {
 
 void add_watch(CLI::App& app, int& exit_code);
+void add_fleet(CLI::App& app, int& exit_code);
 
 }  // namespace dotpose::cli

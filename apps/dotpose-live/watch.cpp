@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -9,6 +10,7 @@
 #include "dotpose/error.hpp"
 #include "exit_codes.hpp"
 #include "frame_locator.hpp"
+#include "mqtt_arguments.hpp"
 #include "progress.hpp"
 #include "video/frame_source.hpp"
 #include "watch_outputs.hpp"
@@ -29,6 +31,7 @@ struct WatchArguments {
     video::SourceOptions source;
     LocatorOptions locator;
     OutputOptions outputs;
+    MqttArguments mqtt;
     bool has_no_window = false;
     std::int64_t frames = 0;  ///< after so many it ends; 0: never
 };
@@ -50,6 +53,7 @@ int run(WatchArguments& arguments) {
     };
     const auto source = video::open_source(arguments.source);
     FrameLocator locator(arguments.locator);
+    arguments.outputs.world_map = std::filesystem::path(arguments.locator.sheets).stem().string();
     if (source->rate() > 0) arguments.outputs.screen.fps = source->rate();
     arguments.outputs.screen.has_window = !arguments.has_no_window && video::has_display();
     WatchOutputs outputs(arguments.outputs, locator);
@@ -140,6 +144,21 @@ void add_output_options(CLI::App& command, WatchArguments& arguments) {
         ->check(CLI::Range(1, 2'000'000'000).description(""));
 }
 
+void add_publish_options(CLI::App& command, OutputOptions& outputs, MqttArguments& mqtt) {
+    mqtt.add_to(command);
+    command.add_option("--robot", outputs.robot, "Name of the robot on the broker")
+        ->type_name("NAME")
+        ->capture_default_str()
+        ->check([](const std::string& name) {
+            const bool is_bad = name.empty() || name.find_first_of("/+#") != std::string::npos;
+            return is_bad ? "a robot's name is not empty and holds none of / + #" : std::string();
+        });
+    command.add_option("--mqtt-rate", outputs.mqtt_rate_hz, "Most states a second; events always")
+        ->type_name("HZ")
+        ->default_str("all")
+        ->check(CLI::Range(0.001, 1e6).description(""));
+}
+
 void add_track_options(CLI::App& command, TrackOptions& track) {
     const auto require_positive = CLI::Range(1e-3, 1e7).description("");
     command.add_option("--max-speed", track.max_speed_mm_s, "Of the robot")
@@ -181,8 +200,10 @@ void add_watch(CLI::App& app, int& exit_code) {
     add_attempt_options(*command, locator.locate);
     add_track_options(*command, locator.track);
     add_output_options(*command, *arguments);
+    add_publish_options(*command, arguments->outputs, arguments->mqtt);
     command->callback([arguments, &exit_code] {
         arguments->locator.track.spacing_mm = static_cast<float>(arguments->locator.spacing_mm);
+        arguments->outputs.mqtt = arguments->mqtt.options();
         exit_code = run(*arguments);
     });
 }

@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <numbers>
 
 #include <fcntl.h>
@@ -13,6 +14,7 @@
 #include "dotpose/pose_packet.hpp"
 #include "print/output_file.hpp"
 #include "reading_fields.hpp"
+#include "robot_state.hpp"
 
 namespace dotpose::cli {
 
@@ -47,6 +49,53 @@ void PacketOutput::write(const Reading& reading, Profile profile) {
     }
 }
 
+namespace {
+
+/// What everybody is to know when the robot is not heard of any more.
+RobotState lost_state(const std::string& robot) {
+    RobotState state;
+    state.robot = robot;
+    state.sent_us = system_us();
+    return state;
+}
+
+publish::MqttOptions with_will(const OutputOptions& options) {
+    publish::MqttOptions mqtt = *options.mqtt;
+    mqtt.will_topic = state_topic(options.robot);
+    mqtt.will = json_of(lost_state(options.robot));
+    return mqtt;
+}
+
+}  // namespace
+
+StateOutput::StateOutput(const OutputOptions& options)
+    : robot_(options.robot),
+      world_map_(options.world_map),
+      period_us_(options.mqtt_rate_hz > 0 ? std::llround(1e6 / options.mqtt_rate_hz) : 0),
+      next_us_(std::numeric_limits<std::int64_t>::min()),
+      publisher_(with_will(options)) {}
+
+StateOutput::~StateOutput() {
+    constexpr auto kPatience = std::chrono::seconds(2);
+    RobotState last = lost_state(robot_);
+    last.header_id = messages_;
+    publisher_.publish(state_topic(robot_), json_of(last));
+    publisher_.flush(kPatience);
+    fmt::print(stderr, "dotpose: {} states published, {} dropped\n", publisher_.sent(),
+               publisher_.dropped());
+}
+
+void StateOutput::take(const Reading& reading) {
+    const TrackEvents& events = reading.track.events;
+    const bool is_event =
+        events.fix || events.lost || events.kidnapped || events.stationary || events.moving;
+    if (reading.time_us < next_us_ && !is_event) return;
+    next_us_ = reading.time_us + period_us_;
+    RobotState state = state_of(reading, robot_, world_map_);
+    state.header_id = messages_++;
+    publisher_.publish(state_topic(robot_), json_of(state));
+}
+
 WatchOutputs::WatchOutputs(const OutputOptions& options, const FrameLocator& locator)
     : options_(options),
       locator_(locator),
@@ -60,6 +109,7 @@ WatchOutputs::WatchOutputs(const OutputOptions& options, const FrameLocator& loc
         log_->write(header);
     }
     if (!options.packets.empty()) packets_.emplace(options.packets);
+    if (options.mqtt) states_.emplace(options);
 }
 
 bool WatchOutputs::take(const video::Frame& frame, const Reading& reading, std::int64_t dropped) {
@@ -71,6 +121,7 @@ bool WatchOutputs::take(const video::Frame& frame, const Reading& reading, std::
     lines_.write(is_csv ? csv_line(values) : json_line(values));
     if (log_) log_->write(csv_line(values));
     if (packets_) packets_->write(reading, locator_.options().profile);
+    if (states_) states_->take(reading);
     return !screen_.is_on() || show(frame, reading, dropped);
 }
 

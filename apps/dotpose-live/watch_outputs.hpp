@@ -11,16 +11,21 @@
 #include "frame_locator.hpp"
 #include "lines.hpp"
 #include "path_memory.hpp"
+#include "publish/mqtt.hpp"
 #include "video/screen.hpp"
 
 namespace dotpose::cli {
 
 struct OutputOptions {
     RecordFormat format = RecordFormat::jsonl;
-    std::string out;      ///< file instead of standard output
-    std::string log;      ///< CSV of all frames; empty: none
-    std::string map;      ///< SVG of the path, written at the end; empty: none
-    std::string packets;  ///< file or device for pose packets; empty: none
+    std::string out;                           ///< file instead of standard output
+    std::string log;                           ///< CSV of all frames; empty: none
+    std::string map;                           ///< SVG of the path, written at the end; empty: none
+    std::string packets;                       ///< file or device for pose packets; empty: none
+    std::string robot = "robot";               ///< its name on the broker
+    std::optional<publish::MqttOptions> mqtt;  ///< broker; none: nothing is published
+    double mqtt_rate_hz = 0;                   ///< most messages a second; 0: one for each frame
+    std::string world_map;                     ///< name of the world of the sheets
     video::ScreenOptions screen;
 };
 
@@ -49,6 +54,27 @@ class PacketOutput {
     int descriptor_;
 };
 
+/// The robot's state to a broker.
+class StateOutput {
+  public:
+    /// Throws Error if the broker refuses the connection.
+    explicit StateOutput(const OutputOptions& options);
+    /// Says that the robot is lost, and waits a little until all is sent.
+    ~StateOutput();
+    StateOutput(const StateOutput&) = delete;
+    StateOutput& operator=(const StateOutput&) = delete;
+
+    void take(const Reading& reading);
+
+  private:
+    std::string robot_;
+    std::string world_map_;
+    std::int64_t period_us_;
+    std::int64_t next_us_;
+    std::uint64_t messages_ = 0;
+    publish::MqttPublisher publisher_;
+};
+
 class WatchOutputs {
   public:
     /// Throws Error if something cannot be opened.
@@ -72,6 +98,7 @@ class WatchOutputs {
     Lines lines_;
     std::optional<Lines> log_;
     std::optional<PacketOutput> packets_;
+    std::optional<StateOutput> states_;
     video::Screen screen_;
     PathMemory path_;
     Track newest_;

@@ -40,6 +40,7 @@ void add_forwarded(CLI::App& app, const char* name, const char* what) {
 
 void add_live(CLI::App& app) {
     add_forwarded(app, "watch", "Follow a camera live, or a video frame by frame");
+    add_forwarded(app, "fleet", "Show all robots that publish to a broker");
 }
 
 }  // namespace dotpose::cli
