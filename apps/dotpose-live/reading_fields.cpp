@@ -50,7 +50,9 @@ std::string state_name(const Track& track) {
 std::string event_names(const TrackEvents& events) {
     std::string names;
     const auto add = [&names](bool happened, const char* name) {
-        if (happened) names += (names.empty() ? "" : " ") + std::string(name);
+        if (!happened) return;
+        if (!names.empty()) names += ' ';
+        names += name;
     };
     add(events.fix, "fix");
     add(events.lost, "lost");

@@ -12,6 +12,8 @@ using namespace std::chrono_literals;
 
 /// How long a broker may take to say whether it lets us in.
 constexpr auto kPatience = 3s;
+/// From one attempt to reach a broker that is gone to the next.
+constexpr auto kBetweenAttempts = 500ms;
 /// Messages handed to the library at a time; those it sends in their order.
 constexpr std::size_t kMostUnderWay = 20;
 
@@ -127,17 +129,17 @@ void MqttClient::start() {
     mosquitto_publish_callback_set(mosquitto_, Callbacks::on_publish);
     mosquitto_message_callback_set(mosquitto_, Callbacks::on_message);
     mosquitto_max_inflight_messages_set(mosquitto_, static_cast<unsigned>(kMostUnderWay));
-    mosquitto_reconnect_delay_set(mosquitto_, 1, 5, false);
+    // Functions are called by another thread than `run`.
+    mosquitto_threaded_set(mosquitto_, true);
     constexpr int kKeepAlive_s = 10;
     const int code =
         mosquitto_connect_async(mosquitto_, options_.host.c_str(), options_.port, kKeepAlive_s);
-    require(mosquitto_loop_start(mosquitto_), "cannot start MQTT");
-    is_running_ = true;
+    thread_ = std::thread([this] { run(); });
 
     std::unique_lock lock(mutex_);
-    const bool is_refused_at_once = code != MOSQ_ERR_SUCCESS;
-    if (!is_refused_at_once) {
-        changed_.wait_for(lock, kPatience, [this] { return is_connected_ || !refusal_.empty(); });
+    if (code == MOSQ_ERR_SUCCESS) {
+        changed_.wait_for(lock, kPatience,
+                          [this] { return is_connected_ || !refusal_.empty() || is_unreachable_; });
     }
     const std::string refusal = refusal_;
     const bool is_connected = is_connected_;
@@ -150,14 +152,32 @@ void MqttClient::start() {
 }
 
 void MqttClient::stop() {
-    if (!is_running_) return;
-    is_running_ = false;
+    if (!thread_.joinable()) return;
+    mosquitto_disconnect(mosquitto_);
     {
         const std::lock_guard lock(mutex_);
         ends_ = true;
     }
-    mosquitto_disconnect(mosquitto_);
-    mosquitto_loop_stop(mosquitto_, false);
+    changed_.notify_all();
+    thread_.join();
+}
+
+// The library's own thread gives up when a broker is not there at once.
+void MqttClient::run() {
+    constexpr int kWait_ms = 100;
+    constexpr int kPackets = 1;
+    for (;;) {
+        const int code = mosquitto_loop(mosquitto_, kWait_ms, kPackets);
+        std::unique_lock lock(mutex_);
+        if (ends_) return;
+        if (code == MOSQ_ERR_SUCCESS) continue;
+        is_unreachable_ = !is_connected_ && refusal_.empty();
+        changed_.notify_all();
+        changed_.wait_for(lock, kBetweenAttempts, [this] { return ends_; });
+        if (ends_) return;
+        lock.unlock();
+        mosquitto_reconnect_async(mosquitto_);
+    }
 }
 
 void MqttClient::answered(int code) {
@@ -176,11 +196,11 @@ void MqttClient::answered(int code) {
     }
 }
 
-void MqttClient::disconnected(int) {
+void MqttClient::disconnected(int reason) {
     bool is_news = false;
     {
         const std::lock_guard lock(mutex_);
-        is_news = is_connected_ && !ends_;
+        is_news = is_connected_ && reason != 0;  // 0: we asked for it
         is_connected_ = false;
     }
     on_disconnected();

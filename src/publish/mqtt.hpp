@@ -11,6 +11,7 @@
 #include <mutex>
 #include <set>
 #include <string>
+#include <thread>
 
 #include "dotpose/error.hpp"
 
@@ -73,15 +74,17 @@ class MqttClient {
   private:
     struct Callbacks;
     void set_up_security();
+    void run();
     void answered(int code);
     void disconnected(int reason);
 
     mosquitto* mosquitto_ = nullptr;
     std::condition_variable changed_;
     bool is_connected_ = false;
-    bool is_running_ = false;
+    bool is_unreachable_ = false;  ///< at the newest attempt
     bool ends_ = false;
     std::string refusal_;  ///< why the broker does not let us in
+    std::thread thread_;
 };
 
 class MqttPublisher : public MqttClient {
