@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -171,6 +172,16 @@ void add_track_options(CLI::App& command, TrackOptions& track) {
         ->type_name("MM/S^2")
         ->capture_default_str()
         ->check(require_positive);
+    command
+        .add_option_function<double>(
+            "--max-p-wrong",
+            [&track](double p) {
+                track.max_p_wrong_log2 = static_cast<int>(std::floor(std::log2(p)));
+            },
+            "Probability of being wrong above which a position is refused, the prior included")
+        ->type_name("P")
+        ->default_str("1e-9")
+        ->check(CLI::Range(1e-60, 1e-3).description(""));
     command
         .add_option_function<double>(
             "--lost-after",
