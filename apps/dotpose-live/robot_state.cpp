@@ -98,6 +98,10 @@ std::optional<RobotState> parse_state(const std::string& text) {
         const auto json = nlohmann::json::parse(text);
         RobotState state;
         state.robot = json.at("serialNumber");
+        // It is shown on terminals.
+        if (std::ranges::any_of(state.robot, [](unsigned char c) { return c < ' '; })) {
+            return std::nullopt;
+        }
         state.header_id = json.at("headerId");
         state.sent_us = parse_timestamp(json.at("timestamp"));
         state.state = json.at("state");

@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "blackbox/tool_command.hpp"
 #include "dotpose/pose_packet.hpp"
+#include "tool_command.hpp"
 
 namespace dotpose::test {
 namespace {

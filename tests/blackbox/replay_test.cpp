@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "blackbox/tool_command.hpp"
+#include "tool_command.hpp"
 
 namespace dotpose::test {
 namespace {

@@ -11,10 +11,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "blackbox/tool_command.hpp"
+#include "../drive.hpp"
 #include "dotpose/image_file.hpp"
 #include "dotpose/pose_packet.hpp"
-#include "drive.hpp"
+#include "tool_command.hpp"
 
 namespace dotpose::test {
 namespace {
@@ -199,6 +199,8 @@ TEST_F(Watch, WritesLogMapPacketsAndVideo) {
     EXPECT_EQ(std::ranges::count(output_, '\n'), 61);
     EXPECT_THAT(file("run.svg"), HasSubstr("class=\"robot\""));
     EXPECT_THAT(file("run.svg"), HasSubstr(">left<"));
+    EXPECT_EQ(run("replay run.csv"), 0);
+    EXPECT_THAT(output_, HasSubstr("frames with a fix           60 (100.00 %)"));
     PacketReader reader;
     int packets = 0;
     for (const char byte : file("run.bin"))

@@ -13,10 +13,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "blackbox/tool_command.hpp"
+#include "../blackbox/tool_command.hpp"
+#include "../drive.hpp"
+#include "broker.hpp"
 #include "dotpose/image_file.hpp"
-#include "drive.hpp"
-#include "live/broker.hpp"
 
 namespace dotpose::test {
 namespace {
