@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -90,7 +91,7 @@ TEST_F(Mqtt, BrokerThatIsStoppedInMidRun) {
     Broker broker(directory_);
     // A session that the broker keeps, so that nothing it accepts is lost, and the order is seen.
     const std::string reader =
-        "mosquitto_sub -p " + std::to_string(broker.port()) + " -c -i reader -q 1 -t t ";
+        fmt::format("mosquitto_sub -p {} -c -i reader -q 1 -t t ", broker.port());
     shell(reader + "-E");
     MqttOptions mqtt = options(broker);
     mqtt.qos = 1;
@@ -232,7 +233,7 @@ TEST_F(Mqtt, TwoHundredRobots) {
     const auto begun = std::chrono::steady_clock::now();
     for (int n = 0; n < kStates; ++n) {
         for (int i = 0; i < kRobots; ++i) {
-            const std::string name = "robot" + std::to_string(i);
+            const std::string name = fmt::format("robot{}", i);
             const auto now = std::chrono::system_clock::now().time_since_epoch();
             const auto us = std::chrono::duration_cast<std::chrono::microseconds>(now).count();
             const std::time_t seconds = us / 1'000'000;
@@ -253,8 +254,8 @@ TEST_F(Mqtt, TwoHundredRobots) {
                                             {"theta", 0},
                                             {"deviationRange", 1e-6}}},
                                           {"velocity", {{"vx", 0}, {"vy", 0.5}, {"omega", 0}}}};
-            robots[static_cast<std::size_t>(i)]->publish("uagv/v2/dotpose/" + name + "/state",
-                                                         state.dump());
+            robots[static_cast<std::size_t>(i)]->publish(
+                fmt::format("uagv/v2/dotpose/{}/state", name), state.dump());
         }
         std::this_thread::sleep_until(begun + (n + 1) * 20ms);
     }
