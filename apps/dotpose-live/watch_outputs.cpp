@@ -82,7 +82,7 @@ StateOutput::~StateOutput() {
     publisher_.publish(state_topic(robot_), json_of(last));
     publisher_.flush(kPatience);
     fmt::print(stderr, "dotpose: {} states published, {} dropped\n", publisher_.sent(),
-               publisher_.dropped());
+               publisher_.dropped() + publisher_.unsent());
 }
 
 void StateOutput::take(const Reading& reading) {

@@ -1,6 +1,8 @@
 #include "publish/mqtt.hpp"
 
+#include <cerrno>
 #include <charconv>
+#include <cstring>
 
 #include <fmt/format.h>
 #include <mosquitto.h>
@@ -22,6 +24,10 @@ struct Library {
     Library() { mosquitto_lib_init(); }
     ~Library() { mosquitto_lib_cleanup(); }
 };
+
+std::string reason_of(int code) {
+    return code == MOSQ_ERR_ERRNO ? std::strerror(errno) : mosquitto_strerror(code);
+}
 
 void require(int code, const std::string& what) {
     if (code != MOSQ_ERR_SUCCESS) throw Error(what + ": " + mosquitto_strerror(code));
@@ -134,21 +140,25 @@ void MqttClient::start() {
     constexpr int kKeepAlive_s = 10;
     const int code =
         mosquitto_connect_async(mosquitto_, options_.host.c_str(), options_.port, kKeepAlive_s);
+    const std::string at_once = reason_of(code);
     thread_ = std::thread([this] { run(); });
 
     std::unique_lock lock(mutex_);
     if (code == MOSQ_ERR_SUCCESS) {
-        changed_.wait_for(lock, kPatience,
-                          [this] { return is_connected_ || !refusal_.empty() || is_unreachable_; });
+        changed_.wait_for(lock, kPatience, [this] {
+            return is_connected_ || !refusal_.empty() || !failure_.empty();
+        });
     }
     const std::string refusal = refusal_;
+    std::string failure = code == MOSQ_ERR_SUCCESS ? failure_ : at_once;
+    if (failure.empty()) failure = "no answer";
     const bool is_connected = is_connected_;
     lock.unlock();
     if (!refusal.empty()) {
         stop();
         throw Error(place() + " refuses the connection: " + refusal);
     }
-    if (!is_connected) options_.tell(place() + " does not answer; trying on");
+    if (!is_connected) options_.tell("cannot reach " + place() + ": " + failure + "; trying on");
 }
 
 void MqttClient::stop() {
@@ -168,10 +178,11 @@ void MqttClient::run() {
     constexpr int kPackets = 1;
     for (;;) {
         const int code = mosquitto_loop(mosquitto_, kWait_ms, kPackets);
+        const std::string reason = reason_of(code);
         std::unique_lock lock(mutex_);
         if (ends_) return;
         if (code == MOSQ_ERR_SUCCESS) continue;
-        is_unreachable_ = !is_connected_ && refusal_.empty();
+        if (!is_connected_ && refusal_.empty()) failure_ = reason;
         changed_.notify_all();
         changed_.wait_for(lock, kBetweenAttempts, [this] { return ends_; });
         if (ends_) return;
@@ -267,6 +278,11 @@ bool MqttPublisher::flush(std::chrono::milliseconds patience) {
 std::int64_t MqttPublisher::sent() const {
     const std::lock_guard lock(mutex_);
     return sent_;
+}
+
+std::int64_t MqttPublisher::unsent() const {
+    const std::lock_guard lock(mutex_);
+    return static_cast<std::int64_t>(waiting_.size() + under_way_.size());
 }
 
 std::int64_t MqttPublisher::dropped() const {

@@ -81,7 +81,7 @@ class MqttClient {
     mosquitto* mosquitto_ = nullptr;
     std::condition_variable changed_;
     bool is_connected_ = false;
-    bool is_unreachable_ = false;  ///< at the newest attempt
+    std::string failure_;  ///< why the newest attempt to connect failed
     bool ends_ = false;
     std::string refusal_;  ///< why the broker does not let us in
     std::thread thread_;
@@ -100,6 +100,8 @@ class MqttPublisher : public MqttClient {
     bool flush(std::chrono::milliseconds patience);
 
     std::int64_t sent() const;
+    /// Messages that wait or are under way.
+    std::int64_t unsent() const;
     /// Messages that were never sent: newer ones took their place in the queue, or (QoS 0) the
     /// connection broke while they were on their way.
     std::int64_t dropped() const;
