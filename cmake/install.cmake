@@ -29,6 +29,9 @@ endforeach()
 if(TARGET dotpose_cli)
     install(TARGETS dotpose_cli)
 endif()
+if(TARGET dotpose_live_cli)
+    install(TARGETS dotpose_live_cli)
+endif()
 
 configure_package_config_file(cmake/dotposeConfig.cmake.in dotposeConfig.cmake
                               INSTALL_DESTINATION ${config_dir})

@@ -5,10 +5,9 @@
 
 #include <CLI/CLI.hpp>
 
-namespace dotpose::cli {
+#include "exit_codes.hpp"
 
-inline constexpr int kExitFailed = 1;
-inline constexpr int kExitUsage = 2;
+namespace dotpose::cli {
 
 void add_print(CLI::App& app, int& exit_code);
 void add_overlay(CLI::App& app, int& exit_code);
@@ -16,5 +15,10 @@ void add_locate(CLI::App& app, int& exit_code);
 void add_simulate(CLI::App& app, int& exit_code);
 void add_evaluate(CLI::App& app, int& exit_code);
 void add_check_print(CLI::App& app, int& exit_code);
+void add_listen(CLI::App& app, int& exit_code);
+void add_replay(CLI::App& app, int& exit_code);
+
+/// The commands that another program does: see apps/dotpose-live.
+void add_live(CLI::App& app);
 
 }  // namespace dotpose::cli

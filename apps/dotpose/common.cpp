@@ -151,6 +151,19 @@ void add_attempt_options(CLI::App& command, Options& options) {
               [&options](Effort effort) { options.effort = effort; });
 }
 
+void add_format_option(CLI::App& command, RecordFormat& format) {
+    command
+        .add_option_function<std::string>(
+            "--format",
+            [&format](const std::string& name) {
+                format = name == "csv" ? RecordFormat::csv : RecordFormat::jsonl;
+            },
+            "jsonl (a JSON object per line) or csv")
+        ->type_name("NAME")
+        ->default_str("jsonl")
+        ->check(CLI::IsMember({"jsonl", "csv"}));
+}
+
 void add_size_option(CLI::App& command, CameraModel& camera) {
     command
         .add_option_function<std::string>(

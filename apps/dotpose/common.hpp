@@ -11,6 +11,7 @@
 #include "dotpose/print.hpp"
 #include "dotpose/sheet.hpp"
 #include "dotpose/simulate.hpp"
+#include "fields.hpp"
 
 namespace dotpose::cli {
 
@@ -35,6 +36,9 @@ void add_lens_option(CLI::App& command, Lens& lens);
 
 /// --decoder and --effort. `options` must outlive the command.
 void add_attempt_options(CLI::App& command, Options& options);
+
+/// --format jsonl|csv of output lines.
+void add_format_option(CLI::App& command, RecordFormat& format);
 
 /// --size WxH of a simulated frame.
 void add_size_option(CLI::App& command, CameraModel& camera);

@@ -19,6 +19,7 @@
 #include "common.hpp"
 #include "dotpose/image_file.hpp"
 #include "dotpose/sheet_file.hpp"
+#include "lines.hpp"
 #include "locate_record.hpp"
 #include "picture_folder.hpp"
 
@@ -93,30 +94,6 @@ class Names {
     std::size_t next_image_ = 0;
     std::ifstream file_;
     std::istream* list_ = nullptr;
-};
-
-/// Standard output or a file; every line leaves at once, so that stopping the tool loses none.
-class Lines {
-  public:
-    explicit Lines(const std::string& path) : path_(path) {
-        if (path.empty()) return;
-        file_.reset(std::fopen(path.c_str(), "w"));
-        if (!file_) throw Error("cannot create " + path);
-    }
-    void write(const std::string& line) {
-        std::FILE* stream = file_ ? file_.get() : stdout;
-        const bool written = std::fwrite(line.data(), 1, line.size(), stream) == line.size();
-        if (!written || std::fflush(stream) != 0) {
-            throw Error("cannot write " + (path_.empty() ? "to standard output" : path_));
-        }
-    }
-
-  private:
-    struct Closer {
-        void operator()(std::FILE* file) const { std::fclose(file); }
-    };
-    std::string path_;
-    std::unique_ptr<std::FILE, Closer> file_;
 };
 
 void invert(GreyImage& image) {
@@ -309,16 +286,7 @@ void add_locate(CLI::App& app, int& exit_code) {
     command->add_flag("--inverted", arguments->is_inverted, "The dots are white on black");
     add_camera_options(*command, *arguments);
     add_attempt_options(*command, arguments->options);
-    command
-        ->add_option_function<std::string>(
-            "--format",
-            [arguments](const std::string& name) {
-                arguments->format = name == "csv" ? RecordFormat::csv : RecordFormat::jsonl;
-            },
-            "jsonl (a JSON object per line) or csv")
-        ->type_name("NAME")
-        ->default_str("jsonl")
-        ->check(CLI::IsMember({"jsonl", "csv"}));
+    add_format_option(*command, arguments->format);
     command->add_option("-o,--out", arguments->out, "File to write instead of standard output")
         ->type_name("FILE");
     command

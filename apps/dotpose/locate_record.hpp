@@ -3,13 +3,13 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "dotpose/fix.hpp"
 #include "dotpose/sheet_file.hpp"
+#include "fields.hpp"
 
 namespace dotpose::cli {
-
-enum class RecordFormat { jsonl, csv };
 
 struct Record {
     std::string file;
@@ -25,6 +25,9 @@ struct Record {
 
 /// Why there is no fix, with the numbers that matter; empty if there is one.
 std::string reason(const Record& record);
+
+/// The list of fields, in the order of the output.
+std::vector<Field> fields(const Record& record);
 
 /// Lines with their line break. JSON holds the fields that mean something, CSV has all columns. In
 /// JSON, bytes of a file name that are no UTF-8 are replaced.

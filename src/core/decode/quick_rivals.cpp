@@ -201,12 +201,12 @@ class ByShift {
         const int lines = contest_.lines.count();
         bool matters = false;
         for (int line = 0; line < lines; ++line) {
-            std::int16_t& kept = kept_[growth[static_cast<std::size_t>(line)]];
-            kept = static_cast<std::int16_t>(kept + std::max(contest_.least_loss(line), 0));
+            int& kept = kept_[growth[static_cast<std::size_t>(line)]];
+            kept += std::max(contest_.least_loss(line), 0);
             matters |= in_all_ - kept < enough_;
         }
         for (int line = 0; line < lines; ++line) {
-            std::int16_t& kept = kept_[growth[static_cast<std::size_t>(line)]];
+            int& kept = kept_[growth[static_cast<std::size_t>(line)]];
             if (matters && in_all_ - kept < enough_) {
                 const std::optional<int> lost = loss_of_growth(contest_, growth, line);
                 const int odds = lost ? contest_.log2_odds_q8(*lost) : kNever_q8;
@@ -221,7 +221,7 @@ class ByShift {
     const Contest& contest_;
     int enough_;  ///< loss
     int in_all_ = 0;
-    std::array<std::int16_t, kSections> kept_{};  ///< by the shift at which lines are shared
+    std::array<int, kSections> kept_{};  ///< by the shift at which lines are shared
 };
 
 /// Rivals that differ in one sequence: those that have surely lost enough are passed over; the

@@ -11,7 +11,8 @@ namespace dotpose::core {
 /// Indices of the dots nearest to a point (in squares around it), at most as many as `seeds` holds.
 int choose_seeds(std::span<const Dot> dots, Vec centre_q8, std::span<std::uint16_t> seeds);
 
-/// For each seed the four nearest other seeds, nearest first; -1 where there are none.
+/// For each seed the four nearest other seeds, nearest first, within 128 px per axis; -1 where
+/// there are none.
 void find_neighbours(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
                      std::span<std::array<std::int16_t, 4>> neighbours);
 

@@ -73,7 +73,16 @@ void keep_row(const std::uint8_t* pixels, const Light& light, std::uint8_t* row)
     std::fill(row + width, row + whole, pixels[width - 1]);
 }
 
-void close_tiles(int rows, const Light& light, std::span<Tile> tiles) {
+/// Rows evenly about the middle of a band; of the last one, the first if it has no other.
+bool shows_paper(int v, const Light& light) {
+    const int in_band = v & (light.tile_px - 1);
+    const int rows = std::min(light.height_px - (v - in_band), light.tile_px);
+    return in_band % kPaperEvery == kPaperEvery / 2 || (in_band == 0 && rows <= kPaperEvery / 2);
+}
+
+/// `last` is the last row in the band.
+void close_tiles(int last, const Light& light, std::span<Tile> tiles) {
+    const int rows = std::max((last + kPaperEvery / 2) / kPaperEvery, 1);
     const auto words = static_cast<std::size_t>(light.tile_px) / 4;
     const auto pixels = static_cast<std::uint32_t>(rows * light.tile_px);
     const std::uint32_t inverse_q20 = ((1U << 20) + pixels - 1) / pixels;
@@ -151,11 +160,11 @@ int take_row(const std::uint8_t* pixels, Light& light) {
         std::fill_n(light.darkest.begin(), words, ~kTops);
     }
     if (in_band % kDotsEvery == 0) find_darkest(row, words, light.darkest.data());
-    if (in_band % kPaperEvery == 0) add_up(row, words, light.sums.data());
+    if (shows_paper(v, light)) add_up(row, words, light.sums.data());
     const bool is_last = v + 1 == light.height_px;
     if (in_band + 1 < light.tile_px && !is_last) return 0;
     const int band = v >> light.tile_shift;
-    close_tiles(in_band / kPaperEvery + 1, light, tiles_of(light, band));
+    close_tiles(in_band, light, tiles_of(light, band));
     return (band > 0 ? 1 : 0) + (is_last ? 1 : 0);
 }
 

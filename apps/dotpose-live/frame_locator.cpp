@@ -1,0 +1,137 @@
+#include "frame_locator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "dotpose/error.hpp"
+
+namespace dotpose::cli {
+namespace {
+
+constexpr double kNm_per_mm = 1e6;
+
+std::int32_t bam(double angle_rad) {
+    const auto turned = std::llround(angle_rad / std::numbers::pi * 2147483648.0);
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(turned));
+}
+
+/// The covariance of a fix in the world: turned like the sheet, with y and the angle the other way
+/// around.
+std::array<std::array<float, 3>, 3> turned(const std::array<std::array<float, 3>, 3>& covariance,
+                                           double sheet_yaw_rad) {
+    const auto c = static_cast<float>(std::cos(sheet_yaw_rad));
+    const auto s = static_cast<float>(std::sin(sheet_yaw_rad));
+    const std::array<std::array<float, 3>, 3> turn = {{{c, s, 0}, {s, -c, 0}, {0, 0, -1}}};
+    std::array<std::array<float, 3>, 3> result{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                for (std::size_t l = 0; l < 3; ++l)
+                    result[i][j] += turn[i][k] * covariance[k][l] * turn[j][l];
+            }
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+FrameLocator::FrameLocator(const LocatorOptions& options)
+    : options_(options),
+      profiles_{options.locate.profile},
+      used_(options.locate),
+      workspace_(std::make_unique<LargeWorkspace>()),
+      tracker_(options.track) {
+    if (!options.sheets.empty()) use_sheets();
+}
+
+void FrameLocator::use_sheets() {
+    sheets_ = read_sheets(options_.sheets);
+    if (sheets_.empty()) throw Error(options_.sheets + " has no sheets");
+    profiles_.clear();
+    options_.spacing_mm = sheets_.front().sheet.pattern.spacing_mm;
+    for (const SheetEntry& entry : sheets_) {
+        const Pattern& pattern = entry.sheet.pattern;
+        if (std::ranges::find(profiles_, pattern.profile) == profiles_.end()) {
+            profiles_.push_back(pattern.profile);
+        }
+        if (pattern.spacing_mm != options_.spacing_mm) {
+            options_.spacing_mm = std::numeric_limits<double>::quiet_NaN();
+        }
+        if (entry.world) plane_ = Plane::sheet_world;
+    }
+}
+
+/// The first fix that lies on a sheet of its profile; otherwise the first fix, or what the last
+/// profile told.
+FrameLocator::Found FrameLocator::find(ImageView image, int max_p_wrong_log2) {
+    Found best;
+    used_.integrity.max_p_wrong_log2 = max_p_wrong_log2;
+    for (const Profile profile : profiles_) {
+        used_.profile = profile;
+        Found found{locate(image, used_, *workspace_), std::nullopt};
+        found.place = find_sheet(sheets_, profile, found.fix);
+        if (found.place) return found;
+        if (best.fix.status != Status::ok) best = found;
+    }
+    return best;
+}
+
+double FrameLocator::spacing_mm(const Found& found) const {
+    return found.place ? found.place->entry->sheet.pattern.spacing_mm : options_.spacing_mm;
+}
+
+std::optional<Sighting> FrameLocator::sighting_of(const Found& found, std::int64_t time_us) const {
+    const double spacing = spacing_mm(found);
+    if (found.fix.status != Status::ok || !std::isfinite(spacing)) return std::nullopt;
+    Sighting sighting = dotpose::sighting_of(
+        found.fix, static_cast<std::int32_t>(std::lround(spacing * kNm_per_mm)), time_us);
+    if (plane_ == Plane::pattern) return sighting;
+    const auto world = found.place ? world_pose(*found.place) : std::nullopt;
+    if (!world) return std::nullopt;
+    sighting.plane = 0;
+    sighting.x_nm = std::llround(world->x_m * 1e9);
+    sighting.y_nm = std::llround(world->y_m * 1e9);
+    sighting.theta_bam = bam(world->yaw_rad);
+    sighting.covariance = turned(sighting.covariance, found.place->entry->world->yaw_rad);
+    return sighting;
+}
+
+Reading FrameLocator::operator()(video::Frame& frame) {
+    if (options_.is_inverted) {
+        for (std::uint8_t& grey : frame.image.pixels)
+            grey = static_cast<std::uint8_t>(255 - grey);
+    }
+    const ImageView image = frame.image.view();
+    Found found = find(image, options_.track.max_p_wrong_log2);
+    const Fix strict = found.fix;
+    if (strict.status == Status::not_certain && tracker_.has_prior()) {
+        found = find(image, options_.track.max_weak_p_wrong_log2);
+    }
+    const auto sighting = sighting_of(found, frame.time_us);
+    Reading reading;
+    reading.index = frame.index;
+    reading.time_us = frame.time_us;
+    reading.plane = plane_;
+    reading.track = tracker_.update(frame.time_us, sighting ? &*sighting : nullptr);
+    // A weak fix counts only if the prior made it one.
+    const bool is_fix = strict.status == Status::ok || reading.track.verdict == Verdict::with_prior;
+    Record& record = reading.record;
+    record.fix = is_fix ? found.fix : strict;
+    if (reading.track.verdict == Verdict::with_prior) {
+        record.fix.p_wrong_log2 = reading.track.p_wrong_log2;
+    }
+    record.file = frame.file;
+    record.spacing_mm = spacing_mm(found);
+    record.has_sheets = !sheets_.empty();
+    if (is_fix) record.place = found.place;
+    record.elapsed_us = std::numeric_limits<double>::quiet_NaN();
+    record.width_px = image.width_px;
+    record.height_px = image.height_px;
+    record.min_dots = used_.lattice.min_dots;
+    return reading;
+}
+
+}  // namespace dotpose::cli

@@ -1,0 +1,72 @@
+/// Locates the frames of `dotpose watch`, on sheets or on the bare pattern, with the tracker's
+/// prior.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dotpose/locate.hpp"
+#include "dotpose/sheet.hpp"
+#include "dotpose/sheet_file.hpp"
+#include "dotpose/track.hpp"
+#include "locate_record.hpp"
+#include "video/frame_source.hpp"
+
+namespace dotpose::cli {
+
+struct LocatorOptions {
+    Options locate;
+    std::string sheets;  ///< sheet file; empty: none
+    double spacing_mm = kDefaultSpacing_mm;
+    bool is_inverted = false;
+    TrackOptions track;
+};
+
+/// In which plane a robot is tracked.
+enum class Plane { pattern, sheet_world };
+
+/// What one frame told, alone and together with those before it.
+struct Reading {
+    std::int64_t index = 0;
+    std::int64_t time_us = 0;
+    Record record;  ///< `p_wrong` with the prior, where that was needed
+    Track track;
+    Plane plane = Plane::pattern;
+};
+
+class FrameLocator {
+  public:
+    /// Throws Error: the sheet file cannot be read or has no sheets.
+    explicit FrameLocator(const LocatorOptions& options);
+
+    /// `frame.image` is inverted in place if that was asked for.
+    Reading operator()(video::Frame& frame);
+
+    /// The world if the file says where the sheets lie; otherwise the pattern.
+    Plane plane() const { return plane_; }
+    const std::vector<SheetEntry>& sheets() const { return sheets_; }
+    const Workspace& workspace() const { return *workspace_; }
+    const Options& options() const { return used_; }
+
+  private:
+    struct Found {
+        Fix fix;
+        std::optional<SheetPlace> place;
+    };
+    void use_sheets();
+    Found find(ImageView image, int max_p_wrong_log2);
+    std::optional<Sighting> sighting_of(const Found& found, std::int64_t time_us) const;
+    double spacing_mm(const Found& found) const;
+
+    LocatorOptions options_;
+    std::vector<SheetEntry> sheets_;
+    std::vector<Profile> profiles_;  ///< to try, in this order
+    Plane plane_ = Plane::pattern;
+    Options used_;  ///< for the newest frame
+    std::unique_ptr<LargeWorkspace> workspace_;
+    Tracker tracker_;
+};
+
+}  // namespace dotpose::cli

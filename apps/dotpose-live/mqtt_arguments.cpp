@@ -1,0 +1,35 @@
+#include "mqtt_arguments.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+namespace dotpose::cli {
+
+CLI::Option* MqttArguments::add_to(CLI::App& command) {
+    command.add_option("--mqtt-ca", ca_file_, "Certificates to trust (mqtts)")->type_name("FILE");
+    command.add_option("--qos", qos_, "0: states may be lost, 1: they arrive, perhaps twice")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 1).description(""));
+    return command
+        .add_option("--mqtt", url_,
+                    "Broker: mqtt://[USER[:PASSWORD]@]HOST[:PORT], or mqtts:// for TLS; a password "
+                    "may stand in DOTPOSE_MQTT_PASSWORD")
+        ->type_name("URL");
+}
+
+std::optional<publish::MqttOptions> MqttArguments::options() const {
+    if (url_.empty()) return std::nullopt;
+    publish::MqttOptions options;
+    publish::parse_url(url_, options);
+    const char* password = std::getenv("DOTPOSE_MQTT_PASSWORD");
+    if (options.password.empty() && password != nullptr) options.password = password;
+    options.ca_file = ca_file_;
+    options.qos = qos_;
+    options.tell = [](const std::string& news) { fmt::print(stderr, "dotpose: {}\n", news); };
+    return options;
+}
+
+}  // namespace dotpose::cli

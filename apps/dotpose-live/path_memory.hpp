@@ -1,0 +1,37 @@
+/// The path of a robot in bounded memory: of a long one, every second, fourth ... point.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "dotpose/sheet_file.hpp"
+#include "dotpose/track.hpp"
+#include "draw/track_map.hpp"
+#include "frame_locator.hpp"
+#include "video/screen.hpp"
+
+namespace dotpose::cli {
+
+class PathMemory {
+  public:
+    /// Takes a frame; only frames in which the robot is tracked add to the path.
+    void add(const Track& track);
+
+    const std::vector<video::PathMark>& marks() const { return marks_; }
+
+    /// The path as strokes in mm, cut where the robot was lost or kidnapped.
+    std::vector<std::vector<draw::Point>> strokes() const;
+
+  private:
+    static constexpr std::size_t kMost = 16384;
+
+    std::vector<video::PathMark> marks_;
+    std::int64_t stride_ = 1;  ///< of the tracked frames, one in so many is kept
+    std::int64_t frames_ = 0;
+    bool is_jump_ = true;
+};
+
+/// The sheets as they lie in the plane of the tracker.
+std::vector<draw::MapSheet> map_sheets(const std::vector<SheetEntry>& sheets, Plane plane);
+
+}  // namespace dotpose::cli

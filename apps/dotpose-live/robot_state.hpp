@@ -1,0 +1,44 @@
+/// State messages of robots, in the style of VDA 5050, as JSON. docs/live.md describes them.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "frame_locator.hpp"
+
+namespace dotpose::cli {
+
+/// All robots' topics begin with it: KTopicRoot/ROBOT/state.
+inline constexpr const char* kTopicRoot = "uagv/v2/dotpose";
+
+std::string state_topic(const std::string& robot);
+
+struct RobotState {
+    std::string robot;
+    std::uint64_t header_id = 0;  ///< counts the robot's messages
+    std::int64_t sent_us = 0;     ///< system clock, since 1970
+    std::string state = "lost";   ///< lost, moving, stationary
+    std::string map_id;           ///< of the plane that x and y refer to
+    bool is_localized = false;    ///< all below is valid
+    double x_m = 0;
+    double y_m = 0;
+    double theta_rad = 0;
+    double deviation_m = 0;
+    double vx_m_s = 0;
+    double vy_m_s = 0;
+    double omega_rad_s = 0;
+};
+
+/// `world_map` names the world of the sheet file.
+RobotState state_of(const Reading& reading, const std::string& robot, const std::string& world_map);
+
+std::string json_of(const RobotState& state);
+
+/// None if it is no such message.
+std::optional<RobotState> parse_state(const std::string& json);
+
+/// Microseconds since 1970.
+std::int64_t system_us();
+
+}  // namespace dotpose::cli

@@ -1,0 +1,222 @@
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "commands.hpp"
+#include "common.hpp"
+#include "dotpose/error.hpp"
+#include "exit_codes.hpp"
+#include "frame_locator.hpp"
+#include "mqtt_arguments.hpp"
+#include "progress.hpp"
+#include "video/frame_source.hpp"
+#include "watch_outputs.hpp"
+
+namespace dotpose::cli {
+namespace {
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  dotpose watch 0 --size 640x480 --exposure 50\n"
+    "  dotpose watch run.mp4 --sheets sheets.json --log run.csv --map run.svg\n"
+    "  dotpose watch 'frames/*.pgm' --fps 50 --record run-overlay.mp4\n"
+    "  ffmpeg -i run.mp4 -f rawvideo -pix_fmt gray - | dotpose watch - --size 640x480 --fps 30\n\n"
+    "One line per frame with the raw and the tracked pose (docs/live.md). Of a camera the newest\n"
+    "frame is taken and those in between are counted; of all else every frame. Ctrl-C ends.\n";
+
+struct WatchArguments {
+    video::SourceOptions source;
+    LocatorOptions locator;
+    OutputOptions outputs;
+    MqttArguments mqtt;
+    bool has_no_window = false;
+    std::int64_t frames = 0;  ///< after so many it ends; 0: never
+};
+
+void report(const WatchOutputs& outputs, std::int64_t dropped) {
+    const WatchTally& tally = outputs.tally();
+    fmt::print(stderr,
+               "dotpose: {} frames, {} fixes, {} times lost, {} times kidnapped, {} frames "
+               "dropped, {:.1f} frames/s\n",
+               tally.frames, tally.fixes, tally.lost, tally.kidnapped, dropped, outputs.rate());
+}
+
+/// Returns the exit status.
+int run(WatchArguments& arguments) {
+    catch_interrupts();
+    arguments.source.stop = interrupted;
+    arguments.source.tell = [](const std::string& news) {
+        fmt::print(stderr, "dotpose: {}\n", news);
+    };
+    const auto source = video::open_source(arguments.source);
+    FrameLocator locator(arguments.locator);
+    arguments.outputs.world_map = std::filesystem::path(arguments.locator.sheets).stem().string();
+    if (source->rate() > 0) arguments.outputs.screen.fps = source->rate();
+    arguments.outputs.screen.has_window = !arguments.has_no_window && video::has_display();
+    WatchOutputs outputs(arguments.outputs, locator);
+    int exit_code = 0;
+    try {
+        video::Frame frame;
+        bool goes_on = true;
+        while (goes_on && source->next(frame)) {
+            const Reading reading = locator(frame);
+            goes_on = outputs.take(frame, reading, source->dropped());
+            if (arguments.frames > 0 && outputs.tally().frames >= arguments.frames) break;
+        }
+    } catch (const BadArgument&) {
+        throw;
+    } catch (const Error& error) {
+        // What was seen before the source failed is kept: the map, the counts.
+        fmt::print(stderr, "dotpose: {}\n", error.what());
+        exit_code = kExitFailed;
+    }
+    outputs.finish();
+    report(outputs, source->dropped());
+    return exit_code;
+}
+
+video::Region parse_region(const std::string& text) {
+    video::Region region;
+    int used = 0;
+    if (std::sscanf(text.c_str(), "%d,%d,%dx%d%n", &region.left, &region.top, &region.width,
+                    &region.height, &used) != 4 ||
+        static_cast<std::size_t>(used) != text.size()) {
+        throw CLI::ValidationError(
+            "--roi",
+            fmt::format("'{}' is not LEFT,TOP,WIDTHxHEIGHT in px, such as 10,20,640x480", text));
+    }
+    return region;
+}
+
+void add_source_options(CLI::App& command, video::SourceOptions& source) {
+    command
+        .add_option("source", source.name,
+                    "Camera (0, 1 ... or /dev/video0), video file, folder or glob of images, or -")
+        ->type_name("SOURCE")
+        ->required();
+    command
+        .add_option_function<std::string>(
+            "--size",
+            [&source](const std::string& text) {
+                int used = 0;
+                if (std::sscanf(text.c_str(), "%dx%d%n", &source.width_px, &source.height_px,
+                                &used) != 2 ||
+                    static_cast<std::size_t>(used) != text.size() || source.width_px < 1 ||
+                    source.height_px < 1) {
+                    throw CLI::ValidationError(
+                        "--size",
+                        fmt::format("'{}' is not WIDTHxHEIGHT in px, such as 640x480", text));
+                }
+            },
+            "Of raw frames; of a camera, what it is asked for")
+        ->type_name("WxH");
+    command.add_option("--fps", source.fps, "Frames per second, where the frames tell no time")
+        ->type_name("N")
+        ->check(CLI::Range(0.001, 1e6).description(""));
+    command.add_option("--exposure", source.exposure, "Of a camera, in its driver's unit")
+        ->type_name("N");
+    command.add_option("--gain", source.gain, "Of a camera, in its driver's unit")->type_name("N");
+    command
+        .add_option_function<std::string>(
+            "--roi", [&source](const std::string& text) { source.region = parse_region(text); },
+            "Part of the frame to look at")
+        ->type_name("X,Y,WxH");
+}
+
+void add_output_options(CLI::App& command, WatchArguments& arguments) {
+    OutputOptions& outputs = arguments.outputs;
+    add_format_option(command, outputs.format);
+    const auto add_file = [&command](const char* flag, std::string& path, const char* help) {
+        command.add_option(flag, path, help)->type_name("FILE");
+    };
+    add_file("-o,--out", outputs.out, "File to write instead of standard output");
+    add_file("--log", outputs.log, "Also write all lines as CSV, for dotpose replay");
+    add_file("--map", outputs.map, "Draw the path at the end (SVG)");
+    add_file("--record", outputs.screen.record, "Video with the overlay (.mp4 or .avi)");
+    add_file("--packets", outputs.packets, "Send pose packets to a file or device");
+    command.add_flag("--no-window", arguments.has_no_window,
+                     "Show nothing, even where there is a display");
+    command.add_option("--frames", arguments.frames, "End after so many")
+        ->type_name("N")
+        ->check(CLI::Range(1, 2'000'000'000).description(""));
+}
+
+void add_publish_options(CLI::App& command, OutputOptions& outputs, MqttArguments& mqtt) {
+    mqtt.add_to(command);
+    command.add_option("--robot", outputs.robot, "Name of the robot on the broker")
+        ->type_name("NAME")
+        ->capture_default_str()
+        ->check([](const std::string& name) {
+            const bool is_bad = name.empty() || name.find_first_of("/+#") != std::string::npos;
+            return is_bad ? "a robot's name is not empty and holds none of / + #" : std::string();
+        });
+    command.add_option("--mqtt-rate", outputs.mqtt_rate_hz, "Most states a second; events always")
+        ->type_name("HZ")
+        ->default_str("all")
+        ->check(CLI::Range(0.001, 1e6).description(""));
+}
+
+void add_track_options(CLI::App& command, TrackOptions& track) {
+    const auto require_positive = CLI::Range(1e-3, 1e7).description("");
+    command.add_option("--max-speed", track.max_speed_mm_s, "Of the robot")
+        ->type_name("MM/S")
+        ->capture_default_str()
+        ->check(require_positive);
+    command
+        .add_option("--acceleration", track.acceleration_mm_s2,
+                    "Usual acceleration of the robot: larger follows faster, smooths less")
+        ->type_name("MM/S^2")
+        ->capture_default_str()
+        ->check(require_positive);
+    command
+        .add_option_function<double>(
+            "--max-p-wrong",
+            [&track](double p) {
+                track.max_p_wrong_log2 = static_cast<int>(std::floor(std::log2(p)));
+            },
+            "Probability of being wrong above which a position is refused, the prior included")
+        ->type_name("P")
+        ->default_str("1e-9")
+        ->check(CLI::Range(1e-60, 1e-3).description(""));
+    command
+        .add_option_function<double>(
+            "--lost-after",
+            [&track](double ms) { track.lost_after_us = static_cast<std::int64_t>(ms * 1000); },
+            "Time without a believed fix after which the robot is lost")
+        ->type_name("MS")
+        ->default_str("70")
+        ->check(CLI::Range(0.0, 1e9).description(""));
+}
+
+}  // namespace
+
+void add_watch(CLI::App& app, int& exit_code) {
+    const auto arguments = std::make_shared<WatchArguments>();
+    CLI::App* command =
+        app.add_subcommand("watch", "Follow a camera live, or a video frame by frame");
+    command->footer(kExamples);
+    add_source_options(*command, arguments->source);
+    LocatorOptions& locator = arguments->locator;
+    add_spacing_option(*command, locator.spacing_mm);
+    add_code_option(*command, locator.locate.profile);
+    add_sheets_option(*command, locator.sheets,
+                      "Sheet file: also tell the sheet, and track the robot in the world")
+        ->excludes(command->get_option("--spacing"), command->get_option("--code"));
+    command->add_flag("--inverted", locator.is_inverted, "The dots are white on black");
+    add_lens_option(*command, locator.locate.lens);
+    add_attempt_options(*command, locator.locate);
+    add_track_options(*command, locator.track);
+    add_output_options(*command, *arguments);
+    add_publish_options(*command, arguments->outputs, arguments->mqtt);
+    command->callback([arguments, &exit_code] {
+        arguments->locator.track.spacing_mm = static_cast<float>(arguments->locator.spacing_mm);
+        arguments->outputs.mqtt = arguments->mqtt.options();
+        exit_code = run(*arguments);
+    });
+}
+
+}  // namespace dotpose::cli

@@ -1,0 +1,180 @@
+#include "watch_outputs.hpp"
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <numbers>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "dotpose/error.hpp"
+#include "dotpose/pose_packet.hpp"
+#include "print/output_file.hpp"
+#include "reading_fields.hpp"
+#include "robot_state.hpp"
+
+namespace dotpose::cli {
+
+void WatchTally::count(const Reading& reading) {
+    ++frames;
+    fixes += reading.record.fix.status == Status::ok;
+    lost += reading.track.events.lost;
+    kidnapped += reading.track.events.kidnapped;
+}
+
+PacketOutput::PacketOutput(const std::string& path)
+    : path_(path),
+      descriptor_(open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOCTTY | O_CLOEXEC, 0666)) {
+    if (descriptor_ < 0) throw Error("cannot write " + path + ": " + std::strerror(errno));
+}
+
+PacketOutput::~PacketOutput() {
+    close(descriptor_);
+}
+
+void PacketOutput::write(const Reading& reading, Profile profile) {
+    const PacketBytes bytes =
+        encode(make_packet(reading.record.fix, profile, static_cast<std::uint16_t>(reading.index),
+                           static_cast<std::uint32_t>(reading.time_us)));
+    std::size_t written = 0;
+    while (written < bytes.size()) {
+        const ssize_t size = ::write(descriptor_, bytes.data() + written, bytes.size() - written);
+        if (size < 0 && errno != EINTR) {
+            throw Error("cannot write " + path_ + ": " + std::strerror(errno));
+        }
+        if (size > 0) written += static_cast<std::size_t>(size);
+    }
+}
+
+namespace {
+
+/// What everybody is to know when the robot is not heard of any more.
+RobotState lost_state(const std::string& robot) {
+    RobotState state;
+    state.robot = robot;
+    state.sent_us = system_us();
+    return state;
+}
+
+publish::MqttOptions with_will(const OutputOptions& options) {
+    publish::MqttOptions mqtt = *options.mqtt;
+    mqtt.will_topic = state_topic(options.robot);
+    mqtt.will = json_of(lost_state(options.robot));
+    return mqtt;
+}
+
+}  // namespace
+
+StateOutput::StateOutput(const OutputOptions& options)
+    : robot_(options.robot),
+      world_map_(options.world_map),
+      period_us_(options.mqtt_rate_hz > 0 ? std::llround(1e6 / options.mqtt_rate_hz) : 0),
+      next_us_(std::numeric_limits<std::int64_t>::min()),
+      publisher_(with_will(options)) {}
+
+StateOutput::~StateOutput() {
+    constexpr auto kPatience = std::chrono::seconds(2);
+    RobotState last = lost_state(robot_);
+    last.header_id = messages_;
+    publisher_.publish(state_topic(robot_), json_of(last));
+    publisher_.flush(kPatience);
+    fmt::print(stderr, "dotpose: {} states published, {} dropped\n", publisher_.sent(),
+               publisher_.dropped() + publisher_.unsent());
+}
+
+void StateOutput::take(const Reading& reading) {
+    const TrackEvents& events = reading.track.events;
+    const bool is_event =
+        events.fix || events.lost || events.kidnapped || events.stationary || events.moving;
+    if (reading.time_us < next_us_ && !is_event) return;
+    next_us_ = reading.time_us + period_us_;
+    RobotState state = state_of(reading, robot_, world_map_);
+    state.header_id = messages_++;
+    publisher_.publish(state_topic(robot_), json_of(state));
+}
+
+WatchOutputs::WatchOutputs(const OutputOptions& options, const FrameLocator& locator)
+    : options_(options),
+      locator_(locator),
+      lines_(options.out),
+      screen_(options.screen),
+      begun_(std::chrono::steady_clock::now()) {
+    const std::string header = csv_header_of_readings(!locator.sheets().empty());
+    if (options.format == RecordFormat::csv) lines_.write(header);
+    if (!options.log.empty()) {
+        log_.emplace(options.log);
+        log_->write(header);
+    }
+    if (!options.packets.empty()) packets_.emplace(options.packets);
+    if (options.mqtt) states_.emplace(options);
+}
+
+bool WatchOutputs::take(const video::Frame& frame, const Reading& reading, std::int64_t dropped) {
+    tally_.count(reading);
+    newest_ = reading.track;
+    path_.add(reading.track);
+    const auto values = fields(reading);
+    const bool is_csv = options_.format == RecordFormat::csv;
+    lines_.write(is_csv ? csv_line(values) : json_line(values));
+    if (log_) log_->write(csv_line(values));
+    if (packets_) packets_->write(reading, locator_.options().profile);
+    if (states_) states_->take(reading);
+    return !screen_.is_on() || show(frame, reading, dropped);
+}
+
+bool WatchOutputs::show(const video::Frame& frame, const Reading& reading, std::int64_t dropped) {
+    const Fix& fix = reading.record.fix;
+    const bool ok = fix.status == Status::ok;
+    const TrackedPose& pose = reading.track.pose;
+    video::Scene scene;
+    scene.image = frame.image.view();
+    scene.workspace = &locator_.workspace();
+    scene.options = &locator_.options();
+    scene.is_good = ok;
+    scene.y_up = locator_.plane() == Plane::sheet_world;
+    scene.path = path_.marks();
+    scene.lines.push_back(fmt::format("frame {}   {:.3f} s", reading.index,
+                                      static_cast<double>(reading.time_us) * 1e-6));
+    scene.lines.push_back(ok ? fmt::format("{} dots, {} bits wrong, p {:.0e}", fix.dots_used,
+                                           fix.bit_errors, fix.p_wrong())
+                             : std::string(name(fix.status)));
+    scene.lines.push_back(state_name(reading.track) + " " + event_names(reading.track.events));
+    if (!reading.track.is_lost) {
+        scene.lines.push_back(fmt::format("x {:.3f}  y {:.3f} mm", pose.x_mm(), pose.y_mm()));
+        scene.lines.push_back(fmt::format(
+            "{:.2f} deg   {:.1f} mm/s", pose.theta_rad() * 180 / std::numbers::pi,
+            std::hypot(static_cast<double>(pose.vx_mm_s), static_cast<double>(pose.vy_mm_s))));
+    }
+    scene.lines.push_back(fmt::format("{:.0f} frames/s, {} dropped", rate(), dropped));
+    return screen_.show(scene);
+}
+
+double WatchOutputs::rate() const {
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begun_;
+    return elapsed.count() > 0 ? static_cast<double>(tally_.frames) / elapsed.count() : 0;
+}
+
+void WatchOutputs::finish() {
+    if (options_.map.empty()) return;
+    draw::Map map;
+    map.title = fmt::format("{} frames, {} fixes", tally_.frames, tally_.fixes);
+    map.y_up = locator_.plane() == Plane::sheet_world;
+    map.sheets = map_sheets(locator_.sheets(), locator_.plane());
+    if (!path_.marks().empty()) {
+        const video::PathMark& last = path_.marks().back();
+        map.robots.push_back(
+            {"",
+             path_.strokes(),
+             {last.x, last.y},
+             newest_.is_lost ? std::nullopt : std::optional(newest_.pose.theta_rad()),
+             newest_.is_lost});
+    }
+    print::OutputFile file(options_.map);
+    file.write(draw::draw_map(map));
+    file.commit();
+}
+
+}  // namespace dotpose::cli

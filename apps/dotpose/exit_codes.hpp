@@ -1,0 +1,9 @@
+/// Exit statuses of the tool.
+#pragma once
+
+namespace dotpose::cli {
+
+inline constexpr int kExitFailed = 1;
+inline constexpr int kExitUsage = 2;
+
+}  // namespace dotpose::cli

@@ -1,0 +1,89 @@
+#include "fields.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace dotpose::cli {
+namespace {
+
+std::string json_string(const std::string& text) {
+    return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::string csv_string(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (const char c : text) {
+        if (c == '"') quoted += '"';
+        quoted += c;
+    }
+    return quoted + '"';
+}
+
+}  // namespace
+
+std::string decimal(double value, int decimals) {
+    if (!std::isfinite(value)) return {};
+    std::string text = fmt::format("{:.{}f}", value, decimals);
+    const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
+    return is_zero && text.front() == '-' ? text.substr(1) : text;
+}
+
+std::string degrees(double angle_rad) {
+    constexpr int kDecimals = 6;
+    const double angle_deg = std::round(angle_rad * 180 / std::numbers::pi * 1e6) / 1e6;
+    return decimal(angle_deg <= -180 ? angle_deg + 360 : angle_deg, kDecimals);
+}
+
+std::string p_wrong_text(double p_wrong) {
+    // A smaller probability would be no statement about paper, ink and cameras any more.
+    constexpr double kLeast_p_wrong = 1e-30;
+    return fmt::format("{:.3g}", std::max(p_wrong * 1.005, kLeast_p_wrong));
+}
+
+std::string json_line(const std::vector<Field>& fields) {
+    std::string line = "{";
+    std::string section_u;
+    for (const Field& field : fields) {
+        if (field.text.empty()) continue;
+        const std::string_view name = field.name;
+        if (name == "section_u") {
+            section_u = field.text;
+            continue;
+        }
+        if (line.size() > 1) line += ',';
+        if (name == "section_v") {
+            line += fmt::format("\"section\":[{},{}]", section_u, field.text);
+        } else {
+            line += fmt::format("\"{}\":{}", name,
+                                field.is_string ? json_string(field.text) : field.text);
+        }
+    }
+    return line + "}\n";
+}
+
+std::string csv_header(const std::vector<Field>& fields) {
+    std::string line;
+    for (const Field& field : fields) {
+        if (!line.empty()) line += ',';
+        line += field.name;
+    }
+    return line + '\n';
+}
+
+std::string csv_line(const std::vector<Field>& fields) {
+    std::string line;
+    for (const Field& field : fields) {
+        line += field.is_string ? csv_string(field.text) : field.text;
+        line += ',';
+    }
+    line.back() = '\n';
+    return line;
+}
+
+}  // namespace dotpose::cli

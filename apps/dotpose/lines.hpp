@@ -1,0 +1,27 @@
+/// Lines of output.
+#pragma once
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+namespace dotpose::cli {
+
+/// Standard output or a file; every line leaves at once, so that stopping the tool loses none.
+class Lines {
+  public:
+    /// An empty path is standard output. Throws Error if the file cannot be created.
+    explicit Lines(const std::string& path);
+
+    /// Throws Error if the line cannot be written.
+    void write(const std::string& line);
+
+  private:
+    struct Closer {
+        void operator()(std::FILE* file) const { std::fclose(file); }
+    };
+    std::string path_;
+    std::unique_ptr<std::FILE, Closer> file_;
+};
+
+}  // namespace dotpose::cli

@@ -1,0 +1,212 @@
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include "commands.hpp"
+#include "common.hpp"
+#include "dotpose/error.hpp"
+#include "dotpose/pose_packet.hpp"
+#include "fields.hpp"
+#include "lines.hpp"
+#include "progress.hpp"
+
+namespace dotpose::cli {
+namespace {
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  dotpose listen /dev/ttyUSB0 --baud 115200\n"
+    "  dotpose listen packets.bin --format csv -o poses.csv\n"
+    "  nc robot 4000 | dotpose listen -\n\n"
+    "One line per packet. Packets that arrive damaged are left out and counted at the end, on\n"
+    "standard error. docs/pose-packet.md describes the format.\n";
+
+struct Baud {
+    int rate = 0;
+    speed_t constant = 0;
+};
+constexpr std::array kBauds = {
+    Baud{9600, B9600},       Baud{19200, B19200},     Baud{38400, B38400},   Baud{57600, B57600},
+    Baud{115200, B115200},   Baud{230400, B230400},   Baud{460800, B460800}, Baud{921600, B921600},
+    Baud{1000000, B1000000}, Baud{2000000, B2000000},
+};
+
+struct ListenArguments {
+    std::string source;
+    std::string out;
+    RecordFormat format = RecordFormat::jsonl;
+    double spacing_mm = kDefaultSpacing_mm;
+    Baud baud{115200, B115200};
+};
+
+/// Bytes as they come from a file, a pipe or a serial device.
+class ByteSource {
+  public:
+    explicit ByteSource(const ListenArguments& arguments) : name_(arguments.source) {
+        if (name_ == "-") {
+            name_ = "standard input";
+            return;
+        }
+        descriptor_ = open(name_.c_str(), O_RDONLY | O_NOCTTY | O_CLOEXEC);
+        if (descriptor_ < 0) fail();
+        is_line_ = isatty(descriptor_) == 1;
+        if (is_line_) set_up_line(arguments.baud);
+    }
+    ~ByteSource() {
+        if (descriptor_ != STDIN_FILENO) close(descriptor_);
+    }
+    ByteSource(const ByteSource&) = delete;
+    ByteSource& operator=(const ByteSource&) = delete;
+
+    /// At least one byte; none at the end, or when the user has had enough. Throws Error.
+    std::span<const std::uint8_t> next() {
+        constexpr int kPatience_ms = 100;
+        while (!interrupted()) {
+            pollfd ready{descriptor_, POLLIN, 0};
+            const int count = poll(&ready, 1, kPatience_ms);
+            if (count < 0 && errno != EINTR) fail();
+            if (count <= 0) continue;
+            const ssize_t size = read(descriptor_, buffer_.data(), buffer_.size());
+            if (size < 0 && errno != EINTR) fail();
+            if (size == 0 && is_line_) throw Error("cannot read " + name_ + ": it is gone");
+            if (size >= 0) return std::span(buffer_).first(static_cast<std::size_t>(size));
+        }
+        return {};
+    }
+
+  private:
+    [[noreturn]] void fail() const {
+        throw Error("cannot read " + name_ + ": " + std::strerror(errno));
+    }
+    void set_up_line(const Baud& baud) {
+        termios line{};
+        if (tcgetattr(descriptor_, &line) != 0) fail();
+        cfmakeraw(&line);
+        line.c_cflag |= CLOCAL | CREAD;
+        cfsetispeed(&line, baud.constant);
+        cfsetospeed(&line, baud.constant);
+        if (tcsetattr(descriptor_, TCSANOW, &line) != 0) fail();
+    }
+
+    std::string name_;
+    int descriptor_ = STDIN_FILENO;
+    bool is_line_ = false;  ///< a serial device, which has no end
+    std::array<std::uint8_t, 4096> buffer_{};
+};
+
+std::vector<Field> fields(const PosePacket& packet, double spacing_mm) {
+    const bool ok = packet.status == Status::ok;
+    const auto if_ok = [ok](std::string text) { return ok ? std::move(text) : std::string(); };
+    const auto number = [](unsigned value) { return fmt::format("{}", value); };
+    // 255 stands for more as well: not known.
+    const bool has_deviation = packet.deviation_q12 < 255;
+    return {
+        {"sequence", number(packet.sequence)},
+        {"time_us", number(packet.time_us)},
+        {"status", name(packet.status), true},
+        {"message", ok ? "" : message(packet.status), true},
+        {"code", profile_name(packet.profile), true},
+        {"x_mm", if_ok(decimal(packet.x_grid() * spacing_mm, 6))},
+        {"y_mm", if_ok(decimal(packet.y_grid() * spacing_mm, 6))},
+        {"theta_deg", if_ok(degrees(packet.theta_rad()))},
+        {"x_grid", if_ok(decimal(packet.x_grid(), 6))},
+        {"y_grid", if_ok(decimal(packet.y_grid(), 6))},
+        {"section_u", if_ok(number(packet.section.u))},
+        {"section_v", if_ok(number(packet.section.v))},
+        {"p_wrong", if_ok(p_wrong_text(std::ldexp(1.0, -packet.certainty)))},
+        {"sigma_mm",
+         has_deviation ? if_ok(decimal(packet.deviation_q12 * spacing_mm / 4096, 6)) : ""},
+    };
+}
+
+/// Says at the end what did not arrive.
+class LossCounter {
+  public:
+    void count(const PosePacket& packet) {
+        if (last_) lost_ += static_cast<std::uint16_t>(packet.sequence - *last_ - 1);
+        last_ = packet.sequence;
+        ++arrived_;
+    }
+    void report(std::uint32_t damaged) const {
+        if (arrived_ == 0 || damaged > 0 || lost_ > 0) {
+            fmt::print(stderr, "dotpose: {} packets, {} stretches damaged, {} packets lost\n",
+                       arrived_, damaged, lost_);
+        }
+    }
+
+  private:
+    std::optional<std::uint16_t> last_;
+    std::uint64_t arrived_ = 0;
+    std::uint64_t lost_ = 0;
+};
+
+void run(const ListenArguments& arguments) {
+    catch_interrupts();
+    ByteSource source(arguments);
+    Lines lines(arguments.out);
+    PacketReader reader;
+    LossCounter losses;
+    const bool is_csv = arguments.format == RecordFormat::csv;
+    if (is_csv) lines.write(csv_header(fields({}, arguments.spacing_mm)));
+    for (auto bytes = source.next(); !bytes.empty(); bytes = source.next()) {
+        for (const std::uint8_t byte : bytes) {
+            if (!reader.push(byte)) continue;
+            const auto values = fields(reader.packet(), arguments.spacing_mm);
+            lines.write(is_csv ? csv_line(values) : json_line(values));
+            losses.count(reader.packet());
+        }
+    }
+    losses.report(reader.damaged());
+}
+
+void add_baud_option(CLI::App& command, Baud& baud) {
+    command
+        .add_option_function<int>(
+            "--baud",
+            [&baud](int rate) {
+                for (const Baud& known : kBauds) {
+                    if (rate == known.rate) {
+                        baud = known;
+                        return;
+                    }
+                }
+                throw CLI::ValidationError(
+                    "--baud", fmt::format("{} is no usual rate, such as 115200 or 921600", rate));
+            },
+            "Of a serial device")
+        ->type_name("RATE")
+        ->default_str(fmt::format("{}", baud.rate));
+}
+
+}  // namespace
+
+void add_listen(CLI::App& app, int&) {
+    const auto arguments = std::make_shared<ListenArguments>();
+    CLI::App* command =
+        app.add_subcommand("listen", "Print the poses that a device sends as packets");
+    command->footer(kExamples);
+    command->add_option("source", arguments->source, "Serial device, file, or - (standard input)")
+        ->type_name("SOURCE")
+        ->required();
+    add_baud_option(*command, arguments->baud);
+    add_spacing_option(*command, arguments->spacing_mm);
+    add_format_option(*command, arguments->format);
+    command->add_option("-o,--out", arguments->out, "File to write instead of standard output")
+        ->type_name("FILE");
+    command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace dotpose::cli

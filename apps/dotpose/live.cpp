@@ -1,0 +1,46 @@
+// The commands of `dotpose-live`, which lies beside this program.
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+#include "commands.hpp"
+#include "dotpose/error.hpp"
+
+namespace dotpose::cli {
+namespace {
+
+/// Goes on as the other program; returns only by throwing Error.
+[[noreturn]] void become_live(const CLI::App& command) {
+    std::error_code failed;
+    const auto here = std::filesystem::read_symlink("/proc/self/exe", failed);
+    const std::string program = (here.parent_path() / "dotpose-live").string();
+    std::vector<std::string> words = {"dotpose", command.get_name()};
+    for (const std::string& word : command.remaining())
+        words.push_back(word);
+    std::vector<char*> arguments;
+    for (std::string& word : words)
+        arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    execv(program.c_str(), arguments.data());
+    throw Error("cannot start " + program + ": " + std::strerror(errno));
+}
+
+void add_forwarded(CLI::App& app, const char* name, const char* what) {
+    CLI::App* command = app.add_subcommand(name, what);
+    command->set_help_flag();
+    command->prefix_command();
+    command->callback([command] { become_live(*command); });
+}
+
+}  // namespace
+
+void add_live(CLI::App& app) {
+    add_forwarded(app, "watch", "Follow a camera live, or a video frame by frame");
+    add_forwarded(app, "fleet", "Show all robots that publish to a broker");
+}
+
+}  // namespace dotpose::cli

@@ -1,0 +1,106 @@
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "dotpose/error.hpp"
+#include "print/output_file.hpp"
+#include "run_log.hpp"
+
+namespace dotpose::cli {
+namespace {
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  dotpose watch run.mp4 --log run.csv\n"
+    "  dotpose replay run.csv -o run.svg\n"
+    "  dotpose replay run.csv --json\n\n"
+    "The picture shows the path, and speed, dots and certainty over time, with all gaps.\n";
+
+struct ReplayArguments {
+    std::string log;
+    std::string out;
+    bool json = false;
+};
+
+std::string list_of(const std::map<std::string, std::int64_t>& counts) {
+    std::string text;
+    for (const auto& [name, count] : counts)
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, count);
+    return text.empty() ? "none" : text;
+}
+
+double share(std::int64_t part, std::int64_t whole) {
+    return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0;
+}
+
+void print_text(const RunStatistics& run) {
+    const auto line = [](const char* what, const std::string& value) {
+        fmt::print("{:<28}{}\n", what, value);
+    };
+    line("frames", fmt::format("{}", run.frames));
+    line("duration", fmt::format("{:.3f} s", run.duration_s));
+    line("frames with a fix",
+         fmt::format("{} ({:.2f} %)", run.fixes, 100 * share(run.fixes, run.frames)));
+    line("frames without, by status", list_of(run.without_fix));
+    line("gaps", fmt::format("{}, the longest {:.3f} s", run.gaps, run.longest_gap_s));
+    line("events", list_of(run.events));
+    line("verdicts of the tracker", list_of(run.verdicts));
+    line("distance driven", fmt::format("{:.3f} mm", run.distance_mm));
+    line("stationary", fmt::format("{:.3f} s", run.stationary_s));
+    line("speed while moving", fmt::format("mean {:.1f} mm/s, largest {:.1f} mm/s",
+                                           run.mean_speed_mm_s, run.largest_speed_mm_s));
+    line("largest p_wrong", fmt::format("{:.3g}", run.largest_p_wrong));
+}
+
+void print_json(const RunStatistics& run) {
+    const nlohmann::ordered_json json = {{"frames", run.frames},
+                                         {"duration_s", run.duration_s},
+                                         {"fixes", run.fixes},
+                                         {"fixes_share", share(run.fixes, run.frames)},
+                                         {"without_fix", run.without_fix},
+                                         {"gaps", run.gaps},
+                                         {"longest_gap_s", run.longest_gap_s},
+                                         {"events", run.events},
+                                         {"verdicts", run.verdicts},
+                                         {"distance_mm", run.distance_mm},
+                                         {"stationary_s", run.stationary_s},
+                                         {"mean_speed_mm_s", run.mean_speed_mm_s},
+                                         {"largest_speed_mm_s", run.largest_speed_mm_s},
+                                         {"largest_p_wrong", run.largest_p_wrong}};
+    fmt::print("{}\n", json.dump(2));
+}
+
+void run(const ReplayArguments& arguments) {
+    const auto rows = read_log(arguments.log);
+    const RunStatistics statistics = statistics_of(rows);
+    if (arguments.json) {
+        print_json(statistics);
+    } else {
+        print_text(statistics);
+    }
+    if (arguments.out.empty()) return;
+    print::OutputFile file(arguments.out);
+    file.write(draw_run(rows, std::filesystem::path(arguments.log).filename().string()));
+    file.commit();
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app, int&) {
+    const auto arguments = std::make_shared<ReplayArguments>();
+    CLI::App* command =
+        app.add_subcommand("replay", "Figures and a picture of a run that watch --log kept");
+    command->footer(kExamples);
+    command->add_option("log", arguments->log, "CSV file of dotpose watch --log")
+        ->type_name("FILE")
+        ->required();
+    command->add_option("-o,--out", arguments->out, "Picture to draw (SVG)")->type_name("FILE");
+    command->add_flag("--json", arguments->json, "Print one JSON object");
+    command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace dotpose::cli

@@ -1,0 +1,166 @@
+#include "run_log.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "dotpose/error.hpp"
+
+namespace dotpose::cli {
+namespace {
+
+/// The cells of a line; quoted ones may hold commas and doubled quotes. Names of files with line
+/// breaks are not expected.
+std::vector<std::string> cells_of(const std::string& line) {
+    std::vector<std::string> cells(1);
+    bool is_quoted = false;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        const char c = line[i];
+        if (c == '"' && is_quoted && i + 1 < line.size() && line[i + 1] == '"') {
+            cells.back() += line[++i];
+        } else if (c == '"') {
+            is_quoted = !is_quoted;
+        } else if (c == ',' && !is_quoted) {
+            cells.emplace_back();
+        } else {
+            cells.back() += c;
+        }
+    }
+    return cells;
+}
+
+/// Looks up the cells of a row by the names of the header.
+class Row {
+  public:
+    Row(const std::map<std::string, std::size_t>& columns, std::vector<std::string> cells)
+        : columns_(columns), cells_(std::move(cells)) {}
+
+    const std::string& text(const char* column) const { return cells_[columns_.at(column)]; }
+
+    std::optional<double> number(const char* column) const {
+        const std::string& cell = text(column);
+        if (cell.empty()) return std::nullopt;
+        double value = 0;
+        const char* end = cell.data() + cell.size();
+        const auto [stop, error] = std::from_chars(cell.data(), end, value);
+        if (error != std::errc() || stop != end || !std::isfinite(value)) {
+            throw Error(fmt::format("'{}' is no number of {}", cell, column));
+        }
+        return value;
+    }
+    double required(const char* column) const {
+        const auto value = number(column);
+        if (!value) throw Error(fmt::format("{} is missing", column));
+        return *value;
+    }
+
+  private:
+    const std::map<std::string, std::size_t>& columns_;
+    std::vector<std::string> cells_;
+};
+
+LogRow log_row(const Row& row) {
+    LogRow result;
+    result.frame = static_cast<std::int64_t>(row.required("frame"));
+    result.t_s = row.required("t_s");
+    result.status = row.text("status");
+    result.events = row.text("events");
+    result.verdict = row.text("verdict");
+    result.state = row.text("state");
+    result.plane = row.text("plane");
+    result.dots_seen = static_cast<int>(row.number("dots_seen").value_or(0));
+    result.p_wrong = row.number("p_wrong");
+    result.x_mm = row.number("track_x_mm");
+    result.y_mm = row.number("track_y_mm");
+    result.speed_mm_s =
+        std::hypot(row.number("vx_mm_s").value_or(0), row.number("vy_mm_s").value_or(0));
+    return result;
+}
+
+std::map<std::string, std::size_t> columns_of(const std::string& header) {
+    std::map<std::string, std::size_t> columns;
+    const auto names = cells_of(header);
+    for (std::size_t i = 0; i < names.size(); ++i)
+        columns[names[i]] = i;
+    for (const char* needed :
+         {"frame", "t_s", "status", "dots_seen", "p_wrong", "state", "events", "verdict", "plane",
+          "track_x_mm", "track_y_mm", "vx_mm_s", "vy_mm_s"}) {
+        if (!columns.contains(needed)) throw Error(fmt::format("no column {}", needed));
+    }
+    return columns;
+}
+
+}  // namespace
+
+std::vector<LogRow> read_log(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::string line;
+    if (std::filesystem::is_directory(path) || !file) throw Error("cannot read " + path.string());
+    int number = 1;
+    try {
+        if (!std::getline(file, line)) throw Error("it is empty");
+        const auto columns = columns_of(line);
+        const std::size_t width = cells_of(line).size();
+        std::vector<LogRow> rows;
+        while (std::getline(file, line)) {
+            ++number;
+            if (file.eof()) break;  // no line break: cut off
+            auto cells = cells_of(line);
+            if (cells.size() != width) {
+                throw Error(fmt::format("{} values instead of {}", cells.size(), width));
+            }
+            rows.push_back(log_row(Row(columns, std::move(cells))));
+        }
+        return rows;
+    } catch (const Error& error) {
+        throw Error(
+            fmt::format("{}:{}: no log of dotpose watch: {}", path.string(), number, error.what()));
+    }
+}
+
+RunStatistics statistics_of(const std::vector<LogRow>& rows) {
+    RunStatistics run;
+    run.frames = static_cast<std::int64_t>(rows.size());
+    if (rows.empty()) return run;
+    run.duration_s = rows.back().t_s - rows.front().t_s;
+    double moving_s = 0;
+    double gap_begin_s = 0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const LogRow& row = rows[i];
+        const LogRow& before = rows[i > 0 ? i - 1 : 0];
+        ++run.verdicts[row.verdict];
+        std::istringstream events(row.events);
+        for (std::string name; events >> name;)
+            ++run.events[name];
+        run.fixes += row.has_fix();
+        if (!row.has_fix()) {
+            ++run.without_fix[row.status];
+            if (i == 0 || before.has_fix()) {
+                ++run.gaps;
+                gap_begin_s = before.t_s;
+            }
+            run.longest_gap_s = std::max(run.longest_gap_s, row.t_s - gap_begin_s);
+        }
+        run.largest_p_wrong = std::max(run.largest_p_wrong, row.p_wrong.value_or(0));
+        run.largest_speed_mm_s = std::max(run.largest_speed_mm_s, row.speed_mm_s);
+        const bool goes_on = row.x_mm && before.x_mm && row.y_mm && before.y_mm &&
+                             row.events.find("kidnapped") == std::string::npos &&
+                             row.events.find("fix") == std::string::npos;
+        if (!goes_on) continue;
+        const double step_s = row.t_s - before.t_s;
+        if (row.state == "stationary") {
+            run.stationary_s += step_s;
+            continue;  // noise is no distance
+        }
+        moving_s += step_s;
+        run.distance_mm += std::hypot(*row.x_mm - *before.x_mm, *row.y_mm - *before.y_mm);
+    }
+    if (moving_s > 0) run.mean_speed_mm_s = run.distance_mm / moving_s;
+    return run;
+}
+
+}  // namespace dotpose::cli

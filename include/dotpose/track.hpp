@@ -1,0 +1,171 @@
+/// Tracker: the state of a robot from frame to frame. Position, angle and velocities with their
+/// covariance, by a constant-velocity filter on the plane; and events: `fix`, `lost`, `kidnapped`,
+/// `stationary`, `moving`. docs/tracking.md explains both, and how weak fixes are judged.
+///
+///     Tracker tracker;
+///     for (;;) {
+///         Fix fix = locate(image, options, workspace);
+///         const bool ok = fix.status == Status::ok;
+///         const Sighting sighting = sighting_of(fix, spacing_nm, time_us);
+///         const Track& track = tracker.update(time_us, ok ? &sighting : nullptr);
+///     }
+///
+/// Frames: any plane in mm, as long as the sightings agree on it: the pattern frame, or the world
+/// of a sheet file, where a robot may drive from sheet to sheet. Positions are whole nanometres,
+/// which reach over the whole pattern plane (2.1e14 nm). Angles are binary, 2^31 is half a turn,
+/// from +x towards +y. Velocities: mm/s along x and y, rad/s.
+///
+/// No heap, no double, no globals; different trackers may be used at the same time.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <numbers>
+
+#include "dotpose/fix.hpp"
+
+namespace dotpose {
+
+/// Sums and gains over (x, y, theta, their velocities), in mm, rad and seconds.
+using Covariance6 = std::array<std::array<float, 6>, 6>;
+
+/// Where one frame saw the robot.
+struct Sighting {
+    std::int64_t time_us = 0;  ///< of the middle of the exposure, on any clock
+    std::int64_t x_nm = 0;
+    std::int64_t y_nm = 0;
+    std::int32_t theta_bam = 0;
+    /// Sightings of different planes have nothing to do with each other.
+    std::uint32_t plane = 0;
+    std::array<std::array<float, 3>, 3> covariance{};  ///< of x, y, theta, in mm and rad
+    /// As in Fix. Above TrackOptions::max_p_wrong_log2 the sighting is *weak*.
+    int p_wrong_log2 = 0;
+};
+
+/// A fix in the pattern frame, the plane being its section. `spacing_nm`: 508000 for 0.508 mm;
+/// above 0, at most 20 mm.
+Sighting sighting_of(const Fix& fix, std::int32_t spacing_nm, std::int64_t time_us);
+
+struct TrackOptions {
+    /// Spread of the robot's acceleration from frame to frame. Larger follows faster and smooths
+    /// less. Default: a table-top robot.
+    float acceleration_mm_s2 = 600;
+    float angular_acceleration_rad_s2 = 6;
+
+    /// What physics allows. A sighting further from the prediction than the largest acceleration
+    /// explains is not believed before it was confirmed.
+    float max_acceleration_mm_s2 = 10'000;
+    float max_angular_acceleration_rad_s2 = 200;
+    /// Decide how far the robot may have come while it was not seen.
+    float max_speed_mm_s = 1000;
+    float max_turn_rad_s = 20;
+    /// Deviations of the prediction that are allowed besides.
+    float gate_sigmas = 5;
+    /// Consecutive sightings that must agree with each other before a jump is believed. More are
+    /// slower; fewer let a single wrong fix through.
+    int confirmations = 3;
+
+    /// Without a believed sighting for this long, the robot is lost.
+    std::int64_t lost_after_us = 70'000;
+
+    /// A robot that stays within these for `stationary_after_us` is stationary.
+    float still_mm = 0.1F;
+    float still_rad = 0.02F;
+    std::int64_t stationary_after_us = 500'000;
+
+    /// Added to what a sighting claims: printing errors, which the same place shows in every frame.
+    float least_sigma_mm = 0.0002F;
+    float least_sigma_rad = 0.00002F;
+
+    /// A sighting, together with the prior, may be wrong with 2^this.
+    int max_p_wrong_log2 = -30;
+    /// Weak sightings above this are never believed, whatever the prior. At most -1.
+    int max_weak_p_wrong_log2 = -10;
+    /// Of the pattern, to count the places that the prior leaves.
+    float spacing_mm = 0.508F;
+};
+
+/// Where the robot is and how it moves.
+struct TrackedPose {
+    std::int64_t time_us = 0;
+    std::int64_t x_nm = 0;
+    std::int64_t y_nm = 0;
+    std::int32_t theta_bam = 0;
+    std::uint32_t plane = 0;
+    float vx_mm_s = 0;
+    float vy_mm_s = 0;
+    float turn_rad_s = 0;
+    Covariance6 covariance{};
+
+    // Double precision only here, outside the embedded object code.
+    double x_mm() const { return static_cast<double>(x_nm) * 1e-6; }
+    double y_mm() const { return static_cast<double>(y_nm) * 1e-6; }
+    /// In [-pi, pi).
+    double theta_rad() const { return theta_bam * (std::numbers::pi / 2147483648.0); }
+};
+
+/// What was made of a frame's sighting.
+enum class Verdict : std::uint8_t {
+    none,        ///< there was none
+    believed,    ///< alone sure enough, and possible
+    with_prior,  ///< weak, but sure enough together with the prior
+    gated,       ///< contradicts physics, and not confirmed yet
+    too_weak,    ///< weak, and the prior does not help
+};
+inline constexpr int kVerdictCount = 5;
+/// The identifier, such as "with_prior".
+const char* name(Verdict verdict) noexcept;
+
+/// Changes that a frame brought. Several may come together.
+struct TrackEvents {
+    bool fix = false;         ///< was lost, and is found
+    bool lost = false;        ///< not seen for too long
+    bool kidnapped = false;   ///< is where it cannot have driven to; confirmed
+    bool stationary = false;  ///< came to rest
+    bool moving = false;      ///< was stationary, and moves again
+};
+
+struct Track {
+    bool is_lost = true;
+    bool is_stationary = false;
+    Verdict verdict = Verdict::none;
+    /// With the prior taken into account; 0 without a believed sighting.
+    int p_wrong_log2 = 0;
+    TrackEvents events;
+    /// At the time of the newest frame; between sightings predicted. Means nothing while lost.
+    TrackedPose pose;
+};
+
+class Tracker {
+  public:
+    /// Starts lost.
+    explicit Tracker(const TrackOptions& options = {}) : options_(options) {}
+
+    /// Takes the next frame: its time, and what it saw, if anything (null: no fix). Frames that are
+    /// not newer than the last one are ignored.
+    const Track& update(std::int64_t time_us, const Sighting* sighting);
+
+    const Track& track() const { return track_; }
+
+    /// Whether a weak sighting of the next frame could be believed: worth locating with a relaxed
+    /// IntegrityOptions::max_p_wrong_log2.
+    bool has_prior() const { return !track_.is_lost; }
+
+  private:
+    Verdict judge(const TrackedPose& predicted, const Sighting& sighting);
+    bool is_confirmed(const Sighting& sighting);
+    void restart(const Sighting& sighting);
+    void watch_motion();
+
+    TrackOptions options_;
+    Track track_;
+    bool was_seen_ = false;
+    bool has_frame_ = false;
+    std::int64_t newest_us_ = 0;
+    TrackedPose last_;    ///< at the last believed sighting
+    Sighting candidate_;  ///< the newest one that contradicts
+    int agreeing_ = 0;    ///< candidates that agree with each other
+    TrackedPose rest_;    ///< from where movement is counted
+};
+
+}  // namespace dotpose

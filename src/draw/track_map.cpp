@@ -1,0 +1,120 @@
+#include "draw/track_map.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace dotpose::draw {
+namespace {
+
+constexpr double kSide = 1000;
+constexpr double kMargin = 40;
+constexpr double kHead = 60;
+
+constexpr std::array kColours = {"#1565c0", "#c62828", "#2e7d32", "#6a1b9a",
+                                 "#ef6c00", "#00838f", "#4e342e", "#ad1457"};
+
+/// The smallest upright rectangle around all that is drawn.
+struct Bounds {
+    Point low{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
+    Point high{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::lowest()};
+
+    void add(Point p) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+    bool is_empty() const { return low.x > high.x; }
+};
+
+Bounds bounds_of(const Map& map) {
+    Bounds bounds;
+    for (const MapSheet& sheet : map.sheets) {
+        for (const Point corner : sheet.corners_mm)
+            bounds.add(corner);
+    }
+    for (const MapRobot& robot : map.robots) {
+        bounds.add(robot.place_mm);
+        for (const auto& stroke : robot.strokes_mm) {
+            for (const Point point : stroke)
+                bounds.add(point);
+        }
+    }
+    if (bounds.is_empty()) bounds.add({0, 0});
+    return bounds;
+}
+
+class MapSketch {
+  public:
+    explicit MapSketch(const Map& map)
+        : map_(map),
+          bounds_(bounds_of(map)),
+          scale_(kSide /
+                 std::max({bounds_.high.x - bounds_.low.x, bounds_.high.y - bounds_.low.y, 1.0})),
+          svg_(std::max((bounds_.high.x - bounds_.low.x) * scale_, 400.0) + 2 * kMargin,
+               (bounds_.high.y - bounds_.low.y) * scale_ + 2 * kMargin + kHead, map.title) {}
+
+    std::string draw() && {
+        svg_.text({kMargin, kMargin + 10}, 28, map_.title, R"(font-weight="bold" fill="#17202a")");
+        for (const MapSheet& sheet : map_.sheets)
+            draw_sheet(sheet);
+        for (std::size_t i = 0; i < map_.robots.size(); ++i)
+            draw_robot(map_.robots[i], kColours[i % kColours.size()]);
+        return std::move(svg_).finish();
+    }
+
+  private:
+    Point at(Point p_mm) const {
+        const double y = map_.y_up ? bounds_.high.y - p_mm.y : p_mm.y - bounds_.low.y;
+        return {kMargin + (p_mm.x - bounds_.low.x) * scale_, kMargin + kHead + y * scale_};
+    }
+
+    void draw_sheet(const MapSheet& sheet) {
+        std::string points;
+        for (const Point corner : sheet.corners_mm) {
+            const Point p = at(corner);
+            points += fmt::format("{:.2f},{:.2f} ", p.x, p.y);
+        }
+        svg_.add(R"(<polygon class="sheet" points="{}" fill="#f4f6f8" stroke="{}"/>)", points,
+                 colour::kFrame);
+        const Point middle = 0.5 * (at(sheet.corners_mm[0]) + at(sheet.corners_mm[2]));
+        svg_.text(middle, 22, sheet.name, R"(text-anchor="middle" fill="#b8c0c8")");
+    }
+
+    void draw_robot(const MapRobot& robot, const char* colour) {
+        for (const auto& stroke : robot.strokes_mm) {
+            std::string data;
+            for (const Point point : stroke) {
+                const Point p = at(point);
+                data += fmt::format("{}{:.2f} {:.2f}", data.empty() ? 'M' : 'L', p.x, p.y);
+            }
+            if (data.empty()) continue;
+            svg_.add(R"(<path class="track" d="{}" fill="none" stroke="{}" stroke-width="2" )"
+                     R"(stroke-linejoin="round" stroke-linecap="round"/>)",
+                     data, colour);
+        }
+        const char* shown = robot.is_lost ? colour::kBad : colour;
+        const Point place = at(robot.place_mm);
+        svg_.circle(place, 6, fmt::format(R"(class="robot" fill="{}")", shown));
+        if (robot.heading_rad) {
+            const double down = map_.y_up ? -1 : 1;
+            const Point ahead{std::cos(*robot.heading_rad), down * std::sin(*robot.heading_rad)};
+            svg_.arrow(place, place + 28.0 * ahead, 4, shown);
+        }
+        svg_.text(place + Point{10, -10}, 18, robot.is_lost ? robot.name + " (lost)" : robot.name,
+                  fmt::format(R"(fill="{}")", shown));
+    }
+
+    const Map& map_;
+    Bounds bounds_;
+    double scale_;
+    Svg svg_;
+};
+
+}  // namespace
+
+std::string draw_map(const Map& map) {
+    return MapSketch(map).draw();
+}
+
+}  // namespace dotpose::draw

@@ -1,0 +1,310 @@
+#include "publish/mqtt.hpp"
+
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+
+#include <fmt/format.h>
+#include <mosquitto.h>
+
+namespace dotpose::publish {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// How long a broker may take to say whether it lets us in.
+constexpr auto kPatience = 3s;
+/// From one attempt to reach a broker that is gone to the next.
+constexpr auto kBetweenAttempts = 500ms;
+/// Messages handed to the library at a time; those it sends in their order.
+constexpr std::size_t kMostUnderWay = 20;
+
+/// The library wants to be set up once in a program.
+struct Library {
+    Library() { mosquitto_lib_init(); }
+    ~Library() { mosquitto_lib_cleanup(); }
+};
+
+std::string reason_of(int code) {
+    return code == MOSQ_ERR_ERRNO ? std::strerror(errno) : mosquitto_strerror(code);
+}
+
+void require(int code, const std::string& what) {
+    if (code != MOSQ_ERR_SUCCESS) throw Error(what + ": " + mosquitto_strerror(code));
+}
+
+int parse_port(const std::string& text, const std::string& url) {
+    int port = 0;
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, port);
+    if (error != std::errc() || stop != end || port < 1 || port > 65535) {
+        throw BadArgument("'" + url + "' has no port from 1 to 65535");
+    }
+    return port;
+}
+
+}  // namespace
+
+void parse_url(const std::string& url, MqttOptions& options) {
+    constexpr int kPort = 1883;
+    constexpr int kTlsPort = 8883;
+    const std::size_t scheme = url.find("://");
+    const std::string name = url.substr(0, scheme);
+    if (scheme == std::string::npos || (name != "mqtt" && name != "mqtts")) {
+        throw BadArgument("'" + url + "' is not mqtt://HOST or mqtts://HOST");
+    }
+    options.has_tls = name == "mqtts";
+    options.port = options.has_tls ? kTlsPort : kPort;
+    std::string rest = url.substr(scheme + 3);
+    if (rest.ends_with('/')) rest.pop_back();
+    if (const std::size_t at = rest.rfind('@'); at != std::string::npos) {
+        const std::string login = rest.substr(0, at);
+        const std::size_t colon = login.find(':');
+        options.user = login.substr(0, colon);
+        if (colon != std::string::npos) options.password = login.substr(colon + 1);
+        rest = rest.substr(at + 1);
+    }
+    if (const std::size_t colon = rest.rfind(':'); colon != std::string::npos) {
+        options.port = parse_port(rest.substr(colon + 1), url);
+        rest.resize(colon);
+    }
+    if (rest.empty()) throw BadArgument("'" + url + "' names no host");
+    options.host = rest;
+}
+
+/// C functions that lead back into the object.
+struct MqttClient::Callbacks {
+    static MqttClient& client(void* object) { return *static_cast<MqttClient*>(object); }
+    static void on_connect(mosquitto*, void* object, int code) { client(object).answered(code); }
+    static void on_disconnect(mosquitto*, void* object, int reason) {
+        client(object).disconnected(reason);
+    }
+    static void on_publish(mosquitto*, void* object, int id) { client(object).on_published(id); }
+    static void on_message(mosquitto*, void* object, const mosquitto_message* message) {
+        client(object).on_message(message->topic,
+                                  std::string(static_cast<const char*>(message->payload),
+                                              static_cast<std::size_t>(message->payloadlen)));
+    }
+};
+
+MqttClient::MqttClient(MqttOptions options) : options_(std::move(options)) {
+    static const Library library;
+    const char* id = options_.client_id.empty() ? nullptr : options_.client_id.c_str();
+    mosquitto_ = mosquitto_new(id, true, this);
+    if (mosquitto_ == nullptr) throw Error("cannot set up MQTT: out of memory");
+}
+
+MqttClient::~MqttClient() {
+    stop();
+    mosquitto_destroy(mosquitto_);
+}
+
+std::string MqttClient::place() const {
+    return fmt::format("the broker {}:{}", options_.host, options_.port);
+}
+
+bool MqttClient::is_connected() const {
+    const std::lock_guard lock(mutex_);
+    return is_connected_;
+}
+
+void MqttClient::set_up_security() {
+    if (!options_.user.empty()) {
+        require(
+            mosquitto_username_pw_set(mosquitto_, options_.user.c_str(), options_.password.c_str()),
+            "cannot set user and password");
+    }
+    if (options_.has_tls) {
+        const char* file = options_.ca_file.empty() ? nullptr : options_.ca_file.c_str();
+        const char* folder = file == nullptr ? "/etc/ssl/certs" : nullptr;
+        require(mosquitto_tls_set(mosquitto_, file, folder, nullptr, nullptr, nullptr),
+                "cannot use the certificates " + (file == nullptr ? folder : options_.ca_file));
+    }
+}
+
+void MqttClient::start() {
+    set_up_security();
+    if (!options_.will_topic.empty()) {
+        require(mosquitto_will_set(mosquitto_, options_.will_topic.c_str(),
+                                   static_cast<int>(options_.will.size()), options_.will.data(),
+                                   options_.qos, true),
+                "cannot set the last will");
+    }
+    mosquitto_connect_callback_set(mosquitto_, Callbacks::on_connect);
+    mosquitto_disconnect_callback_set(mosquitto_, Callbacks::on_disconnect);
+    mosquitto_publish_callback_set(mosquitto_, Callbacks::on_publish);
+    mosquitto_message_callback_set(mosquitto_, Callbacks::on_message);
+    mosquitto_max_inflight_messages_set(mosquitto_, static_cast<unsigned>(kMostUnderWay));
+    // Functions are called by another thread than `run`.
+    mosquitto_threaded_set(mosquitto_, true);
+    constexpr int kKeepAlive_s = 10;
+    const int code =
+        mosquitto_connect_async(mosquitto_, options_.host.c_str(), options_.port, kKeepAlive_s);
+    const std::string at_once = reason_of(code);
+    thread_ = std::thread([this] { run(); });
+
+    std::unique_lock lock(mutex_);
+    if (code == MOSQ_ERR_SUCCESS) {
+        changed_.wait_for(lock, kPatience, [this] {
+            return is_connected_ || !refusal_.empty() || !failure_.empty();
+        });
+    }
+    const std::string refusal = refusal_;
+    std::string failure = code == MOSQ_ERR_SUCCESS ? failure_ : at_once;
+    if (failure.empty()) failure = "no answer";
+    const bool is_connected = is_connected_;
+    lock.unlock();
+    if (!refusal.empty()) {
+        stop();
+        throw Error(place() + " refuses the connection: " + refusal);
+    }
+    if (!is_connected) options_.tell("cannot reach " + place() + ": " + failure + "; trying on");
+}
+
+void MqttClient::stop() {
+    if (!thread_.joinable()) return;
+    mosquitto_disconnect(mosquitto_);
+    {
+        const std::lock_guard lock(mutex_);
+        ends_ = true;
+    }
+    changed_.notify_all();
+    thread_.join();
+}
+
+// The library's own thread gives up when a broker is not there at once.
+void MqttClient::run() {
+    constexpr int kWait_ms = 100;
+    constexpr int kPackets = 1;
+    for (;;) {
+        const int code = mosquitto_loop(mosquitto_, kWait_ms, kPackets);
+        const std::string reason = reason_of(code);
+        std::unique_lock lock(mutex_);
+        if (ends_) return;
+        if (code == MOSQ_ERR_SUCCESS) continue;
+        if (!is_connected_ && refusal_.empty()) failure_ = reason;
+        changed_.notify_all();
+        changed_.wait_for(lock, kBetweenAttempts, [this] { return ends_; });
+        if (ends_) return;
+        lock.unlock();
+        mosquitto_reconnect_async(mosquitto_);
+    }
+}
+
+void MqttClient::answered(int code) {
+    bool was_refused = false;
+    {
+        const std::lock_guard lock(mutex_);
+        is_connected_ = code == 0;
+        was_refused = !refusal_.empty();
+        refusal_ = code == 0 ? "" : mosquitto_connack_string(code);
+    }
+    changed_.notify_all();
+    if (code == 0) {
+        on_connected();
+    } else if (!was_refused) {
+        options_.tell(place() + " refuses the connection: " + mosquitto_connack_string(code));
+    }
+}
+
+void MqttClient::disconnected(int reason) {
+    bool is_news = false;
+    {
+        const std::lock_guard lock(mutex_);
+        is_news = is_connected_ && reason != 0;  // 0: we asked for it
+        is_connected_ = false;
+    }
+    on_disconnected();
+    if (is_news) options_.tell(place() + " is gone; trying to reach it again");
+}
+
+MqttPublisher::MqttPublisher(MqttOptions options) : MqttClient(std::move(options)) {
+    start();
+}
+
+MqttPublisher::~MqttPublisher() {
+    stop();
+}
+
+void MqttPublisher::publish(std::string topic, std::string payload) {
+    {
+        const std::lock_guard lock(mutex_);
+        waiting_.push_back({std::move(topic), std::move(payload)});
+        if (waiting_.size() > options_.queue) {
+            waiting_.pop_front();
+            ++dropped_;
+        }
+    }
+    if (is_connected()) send_waiting();
+}
+
+void MqttPublisher::send_waiting() {
+    const std::lock_guard lock(mutex_);
+    while (!waiting_.empty() && under_way_.size() < kMostUnderWay) {
+        const Message& newest = waiting_.back();
+        int id = 0;
+        const int code = mosquitto_publish(handle(), &id, newest.topic.c_str(),
+                                           static_cast<int>(newest.payload.size()),
+                                           newest.payload.data(), options_.qos, false);
+        if (code != MOSQ_ERR_SUCCESS) return;  // not connected any more: stays
+        under_way_.insert(id);
+        waiting_.pop_back();
+    }
+}
+
+void MqttPublisher::on_published(int id) {
+    {
+        const std::lock_guard lock(mutex_);
+        sent_ += static_cast<std::int64_t>(under_way_.erase(id));
+    }
+    done_.notify_all();
+    send_waiting();
+}
+
+void MqttPublisher::on_disconnected() {
+    // The library sends messages of QoS 1 again, and forgets those of QoS 0.
+    if (options_.qos > 0) return;
+    const std::lock_guard lock(mutex_);
+    dropped_ += static_cast<std::int64_t>(under_way_.size());
+    under_way_.clear();
+}
+
+bool MqttPublisher::flush(std::chrono::milliseconds patience) {
+    std::unique_lock lock(mutex_);
+    return done_.wait_for(lock, patience,
+                          [this] { return waiting_.empty() && under_way_.empty(); });
+}
+
+std::int64_t MqttPublisher::sent() const {
+    const std::lock_guard lock(mutex_);
+    return sent_;
+}
+
+std::int64_t MqttPublisher::unsent() const {
+    const std::lock_guard lock(mutex_);
+    return static_cast<std::int64_t>(waiting_.size() + under_way_.size());
+}
+
+std::int64_t MqttPublisher::dropped() const {
+    const std::lock_guard lock(mutex_);
+    return dropped_;
+}
+
+MqttSubscriber::MqttSubscriber(MqttOptions options, std::string topic, Handler handle)
+    : MqttClient(std::move(options)), topic_(std::move(topic)), handle_(std::move(handle)) {
+    start();
+}
+
+MqttSubscriber::~MqttSubscriber() {
+    stop();
+}
+
+void MqttSubscriber::on_connected() {
+    mosquitto_subscribe(handle(), nullptr, topic_.c_str(), options_.qos);
+}
+
+void MqttSubscriber::on_message(const std::string& topic, const std::string& payload) {
+    handle_(topic, payload);
+}
+
+}  // namespace dotpose::publish

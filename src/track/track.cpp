@@ -1,0 +1,189 @@
+#include "dotpose/track.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "track/filter.hpp"
+
+namespace dotpose {
+namespace {
+
+using namespace dotpose::track;
+
+/// floor(log2(kPositionsPerAxis * 63 * 4)): places, sections and turns of one axis.
+constexpr int kHypotheses_log2 = 36;
+static_assert((std::uint64_t{kPositionsPerAxis} * kSections * 4) >> kHypotheses_log2 == 1,
+              "the number of hypotheses is rounded down to a power of two");
+
+/// Places that differ by fewer cells than this share no column with each other but by chance: 31 is
+/// the shortest of the sequences that spell the position. docs/tracking.md.
+constexpr int kShortestSequence = 31;
+
+float seconds(std::int64_t from_us, std::int64_t to_us) {
+    return static_cast<float>(to_us - from_us) * 1e-6F;
+}
+
+/// Largest difference that is allowed, by the filter's own deviation and by physics.
+Vector3 gate(const Innovation& found, float dt, const TrackOptions& options) {
+    Vector3 limits{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const float acceleration =
+            i < 2 ? options.max_acceleration_mm_s2 : options.max_angular_acceleration_rad_s2;
+        limits[i] =
+            options.gate_sigmas * std::sqrt(found.covariance[i][i]) + acceleration * dt * dt / 2;
+    }
+    return limits;
+}
+
+bool is_within(const Vector3& difference, const Vector3& limits) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (std::fabs(difference[i]) > limits[i]) return false;
+    }
+    return true;
+}
+
+/// Whether a robot could be at `sighting` after it was at `from`, whatever it did.
+bool is_reachable(const TrackedPose& from, const Sighting& sighting, const TrackOptions& options) {
+    if (from.plane != sighting.plane) return false;
+    const float dt = seconds(from.time_us, sighting.time_us);
+    const Innovation found = innovation(from, sighting, options);
+    const float slack_mm =
+        options.gate_sigmas * std::sqrt(std::max(found.covariance[0][0], found.covariance[1][1]));
+    const float slack_rad = options.gate_sigmas * std::sqrt(found.covariance[2][2]);
+    const float x = found.difference[0];
+    const float y = found.difference[1];
+    return std::sqrt(x * x + y * y) <= options.max_speed_mm_s * dt + slack_mm &&
+           std::fabs(found.difference[2]) <= options.max_turn_rad_s * dt + slack_rad;
+}
+
+/// p_wrong of a sighting that lies within the gate, as a power of two; 0: the prior does not help.
+int p_wrong_with_prior(const Sighting& sighting, const Vector3& limits,
+                       const TrackOptions& options) {
+    const float half = std::max(limits[0], limits[1]) / options.spacing_mm;
+    if (!(half < static_cast<float>(kShortestSequence / 2)) || limits[2] > 0.78F) return 0;
+    const auto cells = static_cast<unsigned>(2 * half) + 2;
+    int cells_log2 = 0;
+    while ((1U << cells_log2) < cells)
+        ++cells_log2;
+    return std::min(sighting.p_wrong_log2 + cells_log2 - kHypotheses_log2, 0);
+}
+
+}  // namespace
+
+const char* name(Verdict verdict) noexcept {
+    constexpr std::array<const char*, kVerdictCount> kNames = {"none", "believed", "with_prior",
+                                                               "gated", "too_weak"};
+    return kNames[static_cast<std::size_t>(verdict)];
+}
+
+Sighting sighting_of(const Fix& fix, std::int32_t spacing_nm, std::int64_t time_us) {
+    const auto nm = [spacing_nm](std::uint32_t cell, std::uint16_t fraction_q16) {
+        return std::int64_t{cell} * spacing_nm + ((std::int64_t{fraction_q16} * spacing_nm) >> 16);
+    };
+    Sighting sighting;
+    sighting.time_us = time_us;
+    sighting.x_nm = nm(fix.cell.x, fix.fraction_x_q16);
+    sighting.y_nm = nm(fix.cell.y, fix.fraction_y_q16);
+    sighting.theta_bam = fix.theta_bam;
+    sighting.plane = std::uint32_t{fix.section.u} * kSections + fix.section.v;
+    sighting.p_wrong_log2 = fix.p_wrong_log2;
+    const float spacing_mm = static_cast<float>(spacing_nm) * 1e-6F;
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) {
+            const float unit = (i < 2 ? spacing_mm : 1.0F) * (j < 2 ? spacing_mm : 1.0F);
+            sighting.covariance[i][j] = fix.covariance[i][j] * unit;
+        }
+    }
+    return sighting;
+}
+
+const Track& Tracker::update(std::int64_t time_us, const Sighting* sighting) {
+    track_.events = {};
+    if (has_frame_ && time_us <= newest_us_) return track_;
+    has_frame_ = true;
+    newest_us_ = time_us;
+    track_.verdict = Verdict::none;
+    track_.p_wrong_log2 = 0;
+    if (was_seen_) track_.pose = predicted(last_, time_us, options_);
+    if (sighting != nullptr) track_.verdict = judge(track_.pose, *sighting);
+    if (track_.verdict != Verdict::believed && track_.verdict != Verdict::with_prior) {
+        track_.p_wrong_log2 = 0;
+    }
+    if (!track_.is_lost && time_us - last_.time_us >= options_.lost_after_us) {
+        track_.is_lost = track_.events.lost = true;
+        track_.is_stationary = false;
+    }
+    if (!track_.is_lost) watch_motion();
+    return track_;
+}
+
+Verdict Tracker::judge(const TrackedPose& prediction, const Sighting& sighting) {
+    const bool is_weak = sighting.p_wrong_log2 > options_.max_p_wrong_log2;
+    track_.p_wrong_log2 = sighting.p_wrong_log2;
+    bool is_possible = !was_seen_;
+    if (track_.is_lost) {
+        if (is_weak) return Verdict::too_weak;
+        is_possible = is_possible || is_reachable(last_, sighting, options_);
+        if (is_possible) restart(sighting);
+    } else {
+        const Innovation found = innovation(prediction, sighting, options_);
+        const Vector3 limits = gate(found, seconds(last_.time_us, sighting.time_us), options_);
+        is_possible = last_.plane == sighting.plane && is_within(found.difference, limits);
+        if (is_weak) {
+            track_.p_wrong_log2 = p_wrong_with_prior(sighting, limits, options_);
+            if (!is_possible || sighting.p_wrong_log2 > options_.max_weak_p_wrong_log2 ||
+                track_.p_wrong_log2 > options_.max_p_wrong_log2) {
+                return Verdict::too_weak;
+            }
+        }
+        if (is_possible) track_.pose = last_ = corrected(prediction, sighting, options_);
+    }
+    if (is_possible) {
+        agreeing_ = 0;
+        return is_weak ? Verdict::with_prior : Verdict::believed;
+    }
+    if (is_confirmed(sighting)) {
+        track_.events.kidnapped = true;
+        restart(sighting);
+        return Verdict::believed;
+    }
+    return Verdict::gated;
+}
+
+bool Tracker::is_confirmed(const Sighting& sighting) {
+    const bool agrees =
+        agreeing_ > 0 && is_reachable(started_at(candidate_, options_), sighting, options_);
+    agreeing_ = agrees ? agreeing_ + 1 : 1;
+    candidate_ = sighting;
+    return agreeing_ >= options_.confirmations;
+}
+
+void Tracker::restart(const Sighting& sighting) {
+    track_.events.fix = track_.is_lost;
+    track_.is_lost = false;
+    // A robot that was put somewhere else moved, whatever it does now.
+    track_.events.moving = track_.is_stationary;
+    track_.is_stationary = false;
+    was_seen_ = true;
+    agreeing_ = 0;
+    track_.pose = last_ = rest_ = started_at(sighting, options_);
+}
+
+void Tracker::watch_motion() {
+    const TrackedPose& pose = track_.pose;
+    Sighting here;
+    here.x_nm = pose.x_nm;
+    here.y_nm = pose.y_nm;
+    here.theta_bam = pose.theta_bam;
+    const Vector3 moved = innovation(rest_, here, options_).difference;
+    if (!is_within(moved, {options_.still_mm, options_.still_mm, options_.still_rad})) {
+        rest_ = pose;
+        track_.events.moving = track_.events.moving || track_.is_stationary;
+        track_.is_stationary = false;
+    } else if (!track_.is_stationary &&
+               pose.time_us - rest_.time_us >= options_.stationary_after_us) {
+        track_.is_stationary = track_.events.stationary = true;
+    }
+}
+
+}  // namespace dotpose

@@ -1,0 +1,77 @@
+// Raw 8-bit grey frames on standard input, one after the other, without anything between them.
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include "video/sources.hpp"
+
+namespace dotpose::video {
+namespace {
+
+class RawSource : public FrameSource {
+  public:
+    explicit RawSource(const SourceOptions& options) : options_(options) {
+        if (options.width_px < 1 || options.height_px < 1) {
+            throw BadArgument("raw frames need their size: --size WxH");
+        }
+    }
+
+    bool next(Frame& frame) override {
+        frame.image.width_px = options_.width_px;
+        frame.image.height_px = options_.height_px;
+        frame.image.pixels.resize(static_cast<std::size_t>(options_.width_px) *
+                                  static_cast<std::size_t>(options_.height_px));
+        if (!fill(frame.image.pixels)) return false;
+        using namespace std::chrono;
+        frame.time_us =
+            options_.fps
+                ? time_of(frames_, *options_.fps)
+                : duration_cast<microseconds>(steady_clock::now().time_since_epoch()).count();
+        frame.index = frames_++;
+        return true;
+    }
+    double rate() const override { return options_.fps.value_or(0); }
+
+  private:
+    /// False at the end between two frames, or when asked to stop.
+    bool fill(std::vector<std::uint8_t>& pixels) {
+        constexpr int kPatience_ms = 100;
+        std::size_t filled = 0;
+        while (filled < pixels.size()) {
+            if (options_.stop()) return false;
+            pollfd ready{STDIN_FILENO, POLLIN, 0};
+            if (poll(&ready, 1, kPatience_ms) <= 0) continue;
+            const ssize_t size = read(STDIN_FILENO, pixels.data() + filled, pixels.size() - filled);
+            if (size < 0 && errno != EINTR) {
+                throw Error(std::string("cannot read standard input: ") + std::strerror(errno));
+            }
+            if (size == 0 && filled == 0) return false;
+            if (size == 0) {
+                throw Error(fmt::format("standard input ended inside frame {}: {} of {} bytes",
+                                        frames_, filled, pixels.size()));
+            }
+            if (size > 0) filled += static_cast<std::size_t>(size);
+        }
+        return true;
+    }
+
+    SourceOptions options_;
+    std::int64_t frames_ = 0;
+};
+
+}  // namespace
+
+std::int64_t time_of(std::int64_t index, double fps) {
+    return std::llround(static_cast<double>(index) * 1e6 / fps);
+}
+
+std::unique_ptr<FrameSource> open_raw(const SourceOptions& options) {
+    return std::make_unique<RawSource>(options);
+}
+
+}  // namespace dotpose::video

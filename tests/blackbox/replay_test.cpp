@@ -1,0 +1,111 @@
+// `dotpose replay`: figures of a log, worked out by hand.
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tool_command.hpp"
+
+namespace dotpose::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+constexpr const char* kHeader =
+    "frame,t_s,file,status,dots_seen,p_wrong,state,events,verdict,plane,track_x_mm,track_y_mm,"
+    "vx_mm_s,vy_mm_s\n";
+
+/// Ten frames a second: 30 mm along x at 100 mm/s, three frames lost, put down 1 m away, 40 mm to
+/// the side at 200 mm/s, two frames of rest with some noise, a frame that only the prior made a
+/// fix.
+constexpr const char* kRows =
+    "0,0.0,,ok,150,1e-20,moving,fix,believed,world,0,0,0,0\n"
+    "1,0.1,,ok,150,1e-20,moving,,believed,world,10,0,100,0\n"
+    "2,0.2,,ok,150,1e-12,moving,,believed,world,20,0,100,0\n"
+    "3,0.3,,ok,150,1e-20,moving,,believed,world,30,0,100,0\n"
+    "4,0.4,,no_contrast,0,,lost,lost,none,,,,,\n"
+    "5,0.5,,no_contrast,0,,lost,,none,,,,,\n"
+    "6,0.6,,too_few_dots,9,,lost,,none,,,,,\n"
+    "7,0.7,\"a \"\"b\"\", c\",ok,150,1e-20,moving,fix kidnapped,believed,world,1000,0,0,0\n"
+    "8,0.8,,ok,150,1e-20,moving,,believed,world,1000,-20,0,-200\n"
+    "9,0.9,,ok,150,1e-20,moving,,believed,world,1000,-40,120,160\n"
+    "10,1.0,,ok,150,1e-20,stationary,stationary,believed,world,1000,-40.01,0,0\n"
+    "11,1.1,,ok,150,1e-14,stationary,,with_prior,world,1000,-40,0,0\n";
+
+class Replay : public ToolCommand {
+  protected:
+    void put(const std::string& text) { std::ofstream(directory_ / "run.csv") << text; }
+};
+
+TEST_F(Replay, CountsARun) {
+    put(std::string(kHeader) + kRows);
+    ASSERT_EQ(run("replay run.csv --json"), 0);
+    const json figures = json::parse(output_);
+    EXPECT_EQ(figures["frames"], 12);
+    EXPECT_NEAR(figures["duration_s"], 1.1, 1e-9);
+    EXPECT_EQ(figures["fixes"], 9);
+    EXPECT_DOUBLE_EQ(figures["fixes_share"], 0.75);
+    EXPECT_EQ(figures["without_fix"], (json{{"no_contrast", 2}, {"too_few_dots", 1}}));
+    EXPECT_EQ(figures["gaps"], 1);
+    EXPECT_NEAR(figures["longest_gap_s"], 0.3, 1e-9);
+    EXPECT_EQ(figures["events"],
+              (json{{"fix", 2}, {"kidnapped", 1}, {"lost", 1}, {"stationary", 1}}));
+    EXPECT_EQ(figures["verdicts"], (json{{"believed", 8}, {"none", 3}, {"with_prior", 1}}));
+    EXPECT_NEAR(figures["distance_mm"], 70, 1e-9);
+    EXPECT_NEAR(figures["stationary_s"], 0.2, 1e-9);
+    EXPECT_NEAR(figures["mean_speed_mm_s"], 140, 1e-6);
+    EXPECT_NEAR(figures["largest_speed_mm_s"], 200, 1e-9);
+    EXPECT_DOUBLE_EQ(figures["largest_p_wrong"], 1e-12);
+}
+
+TEST_F(Replay, PrintsAndDraws) {
+    put(std::string(kHeader) + kRows);
+    ASSERT_EQ(run("replay run.csv -o run.svg"), 0);
+    EXPECT_THAT(output_, HasSubstr("frames with a fix           9 (75.00 %)\n"));
+    EXPECT_THAT(output_, HasSubstr("gaps                        1, the longest 0.300 s\n"));
+    const std::string picture = file("run.svg");
+    EXPECT_THAT(picture, HasSubstr("speed [mm/s]"));
+    EXPECT_THAT(picture, HasSubstr("</svg>"));
+    // Three gaps: one in each of the plots over time.
+    std::size_t bands = 0;
+    for (std::size_t at = picture.find("fill-opacity=\"0.10\""); at != std::string::npos;
+         at = picture.find("fill-opacity=\"0.10\"", at + 1)) {
+        ++bands;
+    }
+    EXPECT_EQ(bands, 3U);
+}
+
+TEST_F(Replay, LeavesOutALineThatWasCutOff) {
+    const std::string rows = kRows;
+    put(kHeader + rows.substr(0, rows.size() - 12));
+    ASSERT_EQ(run("replay run.csv --json"), 0);
+    EXPECT_EQ(json::parse(output_)["frames"], 11);
+}
+
+TEST_F(Replay, OfNoFramesIsNoError) {
+    put(kHeader);
+    ASSERT_EQ(run("replay run.csv -o run.svg"), 0);
+    EXPECT_THAT(output_, HasSubstr("frames                      0\n"));
+    EXPECT_THAT(file("run.svg"), HasSubstr("</svg>"));
+}
+
+TEST_F(Replay, RefusesWhatIsNoLog) {
+    EXPECT_EQ(run("replay nowhere.csv"), 1);
+    EXPECT_THAT(errors_, HasSubstr("cannot read nowhere.csv"));
+    put("a,b\n1,2\n");
+    EXPECT_EQ(run("replay run.csv"), 1);
+    EXPECT_EQ(errors_, "dotpose: run.csv:1: no log of dotpose watch: no column frame\n");
+    put(std::string(kHeader) + "1,2\n");
+    EXPECT_EQ(run("replay run.csv"), 1);
+    EXPECT_EQ(errors_, "dotpose: run.csv:2: no log of dotpose watch: 2 values instead of 14\n");
+    put(std::string(kHeader) + "0,soon,,ok,150,1e-20,moving,fix,believed,world,0,0,0,0\n");
+    EXPECT_EQ(run("replay run.csv"), 1);
+    EXPECT_EQ(errors_, "dotpose: run.csv:2: no log of dotpose watch: 'soon' is no number of t_s\n");
+    put("");
+    EXPECT_EQ(run("replay run.csv"), 1);
+}
+
+}  // namespace
+}  // namespace dotpose::test

@@ -1,0 +1,359 @@
+// `dotpose watch` on a simulated drive: events, accuracy, sources, and what goes wrong.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "../drive.hpp"
+#include "dotpose/image_file.hpp"
+#include "dotpose/pose_packet.hpp"
+#include "tool_command.hpp"
+
+namespace dotpose::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+std::vector<json> parsed(const std::string& text) {
+    std::vector<json> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);)
+        lines.push_back(json::parse(line));
+    return lines;
+}
+
+class Watch : public ToolCommand {
+  protected:
+    static constexpr int kWidth = 320;
+    static constexpr int kHeight = 240;
+    static constexpr const char* kRaw = "--size 320x240 --fps 200";
+    static constexpr const char* kTrack = "--sheets sheets.json --max-speed 400";
+
+    void SetUp() override {
+        ToolCommand::SetUp();
+        SheetFile sheets(directory_ / "sheets.json");
+        for (const SheetEntry& entry : drive_sheets())
+            sheets.add(entry);
+        sheets.save();
+    }
+
+    /// Renders the first frames of the drive, as drive.raw.
+    void put_raw(int frames) {
+        const DriveCamera camera(kWidth, kHeight);
+        std::ofstream raw(directory_ / "drive.raw", std::ios::binary);
+        for (int i = 0; i < frames; ++i) {
+            const GreyImage image = camera.frame(drive_, i);
+            raw.write(reinterpret_cast<const char*>(image.pixels.data()),
+                      static_cast<std::streamsize>(image.pixels.size()));
+        }
+    }
+    /// And as a video without loss.
+    void put_video(int frames, const std::string& name) {
+        put_raw(frames);
+        shell(
+            "ffmpeg -v error -f rawvideo -pix_fmt gray -s 320x240 -r 200 -i drive.raw -c:v ffv1 " +
+            name);
+    }
+    void shell(const std::string& command) {
+        ASSERT_EQ(std::system(("cd '" + directory_.string() + "' && " + command).c_str()), 0);
+    }
+
+    const Drive drive_;
+};
+
+/// What the lines say against where the robot was.
+struct DriveErrors {
+    double raw_um = 0;  ///< root mean square, per axis
+    double filtered_um = 0;
+    double velocity_mm_s = 0;
+    double turn_deg_s = 0;
+    int fixes = 0;
+    int wrong = 0;
+};
+
+DriveErrors errors_of(const std::vector<json>& lines, const Drive& drive) {
+    // A filter that has just begun knows no velocity.
+    constexpr int kSettling = 3;
+    DriveErrors errors;
+    int tracked = 0;
+    int settled = 0;
+    for (const json& line : lines) {
+        // By the time, not the number: of a damaged video frames are missing.
+        const DriveState truth =
+            drive.at(static_cast<int>(std::lround(line["t_s"].get<double>() * kDriveFps)));
+        const std::string events = line.value("events", "");
+        tracked = events.find("fix") != std::string::npos ? 0 : tracked + 1;
+        if (line["status"] != "ok") continue;
+        ++errors.fixes;
+        const double x = line["x_m"].get<double>() * 1000 - truth.x_mm;
+        const double y = line["y_m"].get<double>() * 1000 - truth.y_mm;
+        const double turn =
+            std::remainder(line["yaw_rad"].get<double>() - truth.yaw_rad, 2 * std::numbers::pi);
+        if (std::hypot(x, y) > 0.1 || std::abs(turn) > 0.02 || truth.is_lifted) ++errors.wrong;
+        if (line["state"] == "lost" || line["verdict"] != "believed" || tracked < kSettling)
+            continue;
+        ++settled;
+        const auto squared = [](double value) { return value * value; };
+        errors.raw_um += squared(x) + squared(y);
+        errors.filtered_um += squared(line["track_x_mm"].get<double>() - truth.x_mm) +
+                              squared(line["track_y_mm"].get<double>() - truth.y_mm);
+        errors.velocity_mm_s += squared(line["vx_mm_s"].get<double>() - truth.vx_mm_s) +
+                                squared(line["vy_mm_s"].get<double>() - truth.vy_mm_s);
+        errors.turn_deg_s +=
+            squared(line["turn_deg_s"].get<double>() - truth.turn_rad_s * 180 / std::numbers::pi);
+    }
+    errors.raw_um = 1000 * std::sqrt(errors.raw_um / (2 * settled));
+    errors.filtered_um = 1000 * std::sqrt(errors.filtered_um / (2 * settled));
+    errors.velocity_mm_s = std::sqrt(errors.velocity_mm_s / settled);
+    errors.turn_deg_s = std::sqrt(errors.turn_deg_s / settled);
+    return errors;
+}
+
+int frame_at(double seconds) {
+    return static_cast<int>(std::lround(seconds * kDriveFps));
+}
+
+/// The first frame after `from` at which the robot is 0.1 mm, along an axis, from where it is at
+/// frame `place`; the step -1 looks back.
+int first_away(const Drive& drive, int from, int step, int place) {
+    const DriveState rest = drive.at(place);
+    int frame = from;
+    while (std::abs(drive.at(frame).x_mm - rest.x_mm) <= 0.1 &&
+           std::abs(drive.at(frame).y_mm - rest.y_mm) <= 0.1) {
+        frame += step;
+    }
+    return frame;
+}
+
+void expect_events(const std::vector<json>& lines, const Drive& drive) {
+    std::vector<std::pair<int, std::string>> events;
+    for (const json& line : lines) {
+        if (line.contains("events")) events.emplace_back(line["frame"], line["events"]);
+    }
+    const DrivePlan& plan = drive.plan();
+    const std::vector<std::string> names = {"fix",           "stationary", "moving", "lost",
+                                            "fix kidnapped", "lost",       "fix",    "stationary"};
+    ASSERT_EQ(events.size(), names.size());
+    for (std::size_t i = 0; i < names.size(); ++i)
+        EXPECT_EQ(events[i].second, names[i]) << i;
+    EXPECT_EQ(events[0].first, 0);
+    EXPECT_EQ(events[1].first, frame_at(0.5));
+    EXPECT_NEAR(events[2].first, first_away(drive, frame_at(plan.start), 1, 0), 1);
+    // 70 ms are 14 frames after the last one before the robot was lifted.
+    EXPECT_EQ(events[3].first, frame_at(plan.lift) - 1 + 14);
+    // The third frame that sees it beyond its reach of 400 mm/s.
+    EXPECT_EQ(events[4].first, frame_at(plan.put_down) + 2);
+    EXPECT_EQ(events[5].first, frame_at(plan.second_lift) - 1 + 14);
+    EXPECT_EQ(events[6].first, frame_at(plan.second_put_down));
+    const int arrival = first_away(drive, drive.frames() - 1, -1, drive.frames() - 1) + 1;
+    EXPECT_NEAR(events[7].first, arrival + frame_at(0.5), 10);
+}
+
+void expect_accurate(const std::vector<json>& lines, const Drive& drive) {
+    const DriveErrors errors = errors_of(lines, drive);
+    const int lifted = frame_at(0.3) + frame_at(0.15);
+    EXPECT_EQ(errors.wrong, 0);
+    EXPECT_GE(errors.fixes, drive.frames() - lifted - 12);  // a few frames show both sheets
+    // What the filter smooths, sensor noise, is small here beside printing errors, which
+    // neighbouring frames share: it must not make things worse.
+    EXPECT_LT(errors.filtered_um, 1.01 * errors.raw_um);
+    EXPECT_LT(errors.velocity_mm_s, 2);
+    EXPECT_LT(errors.turn_deg_s, 1);
+    std::printf("raw %.3f um, filtered %.3f um, velocity %.3f mm/s, turn %.3f deg/s, %d fixes\n",
+                errors.raw_um, errors.filtered_um, errors.velocity_mm_s, errors.turn_deg_s,
+                errors.fixes);
+}
+
+// One test, because the drive takes seconds to render and to locate.
+TEST_F(Watch, FollowsADrive) {
+    put_video(drive_.frames(), "drive.avi");
+    ASSERT_EQ(run(std::string("watch drive.avi ") + kTrack), 0);
+    const std::string from_file = output_;
+    const auto lines = parsed(from_file);
+    ASSERT_EQ(lines.size(), static_cast<std::size_t>(drive_.frames()));
+    EXPECT_THAT(errors_, HasSubstr("2 times lost, 1 times kidnapped, 0 frames dropped"));
+    expect_events(lines, drive_);
+    expect_accurate(lines, drive_);
+
+    shell("ffmpeg -v error -i drive.avi -f rawvideo -pix_fmt gray - | '" DOTPOSE_TOOL
+          "' watch - -o piped " +
+          std::string(kRaw) + " " + kTrack + " 2>errors");
+    EXPECT_TRUE(file("piped") == from_file);
+}
+
+TEST_F(Watch, WritesLogMapPacketsAndVideo) {
+    put_video(61, "drive.avi");
+    ASSERT_EQ(run(std::string("watch drive.avi --frames 60 --log run.csv --map run.svg "
+                              "--record run.mp4 --packets run.bin --format csv ") +
+                  kTrack),
+              0);
+    EXPECT_EQ(file("run.csv"), output_);
+    EXPECT_EQ(std::ranges::count(output_, '\n'), 61);
+    EXPECT_THAT(file("run.svg"), HasSubstr("class=\"robot\""));
+    EXPECT_THAT(file("run.svg"), HasSubstr(">left<"));
+    EXPECT_EQ(run("replay run.csv"), 0);
+    EXPECT_THAT(output_, HasSubstr("frames with a fix           60 (100.00 %)"));
+    PacketReader reader;
+    int packets = 0;
+    for (const char byte : file("run.bin"))
+        packets += reader.push(static_cast<std::uint8_t>(byte));
+    EXPECT_EQ(packets, 60);
+    EXPECT_EQ(reader.packet().sequence, 59);
+    EXPECT_EQ(reader.packet().time_us, 295'000U);
+    // The recording has the frame, 800 px wide, and a panel of 400.
+    shell(
+        "ffprobe -v error -count_frames -select_streams v -show_entries "
+        "stream=nb_read_frames,width -of csv=p=0 run.mp4 > probe");
+    EXPECT_EQ(file("probe"), "1200,60\n");
+}
+
+TEST_F(Watch, GoesThroughImages) {
+    const DriveCamera camera(188, 120);
+    for (int i = 0; i < 4; ++i)
+        write_pgm(directory_ / ("b" + std::to_string(i) + ".pgm"), camera.frame(drive_, i).view());
+    std::ofstream(directory_ / "b2.pgm") << "no image";
+    ASSERT_EQ(run(std::string("watch 'b*.pgm' --fps 50 ") + kTrack), 0);
+    const auto lines = parsed(output_);
+    ASSERT_EQ(lines.size(), 3U);
+    EXPECT_EQ(lines[2]["file"], "b3.pgm");
+    EXPECT_EQ(lines[2]["frame"], 3);
+    EXPECT_DOUBLE_EQ(lines[2]["t_s"], 0.06);
+    EXPECT_EQ(lines[0]["sheet"], "left");
+    EXPECT_THAT(errors_, HasSubstr("b2.pgm"));
+    ASSERT_EQ(run(std::string("watch . --fps 50 ") + kTrack), 0);
+    EXPECT_EQ(parsed(output_).size(), 3U);
+}
+
+/// Leaves of a frame only the middle: a window of `side` px.
+void cover_all_but(GreyImage& image, int side) {
+    for (int v = 0; v < image.height_px; ++v) {
+        for (int u = 0; u < image.width_px; ++u) {
+            const bool is_seen =
+                std::abs(2 * u - image.width_px) < side && std::abs(2 * v - image.height_px) < side;
+            if (!is_seen) image.pixels[static_cast<std::size_t>(v * image.width_px + u)] = 180;
+        }
+    }
+}
+
+TEST_F(Watch, BelievesWeakFramesThatThePriorSupports) {
+    // Whole frames are as sure as 1e-13 demands, those that show some 90 dots are not.
+    const DriveCamera camera(188, 120);
+    std::ofstream raw(directory_ / "weak.raw", std::ios::binary);
+    std::vector<bool> is_covered;
+    for (int i = 300; i < 330; ++i) {
+        GreyImage image = camera.frame(drive_, i);
+        is_covered.push_back(i >= 310 && i % 2 == 1);
+        if (is_covered.back()) cover_all_but(image, 108);
+        raw.write(reinterpret_cast<const char*>(image.pixels.data()),
+                  static_cast<std::streamsize>(image.pixels.size()));
+    }
+    raw.close();
+    ASSERT_EQ(run(std::string("watch - --size 188x120 --fps 200 --max-p-wrong 1e-13 ") + kTrack,
+                  (directory_ / "weak.raw").string()),
+              0);
+    const auto lines = parsed(output_);
+    ASSERT_EQ(lines.size(), is_covered.size());
+    int with_prior = 0;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        if (lines[i]["status"] != "ok") continue;
+        const DriveState truth = drive_.at(300 + static_cast<int>(i));
+        EXPECT_NEAR(lines[i]["x_m"].get<double>() * 1000, truth.x_mm, 0.05);
+        EXPECT_NEAR(lines[i]["y_m"].get<double>() * 1000, truth.y_mm, 0.05);
+        EXPECT_LT(lines[i]["p_wrong"], 1e-13);
+        with_prior += lines[i]["verdict"] == "with_prior";
+        if (is_covered[i]) continue;
+        EXPECT_EQ(lines[i]["verdict"], "believed") << i;
+    }
+    EXPECT_GE(with_prior, 3);
+    // Alone, in the first frame, the same view is refused.
+    ASSERT_EQ(run(std::string("watch - --size 188x120 --fps 200 --max-p-wrong 1e-13 --roi "
+                              "40,6,108x108 ") +
+                      kTrack,
+                  (directory_ / "weak.raw").string()),
+              0);
+    for (const json& line : parsed(output_))
+        EXPECT_NE(line["verdict"], "with_prior");
+}
+
+TEST_F(Watch, LooksAtAPartOfTheFrame) {
+    put_video(2, "drive.avi");
+    ASSERT_EQ(run(std::string("watch drive.avi --frames 1 --roi 60,60,200x120 ") + kTrack), 0);
+    const json part = parsed(output_).at(0);
+    // The middle of the part is at (159.5, 119.5), that of the whole frame.
+    const DriveState truth = drive_.at(0);
+    EXPECT_NEAR(part["x_m"].get<double>() * 1000, truth.x_mm, 0.02);
+    EXPECT_LT(part["dots_seen"], 300);
+    EXPECT_EQ(run("watch drive.avi --roi 200,0,200x100"), 2);
+    EXPECT_THAT(errors_, HasSubstr("the region 200,0 200x100 leaves the frame of 320x240 px"));
+    EXPECT_EQ(run("watch drive.avi --roi 200"), 2);
+}
+
+TEST_F(Watch, StopsCleanlyOnAnInterrupt) {
+    put_raw(60);
+    // The pipe stays open, so that only the signal ends the run.
+    shell(
+        "mkfifo pipe && bash -c '(cat drive.raw; exec sleep 30) > pipe & writer=$!; "
+        "\"" DOTPOSE_TOOL "\" watch - " +
+        std::string(kRaw) + " --map run.svg -o run.jsonl " + kTrack +
+        " < pipe 2> errors & pid=$!; "
+        "until [ \"$(cat run.jsonl 2>/dev/null | wc -l)\" = 60 ]; do sleep 0.05; done; "
+        "kill -INT $pid; wait $pid; echo $? > status; kill $writer'");
+    EXPECT_EQ(file("status"), "0\n");
+    EXPECT_EQ(parsed(file("run.jsonl")).size(), 60U);
+    EXPECT_THAT(file("run.svg"), HasSubstr("</svg>"));
+    EXPECT_THAT(file("errors"), HasSubstr("60 frames, 60 fixes"));
+}
+
+TEST_F(Watch, SaysWhatIsWrongWithTheSource) {
+    EXPECT_EQ(run("watch nowhere.mp4"), 1);
+    EXPECT_EQ(errors_, "dotpose: cannot read nowhere.mp4: no such file or camera\n");
+    EXPECT_EQ(run("watch 99"), 1);
+    EXPECT_EQ(errors_,
+              "dotpose: cannot open the camera 99: there is none, or another program uses it\n");
+    std::ofstream(directory_ / "text.mp4") << "this is no video";
+    EXPECT_EQ(run("watch text.mp4"), 1);
+    EXPECT_EQ(errors_, "dotpose: text.mp4 is no video, or of a kind that is not known\n");
+    EXPECT_EQ(run("watch 'nothing*.png'"), 1);
+    EXPECT_EQ(errors_, "dotpose: no images at nothing*.png\n");
+    EXPECT_EQ(run("watch -"), 2);
+    EXPECT_EQ(errors_, "dotpose: raw frames need their size: --size WxH\n");
+    EXPECT_EQ(run("watch - --size 7"), 2);
+    EXPECT_EQ(run("watch"), 2);
+    EXPECT_EQ(run("watch --help"), 0);
+    EXPECT_THAT(output_, HasSubstr("Examples:"));
+}
+
+TEST_F(Watch, KeepsWhatCameBeforeDamage) {
+    constexpr int kFrames = 150;
+    put_video(kFrames, "hole.mkv");
+    // Cut inside the 31st raw frame.
+    std::ofstream(directory_ / "cut.raw", std::ios::binary)
+        << file("drive.raw").substr(0, 30 * kWidth * kHeight + 1000);
+    EXPECT_EQ(run("watch - " + std::string(kRaw) + " " + kTrack, (directory_ / "cut.raw").string()),
+              1);
+    EXPECT_EQ(parsed(output_).size(), 30U);
+    EXPECT_THAT(errors_, HasSubstr("standard input ended inside frame 30: 1000 of 76800 bytes"));
+
+    // A video with a hole of 1 % in its middle; Matroska keeps the time of each frame.
+    std::string video = file("hole.mkv");
+    std::fill_n(video.begin() + static_cast<std::ptrdiff_t>(video.size() / 2), video.size() / 100,
+                '\0');
+    std::ofstream(directory_ / "hole.mkv", std::ios::binary) << video;
+    EXPECT_EQ(run(std::string("watch hole.mkv ") + kTrack), 1);
+    EXPECT_THAT(errors_, HasSubstr("hole.mkv is damaged or cut short: "));
+    const auto lines = parsed(output_);
+    EXPECT_LT(lines.size(), std::size_t{kFrames});
+    EXPECT_GT(lines.size(), std::size_t{kFrames} * 8 / 10);
+    EXPECT_EQ(errors_of(lines, drive_).wrong, 0);
+}
+
+}  // namespace
+}  // namespace dotpose::test

@@ -1,0 +1,281 @@
+// Publishing to a real broker: what arrives, what is dropped, and what happens when it goes away.
+#include "publish/mqtt.hpp"
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "../blackbox/tool_command.hpp"
+#include "../drive.hpp"
+#include "broker.hpp"
+#include "dotpose/image_file.hpp"
+
+namespace dotpose::test {
+namespace {
+
+using namespace std::chrono_literals;
+using publish::MqttOptions;
+using publish::MqttPublisher;
+using publish::MqttSubscriber;
+using testing::HasSubstr;
+
+void wait_until(const std::function<bool()>& condition, std::chrono::milliseconds most = 20s) {
+    const auto end = std::chrono::steady_clock::now() + most;
+    while (!condition() && std::chrono::steady_clock::now() < end)
+        std::this_thread::sleep_for(5ms);
+    ASSERT_TRUE(condition());
+}
+
+/// What was told, by any thread.
+class News {
+  public:
+    std::function<void(const std::string&)> listener() {
+        return [this](const std::string& text) {
+            const std::lock_guard lock(mutex_);
+            text_ += text + "\n";
+        };
+    }
+    std::string text() const {
+        const std::lock_guard lock(mutex_);
+        return text_;
+    }
+
+  private:
+    mutable std::mutex mutex_;
+    std::string text_;
+};
+
+class Mqtt : public ToolCommand {
+  protected:
+    MqttOptions options(const Broker& broker) {
+        MqttOptions options;
+        publish::parse_url(broker.url(), options);
+        options.tell = news_.listener();
+        return options;
+    }
+    std::string shell(const std::string& command) {
+        EXPECT_EQ(
+            std::system(("cd '" + directory_.string() + "' && { " + command + "; } > out").c_str()),
+            0);
+        return file("out");
+    }
+    News news_;
+};
+
+TEST_F(Mqtt, ReadsUrls) {
+    MqttOptions options;
+    publish::parse_url("mqtt://broker", options);
+    EXPECT_EQ(options.host, "broker");
+    EXPECT_EQ(options.port, 1883);
+    EXPECT_FALSE(options.has_tls);
+    publish::parse_url("mqtts://me:a@b:c@10.0.0.1:99/", options);
+    EXPECT_EQ(options.host, "10.0.0.1");
+    EXPECT_EQ(options.port, 99);
+    EXPECT_TRUE(options.has_tls);
+    EXPECT_EQ(options.user, "me");
+    EXPECT_EQ(options.password, "a@b:c");
+    for (const char* bad : {"broker", "http://broker", "mqtt://", "mqtt://a:0", "mqtt://a:x"})
+        EXPECT_THROW(publish::parse_url(bad, options), BadArgument) << bad;
+}
+
+TEST_F(Mqtt, BrokerThatIsStoppedInMidRun) {
+    Broker broker(directory_);
+    // A session that the broker keeps, so that nothing it accepts is lost, and the order is seen.
+    const std::string reader =
+        fmt::format("mosquitto_sub -p {} -c -i reader -q 1 -t t ", broker.port());
+    shell(reader + "-E");
+    MqttOptions mqtt = options(broker);
+    mqtt.qos = 1;
+    mqtt.queue = 30;
+    MqttPublisher publisher(mqtt);
+    int published = 0;
+    const auto publish = [&](int count) {
+        for (int i = 0; i < count; ++i)
+            publisher.publish("t", std::to_string(published++));
+    };
+    for (int i = 0; i < 10; ++i) {
+        publish(1);
+        std::this_thread::sleep_for(5ms);
+    }
+    ASSERT_TRUE(publisher.flush(5s));
+    broker.stop();
+    wait_until([&] { return !publisher.is_connected(); });
+    publish(100);
+    EXPECT_EQ(publisher.dropped(), 70);
+    std::this_thread::sleep_for(3s);  // several attempts in vain
+    broker.start();
+    wait_until([&] { return publisher.is_connected(); });
+    ASSERT_TRUE(publisher.flush(10s));
+    EXPECT_EQ(publisher.sent() + publisher.dropped(), published);
+    EXPECT_EQ(publisher.dropped(), 70);
+    EXPECT_THAT(news_.text(), HasSubstr("is gone; trying to reach it again"));
+
+    std::istringstream received(shell(reader + "-C 40 -W 10"));
+    std::vector<int> numbers{std::istream_iterator<int>(received), {}};
+    std::vector<int> expected;
+    for (int i = 0; i < 10; ++i)
+        expected.push_back(i);
+    for (int i = 109; i >= 80; --i)  // the newest first
+        expected.push_back(i);
+    EXPECT_EQ(numbers, expected);
+}
+
+TEST_F(Mqtt, StartsBeforeItsBroker) {
+    auto broker = std::make_unique<Broker>(directory_);
+    broker->stop();
+    MqttOptions mqtt = options(*broker);
+    mqtt.qos = 1;
+    MqttPublisher publisher(mqtt);
+    EXPECT_THAT(news_.text(), HasSubstr("cannot reach the broker 127.0.0.1:"));
+    EXPECT_THAT(news_.text(), HasSubstr(": Connection refused; trying on"));
+    publisher.publish("t", "1");
+    broker->start();
+    EXPECT_TRUE(publisher.flush(20s));
+    EXPECT_EQ(publisher.sent(), 1);
+}
+
+TEST_F(Mqtt, TellsThatTheUserIsRefused) {
+    shell("touch users; mosquitto_passwd -b users me secret");
+    const Broker broker(directory_, (directory_ / "users").string());
+    MqttOptions mqtt = options(broker);
+    mqtt.user = "me";
+    mqtt.password = "wrong";
+    try {
+        MqttPublisher publisher(mqtt);
+        ADD_FAILURE() << "let in";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("refuses the connection: Connection Refused: "));
+    }
+    mqtt.password = "secret";
+    MqttPublisher publisher(mqtt);
+    publisher.publish("t", "1");
+    EXPECT_TRUE(publisher.flush(5s));
+    EXPECT_EQ(
+        run("fleet --seconds 1 --mqtt mqtt://me:wrong@127.0.0.1:" + std::to_string(broker.port())),
+        1);
+    EXPECT_THAT(errors_, HasSubstr("refuses the connection"));
+}
+
+TEST_F(Mqtt, LastWillIsSentWhenTheRobotVanishes) {
+    const Broker broker(directory_);
+    std::mutex mutex;
+    std::string heard;
+    MqttSubscriber subscriber(options(broker), "will", [&](const auto&, const auto& payload) {
+        const std::lock_guard lock(mutex);
+        heard = payload;
+    });
+    const pid_t robot = fork();
+    if (robot == 0) {
+        MqttOptions mqtt = options(broker);
+        mqtt.will_topic = "will";
+        mqtt.will = "lost";
+        MqttPublisher publisher(mqtt);
+        publisher.publish("will", "here");
+        publisher.flush(5s);
+        kill(getpid(), SIGKILL);
+    }
+    waitpid(robot, nullptr, 0);
+    wait_until([&] {
+        const std::lock_guard lock(mutex);
+        return heard == "lost";
+    });
+}
+
+TEST_F(Mqtt, FleetSeesAWatchedRobot) {
+    const Broker broker(directory_);
+    const DriveCamera camera(188, 120);
+    const Drive drive;
+    for (int i = 0; i < 20; ++i) {
+        write_pgm(directory_ / ("f" + std::to_string(100 + i) + ".pgm"),
+                  camera.frame(drive, 240 + i).view());
+    }
+    SheetFile sheets(directory_ / "table.json");
+    for (const SheetEntry& entry : drive_sheets())
+        sheets.add(entry);
+    sheets.save();
+    std::thread fleet([&] {
+        shell("'" DOTPOSE_TOOL "' fleet --mqtt " + broker.url() +
+              " --sheets table.json --map fleet.svg --seconds 4 --every 0.2");
+    });
+    wait_until([&] { return fs::exists(directory_ / "fleet.svg"); });  // it has subscribed
+    EXPECT_EQ(
+        run("watch 'f*.pgm' --fps 200 --sheets table.json --robot anna --mqtt " + broker.url()), 0);
+    EXPECT_THAT(errors_, HasSubstr("21 states published, 0 dropped"));
+    fleet.join();
+    const std::string table = file("out");
+    EXPECT_THAT(table, HasSubstr("\nanna             lost  "));
+    EXPECT_THAT(table, testing::ContainsRegex(" 21 +0\n"));
+    EXPECT_THAT(table, HasSubstr("1 robots, 21 states, 0 bad"));
+    EXPECT_THAT(file("fleet.svg"), HasSubstr("anna (lost)"));
+    EXPECT_THAT(file("fleet.svg"), HasSubstr(">left<"));
+}
+
+TEST_F(Mqtt, TwoHundredRobots) {
+    constexpr int kRobots = 200;
+    constexpr int kStates = 50;
+    const Broker broker(directory_);
+    std::thread fleet([&] {
+        shell("'" DOTPOSE_TOOL "' fleet --qos 1 --mqtt " + broker.url() +
+              " --map fleet.svg --seconds 6 --every 0.2");
+    });
+    wait_until([&] { return fs::exists(directory_ / "fleet.svg"); });
+    std::vector<std::unique_ptr<MqttPublisher>> robots;
+    for (int i = 0; i < kRobots; ++i)
+        robots.push_back(std::make_unique<MqttPublisher>(options(broker)));
+    const auto begun = std::chrono::steady_clock::now();
+    for (int n = 0; n < kStates; ++n) {
+        for (int i = 0; i < kRobots; ++i) {
+            const std::string name = fmt::format("robot{}", i);
+            const auto now = std::chrono::system_clock::now().time_since_epoch();
+            const auto us = std::chrono::duration_cast<std::chrono::microseconds>(now).count();
+            const std::time_t seconds = us / 1'000'000;
+            char time[40];
+            const std::size_t size =
+                std::strftime(time, sizeof time, "%FT%T", std::gmtime(&seconds));
+            std::snprintf(time + size, sizeof time - size, ".%06dZ",
+                          static_cast<int>(us % 1'000'000));
+            const nlohmann::json state = {{"headerId", n},
+                                          {"timestamp", time},
+                                          {"serialNumber", name},
+                                          {"state", "moving"},
+                                          {"agvPosition",
+                                           {{"localized", true},
+                                            {"mapId", "table"},
+                                            {"x", 0.1 * i},
+                                            {"y", 0.01 * n},
+                                            {"theta", 0},
+                                            {"deviationRange", 1e-6}}},
+                                          {"velocity", {{"vx", 0}, {"vy", 0.5}, {"omega", 0}}}};
+            robots[static_cast<std::size_t>(i)]->publish(
+                fmt::format("uagv/v2/dotpose/{}/state", name), state.dump());
+        }
+        std::this_thread::sleep_until(begun + (n + 1) * 20ms);
+    }
+    for (const auto& robot : robots)
+        EXPECT_TRUE(robot->flush(5s));
+    fleet.join();
+    const std::string table = file("out");
+    EXPECT_THAT(table, HasSubstr("200 robots, 10000 states, 0 bad, latency median "));
+    EXPECT_THAT(table, testing::Not(testing::ContainsRegex(" 50 +[1-9][0-9]*\n")));
+    std::printf("%s", table.substr(table.rfind("200 robots")).c_str());
+}
+
+TEST_F(Mqtt, FleetNeedsABroker) {
+    EXPECT_EQ(run("fleet"), 2);
+    EXPECT_EQ(run("fleet --mqtt nonsense"), 2);
+    EXPECT_THAT(errors_, HasSubstr("'nonsense' is not mqtt://HOST or mqtts://HOST"));
+    EXPECT_EQ(run("watch nowhere.mp4 --robot a/b"), 2);
+    EXPECT_THAT(errors_, HasSubstr("holds none of / + #"));
+}
+
+}  // namespace
+}  // namespace dotpose::test

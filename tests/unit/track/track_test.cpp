@@ -1,0 +1,364 @@
+#include "dotpose/track.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "dotpose/random.hpp"
+
+namespace dotpose {
+namespace {
+
+constexpr std::int64_t kFrame_us = 5000;
+constexpr double kPi = std::numbers::pi;
+/// In the far corner of the pattern plane.
+constexpr std::int64_t kFar_nm = 208'694'000'000'000;
+
+std::int32_t bam(double angle_rad) {
+    return static_cast<std::int32_t>(
+        static_cast<std::int64_t>(std::llround(angle_rad / kPi * 2147483648.0)) & 0xFFFFFFFF);
+}
+
+Sighting at(std::int64_t time_us, double x_mm, double y_mm = 0, double theta_rad = 0) {
+    constexpr float kSigma_mm = 0.002F;
+    constexpr float kSigma_rad = 0.0003F;
+    Sighting sighting;
+    sighting.time_us = time_us;
+    sighting.x_nm = kFar_nm + std::llround(x_mm * 1e6);
+    sighting.y_nm = std::llround(y_mm * 1e6);
+    sighting.theta_bam = bam(theta_rad);
+    sighting.covariance[0][0] = sighting.covariance[1][1] = kSigma_mm * kSigma_mm;
+    sighting.covariance[2][2] = kSigma_rad * kSigma_rad;
+    sighting.p_wrong_log2 = -60;
+    return sighting;
+}
+
+const Track& see(Tracker& tracker, const Sighting& sighting) {
+    return tracker.update(sighting.time_us, &sighting);
+}
+
+std::string events_of(const Track& track) {
+    const TrackEvents& e = track.events;
+    return std::string(e.fix ? "fix " : "") + (e.lost ? "lost " : "") +
+           (e.kidnapped ? "kidnapped " : "") + (e.stationary ? "stationary " : "") +
+           (e.moving ? "moving " : "");
+}
+
+/// Drives at 100 mm/s along x and turns at 2 rad/s, up to and without `end_us`.
+void drive(Tracker& tracker, std::int64_t begin_us, std::int64_t end_us) {
+    for (std::int64_t t = begin_us; t < end_us; t += kFrame_us) {
+        const double s = static_cast<double>(t) * 1e-6;
+        see(tracker, at(t, 100 * s, 0, 2 * s));
+    }
+}
+
+TEST(Tracker, StartsLostAndBelievesTheFirstFix) {
+    Tracker tracker;
+    EXPECT_TRUE(tracker.track().is_lost);
+    EXPECT_FALSE(tracker.has_prior());
+    EXPECT_EQ(events_of(tracker.update(0, nullptr)), "");
+    const Track& track = see(tracker, at(kFrame_us, 7, 8, 0.5));
+    EXPECT_EQ(events_of(track), "fix ");
+    EXPECT_EQ(track.verdict, Verdict::believed);
+    EXPECT_EQ(track.p_wrong_log2, -60);
+    EXPECT_FALSE(track.is_lost);
+    EXPECT_EQ(track.pose.x_nm, kFar_nm + 7'000'000);
+    EXPECT_EQ(track.pose.y_nm, 8'000'000);
+    EXPECT_EQ(track.pose.theta_bam, bam(0.5));
+    EXPECT_TRUE(tracker.has_prior());
+}
+
+TEST(Tracker, FollowsConstantVelocityAndTurnsPastHalfATurn) {
+    Tracker tracker;
+    drive(tracker, 0, 4'000'000);  // 8 rad: past half a turn, past a whole one
+    const TrackedPose& pose = tracker.track().pose;
+    const double s = 3.995;
+    EXPECT_NEAR(pose.vx_mm_s, 100, 0.01);
+    EXPECT_NEAR(pose.vy_mm_s, 0, 0.01);
+    EXPECT_NEAR(pose.turn_rad_s, 2, 0.001);
+    EXPECT_NEAR(static_cast<double>(pose.x_nm - kFar_nm), 100e6 * s, 20);
+    EXPECT_NEAR(std::remainder(pose.theta_rad() - 2 * s, 2 * kPi), 0, 1e-6);
+}
+
+TEST(Tracker, PredictsBetweenSightings) {
+    Tracker tracker;
+    drive(tracker, 0, 1'000'000);
+    const auto before = tracker.track().pose.covariance;
+    const Track& track = tracker.update(1'050'000, nullptr);
+    EXPECT_EQ(track.verdict, Verdict::none);
+    EXPECT_NEAR(static_cast<double>(track.pose.x_nm - kFar_nm), 105e6, 2000);
+    EXPECT_NEAR(std::remainder(track.pose.theta_rad() - 2.1, 2 * kPi), 0, 1e-4);
+    EXPECT_GT(track.pose.covariance[0][0], before[0][0]);
+    EXPECT_GT(track.pose.covariance[3][3], before[3][3]);
+}
+
+/// Solves m x = b by elimination with pivots, for the sake of a second opinion in double precision.
+std::array<double, 6> solved(Covariance6 covariance, std::array<double, 6> b) {
+    std::array<std::array<double, 6>, 6> m{};
+    for (std::size_t i = 0; i < 6; ++i) {
+        for (std::size_t j = 0; j < 6; ++j)
+            m[i][j] = static_cast<double>(covariance[i][j]);
+    }
+    for (std::size_t i = 0; i < 6; ++i) {
+        std::size_t pivot = i;
+        for (std::size_t k = i; k < 6; ++k) {
+            if (std::abs(m[k][i]) > std::abs(m[pivot][i])) pivot = k;
+        }
+        std::swap(m[i], m[pivot]);
+        std::swap(b[i], b[pivot]);
+        for (std::size_t k = i + 1; k < 6; ++k) {
+            const double factor = m[k][i] / m[i][i];
+            for (std::size_t j = i; j < 6; ++j)
+                m[k][j] -= factor * m[i][j];
+            b[k] -= factor * b[i];
+        }
+    }
+    for (std::size_t i = 6; i-- > 0;) {
+        for (std::size_t j = i + 1; j < 6; ++j)
+            b[i] -= m[i][j] * b[j];
+        b[i] /= m[i][i];
+    }
+    return b;
+}
+
+TEST(Tracker, ItsCovarianceIsThatOfItsErrors) {
+    // Robots that move as the filter assumes; a correlated measurement error. Then the squared
+    // error, in units of the covariance, has the mean 6 and the variance 12.
+    TrackOptions options;
+    options.least_sigma_mm = options.least_sigma_rad = 0;
+    constexpr int kRuns = 400;
+    double sum = 0;
+    for (std::uint64_t run = 0; run < kRuns; ++run) {
+        Rng rng(31, run);
+        Tracker tracker(options);
+        std::array<double, 3> pose = {0, 0, rng.uniform(-kPi, kPi)};
+        std::array<double, 3> speed = {rng.uniform(-300, 300), rng.uniform(-300, 300),
+                                       rng.uniform(-5, 5)};
+        constexpr double kDt = kFrame_us * 1e-6;
+        for (int frame = 0; frame < 60; ++frame) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                const double a = rng.normal() * (i < 2 ? 600 : 6);
+                pose[i] += speed[i] * kDt + a * kDt * kDt / 2;
+                speed[i] += a * kDt;
+            }
+            const double common = rng.normal();
+            const std::array<double, 3> error = {0.004 * rng.normal() + 0.003 * common,
+                                                 0.004 * rng.normal() - 0.003 * common,
+                                                 0.0004 * rng.normal() + 0.0003 * common};
+            Sighting sighting =
+                at(frame * kFrame_us, pose[0] + error[0], pose[1] + error[1], pose[2] + error[2]);
+            constexpr std::array<float, 3> kOwn = {0.004F, 0.004F, 0.0004F};
+            constexpr std::array<float, 3> kCommon = {0.003F, -0.003F, 0.0003F};
+            for (std::size_t i = 0; i < 3; ++i) {
+                for (std::size_t j = 0; j < 3; ++j) {
+                    sighting.covariance[i][j] =
+                        kCommon[i] * kCommon[j] + (i == j ? kOwn[i] * kOwn[i] : 0.0F);
+                }
+            }
+            see(tracker, sighting);
+        }
+        const TrackedPose& found = tracker.track().pose;
+        const std::array<double, 6> error = {
+            static_cast<double>(found.x_nm - kFar_nm) * 1e-6 - pose[0],
+            static_cast<double>(found.y_nm) * 1e-6 - pose[1],
+            std::remainder(found.theta_rad() - pose[2], 2 * kPi),
+            static_cast<double>(found.vx_mm_s) - speed[0],
+            static_cast<double>(found.vy_mm_s) - speed[1],
+            static_cast<double>(found.turn_rad_s) - speed[2]};
+        const auto weighted = solved(found.covariance, error);
+        for (std::size_t i = 0; i < 6; ++i)
+            sum += error[i] * weighted[i];
+    }
+    // Four standard deviations of the mean.
+    EXPECT_NEAR(sum / kRuns, 6, 4 * std::sqrt(12.0 / kRuns));
+}
+
+TEST(Tracker, IsLostAfterTheDebounce) {
+    Tracker tracker;
+    drive(tracker, 0, 100'000);  // the last sighting is that of 95 ms
+    for (std::int64_t t = 100'000; t < 165'000; t += kFrame_us)
+        EXPECT_EQ(events_of(tracker.update(t, nullptr)), "") << t;
+    EXPECT_EQ(events_of(tracker.update(165'000, nullptr)), "lost ");
+    EXPECT_TRUE(tracker.track().is_lost);
+    EXPECT_FALSE(tracker.has_prior());
+    EXPECT_EQ(events_of(tracker.update(170'000, nullptr)), "");
+    // Found again where it may have driven to.
+    EXPECT_EQ(events_of(see(tracker, at(175'000, 40, 30))), "fix ");
+}
+
+TEST(Tracker, SurvivesShortGaps) {
+    Tracker tracker;
+    drive(tracker, 0, 100'000);
+    tracker.update(130'000, nullptr);
+    const Track& track = see(tracker, at(160'000, 16, 0, 0.32));
+    EXPECT_EQ(events_of(track), "");
+    EXPECT_EQ(track.verdict, Verdict::believed);
+}
+
+TEST(Tracker, DoesNotBelieveASingleWrongFix) {
+    Tracker tracker;
+    drive(tracker, 0, 100'000);
+    for (const Sighting& wrong :
+         {at(100'000, 5000, 5000), at(100'000, 10, 3), at(100'000, 10, 0, 1)}) {
+        Tracker copy = tracker;
+        const Track& track = see(copy, wrong);
+        EXPECT_EQ(track.verdict, Verdict::gated);
+        EXPECT_EQ(track.p_wrong_log2, 0);
+        EXPECT_EQ(events_of(track), "");
+        EXPECT_NEAR(static_cast<double>(track.pose.x_nm - kFar_nm), 10e6, 5000);
+        EXPECT_EQ(see(copy, at(105'000, 10.5, 0, 0.21)).verdict, Verdict::believed);
+    }
+}
+
+TEST(Tracker, BelievesAJumpOnceConfirmed) {
+    Tracker tracker;
+    drive(tracker, 0, 100'000);
+    EXPECT_EQ(see(tracker, at(100'000, 80, 90, 1)).verdict, Verdict::gated);
+    EXPECT_EQ(see(tracker, at(105'000, 80.1, 90, 1)).verdict, Verdict::gated);
+    const Track& track = see(tracker, at(110'000, 80.2, 90, 1));
+    EXPECT_EQ(events_of(track), "kidnapped ");
+    EXPECT_EQ(track.verdict, Verdict::believed);
+    EXPECT_EQ(track.pose.x_nm, kFar_nm + 80'200'000);
+}
+
+TEST(Tracker, JumpsThatDisagreeConfirmNothing) {
+    Tracker tracker({.lost_after_us = 10'000'000});
+    drive(tracker, 0, 100'000);
+    Rng rng(8);
+    for (std::int64_t t = 100'000; t < 400'000; t += kFrame_us) {
+        const Track& track = see(tracker, at(t, rng.uniform(1000, 1e6), rng.uniform(1000, 1e6)));
+        EXPECT_EQ(track.verdict, Verdict::gated);
+        EXPECT_EQ(events_of(track), "");
+    }
+}
+
+TEST(Tracker, IsKidnappedIfFoundBeyondReach) {
+    Tracker tracker({.max_speed_mm_s = 300});
+    drive(tracker, 0, 100'000);
+    tracker.update(200'000, nullptr);  // lost
+    // 300 mm/s for 0.3 s: 90 mm at the most.
+    EXPECT_EQ(events_of(see(tracker, at(395'000, 130))), "");
+    EXPECT_TRUE(tracker.track().is_lost);
+    EXPECT_EQ(events_of(see(tracker, at(400'000, 130))), "");
+    EXPECT_EQ(events_of(see(tracker, at(405'000, 130))), "fix kidnapped ");
+}
+
+TEST(Tracker, AnotherPlaneIsAJump) {
+    Tracker tracker;
+    drive(tracker, 0, 100'000);
+    for (const std::int64_t t : {100'000, 105'000, 110'000}) {
+        Sighting sighting = at(t, 10);
+        sighting.plane = 5;
+        const Track& track = see(tracker, sighting);
+        EXPECT_EQ(events_of(track), t == 110'000 ? "kidnapped " : "") << t;
+    }
+}
+
+Sighting weak(Sighting sighting, int p_wrong_log2) {
+    sighting.p_wrong_log2 = p_wrong_log2;
+    return sighting;
+}
+
+TEST(Tracker, BelievesWeakSightingsThatThePriorSupports) {
+    Tracker tracker;
+    drive(tracker, 0, 100'000);
+    const Track& track = see(tracker, weak(at(100'000, 10, 0, 0.2), -12));
+    EXPECT_EQ(track.verdict, Verdict::with_prior);
+    // The gate is at least +-0.125 mm wide, half the acceleration that is allowed times the squared
+    // time, and narrower than a cell: 2 to 4 cells of 2^36 hypotheses.
+    EXPECT_GE(track.p_wrong_log2, -12 + 1 - 36);
+    EXPECT_LE(track.p_wrong_log2, -12 + 2 - 36);
+}
+
+TEST(Tracker, RefusesOtherWeakSightings) {
+    const auto verdict = [](std::int64_t time_us, const Sighting& sighting) {
+        Tracker tracker;
+        drive(tracker, 0, 100'000);
+        tracker.update(time_us - 1, nullptr);
+        return see(tracker, sighting).verdict;
+    };
+    // Not where it should be; hardly better than chance; lost before.
+    EXPECT_EQ(verdict(100'000, weak(at(100'000, 12, 0, 0.2), -12)), Verdict::too_weak);
+    EXPECT_EQ(verdict(100'000, weak(at(100'000, 10, 0, 0.2), -9)), Verdict::too_weak);
+    EXPECT_EQ(verdict(165'000, weak(at(165'000, 16.5, 0, 0.33), -12)), Verdict::too_weak);
+    // After 60 ms the gate is 18 mm wide to either side: rivals may hide in it.
+    EXPECT_EQ(verdict(155'000, weak(at(155'000, 15.5, 0, 0.31), -12)), Verdict::too_weak);
+    EXPECT_EQ(verdict(120'000, weak(at(120'000, 12, 0, 0.24), -12)), Verdict::with_prior);
+}
+
+TEST(Tracker, WeakSightingsNeverConfirmAJump) {
+    Tracker tracker;
+    drive(tracker, 0, 100'000);
+    for (std::int64_t t = 100'000; t < 150'000; t += kFrame_us)
+        EXPECT_EQ(see(tracker, weak(at(t, 80), -29)).verdict, Verdict::too_weak);
+}
+
+TEST(Tracker, TellsRestFromMovement) {
+    Tracker tracker;
+    std::vector<std::pair<std::int64_t, std::string>> events;
+    Rng rng(5);
+    for (std::int64_t t = 0; t < 3'000'000; t += kFrame_us) {
+        // Drives for 1 s, rests for 1 s, drives on.
+        const double s = static_cast<double>(t) * 1e-6;
+        const double driven_s = s < 1 ? s : s < 2 ? 1 : s - 1;
+        const Track& track =
+            see(tracker, at(t, 50 * driven_s + 0.002 * rng.normal(), 0.002 * rng.normal()));
+        if (!events_of(track).empty()) events.emplace_back(t, events_of(track));
+    }
+    ASSERT_EQ(events.size(), 3U);
+    EXPECT_EQ(events[0].second, "fix ");
+    EXPECT_EQ(events[1].second, "stationary ");
+    // It counts from when it came within 0.1 mm of where it rests; after a stop as sudden as this
+    // one the filter takes some frames for that.
+    EXPECT_NEAR(static_cast<double>(events[1].first), 1.5e6, 30e3);
+    EXPECT_EQ(events[2].second, "moving ");
+    EXPECT_NEAR(static_cast<double>(events[2].first), 2.0e6, 10e3);  // 0.1 mm takes 2 ms
+}
+
+TEST(Tracker, ATurnIsMovementToo) {
+    Tracker tracker;
+    for (std::int64_t t = 0; t < 2'000'000; t += kFrame_us) {
+        const Track& track = see(tracker, at(t, 0, 0, static_cast<double>(t) * 1e-6 * 0.2));
+        EXPECT_FALSE(track.is_stationary);
+    }
+}
+
+TEST(Tracker, IgnoresFramesThatAreNotNewer) {
+    Tracker tracker;
+    drive(tracker, 0, 100'000);
+    const TrackedPose before = tracker.track().pose;
+    see(tracker, at(95'000, 500));
+    see(tracker, at(0, 500));
+    EXPECT_EQ(tracker.track().pose.x_nm, before.x_nm);
+    EXPECT_EQ(tracker.track().pose.time_us, before.time_us);
+}
+
+TEST(Tracker, TakesAFixInTheUnitsOfThePattern) {
+    Fix fix;
+    fix.status = Status::ok;
+    fix.cell = {410'815'347, 2};
+    fix.fraction_x_q16 = 0x8000;
+    fix.theta_bam = 5;
+    fix.section = {1, 2};
+    fix.p_wrong_log2 = -40;
+    fix.covariance[0][0] = 4;
+    fix.covariance[0][2] = 4;
+    fix.covariance[2][2] = 4;
+    const Sighting sighting = sighting_of(fix, 500'000, 77);
+    EXPECT_EQ(sighting.time_us, 77);
+    EXPECT_EQ(sighting.x_nm, 205'407'673'750'000);
+    EXPECT_EQ(sighting.y_nm, 1'000'000);
+    EXPECT_EQ(sighting.theta_bam, 5);
+    EXPECT_EQ(sighting.plane, 65U);
+    EXPECT_EQ(sighting.p_wrong_log2, -40);
+    EXPECT_FLOAT_EQ(sighting.covariance[0][0], 1);
+    EXPECT_FLOAT_EQ(sighting.covariance[0][2], 2);
+    EXPECT_FLOAT_EQ(sighting.covariance[2][2], 4);
+}
+
+}  // namespace
+}  // namespace dotpose
