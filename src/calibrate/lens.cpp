@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 
+#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
 #include "calibrate/lens_fit.hpp"
@@ -80,15 +81,41 @@ Lens lens_of(const Camera& camera) {
     return options.lens;
 }
 
+/// By how much the residuals of one frame shrink, in units of their variance, if this frame alone
+/// may have its own scale, shear and perspective. By chance: 5.
+double gain_of_own_view(const Sighting& frame, const std::vector<std::array<double, 2>>& residuals,
+                        const std::vector<char>& is_outlier, const FitSetting& setting,
+                        double sigma_px) {
+    using Parameters = Eigen::Matrix<double, 8, 1>;
+    Eigen::Matrix<double, 8, 8> normal = Eigen::Matrix<double, 8, 8>::Zero();
+    Parameters right = Parameters::Zero();
+    const double reach_px = setting.reach_px();
+    for (std::size_t k = 0; k < residuals.size(); ++k) {
+        if (is_outlier[k]) continue;
+        const double a = (frame.dots[k].pixel.u - (setting.width_px - 1) / 2.0) / reach_px;
+        const double b = (frame.dots[k].pixel.v - (setting.height_px - 1) / 2.0) / reach_px;
+        // To first order: place, turn, scale, shear, perspective.
+        Parameters along_u;
+        along_u << 1, 0, -b, a, a, b, a * a, a * b;
+        Parameters along_v;
+        along_v << 0, 1, a, b, -b, a, a * b, b * b;
+        normal += along_u * along_u.transpose() + along_v * along_v.transpose();
+        right += along_u * residuals[k][0] + along_v * residuals[k][1];
+    }
+    return right.dot(normal.ldlt().solve(right)) / (sigma_px * sigma_px);
+}
+
 /// Whether heights and tilts of the frames differ by more than chance.
-bool is_held_by_hand(const LensFit& mounted, const LensFit& by_hand) {
-    const int more = by_hand.parameters - mounted.parameters;
-    if (more <= 0) return false;
-    const double variance = by_hand.residual_px * by_hand.residual_px;
-    const double gain = (mounted.squares_px2 - by_hand.squares_px2) / (variance * more);
-    // By chance the gain is 1, with a variance of 2 / more; five standard deviations are no chance.
-    // Outliers are left out by either fit by itself, which the square of it allows for.
-    return gain > 1.2 + 5 * std::sqrt(2.0 / more);
+bool is_held_by_hand(const std::vector<Sighting>& sightings, const FitSetting& setting,
+                     const LensFit& mounted) {
+    double gain = 0;
+    for (std::size_t i = 0; i < sightings.size(); ++i) {
+        gain += gain_of_own_view(sightings[i], mounted.residuals_px[i], mounted.is_outlier[i],
+                                 setting, mounted.residual_px);
+    }
+    const double by_chance = 5 * static_cast<double>(sightings.size());
+    constexpr double kBeyondDoubt = 6;  // standard deviations
+    return gain > by_chance + kBeyondDoubt * std::sqrt(2 * by_chance);
 }
 
 struct Fits {
@@ -100,8 +127,9 @@ Fits fit_all(const std::vector<Sighting>& sightings, const FitSetting& setting) 
     Fits fits;
     fits.before = fit_lens(sightings, setting, Stand::ideal);
     fits.after = fit_lens(sightings, setting, Stand::mounted, &fits.before);
-    const LensFit by_hand = fit_lens(sightings, setting, Stand::by_hand, &fits.after);
-    if (is_held_by_hand(fits.after, by_hand)) fits.after = by_hand;
+    if (is_held_by_hand(sightings, setting, fits.after)) {
+        fits.after = fit_lens(sightings, setting, Stand::by_hand, &fits.after);
+    }
     return fits;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 
+#include <Eigen/Cholesky>
 #include <ceres/ceres.h>
 
 namespace dotpose::calibrate {
@@ -14,11 +15,13 @@ constexpr double kOutlier_sigmas = 4;
 /// Residual to be expected before any is known.
 constexpr double kFirstSigma_px = 0.3;
 /// What is known of cameras before the first frame: the distortion centre is within some 5 % of
-/// the image's diagonal from its centre, and the field of view some 55 degrees. It counts only
-/// where frames say nothing: the centre of no distortion, the focal length without tilt.
+/// the image's diagonal from its centre, the field of view some 55 degrees, pixels are square to
+/// 2 %. It counts only where frames say nothing: the centre of no distortion, the focal length
+/// without tilt, the shape of pixels where the tilt never changes.
 constexpr double kCentrePrior = 0.1;  // reaches
 constexpr double kReachPerFocal = 0.5;
 constexpr double kReachPerFocalPrior = 0.5;
+constexpr double kSquarePrior = 0.02;
 
 /// One dot, as the residuals need it.
 struct Seen {
@@ -187,8 +190,8 @@ class Fitter {
             ceres::Solver::Options options;
             options.logging_type = ceres::SILENT;
             options.linear_solver_type = ceres::DENSE_SCHUR;
-            options.max_num_iterations = 100;
-            options.function_tolerance = 1e-10;
+            options.max_num_iterations = 50;
+            options.function_tolerance = 1e-9;
             ceres::Solver::Summary summary;
             ceres::Solve(options, &problem, &summary);
             evaluate();
@@ -218,7 +221,8 @@ class Fitter {
         if (fit_.stand == Stand::by_hand) {
             add_prior<3>(problem, {0, kReachPerFocal, sigma_px / kReachPerFocalPrior},
                          fit_.camera.shape);
-            problem.SetParameterLowerBound(fit_.camera.shape.data(), 0, 0);
+            add_prior<3>(problem, {1, 1, sigma_px / kSquarePrior}, fit_.camera.shape);
+            add_prior<3>(problem, {2, 0, sigma_px / kSquarePrior}, fit_.camera.shape);
         }
     }
 
@@ -290,30 +294,52 @@ class Fitter {
         SharedModel& c = fit_.camera;
         if (fit_.stand == Stand::ideal) return;
         const bool by_hand = fit_.stand == Stand::by_hand;
-        double* view = by_hand ? c.shape.data() : c.paper.data();
-        ceres::Covariance::Options options;
-        options.num_threads = 1;
-        ceres::Covariance covariance(options);
-        const double variance = fit_.residual_px * fit_.residual_px;
-        const bool known = covariance.Compute(
-            std::vector<std::pair<const double*, const double*>>{{c.lens.data(), c.lens.data()},
-                                                                 {view, view}},
-            &problem);
-        const auto sigmas = [&](const double* block, std::size_t size, double* out,
-                                double* full = nullptr) {
-            std::vector<double> matrix(size * size, HUGE_VAL);
-            if (known) covariance.GetCovarianceBlock(block, block, matrix.data());
-            for (std::size_t i = 0; i < size; ++i)
-                out[i] = std::sqrt(variance * matrix[i * size + i]);
-            for (std::size_t i = 0; full != nullptr && i < size * size; ++i)
-                full[i] = variance * matrix[i];
-        };
-        sigmas(c.lens.data(), 3, fit_.sigma.lens.data());
-        if (by_hand) {
-            sigmas(view, 3, fit_.sigma.shape.data());
-        } else {
-            sigmas(view, 5, fit_.sigma.paper.data(), fit_.paper_covariance.front().data());
+        const std::vector<double*> shared = {c.lens.data(),
+                                             by_hand ? c.shape.data() : c.paper.data()};
+        const Eigen::MatrixXd covariance =
+            fit_.residual_px * fit_.residual_px * inverse_normal(problem, shared);
+        const auto sigma = [&](Eigen::Index i) { return std::sqrt(covariance(i, i)); };
+        for (Eigen::Index i = 0; i < 3; ++i) {
+            fit_.sigma.lens[static_cast<std::size_t>(i)] = sigma(i);
+            if (by_hand) fit_.sigma.shape[static_cast<std::size_t>(i)] = sigma(3 + i);
         }
+        if (by_hand) return;
+        fit_.paper_covariance = covariance.bottomRightCorner<5, 5>();
+        for (Eigen::Index i = 0; i < 5; ++i)
+            fit_.sigma.paper[static_cast<std::size_t>(i)] = sigma(3 + i);
+    }
+
+    /// The block of (J^T J)^-1 that belongs to some blocks of parameters. Of these problems, with
+    /// few parameters and many dots, ceres::Covariance would take a minute.
+    static Eigen::MatrixXd inverse_normal(ceres::Problem& problem,
+                                          const std::vector<double*>& wanted) {
+        std::vector<double*> blocks;
+        problem.GetParameterBlocks(&blocks);
+        std::erase_if(blocks, [&](double* b) { return std::ranges::count(wanted, b) > 0; });
+        blocks.insert(blocks.begin(), wanted.begin(), wanted.end());
+        ceres::Problem::EvaluateOptions options;
+        options.parameter_blocks = blocks;
+        ceres::CRSMatrix rows;
+        problem.Evaluate(options, nullptr, nullptr, nullptr, &rows);
+        Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(rows.num_cols, rows.num_cols);
+        for (std::size_t row = 0; row + 1 < rows.rows.size(); ++row) {
+            const auto begin = static_cast<std::size_t>(rows.rows[row]);
+            const auto end = static_cast<std::size_t>(rows.rows[row + 1]);
+            for (std::size_t i = begin; i < end; ++i) {
+                for (std::size_t j = begin; j < end; ++j)
+                    normal(rows.cols[i], rows.cols[j]) += rows.values[i] * rows.values[j];
+            }
+        }
+        Eigen::Index size = 0;
+        for (double* block : wanted)
+            size += problem.ParameterBlockSize(block);
+        // Of one scale, so that no precision is lost.
+        const Eigen::VectorXd scale = normal.diagonal().cwiseSqrt().cwiseMax(1e-30).cwiseInverse();
+        const Eigen::MatrixXd scaled = scale.asDiagonal() * normal * scale.asDiagonal();
+        const Eigen::MatrixXd inverse =
+            scaled.ldlt().solve(Eigen::MatrixXd::Identity(rows.num_cols, size));
+        return scale.head(size).asDiagonal() * inverse.topRows(size) *
+               scale.head(size).asDiagonal();
     }
 
     const std::vector<Sighting>& frames_;

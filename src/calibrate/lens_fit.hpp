@@ -4,6 +4,8 @@
 #include <array>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "calibrate/sighting.hpp"
 
 namespace dotpose::calibrate {
@@ -29,7 +31,7 @@ struct LensFit {
     SharedModel camera;
     SharedModel sigma;  ///< standard deviations
     /// Covariance of `camera.paper`.
-    std::array<std::array<double, 5>, 5> paper_covariance{};
+    Eigen::Matrix<double, 5, 5> paper_covariance = Eigen::Matrix<double, 5, 5>::Zero();
     /// Of each frame: place (mm, from the intersection where its steps start), turn; by hand also
     /// mm per px and tilt.
     std::vector<std::array<double, 6>> poses;

@@ -13,7 +13,7 @@ namespace {
 constexpr double kWorthTelling = 0.15;
 
 using Paper = Eigen::Matrix<double, 5, 1>;
-using PaperCovariance = Eigen::Matrix<double, 5, 5, Eigen::RowMajor>;
+using PaperCovariance = Eigen::Matrix<double, 5, 5>;
 
 /// A view (PaperScale, perspective times reach) against that of a tilted camera with square pixels.
 struct TiltResidual {
@@ -69,8 +69,7 @@ void describe_mounted(const LensFit& fit, double reach_px, Camera& camera) {
     constexpr double kBeyondDoubt = 5;
     if (!(perspective_sigmas > kBeyondDoubt)) return;
 
-    const auto covariance = Eigen::Map<const PaperCovariance>(fit.paper_covariance.front().data());
-    const PaperCovariance lower = covariance.llt().matrixL();
+    const PaperCovariance lower = fit.paper_covariance.llt().matrixL();
     const auto residual = new TiltResidual{Eigen::Map<const Paper>(paper.data()), lower.inverse()};
     // Perspective is tilt over focal length; half a reach per focal length is a usual lens.
     std::array tilt{std::sqrt(paper[0] * paper[1]), -2 * paper[4], 2 * paper[3], 0.5};
