@@ -205,7 +205,8 @@ class Locator {
     Fix locate_with(Profile profile) {
         options_.profile = profile;
         const Fix fix = locate(image_.view(), options_, *workspace_);
-        return arguments_.camera ? with_heading(fix, *arguments_.camera) : fix;
+        if (!arguments_.camera) return fix;
+        return with_camera(fix, *arguments_.camera, options_, *workspace_);
     }
 
     Options options_for(const GreyImage& image) const {

@@ -3,7 +3,7 @@
 ///     const Camera camera = read_camera("camera.yaml");
 ///     Options options;
 ///     use_camera(camera, image.width_px, image.height_px, options);
-///     const Fix fix = with_heading(locate(image, options, workspace), camera);
+///     const Fix fix = with_camera(locate(image, options, workspace), camera, options, workspace);
 ///
 /// `read_camera` also reads the `camera_info` files of ROS (`plumb_bob`) and converts their lens.
 ///
@@ -21,6 +21,7 @@
 #include "dotpose/error.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/options.hpp"
+#include "dotpose/workspace.hpp"
 
 namespace dotpose {
 
@@ -106,7 +107,11 @@ PixelPoint on_image(const Camera& camera, CameraPoint point);
 /// another size.
 void use_camera(const Camera& camera, int width_px, int height_px, Options& options);
 
-/// The fix with the heading of the robot in place of the direction of the image x axis.
-Fix with_heading(Fix fix, const Camera& camera);
+/// What else the camera file tells of a fix that `locate` has just made with these options. A
+/// camera that is mounted sees the paper always alike: its view is taken from the file, and only
+/// place, angle and one scale (sheets are printed differently) are fitted to the dots, which is
+/// more exact, above all far from the image centre. Theta becomes the heading of the robot.
+Fix with_camera(const Fix& fix, const Camera& camera, const Options& options,
+                const Workspace& workspace);
 
 }  // namespace dotpose

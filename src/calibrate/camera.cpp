@@ -138,13 +138,4 @@ void use_camera(const Camera& camera, int width_px, int height_px, Options& opti
     }
 }
 
-Fix with_heading(Fix fix, const Camera& camera) {
-    constexpr double kBam_per_rad = 2147483648.0 / std::numbers::pi;
-    const auto offset =
-        static_cast<std::int64_t>(std::llround(camera.theta_offset_rad * kBam_per_rad));
-    // Binary angles wrap around by themselves.
-    fix.theta_bam = static_cast<std::int32_t>(static_cast<std::uint32_t>(fix.theta_bam + offset));
-    return fix;
-}
-
 }  // namespace dotpose

@@ -49,6 +49,24 @@ double half_width(const ImageView& image, const std::vector<SightedDot>& dots, d
 
 }  // namespace
 
+std::vector<SightedDot> dots_read(const Workspace& w, Profile profile) {
+    std::vector<SightedDot> result;
+    const auto dots = w.found_dots();
+    for (int j = w.grid.j0; j < w.grid.j0 + w.grid.rows; ++j) {
+        for (int i = w.grid.i0; i < w.grid.i0 + w.grid.columns; ++i) {
+            const GridCell& cell = w.grid.at(i, j);
+            if (!cell.has_dot()) continue;
+            const Vec centre_q8 = dots[cell.dot].centre_q8;
+            const Vec step = w.decoding.pattern_from_grid({i, j});
+            const Place place = moved(profile, w.decoding.place, step.x, step.y);
+            result.push_back({{centre_q8.x / 256.0, centre_q8.y / 256.0},
+                              step,
+                              symbol_at(profile, place.cell, place.section)});
+        }
+    }
+    return result;
+}
+
 Sighter::Sighter(Profile profile) : workspace_(std::make_unique<LargeWorkspace>()) {
     options_.profile = profile;
 }
@@ -81,18 +99,9 @@ Sighting Sighter::read_workspace(const ImageView& image) const {
     Sighting sighting;
     sighting.place = w.decoding.place;
     sighting.spacing_px = w.fix.spacing_px();
-    const auto dots = w.found_dots();
-    for (int j = w.grid.j0; j < w.grid.j0 + w.grid.rows; ++j) {
-        for (int i = w.grid.i0; i < w.grid.i0 + w.grid.columns; ++i) {
-            const GridCell& cell = w.grid.at(i, j);
-            if (!cell.has_dot()) continue;
-            const Vec centre_q8 = dots[cell.dot].centre_q8;
-            const Vec step = w.decoding.pattern_from_grid({i, j});
-            const Place place = moved(options_.profile, sighting.place, step.x, step.y);
-            sighting.dots.push_back({distorted(used, {centre_q8.x / 256.0, centre_q8.y / 256.0}),
-                                     step, symbol_at(options_.profile, place.cell, place.section)});
-        }
-    }
+    sighting.dots = dots_read(w, options_.profile);
+    for (SightedDot& dot : sighting.dots)
+        dot.pixel = distorted(used, dot.pixel);
     sighting.dot_width = 2 * half_width(image, sighting.dots, sighting.spacing_px);
     return sighting;
 }

@@ -12,16 +12,19 @@
 namespace dotpose::calibrate {
 
 struct SightedDot {
-    PixelPoint pixel;  ///< in the image as it is, distorted
-    Vec step;          ///< its intersection, in spacings from the frame's `place`
+    PixelPoint pixel;
+    Vec step;  ///< its intersection, in spacings from the frame's `place`
     Symbol symbol = Symbol::up;
 };
 
+/// The dots that `locate` read, as undistorted pixels; they start at `workspace.decoding.place`.
+std::vector<SightedDot> dots_read(const Workspace& workspace, Profile profile);
+
 struct Sighting {
-    int frame = 0;  ///< its index
-    Place place;    ///< where the steps start
-    std::vector<SightedDot> dots;
-    double dot_width = 0;  ///< at half depth, in spacings
+    int frame = 0;                 ///< its index
+    Place place;                   ///< where the steps start
+    std::vector<SightedDot> dots;  ///< pixels in the image as it is, distorted
+    double dot_width = 0;          ///< at half depth, in spacings
     double spacing_px = 0;
 };
 
