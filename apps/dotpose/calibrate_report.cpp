@@ -73,4 +73,46 @@ std::string lens_report(const LensCalibration& calibration) {
     return text;
 }
 
+std::string spin_report(const SpinCalibration& calibration) {
+    const PixelPoint reference = calibration.camera.reference_px.value();
+    std::string text;
+    add(text, "spin        {} of {} frames located, over {:.0f} degrees", calibration.located,
+        calibration.frames, degrees(calibration.turn_rad));
+    add(text, "reference   {:.2f}, {:.2f} px +- {:.4f} mm", reference.u, reference.v,
+        calibration.sigma_mm);
+    add(text, "residual    {:.4f} mm (rms per axis): so well the robot stayed on the spot",
+        calibration.residual_mm);
+    return text;
+}
+
+std::string drive_report(const DriveCalibration& calibration) {
+    std::string text;
+    add(text, "drive       {} of {} frames located, over {:.1f} mm", calibration.located,
+        calibration.frames, calibration.length_mm);
+    add(text, "heading     image x axis {:+.3f} +- {:.3f} degrees",
+        degrees(calibration.camera.theta_offset_rad), degrees(calibration.sigma_rad));
+    add(text, "residual    {:.4f} mm (rms): so straight was the drive", calibration.residual_mm);
+    return text;
+}
+
+std::string stitching_report(const Stitching& stitching) {
+    std::string text;
+    add(text, "frames      {} of {} show two sheets", stitching.used, stitching.frames);
+    for (const Seam& seam : stitching.seams) {
+        add(text, "seam        {} - {}: {} frames, residual {:.4f} mm, {:.3f} degrees (rms)",
+            seam.first, seam.second, seam.frames, seam.residual_mm, degrees(seam.residual_rad));
+    }
+    for (const StitchedSheet& sheet : stitching.stitched) {
+        if (sheet.is_fixed) {
+            add(text, "sheet       {}: stays where it is", sheet.name);
+        } else {
+            add(text, "sheet       {}: +- {:.4f} mm, {:.4f} degrees", sheet.name, sheet.sigma_mm,
+                degrees(sheet.sigma_rad));
+        }
+    }
+    for (const std::string& name : stitching.unconnected)
+        add(text, "NOT FOUND:  {}: no frame shows it beside another one", name);
+    return text;
+}
+
 }  // namespace dotpose::cli

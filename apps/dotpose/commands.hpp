@@ -17,5 +17,6 @@ void add_simulate(CLI::App& app, int& exit_code);
 void add_evaluate(CLI::App& app, int& exit_code);
 void add_check_print(CLI::App& app, int& exit_code);
 void add_calibrate(CLI::App& app, int& exit_code);
+void add_optics(CLI::App& app, int& exit_code);
 
 }  // namespace dotpose::cli

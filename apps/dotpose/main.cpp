@@ -23,6 +23,7 @@ int run(int argc, char** argv) {
     add_evaluate(app, exit_code);
     add_check_print(app, exit_code);
     add_calibrate(app, exit_code);
+    add_optics(app, exit_code);
     try {
         app.parse(argc, argv);
         return exit_code;

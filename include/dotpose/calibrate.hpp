@@ -83,6 +83,70 @@ struct LensCalibration {
 LensCalibration calibrate_lens(int frames, const FrameAt& frame_at,
                                const CalibrateOptions& options);
 
+/// Where the camera sits: the point that stays put while the robot turns on the spot.
+struct SpinCalibration {
+    Camera camera;  ///< the one given, with `reference_px` set
+    int frames = 0;
+    int located = 0;
+    double sigma_mm = 0;     ///< standard deviation of the point, per axis
+    double residual_mm = 0;  ///< rms of the frames about it, per axis: how well the robot stood
+    double turn_rad = 0;     ///< smallest arc that holds all angles
+};
+
+/// At least 3 frames over more than 30 degrees; a full turn in 12 is good. `camera`: its lens and
+/// view; none: without distortion. Throws Error: too few frames with a fix, too small a turn,
+/// frames of other sizes, a point farther off than a camera file can say.
+SpinCalibration calibrate_spin(int frames, const FrameAt& frame_at,
+                               const std::optional<Camera>& camera,
+                               const CalibrateOptions& options);
+
+/// Which way the camera looks: from frames of a straight drive forwards, in order.
+struct DriveCalibration {
+    Camera camera;  ///< the one given, with `theta_offset_rad` set
+    int frames = 0;
+    int located = 0;
+    double sigma_rad = 0;    ///< of the offset
+    double residual_mm = 0;  ///< rms of the places from a straight line
+    double length_mm = 0;    ///< of the drive
+};
+
+/// At least 2 frames over more than 5 mm. Throws Error as `calibrate_spin`.
+DriveCalibration calibrate_drive(int frames, const FrameAt& frame_at,
+                                 const std::optional<Camera>& camera,
+                                 const CalibrateOptions& options);
+
+/// One sheet, after stitching.
+struct StitchedSheet {
+    std::string name;
+    double sigma_mm = 0;   ///< of the place of its corner against the fixed sheet, per axis
+    double sigma_rad = 0;  ///< of its yaw
+    bool is_fixed = false;
+};
+/// Two sheets that some frames show together.
+struct Seam {
+    std::string first;
+    std::string second;
+    int frames = 0;
+    double residual_mm = 0;   ///< rms per axis, of the frames
+    double residual_rad = 0;  ///< rms
+};
+struct Stitching {
+    std::vector<SheetEntry>
+        sheets;  ///< those given, in order; the world poses of those stitched set
+    std::vector<StitchedSheet> stitched;
+    std::vector<Seam> seams;
+    std::vector<std::string> unconnected;  ///< sheets that no seam joins to the fixed one
+    int frames = 0;
+    int used = 0;  ///< frames that show two sheets
+};
+
+/// Lays sheets out in the world by frames that show parts of two. The first sheet with a world pose
+/// keeps it; if none has one, the first that is seen becomes the world: its corner the origin, its
+/// upper edge the x axis. `camera`: lens and view; without, the view is fitted to each part of a
+/// frame, which is less exact. Throws Error: no sheets, no frame shows two of them.
+Stitching stitch_sheets(int frames, const FrameAt& frame_at, std::vector<SheetEntry> sheets,
+                        const std::optional<Camera>& camera, const CalibrateOptions& options);
+
 /// Draws the residual fields before and after, and the dots' coverage of the image, as SVG.
 /// Throws Error if the file cannot be written.
 void draw_calibration(const std::filesystem::path& path, const LensCalibration& calibration);
