@@ -83,7 +83,7 @@ void validate(const Camera& camera);
 /// Reads a camera file, or a camera_info file of ROS. Throws Error, naming the file and the key
 /// concerned: the file cannot be read, is neither, is of another version, a key is missing, not
 /// known, of the wrong type or out of range; a distortion model other than plumb_bob, or one that
-/// eq. 2 cannot follow to within 0.5 px.
+/// eq. 2 cannot follow to within 0.5 px rms.
 Camera read_camera(const std::filesystem::path& path);
 
 /// Writes the file, whole or not at all. Throws Error, or BadArgument as `validate`.

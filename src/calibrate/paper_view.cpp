@@ -79,6 +79,7 @@ void describe_mounted(const LensFit& fit, double reach_px, Camera& camera) {
     ceres::Solver::Options options;
     options.logging_type = ceres::SILENT;
     options.max_num_iterations = 200;
+    options.function_tolerance = 1e-12;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);
     ceres::Covariance::Options how;

@@ -10,7 +10,7 @@
 namespace dotpose::calibrate {
 namespace {
 
-/// Farthest that eq. 2 may be off plumb_bob.
+/// What eq. 2 may be off plumb_bob, rms over the image.
 constexpr double kLargestMisfit_px = 0.5;
 
 /// http://docs.ros.org/en/api/sensor_msgs/html/msg/CameraInfo.html, plumb_bob: the lens of OpenCV,
@@ -64,7 +64,7 @@ struct Misfit {
     }
 };
 
-/// Sets k and centre to what is nearest to `lens` all over the image. Returns the largest misfit.
+/// Sets k and centre to what is nearest to `lens` all over the image. Returns the rms misfit.
 double fit_division_model(const PlumbBob& lens, Camera& camera) {
     constexpr int kSteps = 16;
     const double reach_px = std::hypot(camera.width_px, camera.height_px) / 2;
@@ -91,17 +91,19 @@ double fit_division_model(const PlumbBob& lens, Camera& camera) {
     options.logging_type = ceres::SILENT;
     options.linear_solver_type = ceres::DENSE_QR;
     options.max_num_iterations = 200;
+    options.function_tolerance = 1e-12;
+    options.parameter_tolerance = 1e-12;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);
     camera.k_per_px2 = k / (reach_px * reach_px);
     camera.centre_px = {centre[0], centre[1]};
-    double largest_px = 0;
+    double squares = 0;
     for (const Misfit& misfit : misfits) {
         std::array<double, 2> residual{};
         misfit(&k, centre.data(), affine.data(), residual.data());
-        largest_px = std::max(largest_px, std::hypot(residual[0], residual[1]));
+        squares += residual[0] * residual[0] + residual[1] * residual[1];
     }
-    return std::isfinite(largest_px) ? largest_px : HUGE_VAL;
+    return std::sqrt(squares / static_cast<double>(misfits.size()));
 }
 
 /// The list under a key of camera_calibration_parsers' matrices, or of a printed message.

@@ -3,24 +3,22 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 namespace dotpose::calibrate {
 namespace {
 
 /// A fix may lie beyond the page whose dots it was read from: by at most a frame.
 constexpr double kBeyondPage_mm = 400;
-/// A frame whose dots nearly all fit one sheet shows no other.
-constexpr double kWholeShare = 0.93;
+/// Once this share of a frame's dots is explained, no more parts are looked at.
+constexpr double kNearlyAll = 0.9;
 
 /// Along one axis: begin and length, as shares of the side.
 struct Stretch {
     double begin;
     double length;
 };
-constexpr std::array kStretches = {Stretch{0, 1},      Stretch{0, 0.5},     Stretch{0.5, 0.5},
-                                   Stretch{0, 0.66},   Stretch{0.34, 0.66}, Stretch{0, 0.36},
-                                   Stretch{0.64, 0.36}};
+constexpr std::array kStretches = {Stretch{0, 1}, Stretch{0, 0.5}, Stretch{0.5, 0.5},
+                                   Stretch{0, 0.66}, Stretch{0.34, 0.66}};
 
 /// The mean cell of the dots that were read, as a fix that lies there.
 Fix at_the_dots(const Fix& fix, const Workspace& w, Profile profile) {
@@ -89,24 +87,33 @@ std::vector<SeamLocator::Part> SeamLocator::parts_of(const GreyImage& image) {
 }
 
 std::vector<SheetView> SeamLocator::views(const GreyImage& image) {
+    std::vector<SheetView> views = views_with(image, Effort::once);
+    return views.empty() ? views_with(image, Effort::twice) : views;
+}
+
+std::vector<SheetView> SeamLocator::views_with(const GreyImage& image, Effort effort) {
     std::vector<SheetView> views;
-    bool is_first = true;
+    int dots_seen = 0;
     for (const Part& part : parts_of(image)) {
-        const auto view = view_in(image, part);
-        const bool is_whole = std::exchange(is_first, false);
+        const auto view = view_in(image, part, effort);
+        dots_seen = std::max(dots_seen, workspace_->fix.dots_seen);  // first of all in the whole
         if (!view) continue;
-        if (is_whole && view->dots > kWholeShare * workspace_->fix.dots_seen) return {*view};
         const auto same = std::ranges::find(views, view->sheet, &SheetView::sheet);
         if (same == views.end()) {
             views.push_back(*view);
         } else if (view->dots > same->dots) {
             *same = *view;
         }
+        int dots = 0;
+        for (const SheetView& known : views)
+            dots += known.dots;
+        if (dots > kNearlyAll * dots_seen) break;
     }
     return views;
 }
 
-std::optional<SheetView> SeamLocator::view_in(const GreyImage& image, const Part& part) {
+std::optional<SheetView> SeamLocator::view_in(const GreyImage& image, const Part& part,
+                                              Effort effort) {
     const ImageView pixels{image.view().row(part.v) + part.u, part.width, part.height,
                            image.view().stride_bytes};
     Camera camera;
@@ -127,6 +134,7 @@ std::optional<SheetView> SeamLocator::view_in(const GreyImage& image, const Part
         PixelPoint{(image.width_px - 1) / 2.0 - part.u, (image.height_px - 1) / 2.0 - part.v};
     camera.theta_offset_rad = 0;
     Options options;
+    options.effort = effort;
     use_camera(camera, part.width, part.height, options);
     for (const Profile profile : profiles_) {
         options.profile = profile;

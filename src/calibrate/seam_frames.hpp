@@ -47,7 +47,8 @@ class SeamLocator {
         int height = 0;
     };
     static std::vector<Part> parts_of(const GreyImage& image);
-    std::optional<SheetView> view_in(const GreyImage& image, const Part& part);
+    std::vector<SheetView> views_with(const GreyImage& image, Effort effort);
+    std::optional<SheetView> view_in(const GreyImage& image, const Part& part, Effort effort);
     std::optional<SheetView> view_of(const Fix& fix, Profile profile) const;
 
     const std::vector<SheetEntry>& sheets_;

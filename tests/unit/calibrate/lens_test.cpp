@@ -37,7 +37,7 @@ void expect_lens(const LensCalibration& result, const CameraModel& truth) {
     expect_near_truth(camera, "centre_u_px", camera.centre_px.u, (truth.width_px - 1) / 2.0);
     expect_near_truth(camera, "centre_v_px", camera.centre_px.v, (truth.height_px - 1) / 2.0);
     EXPECT_LT(result.residual_px, 1.1 * kNominalResidual_px);
-    EXPECT_EQ(result.located, kFrames);
+    EXPECT_EQ(result.located, result.frames);
     EXPECT_EQ(result.verdict, CalibrationVerdict::good) << result.advice;
 }
 
@@ -82,7 +82,7 @@ TEST(CalibrateLens, FindsTheFocalLengthOfALargeCameraHeldByHand) {
     const auto frame_at = [&](int i) {
         return nominal_frame(truth, 33, i, i * 7 % 51 - 25, i * 13 % 51 - 25);
     };
-    const auto result = calibrate_lens(kFrames, frame_at, {});
+    const auto result = calibrate_lens(8, frame_at, {});
     expect_lens(result, truth);
     EXPECT_FALSE(result.is_mounted);
     EXPECT_FALSE(result.camera.paper || result.camera.tilt);
@@ -157,7 +157,7 @@ TEST(CalibrateLens, SaysWhatIsWrongWithPoorSeries) {
     const auto few = calibrate_lens(4, [&](int i) { return nominal_frame(camera, 37, i); }, {});
     EXPECT_EQ(few.verdict, CalibrationVerdict::too_few_frames);
 
-    Setup setup;
+    dotpose::Setup setup;
     setup.camera = camera;
     const auto same_place =
         calibrate_lens(6,
@@ -205,7 +205,7 @@ TEST(DrawCalibration, IsAPictureOfThreePanels) {
     std::ostringstream text;
     text << std::ifstream(path).rdbuf();
     std::filesystem::remove(path);
-    EXPECT_EQ(test::xml_problem(text.str()), "");
+    EXPECT_EQ(test::XmlCheck(text.str()).problem(), "");
     for (const char* panel : {">Before<", ">After<", ">Coverage<"})
         EXPECT_THAT(text.str(), HasSubstr(panel));
     EXPECT_THROW(draw_calibration("/no/such/folder/a.svg", result), Error);
