@@ -36,8 +36,7 @@ constexpr const char* kRounding =
     "  0.046 mm   per px: 8.59 / 188 = 0.0457, 5.48 / 120 = 0.0457, rounded up\n"
     "  353 mm/s   0.046 mm x 7684 / s = 353.5, cut off; from 0.0457 it would be 351\n"
     "  4.29 mm    8.59 / 2 = 4.295, cut off\n"
-    "  785 rpm    353 / 4.295 = 82.19 rad/s = 784.9, rounded; unrounded 785.9, and 786.8 with "
-    "4.29\n"
+    "  785 rpm    353.5 / 4.295 = 82.3 rad/s = 785.9, cut off; from 4.29 mm it would be 786.8\n"
     "  4.29 mm is the far edge's distance along one axis: a turn blurs along either image axis by\n"
     "  at most this much. The corner, 5.09 mm away, moves by more (one px, 0.046 mm, at 662 "
     "rpm).\n";
