@@ -15,6 +15,8 @@ void add_locate(CLI::App& app, int& exit_code);
 void add_simulate(CLI::App& app, int& exit_code);
 void add_evaluate(CLI::App& app, int& exit_code);
 void add_check_print(CLI::App& app, int& exit_code);
+void add_calibrate(CLI::App& app, int& exit_code);
+void add_optics(CLI::App& app, int& exit_code);
 void add_listen(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);
 

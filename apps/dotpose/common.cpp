@@ -125,8 +125,8 @@ CLI::Option* add_sheets_option(CLI::App& command, std::string& path, const std::
         ->check(CLI::Validator(not_empty, ""));
 }
 
-void add_lens_option(CLI::App& command, Lens& lens) {
-    command
+CLI::Option* add_lens_option(CLI::App& command, Lens& lens) {
+    return command
         .add_option_function<double>(
             "--k",
             [&lens](double k_per_px2) {
@@ -141,6 +141,14 @@ void add_lens_option(CLI::App& command, Lens& lens) {
             "Radial distortion, below 0 for barrel: p = m + r / (1 + k r^2)")
         ->type_name("1/PX^2")
         ->default_str("0");
+}
+
+CLI::Option* add_camera_option(CLI::App& command, std::optional<Camera>& camera,
+                               const std::string& help) {
+    return command
+        .add_option_function<std::string>(
+            "--camera", [&camera](const std::string& path) { camera = read_camera(path); }, help)
+        ->type_name("FILE");
 }
 
 void add_attempt_options(CLI::App& command, Options& options) {

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "dotpose/camera_file.hpp"
 #include "dotpose/options.hpp"
 #include "dotpose/print.hpp"
 #include "dotpose/sheet.hpp"
@@ -32,7 +33,11 @@ void add_cell_option(CLI::App& command, const std::string& flag, Cell& cell,
 CLI::Option* add_sheets_option(CLI::App& command, std::string& path, const std::string& help);
 
 /// --k 1/PX^2: what `locate` corrects.
-void add_lens_option(CLI::App& command, Lens& lens);
+CLI::Option* add_lens_option(CLI::App& command, Lens& lens);
+
+/// --camera FILE, which is read at once.
+CLI::Option* add_camera_option(CLI::App& command, std::optional<Camera>& camera,
+                               const std::string& help);
 
 /// --decoder and --effort. `options` must outlive the command.
 void add_attempt_options(CLI::App& command, Options& options);

@@ -44,6 +44,7 @@ struct EvaluateArguments {
     std::optional<int> frames;
     Setup setup;
     Options options;
+    std::optional<Camera> camera;
     double spacing_mm = kDefaultSpacing_mm;
     bool spacing_given = false;
     bool code_given = false;
@@ -188,6 +189,13 @@ int run(EvaluateArguments& arguments) {
     if (writes && arguments.out.empty()) throw BadArgument("name a folder for the results: -o DIR");
     if (writes && arguments.json) throw BadArgument("--json is for DIR and --preset only");
     if (has_folder && arguments.frames) throw BadArgument("--frames is for simulated frames only");
+    if (const auto& camera = arguments.camera) {
+        if (!has_folder) throw BadArgument("--camera is for frames in a folder only");
+        // The truth is that of the image centre, so the reference point of the robot is left out.
+        Options with_camera;
+        use_camera(*camera, camera->width_px, camera->height_px, with_camera);
+        arguments.options.lens = with_camera.lens;
+    }
     arguments.setup.preset = arguments.preset.value_or(Preset::nominal);
     Pattern& pattern = arguments.setup.pattern;
     pattern.profile = arguments.options.profile;
@@ -235,7 +243,8 @@ void add_evaluate(CLI::App& app, int& exit_code) {
     add_attempt_options(*command, arguments->options);
     add_code_option(*command, arguments->options.profile);
     add_spacing_option(*command, arguments->spacing_mm);
-    add_lens_option(*command, arguments->options.lens);
+    add_camera_option(*command, arguments->camera, "Camera file: the lens that is corrected in DIR")
+        ->excludes(add_lens_option(*command, arguments->options.lens));
     command->get_option("--code")->default_str("as in truth.csv, or anoto");
     command->get_option("--spacing")->default_str("as in truth.csv, or 0.508");
     command

@@ -37,14 +37,10 @@ constexpr const char* kExamples =
     "  dotpose locate --format csv frames/*.pgm > poses.csv\n"
     "  dotpose locate --draw pictures frame.png\n"
     "  dotpose locate --sheets sheets.json frame.png\n"
+    "  dotpose locate --camera camera.yaml frame.png\n"
     "  find frames -name '*.png' | sort | dotpose locate --list -\n\n"
     "One line per image, also for those without a fix. Exit status 1 if some image could not be\n"
     "read, 2 for wrong usage.\n";
-
-struct PixelPoint {
-    double u = 0;
-    double v = 0;
-};
 
 struct LocateArguments {
     std::vector<std::string> images;
@@ -56,6 +52,7 @@ struct LocateArguments {
     double spacing_mm = kDefaultSpacing_mm;
     bool is_inverted = false;
     Options options;
+    std::optional<Camera> camera;
     std::optional<PixelPoint> reference_px;
 };
 
@@ -119,7 +116,11 @@ class Locator {
     Record operator()(const std::string& name) {
         image_ = read_image(name);
         if (arguments_.is_inverted) invert(image_);
-        options_ = options_for(image_);
+        try {
+            options_ = options_for(image_);
+        } catch (const BadArgument& error) {
+            throw Error(fmt::format("{}: {}", name, error.what()));
+        }
         Record record;
         record.file = name;
         record.has_sheets = has_sheets();
@@ -180,11 +181,16 @@ class Locator {
 
     Fix locate_with(Profile profile) {
         options_.profile = profile;
-        return locate(image_.view(), options_, *workspace_);
+        const Fix fix = locate(image_.view(), options_, *workspace_);
+        if (!arguments_.camera) return fix;
+        return with_camera(fix, *arguments_.camera, options_, *workspace_);
     }
 
     Options options_for(const GreyImage& image) const {
         Options options = arguments_.options;
+        if (arguments_.camera) {
+            use_camera(*arguments_.camera, image.width_px, image.height_px, options);
+        }
         if (const auto& reference_px = arguments_.reference_px) {
             const auto from_centre_q8 = [](double px, int side_px) {
                 return static_cast<std::int32_t>(std::lround((px - (side_px - 1) / 2.0) * 256));
@@ -254,14 +260,16 @@ PixelPoint parse_reference(const std::string& text) {
 }
 
 void add_camera_options(CLI::App& command, LocateArguments& arguments) {
-    add_lens_option(command, arguments.options.lens);
+    add_camera_option(command, arguments.camera,
+                      "Camera file, of 'dotpose calibrate' or ROS: lens, reference, heading")
+        ->excludes(add_lens_option(command, arguments.options.lens));
     command
         .add_option_function<std::string>(
             "--reference",
             [&arguments](const std::string& text) {
                 arguments.reference_px = parse_reference(text);
             },
-            "Pixel whose place is wanted; (0, 0) is the centre of the first pixel")
+            "Pixel whose place is wanted; (0, 0) is the centre of the first pixel, undistorted")
         ->type_name("U,V")
         ->default_str("image centre");
 }

@@ -10,6 +10,8 @@ int main(int argc, char** argv) {
         add_simulate(app, exit_code);
         add_evaluate(app, exit_code);
         add_check_print(app, exit_code);
+        add_calibrate(app, exit_code);
+        add_optics(app, exit_code);
         add_listen(app, exit_code);
         add_replay(app, exit_code);
         add_live(app);

@@ -7,10 +7,14 @@
 
 namespace dotpose {
 
-/// Radial distortion, paper eq. 1-2: p_u = m + r_d / (1 + k |r_d|^2), m the image centre.
+/// Radial distortion, paper eq. 1-2: p_u = m + r_d / (1 + k |r_d|^2), m the distortion centre.
 struct Lens {
     /// k in 2^-40 / px^2; negative for barrel distortion. Default 0: none.
     std::int32_t k_q40 = 0;
+    /// m in pixels from the image centre, times 256. Default: the image centre itself, as in the
+    /// paper; real lenses sit a few pixels off. |m| < 1024 px.
+    std::int32_t centre_dx_q8 = 0;
+    std::int32_t centre_dy_q8 = 0;
 
     /// k in 1/px^2, |k| < 2^-9.
     static constexpr Lens from_k(double k_per_px2) {

@@ -167,6 +167,7 @@ constexpr bool is_within(int value, int low, int high) {
 /// Whether the options are such that no stage can overflow.
 bool are_valid(const Options& options) {
     constexpr int kFarthestReference_q8 = 16384 * 256;
+    constexpr int kFarthestLens_q8 = 1024 * 256;
     return is_within(options.threshold.extent_q8, 1, 256) &&
            is_within(options.threshold.core_q8, 1, 256) &&
            is_within(options.threshold.min_contrast, 1, 255) &&
@@ -175,7 +176,9 @@ bool are_valid(const Options& options) {
            is_within(options.lattice.max_offset_q16, 0, 32768) &&
            is_within(options.integrity.max_bit_error_q8, 0, 256) &&
            is_within(options.reference_dx_q8, -kFarthestReference_q8, kFarthestReference_q8) &&
-           is_within(options.reference_dy_q8, -kFarthestReference_q8, kFarthestReference_q8);
+           is_within(options.reference_dy_q8, -kFarthestReference_q8, kFarthestReference_q8) &&
+           is_within(options.lens.centre_dx_q8, -kFarthestLens_q8, kFarthestLens_q8) &&
+           is_within(options.lens.centre_dy_q8, -kFarthestLens_q8, kFarthestLens_q8);
 }
 
 /// The second attempt, on the image filtered; bits are read from it rather than from blobs.

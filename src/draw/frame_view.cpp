@@ -87,6 +87,8 @@ FrameView::FrameView(ImageView image, const Workspace& workspace, const Options&
       height_px_(std::max(image.height_px, 1)),
       scale_(side / std::max(width_px_, height_px_)),
       k_(options.lens.k_q40 * 0x1p-40),
+      lens_centre_px_(Point{(width_px_ - 1) / 2, (height_px_ - 1) / 2} +
+                      from_q8({options.lens.centre_dx_q8, options.lens.centre_dy_q8})),
       grid_(workspace.grid_from_image),
       reference_px_(Point{(width_px_ - 1) / 2, (height_px_ - 1) / 2} +
                     from_q8({options.reference_dx_q8, options.reference_dy_q8})) {
@@ -113,11 +115,10 @@ double FrameView::estimate_spacing_px() const {
 
 /// The inverse of eq. 2, |p_u - m| = r / (1 + k r^2), solved for r.
 Point FrameView::image_from_ideal(Point ideal_px) const {
-    const Point centre_px{(width_px_ - 1) / 2, (height_px_ - 1) / 2};
-    const Point r_u = ideal_px - centre_px;
+    const Point r_u = ideal_px - lens_centre_px_;
     const double squared = r_u.x * r_u.x + r_u.y * r_u.y;
     const double root = std::sqrt(std::max(0.0, 1 - 4 * k_ * squared));
-    return centre_px + 2 / (1 + root) * r_u;
+    return lens_centre_px_ + 2 / (1 + root) * r_u;
 }
 
 Point FrameView::at(Point ideal_px) const {

@@ -78,6 +78,7 @@ class FrameView {
     double height_px_;
     double scale_;
     double k_;
+    Point lens_centre_px_;
     Plane grid_;
     double spacing_px_ = 0;
     double stroke_ = 1;

@@ -56,6 +56,21 @@ TEST(Undistort, DistortedIsTheInverse) {
     }
 }
 
+TEST(Undistort, TheLensMayBeCentredElsewhere) {
+    const Vec image_centre{94 * 256, 60 * 256};
+    Lens lens = Lens::from_k(-1e-5);
+    const Lens centred = lens;
+    lens.centre_dx_q8 = 3 * 256;
+    lens.centre_dy_q8 = -2 * 256;
+    const auto shifted = [](Vec p) { return Vec{p.x + 3 * 256, p.y - 2 * 256}; };
+    for (const Vec seen : {Vec{0, 0}, Vec{180 * 256, 20 * 256}, Vec{97 * 256, 58 * 256}}) {
+        EXPECT_EQ(core::undistorted(lens, image_centre, shifted(seen)),
+                  shifted(core::undistorted(centred, image_centre, seen)));
+        EXPECT_EQ(core::distorted(lens, image_centre, shifted(seen)),
+                  shifted(core::distorted(centred, image_centre, seen)));
+    }
+}
+
 TEST(Undistort, NoLensMovesNothing) {
     std::vector<Dot> dots{dot_at({1.25, 3.5}), dot_at({4000.75, 12})};
     core::undistort({}, {2048 * 256, 2048 * 256}, dots);

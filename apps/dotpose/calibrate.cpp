@@ -1,0 +1,166 @@
+#include "dotpose/calibrate.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "calibrate_report.hpp"
+#include "commands.hpp"
+#include "common.hpp"
+#include "dotpose/image_file.hpp"
+#include "progress.hpp"
+
+namespace dotpose::cli {
+namespace {
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  dotpose calibrate frames/*.png -o camera.yaml --draw camera.svg\n"
+    "  dotpose calibrate --camera camera.yaml -o camera.yaml --spin turn/*.png --drive line/*.png\n"
+    "  dotpose calibrate --stitch --sheets sheets.json --camera camera.yaml seams/*.png\n\n"
+    "Take 5 to 50 frames of any printed sheet, some centimetres and any angle apart; 12 of the "
+    "robot\n"
+    "turning on the spot; some of it driving straight ahead. Exit status 1 if frames do not tell\n"
+    "what is asked.\n";
+
+struct CalibrateArguments {
+    std::vector<std::string> images;
+    std::vector<std::string> spin;
+    std::vector<std::string> drive;
+    bool stitch = false;
+    std::string sheets;
+    std::optional<Camera> camera;
+    std::string out;
+    std::string picture;
+    CalibrateOptions options;
+};
+
+using Names = std::vector<std::string>;
+
+FrameAt frames_of(const Names& names) {
+    return [&names](int index) { return read_image(names[static_cast<std::size_t>(index)]); };
+}
+
+/// Runs `work(frames, frame_at, options)` with its progress shown.
+template <typename Work>
+auto with_progress(const Names& names, const std::string& what, CalibrateOptions options,
+                   Work work) {
+    ProgressLine line(what);
+    options.progress = [&line](int done, int total) {
+        line.update(done, total);
+        return !interrupted();
+    };
+    return work(static_cast<int>(names.size()), frames_of(names), options);
+}
+
+/// Lens, then mount, as far as frames of each are given; returns what it did.
+std::string calibrate_camera(const CalibrateArguments& arguments) {
+    std::string report;
+    std::optional<Camera> camera = arguments.camera;
+    std::optional<LensCalibration> lens;
+    if (!arguments.images.empty()) {
+        lens = with_progress(arguments.images, "calibrating the lens", arguments.options,
+                             calibrate_lens);
+        if (camera) {
+            lens->camera.reference_px = camera->reference_px;
+            lens->camera.theta_offset_rad = camera->theta_offset_rad;
+            lens->camera.exposure_us = camera->exposure_us;
+            lens->camera.gain = camera->gain;
+        }
+        camera = lens->camera;
+        report += lens_report(*lens);
+    }
+    if (!arguments.spin.empty()) {
+        const SpinCalibration spin = with_progress(
+            arguments.spin, "calibrating the mount", arguments.options,
+            [&](int frames, const FrameAt& frame_at, const CalibrateOptions& options) {
+                return calibrate_spin(frames, frame_at, camera, options);
+            });
+        camera = spin.camera;
+        report += spin_report(spin);
+    }
+    if (!arguments.drive.empty()) {
+        const DriveCalibration drive = with_progress(
+            arguments.drive, "calibrating the heading", arguments.options,
+            [&](int frames, const FrameAt& frame_at, const CalibrateOptions& options) {
+                return calibrate_drive(frames, frame_at, camera, options);
+            });
+        camera = drive.camera;
+        report += drive_report(drive);
+    }
+    if (lens && !arguments.picture.empty()) draw_calibration(arguments.picture, *lens);
+    if (!arguments.out.empty()) write_camera(arguments.out, *camera);
+    return report;
+}
+
+/// Writes the world poses into the sheet file; returns what it did.
+std::string stitch(const CalibrateArguments& arguments) {
+    SheetFile file(arguments.sheets);
+    const Stitching stitching = with_progress(
+        arguments.images, "stitching", arguments.options,
+        [&](int frames, const FrameAt& frame_at, const CalibrateOptions& options) {
+            return stitch_sheets(frames, frame_at, file.sheets(), arguments.camera, options);
+        });
+    for (const SheetEntry& entry : stitching.sheets)
+        file.replace(entry);
+    file.save();
+    return stitching_report(stitching);
+}
+
+/// Returns the exit status.
+int run(const CalibrateArguments& arguments) {
+    const bool has_mount = !arguments.spin.empty() || !arguments.drive.empty();
+    if (arguments.images.empty() && !has_mount) {
+        throw BadArgument("no images given: name 5 to 50 frames");
+    }
+    if (arguments.stitch && has_mount) throw BadArgument("--stitch is a job of its own");
+    catch_interrupts();
+    const std::string report = arguments.stitch ? stitch(arguments) : calibrate_camera(arguments);
+    std::fputs(report.c_str(), stdout);
+    return 0;
+}
+
+}  // namespace
+
+void add_calibrate(CLI::App& app, int& exit_code) {
+    const auto arguments = std::make_shared<CalibrateArguments>();
+    CLI::App* command =
+        app.add_subcommand("calibrate", "Find lens and mount of a camera from frames of a sheet");
+    command->footer(kExamples);
+    command->add_option("images", arguments->images, "PGM, PNG, JPEG, BMP or TIFF files")
+        ->type_name("IMAGE");
+    command->add_option("-o,--out", arguments->out, "Camera file to write (YAML)")
+        ->type_name("FILE");
+    command
+        ->add_option("--draw", arguments->picture,
+                     "Also draw residuals and coverage of the image (.svg)")
+        ->type_name("FILE");
+    add_camera_option(*command, arguments->camera,
+                      "Camera file to start from: its lens where no frames of a sheet are given");
+    command
+        ->add_option("--spin", arguments->spin,
+                     "Frames of the robot turning on the spot: find its centre (reference_px)")
+        ->type_name("IMAGE");
+    command
+        ->add_option("--drive", arguments->drive,
+                     "Frames of a straight drive ahead, in order: find the heading (theta_offset)")
+        ->type_name("IMAGE");
+    CLI::Option* stitch = command->add_flag(
+        "--stitch", arguments->stitch,
+        "Find how the sheets of a sheet file lie, from frames that show two, and write it there");
+    CLI::Option* sheets = add_sheets_option(*command, arguments->sheets, "Sheet file to stitch");
+    stitch->needs(sheets);
+    sheets->needs(stitch);
+    stitch->excludes(command->get_option("--out"), command->get_option("--draw"));
+    add_spacing_option(*command, arguments->options.pattern.spacing_mm);
+    add_code_option(*command, arguments->options.pattern.profile);
+    command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
+}  // namespace dotpose::cli

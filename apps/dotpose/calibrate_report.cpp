@@ -1,0 +1,118 @@
+#include "calibrate_report.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace dotpose::cli {
+namespace {
+
+template <typename... Values>
+void add(std::string& text, fmt::format_string<Values...> format, Values&&... values) {
+    fmt::format_to(std::back_inserter(text), format, std::forward<Values>(values)...);
+    text += '\n';
+}
+
+double degrees(double rad) {
+    return rad * 180 / std::numbers::pi;
+}
+
+/// By how much the lens moves the farthest corner, in percent of its distance.
+double corner_displacement(const Camera& camera) {
+    const PixelPoint corner{
+        camera.centre_px.u < (camera.width_px - 1) / 2.0 ? camera.width_px - 1.0 : 0,
+        camera.centre_px.v < (camera.height_px - 1) / 2.0 ? camera.height_px - 1.0 : 0};
+    const PixelPoint straight = undistorted(camera, corner);
+    const double r = std::hypot(corner.u - camera.centre_px.u, corner.v - camera.centre_px.v);
+    return 100 *
+           (std::hypot(straight.u - camera.centre_px.u, straight.v - camera.centre_px.v) / r - 1);
+}
+
+void add_view(std::string& text, const Camera& camera) {
+    const auto sigma = [&camera](const char* key) { return camera.sigma.at(key); };
+    if (const auto& paper = camera.paper) {
+        add(text, "scale       {:.6f} +- {:.6f} and {:.6f} +- {:.6f} mm per px, along x and y",
+            paper->mm_per_px_x, sigma("mm_per_px_x"), paper->mm_per_px_y, sigma("mm_per_px_y"));
+        add(text, "skew        {:.5f} +- {:.5f}", paper->skew, sigma("skew"));
+    } else {
+        add(text, "scale       differs from frame to frame: the camera was not mounted");
+    }
+    if (camera.tilt) {
+        add(text, "tilt        {:.3f} +- {:.3f} and {:.3f} +- {:.3f} degrees about x and y",
+            degrees(camera.tilt->x_rad), degrees(sigma("tilt_x_rad")), degrees(camera.tilt->y_rad),
+            degrees(sigma("tilt_y_rad")));
+    }
+    if (camera.focal_px) {
+        add(text, "focal       {:.2f} +- {:.2f} px", *camera.focal_px, sigma("focal_px"));
+    } else {
+        add(text, "focal       cannot be told from these frames: the camera looks straight down");
+    }
+}
+
+}  // namespace
+
+std::string lens_report(const LensCalibration& calibration) {
+    const Camera& camera = calibration.camera;
+    std::string text;
+    add(text, "frames      {} of {} located{}, {} dots, {} left out", calibration.located,
+        calibration.frames,
+        calibration.duplicates > 0 ? fmt::format(", {} the same as others", calibration.duplicates)
+                                   : "",
+        calibration.dots, calibration.outliers);
+    add(text, "lens        k {:.4e} +- {:.1e} per px^2: {:+.2f} % in the corner", camera.k_per_px2,
+        camera.sigma.at("k_per_px2"), corner_displacement(camera));
+    add(text, "centre      {:.3f} +- {:.3f}, {:.3f} +- {:.3f} px", camera.centre_px.u,
+        camera.sigma.at("centre_u_px"), camera.centre_px.v, camera.sigma.at("centre_v_px"));
+    add_view(text, camera);
+    add(text, "dots        {:.2f} px apart, {:.0f} % of that wide, on {:.0f} % of the image",
+        calibration.px_per_spacing, 100 * calibration.dot_width, 100 * calibration.coverage);
+    add(text, "residual    {:.4f} px before, {:.4f} px after (rms per axis)",
+        calibration.residual_before_px, calibration.residual_px);
+    add(text, "verdict     {}: {}", name(calibration.verdict), calibration.advice);
+    return text;
+}
+
+std::string spin_report(const SpinCalibration& calibration) {
+    const PixelPoint reference = calibration.camera.reference_px.value();
+    std::string text;
+    add(text, "spin        {} of {} frames located, over {:.0f} degrees", calibration.located,
+        calibration.frames, degrees(calibration.turn_rad));
+    add(text, "reference   {:.2f}, {:.2f} px +- {:.4f} mm", reference.u, reference.v,
+        calibration.sigma_mm);
+    add(text, "residual    {:.4f} mm (rms per axis): so well the robot stayed on the spot",
+        calibration.residual_mm);
+    return text;
+}
+
+std::string drive_report(const DriveCalibration& calibration) {
+    std::string text;
+    add(text, "drive       {} of {} frames located, over {:.1f} mm", calibration.located,
+        calibration.frames, calibration.length_mm);
+    add(text, "heading     image x axis {:+.3f} +- {:.3f} degrees",
+        degrees(calibration.camera.theta_offset_rad), degrees(calibration.sigma_rad));
+    add(text, "residual    {:.4f} mm (rms): so straight was the drive", calibration.residual_mm);
+    return text;
+}
+
+std::string stitching_report(const Stitching& stitching) {
+    std::string text;
+    add(text, "frames      {} of {} show two sheets", stitching.used, stitching.frames);
+    for (const Seam& seam : stitching.seams) {
+        add(text, "seam        {} - {}: {} frames, residual {:.4f} mm, {:.3f} degrees (rms)",
+            seam.first, seam.second, seam.frames, seam.residual_mm, degrees(seam.residual_rad));
+    }
+    for (const StitchedSheet& sheet : stitching.stitched) {
+        if (sheet.is_fixed) {
+            add(text, "sheet       {}: stays where it is", sheet.name);
+        } else {
+            add(text, "sheet       {}: +- {:.4f} mm, {:.4f} degrees", sheet.name, sheet.sigma_mm,
+                degrees(sheet.sigma_rad));
+        }
+    }
+    for (const std::string& name : stitching.unconnected)
+        add(text, "NOT FOUND:  {}: no frame shows it beside another one", name);
+    return text;
+}
+
+}  // namespace dotpose::cli

@@ -1,0 +1,154 @@
+/// Calibration from the sheet itself: every dot's true place is known, so any printed sheet is a
+/// calibration target.
+///
+///     const auto frame_at = [&](int i) { return read_image(names[i]); };
+///     const LensCalibration lens = calibrate_lens(20, frame_at, {});
+///     write_camera("camera.yaml", lens.camera);
+///
+/// `calibrate_lens` finds the lens and the scale, `calibrate_spin` and `calibrate_drive` where the
+/// camera sits on a robot, `stitch_sheets` how sheets lie beside each other. What frames cannot
+/// tell is refused (Error) with advice. Standard deviations are those of one estimate, from the
+/// residuals of the fit.
+///
+/// Frames are asked for by their index, several times, and not kept. Functions share no state.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dotpose/camera_file.hpp"
+#include "dotpose/error.hpp"
+#include "dotpose/grey_image.hpp"
+#include "dotpose/sheet.hpp"
+#include "dotpose/sheet_file.hpp"
+
+namespace dotpose {
+
+/// Frame `index` of the series, from 0. May throw Error.
+using FrameAt = std::function<GreyImage(int index)>;
+
+struct CalibrateOptions {
+    /// What was printed; only profile and spacing matter. True lengths follow the true spacing.
+    Pattern pattern;
+    /// Told after each part of the work; return false to give up (throws Error).
+    std::function<bool(int done, int total)> progress;
+};
+
+/// Frames that are asked for; with fewer the verdict is `too_few_frames`.
+inline constexpr int kWantedFrames = 5;
+
+enum class CalibrationVerdict {
+    good,
+    too_few_frames,  ///< under kWantedFrames
+    same_place,      ///< all frames show the same dots: their printing errors look like the lens's
+    out_of_focus,    ///< dots are blurred to a third of the spacing
+    corners_unseen,  ///< too few dots near the image corners
+};
+const char* name(CalibrationVerdict verdict);
+
+/// One dot of one frame: by how much it is off where the camera's model has it, in px of the
+/// undistorted image.
+struct CalibrationDot {
+    PixelPoint pixel;   ///< where it was seen
+    PixelPoint before;  ///< residual of a camera without distortion, skew and tilt
+    PixelPoint after;   ///< residual of the calibrated camera
+};
+
+struct LensCalibration {
+    Camera camera;
+    /// Whether the camera is mounted: all frames share height and tilt. Otherwise it was moved by
+    /// hand, and each frame has its own; `camera.paper` and `camera.tilt` are then not known.
+    bool is_mounted = true;
+    int frames = 0;                 ///< given
+    int located = 0;                ///< of these: with a fix
+    int duplicates = 0;             ///< of these: the same image as an earlier one; left out
+    int dots = 0;                   ///< used
+    int outliers = 0;               ///< dots left out
+    double residual_before_px = 0;  ///< rms per axis, of a camera without distortion, skew and tilt
+    double residual_px = 0;         ///< rms per axis
+    double px_per_spacing = 0;      ///< at the centre, mean over the frames
+    double dot_width = 0;           ///< at half depth, in spacings; a sharp dot: 1/6
+    double coverage = 0;            ///< share of the image, 12 x 8 parts, that shows dots
+    CalibrationVerdict verdict = CalibrationVerdict::good;
+    std::string advice;  ///< one or two sentences for the user
+    std::vector<CalibrationDot> seen;
+};
+
+/// Lens, scale, and as far as the frames tell it tilt and focal length. Throws Error: no pattern in
+/// any frame, a single frame, frames of different sizes, all frames the same image.
+LensCalibration calibrate_lens(int frames, const FrameAt& frame_at,
+                               const CalibrateOptions& options);
+
+/// Where the camera sits: the point that stays put while the robot turns on the spot.
+struct SpinCalibration {
+    Camera camera;  ///< the one given, with `reference_px` set
+    int frames = 0;
+    int located = 0;
+    double sigma_mm = 0;     ///< standard deviation of the point, per axis
+    double residual_mm = 0;  ///< rms of the frames about it, per axis: how well the robot stood
+    double turn_rad = 0;     ///< smallest arc that holds all angles
+};
+
+/// At least 3 frames over more than 30 degrees; a full turn in 12 is good. `camera`: its lens and
+/// view; none: without distortion. Throws Error: too few frames with a fix, too small a turn,
+/// frames of other sizes, a point farther off than a camera file can say.
+SpinCalibration calibrate_spin(int frames, const FrameAt& frame_at,
+                               const std::optional<Camera>& camera,
+                               const CalibrateOptions& options);
+
+/// Which way the camera looks: from frames of a straight drive forwards, in order.
+struct DriveCalibration {
+    Camera camera;  ///< the one given, with `theta_offset_rad` set
+    int frames = 0;
+    int located = 0;
+    double sigma_rad = 0;    ///< of the offset
+    double residual_mm = 0;  ///< rms of the places from a straight line
+    double length_mm = 0;    ///< of the drive
+};
+
+/// At least 2 frames over more than 5 mm. Throws Error as `calibrate_spin`.
+DriveCalibration calibrate_drive(int frames, const FrameAt& frame_at,
+                                 const std::optional<Camera>& camera,
+                                 const CalibrateOptions& options);
+
+/// One sheet, after stitching.
+struct StitchedSheet {
+    std::string name;
+    double sigma_mm = 0;   ///< of the place of its corner against the fixed sheet, per axis
+    double sigma_rad = 0;  ///< of its yaw
+    bool is_fixed = false;
+};
+/// Two sheets that some frames show together.
+struct Seam {
+    std::string first;
+    std::string second;
+    int frames = 0;
+    double residual_mm = 0;   ///< rms per axis, of the frames
+    double residual_rad = 0;  ///< rms
+};
+struct Stitching {
+    std::vector<SheetEntry>
+        sheets;  ///< those given, in order; the world poses of those stitched set
+    std::vector<StitchedSheet> stitched;
+    std::vector<Seam> seams;
+    std::vector<std::string> unconnected;  ///< sheets that no seam joins to the fixed one
+    int frames = 0;
+    int used = 0;  ///< frames that show two sheets
+};
+
+/// Lays sheets out in the world by frames that show parts of two. The first sheet with a world pose
+/// keeps it; if none has one, the first that is seen becomes the world: its corner the origin, its
+/// upper edge the x axis. `camera`: lens and view; without, the view is fitted to each part of a
+/// frame, which is less exact. Throws Error: no sheets, no frame shows two of them.
+Stitching stitch_sheets(int frames, const FrameAt& frame_at, std::vector<SheetEntry> sheets,
+                        const std::optional<Camera>& camera, const CalibrateOptions& options);
+
+/// Draws the residual fields before and after, and the dots' coverage of the image, as SVG.
+/// Throws Error if the file cannot be written.
+void draw_calibration(const std::filesystem::path& path, const LensCalibration& calibration);
+
+}  // namespace dotpose

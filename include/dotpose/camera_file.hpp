@@ -1,0 +1,117 @@
+/// Camera files: what is known of one camera and of its place on the robot, as YAML.
+///
+///     const Camera camera = read_camera("camera.yaml");
+///     Options options;
+///     use_camera(camera, image.width_px, image.height_px, options);
+///     const Fix fix = with_camera(locate(image, options, workspace), camera, options, workspace);
+///
+/// `read_camera` also reads the `camera_info` files of ROS (`plumb_bob`) and converts their lens.
+///
+/// Frames: *pixel* (the centre of the first pixel is (0, 0), v down); *undistorted* pixel, where a
+/// camera without distortion would see the same point: the same frame, and beyond the image;
+/// *camera*, mm on the paper from the point that the distortion centre looks at, x along the image
+/// x axis, y DOWN.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "dotpose/error.hpp"
+#include "dotpose/fix.hpp"
+#include "dotpose/options.hpp"
+#include "dotpose/workspace.hpp"
+
+namespace dotpose {
+
+/// Version of the format that is written, and the only one that is read.
+inline constexpr int kCameraFileVersion = 1;
+
+struct PixelPoint {
+    double u = 0;
+    double v = 0;
+};
+
+/// How the undistorted image lies on the paper, for a camera that rides on it at a fixed height.
+/// With (a, b) in undistorted px from the distortion centre, the camera frame is
+///
+///     x = mm_per_px_x (a + skew b) / d,   y = mm_per_px_y b / d,   d = 1 + perspective . (a, b).
+struct PaperScale {
+    double mm_per_px_x = 0;
+    double mm_per_px_y = 0;
+    double skew = 0;           ///< how much rows are shifted against each other, px per px
+    double perspective_u = 0;  ///< per px; 0 for a camera that looks straight down
+    double perspective_v = 0;
+};
+
+/// Tilt of the paper against the image plane, as in simulate.hpp.
+struct Tilt {
+    double x_rad = 0;  ///< about the image x axis; above 0, the paper recedes towards the bottom
+    double y_rad = 0;  ///< about the image y axis; above 0, it comes closer towards the right
+};
+
+struct Camera {
+    int width_px = 0;
+    int height_px = 0;
+    /// Radial distortion, paper eq. 1-2 (a division model), about `centre_px`: below 0 for barrel.
+    double k_per_px2 = 0;
+    PixelPoint centre_px;
+    std::optional<PaperScale> paper;  ///< none: held by hand, or not known
+    std::optional<double> focal_px;   ///< none: the frames did not tell
+    std::optional<Tilt> tilt;  ///< of a camera that is mounted; none: the frames did not tell
+
+    /// The point whose pose is wanted, an undistorted pixel; it may lie outside the image. None:
+    /// the image centre.
+    std::optional<PixelPoint> reference_px;
+    /// Heading of the robot minus theta of the image x axis.
+    double theta_offset_rad = 0;
+
+    /// Hints for who sets up the sensor; dotpose itself does not use them.
+    std::optional<double> exposure_us;
+    std::optional<double> gain;
+
+    /// Standard deviations of a calibration by the name of the key they belong to, in its unit.
+    std::map<std::string, double> sigma;
+};
+
+/// Checks all values. Throws BadArgument: a size that `locate` does not take, a lens that folds the
+/// image (1 + k r^2 must stay in [0.5, 2]), a centre more than 1000 px off the image centre,
+/// anything not finite, lengths not above 0, a reference more than 10,000 px off.
+void validate(const Camera& camera);
+
+/// Reads a camera file, or a camera_info file of ROS. Throws Error, naming the file and the key
+/// concerned: the file cannot be read, is neither, is of another version, a key is missing, not
+/// known, of the wrong type or out of range; a distortion model other than plumb_bob, or one that
+/// eq. 2 cannot follow to within 0.5 px rms.
+Camera read_camera(const std::filesystem::path& path);
+
+/// Writes the file, whole or not at all. Throws Error, or BadArgument as `validate`.
+void write_camera(const std::filesystem::path& path, const Camera& camera);
+
+/// Where a camera without distortion would see what this one sees at `pixel`: eq. 1-2.
+PixelPoint undistorted(const Camera& camera, PixelPoint pixel);
+/// The inverse. A point that the camera cannot see at all comes out at twice its radius.
+PixelPoint distorted(const Camera& camera, PixelPoint undistorted);
+
+/// Place in the camera frame, in mm, of an undistorted pixel; `camera.paper` must be known.
+struct CameraPoint {
+    double x_mm = 0;
+    double y_mm = 0;
+};
+CameraPoint on_paper(const Camera& camera, PixelPoint undistorted);
+/// The inverse.
+PixelPoint on_image(const Camera& camera, CameraPoint point);
+
+/// Sets lens and reference point for images of this size. Throws BadArgument if the camera's are of
+/// another size.
+void use_camera(const Camera& camera, int width_px, int height_px, Options& options);
+
+/// What else the camera file tells of a fix that `locate` has just made with these options. A
+/// camera that is mounted sees the paper always alike: its view is taken from the file, and only
+/// place, angle and one scale (sheets are printed differently) are fitted to the dots, which is
+/// more exact, above all far from the image centre. Theta becomes the heading of the robot.
+Fix with_camera(const Fix& fix, const Camera& camera, const Options& options,
+                const Workspace& workspace);
+
+}  // namespace dotpose

@@ -1,0 +1,84 @@
+/// Optics: what a camera of given parts sees of the pattern, for whoever designs a device. Paper
+/// III-A. A thin lens, focused on the paper.
+///
+///     const OpticsReport report = design_optics(paper_optics());
+///     for (const OpticsAdvice& advice : report.advice) puts(advice.text.c_str());
+///
+/// Pure functions; bad values throw BadArgument.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dotpose/error.hpp"
+#include "dotpose/sheet.hpp"
+
+namespace dotpose {
+
+/// A device. All lengths above 0.
+struct Optics {
+    int width_px = 188;
+    int height_px = 120;
+    double pixel_um = 24;     ///< from pixel to pixel on the sensor; binned pixels count as one
+    double focal_mm = 5.5;    ///< of the lens
+    double distance_mm = 16;  ///< from the lens to the paper; more than the focal length
+    double spacing_mm = kDefaultSpacing_mm;
+    double dot_mm = kDefaultSpacing_mm / 6;
+    double f_number = 2.8;  ///< focal length over aperture
+    double exposure_s = 1.0 / 7684;
+    double speed_mm_s = 100;     ///< fastest straight motion, image x or y axis
+    double turn_rpm = 60;        ///< fastest turn, about the image centre
+    double largest_blur_px = 1;  ///< motion during the exposure that is still good
+
+    /// Measured, in place of what the thin lens would give: size of a pixel on the paper, and the
+    /// field of view once distortion is corrected.
+    std::optional<double> mm_per_px;
+    std::optional<double> field_width_mm;
+    std::optional<double> field_height_mm;
+};
+
+/// The paper's device: MT9V034 with pixels of 6 um binned 4 x 4, a lens of 5.5 mm, 0.046 mm per px,
+/// 8.59 x 5.48 mm.
+Optics paper_optics();
+
+struct OpticsAdvice {
+    bool is_fault = false;  ///< the device would not work well; else good to know
+    std::string text;       ///< one sentence: what, and what to change
+};
+
+struct OpticsReport {
+    double magnification = 0;
+    double mm_per_px = 0;
+    double px_per_spacing = 0;
+    double px_per_dot = 0;
+    double field_width_mm = 0;
+    double field_height_mm = 0;
+    double field_diagonal_mm = 0;
+    double field_angle_rad = 0;  ///< along the diagonal
+    double dots_in_view = 0;     ///< mean
+
+    /// Diagonal of 8 x 8 dots in the worst case: sqrt(2) spacing (7 + 3/6) for dots a sixth of the
+    /// spacing wide and displaced by a sixth each way.
+    double block_diagonal_mm = 0;
+    bool block_fits = false;  ///< the field's shorter side is at least the diagonal: paper III-A.3
+    /// Side that the field needs so that some 8 x 8 dots are inside wherever the grid lies: at 45
+    /// degrees the nearest block may be half a diagonal step off the middle.
+    double block_anywhere_mm = 0;
+    bool block_fits_anywhere = false;
+
+    double fastest_mm_s = 0;        ///< at the exposure, without a turn
+    double fastest_turn_rpm = 0;    ///< at the exposure, on the spot: at the middle of the far edge
+    double longest_exposure_s = 0;  ///< at the speed and turn rate together
+    double blur_px = 0;             ///< at speed, turn rate and exposure
+
+    double near_mm = 0;  ///< sharp from here, from the lens: blur of at most one pixel
+    double far_mm = 0;   ///< to here
+    double depth_mm() const { return far_mm - near_mm; }
+
+    std::vector<OpticsAdvice> advice;
+};
+
+OpticsReport design_optics(const Optics& optics);
+
+}  // namespace dotpose

@@ -1,0 +1,331 @@
+// The calibration of a lens: frames -> sightings -> fit -> the same once more with the lens known
+// -> camera and verdict.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include <Eigen/Cholesky>
+#include <fmt/format.h>
+
+#include "calibrate/lens_fit.hpp"
+#include "calibrate/paper_view.hpp"
+#include "calibrate/sighting.hpp"
+#include "dotpose/calibrate.hpp"
+#include "dotpose/print.hpp"
+
+namespace dotpose {
+namespace {
+
+using namespace dotpose::calibrate;
+
+/// Parts of the image whose coverage by dots is told.
+constexpr int kPartsAcross = 12;
+constexpr int kPartsDown = 8;
+constexpr double kLeastCoverage = 0.85;
+/// Dots wider than this, in spacings, are out of focus: three times as wide as printed, they begin
+/// to touch.
+constexpr double kWidestDot = 0.34;
+/// Frames whose places differ by less than this, in spacings, show the same dots.
+constexpr double kSamePlace = 1.5;
+
+/// Frames as `calibrate_lens` gets them, checked against each other.
+class Series {
+  public:
+    Series(int frames, const FrameAt& frame_at, const CalibrateOptions& options)
+        : frame_at_(frame_at), options_(options), total_(2 * frames) {}
+
+    /// The frame, unless it is the same as an earlier one.
+    std::optional<GreyImage> first_look(int index) {
+        GreyImage image = frame_at_(index);
+        if (width_px == 0) {
+            width_px = image.width_px;
+            height_px = image.height_px;
+        }
+        if (image.width_px != width_px || image.height_px != height_px) {
+            throw Error(fmt::format(
+                "frames of different sizes, {} x {} and {} x {} px: calibrate with frames of one "
+                "camera, all of the size it will be used with",
+                width_px, height_px, image.width_px, image.height_px));
+        }
+        std::uint64_t hash = 14695981039346656037u;  // FNV-1a
+        for (const std::uint8_t grey : image.pixels)
+            hash = (hash ^ grey) * 1099511628211u;
+        const bool is_new = std::ranges::find(hashes_, hash) == hashes_.end();
+        if (!is_new) return std::nullopt;
+        hashes_.push_back(hash);
+        return image;
+    }
+    GreyImage look_again(int index) const { return frame_at_(index); }
+    void step() {
+        if (options_.progress && !options_.progress(++done_, total_)) {
+            throw Error("stopped; nothing was written");
+        }
+    }
+
+    int width_px = 0;
+    int height_px = 0;
+
+  private:
+    const FrameAt& frame_at_;
+    const CalibrateOptions& options_;
+    int total_;
+    int done_ = 0;
+    std::vector<std::uint64_t> hashes_;
+};
+
+Lens lens_of(const Camera& camera) {
+    Options options;
+    use_camera(camera, camera.width_px, camera.height_px, options);
+    return options.lens;
+}
+
+/// By how much the residuals of one frame shrink, in units of their variance, if this frame alone
+/// may have its own scale, shear and perspective. By chance: 5.
+double gain_of_own_view(const Sighting& frame, const std::vector<std::array<double, 2>>& residuals,
+                        const std::vector<char>& is_outlier, const FitSetting& setting,
+                        double sigma_px) {
+    using Parameters = Eigen::Matrix<double, 8, 1>;
+    Eigen::Matrix<double, 8, 8> normal = Eigen::Matrix<double, 8, 8>::Zero();
+    Parameters right = Parameters::Zero();
+    const double reach_px = setting.reach_px();
+    for (std::size_t k = 0; k < residuals.size(); ++k) {
+        if (is_outlier[k]) continue;
+        const double a = (frame.dots[k].pixel.u - (setting.width_px - 1) / 2.0) / reach_px;
+        const double b = (frame.dots[k].pixel.v - (setting.height_px - 1) / 2.0) / reach_px;
+        // To first order: place, turn, scale, shear, perspective.
+        Parameters along_u;
+        along_u << 1, 0, -b, a, a, b, a * a, a * b;
+        Parameters along_v;
+        along_v << 0, 1, a, b, -b, a, a * b, b * b;
+        normal += along_u * along_u.transpose() + along_v * along_v.transpose();
+        right += along_u * residuals[k][0] + along_v * residuals[k][1];
+    }
+    return right.dot(normal.ldlt().solve(right)) / (sigma_px * sigma_px);
+}
+
+/// Whether heights and tilts of the frames differ by more than chance.
+bool is_held_by_hand(const std::vector<Sighting>& sightings, const FitSetting& setting,
+                     const LensFit& mounted) {
+    double gain = 0;
+    for (std::size_t i = 0; i < sightings.size(); ++i) {
+        gain += gain_of_own_view(sightings[i], mounted.residuals_px[i], mounted.is_outlier[i],
+                                 setting, mounted.residual_px);
+    }
+    const double by_chance = 5 * static_cast<double>(sightings.size());
+    constexpr double kBeyondDoubt = 6;  // standard deviations
+    return gain > by_chance + kBeyondDoubt * std::sqrt(2 * by_chance);
+}
+
+struct Fits {
+    LensFit before;
+    LensFit after;
+};
+
+Fits fit_all(const std::vector<Sighting>& sightings, const FitSetting& setting) {
+    Fits fits;
+    fits.before = fit_lens(sightings, setting, Stand::ideal);
+    fits.after = fit_lens(sightings, setting, Stand::mounted, &fits.before);
+    if (is_held_by_hand(sightings, setting, fits.after)) {
+        fits.after = fit_lens(sightings, setting, Stand::by_hand, &fits.after);
+    }
+    return fits;
+}
+
+Camera camera_of(const LensFit& fit, const FitSetting& setting) {
+    const double reach_px = setting.reach_px();
+    const auto& lens = fit.camera.lens;
+    Camera camera;
+    camera.width_px = setting.width_px;
+    camera.height_px = setting.height_px;
+    camera.k_per_px2 = lens[0] / (reach_px * reach_px);
+    camera.centre_px = {(setting.width_px - 1) / 2.0 + lens[1],
+                        (setting.height_px - 1) / 2.0 + lens[2]};
+    camera.sigma["k_per_px2"] = fit.sigma.lens[0] / (reach_px * reach_px);
+    camera.sigma["centre_u_px"] = fit.sigma.lens[1];
+    camera.sigma["centre_v_px"] = fit.sigma.lens[2];
+    if (fit.stand == Stand::mounted) {
+        describe_mounted(fit, reach_px, camera);
+    } else {
+        describe_handheld(fit, reach_px, camera);
+    }
+    try {
+        validate(camera);
+    } catch (const BadArgument& error) {
+        throw Error(
+            fmt::format("these frames lead to no lens that could be ({}): take more, all "
+                        "over the sheet",
+                        error.what()));
+    }
+    return camera;
+}
+
+/// Whether all frames show about the same dots.
+bool is_same_place(const std::vector<Sighting>& sightings, const LensFit& fit, double spacing_mm) {
+    for (std::size_t i = 1; i < sightings.size(); ++i) {
+        const Cell a = sightings[0].place.cell;
+        const Cell b = sightings[i].place.cell;
+        const double dx = double(b.x) - a.x + (fit.poses[i][0] - fit.poses[0][0]) / spacing_mm;
+        const double dy = double(b.y) - a.y + (fit.poses[i][1] - fit.poses[0][1]) / spacing_mm;
+        if (std::hypot(dx, dy) > kSamePlace) return false;
+    }
+    return true;
+}
+
+void measure_coverage(LensCalibration& result) {
+    std::array<int, kPartsAcross * kPartsDown> counts{};
+    for (const CalibrationDot& dot : result.seen) {
+        const int i = static_cast<int>((dot.pixel.u + 0.5) / result.camera.width_px * kPartsAcross);
+        const int j = static_cast<int>((dot.pixel.v + 0.5) / result.camera.height_px * kPartsDown);
+        if (i < 0 || j < 0 || i >= kPartsAcross || j >= kPartsDown) continue;
+        ++counts[static_cast<std::size_t>(j * kPartsAcross + i)];
+    }
+    const auto covered = counts.size() - static_cast<std::size_t>(std::ranges::count(counts, 0));
+    result.coverage = static_cast<double>(covered) / static_cast<double>(counts.size());
+}
+
+void judge(bool is_same, LensCalibration& result) {
+    const auto say = [&result](CalibrationVerdict verdict, std::string advice) {
+        result.verdict = verdict;
+        result.advice = std::move(advice);
+    };
+    const int used = result.located - result.duplicates;
+    if (is_same) {
+        say(CalibrationVerdict::same_place,
+            "all frames show the same dots, so that printing errors look like errors of the lens: "
+            "move the camera by some centimetres between frames");
+    } else if (result.dot_width > kWidestDot) {
+        say(CalibrationVerdict::out_of_focus,
+            fmt::format("the dots are blurred to {:.0f} % of their spacing (sharp ones are 17 %): "
+                        "focus the lens, then calibrate again, because focusing changes the scale",
+                        100 * result.dot_width));
+    } else if (used < kWantedFrames) {
+        say(CalibrationVerdict::too_few_frames,
+            fmt::format("only {} different frames show the pattern: take {} to 50 at different "
+                        "places and angles",
+                        used, kWantedFrames));
+    } else if (result.coverage < kLeastCoverage) {
+        say(CalibrationVerdict::corners_unseen,
+            fmt::format("only {:.0f} % of the image ever shows dots, so that the lens is guessed "
+                        "elsewhere: see that the pattern fills the image, evenly lit",
+                        100 * result.coverage));
+    } else {
+        say(CalibrationVerdict::good, "use the file with 'dotpose locate --camera'");
+    }
+}
+
+/// All but the verdict.
+void describe(const std::vector<Sighting>& sightings, const Fits& fits, LensCalibration& result) {
+    result.is_mounted = fits.after.stand != Stand::by_hand;
+    result.residual_before_px = fits.before.residual_px;
+    result.residual_px = fits.after.residual_px;
+    result.dots = fits.after.dots;
+    const auto frames = static_cast<double>(sightings.size());
+    for (std::size_t i = 0; i < sightings.size(); ++i) {
+        const Sighting& sighting = sightings[i];
+        result.px_per_spacing += sighting.spacing_px / frames;
+        result.dot_width += sighting.dot_width / frames;
+        for (std::size_t k = 0; k < sighting.dots.size(); ++k) {
+            if (fits.after.is_outlier[i][k]) {
+                ++result.outliers;
+                continue;
+            }
+            const auto& before = fits.before.residuals_px[i][k];
+            const auto& after = fits.after.residuals_px[i][k];
+            result.seen.push_back(
+                {sighting.dots[k].pixel, {before[0], before[1]}, {after[0], after[1]}});
+        }
+    }
+    measure_coverage(result);
+}
+
+std::vector<Sighting> sight_first(int frames, Series& series, Sighter& sighter,
+                                  LensCalibration& result) {
+    std::vector<Sighting> sightings;
+    for (int i = 0; i < frames; ++i) {
+        const auto image = series.first_look(i);
+        if (!image) {
+            ++result.duplicates;
+        } else if (auto sighting = sighter.sight(image->view())) {
+            sighting->frame = i;
+            sightings.push_back(std::move(*sighting));
+        }
+        series.step();
+    }
+    if (frames > 1 && result.duplicates == frames - 1) {
+        throw Error(
+            fmt::format("all {} frames are the same image: move the camera between them", frames));
+    }
+    if (sightings.empty()) {
+        throw Error(
+            fmt::format("no pattern was found in any of the {} frames: look at one of them with "
+                        "'dotpose locate --draw', and see that the dots are in focus, dark on "
+                        "light, 6 to 60 px apart, and of this --code",
+                        frames));
+    }
+    if (sightings.size() == 1) {
+        throw Error(
+            fmt::format("only 1 of {} frames shows a pattern that can be located: take {} "
+                        "to 50 at different places and angles",
+                        frames, kWantedFrames));
+    }
+    return sightings;
+}
+
+std::vector<Sighting> sight_again(const std::vector<Sighting>& first, Series& series,
+                                  Sighter& sighter) {
+    std::vector<Sighting> sightings;
+    for (const Sighting& before : first) {
+        auto sighting = sighter.sight(series.look_again(before.frame).view());
+        sightings.push_back(sighting ? std::move(*sighting) : before);
+        sightings.back().frame = before.frame;
+        series.step();
+    }
+    return sightings;
+}
+
+}  // namespace
+
+const char* name(CalibrationVerdict verdict) {
+    switch (verdict) {
+        case CalibrationVerdict::too_few_frames:
+            return "too_few_frames";
+        case CalibrationVerdict::same_place:
+            return "same_place";
+        case CalibrationVerdict::out_of_focus:
+            return "out_of_focus";
+        case CalibrationVerdict::corners_unseen:
+            return "corners_unseen";
+        default:
+            return "good";
+    }
+}
+
+LensCalibration calibrate_lens(int frames, const FrameAt& frame_at,
+                               const CalibrateOptions& options) {
+    if (frames < 1) throw BadArgument("no frames were given");
+    if (frames == 1) {
+        throw Error(
+            fmt::format("a single frame does not tell lens from print: take {} to 50 at "
+                        "different places and angles",
+                        kWantedFrames));
+    }
+    LensCalibration result;
+    result.frames = frames;
+    Series series(frames, frame_at, options);
+    Sighter sighter(options.pattern.profile);
+    const auto first = sight_first(frames, series, sighter, result);
+    const FitSetting setting{series.width_px, series.height_px, options.pattern.spacing_mm};
+    // Only with the lens known are dots found out to the corners.
+    sighter.use_lens(lens_of(camera_of(fit_all(first, setting).after, setting)));
+    const auto sightings = sight_again(first, series, sighter);
+    const Fits fits = fit_all(sightings, setting);
+    result.located = static_cast<int>(sightings.size());
+    result.camera = camera_of(fits.after, setting);
+    describe(sightings, fits, result);
+    judge(is_same_place(sightings, fits.after, setting.spacing_mm), result);
+    return result;
+}
+
+}  // namespace dotpose

@@ -1,0 +1,59 @@
+// Least squares over the dots of all frames: one camera, and one pose for each frame.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "calibrate/sighting.hpp"
+
+namespace dotpose::calibrate {
+
+/// How the camera stood over the paper.
+enum class Stand {
+    ideal,    ///< straight above, at one height; and its lens has no distortion
+    mounted,  ///< at one height and tilt
+    by_hand,  ///< at another height and tilt in each frame
+};
+
+/// What all frames share; which parts mean something depends on the stand. Lengths in the image
+/// are in px from the image centre; `reach` is half the image's diagonal.
+struct SharedModel {
+    std::array<double, 3> lens{};          ///< k reach^2, distortion centre
+    std::array<double, 5> paper{};         ///< PaperScale, but perspective times reach
+    std::array<double, 3> shape{0, 1, 0};  ///< by hand: reach / focal length, aspect, skew
+    double displacement = 1.0 / 6;         ///< of the dots as they are seen, in spacings
+};
+
+struct LensFit {
+    Stand stand = Stand::mounted;
+    SharedModel camera;
+    SharedModel sigma;  ///< standard deviations
+    /// Covariance of `camera.paper`.
+    Eigen::Matrix<double, 5, 5> paper_covariance = Eigen::Matrix<double, 5, 5>::Zero();
+    /// Of each frame: place (mm, from the intersection where its steps start), turn; by hand also
+    /// mm per px and tilt.
+    std::vector<std::array<double, 6>> poses;
+    std::vector<std::vector<std::array<double, 2>>> residuals_px;  ///< of each dot of each frame
+    std::vector<std::vector<char>> is_outlier;
+    double squares_px2 = 0;  ///< sum, of the dots used
+    int dots = 0;            ///< used
+    int parameters = 0;
+    double residual_px = 0;  ///< rms per axis, corrected for the parameters
+};
+
+/// The size of the image, and the spacing on the paper.
+struct FitSetting {
+    int width_px = 0;
+    int height_px = 0;
+    double spacing_mm = 0;
+    double reach_px() const;
+};
+
+/// Starts from `start` if there is one. Dots that lie more than four standard deviations off are
+/// left out.
+LensFit fit_lens(const std::vector<Sighting>& frames, const FitSetting& setting, Stand stand,
+                 const LensFit* start = nullptr);
+
+}  // namespace dotpose::calibrate

@@ -1,0 +1,218 @@
+// Where a camera sits on a robot: from a turn on the spot, and from a straight drive.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+
+#include "dotpose/calibrate.hpp"
+#include "dotpose/locate.hpp"
+
+namespace dotpose {
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+
+constexpr int kLeastSpinFrames = 3;
+constexpr double kLeastTurn_rad = std::numbers::pi / 6;
+constexpr double kLeastDrive_mm = 5;
+
+/// Place (mm, from the first frame's cell) and angle of the image centre in one frame.
+struct Station {
+    Vector2d place_mm;
+    double theta_rad = 0;
+};
+
+struct Stations {
+    Camera camera;  ///< without reference point and offset
+    std::vector<Station> stations;
+    double mm_per_px = 0;  ///< mean
+};
+
+/// Steps from one cell to another, the shorter way around the plane.
+double steps(std::uint32_t from, std::uint32_t to) {
+    return std::remainder(double(to) - double(from), double(kPositionsPerAxis));
+}
+
+Matrix2d turn(double angle_rad) {
+    const double c = std::cos(angle_rad);
+    const double s = std::sin(angle_rad);
+    return (Matrix2d() << c, -s, s, c).finished();
+}
+
+PixelPoint image_centre(const Camera& camera) {
+    return {(camera.width_px - 1) / 2.0, (camera.height_px - 1) / 2.0};
+}
+
+Camera without_distortion(const GreyImage& image) {
+    Camera camera;
+    camera.width_px = image.width_px;
+    camera.height_px = image.height_px;
+    camera.centre_px = image_centre(camera);
+    return camera;
+}
+
+Stations locate_stations(int frames, const FrameAt& frame_at, const std::optional<Camera>& camera,
+                         const CalibrateOptions& options) {
+    Stations result;
+    const auto workspace = std::make_unique<LargeWorkspace>();
+    std::optional<Cell> first;
+    for (int i = 0; i < frames; ++i) {
+        const GreyImage image = frame_at(i);
+        if (i == 0) result.camera = camera ? *camera : without_distortion(image);
+        result.camera.reference_px.reset();
+        result.camera.theta_offset_rad = 0;
+        Options how;
+        how.profile = options.pattern.profile;
+        use_camera(result.camera, image.width_px, image.height_px, how);
+        const Fix fix =
+            with_camera(locate(image.view(), how, *workspace), result.camera, how, *workspace);
+        if (options.progress && !options.progress(i + 1, frames)) {
+            throw Error("stopped; nothing was written");
+        }
+        if (fix.status != Status::ok) continue;
+        if (!first) first = fix.cell;
+        const double mm = options.pattern.spacing_mm;
+        result.stations.push_back(
+            {mm * Vector2d(steps(first->x, fix.cell.x) + fix.fraction_x_q16 / 65536.0,
+                           steps(first->y, fix.cell.y) + fix.fraction_y_q16 / 65536.0),
+             fix.theta_rad()});
+        result.mm_per_px += mm / fix.spacing_px();
+    }
+    result.mm_per_px /= static_cast<double>(std::max<std::size_t>(result.stations.size(), 1));
+    return result;
+}
+
+/// The smallest arc that holds all angles: a turn without the widest gap.
+double arc_of(const std::vector<Station>& stations) {
+    std::vector<double> angles;
+    for (const Station& station : stations)
+        angles.push_back(station.theta_rad);
+    std::ranges::sort(angles);
+    double widest = angles.front() + 2 * std::numbers::pi - angles.back();
+    for (std::size_t i = 1; i < angles.size(); ++i)
+        widest = std::max(widest, angles[i] - angles[i - 1]);
+    return 2 * std::numbers::pi - widest;
+}
+
+/// The undistorted pixel of a point given in mm from what the image centre looks at, along the
+/// image axes there.
+PixelPoint pixel_of(const Vector2d& offset_mm, const Stations& stations) {
+    const PixelPoint centre = image_centre(stations.camera);
+    if (!stations.camera.paper) {
+        return {centre.u + offset_mm.x() / stations.mm_per_px,
+                centre.v + offset_mm.y() / stations.mm_per_px};
+    }
+    const CameraPoint middle = on_paper(stations.camera, centre);
+    const CameraPoint right = on_paper(stations.camera, {centre.u + 0.5, centre.v});
+    const CameraPoint left = on_paper(stations.camera, {centre.u - 0.5, centre.v});
+    const double axis_rad = std::atan2(right.y_mm - left.y_mm, right.x_mm - left.x_mm);
+    const Vector2d point = Vector2d(middle.x_mm, middle.y_mm) + turn(axis_rad) * offset_mm;
+    return on_image(stations.camera, {point.x(), point.y()});
+}
+
+void require_stations(std::size_t found, int least, int frames) {
+    if (found >= static_cast<std::size_t>(least)) return;
+    throw Error(fmt::format("only {} of {} frames could be located; at least {} are needed", found,
+                            frames, least));
+}
+
+}  // namespace
+
+SpinCalibration calibrate_spin(int frames, const FrameAt& frame_at,
+                               const std::optional<Camera>& camera,
+                               const CalibrateOptions& options) {
+    const Stations found = locate_stations(frames, frame_at, camera, options);
+    require_stations(found.stations.size(), kLeastSpinFrames, frames);
+    SpinCalibration result;
+    result.frames = frames;
+    result.located = static_cast<int>(found.stations.size());
+    result.turn_rad = arc_of(found.stations);
+    if (result.turn_rad < kLeastTurn_rad) {
+        throw Error(fmt::format(
+            "the frames cover {:.0f} degrees of a turn: turn the robot on the "
+            "spot by at least {:.0f}, best all around",
+            result.turn_rad * 180 / std::numbers::pi, kLeastTurn_rad * 180 / std::numbers::pi));
+    }
+    // pivot - turn(theta) offset = place: linear in both.
+    Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+    Eigen::Vector4d right = Eigen::Vector4d::Zero();
+    for (const Station& station : found.stations) {
+        Eigen::Matrix<double, 2, 4> rows;
+        rows << Matrix2d::Identity(), -turn(station.theta_rad);
+        normal += rows.transpose() * rows;
+        right += rows.transpose() * station.place_mm;
+    }
+    const Eigen::Vector4d solved = normal.ldlt().solve(right);
+    const Vector2d pivot = solved.head<2>();
+    const Vector2d offset = solved.tail<2>();
+    double squares = 0;
+    for (const Station& station : found.stations)
+        squares += (pivot - turn(station.theta_rad) * offset - station.place_mm).squaredNorm();
+    const int freedom = 2 * result.located - 4;
+    result.residual_mm = std::sqrt(squares / freedom);
+    result.sigma_mm = result.residual_mm * std::sqrt(normal.inverse()(2, 2));
+    result.camera = camera.value_or(found.camera);
+    result.camera.reference_px = pixel_of(offset, found);
+    result.camera.sigma["reference_u_px"] = result.sigma_mm / found.mm_per_px;
+    result.camera.sigma["reference_v_px"] = result.sigma_mm / found.mm_per_px;
+    try {
+        validate(result.camera);
+    } catch (const BadArgument& error) {
+        throw Error(fmt::format("the robot did not turn about one point ({})", error.what()));
+    }
+    return result;
+}
+
+DriveCalibration calibrate_drive(int frames, const FrameAt& frame_at,
+                                 const std::optional<Camera>& camera,
+                                 const CalibrateOptions& options) {
+    const Stations found = locate_stations(frames, frame_at, camera, options);
+    require_stations(found.stations.size(), 2, frames);
+    DriveCalibration result;
+    result.frames = frames;
+    result.located = static_cast<int>(found.stations.size());
+    const auto count = static_cast<double>(found.stations.size());
+    Vector2d mean = Vector2d::Zero();
+    Vector2d heading = Vector2d::Zero();
+    for (const Station& station : found.stations) {
+        mean += station.place_mm / count;
+        heading += Vector2d(std::cos(station.theta_rad), std::sin(station.theta_rad));
+    }
+    const Vector2d drive = found.stations.back().place_mm - found.stations.front().place_mm;
+    result.length_mm = drive.norm();
+    if (result.length_mm < kLeastDrive_mm) {
+        throw Error(
+            fmt::format("the robot moved by {:.1f} mm only: drive straight ahead for some "
+                        "centimetres, and name the frames in order",
+                        result.length_mm));
+    }
+    Matrix2d scatter = Matrix2d::Zero();
+    for (const Station& station : found.stations)
+        scatter += (station.place_mm - mean) * (station.place_mm - mean).transpose();
+    const Eigen::SelfAdjointEigenSolver<Matrix2d> axes(scatter);
+    Vector2d along = axes.eigenvectors().col(1);
+    if (along.dot(drive) < 0) along = -along;
+    const double theta_rad = std::atan2(heading.y(), heading.x());
+    result.residual_mm = std::sqrt(std::max(axes.eigenvalues()[0], 0.0) / count);
+    // Of the line's direction, and of the mean angle.
+    const double line = result.residual_mm * result.residual_mm / axes.eigenvalues()[1];
+    double squares = 0;
+    for (const Station& station : found.stations) {
+        const double off = std::remainder(station.theta_rad - theta_rad, 2 * std::numbers::pi);
+        squares += off * off;
+    }
+    result.sigma_rad = std::sqrt(line + squares / (count * std::max(count - 1, 1.0)));
+    result.camera = camera.value_or(found.camera);
+    result.camera.theta_offset_rad =
+        std::remainder(std::atan2(along.y(), along.x()) - theta_rad, 2 * std::numbers::pi);
+    result.camera.sigma["theta_offset_rad"] = result.sigma_rad;
+    return result;
+}
+
+}  // namespace dotpose

@@ -1,0 +1,112 @@
+#include "calibrate/paper_view.hpp"
+
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <ceres/ceres.h>
+
+namespace dotpose::calibrate {
+namespace {
+
+/// A focal length that is known to this share is worth telling.
+constexpr double kWorthTelling = 0.15;
+
+using Paper = Eigen::Matrix<double, 5, 1>;
+using PaperCovariance = Eigen::Matrix<double, 5, 5>;
+
+/// A view (PaperScale, perspective times reach) against that of a tilted camera with square pixels.
+struct TiltResidual {
+    Paper seen;
+    PaperCovariance whitening;
+
+    /// tilt: mm per px, about x, about y, reach / focal length.
+    template <typename T>
+    bool operator()(const T* tilt, T* residual) const {
+        using std::cos;
+        using std::sin;
+        using std::sqrt;
+        const T cx = cos(tilt[1]);
+        const T sx = sin(tilt[1]);
+        const T cy = cos(tilt[2]);
+        const T sy = sin(tilt[2]);
+        // simulate.hpp: the paper's axes are s = (cy, sx sy, -cx sy) and t = (0, cx, sx). At the
+        // centre, (s, t) per px to the right is (1, -sx sy / cx) / cy, and per px down (0, 1 / cx),
+        // each times mm per px; the paper's x axis is then turned onto the first.
+        const T right_s = 1.0 / cy;
+        const T right_t = -sx * sy / (cx * cy);
+        const T down_t = 1.0 / cx;
+        const T length = sqrt(right_s * right_s + right_t * right_t);
+        const T down_along = down_t * right_t / length;
+        const T down_across = down_t * right_s / length;
+        // Depth is 1 + (z_s s + z_t t) / distance; the divisor is what is left of it.
+        const T per_px_u = tilt[3] * (-cx * sy * right_s + sx * right_t);
+        const T per_px_v = tilt[3] * (sx * down_t);
+        const T view[5] = {tilt[0] * length, tilt[0] * down_across, down_along / length, -per_px_u,
+                           -per_px_v};
+        for (int i = 0; i < 5; ++i) {
+            residual[i] = T(0);
+            for (int j = 0; j < 5; ++j)
+                residual[i] += whitening(i, j) * (view[j] - seen[j]);
+        }
+        return true;
+    }
+};
+
+}  // namespace
+
+void describe_mounted(const LensFit& fit, double reach_px, Camera& camera) {
+    const auto& paper = fit.camera.paper;
+    const auto& sigma = fit.sigma.paper;
+    camera.paper =
+        PaperScale{paper[0], paper[1], paper[2], paper[3] / reach_px, paper[4] / reach_px};
+    camera.sigma["mm_per_px_x"] = sigma[0];
+    camera.sigma["mm_per_px_y"] = sigma[1];
+    camera.sigma["skew"] = sigma[2];
+    camera.sigma["perspective_u_per_px"] = sigma[3] / reach_px;
+    camera.sigma["perspective_v_per_px"] = sigma[4] / reach_px;
+    const double perspective_sigmas = std::hypot(paper[3] / sigma[3], paper[4] / sigma[4]);
+    constexpr double kBeyondDoubt = 5;
+    if (!(perspective_sigmas > kBeyondDoubt)) return;
+
+    const PaperCovariance lower = fit.paper_covariance.llt().matrixL();
+    const auto residual = new TiltResidual{Eigen::Map<const Paper>(paper.data()), lower.inverse()};
+    // Perspective is tilt over focal length; half a reach per focal length is a usual lens.
+    std::array tilt{std::sqrt(paper[0] * paper[1]), -2 * paper[4], 2 * paper[3], 0.5};
+    ceres::Problem problem;
+    problem.AddResidualBlock(new ceres::AutoDiffCostFunction<TiltResidual, 5, 4>(residual), nullptr,
+                             tilt.data());
+    ceres::Solver::Options options;
+    options.logging_type = ceres::SILENT;
+    options.max_num_iterations = 200;
+    options.function_tolerance = 1e-12;
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem, &summary);
+    ceres::Covariance::Options how;
+    how.algorithm_type = ceres::DENSE_SVD;
+    ceres::Covariance found(how);
+    if (!found.Compute(
+            std::vector<std::pair<const double*, const double*>>{{tilt.data(), tilt.data()}},
+            &problem)) {
+        return;
+    }
+    std::array<double, 16> matrix{};
+    found.GetCovarianceBlock(tilt.data(), tilt.data(), matrix.data());
+    const double share = std::sqrt(matrix[15]) / std::abs(tilt[3]);
+    if (!(tilt[3] > 0 && share < kWorthTelling)) return;
+    camera.focal_px = reach_px / tilt[3];
+    camera.sigma["focal_px"] = *camera.focal_px * share;
+    camera.tilt = Tilt{tilt[1], tilt[2]};
+    camera.sigma["tilt_x_rad"] = std::sqrt(matrix[5]);
+    camera.sigma["tilt_y_rad"] = std::sqrt(matrix[10]);
+}
+
+void describe_handheld(const LensFit& fit, double reach_px, Camera& camera) {
+    const double reach_per_focal = fit.camera.shape[0];
+    const double share = fit.sigma.shape[0] / reach_per_focal;
+    if (!(reach_per_focal > 0 && share < kWorthTelling)) return;
+    camera.focal_px = reach_px / reach_per_focal;
+    camera.sigma["focal_px"] = *camera.focal_px * share;
+}
+
+}  // namespace dotpose::calibrate

@@ -1,0 +1,15 @@
+// What a fit says of scale, tilt and focal length.
+#pragma once
+
+#include "calibrate/lens_fit.hpp"
+
+namespace dotpose::calibrate {
+
+/// Sets `paper`, and tilt and focal length if the camera is tilted so much that they show: those of
+/// a camera with square pixels that sees the paper like this.
+void describe_mounted(const LensFit& fit, double reach_px, Camera& camera);
+
+/// Sets the focal length, if the tilts of the frames tell it.
+void describe_handheld(const LensFit& fit, double reach_px, Camera& camera);
+
+}  // namespace dotpose::calibrate

@@ -1,0 +1,15 @@
+// Cameras as ROS describes them.
+#pragma once
+
+#include "calibrate/yaml_reader.hpp"
+#include "dotpose/camera_file.hpp"
+
+namespace dotpose::calibrate {
+
+/// Whether this is a camera_info file: of camera_calibration_parsers, or a printed message.
+bool is_camera_info(const YamlMap& file);
+
+/// Throws Error, naming the key.
+Camera camera_from_camera_info(const YamlMap& file);
+
+}  // namespace dotpose::calibrate

@@ -1,0 +1,109 @@
+#include "calibrate/sighting.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace dotpose::calibrate {
+namespace {
+
+/// Lenses to try where none is known, as k r^2 in the corner of the image.
+constexpr std::array kCornerStretches = {0.0, -0.06, -0.12, -0.18, -0.25, 0.06, 0.12};
+
+/// The distance from the dots' centres at which they are half as dark as in the middle, by the
+/// mean profile of all dots, in spacings.
+double half_width(const ImageView& image, const std::vector<SightedDot>& dots, double spacing_px) {
+    constexpr int kBins = 10;
+    constexpr double kReach = 0.35;  // spacings; neighbours may be 2/3 away
+    std::array<double, kBins> sums{};
+    std::array<double, kBins> counts{};
+    const int reach_px = static_cast<int>(std::ceil(kReach * spacing_px));
+    for (const SightedDot& dot : dots) {
+        const int u0 = static_cast<int>(std::lround(dot.pixel.u));
+        const int v0 = static_cast<int>(std::lround(dot.pixel.v));
+        for (int v = std::max(v0 - reach_px, 0); v <= std::min(v0 + reach_px, image.height_px - 1);
+             ++v) {
+            for (int u = std::max(u0 - reach_px, 0);
+                 u <= std::min(u0 + reach_px, image.width_px - 1); ++u) {
+                const double r = std::hypot(u - dot.pixel.u, v - dot.pixel.v) / spacing_px;
+                if (r >= kReach) continue;
+                const auto bin = static_cast<std::size_t>(r / kReach * kBins);
+                sums[bin] += image.row(v)[u];
+                counts[bin] += 1;
+            }
+        }
+    }
+    std::array<double, kBins> levels{};
+    for (std::size_t i = 0; i < kBins; ++i) {
+        if (counts[i] == 0) return kReach;
+        levels[i] = sums[i] / counts[i];
+    }
+    const double half = (levels.front() + levels.back()) / 2;
+    for (std::size_t i = 1; i < kBins; ++i) {
+        if (levels[i] < half) continue;
+        const double share = (half - levels[i - 1]) / (levels[i] - levels[i - 1]);
+        return (static_cast<double>(i) - 0.5 + share) * kReach / kBins;
+    }
+    return kReach;
+}
+
+}  // namespace
+
+std::vector<SightedDot> dots_read(const Workspace& w, Profile profile) {
+    std::vector<SightedDot> result;
+    const auto dots = w.found_dots();
+    for (int j = w.grid.j0; j < w.grid.j0 + w.grid.rows; ++j) {
+        for (int i = w.grid.i0; i < w.grid.i0 + w.grid.columns; ++i) {
+            const GridCell& cell = w.grid.at(i, j);
+            if (!cell.has_dot()) continue;
+            const Vec centre_q8 = dots[cell.dot].centre_q8;
+            const Vec step = w.decoding.pattern_from_grid({i, j});
+            const Place place = moved(profile, w.decoding.place, step.x, step.y);
+            result.push_back({{centre_q8.x / 256.0, centre_q8.y / 256.0},
+                              step,
+                              symbol_at(profile, place.cell, place.section)});
+        }
+    }
+    return result;
+}
+
+Sighter::Sighter(Profile profile) : workspace_(std::make_unique<LargeWorkspace>()) {
+    options_.profile = profile;
+}
+
+std::optional<Sighting> Sighter::sight(const ImageView& image) {
+    if (locate_with(image, lens_)) return read_workspace(image);
+    if (is_known_) return std::nullopt;
+    const double reach_px = std::hypot(image.width_px, image.height_px) / 2;
+    for (const double stretch : kCornerStretches) {
+        const Lens lens = Lens::from_k(stretch / (reach_px * reach_px));
+        if (!locate_with(image, lens)) continue;
+        lens_ = lens;  // the first to try with the next frame
+        return read_workspace(image);
+    }
+    return std::nullopt;
+}
+
+bool Sighter::locate_with(const ImageView& image, const Lens& lens) {
+    options_.lens = lens;
+    return locate(image, options_, *workspace_).status == Status::ok;
+}
+
+Sighting Sighter::read_workspace(const ImageView& image) const {
+    const Workspace& w = *workspace_;
+    // The lens that was used, as it was rounded.
+    Camera used;
+    used.k_per_px2 = options_.lens.k_q40 * 0x1p-40;
+    used.centre_px = {(image.width_px - 1) / 2.0 + options_.lens.centre_dx_q8 / 256.0,
+                      (image.height_px - 1) / 2.0 + options_.lens.centre_dy_q8 / 256.0};
+    Sighting sighting;
+    sighting.place = w.decoding.place;
+    sighting.spacing_px = w.fix.spacing_px();
+    sighting.dots = dots_read(w, options_.profile);
+    for (SightedDot& dot : sighting.dots)
+        dot.pixel = distorted(used, dot.pixel);
+    sighting.dot_width = 2 * half_width(image, sighting.dots, sighting.spacing_px);
+    return sighting;
+}
+
+}  // namespace dotpose::calibrate

@@ -1,0 +1,54 @@
+// Sightings: the dots of one frame as pixels, each with the place where the code has it printed.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "dotpose/camera_file.hpp"
+#include "dotpose/image.hpp"
+#include "dotpose/locate.hpp"
+
+namespace dotpose::calibrate {
+
+struct SightedDot {
+    PixelPoint pixel;
+    Vec step;  ///< its intersection, in spacings from the frame's `place`
+    Symbol symbol = Symbol::up;
+};
+
+/// The dots that `locate` read, as undistorted pixels; they start at `workspace.decoding.place`.
+std::vector<SightedDot> dots_read(const Workspace& workspace, Profile profile);
+
+struct Sighting {
+    int frame = 0;                 ///< its index
+    Place place;                   ///< where the steps start
+    std::vector<SightedDot> dots;  ///< pixels in the image as it is, distorted
+    double dot_width = 0;          ///< at half depth, in spacings
+    double spacing_px = 0;
+};
+
+/// Locates frames with a lens that may be known or not.
+class Sighter {
+  public:
+    explicit Sighter(Profile profile);
+
+    /// From now on the lens is known.
+    void use_lens(const Lens& lens) {
+        lens_ = lens;
+        is_known_ = true;
+    }
+    /// Nothing if the frame cannot be located.
+    std::optional<Sighting> sight(const ImageView& image);
+
+  private:
+    bool locate_with(const ImageView& image, const Lens& lens);
+    Sighting read_workspace(const ImageView& image) const;
+
+    Options options_;
+    Lens lens_;
+    bool is_known_ = false;
+    std::unique_ptr<LargeWorkspace> workspace_;
+};
+
+}  // namespace dotpose::calibrate

@@ -1,0 +1,139 @@
+// Residuals of a calibration, before and after, and where in the image dots were seen.
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "dotpose/calibrate.hpp"
+#include "draw/svg.hpp"
+
+namespace dotpose {
+namespace {
+
+using namespace dotpose::draw;
+
+constexpr double kMargin = 30;
+constexpr double kHead = 74;
+constexpr double kLongestSide = 520;
+/// Parts of the image along its longer side; each has one arrow.
+constexpr int kParts = 22;
+/// Arrows are not enlarged beyond what this residual needs: noise is to look like noise.
+constexpr double kLeastFullScale_px = 0.05;
+
+struct Part {
+    Point before;  ///< sums of residuals, px
+    Point after;
+    int dots = 0;
+};
+
+class CalibrationPicture {
+  public:
+    explicit CalibrationPicture(const LensCalibration& calibration)
+        : calibration_(calibration),
+          width_px_(calibration.camera.width_px),
+          height_px_(calibration.camera.height_px),
+          scale_(kLongestSide / std::max(width_px_, height_px_)),
+          part_px_(static_cast<double>(std::max(width_px_, height_px_)) / kParts),
+          columns_(static_cast<int>(std::ceil(width_px_ / part_px_))),
+          rows_(static_cast<int>(std::ceil(height_px_ / part_px_))),
+          parts_(static_cast<std::size_t>(columns_ * rows_)),
+          svg_(3 * width() + 4 * kMargin, height() + kHead + 2 * kMargin, "Calibration of a lens") {
+        for (const CalibrationDot& dot : calibration.seen) {
+            const int i = static_cast<int>((dot.pixel.u + 0.5) / part_px_);
+            const int j = static_cast<int>((dot.pixel.v + 0.5) / part_px_);
+            Part& part = parts_[static_cast<std::size_t>(std::clamp(j, 0, rows_ - 1) * columns_ +
+                                                         std::clamp(i, 0, columns_ - 1))];
+            part.before = part.before + Point{dot.before.u, dot.before.v};
+            part.after = part.after + Point{dot.after.u, dot.after.v};
+            ++part.dots;
+        }
+    }
+
+    std::string draw() && {
+        draw_field(0, "Before", calibration_.residual_before_px, &Part::before, colour::kBad);
+        draw_field(1, "After", calibration_.residual_px, &Part::after, colour::kGood);
+        draw_coverage();
+        return std::move(svg_).finish();
+    }
+
+  private:
+    double width() const { return width_px_ * scale_; }
+    double height() const { return height_px_ * scale_; }
+    Point corner(int panel) const {
+        return {kMargin + panel * (width() + kMargin), kMargin + kHead};
+    }
+
+    void draw_frame(int panel, const std::string& title, const std::string& legend) {
+        const Point at = corner(panel);
+        svg_.text({at.x, at.y - 44}, 24, title, R"(font-weight="bold" fill="#17202a")");
+        svg_.text({at.x, at.y - 14}, 17, legend, R"(fill="#6b7885")");
+        svg_.add(R"(<rect x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}" fill="none" )"
+                 R"(stroke="{}" stroke-width="2"/>)",
+                 at.x, at.y, width(), height(), colour::kFrame);
+    }
+
+    /// Calls use(part, its middle on the drawing) for all parts with dots.
+    template <typename Use>
+    void visit(int panel, Use use) const {
+        for (int j = 0; j < rows_; ++j) {
+            for (int i = 0; i < columns_; ++i) {
+                const Part& part = parts_[static_cast<std::size_t>(j * columns_ + i)];
+                if (part.dots == 0) continue;
+                use(part, corner(panel) + scale_ * part_px_ * Point{i + 0.5, j + 0.5});
+            }
+        }
+    }
+
+    void draw_field(int panel, const std::string& title, double rms_px, Point Part::*residual,
+                    const char* ink) {
+        double full_px = kLeastFullScale_px;
+        visit(panel, [&](const Part& part, Point) {
+            full_px = std::max(full_px, length(1.0 / part.dots * (part.*residual)));
+        });
+        draw_frame(panel, title,
+                   fmt::format("{:.3f} px rms per dot; longest arrow {:.2f} px", rms_px, full_px));
+        const double per_px = 0.95 * part_px_ * scale_ / full_px;
+        visit(panel, [&](const Part& part, Point at) {
+            svg_.arrow(at, at + per_px / part.dots * (part.*residual), 1.4, ink);
+        });
+    }
+
+    void draw_coverage() {
+        int most = 1;
+        for (const Part& part : parts_)
+            most = std::max(most, part.dots);
+        draw_frame(2, "Coverage",
+                   fmt::format("{} dots of {} frames; {:.0f} % of the image", calibration_.dots,
+                               calibration_.located, 100 * calibration_.coverage));
+        const double side = part_px_ * scale_;
+        visit(2, [&](const Part& part, Point at) {
+            svg_.add(R"(<rect x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}" fill="{}" )"
+                     R"(opacity="{:.2f}"/>)",
+                     at.x - side / 2, at.y - side / 2, std::min(side, right() - at.x + side / 2),
+                     std::min(side, bottom() - at.y + side / 2), colour::kEdge,
+                     0.08 + 0.8 * part.dots / most);
+        });
+    }
+    double right() const { return corner(2).x + width(); }
+    double bottom() const { return corner(2).y + height(); }
+
+    const LensCalibration& calibration_;
+    int width_px_;
+    int height_px_;
+    double scale_;
+    double part_px_;
+    int columns_;
+    int rows_;
+    std::vector<Part> parts_;
+    Svg svg_;
+};
+
+}  // namespace
+
+void draw_calibration(const std::filesystem::path& path, const LensCalibration& calibration) {
+    const std::string picture = CalibrationPicture(calibration).draw();
+    write_file(path, [&picture](std::ostream& stream) { stream << picture; });
+}
+
+}  // namespace dotpose

@@ -1,0 +1,116 @@
+// `dotpose calibrate`, `locate --camera` and `optics` as their user sees them.
+#include <cmath>
+#include <fstream>
+
+#include <gmock/gmock.h>
+
+#include "locate_command.hpp"
+
+namespace dotpose::test {
+namespace {
+
+using testing::HasSubstr;
+
+class CalibrateCommand : public ToolCommand {
+  protected:
+    /// Frames of the paper's lens in DIR.
+    void simulate(const std::string& folder, int frames, const std::string& more = "") {
+        ASSERT_EQ(run("simulate -o " + folder + " --seed 91 --k -8.7e-6 --frames " +
+                      std::to_string(frames) + " " + more),
+                  0)
+            << errors_;
+    }
+};
+
+TEST_F(CalibrateCommand, WritesACameraFileThatLocateReads) {
+    simulate("frames", 12);
+    ASSERT_EQ(run("calibrate frames/*.pgm -o camera.yaml --draw camera.svg"), 0) << errors_;
+    EXPECT_THAT(output_, HasSubstr("verdict     good"));
+    EXPECT_THAT(output_, HasSubstr("12 of 12 located"));
+    EXPECT_THAT(file("camera.svg"), HasSubstr("</svg>"));
+    ASSERT_EQ(run("locate --camera camera.yaml frames/frame_000003.pgm"), 0) << errors_;
+    const json record = json::parse(output_);
+    ASSERT_EQ(run("locate --k -8.7e-6 frames/frame_000003.pgm"), 0) << errors_;
+    const json known = json::parse(output_);
+    EXPECT_NEAR(record["x_mm"].get<double>(), known["x_mm"].get<double>(), 0.006);
+    EXPECT_NEAR(record["y_mm"].get<double>(), known["y_mm"].get<double>(), 0.006);
+    ASSERT_EQ(run("evaluate frames --camera camera.yaml --json"), 0) << errors_;
+    EXPECT_EQ(json::parse(output_)["wrong"], 0);
+}
+
+TEST_F(CalibrateCommand, FindsReferenceAndHeading) {
+    simulate("turn", 1);
+    // The camera sits on the robot's centre: one place, four directions.
+    std::string turn;
+    for (const int angle : {0, 90, 180, 270}) {
+        const std::string folder = "turn" + std::to_string(angle);
+        simulate(folder, 1, "--at 5000 5000 --angle " + std::to_string(angle));
+        turn += " " + folder + "/frame_000000.pgm";
+    }
+    std::string drive;
+    for (const int at : {5000, 5040, 5080}) {
+        const std::string folder = "drive" + std::to_string(at);
+        simulate(folder, 1, "--at " + std::to_string(at) + " 5000 --angle -90");
+        drive += " " + folder + "/frame_000000.pgm";
+    }
+    std::ofstream(directory_ / "lens.yaml")
+        << "{format: dotpose-camera, version: 1, width_px: 188, height_px: 120, "
+           "k_per_px2: -8.7e-06, centre_px: [93.5, 59.5], mm_per_px: [0.046, 0.046]}";
+    ASSERT_EQ(run("calibrate --camera lens.yaml -o robot.yaml --spin" + turn + " --drive" + drive),
+              0)
+        << errors_;
+    EXPECT_THAT(output_, HasSubstr("4 of 4 frames located, over 270 degrees"));
+    const std::string yaml = file("robot.yaml");
+    double u = 0;
+    double v = 0;
+    ASSERT_EQ(
+        std::sscanf(yaml.c_str() + yaml.find("reference_px: "), "reference_px: [%lf, %lf]", &u, &v),
+        2);
+    EXPECT_NEAR(u, 93.5, 0.3);
+    EXPECT_NEAR(v, 59.5, 0.3);
+    // Heading 0 (along x), image x axis at -90 degrees.
+    double offset_rad = 0;
+    ASSERT_EQ(std::sscanf(yaml.c_str() + yaml.find("theta_offset_rad: "), "theta_offset_rad: %lf",
+                          &offset_rad),
+              1);
+    EXPECT_NEAR(offset_rad, std::acos(0.0), 0.002);
+    ASSERT_EQ(run("locate --camera robot.yaml drive5000/frame_000000.pgm"), 0);
+    EXPECT_NEAR(json::parse(output_)["theta_deg"].get<double>(), 0, 0.2);
+}
+
+TEST_F(CalibrateCommand, UselessInputIsRefusedAndNothingIsWritten) {
+    simulate("one", 1);
+    EXPECT_EQ(run("calibrate one/frame_000000.pgm -o camera.yaml"), 1);
+    EXPECT_THAT(errors_, HasSubstr("a single frame"));
+    EXPECT_EQ(run("calibrate one/*.pgm one/*.pgm -o camera.yaml"), 1);
+    EXPECT_THAT(errors_, HasSubstr("the same image"));
+    EXPECT_FALSE(fs::exists(directory_ / "camera.yaml"));
+    EXPECT_EQ(run("calibrate -o camera.yaml"), 2);
+    EXPECT_EQ(run("calibrate missing.png other.png"), 1);
+    EXPECT_THAT(errors_, HasSubstr("missing.png"));
+    EXPECT_EQ(run("calibrate --stitch one/*.pgm"), 2);
+}
+
+TEST_F(CalibrateCommand, ACameraFileOfAnotherSizeIsAnErrorOfEachImage) {
+    simulate("frames", 1);
+    std::ofstream(directory_ / "large.yaml")
+        << "{format: dotpose-camera, version: 1, width_px: 640, height_px: 480, k_per_px2: 0, "
+           "centre_px: [319.5, 239.5]}";
+    EXPECT_EQ(run("locate --camera large.yaml frames/frame_000000.pgm"), 1);
+    EXPECT_THAT(errors_, HasSubstr("frame_000000.pgm: the camera file is for images of 640 x 480"));
+    EXPECT_EQ(run("locate --camera none.yaml frames/frame_000000.pgm"), 1);
+    EXPECT_EQ(run("locate --camera large.yaml --k 0 frames/frame_000000.pgm"), 2);
+}
+
+TEST_F(CalibrateCommand, OpticsGivesThePapersNumbers) {
+    ASSERT_EQ(run("optics --paper"), 0) << errors_;
+    for (const char* number : {"5.39 mm", "353 mm/s", "785 rpm", "10.19 mm"})
+        EXPECT_THAT(output_, HasSubstr(number));
+    EXPECT_EQ(run("optics --distance 60"), 1);  // too far off
+    EXPECT_THAT(output_, HasSubstr("CHANGE: "));
+    EXPECT_EQ(run("optics --distance 5"), 2);
+    EXPECT_EQ(run("optics --paper --focal 4"), 2);
+}
+
+}  // namespace
+}  // namespace dotpose::test
