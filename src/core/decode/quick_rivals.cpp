@@ -230,7 +230,6 @@ int singles_log2_q8(const Contest& contest) {
     const int lines = contest.lines.count();
     const int steps = std::min(lines - 1, kMostSteps);
     const int first_line = (lines - 1 - steps) / 2;
-    constexpr int kMostSimilar = 60;  // of one sequence; with more, bits say too little
     int enough = contest.loss_for(kPassedOver_q8);
     // In lines that another roll suits better, it may be regained.
     for (int line = 0; line < lines; ++line)
@@ -245,7 +244,6 @@ int singles_log2_q8(const Contest& contest) {
         const auto ahead = static_cast<std::uint32_t>(first_line);
         const std::uint32_t own_ahead = (own + ahead) % a.length;
         const Places similar = similar_places(a, own_ahead, steps, losses);
-        if (similar.count > kMostSimilar) return 0;
         for (int i = 0; i < similar.count; ++i) {
             const std::uint32_t place = similar.places[static_cast<std::size_t>(i)];
             const std::uint32_t rival = place + (place < ahead ? a.length : 0U) - ahead;

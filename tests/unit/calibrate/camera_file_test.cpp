@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "../../temporary_directory.hpp"
 #include "dotpose/random.hpp"
 #include "frames.hpp"
 
@@ -38,8 +39,6 @@ sigma:
 
 class CameraFile : public testing::Test {
   protected:
-    void TearDown() override { std::filesystem::remove(path_); }
-
     Camera read(const std::string& text) const {
         std::ofstream(path_) << text;
         return read_camera(path_);
@@ -59,8 +58,8 @@ class CameraFile : public testing::Test {
         return refusal(text);
     }
 
-    std::filesystem::path path_ =
-        std::filesystem::temp_directory_path() / "dotpose-camera-file-test.yaml";
+    test::TemporaryDirectory directory_;
+    std::filesystem::path path_ = directory_.path() / "camera.yaml";
 };
 
 void expect_whole(const Camera& camera) {

@@ -61,7 +61,7 @@ GreyImage frame(Preset preset, std::uint64_t index, int width_px = 188, int heig
 
 /// The line of a frame, from `locate` with the whole image at hand.
 std::string expected_line(const GreyImage& image) {
-    const auto workspace = std::make_unique<SmallWorkspace>();
+    const auto workspace = std::make_unique<DeviceWorkspace>();
     Options options;
     options.effort = Effort::device;
     const Fix fix = locate(image.view(), options, *workspace);
