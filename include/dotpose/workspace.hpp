@@ -364,7 +364,7 @@ class DeviceWorkspace : public Workspace {
         std::span<std::byte> free;
         template <typename T>
         void take(std::span<T>& room, std::size_t count) {
-            room = {reinterpret_cast<T*>(free.data()), count};
+            room = {static_cast<T*>(static_cast<void*>(free.data())), count};
             free = free.subspan(count * sizeof(T));
         }
     };

@@ -262,13 +262,13 @@ int other_sections_log2_q8(const Contest& contest) {
 
 }  // namespace
 
-int quick_rivals_log2_q8(const Contest& contest) {
+int quick_rivals_log2_q8(const Contest& contest, int limit_q8) {
     // Nobody wants to know odds like these more exactly.
     constexpr int kSmall_q8 = -36 * 256;
     int far = far_log2_q8(contest, true);
     if (far > kSmall_q8) far = far_log2_q8(contest, false);
     const int sum = add_log2(other_sections_log2_q8(contest), far);
-    if (sum >= 0) return 0;
+    if (sum >= limit_q8) return 0;
     return std::min(add_log2(sum, singles_log2_q8(contest)), 0);
 }
 

@@ -7,7 +7,7 @@
 
 namespace dotpose::core {
 
-/// In 2^-8 powers of two; 0 where so little work does not tell.
-int quick_rivals_log2_q8(const Contest& contest);
+/// In 2^-8 powers of two; 0 where so little work does not tell, or shows that it is above a limit.
+int quick_rivals_log2_q8(const Contest& contest, int limit_q8 = 0);
 
 }  // namespace dotpose::core

@@ -114,12 +114,14 @@ Status judge(int p_wrong_q8, const IntegrityOptions& options, Fix& fix) {
 
 /// By quick_rivals.
 int estimate_quickly(const Grid& grid, Profile profile, const Decoding& decoding,
-                     std::span<LineScores> storage, const Doubt& doubt) {
-    return with_rivals(
-        grid, profile, decoding, storage, doubt,
-        [&](const Lines& lines, const AxisReading& reading) {
-            return quick_rivals_log2_q8(Contest(profile, lines, reading, doubt.odds_per_bit_q8));
-        });
+                     const IntegrityOptions& options, std::span<LineScores> storage,
+                     const Doubt& doubt) {
+    return with_rivals(grid, profile, decoding, storage, doubt,
+                       [&](const Lines& lines, const AxisReading& reading) {
+                           return quick_rivals_log2_q8(
+                               Contest(profile, lines, reading, doubt.odds_per_bit_q8),
+                               256 * options.max_p_wrong_log2);
+                       });
 }
 
 }  // namespace
@@ -128,14 +130,14 @@ Status verify_quickly(const Grid& grid, Profile profile, const Decoding& decodin
                       const IntegrityOptions& options, std::span<LineScores> storage, Fix& fix) {
     const Doubt doubt = compare_with_chance(grid, profile, decoding, options, fix);
     if (doubt.is_too_much || doubt.odds_per_bit_q8 == 0) return Status::not_certain;
-    return judge(estimate_quickly(grid, profile, decoding, storage, doubt), options, fix);
+    return judge(estimate_quickly(grid, profile, decoding, options, storage, doubt), options, fix);
 }
 
 Status verify(const Grid& grid, Profile profile, const Decoding& decoding,
               const IntegrityOptions& options, std::span<LineScores> storage, Fix& fix) {
     const Doubt doubt = compare_with_chance(grid, profile, decoding, options, fix);
     if (doubt.is_too_much || doubt.odds_per_bit_q8 == 0) return Status::not_certain;
-    const int quick_q8 = estimate_quickly(grid, profile, decoding, storage, doubt);
+    const int quick_q8 = estimate_quickly(grid, profile, decoding, options, storage, doubt);
     // Whoever accepts more doubt than usual wants to know how much there is.
     constexpr int kUsual_q8 = -30 * 256;
     if (judge(quick_q8, options, fix) == Status::ok && quick_q8 <= kUsual_q8) return Status::ok;
