@@ -26,7 +26,7 @@ constexpr int kPartsDown = 8;
 constexpr double kLeastCoverage = 0.85;
 /// Dots wider than this, in spacings, are out of focus: three times as wide as printed, they begin
 /// to touch.
-constexpr double kWidestDot = 0.34;
+constexpr double kWidestDot = 0.32;
 /// Frames whose places differ by less than this, in spacings, show the same dots.
 constexpr double kSamePlace = 1.5;
 

@@ -157,8 +157,8 @@ Status measure_pose(const Options& options, const ImageView* image, Workspace& w
     return Status::ok;
 }
 
-/// Dots this far, in px, from where the pose has them are worth a second measurement.
-constexpr float kRough_px = 0.35F;
+/// Dots this far, in px, from where the pose has them are worth a second attempt.
+constexpr float kRough_px = 0.30F;
 
 constexpr bool is_within(int value, int low, int high) {
     return value >= low && value <= high;
@@ -216,10 +216,14 @@ Fix locate(const ImageView& image, const Options& options, Workspace& workspace)
         push_row(image.row(v), options, workspace);
     if (options.effort == Effort::device) return finish_device(options, workspace);
     const Fix fix = finish(options, workspace);
-    if (options.effort == Effort::once || workspace.smoothing.row.empty()) return fix;
-    if (fix.status != Status::ok) return locate_filtered(image, options, workspace);
-    if (fix.residual_px < kRough_px) return fix;
-    return measure_pose(options, &image, workspace) == Status::ok ? workspace.fix : fix;
+    const bool is_good = fix.status == Status::ok && fix.residual_px < kRough_px;
+    if (is_good || options.effort == Effort::once || workspace.smoothing.row.empty()) return fix;
+    const Fix second = locate_filtered(image, options, workspace);
+    if (second.status == Status::ok || fix.status != Status::ok) return second;
+    // The workspace must show what is returned.
+    Options once = options;
+    once.effort = Effort::once;
+    return locate(image, once, workspace);
 }
 
 Status begin(int width_px, int height_px, const Options& options, Workspace& w) {
