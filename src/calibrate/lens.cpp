@@ -24,7 +24,7 @@ using namespace dotpose::calibrate;
 constexpr int kPartsAcross = 12;
 constexpr int kPartsDown = 8;
 constexpr double kLeastCoverage = 0.85;
-/// Dots wider than this, in spacings, are out of focus: three times as wide as printed, they begin
+/// Dots wider than this, in spacings, are out of focus: twice as wide as printed, they begin
 /// to touch.
 constexpr double kWidestDot = 0.32;
 /// Frames whose places differ by less than this, in spacings, show the same dots.
