@@ -47,7 +47,7 @@ class Contest {
     bool is_hopeless(int lost) const { return lost > hopeless_score_; }
 
     const code::Basis& basis;
-    const Lines& lines;
+    const Lines lines;
     const std::uint32_t position;  ///< of the first line, as read
 
   private:

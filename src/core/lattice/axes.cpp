@@ -17,7 +17,8 @@ using Values = std::array<std::int32_t, kMostEdges>;
 std::int32_t median_length(std::span<const Edge> edges, Values& scratch) {
     std::size_t n = 0;
     for (const Edge& edge : edges) {
-        // Steps are within 128 px per axis: half of the square fits.
+        // Up to 128 px per axis, as neighbours are, half of the square fits.
+        if (std::max(std::abs(edge.step_q8.x), std::abs(edge.step_q8.y)) >= 1 << 15) continue;
         const auto x = static_cast<std::uint32_t>(edge.step_q8.x * edge.step_q8.x);
         const auto y = static_cast<std::uint32_t>(edge.step_q8.y * edge.step_q8.y);
         scratch[n++] = static_cast<std::int32_t>((x + y) / 2);
