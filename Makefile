@@ -41,7 +41,7 @@ fuzz: setup build/fuzz/build.ninja
 
 bench: setup $(RELEASE)/build.ninja
 	$(BUILD) release -j $(JOBS) --target dotpose_bench
-	$(RELEASE)/bin/dotpose_bench
+	$(RELEASE)/bin/dotpose_bench $(ARGS)
 
 accuracy: setup $(RELEASE)/build.ninja
 	$(BUILD) release -j $(JOBS) --target dotpose_accuracy
@@ -70,4 +70,4 @@ install:
 	cmake --install $(RELEASE) --prefix $(PREFIX)
 
 clean:
-	rm -rf build demo-out accuracy-out
+	rm -rf build demo-out accuracy-out bench-out

@@ -1,63 +1,212 @@
-// Speed of `locate` on frames of several sizes, and of the position code. Answers are checked
-// before time counts. Compare figures of one run only: `make bench`.
+// Whole frames: dotpose, libapriltag and one pass over the pixels, side by side.
+#include <algorithm>
+#include <map>
 #include <memory>
-#include <vector>
 
-#include <benchmark/benchmark.h>
+#include <fmt/format.h>
 
-#include "dotpose/locate.hpp"
-#include "dotpose/simulate.hpp"
+#include <dotpose/locate.hpp>
 
+#include "apriltag.hpp"
+#include "benchmarks.hpp"
+#include "floor.hpp"
+#include "frames.hpp"
+
+namespace dotpose::bench {
 namespace {
 
-using namespace dotpose;
+/// The paper's camera, larger.
+CameraModel camera_of(int width_px, int height_px) {
+    CameraModel camera;
+    camera.width_px = width_px;
+    camera.height_px = height_px;
+    return camera;
+}
 
-/// Nominal frames of one size, in turn.
-void locate_frames(benchmark::State& state) {
-    Setup setup;
-    setup.camera.width_px = static_cast<int>(state.range(0));
-    setup.camera.height_px = static_cast<int>(state.range(1));
-    const auto workspace = std::make_unique<LargeWorkspace>();
-    std::vector<GreyImage> frames;
-    for (std::uint64_t i = 0; i < 20; ++i) {
-        const Shot shot = draw_shot(setup, i);
-        frames.push_back(render(shot));
-        const Fix fix = locate(frames.back().view(), {}, *workspace);
-        if (fix.status != Status::ok || fix.cell != shot.pose.cell) {
+/// Largest frames that libapriltag gets: it takes longer than all others.
+constexpr int kMostTagPixels = 1280 * 800;
+
+const std::vector<CameraModel>& sizes() {
+    static const std::vector all = {camera_of(188, 120),   camera_of(320, 240),
+                                    camera_of(640, 480),   camera_of(1280, 800),
+                                    camera_of(2048, 2048), camera_of(4096, 4096)};
+    return all;
+}
+
+/// From few dots to many in a frame of one size: more and more of the paper in view.
+const std::vector<CameraModel>& spacings() {
+    static const std::vector<CameraModel> all = [] {
+        std::vector<CameraModel> cameras;
+        for (const double spacing_px : {40.0, 28.0, 20.0, 14.0, 10.0, 7.0}) {
+            cameras.push_back(camera_of(640, 480));
+            cameras.back().mm_per_px = kDefaultSpacing_mm / spacing_px;
+        }
+        return cameras;
+    }();
+    return all;
+}
+
+std::string name_of(const char* what, const CameraModel& camera) {
+    return fmt::format("{}/{}x{}/{:.0f}", what, camera.width_px, camera.height_px,
+                       kDefaultSpacing_mm / camera.mm_per_px);
+}
+
+Workspace& workspace_for(const CameraModel& camera) {
+    static const auto small = std::make_unique<SmallWorkspace>();
+    static const auto large = std::make_unique<LargeWorkspace>();
+    if (camera.width_px <= small->max_width_px) return *small;
+    return *large;
+}
+
+void locate_frames(benchmark::State& state, const CameraModel& camera, Effort effort) {
+    Options options;
+    options.effort = effort;
+    Workspace& workspace = workspace_for(camera);
+    const std::vector<KnownFrame>& frames = nominal_frames(camera);
+    double dots = 0;
+    for (const KnownFrame& frame : frames) {
+        const Fix fix = locate(frame.image.view(), options, workspace);
+        if (!is_right(fix, frame.truth)) {
             return state.SkipWithError("a frame was not located rightly");
         }
+        dots += fix.dots_seen;
     }
     std::size_t next = 0;
     for (auto _ : state) {
-        benchmark::DoNotOptimize(locate(frames[next].view(), {}, *workspace));
+        benchmark::DoNotOptimize(locate(frames[next].image.view(), options, workspace));
+        next = (next + 1) % frames.size();
+    }
+    state.counters["dots"] = dots / static_cast<double>(frames.size());
+}
+
+void count_pixels(benchmark::State& state, const CameraModel& camera) {
+    constexpr std::uint8_t kLevel = 128;
+    const std::vector<KnownFrame>& frames = nominal_frames(camera);
+    for (const KnownFrame& frame : frames) {
+        const auto& pixels = frame.image.pixels;
+        const auto dark = std::ranges::count_if(pixels, [](int grey) { return grey < kLevel; });
+        if (count_dark(pixels, kLevel) != dark) return state.SkipWithError("miscounted");
+    }
+    std::size_t next = 0;
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(count_dark(frames[next].image.pixels, kLevel));
         next = (next + 1) % frames.size();
     }
 }
-BENCHMARK(locate_frames)->Args({188, 120})->Args({640, 480})->Unit(benchmark::kMicrosecond);
 
-void encode_symbol(benchmark::State& state) {
-    std::uint32_t p = 0;
+std::vector<TagFrame>& tag_frames(const CameraModel& camera) {
+    static std::map<int, std::vector<TagFrame>> rendered;
+    std::vector<TagFrame>& frames = rendered[camera.width_px];
+    if (frames.empty()) {
+        frames = render_tags(camera, static_cast<int>(nominal_frames(camera).size()));
+    }
+    return frames;
+}
+
+void detect_tags(benchmark::State& state, const CameraModel& camera, int decimate) {
+    TagDetector detector(decimate);
+    std::vector<TagFrame>& frames = tag_frames(camera);
+    for (TagFrame& frame : frames) {
+        if (!detector.is_right(frame)) return state.SkipWithError("a tag was not found rightly");
+    }
+    std::size_t next = 0;
     for (auto _ : state) {
-        benchmark::DoNotOptimize(symbol_at(Profile::anoto, {p, p / 2}, {}));
-        p = (p + 1'000'003) % kPositionsPerAxis;
+        benchmark::DoNotOptimize(detector.detect(frames[next].image));
+        next = (next + 1) % frames.size();
     }
 }
-BENCHMARK(encode_symbol);
 
-void decode_window(benchmark::State& state) {
-    std::vector<Symbol> symbols;
-    for (std::uint32_t y = 0; y < 8; ++y) {
-        for (std::uint32_t x = 0; x < 8; ++x) {
-            symbols.push_back(symbol_at(Profile::anoto, {123'456 + x, 654'321 + y}, {}));
-        }
-    }
-    Place place;
-    for (auto _ : state) {
-        if (decode(Profile::anoto, {symbols, 8, 8}, place) != Status::ok) {
-            return state.SkipWithError("the window was not decoded");
-        }
-    }
+bool has_tags(const CameraModel& camera) {
+    return camera.width_px * camera.height_px <= kMostTagPixels;
 }
-BENCHMARK(decode_window);
+
+template <typename Function>
+void add(const std::string& name, Function function) {
+    benchmark::RegisterBenchmark(name.c_str(), function)->Unit(benchmark::kMicrosecond);
+}
+
+FrameTimes times_of(const CameraModel& camera, const Results& results) {
+    const Result& located = results.of(name_of("locate", camera));
+    FrameTimes times{camera, located.dots, located.us};
+    times.once_us = results.of(name_of("locate_once", camera)).us;
+    times.device_us = results.of(name_of("locate_device", camera)).us;
+    return times;
+}
 
 }  // namespace
+
+void add_frame_benchmarks() {
+    for (const auto* cameras : {&sizes(), &spacings()}) {
+        for (const CameraModel& camera : *cameras) {
+            add(name_of("locate", camera),
+                [=](benchmark::State& state) { locate_frames(state, camera, Effort::twice); });
+            add(name_of("locate_once", camera),
+                [=](benchmark::State& state) { locate_frames(state, camera, Effort::once); });
+            add(name_of("locate_device", camera),
+                [=](benchmark::State& state) { locate_frames(state, camera, Effort::device); });
+        }
+    }
+    for (const CameraModel& camera : sizes()) {
+        add(name_of("floor", camera),
+            [=](benchmark::State& state) { count_pixels(state, camera); });
+        if (!has_tags(camera)) continue;
+        for (const int decimate : {1, 2}) {
+            add(name_of(decimate == 1 ? "apriltag_1" : "apriltag_2", camera),
+                [=](benchmark::State& state) { detect_tags(state, camera, decimate); });
+        }
+    }
+}
+
+std::vector<FrameTimes> times_by_size(const Results& results) {
+    std::vector<FrameTimes> all;
+    for (const CameraModel& camera : sizes()) {
+        FrameTimes times = times_of(camera, results);
+        times.floor_us = results.of(name_of("floor", camera)).us;
+        if (has_tags(camera)) {
+            times.tag_us[0] = results.of(name_of("apriltag_1", camera)).us;
+            times.tag_us[1] = results.of(name_of("apriltag_2", camera)).us;
+        }
+        all.push_back(times);
+    }
+    return all;
+}
+
+std::vector<FrameTimes> times_by_dots(const Results& results) {
+    std::vector<FrameTimes> all;
+    for (const CameraModel& camera : spacings())
+        all.push_back(times_of(camera, results));
+    return all;
+}
+
+std::string size_table(const std::vector<FrameTimes>& all) {
+    std::string table =
+        "| frame, px | dots | locate, µs | `--effort device`, µs | one pass, µs | apriltag 1, µs "
+        "| apriltag 2, µs | locate / one pass | apriltag 2 / locate |\n"
+        "|---|--:|--:|--:|--:|--:|--:|--:|--:|\n";
+    for (const FrameTimes& t : all) {
+        const auto tag = [&](double us, int decimals) {
+            return us > 0 ? fmt::format("{:.{}f}", us, decimals) : std::string("-");
+        };
+        table += fmt::format(
+            "| {} x {} | {:.0f} | {:.1f} | {:.1f} | {:.2f} | {} | {} | {:.0f} | "
+            "{} |\n",
+            t.camera.width_px, t.camera.height_px, t.dots, t.locate_us, t.device_us, t.floor_us,
+            tag(t.tag_us[0], 0), tag(t.tag_us[1], 0), t.locate_us / t.floor_us,
+            tag(t.tag_us[1] / t.locate_us, 1));
+    }
+    return table;
+}
+
+std::string dots_table(const std::vector<FrameTimes>& all) {
+    std::string table =
+        "| spacing, px | dots | locate, µs | `--effort once`, µs | `--effort device`, µs |\n"
+        "|--:|--:|--:|--:|--:|\n";
+    for (const FrameTimes& t : all) {
+        table += fmt::format("| {:.0f} | {:.0f} | {:.1f} | {:.1f} | {:.1f} |\n",
+                             kDefaultSpacing_mm / t.camera.mm_per_px, t.dots, t.locate_us,
+                             t.once_us, t.device_us);
+    }
+    return table;
+}
+
+}  // namespace dotpose::bench

@@ -40,6 +40,7 @@ struct DrivePlan {
     double second_put_down = 3.55;  ///< a little aside
     double stop = 4.5;              ///< slows down before, rests after
     double end = 5.5;
+    double speed_mm_s = 300;  ///< in the middle of the eight, the highest; 0: it only rests
 };
 
 class Drive {
@@ -71,8 +72,7 @@ class Drive {
     }
 
   private:
-    static constexpr double kRamp = 0.4;    ///< s to come to speed, and to rest
-    static constexpr double kRate = 0.832;  ///< rad/s: 300 mm/s in the middle of the eight
+    static constexpr double kRamp = 0.4;  ///< s to come to speed, and to rest
 
     /// The integral of a ramp from 0 to 1 that begins at t = 0, smooth at both ends.
     static double ramp_integral(double t) {
@@ -83,13 +83,15 @@ class Drive {
         const double u = std::clamp(t / kRamp, 0.0, 1.0);
         return u * u * (3 - 2 * u);
     }
+    /// rad/s
+    double full_rate() const { return plan_.speed_mm_s / std::hypot(300, 200); }
     double phase(double t) const {
         const double driven =
             ramp_integral(t - plan_.start) - ramp_integral(t - plan_.stop + kRamp);
-        return -0.6 + kRate * driven + (t >= plan_.put_down ? std::numbers::pi : 0);
+        return -0.6 + full_rate() * driven + (t >= plan_.put_down ? std::numbers::pi : 0);
     }
     double rate(double t) const {
-        return kRate * (ramp(t - plan_.start) - ramp(t - plan_.stop + kRamp));
+        return full_rate() * (ramp(t - plan_.start) - ramp(t - plan_.stop + kRamp));
     }
 
     DrivePlan plan_;
@@ -114,11 +116,17 @@ inline std::vector<SheetEntry> drive_sheets() {
 
 class DriveCamera {
   public:
-    DriveCamera(int width_px, int height_px) : sheets_(drive_sheets()) {
+    DriveCamera(int width_px, int height_px) : DriveCamera(width_px, height_px, nominal()) {}
+    DriveCamera(int width_px, int height_px, const Imperfections& imperfections)
+        : sheets_(drive_sheets()), base_(imperfections) {
         camera_.width_px = width_px;
         camera_.height_px = height_px;
+    }
+
+    /// Of preset nominal.
+    static Imperfections nominal() {
         Rng rng(2024);
-        base_ = draw_imperfections(Preset::nominal, rng);
+        return draw_imperfections(Preset::nominal, rng);
     }
 
     const CameraModel& camera() const { return camera_; }

@@ -34,10 +34,12 @@ struct CalibrateArguments {
     std::vector<std::string> spin;
     std::vector<std::string> drive;
     bool stitch = false;
+    ScaleReference reference;
     std::string sheets;
     std::optional<Camera> camera;
     std::string out;
     std::string picture;
+    std::string spin_picture;
     CalibrateOptions options;
 };
 
@@ -68,7 +70,7 @@ std::string calibrate_camera(const CalibrateArguments& arguments) {
         lens = with_progress(arguments.images, "calibrating the lens", arguments.options,
                              calibrate_lens);
         if (camera) {
-            lens->camera.reference_px = camera->reference_px;
+            lens->camera.reference_px = reference_in(lens->camera, *camera);
             lens->camera.theta_offset_rad = camera->theta_offset_rad;
             lens->camera.exposure_us = camera->exposure_us;
             lens->camera.gain = camera->gain;
@@ -76,37 +78,52 @@ std::string calibrate_camera(const CalibrateArguments& arguments) {
         camera = lens->camera;
         report += lens_report(*lens);
     }
-    if (!arguments.spin.empty()) {
-        const SpinCalibration spin = with_progress(
-            arguments.spin, "calibrating the mount", arguments.options,
+    const auto go_on = [&](const Names& names, const char* what, auto calibrate, auto report_of) {
+        if (names.empty()) return;
+        const auto found = with_progress(
+            names, what, arguments.options,
             [&](int frames, const FrameAt& frame_at, const CalibrateOptions& options) {
-                return calibrate_spin(frames, frame_at, camera, options);
+                return calibrate(frames, frame_at, camera, options);
             });
-        camera = spin.camera;
-        report += spin_report(spin);
-    }
-    if (!arguments.drive.empty()) {
-        const DriveCalibration drive = with_progress(
-            arguments.drive, "calibrating the heading", arguments.options,
-            [&](int frames, const FrameAt& frame_at, const CalibrateOptions& options) {
-                return calibrate_drive(frames, frame_at, camera, options);
-            });
-        camera = drive.camera;
-        report += drive_report(drive);
-    }
+        camera = found.camera;
+        report += report_of(found);
+    };
+    go_on(arguments.spin, "calibrating the mount", calibrate_spin,
+          [&](const SpinCalibration& spin) {
+              if (!arguments.spin_picture.empty()) draw_spin(arguments.spin_picture, spin);
+              return spin_report(spin);
+          });
+    go_on(arguments.drive, "calibrating the heading", calibrate_drive, drive_report);
     if (lens && !arguments.picture.empty()) draw_calibration(arguments.picture, *lens);
     if (!arguments.out.empty()) write_camera(arguments.out, *camera);
     return report;
 }
 
-/// Writes the world poses into the sheet file; returns what it did.
+/// "camera", or "SHEET=MM".
+ScaleReference parse_reference(const std::string& text) {
+    if (text == "camera") return {ScaleReference::By::camera, "", 0};
+    const std::size_t sign = text.rfind('=');
+    ScaleReference reference{ScaleReference::By::width, text.substr(0, sign), 0};
+    if (sign == std::string::npos ||
+        !CLI::detail::lexical_cast(text.substr(sign + 1), reference.width_mm)) {
+        throw CLI::ValidationError(
+            "--true-scale", fmt::format("'{}' must be camera, or SHEET=MM with the true width of a "
+                                        "sheet",
+                                        text));
+    }
+    return reference;
+}
+
+/// Writes the world poses and print scales into the sheet file; returns what it did.
 std::string stitch(const CalibrateArguments& arguments) {
     SheetFile file(arguments.sheets);
-    const Stitching stitching = with_progress(
-        arguments.images, "stitching", arguments.options,
-        [&](int frames, const FrameAt& frame_at, const CalibrateOptions& options) {
-            return stitch_sheets(frames, frame_at, file.sheets(), arguments.camera, options);
-        });
+    const Stitching stitching =
+        with_progress(arguments.images, "stitching", arguments.options,
+                      [&](int frames, const FrameAt& frame_at, const CalibrateOptions& options) {
+                          return stitch_sheets(frames, frame_at, file.sheets(), arguments.camera,
+                                               options, arguments.reference);
+                      });
+    if (!arguments.picture.empty()) draw_stitching(arguments.picture, file.sheets(), stitching);
     for (const SheetEntry& entry : stitching.sheets)
         file.replace(entry);
     file.save();
@@ -139,7 +156,8 @@ void add_calibrate(CLI::App& app, int& exit_code) {
         ->type_name("FILE");
     command
         ->add_option("--draw", arguments->picture,
-                     "Also draw residuals and coverage of the image (.svg)")
+                     "Also draw residuals and coverage of the image, or with --stitch the sheets "
+                     "before and after (.svg)")
         ->type_name("FILE");
     add_camera_option(*command, arguments->camera,
                       "Camera file to start from: its lens where no frames of a sheet are given");
@@ -147,6 +165,9 @@ void add_calibrate(CLI::App& app, int& exit_code) {
         ->add_option("--spin", arguments->spin,
                      "Frames of the robot turning on the spot: find its centre (reference_px)")
         ->type_name("IMAGE");
+    command->add_option("--draw-spin", arguments->spin_picture, "Also draw the turn (.svg)")
+        ->type_name("FILE")
+        ->needs(command->get_option("--spin"));
     command
         ->add_option("--drive", arguments->drive,
                      "Frames of a straight drive ahead, in order: find the heading (theta_offset)")
@@ -155,9 +176,18 @@ void add_calibrate(CLI::App& app, int& exit_code) {
         "--stitch", arguments->stitch,
         "Find how the sheets of a sheet file lie, from frames that show two, and write it there");
     CLI::Option* sheets = add_sheets_option(*command, arguments->sheets, "Sheet file to stitch");
+    command
+        ->add_option_function<std::string>(
+            "--true-scale",
+            [arguments](const std::string& text) { arguments->reference = parse_reference(text); },
+            "What print scales are measured by: the mm_per_px of the camera file, or the true "
+            "distance of the first from the last column of dots of a sheet")
+        ->type_name("camera|SHEET=MM")
+        ->default_str("the mean of the first sheet")
+        ->needs(stitch);
     stitch->needs(sheets);
     sheets->needs(stitch);
-    stitch->excludes(command->get_option("--out"), command->get_option("--draw"));
+    stitch->excludes(command->get_option("--out"));
     add_spacing_option(*command, arguments->options.pattern.spacing_mm);
     add_code_option(*command, arguments->options.pattern.profile);
     command->callback([arguments, &exit_code] { exit_code = run(*arguments); });

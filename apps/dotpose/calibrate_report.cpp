@@ -1,5 +1,6 @@
 #include "calibrate_report.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -78,8 +79,9 @@ std::string spin_report(const SpinCalibration& calibration) {
     std::string text;
     add(text, "spin        {} of {} frames located, over {:.0f} degrees", calibration.located,
         calibration.frames, degrees(calibration.turn_rad));
-    add(text, "reference   {:.2f}, {:.2f} px +- {:.4f} mm", reference.u, reference.v,
-        calibration.sigma_mm);
+    add(text, "reference   {:+.4f}, {:+.4f} +- {:.4f} mm from the image centre ({:.2f}, {:.2f} px)",
+        calibration.offset_mm.x_mm, calibration.offset_mm.y_mm, calibration.sigma_mm, reference.u,
+        reference.v);
     add(text, "residual    {:.4f} mm (rms per axis): so well the robot stayed on the spot",
         calibration.residual_mm);
     return text;
@@ -94,6 +96,48 @@ std::string drive_report(const DriveCalibration& calibration) {
     add(text, "residual    {:.4f} mm (rms): so straight was the drive", calibration.residual_mm);
     return text;
 }
+
+namespace {
+
+std::string print_scale_text(double scale, double sigma) {
+    return fmt::format("{:.6f} +- {:.6f}{}", scale, sigma, is_told(sigma) ? "" : " (NOT TOLD)");
+}
+
+/// How long sheets were printed, and what this is measured by.
+void add_print_scales(std::string& text, const Stitching& stitching) {
+    bool is_all_told = true;
+    std::string fixed;
+    for (const StitchedSheet& sheet : stitching.stitched) {
+        const auto entry = std::ranges::find(stitching.sheets, sheet.name, &SheetEntry::name);
+        add(text, "print       {}: {} along x, {} along y", sheet.name,
+            print_scale_text(entry->print_scale_x, sheet.sigma_scale_x),
+            print_scale_text(entry->print_scale_y, sheet.sigma_scale_y));
+        is_all_told = is_all_told && is_told(sheet.sigma_scale_x) && is_told(sheet.sigma_scale_y);
+        if (sheet.is_fixed) fixed = sheet.name;
+    }
+    using By = ScaleReference::By;
+    switch (stitching.reference.by) {
+        case By::camera:
+            add(text, "scale       by the camera's mm per px");
+            break;
+        case By::width:
+            add(text, "scale       by the true width of {}, {:g} mm", stitching.reference.sheet,
+                stitching.reference.width_mm);
+            break;
+        default:
+            add(text,
+                "scale       against that of {}, whose mean stays as it is: only --true-scale "
+                "tells true millimetres",
+                fixed);
+    }
+    if (!is_all_told) {
+        add(text,
+            "NOT TOLD:   scales that these frames do not determine: it takes the camera file of a "
+            "mounted camera (with mm_per_px) and frames at several angles");
+    }
+}
+
+}  // namespace
 
 std::string stitching_report(const Stitching& stitching) {
     std::string text;
@@ -110,6 +154,7 @@ std::string stitching_report(const Stitching& stitching) {
                 degrees(sheet.sigma_rad));
         }
     }
+    add_print_scales(text, stitching);
     for (const std::string& name : stitching.unconnected)
         add(text, "NOT FOUND:  {}: no frame shows it beside another one", name);
     return text;

@@ -1,10 +1,12 @@
 #include "dotpose/evaluate.hpp"
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -35,6 +37,13 @@ const char* name(PaperProtocol) {
     return "paper";
 }
 
+/// Whose poses truth.csv has.
+enum class TruthOf : std::uint8_t { image, robot };
+constexpr std::array kTruths = {TruthOf::image, TruthOf::robot};
+const char* name(TruthOf truth) {
+    return truth == TruthOf::image ? "image" : "robot";
+}
+
 struct EvaluateArguments {
     std::string folder;
     std::optional<Preset> preset;
@@ -45,6 +54,7 @@ struct EvaluateArguments {
     Setup setup;
     Options options;
     std::optional<Camera> camera;
+    TruthOf truth_of = TruthOf::image;
     double spacing_mm = kDefaultSpacing_mm;
     bool spacing_given = false;
     bool code_given = false;
@@ -115,6 +125,25 @@ int evaluate_run(const EvaluateArguments& arguments, const std::string& what, Fr
     return report(evaluate(run).front(), arguments.json);
 }
 
+/// As `locate --camera` does. Images of another size become frames with a problem.
+void locate_with(const Camera& camera, const std::vector<TruthRow>& rows, FrameRun& run) {
+    run.frame_at = [camera, rows, read = run.frame_at](int index) {
+        KnownFrame frame = read(index);
+        if (!frame.problem.empty()) return frame;
+        try {
+            Options unused;
+            use_camera(camera, frame.image.width_px, frame.image.height_px, unused);
+        } catch (const BadArgument& error) {
+            const std::string& file = rows[static_cast<std::size_t>(index)].file;
+            frame.problem = fmt::format("{}: {}", file, error.what());
+        }
+        return frame;
+    };
+    run.refine = [camera](const Fix& fix, const Options& options, const Workspace& workspace) {
+        return with_camera(fix, camera, options, workspace);
+    };
+}
+
 int evaluate_folder(const EvaluateArguments& arguments) {
     const fs::path folder = arguments.folder;
     const auto spacing_mm =
@@ -126,7 +155,8 @@ int evaluate_folder(const EvaluateArguments& arguments) {
     }
     FrameRun run;
     run.frames = static_cast<int>(rows.size());
-    run.frame_at = frames_of_folder(folder, std::move(rows));
+    run.frame_at = frames_of_folder(folder, rows);
+    if (arguments.camera) locate_with(*arguments.camera, rows, run);
     return evaluate_run(arguments, arguments.folder, run);
 }
 
@@ -189,12 +219,13 @@ int run(EvaluateArguments& arguments) {
     if (writes && arguments.out.empty()) throw BadArgument("name a folder for the results: -o DIR");
     if (writes && arguments.json) throw BadArgument("--json is for DIR and --preset only");
     if (has_folder && arguments.frames) throw BadArgument("--frames is for simulated frames only");
-    if (const auto& camera = arguments.camera) {
+    if (auto& camera = arguments.camera) {
         if (!has_folder) throw BadArgument("--camera is for frames in a folder only");
-        // The truth is that of the image centre, so the reference point of the robot is left out.
-        Options with_camera;
-        use_camera(*camera, camera->width_px, camera->height_px, with_camera);
-        arguments.options.lens = with_camera.lens;
+        if (arguments.truth_of == TruthOf::image) {
+            camera->reference_px.reset();
+            camera->theta_offset_rad = 0;
+        }
+        use_camera(*camera, camera->width_px, camera->height_px, arguments.options);
     }
     arguments.setup.preset = arguments.preset.value_or(Preset::nominal);
     Pattern& pattern = arguments.setup.pattern;
@@ -243,8 +274,14 @@ void add_evaluate(CLI::App& app, int& exit_code) {
     add_attempt_options(*command, arguments->options);
     add_code_option(*command, arguments->options.profile);
     add_spacing_option(*command, arguments->spacing_mm);
-    add_camera_option(*command, arguments->camera, "Camera file: the lens that is corrected in DIR")
-        ->excludes(add_lens_option(*command, arguments->options.lens));
+    CLI::Option* camera = add_camera_option(
+        *command, arguments->camera, "Camera file that DIR is located with, as by locate --camera");
+    camera->excludes(add_lens_option(*command, arguments->options.lens));
+    add_named(*command, "--truth", kTruths, "image",
+              "Whose pose truth.csv has: that of the image centre, as simulate writes it, or that "
+              "of the camera file's reference_px and theta_offset_rad",
+              [arguments](TruthOf truth) { arguments->truth_of = truth; })
+        ->needs(camera);
     command->get_option("--code")->default_str("as in truth.csv, or anoto");
     command->get_option("--spacing")->default_str("as in truth.csv, or 0.508");
     command

@@ -183,7 +183,9 @@ class Locator {
         options_.profile = profile;
         const Fix fix = locate(image_.view(), options_, *workspace_);
         if (!arguments_.camera) return fix;
-        return with_camera(fix, *arguments_.camera, options_, *workspace_);
+        const auto place = find_sheet(sheets_, profile, fix);
+        return with_camera(fix, *arguments_.camera, options_, *workspace_,
+                           place ? place->entry->print_scale() : AxisScale{});
     }
 
     Options options_for(const GreyImage& image) const {

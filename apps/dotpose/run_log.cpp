@@ -9,29 +9,12 @@
 #include <fmt/format.h>
 
 #include "dotpose/error.hpp"
+#include "evaluate/csv.hpp"
 
 namespace dotpose::cli {
 namespace {
 
-/// The cells of a line; quoted ones may hold commas and doubled quotes. Names of files with line
-/// breaks are not expected.
-std::vector<std::string> cells_of(const std::string& line) {
-    std::vector<std::string> cells(1);
-    bool is_quoted = false;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-        const char c = line[i];
-        if (c == '"' && is_quoted && i + 1 < line.size() && line[i + 1] == '"') {
-            cells.back() += line[++i];
-        } else if (c == '"') {
-            is_quoted = !is_quoted;
-        } else if (c == ',' && !is_quoted) {
-            cells.emplace_back();
-        } else {
-            cells.back() += c;
-        }
-    }
-    return cells;
-}
+using csv::cells_of;
 
 /// Looks up the cells of a row by the names of the header.
 class Row {

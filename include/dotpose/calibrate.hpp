@@ -53,6 +53,7 @@ const char* name(CalibrationVerdict verdict);
 /// One dot of one frame: by how much it is off where the camera's model has it, in px of the
 /// undistorted image.
 struct CalibrationDot {
+    int frame = 0;      ///< its index
     PixelPoint pixel;   ///< where it was seen
     PixelPoint before;  ///< residual of a camera without distortion, skew and tilt
     PixelPoint after;   ///< residual of the calibrated camera
@@ -83,14 +84,27 @@ struct LensCalibration {
 LensCalibration calibrate_lens(int frames, const FrameAt& frame_at,
                                const CalibrateOptions& options);
 
+/// The image centre of one frame of a turn, from the point that stays put: along the pattern's
+/// axes.
+struct SpinStation {
+    double x_mm = 0;
+    double y_mm = 0;
+    double theta_rad = 0;
+    double off_x_mm = 0;  ///< where this frame alone has the point that stays put, less where it is
+    double off_y_mm = 0;
+};
+
 /// Where the camera sits: the point that stays put while the robot turns on the spot.
 struct SpinCalibration {
     Camera camera;  ///< the one given, with `reference_px` set
+    /// The same point in mm from what the image centre looks at, along the image axes there.
+    CameraPoint offset_mm;
     int frames = 0;
     int located = 0;
     double sigma_mm = 0;     ///< standard deviation of the point, per axis
     double residual_mm = 0;  ///< rms of the frames about it, per axis: how well the robot stood
     double turn_rad = 0;     ///< smallest arc that holds all angles
+    std::vector<SpinStation> stations;
 };
 
 /// At least 3 frames over more than 30 degrees; a full turn in 12 is good. `camera`: its lens and
@@ -115,12 +129,35 @@ DriveCalibration calibrate_drive(int frames, const FrameAt& frame_at,
                                  const std::optional<Camera>& camera,
                                  const CalibrateOptions& options);
 
+/// What makes print scales true. Frames tell how much longer one sheet was printed than another
+/// one, and than along its other axis; but no frame tells what a millimetre is.
+struct ScaleReference {
+    enum class By {
+        fixed_sheet,  ///< nothing: the mean of both print scales of the fixed sheet stays
+        camera,       ///< the camera's mm per px are true, as calibrated with a true spacing
+        width         ///< the true width of a sheet was measured
+    };
+    By by = By::fixed_sheet;
+    std::string sheet;    ///< whose width
+    double width_mm = 0;  ///< from the first to the last column of intersections
+};
+
+/// What is known of print scales before the first frame: this is their deviation from what the
+/// sheet file says.
+inline constexpr double kUsualPrintError = 0.003;
+/// Whether frames told a print scale, rather than the sheet file.
+inline constexpr bool is_told(double sigma_scale) {
+    return sigma_scale < kUsualPrintError / 2;
+}
+
 /// One sheet, after stitching.
 struct StitchedSheet {
     std::string name;
     double sigma_mm = 0;   ///< of the place of its corner against the fixed sheet, per axis
     double sigma_rad = 0;  ///< of its yaw
     bool is_fixed = false;
+    double sigma_scale_x = 0;  ///< of its print scales
+    double sigma_scale_y = 0;
 };
 /// Two sheets that some frames show together.
 struct Seam {
@@ -130,25 +167,51 @@ struct Seam {
     double residual_mm = 0;   ///< rms per axis, of the frames
     double residual_rad = 0;  ///< rms
 };
+/// The image centre of one frame by both sheets: from their first intersections, in mm as meant to
+/// be printed.
+struct SeamSighting {
+    std::size_t first = 0;  ///< index of the sheet
+    std::size_t second = 0;
+    double first_x_mm = 0;
+    double first_y_mm = 0;
+    double second_x_mm = 0;
+    double second_y_mm = 0;
+};
 struct Stitching {
     std::vector<SheetEntry>
-        sheets;  ///< those given, in order; the world poses of those stitched set
+        sheets;  ///< those given, in order; world poses and print scales of those stitched set
     std::vector<StitchedSheet> stitched;
     std::vector<Seam> seams;
+    std::vector<SeamSighting> sightings;   ///< of connected sheets
     std::vector<std::string> unconnected;  ///< sheets that no seam joins to the fixed one
     int frames = 0;
-    int used = 0;  ///< frames that show two sheets
+    int used = 0;              ///< frames that show two sheets
+    ScaleReference reference;  ///< of the print scales
 };
 
-/// Lays sheets out in the world by frames that show parts of two. The first sheet with a world pose
-/// keeps it; if none has one, the first that is seen becomes the world: its corner the origin, its
-/// upper edge the x axis. `camera`: lens and view; without, the view is fitted to each part of a
-/// frame, which is less exact. Throws Error: no sheets, no frame shows two of them.
+/// Lays sheets out in the world by frames that show parts of two, and finds by how much they were
+/// printed longer than meant. The first sheet with a world pose keeps it; if none has one, the
+/// first that is seen becomes the world: its corner the origin, its upper edge the x axis.
+/// `camera`: lens and view; without a view, which only mounted cameras have, it is fitted to each
+/// part of a frame. Then places are less exact, and they hold if the fixed sheet was printed to the
+/// scales that the sheet file says. Throws
+/// Error: no sheets, no frame shows two of them, the sheet of the reference not among those joined;
+/// BadArgument: a reference that does not exist.
 Stitching stitch_sheets(int frames, const FrameAt& frame_at, std::vector<SheetEntry> sheets,
-                        const std::optional<Camera>& camera, const CalibrateOptions& options);
+                        const std::optional<Camera>& camera, const CalibrateOptions& options,
+                        const ScaleReference& reference = {});
 
 /// Draws the residual fields before and after, and the dots' coverage of the image, as SVG.
 /// Throws Error if the file cannot be written.
 void draw_calibration(const std::filesystem::path& path, const LensCalibration& calibration);
+
+/// Draws where the camera was while the robot turned, and where each frame has the point that stays
+/// put. Throws Error if the file cannot be written.
+void draw_spin(const std::filesystem::path& path, const SpinCalibration& calibration);
+
+/// Draws how sheets lie, as the sheet file had it before and as stitched, with the disagreement of
+/// frames over the seams. Throws Error if the file cannot be written.
+void draw_stitching(const std::filesystem::path& path, std::span<const SheetEntry> before,
+                    const Stitching& stitching);
 
 }  // namespace dotpose

@@ -21,6 +21,7 @@
 #include "dotpose/error.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/options.hpp"
+#include "dotpose/sheet.hpp"
 #include "dotpose/workspace.hpp"
 
 namespace dotpose {
@@ -64,7 +65,7 @@ struct Camera {
     /// The point whose pose is wanted, an undistorted pixel; it may lie outside the image. None:
     /// the image centre.
     std::optional<PixelPoint> reference_px;
-    /// Heading of the robot minus theta of the image x axis.
+    /// Heading of the robot minus theta of the image x axis at the image centre.
     double theta_offset_rad = 0;
 
     /// Hints for who sets up the sensor; dotpose itself does not use them.
@@ -103,6 +104,20 @@ CameraPoint on_paper(const Camera& camera, PixelPoint undistorted);
 /// The inverse.
 PixelPoint on_image(const Camera& camera, CameraPoint point);
 
+/// Direction of the image x axis at an undistorted pixel, in the camera frame.
+double image_axis_rad(const Camera& camera, PixelPoint undistorted);
+
+/// Place in mm from what the image centre looks at, x along the image x axis there, of an
+/// undistorted pixel; `camera.paper` must be known. Two calibrations of one camera agree in this
+/// frame to microns, but not in the pixels of points far outside the image.
+CameraPoint from_image_centre(const Camera& camera, PixelPoint undistorted);
+/// The inverse.
+PixelPoint pixel_from_image_centre(const Camera& camera, CameraPoint point);
+
+/// The reference point of `camera` in terms of another calibration of it. If one of the views is
+/// not known, the same pixel.
+std::optional<PixelPoint> reference_in(const Camera& other, const Camera& camera);
+
 /// Sets lens and reference point for images of this size. Throws BadArgument if the camera's are of
 /// another size.
 void use_camera(const Camera& camera, int width_px, int height_px, Options& options);
@@ -111,7 +126,9 @@ void use_camera(const Camera& camera, int width_px, int height_px, Options& opti
 /// camera that is mounted sees the paper always alike: its view is taken from the file, and only
 /// place, angle and one scale (sheets are printed differently) are fitted to the dots, which is
 /// more exact, above all far from the image centre. Theta becomes the heading of the robot.
+/// `print`: of the sheet that the fix lies on, as far as it is known; the fix stays in terms of the
+/// pattern as it was meant to be printed.
 Fix with_camera(const Fix& fix, const Camera& camera, const Options& options,
-                const Workspace& workspace);
+                const Workspace& workspace, const AxisScale& print = {});
 
 }  // namespace dotpose

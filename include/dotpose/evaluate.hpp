@@ -31,6 +31,7 @@
 #include "dotpose/options.hpp"
 #include "dotpose/sheet.hpp"
 #include "dotpose/simulate.hpp"
+#include "dotpose/workspace.hpp"
 
 namespace dotpose {
 
@@ -93,6 +94,9 @@ struct FrameRun {
     FrameSource frame_at;
     /// Every frame is located with each of these.
     std::vector<Options> options = {Options{}};
+    /// What else is known of a fix that was just made with these options and workspace, such as
+    /// `with_camera` tells; none: nothing. Called from several threads; its time does not count.
+    std::function<Fix(const Fix&, const Options&, const Workspace&)> refine;
     int threads = 0;  ///< 0: one for each core
     Progress progress;
 };

@@ -21,6 +21,13 @@ struct Pattern {
     double dot_mm = kDefaultSpacing_mm / 6;           ///< diameter of a dot
 };
 
+/// True length of what was printed as a unit length: printers differ, and feed paper unlike they
+/// scan along it.
+struct AxisScale {
+    double x = 1;
+    double y = 1;
+};
+
 /// One page: `columns` x `rows` intersections, the first of which is `origin`.
 struct Sheet {
     Pattern pattern;

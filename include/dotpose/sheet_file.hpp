@@ -58,6 +58,7 @@ struct SheetEntry {
     /// scale.
     double print_scale_x = 1;
     double print_scale_y = 1;
+    AxisScale print_scale() const { return {print_scale_x, print_scale_y}; }
     /// Where the top left corner of the page lies in the world, and the direction in which the
     /// page's upper edge runs from there. None: not known.
     std::optional<WorldPose> world;

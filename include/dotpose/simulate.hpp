@@ -107,6 +107,9 @@ struct Page {
     Cell origin;
     std::uint32_t columns = 0;
     std::uint32_t rows = 0;
+    /// Above 0. Pose and `displacement_mm` are told as meant to be printed, offsets and theta are
+    /// those on the paper.
+    AxisScale print_scale;
 };
 
 Page page_of(const Sheet& sheet, std::uint64_t seed = 1);

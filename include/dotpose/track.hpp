@@ -1,6 +1,7 @@
 /// Tracker: the state of a robot from frame to frame. Position, angle and velocities with their
-/// covariance, by a constant-velocity filter on the plane; and events: `fix`, `lost`, `kidnapped`,
-/// `stationary`, `moving`. docs/tracking.md explains both, and how weak fixes are judged.
+/// covariance, by a filter that fits itself to how the robot moves; and events: `fix`, `lost`,
+/// `kidnapped`, `stationary`, `moving`. docs/tracking.md explains both, and how weak fixes are
+/// judged.
 ///
 ///     Tracker tracker;
 ///     for (;;) {
@@ -47,8 +48,8 @@ struct Sighting {
 Sighting sighting_of(const Fix& fix, std::int32_t spacing_nm, std::int64_t time_us);
 
 struct TrackOptions {
-    /// Spread of the robot's acceleration from frame to frame. Larger follows faster and smooths
-    /// less. Default: a table-top robot.
+    /// Deviation of the robot's acceleration while it manoeuvres; while it does not, the filter
+    /// finds that out. Larger follows sudden changes faster. Default: a table-top robot.
     float acceleration_mm_s2 = 600;
     float angular_acceleration_rad_s2 = 6;
 
@@ -136,6 +137,28 @@ struct Track {
     TrackedPose pose;
 };
 
+/// Of the filter; for Tracker alone.
+namespace track {
+
+using Vector3 = std::array<float, 3>;
+using Matrix3 = std::array<Vector3, 3>;
+using Vector9 = std::array<float, 9>;
+using Covariance9 = std::array<Vector9, 9>;
+
+struct Motion {
+    TrackedPose pose;
+    Vector3 acceleration{};    ///< mm/s^2, rad/s^2
+    Covariance9 covariance{};  ///< of (x, y, theta), their velocities and accelerations
+    /// Variance of the acceleration along each axis, in parts of that in TrackOptions.
+    Vector3 agility{1, 1, 1};
+    Vector3 innovation{};  ///< of the newest sighting
+    Matrix3 noise{};       ///< the same: its covariance
+    /// Mean square of the innovations, in units of what their covariances say.
+    float scatter = 1;
+};
+
+}  // namespace track
+
 class Tracker {
   public:
     /// Starts lost.
@@ -152,7 +175,7 @@ class Tracker {
     bool has_prior() const { return !track_.is_lost; }
 
   private:
-    Verdict judge(const TrackedPose& predicted, const Sighting& sighting);
+    Verdict judge(const track::Motion& prediction, const Sighting& sighting);
     bool is_confirmed(const Sighting& sighting);
     void restart(const Sighting& sighting);
     void watch_motion();
@@ -162,7 +185,7 @@ class Tracker {
     bool was_seen_ = false;
     bool has_frame_ = false;
     std::int64_t newest_us_ = 0;
-    TrackedPose last_;    ///< at the last believed sighting
+    track::Motion last_;  ///< at the last believed sighting
     Sighting candidate_;  ///< the newest one that contradicts
     int agreeing_ = 0;    ///< candidates that agree with each other
     TrackedPose rest_;    ///< from where movement is counted

@@ -224,6 +224,8 @@ struct Decoding {
     Place place;  ///< where grid cell (0, 0) stands in the code, seen or not
     /// Whether `Workspace::line_scores` are those of the region, turned so.
     bool lines_are_scored = false;
+    /// log2 of the probability that the position is wrong along x, along y, times 256.
+    std::array<int, 2> p_wrong_log2_q8{};
 };
 
 /// All stages' memory and results. Use one of the aliases below; the stages see spans only.

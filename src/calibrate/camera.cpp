@@ -122,6 +122,35 @@ PixelPoint on_image(const Camera& camera, CameraPoint point) {
     return {camera.centre_px.u + divisor * flat_a, camera.centre_px.v + divisor * flat_b};
 }
 
+double image_axis_rad(const Camera& camera, PixelPoint point) {
+    const CameraPoint from = on_paper(camera, {point.u - 0.5, point.v});
+    const CameraPoint to = on_paper(camera, {point.u + 0.5, point.v});
+    return std::atan2(to.y_mm - from.y_mm, to.x_mm - from.x_mm);
+}
+
+CameraPoint from_image_centre(const Camera& camera, PixelPoint point) {
+    const CameraPoint middle = on_paper(camera, image_centre(camera));
+    const CameraPoint at = on_paper(camera, point);
+    const double angle = image_axis_rad(camera, image_centre(camera));
+    const double x = at.x_mm - middle.x_mm;
+    const double y = at.y_mm - middle.y_mm;
+    return {std::cos(angle) * x + std::sin(angle) * y, std::cos(angle) * y - std::sin(angle) * x};
+}
+
+PixelPoint pixel_from_image_centre(const Camera& camera, CameraPoint point) {
+    const CameraPoint middle = on_paper(camera, image_centre(camera));
+    const double angle = image_axis_rad(camera, image_centre(camera));
+    const double c = std::cos(angle);
+    const double s = std::sin(angle);
+    return on_image(camera, {middle.x_mm + c * point.x_mm - s * point.y_mm,
+                             middle.y_mm + s * point.x_mm + c * point.y_mm});
+}
+
+std::optional<PixelPoint> reference_in(const Camera& other, const Camera& camera) {
+    if (!camera.reference_px || !camera.paper || !other.paper) return camera.reference_px;
+    return pixel_from_image_centre(other, from_image_centre(camera, *camera.reference_px));
+}
+
 void use_camera(const Camera& camera, int width_px, int height_px, Options& options) {
     if (camera.width_px != width_px || camera.height_px != height_px) {
         throw BadArgument(fmt::format("the camera file is for images of {} x {} px, not {} x {} px",

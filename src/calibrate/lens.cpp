@@ -233,8 +233,10 @@ void describe(const std::vector<Sighting>& sightings, const Fits& fits, LensCali
             }
             const auto& before = fits.before.residuals_px[i][k];
             const auto& after = fits.after.residuals_px[i][k];
-            result.seen.push_back(
-                {sighting.dots[k].pixel, {before[0], before[1]}, {after[0], after[1]}});
+            result.seen.push_back({sighting.frame,
+                                   sighting.dots[k].pixel,
+                                   {before[0], before[1]},
+                                   {after[0], after[1]}});
         }
     }
     measure_coverage(result);

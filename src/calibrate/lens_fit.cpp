@@ -4,8 +4,9 @@
 #include <cmath>
 #include <complex>
 
-#include <Eigen/Cholesky>
 #include <ceres/ceres.h>
+
+#include "calibrate/normal_inverse.hpp"
 
 namespace dotpose::calibrate {
 namespace {
@@ -294,52 +295,19 @@ class Fitter {
         SharedModel& c = fit_.camera;
         if (fit_.stand == Stand::ideal) return;
         const bool by_hand = fit_.stand == Stand::by_hand;
-        const std::vector<double*> shared = {c.lens.data(),
-                                             by_hand ? c.shape.data() : c.paper.data()};
+        const std::vector<double*> shared = {
+            c.lens.data(), by_hand ? c.shape.data() : c.paper.data(), &c.displacement};
         const Eigen::MatrixXd covariance =
-            fit_.residual_px * fit_.residual_px * inverse_normal(problem, shared);
+            fit_.residual_px * fit_.residual_px * normal_inverse(problem, shared);
         const auto sigma = [&](Eigen::Index i) { return std::sqrt(covariance(i, i)); };
         for (Eigen::Index i = 0; i < 3; ++i) {
             fit_.sigma.lens[static_cast<std::size_t>(i)] = sigma(i);
             if (by_hand) fit_.sigma.shape[static_cast<std::size_t>(i)] = sigma(3 + i);
         }
         if (by_hand) return;
-        fit_.paper_covariance = covariance.bottomRightCorner<5, 5>();
+        fit_.paper_covariance = covariance.block<5, 5>(3, 3);
         for (Eigen::Index i = 0; i < 5; ++i)
             fit_.sigma.paper[static_cast<std::size_t>(i)] = sigma(3 + i);
-    }
-
-    /// The block of (J^T J)^-1 that belongs to some blocks of parameters. Of these problems, with
-    /// few parameters and many dots, ceres::Covariance would take a minute.
-    static Eigen::MatrixXd inverse_normal(ceres::Problem& problem,
-                                          const std::vector<double*>& wanted) {
-        std::vector<double*> blocks;
-        problem.GetParameterBlocks(&blocks);
-        std::erase_if(blocks, [&](double* b) { return std::ranges::count(wanted, b) > 0; });
-        blocks.insert(blocks.begin(), wanted.begin(), wanted.end());
-        ceres::Problem::EvaluateOptions options;
-        options.parameter_blocks = blocks;
-        ceres::CRSMatrix rows;
-        problem.Evaluate(options, nullptr, nullptr, nullptr, &rows);
-        Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(rows.num_cols, rows.num_cols);
-        for (std::size_t row = 0; row + 1 < rows.rows.size(); ++row) {
-            const auto begin = static_cast<std::size_t>(rows.rows[row]);
-            const auto end = static_cast<std::size_t>(rows.rows[row + 1]);
-            for (std::size_t i = begin; i < end; ++i) {
-                for (std::size_t j = begin; j < end; ++j)
-                    normal(rows.cols[i], rows.cols[j]) += rows.values[i] * rows.values[j];
-            }
-        }
-        Eigen::Index size = 0;
-        for (double* block : wanted)
-            size += problem.ParameterBlockSize(block);
-        // Of one scale, so that no precision is lost.
-        const Eigen::VectorXd scale = normal.diagonal().cwiseSqrt().cwiseMax(1e-30).cwiseInverse();
-        const Eigen::MatrixXd scaled = scale.asDiagonal() * normal * scale.asDiagonal();
-        const Eigen::MatrixXd inverse =
-            scaled.ldlt().solve(Eigen::MatrixXd::Identity(rows.num_cols, size));
-        return scale.head(size).asDiagonal() * inverse.topRows(size) *
-               scale.head(size).asDiagonal();
     }
 
     const std::vector<Sighting>& frames_;

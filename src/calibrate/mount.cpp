@@ -103,17 +103,12 @@ double arc_of(const std::vector<Station>& stations) {
 /// The undistorted pixel of a point given in mm from what the image centre looks at, along the
 /// image axes there.
 PixelPoint pixel_of(const Vector2d& offset_mm, const Stations& stations) {
-    const PixelPoint centre = image_centre(stations.camera);
     if (!stations.camera.paper) {
+        const PixelPoint centre = image_centre(stations.camera);
         return {centre.u + offset_mm.x() / stations.mm_per_px,
                 centre.v + offset_mm.y() / stations.mm_per_px};
     }
-    const CameraPoint middle = on_paper(stations.camera, centre);
-    const CameraPoint right = on_paper(stations.camera, {centre.u + 0.5, centre.v});
-    const CameraPoint left = on_paper(stations.camera, {centre.u - 0.5, centre.v});
-    const double axis_rad = std::atan2(right.y_mm - left.y_mm, right.x_mm - left.x_mm);
-    const Vector2d point = Vector2d(middle.x_mm, middle.y_mm) + turn(axis_rad) * offset_mm;
-    return on_image(stations.camera, {point.x(), point.y()});
+    return pixel_from_image_centre(stations.camera, {offset_mm.x(), offset_mm.y()});
 }
 
 void require_stations(std::size_t found, int least, int frames) {
@@ -152,13 +147,19 @@ SpinCalibration calibrate_spin(int frames, const FrameAt& frame_at,
     const Vector2d pivot = solved.head<2>();
     const Vector2d offset = solved.tail<2>();
     double squares = 0;
-    for (const Station& station : found.stations)
-        squares += (pivot - turn(station.theta_rad) * offset - station.place_mm).squaredNorm();
+    for (const Station& station : found.stations) {
+        const Vector2d from_pivot = station.place_mm - pivot;
+        const Vector2d off = from_pivot + turn(station.theta_rad) * offset;
+        squares += off.squaredNorm();
+        result.stations.push_back(
+            {from_pivot.x(), from_pivot.y(), station.theta_rad, off.x(), off.y()});
+    }
     const int freedom = 2 * result.located - 4;
     result.residual_mm = std::sqrt(squares / freedom);
     result.sigma_mm = result.residual_mm * std::sqrt(normal.inverse()(2, 2));
     result.camera = camera.value_or(found.camera);
     result.camera.reference_px = pixel_of(offset, found);
+    result.offset_mm = {offset.x(), offset.y()};
     result.camera.sigma["reference_u_px"] = result.sigma_mm / found.mm_per_px;
     result.camera.sigma["reference_v_px"] = result.sigma_mm / found.mm_per_px;
     try {

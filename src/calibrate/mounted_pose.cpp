@@ -2,13 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 #include <vector>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Core>
-
+#include "calibrate/dot_fit.hpp"
 #include "calibrate/sighting.hpp"
 
 namespace dotpose {
@@ -16,104 +13,41 @@ namespace {
 
 using namespace dotpose::calibrate;
 
-constexpr int kRounds = 3;
-constexpr double kOutlier_sigmas = 4;
 constexpr std::size_t kLeastDots = 12;
 
-/// A dot in the camera frame, mm from `middle`; and where the code has it, in spacings.
-struct Match {
-    double x, y;
-    double nominal_x, nominal_y;      ///< its intersection
-    double displaced_x, displaced_y;  ///< per unit of displacement
-};
+/// printed + displacement * displaced = place + (c, -s; s, c) (x, y), all in spacings of true
+/// length but (x, y), in mm from `middle`; parameters: place, c, s, displacement, which ink and
+/// blur change.
+constexpr int kParameters = 5;
 
-/// nominal + displacement * displaced = place + (c, -s; s, c) (x, y); parameters: place, c, s,
-/// displacement, which ink and blur change.
-using Parameters = Eigen::Matrix<double, 5, 1>;
-
-struct PoseFit {
+struct PoseFit : DotFit<kParameters> {
     CameraPoint middle;
-    Parameters parameters = Parameters::Zero();
-    double spread = 0;  ///< sum of x^2 + y^2
-    double variance = 0;
-    int dots = 0;
 };
 
-std::array<double, 2> residual(const Match& m, const Parameters& p) {
-    return {p[0] + p[2] * m.x - p[3] * m.y - p[4] * m.displaced_x - m.nominal_x,
-            p[1] + p[3] * m.x + p[2] * m.y - p[4] * m.displaced_y - m.nominal_y};
+Eigen::Matrix<double, 2, 4> rows_at(double x, double y) {
+    return Eigen::Matrix<double, 2, 4>{{1, 0, x, -y}, {0, 1, y, x}};
 }
 
-std::vector<Match> matches_of(const Workspace& workspace, const Camera& camera, Profile profile,
-                              CameraPoint& middle) {
-    std::vector<Match> matches;
-    middle = {};
-    for (const SightedDot& dot : dots_read(workspace, profile)) {
-        const CameraPoint point = on_paper(camera, dot.pixel);
-        matches.push_back({point.x_mm, point.y_mm, double(dot.step.x), double(dot.step.y),
-                           double(dx(dot.symbol)), double(dy(dot.symbol))});
-        middle.x_mm += point.x_mm;
-        middle.y_mm += point.y_mm;
+PoseFit fit_pose(const std::vector<SightedDot>& dots, const Camera& camera,
+                 const AxisScale& print) {
+    std::vector<CameraPoint> points;
+    CameraPoint middle;
+    for (const SightedDot& dot : dots) {
+        points.push_back(on_paper(camera, dot.pixel));
+        middle.x_mm += points.back().x_mm / static_cast<double>(dots.size());
+        middle.y_mm += points.back().y_mm / static_cast<double>(dots.size());
     }
-    const auto count = static_cast<double>(std::max<std::size_t>(matches.size(), 1));
-    middle = {middle.x_mm / count, middle.y_mm / count};
-    for (Match& match : matches) {
-        match.x -= middle.x_mm;
-        match.y -= middle.y_mm;
+    std::vector<DotEquation<kParameters>> equations;
+    for (std::size_t i = 0; i < dots.size(); ++i) {
+        DotEquation<kParameters> equation;
+        equation.rows.leftCols<4>() =
+            rows_at(points[i].x_mm - middle.x_mm, points[i].y_mm - middle.y_mm);
+        equation.rows.col(4) =
+            Eigen::Vector2d(-print.x * dx(dots[i].symbol), -print.y * dy(dots[i].symbol));
+        equation.wanted = {print.x * dots[i].step.x, print.y * dots[i].step.y};
+        equations.push_back(equation);
     }
-    return matches;
-}
-
-/// One fit to the dots within `limit` (squared, spacings) of the last one.
-void fit_once(const std::vector<Match>& matches, double limit, PoseFit& fit) {
-    Eigen::Matrix<double, 5, 5> normal = Eigen::Matrix<double, 5, 5>::Zero();
-    Parameters right = Parameters::Zero();
-    std::vector<const Match*> used;
-    for (const Match& m : matches) {
-        const auto [du, dv] = residual(m, fit.parameters);
-        if (du * du + dv * dv > limit) continue;
-        used.push_back(&m);
-        const Parameters along_x{1, 0, m.x, -m.y, -m.displaced_x};
-        const Parameters along_y{0, 1, m.y, m.x, -m.displaced_y};
-        normal += along_x * along_x.transpose() + along_y * along_y.transpose();
-        right += along_x * m.nominal_x + along_y * m.nominal_y;
-    }
-    fit.parameters = normal.ldlt().solve(right);
-    fit.dots = static_cast<int>(used.size());
-    fit.spread = 0;
-    double squares = 0;
-    for (const Match* m : used) {
-        const auto [du, dv] = residual(*m, fit.parameters);
-        squares += du * du + dv * dv;
-        fit.spread += m->x * m->x + m->y * m->y;
-    }
-    fit.variance = squares / std::max(2 * fit.dots - 5, 1);
-}
-
-PoseFit fit_pose(const std::vector<Match>& matches, CameraPoint middle) {
-    PoseFit fit;
-    fit.middle = middle;
-    double limit = std::numeric_limits<double>::infinity();
-    for (int round = 0; round < kRounds; ++round) {
-        fit_once(matches, limit, fit);
-        std::vector<double> squares;
-        for (const Match& match : matches) {
-            const auto [du, dv] = residual(match, fit.parameters);
-            squares.push_back(du * du + dv * dv);
-        }
-        const auto median = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
-        std::ranges::nth_element(squares, median);
-        // Squared distances of a plane Gaussian have their median at 1.39 sigma^2.
-        limit = kOutlier_sigmas * kOutlier_sigmas * *median / 1.386;
-    }
-    return fit;
-}
-
-/// The direction, in the camera frame, of the image x axis at an undistorted pixel.
-double image_axis_rad(const Camera& camera, PixelPoint pixel) {
-    const CameraPoint from = on_paper(camera, {pixel.u - 0.5, pixel.v});
-    const CameraPoint to = on_paper(camera, {pixel.u + 0.5, pixel.v});
-    return std::atan2(to.y_mm - from.y_mm, to.x_mm - from.x_mm);
+    return {fit_dots(equations), middle};
 }
 
 std::uint32_t to_bam(double angle_rad) {
@@ -133,55 +67,54 @@ void write_place(double x, double y, Profile profile, const Place& place, Fix& f
     fix.fraction_y_q16 = static_cast<std::uint16_t>(y_q16 & 65535);
 }
 
-void write_covariance(const PoseFit& fit, double lever_x, double lever_y, Fix& out) {
-    // The place of `middle` and the turn and scale about it are independent of each other.
-    const double at_middle = fit.variance / fit.dots;
-    const double per_lever = fit.variance / fit.spread;
-    const double size = std::hypot(fit.parameters[2], fit.parameters[3]);
-    const double lever2 = lever_x * lever_x + lever_y * lever_y;
-    const auto set = [&out](int i, int j, double value) {
-        out.covariance[i][j] = out.covariance[j][i] = static_cast<float>(value);
-    };
-    // The lever as it lies on the pattern.
-    const double x = fit.parameters[2] * lever_x - fit.parameters[3] * lever_y;
-    const double y = fit.parameters[3] * lever_x + fit.parameters[2] * lever_y;
-    const double turn = per_lever / (size * size);
-    set(0, 0, at_middle + per_lever * lever2);
-    set(1, 1, at_middle + per_lever * lever2);
-    set(0, 1, 0);
-    set(0, 2, -y * turn);
-    set(1, 2, x * turn);
-    set(2, 2, turn);
+/// `x`, `y`: the reference point in mm from the middle of the dots; `theta_rad`: true and nominal.
+void write_covariance(const PoseFit& fit, double x, double y, const AxisScale& print, Fix& out) {
+    const double c = fit.parameters[2];
+    const double s = fit.parameters[3];
+    const double size2 = c * c + s * s;
+    Eigen::Matrix<double, 3, 4> by_parameter;
+    by_parameter << rows_at(x, y), 0, 0, -s / size2, c / size2;
+    by_parameter.row(0) /= print.x;
+    by_parameter.row(1) /= print.y;
+    const Eigen::Matrix3d covariance =
+        by_parameter * fit.covariance.topLeftCorner<4, 4>() * by_parameter.transpose();
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j)
+            out.covariance[i][j] = static_cast<float>(covariance(i, j));
+    }
 }
 
 }  // namespace
 
 Fix with_camera(const Fix& fix, const Camera& camera, const Options& options,
-                const Workspace& workspace) {
+                const Workspace& workspace, const AxisScale& print) {
     if (fix.status != Status::ok) return fix;
     Fix result = fix;
-    double theta_rad = fix.theta_rad();
-    if (camera.paper) {
-        CameraPoint middle;
-        const auto matches = matches_of(workspace, camera, options.profile, middle);
-        if (matches.size() >= kLeastDots) {
-            const PoseFit pose = fit_pose(matches, middle);
-            const PixelPoint reference{
-                (camera.width_px - 1) / 2.0 + options.reference_dx_q8 / 256.0,
-                (camera.height_px - 1) / 2.0 + options.reference_dy_q8 / 256.0};
-            const CameraPoint at = on_paper(camera, reference);
-            const double x = at.x_mm - middle.x_mm;
-            const double y = at.y_mm - middle.y_mm;
-            const Parameters& p = pose.parameters;
-            write_place(p[0] + p[2] * x - p[3] * y, p[1] + p[3] * x + p[2] * y, options.profile,
-                        workspace.decoding.place, result);
-            write_covariance(pose, x, y, result);
-            result.dots_used = pose.dots;
-            result.residual_px = static_cast<float>(std::sqrt(pose.variance) * fix.spacing_px());
-            theta_rad = std::atan2(p[3], p[2]) + image_axis_rad(camera, reference);
-        }
+    // Of true lengths; nominal ones are turned a little where a print is longer one way.
+    double theta_rad =
+        std::atan2(std::sin(fix.theta_rad()) * print.y, std::cos(fix.theta_rad()) * print.x);
+    const auto dots = dots_read(workspace, options.profile);
+    if (camera.paper && dots.size() >= kLeastDots) {
+        const PoseFit pose = fit_pose(dots, camera, print);
+        const PixelPoint reference{(camera.width_px - 1) / 2.0 + options.reference_dx_q8 / 256.0,
+                                   (camera.height_px - 1) / 2.0 + options.reference_dy_q8 / 256.0};
+        const CameraPoint at = on_paper(camera, reference);
+        const double x = at.x_mm - pose.middle.x_mm;
+        const double y = at.y_mm - pose.middle.y_mm;
+        const Eigen::Vector2d place = rows_at(x, y) * pose.parameters.head<4>();
+        write_place(place.x() / print.x, place.y() / print.y, options.profile,
+                    workspace.decoding.place, result);
+        write_covariance(pose, x, y, print, result);
+        result.dots_used = pose.dots;
+        result.residual_px = static_cast<float>(std::sqrt(pose.variance) * fix.spacing_px());
+        // At the image centre: elsewhere, image rows of a tilted camera run in another direction.
+        const PixelPoint centre{(camera.width_px - 1) / 2.0, (camera.height_px - 1) / 2.0};
+        theta_rad =
+            std::atan2(pose.parameters[3], pose.parameters[2]) + image_axis_rad(camera, centre);
     }
-    result.theta_bam = static_cast<std::int32_t>(to_bam(theta_rad + camera.theta_offset_rad));
+    theta_rad += camera.theta_offset_rad;
+    result.theta_bam = static_cast<std::int32_t>(
+        to_bam(std::atan2(std::sin(theta_rad) / print.y, std::cos(theta_rad) / print.x)));
     return result;
 }
 

@@ -3,12 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include "calibrate/dot_fit.hpp"
 
 namespace dotpose::calibrate {
 namespace {
 
 /// A fix may lie beyond the page whose dots it was read from: by at most a frame.
 constexpr double kBeyondPage_mm = 400;
+/// For the scale along both axes to mean something.
+constexpr std::size_t kLeastDots = 30;
 /// Once this share of a frame's dots is explained, no more parts are looked at.
 constexpr double kNearlyAll = 0.9;
 
@@ -20,42 +28,93 @@ struct Stretch {
 constexpr std::array kStretches = {Stretch{0, 1}, Stretch{0, 0.5}, Stretch{0.5, 0.5},
                                    Stretch{0, 0.66}, Stretch{0.34, 0.66}};
 
-/// The mean cell of the dots that were read, as a fix that lies there.
-Fix at_the_dots(const Fix& fix, const Workspace& w, Profile profile) {
-    double i = 0;
-    double j = 0;
-    double count = 0;
-    for (int row = w.grid.j0; row < w.grid.j0 + w.grid.rows; ++row) {
-        for (int column = w.grid.i0; column < w.grid.i0 + w.grid.columns; ++column) {
-            if (!w.grid.at(column, row).has_dot()) continue;
-            i += column;
-            j += row;
-            ++count;
-        }
-    }
-    const Vec middle{static_cast<std::int32_t>(std::lround(i / std::max(count, 1.0))),
-                     static_cast<std::int32_t>(std::lround(j / std::max(count, 1.0)))};
-    const Vec step = w.decoding.pattern_from_grid(middle);
+/// The fix moved to another place, given in steps from where the pattern of the frame starts.
+Fix moved_to(const Fix& fix, const Workspace& w, Profile profile, Vec step) {
     const Place place = moved(profile, w.decoding.place, step.x, step.y);
     Fix result = fix;
     result.cell = place.cell;
     result.section = place.section;
+    result.fraction_x_q16 = result.fraction_y_q16 = 0;
     return result;
 }
 
+Vec mean_step(const std::vector<SightedDot>& dots) {
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    for (const SightedDot& dot : dots)
+        sum += Eigen::Vector2d(dot.step.x, dot.step.y);
+    sum /= static_cast<double>(std::max<std::size_t>(dots.size(), 1));
+    return {static_cast<std::int32_t>(std::lround(sum.x())),
+            static_cast<std::int32_t>(std::lround(sum.y()))};
+}
+
+/// Place of a fix on a sheet as it was meant to be printed, mm from its first intersection; it may
+/// lie beyond the page.
+struct NominalPlace {
+    Eigen::Vector2d mm;
+    double theta_rad;
+};
+std::optional<NominalPlace> place_beyond(const SheetEntry& entry, Profile profile, const Fix& fix) {
+    SheetEntry large = entry;
+    large.print_scale_x = large.print_scale_y = 1;
+    large.sheet.origin_x_mm = large.sheet.origin_y_mm = kBeyondPage_mm;
+    large.sheet.width_mm += 2 * kBeyondPage_mm;
+    large.sheet.height_mm += 2 * kBeyondPage_mm;
+    const auto place = find_sheet(std::span(&large, 1), profile, fix);
+    if (!place) return std::nullopt;
+    return NominalPlace{{place->x_mm - kBeyondPage_mm, place->y_mm - kBeyondPage_mm},
+                        place->theta_rad};
+}
+
+/// By a camera whose view is known: an affine map fitted to the dots. `first`: where the steps
+/// start.
+void see_with_scale(const std::vector<SightedDot>& dots, const Camera& camera,
+                    const Eigen::Vector2d& first, double spacing_mm, SheetView& view) {
+    std::vector<Eigen::Vector2d> points;
+    for (const SightedDot& dot : dots) {
+        const CameraPoint point = on_paper(camera, dot.pixel);
+        points.emplace_back(point.x_mm, point.y_mm);
+        view.middle += points.back() / static_cast<double>(dots.size());
+    }
+    // Place, axes column by column, displacement.
+    std::vector<DotEquation<7>> equations;
+    for (std::size_t i = 0; i < dots.size(); ++i) {
+        const Eigen::Vector2d p = points[i] - view.middle;
+        DotEquation<7> equation;
+        equation.rows << 1, 0, p.x(), 0, p.y(), 0, -spacing_mm * dx(dots[i].symbol),  //
+            0, 1, 0, p.x(), 0, p.y(), -spacing_mm * dy(dots[i].symbol);
+        equation.wanted = first + spacing_mm * Eigen::Vector2d(dots[i].step.x, dots[i].step.y);
+        equations.push_back(equation);
+    }
+    const DotFit<7> fit = fit_dots(equations);
+    view.place = fit.parameters.head<2>();
+    view.axes << fit.parameters[2], fit.parameters[4], fit.parameters[3], fit.parameters[5];
+    const Eigen::Matrix<double, 6, 6> lower = fit.covariance.topLeftCorner<6, 6>().llt().matrixL();
+    view.whitening = lower.inverse();
+    view.rows = 6;
+}
+
+/// By the fix of any other camera: where its image centre lies, and its x axis.
+void see_without_scale(const Fix& fix, const NominalPlace& centre, double spacing_mm,
+                       SheetView& view) {
+    const double c = std::cos(centre.theta_rad);
+    const double s = std::sin(centre.theta_rad);
+    view.place = centre.mm;
+    view.axes << c, -s, s, c;
+    Eigen::Matrix3d covariance;
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j)
+            covariance(i, j) = static_cast<double>(fix.covariance[i][j]);
+    }
+    const Eigen::DiagonalMatrix<double, 3> units(spacing_mm, spacing_mm, 1);
+    const Eigen::Matrix3d lower = (units * covariance * units).llt().matrixL();
+    Eigen::Matrix<double, 3, 6> known = Eigen::Matrix<double, 3, 6>::Zero();
+    known.leftCols<2>().topRows<2>().setIdentity();
+    known.row(2).segment<2>(2) << -s, c;  // across the x axis: the sine of the turn
+    view.whitening.topRows<3>() = lower.inverse() * known;
+    view.rows = 3;
+}
+
 }  // namespace
-
-PlanePose PlanePose::operator*(const PlanePose& inner) const {
-    const double c = std::cos(turn);
-    const double s = std::sin(turn);
-    return {x + c * inner.x - s * inner.y, y + s * inner.x + c * inner.y, turn + inner.turn};
-}
-
-PlanePose PlanePose::inverse() const {
-    const double c = std::cos(turn);
-    const double s = std::sin(turn);
-    return {-c * x - s * y, s * x - c * y, -turn};
-}
 
 SeamLocator::SeamLocator(const std::vector<SheetEntry>& sheets, const std::optional<Camera>& camera)
     : sheets_(sheets), camera_(camera), workspace_(std::make_unique<LargeWorkspace>()) {
@@ -101,21 +160,19 @@ std::vector<SheetView> SeamLocator::views_with(const GreyImage& image, Effort ef
         const auto same = std::ranges::find(views, view->sheet, &SheetView::sheet);
         if (same == views.end()) {
             views.push_back(*view);
-        } else if (view->dots > same->dots) {
+        } else if (view->dots.size() > same->dots.size()) {
             *same = *view;
         }
-        int dots = 0;
+        std::size_t dots = 0;
         for (const SheetView& known : views)
-            dots += known.dots;
-        if (dots > kNearlyAll * dots_seen) break;
+            dots += known.dots.size();
+        if (static_cast<double>(dots) > kNearlyAll * dots_seen) break;
     }
     return views;
 }
 
-std::optional<SheetView> SeamLocator::view_in(const GreyImage& image, const Part& part,
-                                              Effort effort) {
-    const ImageView pixels{image.view().row(part.v) + part.u, part.width, part.height,
-                           image.view().stride_bytes};
+/// The camera as it would be if its sensor ended with the part; wanted is the image centre.
+Camera SeamLocator::camera_of(const GreyImage& image, const Part& part) const {
     Camera camera;
     if (camera_) {
         camera = *camera_;
@@ -126,48 +183,59 @@ std::optional<SheetView> SeamLocator::view_in(const GreyImage& image, const Part
     } else {
         camera.centre_px = {(image.width_px - 1) / 2.0, (image.height_px - 1) / 2.0};
     }
-    // The camera as it would be if its sensor ended with the part.
     camera.width_px = part.width;
     camera.height_px = part.height;
     camera.centre_px = {camera.centre_px.u - part.u, camera.centre_px.v - part.v};
     camera.reference_px =
         PixelPoint{(image.width_px - 1) / 2.0 - part.u, (image.height_px - 1) / 2.0 - part.v};
-    camera.theta_offset_rad = 0;
+    return camera;
+}
+
+std::optional<SheetView> SeamLocator::view_in(const GreyImage& image, const Part& part,
+                                              Effort effort) {
+    const ImageView pixels{image.view().row(part.v) + part.u, part.width, part.height,
+                           image.view().stride_bytes};
+    const Camera camera = camera_of(image, part);
     Options options;
     options.effort = effort;
     use_camera(camera, part.width, part.height, options);
     for (const Profile profile : profiles_) {
         options.profile = profile;
-        const Fix fix =
-            with_camera(locate(pixels, options, *workspace_), camera, options, *workspace_);
+        const Fix fix = locate(pixels, options, *workspace_);
         if (fix.status != Status::ok) continue;
-        if (auto view = view_of(fix, profile)) return view;
+        if (auto view = view_of(fix, camera, profile)) return view;
     }
     return std::nullopt;
 }
 
-std::optional<SheetView> SeamLocator::view_of(const Fix& fix, Profile profile) const {
-    const auto place = find_sheet(sheets_, profile, at_the_dots(fix, *workspace_, profile));
-    if (!place) return std::nullopt;
-    // The image centre may lie on another sheet, or on none: on this one's page made larger.
-    SheetEntry large = *place->entry;
-    large.sheet.origin_x_mm += kBeyondPage_mm;
-    large.sheet.origin_y_mm += kBeyondPage_mm;
-    large.sheet.width_mm += 2 * kBeyondPage_mm;
-    large.sheet.height_mm += 2 * kBeyondPage_mm;
-    const auto centre = find_sheet(std::span(&large, 1), profile, fix);
-    if (!centre) return std::nullopt;
+std::optional<SheetView> SeamLocator::view_of(const Fix& fix, const Camera& camera,
+                                              Profile profile) const {
+    const Workspace& w = *workspace_;
+    std::vector<SightedDot> dots = dots_read(w, profile);
+    const auto sheet = find_sheet(sheets_, profile, moved_to(fix, w, profile, mean_step(dots)));
+    if (!sheet) return std::nullopt;
+    const SheetEntry& entry = *sheet->entry;
+    const double spacing_mm = entry.sheet.pattern.spacing_mm;
     SheetView view;
-    view.sheet = static_cast<std::size_t>(place->entry - sheets_.data());
-    view.pose = {centre->x_mm - kBeyondPage_mm, centre->y_mm - kBeyondPage_mm, centre->theta_rad};
-    view.dots = fix.dots_used;
-    const double mm = large.sheet.pattern.spacing_mm;
-    const Eigen::DiagonalMatrix<double, 3> units(mm, mm, 1);
-    for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j)
-            view.covariance(i, j) = static_cast<double>(fix.covariance[i][j]);
+    view.sheet = static_cast<std::size_t>(&entry - sheets_.data());
+    // What lies beyond the sheet's edge are dots of another one.
+    std::erase_if(dots, [&](const SightedDot& dot) {
+        const Cell cell = moved(profile, w.decoding.place, dot.step.x, dot.step.y).cell;
+        const bool is_on = cell.x - entry.sheet.origin.x < unsigned(entry.sheet.columns) &&
+                           cell.y - entry.sheet.origin.y < unsigned(entry.sheet.rows);
+        if (is_on) view.dots.push_back(std::uint64_t{cell.x} << 32 | cell.y);
+        return !is_on;
+    });
+    if (dots.size() < kLeastDots) return std::nullopt;
+    if (camera.paper) {
+        const auto first = place_beyond(entry, profile, moved_to(fix, w, profile, {0, 0}));
+        if (!first) return std::nullopt;
+        see_with_scale(dots, camera, first->mm, spacing_mm, view);
+    } else {
+        const auto centre = place_beyond(entry, profile, fix);
+        if (!centre) return std::nullopt;
+        see_without_scale(fix, *centre, spacing_mm, view);
     }
-    view.covariance = units * view.covariance * units;
     return view;
 }
 

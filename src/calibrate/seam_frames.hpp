@@ -1,34 +1,36 @@
 // Seam frames: what frames that show parts of several sheets tell of each.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "calibrate/sighting.hpp"
 #include "dotpose/calibrate.hpp"
 #include "dotpose/locate.hpp"
 
 namespace dotpose::calibrate {
 
-/// A place and direction on a plane with x right, y DOWN: mm and radians, from +x towards +y.
-struct PlanePose {
-    double x = 0;
-    double y = 0;
-    double turn = 0;
-
-    /// The place of `inner`, which is told in the frame of this pose.
-    PlanePose operator*(const PlanePose& inner) const;
-    PlanePose inverse() const;
-};
-
-/// The pose of one frame's image centre on one sheet.
+/// How one frame's camera lies on one sheet: `on_sheet = place + axes * (in_camera - middle)`, in
+/// mm of the sheet as it was meant to be printed, from its first intersection. A camera whose view
+/// is known measures in mm of its own; of any other one only the direction of its x axis and where
+/// its image centre lies are known, and `middle` is that centre.
 struct SheetView {
     std::size_t sheet = 0;  ///< index
-    PlanePose pose;
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (x, y, turn)
-    int dots = 0;
+    int frame = 0;
+    Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+    Eigen::Vector2d place = Eigen::Vector2d::Zero();
+    Eigen::Matrix2d axes = Eigen::Matrix2d::Identity();
+    /// Makes the errors of place and axes (column by column) ones of deviation 1; rows beyond
+    /// `rows` are 0: what is not known.
+    Eigen::Matrix<double, 6, 6> whitening = Eigen::Matrix<double, 6, 6>::Zero();
+    int rows = 0;
+    std::vector<std::uint64_t> dots;  ///< their cells
+
+    bool has_scale() const { return rows == 6; }
 };
 
 /// Locates in parts of frames: a frame that shows two patterns is refused as a whole.
@@ -47,9 +49,10 @@ class SeamLocator {
         int height = 0;
     };
     static std::vector<Part> parts_of(const GreyImage& image);
+    Camera camera_of(const GreyImage& image, const Part& part) const;
     std::vector<SheetView> views_with(const GreyImage& image, Effort effort);
     std::optional<SheetView> view_in(const GreyImage& image, const Part& part, Effort effort);
-    std::optional<SheetView> view_of(const Fix& fix, Profile profile) const;
+    std::optional<SheetView> view_of(const Fix& fix, const Camera& camera, Profile profile) const;
 
     const std::vector<SheetEntry>& sheets_;
     std::optional<Camera> camera_;

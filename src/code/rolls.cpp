@@ -4,6 +4,10 @@
 
 namespace dotpose::code {
 
+int roll_from(Profile profile, std::uint32_t position, int section, std::uint32_t cross) {
+    return (roll(profile, position) + section + static_cast<int>(cross % kSections)) % kSections;
+}
+
 void follow_rolls(Profile profile, std::uint32_t position, int first_roll,
                   std::span<std::uint8_t> rolls) {
     const Basis& sequences = basis(profile);

@@ -1,4 +1,5 @@
-// Rolls of consecutive lines, one after the other: quicker than each by itself.
+// Rolls anywhere on the plane; those of consecutive lines one after the other, which is quicker
+// than each by itself.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +8,10 @@
 #include "dotpose/code.hpp"
 
 namespace dotpose::code {
+
+/// The roll in [0, 63) that the column (row) `position` of a section shows from the row (column)
+/// `cross` on.
+int roll_from(Profile profile, std::uint32_t position, int section, std::uint32_t cross);
 
 /// Sets rolls[i] to that of the line `position` + i, where the first of them shows `first_roll`.
 /// Stepping by differences carries over the end of the code.

@@ -12,10 +12,6 @@ std::int64_t centred(std::int64_t sum_ab, std::int64_t sum_a, std::int64_t sum_b
     return about_ab - divide_rounded((sum_a - n * a) * (sum_b - n * b), n);
 }
 
-std::int64_t magnitude(std::int64_t a) {
-    return a < 0 ? -a : a;
-}
-
 /// Shift to the left (right if negative) that brings the value into [2^29, 2^30).
 int normalising_shift(std::int64_t value) {
     int shift = 0;

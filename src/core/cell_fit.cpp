@@ -5,10 +5,6 @@
 namespace dotpose::core {
 namespace {
 
-constexpr std::int64_t magnitude(std::int64_t a) {
-    return a < 0 ? -a : a;
-}
-
 /// Shift to the right after which a value fits so many bits.
 int excess_bits(std::int64_t value, int bits) {
     int shift = 0;

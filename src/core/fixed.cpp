@@ -61,7 +61,7 @@ std::int32_t angle_bam(Vec direction) {
         y = -y;
         angle = static_cast<std::uint32_t>(kHalfTurn);
     }
-    while (x + (y < 0 ? -y : y) < (std::int64_t{1} << 40)) {
+    while (x + magnitude(y) < (std::int64_t{1} << 40)) {
         x *= 2;
         y *= 2;
     }

@@ -30,9 +30,27 @@ constexpr std::int64_t squared(Vec a) {
     return dot(a, a);
 }
 
+/// |a|, of any signed integer.
+template <typename T>
+constexpr T magnitude(T a) {
+    return a < 0 ? -a : a;
+}
+/// max(|x|, |y|)
+constexpr std::int32_t larger_component(Vec a) {
+    return std::max(magnitude(a.x), magnitude(a.y));
+}
+
 /// Quotient rounded to nearest, halves away from zero. The divisor is positive.
 constexpr std::int64_t divide_rounded(std::int64_t n, std::int64_t d) {
     return (n >= 0 ? n + d / 2 : n - d / 2) / d;
+}
+
+inline constexpr std::int64_t kOne_q30 = std::int64_t{1} << 30;
+
+/// The quotients of both components, likewise.
+constexpr Vec divided_q30(Vec n, std::int64_t d_q30) {
+    return {static_cast<std::int32_t>(divide_rounded(n.x * kOne_q30, d_q30)),
+            static_cast<std::int32_t>(divide_rounded(n.y * kOne_q30, d_q30))};
 }
 
 /// n / 2^bits, rounded to nearest, halves up.
@@ -90,7 +108,7 @@ std::int32_t upper_quartile(std::span<std::int32_t> values);
 /// A sine to 6 %: two parabolas. Phases are in 2^-16 turns, values times 2^14.
 constexpr std::int32_t rough_sine(std::int32_t phase_q16) {
     const std::int32_t x = static_cast<std::int16_t>(phase_q16 & 0xFFFF);
-    return x * (32768 - (x < 0 ? -x : x)) >> 14;
+    return x * (32768 - magnitude(x)) >> 14;
 }
 constexpr std::int32_t rough_cosine(std::int32_t phase_q16) {
     return rough_sine(phase_q16 + 16384);

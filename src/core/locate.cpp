@@ -119,6 +119,17 @@ Status verify_position(const Options& options, decltype(core::verify) verify, Wo
     return status;
 }
 
+/// Blobs -> position in the code.
+Status find_position(const Options& options, decltype(core::decode_all) decode,
+                     decltype(core::verify) verify, Workspace& w) {
+    Status status = find_dots(options, w);
+    if (status == Status::ok) status = find_grid(options, w);
+    if (status == Status::ok) status = read_bits(w);
+    if (status == Status::ok) status = read_position(options, decode, w);
+    if (status == Status::ok) status = verify_position(options, verify, w);
+    return status;
+}
+
 /// The point whose pose is wanted.
 Vec reference_q8(const Options& options, const Workspace& w) {
     const Vec centre_q8 = image_centre_q8(w.light);
@@ -138,8 +149,9 @@ Status measure_affine_pose(const Options& options, Workspace& w) {
     return Status::ok;
 }
 
-/// Position -> pose. With an `image`, dots are measured in it once more.
-Status measure_pose(const Options& options, const ImageView* image, Workspace& w) {
+/// Position -> map from the image to the pattern. With an `image`, dots are measured in it once
+/// more. Returns false when the dots do not determine it.
+bool fit_pattern(const Options& options, const ImageView* image, Workspace& w, core::PoseFit& fit) {
     const core::Nominal nominal(w.grid, options.profile, w.decoding);
     w.pattern_from_image =
         core::upright_plane(w.grid_from_image, w.decoding.pattern_from_grid);  // II-B.8
@@ -148,17 +160,29 @@ Status measure_pose(const Options& options, const ImageView* image, Workspace& w
             core::measure_dots(*image, options.lens, w.pattern_from_image, nominal, w.grid, w.dots);
         core::undistort(options.lens, image_centre_q8(w.light), first(w.dots, w.dot_count));
     }
-    core::FitQuality quality;
     const core::Observations observations(w.found_dots(), w.grid, nominal);
-    if (!core::refine_pose(observations, w.pattern_from_image, quality)) return Status::no_grid;
+    return core::refine_pose(observations, w.pattern_from_image, fit);
+}
+
+/// Position -> pose.
+Status measure_pose(const Options& options, const ImageView* image, Workspace& w) {
+    core::PoseFit fit;
+    if (!fit_pattern(options, image, w, fit)) return Status::no_grid;
     const Vec reference = reference_q8(options, w);
     core::write_pose(w.pattern_from_image, reference, options.profile, w.decoding.place, w.fix);
-    core::estimate_covariance(observations, quality, w.pattern_from_image, reference, w.fix);
+    core::estimate_covariance(fit, w.pattern_from_image, reference, w.fix);
     return Status::ok;
 }
 
-/// Dots this far, in px, from where the pose has them are worth a second attempt.
+/// Dots this far from where the pose has them are worth a second attempt: in px, for those that
+/// noise has moved, and in spacings, for those that were printed badly.
 constexpr float kRough_px = 0.30F;
+constexpr float kRough = 0.027F;
+
+bool is_rough(const Fix& fix) {
+    const float spacing_px = static_cast<float>(fix.spacing_px_q16) / 65536.0F;
+    return fix.residual_px >= std::max(kRough_px, kRough * spacing_px);
+}
 
 constexpr bool is_within(int value, int low, int high) {
     return value >= low && value <= high;
@@ -181,6 +205,25 @@ bool are_valid(const Options& options) {
            is_within(options.lens.centre_dy_q8, -kFarthestLens_q8, kFarthestLens_q8);
 }
 
+/// One axis of the position is beyond doubt, the other is not: looks once more for its bits,
+/// through a grid fitted to all dots.
+Status look_again(const ImageView& image, const Options& options, Workspace& w) {
+    const auto known = core::sure_axis(w.decoding, options.integrity);
+    core::PoseFit fit;
+    if (!known || !fit_pattern(options, &image, w, fit)) return Status::not_certain;
+    const Place place = w.decoding.place;
+    w.grid_from_image = w.pattern_from_image;
+    w.decoding.pattern_from_grid = {};
+    core::look_at_cells_knowing(*known, options.profile, w.decoding, image, w.smoothing.paper,
+                                options.lens, w.grid_from_image, w.grid);
+    Status status = read_position(options, decoder(options), w);
+    if (status == Status::ok) status = verify_position(options, core::verify, w);
+    // What was read presumes the axis that was known.
+    const bool is_as_known = w.decoding.pattern_from_grid.quarters == 0 &&
+                             core::share_line(*known, options.profile, place, w.decoding.place);
+    return status == Status::ok && is_as_known ? Status::ok : Status::not_certain;
+}
+
 /// The second attempt, on the image filtered; bits are read from it rather than from blobs.
 Fix locate_filtered(const ImageView& image, const Options& options, Workspace& w) {
     Options filtered = options;
@@ -194,10 +237,13 @@ Fix locate_filtered(const ImageView& image, const Options& options, Workspace& w
     if (status == Status::ok) status = find_grid_thoroughly(filtered, w);
     if (status == Status::ok) status = read_bits(w);
     if (status == Status::ok) {
-        core::look_at_cells(image, w.smoothing.paper, options.lens, w.grid_from_image, w.grid);
-        status = read_position(filtered, decoder(options), w);
+        const bool is_one_pattern =
+            core::look_at_cells(image, w.smoothing.paper, options.lens, w.grid_from_image, w.grid);
+        status =
+            is_one_pattern ? read_position(filtered, decoder(options), w) : Status::not_certain;
     }
     if (status == Status::ok) status = verify_position(filtered, core::verify, w);
+    if (status == Status::not_certain) status = look_again(image, filtered, w);
     if (status == Status::ok) status = measure_pose(filtered, &image, w);
     w.fix.status = status;
     return w.fix;
@@ -216,7 +262,7 @@ Fix locate(const ImageView& image, const Options& options, Workspace& workspace)
         push_row(image.row(v), options, workspace);
     if (options.effort == Effort::device) return finish_device(options, workspace);
     const Fix fix = finish(options, workspace);
-    const bool is_good = fix.status == Status::ok && fix.residual_px < kRough_px;
+    const bool is_good = fix.status == Status::ok && !is_rough(fix);
     if (is_good || options.effort == Effort::once || workspace.smoothing.row.empty()) return fix;
     const Fix second = locate_filtered(image, options, workspace);
     if (second.status == Status::ok || fix.status != Status::ok) return second;
@@ -257,22 +303,14 @@ void push_row(const std::uint8_t* pixels, const Options& options, Workspace& w) 
 }
 
 Fix finish(const Options& options, Workspace& w) {
-    Status status = find_dots(options, w);
-    if (status == Status::ok) status = find_grid(options, w);
-    if (status == Status::ok) status = read_bits(w);
-    if (status == Status::ok) status = read_position(options, decoder(options), w);
-    if (status == Status::ok) status = verify_position(options, core::verify, w);
+    Status status = find_position(options, decoder(options), core::verify, w);
     if (status == Status::ok) status = measure_pose(options, nullptr, w);
     w.fix.status = status;
     return w.fix;
 }
 
 Fix finish_device(const Options& options, Workspace& w) {
-    Status status = find_dots(options, w);
-    if (status == Status::ok) status = find_grid(options, w);
-    if (status == Status::ok) status = read_bits(w);
-    if (status == Status::ok) status = read_position(options, core::decode_briefly, w);
-    if (status == Status::ok) status = verify_position(options, core::verify_quickly, w);
+    Status status = find_position(options, core::decode_briefly, core::verify_quickly, w);
     if (status == Status::ok) status = measure_affine_pose(options, w);
     w.fix.status = status;
     return w.fix;

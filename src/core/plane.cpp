@@ -3,19 +3,12 @@
 namespace dotpose::core {
 namespace {
 
-constexpr std::int64_t kOne_q30 = std::int64_t{1} << 30;
-
 /// du x + dv y
 Vec linear_q16(const PlaneFromImage& plane, Vec from_centre_q8) {
     const std::int64_t x = from_centre_q8.x;
     const std::int64_t y = from_centre_q8.y;
     return {shift_rounded(plane.du_q24.x * x + plane.dv_q24.x * y, 16),
             shift_rounded(plane.du_q24.y * x + plane.dv_q24.y * y, 16)};
-}
-
-Vec divided(Vec numerator, std::int64_t divisor_q30) {
-    return {static_cast<std::int32_t>(divide_rounded(numerator.x * kOne_q30, divisor_q30)),
-            static_cast<std::int32_t>(divide_rounded(numerator.y * kOne_q30, divisor_q30))};
 }
 
 }  // namespace
@@ -46,7 +39,7 @@ Vec plane_point_q16(const PlaneFromImage& plane, Vec image_point_q8) {
     const Vec p = image_point_q8 - plane.centre_q8;
     const Vec linear = linear_q16(plane, p);
     if (is_affine(plane)) return plane.at_centre_q16 + linear;
-    return plane.at_centre_q16 + divided(linear, divisor_q30(plane, p));
+    return plane.at_centre_q16 + divided_q30(linear, divisor_q30(plane, p));
 }
 
 GridPoint grid_point(const PlaneFromImage& plane, Vec image_point_q8) {
@@ -90,9 +83,9 @@ PlaneFromImage tangent(const PlaneFromImage& plane, Vec image_point_q8) {
         const auto component = [&](std::int32_t a_q24, std::int32_t value_q16) {
             return static_cast<std::int32_t>(a_q24 - ((value_q16 * d_q30) >> 22));
         };
-        return divided({component(linear_q24.x, from_centre_q16.x),
-                        component(linear_q24.y, from_centre_q16.y)},
-                       divisor);
+        return divided_q30({component(linear_q24.x, from_centre_q16.x),
+                            component(linear_q24.y, from_centre_q16.y)},
+                           divisor);
     };
     result.du_q24 = slope(plane.du_q24, plane.perspective_q30.x, p.x);
     result.dv_q24 = slope(plane.dv_q24, plane.perspective_q30.y, p.y);

@@ -6,6 +6,9 @@
 
 namespace dotpose::core {
 
+/// Of a dot from its intersection, in spacings, as the pattern is usually printed.
+inline constexpr std::int32_t kDisplacement_q16 = 65536 / 6;
+
 /// A point of the grid: the nearest intersection and the offset from it.
 struct GridPoint {
     Vec cell;        ///< paper eq. 4

@@ -60,6 +60,7 @@ class Crew {
             const std::chrono::duration<double, std::micro> elapsed =
                 std::chrono::steady_clock::now() - start;
             outcome.elapsed_us = elapsed.count();
+            if (run_.refine) outcome.fix = run_.refine(outcome.fix, options, workspace);
         }
     }
 

@@ -9,26 +9,14 @@
 #include <fmt/format.h>
 
 #include "dotpose/evaluate.hpp"
+#include "evaluate/csv.hpp"
 
 namespace dotpose {
 namespace {
 
-/// The cells of a line (RFC 4180, without line breaks in cells); blanks around them are dropped.
-std::vector<std::string> cells_of(const std::string& line) {
-    std::vector<std::string> cells(1);
-    bool is_quoted = false;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-        const char c = line[i];
-        if (c == '"' && is_quoted && i + 1 < line.size() && line[i + 1] == '"') {
-            cells.back() += line[++i];
-        } else if (c == '"') {
-            is_quoted = !is_quoted;
-        } else if (c == ',' && !is_quoted) {
-            cells.emplace_back();
-        } else {
-            cells.back() += c;
-        }
-    }
+/// The cells of a line, without the blanks around them.
+std::vector<std::string> trimmed_cells_of(const std::string& line) {
+    std::vector<std::string> cells = csv::cells_of(line);
     for (std::string& cell : cells) {
         constexpr const char* kBlanks = " \t\r";
         cell.erase(0, cell.find_first_not_of(kBlanks));
@@ -64,7 +52,7 @@ class TruthReader {
         while (std::getline(stream_, line)) {
             ++line_number_;
             if (line_number_ == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
-            cells_ = cells_of(line);
+            cells_ = trimmed_cells_of(line);
             if (cells_.size() > 1 || !cells_[0].empty()) return true;
         }
         // A directory opens, but cannot be read.

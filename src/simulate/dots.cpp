@@ -96,17 +96,20 @@ void add_dots(Ink& ink, const View& view, const Page& page, const Imperfections&
     const CameraPose& pose = view.pose;
     // Counted from the pose's cell, so that offsets are exact anywhere on the plane. One cell more
     // on each side for displaced and jittered dots.
-    const auto first = [&](double low_mm, double fraction) {
-        return static_cast<std::int64_t>(std::floor(low_mm / pattern.spacing_mm + fraction)) - 1;
+    const AxisScale scale = page.print_scale;
+    const Vec2 spacing_mm{scale.x * pattern.spacing_mm, scale.y * pattern.spacing_mm};
+    const auto first = [](double low, double fraction) {
+        return static_cast<std::int64_t>(std::floor(low + fraction)) - 1;
     };
-    const auto last = [&](double high_mm, double fraction) {
-        return static_cast<std::int64_t>(std::ceil(high_mm / pattern.spacing_mm + fraction)) + 1;
+    const auto last = [](double high, double fraction) {
+        return static_cast<std::int64_t>(std::ceil(high + fraction)) + 1;
     };
-    const std::int64_t first_x = first(box.low_mm.x, pose.fraction_x);
-    const std::int64_t last_x = last(box.high_mm.x, pose.fraction_x);
-    const std::int64_t last_y = last(box.high_mm.y, pose.fraction_y);
+    const std::int64_t first_x = first(box.low_mm.x / spacing_mm.x, pose.fraction_x);
+    const std::int64_t last_x = last(box.high_mm.x / spacing_mm.x, pose.fraction_x);
+    const std::int64_t first_y = first(box.low_mm.y / spacing_mm.y, pose.fraction_y);
+    const std::int64_t last_y = last(box.high_mm.y / spacing_mm.y, pose.fraction_y);
 
-    for (std::int64_t y = first(box.low_mm.y, pose.fraction_y); y <= last_y; ++y) {
+    for (std::int64_t y = first_y; y <= last_y; ++y) {
         for (std::int64_t x = first_x; x <= last_x; ++x) {
             if (!printed(page, pose.cell.x + x, pose.cell.y + y)) continue;
             const Cell cell{static_cast<std::uint32_t>(pose.cell.x + x),
@@ -114,13 +117,14 @@ void add_dots(Ink& ink, const View& view, const Page& page, const Imperfections&
             const DotErrors errors = errors_of(page, cell);
             if (errors.presence < imperfections.missing) continue;
             const Vec2 displacement = displacement_of(cell);
-            const auto offset_mm = [&](std::int64_t i, double fraction, double moved,
-                                       double jitter) {
+            const auto meant_mm = [&](std::int64_t i, double fraction, double moved) {
                 return (static_cast<double>(i) - fraction) * pattern.spacing_mm +
-                       moved * pattern.displacement_mm + jitter * imperfections.jitter_mm;
+                       moved * pattern.displacement_mm;
             };
-            const Vec2 offset{offset_mm(x, pose.fraction_x, displacement.x, errors.jitter.x),
-                              offset_mm(y, pose.fraction_y, displacement.y, errors.jitter.y)};
+            const Vec2 offset{scale.x * meant_mm(x, pose.fraction_x, displacement.x) +
+                                  errors.jitter.x * imperfections.jitter_mm,
+                              scale.y * meant_mm(y, pose.fraction_y, displacement.y) +
+                                  errors.jitter.y * imperfections.jitter_mm};
             const double reflectance =
                 imperfections.ink_reflectance + imperfections.ink_variation * errors.ink;
             add_disc(ink, view, offset, pattern.dot_mm / 2, std::clamp(reflectance, 0.0, 1.0));

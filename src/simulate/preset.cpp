@@ -91,8 +91,12 @@ double y_grid(const CameraPose& pose) {
 
 Page page_of(const Sheet& sheet, std::uint64_t seed) {
     if (sheet.columns < 1 || sheet.rows < 1) throw BadArgument("the sheet has no intersections");
-    return {sheet.pattern, seed, sheet.origin, static_cast<std::uint32_t>(sheet.columns),
-            static_cast<std::uint32_t>(sheet.rows)};
+    return {sheet.pattern,
+            seed,
+            sheet.origin,
+            static_cast<std::uint32_t>(sheet.columns),
+            static_cast<std::uint32_t>(sheet.rows),
+            {}};
 }
 
 Shot draw_shot(const Setup& setup, std::uint64_t index) {

@@ -51,6 +51,7 @@ void check(const Page& page, const CameraModel& camera, const CameraPose& pose,
            const Imperfections& imperfections) {
     check_camera(camera, pose);
     const Pattern& pattern = page.pattern;
+    require(page.print_scale.x > 0 && page.print_scale.y > 0, "the print scale must be above 0");
     require(pattern.spacing_mm / camera.mm_per_px >= 1, "the grid spacing must be at least 1 px");
     require(within(pattern.dot_mm, 0, 100 * pattern.spacing_mm) && pattern.dot_mm > 0,
             "the dot diameter must be above 0");

@@ -6,6 +6,23 @@
 namespace dotpose::track {
 namespace {
 
+/// How long a robot keeps on accelerating as it does.
+constexpr float kHold_s = 0.5F;
+
+/// Agility from one sighting to the next: it has to fall as fast as it rises, so that the
+/// innovations repeat their sign as often as they change it.
+constexpr float kAgility_step = 1.5F;
+constexpr float kLeast_agility = 1e-6F;
+/// Beyond so many deviations an innovation is no chance.
+constexpr float kSurprise = 4;
+/// Sightings over which their scatter is averaged.
+constexpr float kScatter_sightings = 32;
+constexpr float kLeast_scatter = 0.01F;
+constexpr float kLargest_scatter = 9;
+
+/// What the difference of two variances may be off, in parts of the larger: some of the last bits.
+constexpr float kRounding = 4e-6F;
+
 float squared(float value) {
     return value * value;
 }
@@ -24,12 +41,75 @@ std::int32_t turned(std::int32_t theta_bam, float angle_rad) {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(std::int64_t{theta_bam} + turn));
 }
 
-/// Moves the pose by a step in mm, mm and rad.
-void move(TrackedPose& pose, const Vector3& step) {
+TrackedPose pose_of(const Sighting& sighting) {
+    TrackedPose pose;
+    pose.time_us = sighting.time_us;
+    pose.x_nm = sighting.x_nm;
+    pose.y_nm = sighting.y_nm;
+    pose.theta_bam = sighting.theta_bam;
+    pose.plane = sighting.plane;
+    return pose;
+}
+
+/// Adds to the state.
+void move(Motion& motion, const Vector9& step) {
     constexpr float kNm_per_mm = 1e6F;
+    TrackedPose& pose = motion.pose;
     pose.x_nm += static_cast<std::int64_t>(step[0] * kNm_per_mm);
     pose.y_nm += static_cast<std::int64_t>(step[1] * kNm_per_mm);
     pose.theta_bam = turned(pose.theta_bam, step[2]);
+    pose.vx_mm_s += step[3];
+    pose.vy_mm_s += step[4];
+    pose.turn_rad_s += step[5];
+    for (std::size_t i = 0; i < 3; ++i)
+        motion.acceleration[i] += step[i + 6];
+}
+
+/// The part of the acceleration that outlasts a time.
+float kept(float dt_s) {
+    return kHold_s / (kHold_s + dt_s);
+}
+
+/// What time does to a state (or to a row or column of its covariance), by reference to its parts.
+/// The acceleration of an interval is the same all through it.
+template <typename State>
+void advance(const State& at, float dt_s) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        at(i + 6) *= kept(dt_s);
+        at(i) += dt_s * at(i + 3) + dt_s * dt_s / 2 * at(i + 6);
+        at(i + 3) += dt_s * at(i + 6);
+    }
+}
+
+/// Deviation of the acceleration along an axis, at full agility.
+float spread(std::size_t axis, const TrackOptions& options) {
+    return axis < 2 ? options.acceleration_mm_s2 : options.angular_acceleration_rad_s2;
+}
+
+/// Variance of what is new in it after a time.
+float push(std::size_t axis, float dt_s, const TrackOptions& options) {
+    return squared(spread(axis, options)) * (1 - squared(kept(dt_s)));
+}
+
+/// Makes a state less certain by something of this variance, that has this effect on the position,
+/// velocity and acceleration along an axis.
+void add_noise(Covariance9& covariance, std::size_t axis, float variance, const Vector3& effect) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j)
+            covariance[axis + 3 * i][axis + 3 * j] += variance * effect[i] * effect[j];
+    }
+}
+
+/// Sets the covariance of the pose. Sightings that differ less than their covariances say have the
+/// rest of their errors in common, and no filter averages that.
+void set_pose_covariance(Motion& motion) {
+    const float common = std::max(1 - motion.scatter, 0.0F);
+    for (std::size_t i = 0; i < 6; ++i) {
+        for (std::size_t j = 0; j < 6; ++j) {
+            motion.pose.covariance[i][j] = motion.scatter * motion.covariance[i][j] +
+                                           (i < 3 && j < 3 ? common * motion.noise[i][j] : 0);
+        }
+    }
 }
 
 /// Symmetric and positive definite, as covariances are: by cofactors.
@@ -66,59 +146,83 @@ Right product(const Left& left, const Right& right) {
     return result;
 }
 
-}  // namespace
-
-TrackedPose started_at(const Sighting& sighting, const TrackOptions& options) {
-    TrackedPose pose;
-    pose.time_us = sighting.time_us;
-    pose.x_nm = sighting.x_nm;
-    pose.y_nm = sighting.y_nm;
-    pose.theta_bam = sighting.theta_bam;
-    pose.plane = sighting.plane;
-    const Matrix3 noise = noise_of(sighting, options);
-    for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t j = 0; j < 3; ++j)
-            pose.covariance[i][j] = noise[i][j];
-        const float fastest = i < 2 ? options.max_speed_mm_s : options.max_turn_rad_s;
-        pose.covariance[i + 3][i + 3] = squared(fastest / 2);
+/// P becomes (I - K H) P; `weighted` is S^-1 H P, the transposed gain.
+void subtract_known(Covariance9& p, const std::array<Vector9, 3>& weighted, const Matrix3& noise) {
+    const Covariance9 before = p;
+    for (std::size_t i = 3; i < 9; ++i) {
+        for (std::size_t j = 3; j <= i; ++j) {
+            for (std::size_t k = 0; k < 3; ++k)
+                p[i][j] -= before[i][k] * weighted[k][j];
+            p[j][i] = p[i][j];
+        }
+        p[i][i] += kRounding * before[i][i];
     }
-    return pose;
+    // The upper rows equal R S^-1 H P, where nothing cancels: in single precision the difference of
+    // nearly equal numbers would lose everything after a long gap. Above, where it cannot be
+    // avoided, what is lost is added.
+    const auto upper = product(noise, weighted);
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 9; ++j)
+            p[i][j] = p[j][i] = upper[i][j];
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < i; ++j)
+            p[i][j] = p[j][i] = (upper[i][j] + upper[j][i]) / 2;
+    }
 }
 
-TrackedPose predicted(const TrackedPose& pose, std::int64_t time_us, const TrackOptions& options) {
-    const float dt = static_cast<float>(time_us - pose.time_us) * 1e-6F;
-    TrackedPose later = pose;
-    later.time_us = time_us;
-    move(later, {pose.vx_mm_s * dt, pose.vy_mm_s * dt, pose.turn_rad_s * dt});
-    Covariance6& p = later.covariance;
+}  // namespace
+
+Motion started_at(const Sighting& sighting, const TrackOptions& options) {
+    Motion motion;
+    motion.pose = pose_of(sighting);
+    motion.noise = noise_of(sighting, options);
     for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t j = 0; j < 6; ++j)
-            p[i][j] += dt * p[i + 3][j];
+        std::copy(motion.noise[i].begin(), motion.noise[i].end(), motion.covariance[i].begin());
+        const float fastest = i < 2 ? options.max_speed_mm_s : options.max_turn_rad_s;
+        motion.covariance[i + 3][i + 3] = squared(fastest / 2);
+        motion.covariance[i + 6][i + 6] = squared(spread(i, options));
     }
-    for (std::size_t i = 0; i < 6; ++i) {
-        for (std::size_t j = 0; j < 3; ++j)
-            p[i][j] += dt * p[i][j + 3];
-    }
-    for (std::size_t i = 0; i < 3; ++i) {
-        const float spread =
-            squared(i < 2 ? options.acceleration_mm_s2 : options.angular_acceleration_rad_s2);
-        p[i][i] += spread * squared(dt * dt) / 4;
-        p[i][i + 3] += spread * dt * dt * dt / 2;
-        p[i + 3][i] = p[i][i + 3];
-        p[i + 3][i + 3] += spread * dt * dt;
-    }
+    set_pose_covariance(motion);
+    return motion;
+}
+
+Motion predicted(const Motion& motion, std::int64_t time_us, const TrackOptions& options) {
+    const float dt_s = static_cast<float>(time_us - motion.pose.time_us) * 1e-6F;
+    Motion later = motion;
+    later.pose.time_us = time_us;
+    const TrackedPose& pose = motion.pose;
+    const Vector3& a = motion.acceleration;
+    const Vector9 before = {0, 0, 0, pose.vx_mm_s, pose.vy_mm_s, pose.turn_rad_s, a[0], a[1], a[2]};
+    Vector9 step = before;
+    advance([&](std::size_t i) -> float& { return step[i]; }, dt_s);
+    for (std::size_t i = 0; i < 9; ++i)
+        step[i] -= before[i];
+    move(later, step);
+    Covariance9& p = later.covariance;
+    for (std::size_t j = 0; j < 9; ++j)
+        advance([&](std::size_t i) -> float& { return p[i][j]; }, dt_s);
+    for (std::size_t i = 0; i < 9; ++i)
+        advance([&](std::size_t j) -> float& { return p[i][j]; }, dt_s);
+    for (std::size_t i = 0; i < 3; ++i)
+        add_noise(p, i, motion.agility[i] * push(i, dt_s, options), {dt_s * dt_s / 2, dt_s, 1});
+    set_pose_covariance(later);
     return later;
 }
 
-Innovation innovation(const TrackedPose& predicted, const Sighting& sighting,
-                      const TrackOptions& options) {
+Vector3 difference(const TrackedPose& a, const TrackedPose& b) {
     constexpr float kMm_per_nm = 1e-6F;
+    const std::uint32_t turn =
+        static_cast<std::uint32_t>(b.theta_bam) - static_cast<std::uint32_t>(a.theta_bam);
+    return {static_cast<float>(b.x_nm - a.x_nm) * kMm_per_nm,
+            static_cast<float>(b.y_nm - a.y_nm) * kMm_per_nm,
+            static_cast<float>(static_cast<std::int32_t>(turn)) * kRad_per_bam};
+}
+
+Innovation innovation(const Motion& predicted, const Sighting& sighting,
+                      const TrackOptions& options) {
     Innovation result;
-    const std::uint32_t turn = static_cast<std::uint32_t>(sighting.theta_bam) -
-                               static_cast<std::uint32_t>(predicted.theta_bam);
-    result.difference = {static_cast<float>(sighting.x_nm - predicted.x_nm) * kMm_per_nm,
-                         static_cast<float>(sighting.y_nm - predicted.y_nm) * kMm_per_nm,
-                         static_cast<float>(static_cast<std::int32_t>(turn)) * kRad_per_bam};
+    result.difference = difference(predicted.pose, pose_of(sighting));
     result.covariance = noise_of(sighting, options);
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 3; ++j)
@@ -127,46 +231,60 @@ Innovation innovation(const TrackedPose& predicted, const Sighting& sighting,
     return result;
 }
 
-TrackedPose corrected(const TrackedPose& predicted, const Sighting& sighting,
-                      const TrackOptions& options) {
+Motion fitted(const Motion& predicted, const Sighting& sighting, float dt_s,
+              const TrackOptions& options) {
+    const Vector3 differences = difference(predicted.pose, pose_of(sighting));
+    const Matrix3 noise = noise_of(sighting, options);
+    Motion motion = predicted;
+    const Vector3 effect = {dt_s * dt_s / 2, dt_s, 1};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const float moved = differences[i];
+        const float repeated = moved * motion.innovation[i];
+        motion.innovation[i] = moved;
+        const float old = motion.agility[i];
+        const float pushed = push(i, dt_s, options);
+        const float possible = squared(moved / kSurprise) / motion.scatter;
+        const auto surprise = [&] { return possible - motion.covariance[i][i] - noise[i][i]; };
+        // Where the filter lags, innovations repeat their sign; where it follows the noise, they
+        // change it.
+        const float agility = repeated > 0 ? old * kAgility_step : old / kAgility_step;
+        const float needed = old + surprise() / (pushed * squared(effect[0]));
+        motion.agility[i] = std::clamp(std::max(agility, needed), kLeast_agility, 1.0F);
+        add_noise(motion.covariance, i, (motion.agility[i] - old) * pushed, effect);
+        // What that does not explain is a hit, which changes the velocity at once. The first time
+        // it may as well be a sighting that is off: the position follows, the velocity does not.
+        if (surprise() > 0) {
+            const bool is_hit = repeated > squared(moved) / 2;
+            add_noise(motion.covariance, i, surprise(), {1, is_hit ? 1 / dt_s : 0, 0});
+        }
+    }
+    return motion;
+}
+
+Motion corrected(const Motion& predicted, const Sighting& sighting, const TrackOptions& options) {
     const Innovation found = innovation(predicted, sighting, options);
     const Matrix3 inverse_s = inverse(found.covariance);
-    const Covariance6& p = predicted.covariance;
-    std::array<std::array<float, 6>, 3> pose_rows{};
-    std::copy(p.begin(), p.begin() + 3, pose_rows.begin());
+    std::array<Vector9, 3> pose_rows{};
+    std::copy_n(predicted.covariance.begin(), 3, pose_rows.begin());
     const auto weighted = product(inverse_s, pose_rows);  // S^-1 H P, the transposed gain
 
-    std::array<float, 6> step{};
-    for (std::size_t i = 0; i < 6; ++i) {
-        for (std::size_t k = 0; k < 3; ++k)
+    Motion motion = predicted;
+    Vector9 step{};
+    float distance = 0;  // squared, of three dimensions
+    for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t i = 0; i < 9; ++i)
             step[i] += weighted[k][i] * found.difference[k];
+        for (std::size_t i = 0; i < 3; ++i)
+            distance += found.difference[i] * inverse_s[i][k] * found.difference[k];
     }
-    TrackedPose pose = predicted;
-    move(pose, {step[0], step[1], step[2]});
-    pose.vx_mm_s += step[3];
-    pose.vy_mm_s += step[4];
-    pose.turn_rad_s += step[5];
-
-    // (I - K H) P. Its upper half equals R S^-1 H P, where nothing cancels: in single precision the
-    // difference of nearly equal numbers would lose everything after a long gap.
-    const auto upper = product(noise_of(sighting, options), weighted);
-    for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t j = 0; j < 6; ++j)
-            pose.covariance[i][j] = pose.covariance[j][i] = upper[i][j];
-    }
-    for (std::size_t i = 3; i < 6; ++i) {
-        for (std::size_t j = 3; j < 6; ++j) {
-            for (std::size_t k = 0; k < 3; ++k)
-                pose.covariance[i][j] -= p[i][k] * weighted[k][j];
-        }
-    }
-    for (std::size_t i = 0; i < 6; ++i) {
-        for (std::size_t j = 0; j < i; ++j) {
-            const float mean = (pose.covariance[i][j] + pose.covariance[j][i]) / 2;
-            pose.covariance[i][j] = pose.covariance[j][i] = mean;
-        }
-    }
-    return pose;
+    move(motion, step);
+    motion.noise = noise_of(sighting, options);
+    subtract_known(motion.covariance, weighted, motion.noise);
+    motion.scatter +=
+        (std::clamp(distance / 3, kLeast_scatter, kLargest_scatter) - motion.scatter) /
+        kScatter_sightings;
+    set_pose_covariance(motion);
+    return motion;
 }
 
 }  // namespace dotpose::track

@@ -15,8 +15,9 @@ constexpr int kHypotheses_log2 = 36;
 static_assert((std::uint64_t{kPositionsPerAxis} * kSections * 4) >> kHypotheses_log2 == 1,
               "the number of hypotheses is rounded down to a power of two");
 
-/// Places that differ by fewer cells than this share no column with each other but by chance: 31 is
-/// the shortest of the sequences that spell the position. docs/tracking.md.
+/// Places that differ by fewer cells than this have no place in a sequence in common, and resemble
+/// each other by coincidence only: 31 is the shortest of the sequences that spell the position.
+/// docs/tracking.md.
 constexpr int kShortestSequence = 31;
 
 float seconds(std::int64_t from_us, std::int64_t to_us) {
@@ -43,9 +44,9 @@ bool is_within(const Vector3& difference, const Vector3& limits) {
 }
 
 /// Whether a robot could be at `sighting` after it was at `from`, whatever it did.
-bool is_reachable(const TrackedPose& from, const Sighting& sighting, const TrackOptions& options) {
-    if (from.plane != sighting.plane) return false;
-    const float dt = seconds(from.time_us, sighting.time_us);
+bool is_reachable(const Motion& from, const Sighting& sighting, const TrackOptions& options) {
+    if (from.pose.plane != sighting.plane) return false;
+    const float dt = seconds(from.pose.time_us, sighting.time_us);
     const Innovation found = innovation(from, sighting, options);
     const float slack_mm =
         options.gate_sigmas * std::sqrt(std::max(found.covariance[0][0], found.covariance[1][1]));
@@ -104,12 +105,13 @@ const Track& Tracker::update(std::int64_t time_us, const Sighting* sighting) {
     newest_us_ = time_us;
     track_.verdict = Verdict::none;
     track_.p_wrong_log2 = 0;
-    if (was_seen_) track_.pose = predicted(last_, time_us, options_);
-    if (sighting != nullptr) track_.verdict = judge(track_.pose, *sighting);
+    const Motion prediction = was_seen_ ? predicted(last_, time_us, options_) : Motion{};
+    track_.pose = prediction.pose;
+    if (sighting != nullptr) track_.verdict = judge(prediction, *sighting);
     if (track_.verdict != Verdict::believed && track_.verdict != Verdict::with_prior) {
         track_.p_wrong_log2 = 0;
     }
-    if (!track_.is_lost && time_us - last_.time_us >= options_.lost_after_us) {
+    if (!track_.is_lost && time_us - last_.pose.time_us >= options_.lost_after_us) {
         track_.is_lost = track_.events.lost = true;
         track_.is_stationary = false;
     }
@@ -117,7 +119,7 @@ const Track& Tracker::update(std::int64_t time_us, const Sighting* sighting) {
     return track_;
 }
 
-Verdict Tracker::judge(const TrackedPose& prediction, const Sighting& sighting) {
+Verdict Tracker::judge(const Motion& prediction, const Sighting& sighting) {
     const bool is_weak = sighting.p_wrong_log2 > options_.max_p_wrong_log2;
     track_.p_wrong_log2 = sighting.p_wrong_log2;
     bool is_possible = !was_seen_;
@@ -127,8 +129,9 @@ Verdict Tracker::judge(const TrackedPose& prediction, const Sighting& sighting) 
         if (is_possible) restart(sighting);
     } else {
         const Innovation found = innovation(prediction, sighting, options_);
-        const Vector3 limits = gate(found, seconds(last_.time_us, sighting.time_us), options_);
-        is_possible = last_.plane == sighting.plane && is_within(found.difference, limits);
+        const float dt_s = seconds(last_.pose.time_us, sighting.time_us);
+        const Vector3 limits = gate(found, dt_s, options_);
+        is_possible = last_.pose.plane == sighting.plane && is_within(found.difference, limits);
         if (is_weak) {
             track_.p_wrong_log2 = p_wrong_with_prior(sighting, limits, options_);
             if (!is_possible || sighting.p_wrong_log2 > options_.max_weak_p_wrong_log2 ||
@@ -136,7 +139,10 @@ Verdict Tracker::judge(const TrackedPose& prediction, const Sighting& sighting) 
                 return Verdict::too_weak;
             }
         }
-        if (is_possible) track_.pose = last_ = corrected(prediction, sighting, options_);
+        if (is_possible) {
+            last_ = corrected(fitted(prediction, sighting, dt_s, options_), sighting, options_);
+            track_.pose = last_.pose;
+        }
     }
     if (is_possible) {
         agreeing_ = 0;
@@ -166,17 +172,14 @@ void Tracker::restart(const Sighting& sighting) {
     track_.is_stationary = false;
     was_seen_ = true;
     agreeing_ = 0;
-    track_.pose = last_ = rest_ = started_at(sighting, options_);
+    last_ = started_at(sighting, options_);
+    track_.pose = rest_ = last_.pose;
 }
 
 void Tracker::watch_motion() {
     const TrackedPose& pose = track_.pose;
-    Sighting here;
-    here.x_nm = pose.x_nm;
-    here.y_nm = pose.y_nm;
-    here.theta_bam = pose.theta_bam;
-    const Vector3 moved = innovation(rest_, here, options_).difference;
-    if (!is_within(moved, {options_.still_mm, options_.still_mm, options_.still_rad})) {
+    if (!is_within(difference(rest_, pose),
+                   {options_.still_mm, options_.still_mm, options_.still_rad})) {
         rest_ = pose;
         track_.events.moving = track_.events.moving || track_.is_stationary;
         track_.is_stationary = false;

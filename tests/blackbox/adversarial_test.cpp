@@ -13,9 +13,9 @@ namespace {
 
 using test::Adversary;
 
-class Adversarial : public testing::TestWithParam<Adversary> {};
+class AdversarialClass : public testing::TestWithParam<Adversary> {};
 
-TEST_P(Adversarial, FramesGiveNoWrongFix) {
+TEST_P(AdversarialClass, FramesGiveNoWrongFix) {
     constexpr std::uint64_t kSeed = 7;
     constexpr std::uint64_t kFrames = 24;
     const auto workspace = std::make_unique<LargeWorkspace>();
@@ -28,7 +28,16 @@ TEST_P(Adversarial, FramesGiveNoWrongFix) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Classes, Adversarial, testing::ValuesIn(test::kAdversaries),
+// Two patterns in the same direction, 0.22 spacings apart: the columns of one and the rows of the
+// other were once taken for a position.
+TEST(Adversarial, ColumnsAndRowsAreOfOnePattern) {
+    const auto workspace = std::make_unique<LargeWorkspace>();
+    const test::AdversarialFrame frame = test::make_adversarial(Adversary::overlay, 7001, 3375);
+    const Fix fix = locate(frame.image.view(), frame.options, *workspace);
+    EXPECT_NE(test::judge(fix, frame), test::Verdict::wrong);
+}
+
+INSTANTIATE_TEST_SUITE_P(Classes, AdversarialClass, testing::ValuesIn(test::kAdversaries),
                          [](const testing::TestParamInfo<Adversary>& adversary) {
                              std::string title(test::name(adversary.param));
                              std::replace(title.begin(), title.end(), ' ', '_');

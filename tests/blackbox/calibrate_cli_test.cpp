@@ -38,6 +38,37 @@ TEST_F(CalibrateCommand, WritesACameraFileThatLocateReads) {
     EXPECT_EQ(json::parse(output_)["wrong"], 0);
 }
 
+// Without a camera file: 5 % of the distance of the corner from the centre, inwards and outwards.
+TEST_F(CalibrateCommand, LocateAbsorbsAnUnknownLensOfUpToFivePercent) {
+    const auto corner_px = [](int width, int height) {
+        return std::hypot((width - 1) / 2.0, (height - 1) / 2.0);
+    };
+    struct Case {
+        const char* size;
+        double corner_px;
+        int frames;
+    };
+    for (const Case& c :
+         {Case{"188x120", corner_px(188, 120), 40}, Case{"640x480", corner_px(640, 480), 4}}) {
+        for (const double share : {-0.05, -0.025, 0.025, 0.05}) {
+            const std::string k = std::to_string(1e6 * share / (c.corner_px * c.corner_px)) + "e-6";
+            ASSERT_EQ(run("simulate -o frames --seed 92 --size " + std::string(c.size) + " --k " +
+                          k + " --frames " + std::to_string(c.frames)),
+                      0)
+                << errors_;
+            ASSERT_EQ(run("evaluate frames --json"), 0) << errors_;
+            const json score = json::parse(output_);
+            SCOPED_TRACE(std::string(c.size) + ", k " + k + ": " + output_);
+            EXPECT_EQ(score["wrong"], 0);
+            EXPECT_GE(score["located"].get<int>(), c.frames - c.frames / 40);
+            EXPECT_LT(score["position_um"]["median"].get<double>(), 1.6);
+            EXPECT_LT(score["position_um"]["max"].get<double>(), 5);
+            EXPECT_LT(score["angle_deg"]["max"].get<double>(), 0.15);
+            fs::remove_all(directory_ / "frames");
+        }
+    }
+}
+
 TEST_F(CalibrateCommand, FindsReferenceAndHeading) {
     simulate("turn", 1);
     // The camera sits on the robot's centre: one place, four directions.
@@ -56,9 +87,11 @@ TEST_F(CalibrateCommand, FindsReferenceAndHeading) {
     std::ofstream(directory_ / "lens.yaml")
         << "{format: dotpose-camera, version: 1, width_px: 188, height_px: 120, "
            "k_per_px2: -8.7e-06, centre_px: [93.5, 59.5], mm_per_px: [0.046, 0.046]}";
-    ASSERT_EQ(run("calibrate --camera lens.yaml -o robot.yaml --spin" + turn + " --drive" + drive),
+    ASSERT_EQ(run("calibrate --camera lens.yaml -o robot.yaml --draw-spin turn.svg --spin" + turn +
+                  " --drive" + drive),
               0)
         << errors_;
+    EXPECT_THAT(file("turn.svg"), HasSubstr("</svg>"));
     EXPECT_THAT(output_, HasSubstr("4 of 4 frames located, over 270 degrees"));
     const std::string yaml = file("robot.yaml");
     double u = 0;

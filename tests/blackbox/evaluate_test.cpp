@@ -1,6 +1,8 @@
 // `dotpose evaluate` as its user sees it.
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -97,6 +99,50 @@ TEST_F(EvaluateCommand, ProfileAndSpacingAreTakenFromTheTruthUnlessGiven) {
     EXPECT_EQ(result()["located"], 2);
     ASSERT_EQ(run("evaluate frames --code anoto --json"), 0);
     EXPECT_EQ(result()["located"], 0);
+}
+
+TEST_F(EvaluateCommand, ACameraFileIsUsedAsLocateDoes) {
+    ASSERT_EQ(run("simulate -o frames --frames 5 --k -8.7e-6 --angle 30 --at 5000,6000"), 0);
+    // The robot's centre is 5 mm ahead of the camera, and it heads a quarter turn off the x axis.
+    std::ofstream(directory_ / "robot.yaml")
+        << "{format: dotpose-camera, version: 1, width_px: 188, height_px: 120, k_per_px2: "
+           "-8.7e-06, centre_px: [93.5, 59.5], mm_per_px: [0.046, 0.046], reference_px: "
+           "[202.195652, 59.5], theta_offset_rad: 1.570796327}";
+    ASSERT_EQ(run("evaluate frames --k -8.7e-6 --json"), 0) << errors_;
+    const json lens_alone = result();
+    ASSERT_EQ(run("evaluate frames --camera robot.yaml --json"), 0) << errors_;
+    const json image = result();
+    EXPECT_EQ(image["located"], 5);
+    EXPECT_LT(image["position_um"]["max"], 5);
+    // The view is used as well: of five parameters instead of eight, the angle is more exact.
+    EXPECT_NE(image["angle_deg"]["max"], lens_alone["angle_deg"]["max"]);
+    ASSERT_EQ(run("evaluate frames --camera robot.yaml --truth robot --json"), 0) << errors_;
+    EXPECT_EQ(result()["wrong"], 5);  // truth.csv has the image centre
+
+    std::ofstream truth(directory_ / "frames/truth.csv");
+    truth << "file,theta_deg,x_grid,y_grid\n";
+    constexpr double kAhead_grid = 5 / 0.508;
+    const double x = 5000 + kAhead_grid * std::cos(std::numbers::pi / 6);
+    const double y = 6000 + kAhead_grid * std::sin(std::numbers::pi / 6);
+    for (int i = 0; i < 5; ++i)
+        truth << "frame_00000" << i << ".pgm,120," << x << ',' << y << '\n';
+    truth.close();
+    ASSERT_EQ(run("evaluate frames --camera robot.yaml --truth robot --json"), 0) << errors_;
+    EXPECT_EQ(result()["located"], 5);
+    // An angle of 0.03 degrees is 3 um at 5 mm; the truth was written with 6 digits.
+    EXPECT_LT(result()["position_um"]["max"], 15);
+    EXPECT_LT(result()["angle_deg"]["max"], 0.15);
+}
+
+TEST_F(EvaluateCommand, ACameraFileOfAnotherSizeIsAProblemOfEachImage) {
+    ASSERT_EQ(run("simulate -o frames --frames 2"), 0);
+    std::ofstream(directory_ / "large.yaml")
+        << "{format: dotpose-camera, version: 1, width_px: 640, height_px: 480, k_per_px2: 0, "
+           "centre_px: [319.5, 239.5]}";
+    EXPECT_EQ(run("evaluate frames --camera large.yaml"), 1);
+    EXPECT_THAT(errors_, HasSubstr("frame_000001.pgm: the camera file is for images of 640 x 480"));
+    EXPECT_EQ(run("evaluate frames --truth robot"), 2);
+    EXPECT_EQ(run("evaluate --preset clean --camera large.yaml"), 2);
 }
 
 TEST_F(EvaluateCommand, WhatCannotBeReadIsNamedAndTheRestIsDone) {

@@ -1,6 +1,7 @@
 // `dotpose calibrate --stitch`: from frames over a seam to world poses in the sheet file.
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <numbers>
 #include <string>
 
@@ -13,6 +14,7 @@ namespace dotpose::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr double kSpacing_mm = kDefaultSpacing_mm;
 constexpr int kSide_cells = 60;
@@ -83,6 +85,9 @@ TEST_F(StitchCommand, WritesWorldPosesIntoTheSheetFile) {
     ASSERT_EQ(run("calibrate --stitch --sheets sheets.json seam*.pgm"), 0) << errors_;
     EXPECT_THAT(output_, HasSubstr("frames      12 of 12 show two sheets"));
     EXPECT_THAT(output_, HasSubstr("sheet       left: stays where it is"));
+    // Without a camera file, whose mm per px are known.
+    EXPECT_THAT(output_, HasSubstr("(NOT TOLD) along x"));
+    EXPECT_THAT(output_, HasSubstr("NOT TOLD:   scales that these frames do not determine"));
     const auto sheets = read_sheets(directory_ / "sheets.json");
     EXPECT_EQ(sheets[0].world->x_m, 2);
     EXPECT_NEAR(sheets[1].world->x_m, 2 + kRight_mm / 1000, 3e-5);
@@ -97,6 +102,31 @@ TEST_F(StitchCommand, WritesWorldPosesIntoTheSheetFile) {
     EXPECT_NEAR(record["x_m"].get<double>(), 2.045, 3e-5);
     EXPECT_NEAR(record["y_m"].get<double>(), 1 - 0.012, 3e-5);
     EXPECT_NEAR(record["yaw_rad"].get<double>(), -0.3, 0.001);
+
+    // A mounted camera tells print scales as well.
+    std::ofstream(directory_ / "camera.yaml")
+        << "{format: dotpose-camera, version: 1, width_px: 376, height_px: 240, k_per_px2: 0, "
+           "centre_px: [187.5, 119.5], mm_per_px: [0.046, 0.046]}";
+    const std::string stitch = "calibrate --stitch --sheets sheets.json --camera camera.yaml ";
+    ASSERT_EQ(run(stitch + "--true-scale camera --draw sheets.svg seam*.pgm"), 0) << errors_;
+    EXPECT_THAT(output_, HasSubstr("scale       by the camera's mm per px"));
+    EXPECT_THAT(output_, Not(HasSubstr("NOT TOLD")));
+    EXPECT_THAT(file("sheets.svg"), HasSubstr("</svg>"));
+    // To a tenth of a millimetre in 200.
+    for (const SheetEntry& entry : read_sheets(directory_ / "sheets.json")) {
+        EXPECT_NEAR(entry.print_scale_x, 1, 5e-4) << entry.name;
+        EXPECT_NEAR(entry.print_scale_y, 1, 5e-4) << entry.name;
+    }
+    // By a ruler the right sheet is 0.5 % too long, and so is the camera's view.
+    const double width_mm = 1.005 * (kSide_cells - 1) * kSpacing_mm;
+    ASSERT_EQ(run(stitch + "--true-scale right=" + std::to_string(width_mm) + " seam*.pgm"), 0)
+        << errors_;
+    for (const SheetEntry& entry : read_sheets(directory_ / "sheets.json"))
+        EXPECT_NEAR(entry.print_scale_x, 1.005, 1e-3) << entry.name;
+    EXPECT_EQ(run(stitch + "--true-scale ruler seam*.pgm"), 2);
+    EXPECT_EQ(run(stitch + "--true-scale none=30 seam*.pgm"), 2);
+    EXPECT_THAT(errors_, HasSubstr("there is no sheet 'none'"));
+    EXPECT_EQ(run("calibrate --true-scale camera seam*.pgm"), 2);
 
     EXPECT_EQ(run("calibrate --stitch --sheets sheets.json right.pgm"), 1);
     EXPECT_THAT(errors_, HasSubstr("none of the 1 frames shows two sheets"));

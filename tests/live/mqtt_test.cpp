@@ -1,9 +1,12 @@
 // Publishing to a real broker: what arrives, what is dropped, and what happens when it goes away.
 #include "publish/mqtt.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <set>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -127,6 +130,70 @@ TEST_F(Mqtt, BrokerThatIsStoppedInMidRun) {
     for (int i = 109; i >= 80; --i)  // the newest first
         expected.push_back(i);
     EXPECT_EQ(numbers, expected);
+}
+
+/// Numbers of the states that a broker kept for a session, in the order in which they came.
+std::vector<int> header_ids(const std::string& lines) {
+    std::istringstream stream(lines);
+    std::vector<int> ids;
+    for (std::string line; std::getline(stream, line);)
+        ids.push_back(nlohmann::json::parse(line).at("headerId"));
+    return ids;
+}
+
+TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
+    constexpr int kFrames = 700;  // at 50 frames/s
+    constexpr auto kFrame = 20ms;
+    Broker broker(directory_);
+    const std::string reader = fmt::format("mosquitto_sub -p {} -c -i reader -q 1 -t '{}' ",
+                                           broker.port(), "uagv/v2/dotpose/anna/state");
+    shell(reader + "-E");
+    shell("mkfifo frames");
+    std::thread camera([&] {
+        const GreyImage image = DriveCamera(188, 120).frame(Drive(), 0);
+        // Closed on exec: the broker that is started meanwhile must not hold it open.
+        std::FILE* pipe = std::fopen((directory_ / "frames").c_str(), "wbe");
+        const auto begun = std::chrono::steady_clock::now();
+        for (int i = 1; i <= kFrames; ++i) {
+            std::fwrite(image.pixels.data(), 1, image.pixels.size(), pipe);
+            std::fflush(pipe);
+            std::this_thread::sleep_until(begun + i * kFrame);
+        }
+        std::fclose(pipe);
+    });
+    std::thread trouble([&] {
+        std::this_thread::sleep_for(2s);
+        broker.stop();
+        std::this_thread::sleep_for(10s);
+        broker.start();
+    });
+    EXPECT_EQ(
+        run("watch - --size 188x120 --fps 50 -o lines --robot anna --qos 1 --mqtt " + broker.url(),
+            (directory_ / "frames").string()),
+        0);
+    camera.join();
+    trouble.join();
+    EXPECT_EQ(std::ranges::count(file("lines"), '\n'), kFrames);
+    EXPECT_THAT(errors_, HasSubstr("is gone; trying to reach it again"));
+    int sent = 0;
+    int dropped = 0;
+    const std::size_t counts = errors_.rfind("dotpose: ", errors_.find(" states published, "));
+    ASSERT_EQ(std::sscanf(errors_.c_str() + counts, "dotpose: %d states published, %d dropped",
+                          &sent, &dropped),
+              2)
+        << errors_;
+    EXPECT_EQ(sent + dropped, kFrames + 1);  // the last one says that the robot is lost
+    // 500 frames, less the 50 states that are kept; far fewer if this machine was held up.
+    EXPECT_GT(dropped, 300);
+
+    // One that was under way when the broker went may come twice.
+    const std::vector<int> ids = header_ids(shell(reader + "-W 2 || true"));
+    EXPECT_EQ(std::set<int>(ids.begin(), ids.end()).size(), static_cast<std::size_t>(sent));
+    // After the gap the newest come first.
+    const auto before = std::ranges::adjacent_find(ids, [](int a, int b) { return b > a + 1; });
+    ASSERT_NE(before, ids.end());
+    EXPECT_GT(*(before + 1) - *before, 300);
+    EXPECT_TRUE(std::is_sorted(before + 1, before + 21, std::greater<>()));
 }
 
 TEST_F(Mqtt, StartsBeforeItsBroker) {

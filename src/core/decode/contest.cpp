@@ -9,7 +9,6 @@ Contest::Contest(Profile profile, const Lines& lines_, const AxisReading& readin
       lines(lines_),
       position(reading.position),
       odds_per_bit_q8_(odds_q8) {
-    int most_regained = 0;  // score by which better rolls than the reading's exceed it, in all
     const auto count = static_cast<std::size_t>(lines.count());
     code::follow_rolls(profile, reading.position, reading.roll, std::span(rolls_).first(count));
     for (int i = 0; i < lines.count(); ++i) {
@@ -21,9 +20,9 @@ Contest::Contest(Profile profile, const Lines& lines_, const AxisReading& readin
         }
         const int least_loss = scores[own] - best_other;
         least_losses_[static_cast<std::size_t>(i)] = static_cast<std::int16_t>(least_loss);
-        most_regained += std::max(-least_loss, 0);
+        most_regained_ += std::max(-least_loss, 0);
     }
-    hopeless_score_ = most_regained + -kNegligible_q8 * 2 * 127 / odds_q8;
+    hopeless_score_ = most_regained_ + -kNegligible_q8 * 2 * 127 / odds_q8;
 }
 
 Growth growth_of(const Contest& contest, const code::Secondary& a, std::uint32_t rival_place) {

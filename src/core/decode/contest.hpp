@@ -29,6 +29,8 @@ class Contest {
     }
     /// The least that a rival loses in a line which it does not share; may be negative.
     int least_loss(int line) const { return least_losses_[static_cast<std::size_t>(line)]; }
+    /// The most that it may win back in lines that another roll suits better.
+    int most_regained() const { return most_regained_; }
     /// Odds of a rival, against the reading, that has lost so much score: a power of two in 2^-8.
     int log2_odds_q8(int lost) const {
         // Half of the score is weight; 129 / 2^15 is 1 / (2 * 127). More loss makes no difference.
@@ -52,6 +54,7 @@ class Contest {
 
   private:
     int odds_per_bit_q8_;
+    int most_regained_ = 0;
     int hopeless_score_ = 0;
     std::array<std::uint8_t, kMaxLines> rolls_{};
     std::array<std::int16_t, kMaxLines> least_losses_{};

@@ -4,7 +4,9 @@
 #include <optional>
 
 #include "core/decode/likelihood.hpp"
+#include "core/decode/nominal.hpp"
 #include "core/pixels/paper.hpp"
+#include "core/pixels/surroundings.hpp"
 #include "core/pixels/undistort.hpp"
 #include "core/plane.hpp"
 
@@ -15,18 +17,12 @@ namespace {
 constexpr int kTaps = 6;
 constexpr std::size_t kMedianSample = 256;
 
-/// A pixel, limited to the range of its eight neighbours. It has them: looks keep off the border.
+/// A pixel, limited to the range of its eight neighbours. At the border, where it has fewer, the
+/// next that has them.
 int without_impulse(const ImageView& image, int u, int v) {
-    int low = 255;
-    int high = 0;
-    for (int dv = -1; dv <= 1; ++dv) {
-        const std::uint8_t* row = image.row(v + dv) + u;
-        for (int du = -1; du <= 1; ++du) {
-            if (du == 0 && dv == 0) continue;
-            low = std::min(low, int{row[du]});
-            high = std::max(high, int{row[du]});
-        }
-    }
+    u = std::clamp(u, 1, image.width_px - 2);
+    v = std::clamp(v, 1, image.height_px - 2);
+    const auto [low, high] = range_around(image, u, v);
     return std::clamp(int{image.row(v)[u]}, low, high);
 }
 
@@ -41,12 +37,11 @@ std::array<int, kTaps> taps(std::int32_t position_q8) {
     return weights;
 }
 
-/// Weighted mean around a point, in 1/256 grey level; nothing near the border.
+/// Weighted mean around a point, in 1/256 grey level; nothing outside the image.
 std::optional<int> level_q8(const ImageView& image, Vec point_q8) {
     const int u0 = (point_q8.x >> 8) - 2;
     const int v0 = (point_q8.y >> 8) - 2;
-    if (u0 < 1 || v0 < 1 || u0 + kTaps >= image.width_px || v0 + kTaps >= image.height_px)
-        return {};
+    if (u0 < -2 || v0 < -2 || u0 + 3 >= image.width_px || v0 + 3 >= image.height_px) return {};
     const auto across = taps(point_q8.x);
     const auto down = taps(point_q8.y);
     int sum_q12 = 0;
@@ -63,15 +58,33 @@ std::optional<int> level_q8(const ImageView& image, Vec point_q8) {
 
 /// What shows at one of a cell's four places.
 struct PlaceView {
-    int darkness_q8 = 0;        ///< relative to the paper
-    int shade_q8 = 0;           ///< mean darkness of a square of 2/5 spacing around
-    int darkest_around_q8 = 0;  ///< shade of such squares 4/15 spacing away
+    bool is_seen = false;
+    int darkness_q8 = 0;  ///< relative to the paper
+    int shade_q8 = 0;     ///< mean darkness of a square of 2/5 spacing around
 };
 
 /// What a look at one cell shows.
 struct CellView {
+    Vec centre_q8;
+    Vec u_q8;  ///< one spacing along each axis of the grid
+    Vec v_q8;
+    int half_px = 0;                  ///< of a square of 2/5 spacing
     std::array<PlaceView, 4> places;  ///< by Symbol
+
+    int places_seen() const {
+        return static_cast<int>(std::count_if(
+            places.begin(), places.end(), [](const PlaceView& place) { return place.is_seen; }));
+    }
+
+    Vec at(Vec offset_60th) const {
+        return centre_q8 + Vec{(u_q8.x * offset_60th.x + v_q8.x * offset_60th.y) / 60,
+                               (u_q8.y * offset_60th.x + v_q8.y * offset_60th.y) / 60};
+    }
 };
+
+Vec place_60th(Symbol symbol) {
+    return {10 * dx(symbol), 10 * dy(symbol)};
+}
 
 /// Looks at an image through a grid laid over it.
 class Eye {
@@ -80,12 +93,22 @@ class Eye {
         const PlaneFromImage& plane)
         : image_(image), paper_(paper), lens_(lens), plane_(plane) {}
 
+    /// Nothing where no place is in the image.
     std::optional<CellView> look_at(Vec cell) const;
+    /// Paper level at the middle of the cell, over that at the middle of the image.
+    int light_q8(const CellView& view) const;
+    /// Shade of the darkest square 2/15 spacing away from a place.
+    int darkest_around_q8(const CellView& view, Symbol symbol) const;
 
   private:
     /// Where the image shows a point of the plane, in spacings.
     Vec image_of(std::int32_t x_q16, std::int32_t y_q16) const {
-        return distorted(lens_, plane_.centre_q8, image_point_q8(plane_, {x_q16, y_q16}));
+        return distorted_point_q8(lens_, plane_, {x_q16, y_q16});
+    }
+    /// Paper level at the pixel of the image next to this one.
+    int paper_near(Vec px) const {
+        return paper_at(paper_, std::clamp(px.x, 0, image_.width_px - 1),
+                        std::clamp(px.y, 0, image_.height_px - 1));
     }
     /// Mean darkness of a square of 2/5 spacing.
     int shade_q8(Vec centre_q8, int half_px) const;
@@ -112,51 +135,52 @@ int Eye::shade_q8(Vec centre_q8, int half_px) const {
         }
     }
     if (count == 0) return 0;
-    const int paper = paper_at(paper_, std::clamp(u0, 0, image_.width_px - 1),
-                               std::clamp(v0, 0, image_.height_px - 1));
+    const int paper = paper_near({u0, v0});
     return (paper * count - sum) * 256 / (paper * count);
 }
 
 std::optional<CellView> Eye::look_at(Vec cell) const {
-    const Vec centre_q8 = image_of(cell.x * 65536, cell.y * 65536);
-    const Vec u_q8 = image_of(cell.x * 65536 + 65536, cell.y * 65536) - centre_q8;
-    const Vec v_q8 = image_of(cell.x * 65536, cell.y * 65536 + 65536) - centre_q8;
-    const auto at = [&](int x_60th, int y_60th) {
-        return centre_q8 + Vec{(u_q8.x * x_60th + v_q8.x * y_60th) / 60,
-                               (u_q8.y * x_60th + v_q8.y * y_60th) / 60};
-    };
-    const auto spacing_q8 =
-        static_cast<std::int32_t>(square_root(static_cast<std::uint64_t>(squared(u_q8))));
-    const int half_px = std::max((spacing_q8 / 5 + 128) >> 8, 1);
     CellView view;
+    view.centre_q8 = image_of(cell.x * 65536, cell.y * 65536);
+    view.u_q8 = image_of(cell.x * 65536 + 65536, cell.y * 65536) - view.centre_q8;
+    view.v_q8 = image_of(cell.x * 65536, cell.y * 65536 + 65536) - view.centre_q8;
+    const auto spacing_q8 =
+        static_cast<std::int32_t>(square_root(static_cast<std::uint64_t>(squared(view.u_q8))));
+    view.half_px = std::max((spacing_q8 / 5 + 128) >> 8, 1);
     for (std::size_t i = 0; i < view.places.size(); ++i) {
-        const auto symbol = static_cast<Symbol>(i);
-        const int x = 10 * dx(symbol);
-        const int y = 10 * dy(symbol);
-        const Vec place_q8 = at(x, y);
+        const Vec place_q8 = view.at(place_60th(static_cast<Symbol>(i)));
         const std::optional<int> level = level_q8(image_, place_q8);
-        if (!level) return {};
+        if (!level) continue;
         const int paper = paper_at(paper_, place_q8.x >> 8, place_q8.y >> 8);
-        PlaceView& place = view.places[i];
-        place.darkness_q8 = (paper * 256 - *level) / paper;
-        place.shade_q8 = shade_q8(place_q8, half_px);
-        constexpr int kFar = 16;
-        constexpr int kDiagonal = 11;
-        for (const Vec d : {Vec{kFar, 0}, Vec{-kFar, 0}, Vec{0, kFar}, Vec{0, -kFar},
-                            Vec{kDiagonal, kDiagonal}, Vec{-kDiagonal, kDiagonal},
-                            Vec{kDiagonal, -kDiagonal}, Vec{-kDiagonal, -kDiagonal}}) {
-            place.darkest_around_q8 =
-                std::max(place.darkest_around_q8, shade_q8(at(x + d.x, y + d.y), half_px));
-        }
+        view.places[i] = {true, (paper * 256 - *level) / paper, shade_q8(place_q8, view.half_px)};
     }
+    if (view.places_seen() == 0) return {};
     return view;
 }
 
+int Eye::darkest_around_q8(const CellView& view, Symbol symbol) const {
+    constexpr int kFar = 8;
+    constexpr int kDiagonal = 5;
+    int darkest = 0;
+    for (const Vec d :
+         {Vec{kFar, 0}, Vec{-kFar, 0}, Vec{0, kFar}, Vec{0, -kFar}, Vec{kDiagonal, kDiagonal},
+          Vec{-kDiagonal, kDiagonal}, Vec{kDiagonal, -kDiagonal}, Vec{-kDiagonal, -kDiagonal}}) {
+        darkest = std::max(darkest, shade_q8(view.at(place_60th(symbol) + d), view.half_px));
+    }
+    return darkest;
+}
+
+int Eye::light_q8(const CellView& view) const {
+    const int here = paper_near({view.centre_q8.x >> 8, view.centre_q8.y >> 8});
+    return here * 256 / paper_near({image_.width_px / 2, image_.height_px / 2});
+}
+
+/// `use(cell, what the grid keeps of it, view)` for all cells of which something is seen.
 template <typename Use>
 void visit(const Eye& eye, Grid& grid, Use use) {
     for (int j = grid.j0; j < grid.j0 + grid.rows; ++j) {
         for (int i = grid.i0; i < grid.i0 + grid.columns; ++i) {
-            if (const auto view = eye.look_at({i, j})) use(grid.at(i, j), *view);
+            if (const auto view = eye.look_at({i, j})) use(Vec{i, j}, grid.at(i, j), *view);
         }
     }
 }
@@ -168,7 +192,8 @@ PlaceView typical_place(const Eye& eye, Grid& grid) {
     std::size_t count = 0;
     int seen = 0;
     const int every = grid.columns * grid.rows / static_cast<int>(kMedianSample) + 1;
-    visit(eye, grid, [&](const GridCell&, const CellView& view) {
+    visit(eye, grid, [&](Vec, const GridCell&, const CellView& view) {
+        if (view.places_seen() < 4) return;
         if (seen++ % every != 0) return;
         const PlaceView& darkest = *std::max_element(
             view.places.begin(), view.places.end(),
@@ -176,9 +201,85 @@ PlaceView typical_place(const Eye& eye, Grid& grid) {
         darkness[count] = darkest.darkness_q8;
         shade[count++] = darkest.shade_q8;
     });
-    return {std::max(median(std::span(darkness).first(count)), 1),
-            std::max(median(std::span(shade).first(count)), 1), 0};
+    return {true, std::max(median(std::span(darkness).first(count)), 1),
+            std::max(median(std::span(shade).first(count)), 1)};
 }
+
+/// How dark dots and graphics are in this image, and what a cell's darkness says of its bits.
+class Ink {
+  public:
+    Ink(const Eye& eye, Grid& grid) : eye_(eye) {
+        const PlaceView typical = typical_place(eye, grid);
+        contrast_q8_ = typical.darkness_q8;
+        // Between the shade of a dot and that of solid ink.
+        constexpr int kSolid_q8 = 230;
+        graphics_q8_ =
+            static_cast<int>(square_root(static_cast<std::uint64_t>(typical.shade_q8 * kSolid_q8)));
+    }
+
+    /// Darkness of a cell's places, and how far it is to be trusted.
+    struct Look {
+        std::array<int, 4> darkness_q8;  ///< by Symbol
+        int trust_q4 = 16;
+        int light_q8 = 256;
+    };
+    /// Marks the cell as hidden where graphics cover one of its places.
+    Look look_at(const CellView& view, GridCell& cell) const {
+        Look look;
+        int hidden = 0;
+        int darkest_q8 = 0;
+        int beside_q8 = 0;
+        for (std::size_t i = 0; i < view.places.size(); ++i) {
+            const PlaceView& place = view.places[i];
+            // As likely as not there is a dot where nothing is seen.
+            look.darkness_q8[i] = contrast_q8_ / 2;
+            if (!place.is_seen) continue;
+            const int around_q8 = eye_.darkest_around_q8(view, static_cast<Symbol>(i));
+            if (std::max(place.shade_q8, around_q8) > graphics_q8_) {
+                ++hidden;
+                continue;
+            }
+            look.darkness_q8[i] = place.darkness_q8;
+            darkest_q8 = std::max(darkest_q8, place.darkness_q8);
+            beside_q8 = std::max(beside_q8, around_q8);
+        }
+        if (hidden > 0) cell.dot = GridCell::kHidden;
+        look.light_q8 = std::min(eye_.light_q8(view), 1024);
+        // In hard frames bits were this much less sure than those of cells in plain view.
+        constexpr std::array<int, 5> kBySeen_q4{0, 6, 8, 10, 16};
+        look.trust_q4 = kBySeen_q4[static_cast<std::size_t>(view.places_seen())];
+        if (hidden > 0) look.trust_q4 = std::min(look.trust_q4, 10);
+        if (5 * beside_q8 > 3 * graphics_q8_) look.trust_q4 = std::min(look.trust_q4, 7);
+        // Too dark for a dot: dirt.
+        if (10 * darkest_q8 > 13 * contrast_q8_) look.trust_q4 = std::min(look.trust_q4, 12);
+        if (10 * darkest_q8 > 16 * contrast_q8_) look.trust_q4 = std::min(look.trust_q4, 6);
+        return look;
+    }
+
+    /// Whether two of the places look like dots.
+    bool is_crowded(const Look& look) const {
+        std::array<int, 4> sorted = look.darkness_q8;
+        std::sort(sorted.begin(), sorted.end());
+        return 3 * sorted[2] > 2 * contrast_q8_ && 4 * sorted[2] > 3 * sorted[3];
+    }
+
+    /// Weight of a bit, from the darkness at the places for 1 and for 0.
+    std::int8_t weight(const Look& look, int one_q8, int zero_q8) const {
+        // Noise is that of the sensor: the difference counts in grey levels, and against it the
+        // contrast, both in proportion to the light.
+        const int difference = (one_q8 - zero_q8) * 300 / contrast_q8_;
+        const int light_q16 = look.light_q8 * look.light_q8;
+        // From some contrast on a bit gets no surer: what is wrong there is no noise.
+        const int weight = static_cast<int>(
+            std::clamp<std::int64_t>(std::int64_t{difference} * light_q16 >> 16, -127, 127));
+        return static_cast<std::int8_t>(weight * look.trust_q4 / 16);
+    }
+
+  private:
+    const Eye& eye_;
+    int contrast_q8_ = 1;
+    int graphics_q8_ = 0;
+};
 
 /// The cells between the outermost points of the image's border.
 void cover_image(const ImageView& image, const Lens& lens, const PlaneFromImage& plane,
@@ -198,35 +299,65 @@ void cover_image(const ImageView& image, const Lens& lens, const PlaneFromImage&
     lay_out(least, most, grid);
 }
 
+/// `set_bits(cell, what the grid keeps of it, ink, look)` for all cells. Returns whether few show
+/// two dots.
+template <typename SetBits>
+bool read_cells(const Eye& eye, Grid& grid, SetBits set_bits) {
+    int cells = 0;
+    int crowded = 0;
+    const Ink ink(eye, grid);
+    visit(eye, grid, [&](Vec at, GridCell& cell, const CellView& view) {
+        const Ink::Look look = ink.look_at(view, cell);
+        set_bits(at, cell, ink, look);
+        if (view.places_seen() < 4 || cell.dot == GridCell::kHidden) return;
+        ++cells;
+        crowded += ink.is_crowded(look);
+    });
+    // Up to a third in hard frames, about half where two patterns lie on one another.
+    return 8 * crowded <= 3 * cells;
+}
+
+std::int8_t x_weight(const Ink& ink, const Ink::Look& look) {
+    const auto [up, left, right, down] = look.darkness_q8;
+    return ink.weight(look, std::max(left, down), std::max(up, right));
+}
+
+std::int8_t y_weight(const Ink& ink, const Ink::Look& look) {
+    const auto [up, left, right, down] = look.darkness_q8;
+    return ink.weight(look, std::max(right, down), std::max(up, left));
+}
+
 }  // namespace
 
-void look_at_cells(const ImageView& image, const PaperMap& paper, const Lens& lens,
+bool look_at_cells(const ImageView& image, const PaperMap& paper, const Lens& lens,
                    const PlaneFromImage& plane, Grid& grid) {
     cover_image(image, lens, plane, grid);
-    const Eye eye(image, paper, lens, plane);
-    const PlaceView typical = typical_place(eye, grid);
-    const int contrast = typical.darkness_q8;
-    // Between the shade of a dot and that of solid ink.
-    constexpr int kInk_q8 = 192;
-    const auto graphics_q8 =
-        static_cast<int>(square_root(static_cast<std::uint64_t>(typical.shade_q8 * kInk_q8)));
-    visit(eye, grid, [&](GridCell& cell, const CellView& view) {
-        std::array<int, 4> darkness;
-        for (std::size_t i = 0; i < darkness.size(); ++i) {
-            const PlaceView& place = view.places[i];
-            const bool is_hidden = std::max(place.shade_q8, place.darkest_around_q8) > graphics_q8;
-            if (is_hidden) cell.dot = GridCell::kHidden;
-            // As likely as not there is a dot under graphics.
-            darkness[i] = is_hidden ? contrast / 2 : place.darkness_q8;
-        }
-        const auto [up, left, right, down] = darkness;
-        const auto weight = [&](int one, int zero) {
-            // Beyond 7/10 of a dot's contrast a bit gets no surer: what is wrong there is no noise.
-            return static_cast<std::int8_t>(std::clamp((one - zero) * 180 / contrast, -127, 127));
-        };
-        cell.x = weight(std::max(left, down), std::max(up, right));
-        cell.y = weight(std::max(right, down), std::max(up, left));
-    });
+    return read_cells(Eye(image, paper, lens, plane), grid,
+                      [](Vec, GridCell& cell, const Ink& ink, const Ink::Look& look) {
+                          cell.x = x_weight(ink, look);
+                          cell.y = y_weight(ink, look);
+                      });
+}
+
+void look_at_cells_knowing(Axis known, Profile profile, const Decoding& decoding,
+                           const ImageView& image, const PaperMap& paper, const Lens& lens,
+                           const PlaneFromImage& plane, Grid& grid) {
+    cover_image(image, lens, plane, grid);
+    const Nominal nominal(grid, profile, decoding);
+    read_cells(Eye(image, paper, lens, plane), grid,
+               [&](Vec at, GridCell& cell, const Ink& ink, const Ink::Look& look) {
+                   const auto [up, left, right, down] = look.darkness_q8;
+                   const Symbol symbol = nominal.symbol(nominal.pattern_step(at));
+                   if (known == Axis::x) {
+                       cell.x = x_weight(ink, look);
+                       cell.y = x_bit(symbol) == 1 ? ink.weight(look, down, left)
+                                                   : ink.weight(look, right, up);
+                   } else {
+                       cell.x = y_bit(symbol) == 1 ? ink.weight(look, down, right)
+                                                   : ink.weight(look, left, up);
+                       cell.y = y_weight(ink, look);
+                   }
+               });
 }
 
 }  // namespace dotpose::core

@@ -3,6 +3,7 @@
 // second attempt. differs: docs/differs-from-paper.md.
 #pragma once
 
+#include "core/decode/lines.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/options.hpp"
 #include "dotpose/workspace.hpp"
@@ -10,9 +11,17 @@
 namespace dotpose::core {
 
 /// Lays the grid over the whole image and sets the weights of the bits of all its cells, or of the
-/// middle `grid.side` ones per axis. Cells near the border stay without; places under
-/// graphics count as neither dark nor light, and their cells are marked as hidden.
-void look_at_cells(const ImageView& image, const PaperMap& paper, const Lens& lens,
+/// middle `grid.side` ones per axis. Places outside the image and under graphics count as neither
+/// dark nor light; cells under graphics are marked as hidden. What is not in plain view weighs
+/// less.
+bool look_at_cells(const ImageView& image, const PaperMap& paper, const Lens& lens,
                    const PlaneFromImage& grid_from_image, Grid& grid);
+
+/// The same once one axis is beyond doubt: its bits say which two of a cell's places the dot can
+/// have, and only these are compared for the bits of the other axis. The grid must stand upright,
+/// as `decoding` has it.
+void look_at_cells_knowing(Axis known, Profile profile, const Decoding& decoding,
+                           const ImageView& image, const PaperMap& paper, const Lens& lens,
+                           const PlaneFromImage& grid_from_image, Grid& grid);
 
 }  // namespace dotpose::core

@@ -14,11 +14,6 @@ constexpr auto kMainRepeated = [] {
     return bits;
 }();
 
-/// Index at which a line begins in the first row (column) of an area.
-int first_index(Profile profile, std::uint32_t position, int section, std::uint32_t cross) {
-    return (roll(profile, position) + section + static_cast<int>(cross % kSections)) % kSections;
-}
-
 }  // namespace
 
 Nominal::Nominal(const Grid& grid, Profile profile, const Decoding& decoding)
@@ -29,7 +24,7 @@ Nominal::Nominal(const Grid& grid, Profile profile, const Decoding& decoding)
     const Place corner = moved(profile, decoding.place, first_.x, first_.y);
     const auto follow = [&](std::uint32_t position, int section, std::uint32_t cross, int count,
                             std::array<std::uint8_t, kMaxGridSide>& indices) {
-        code::follow_rolls(profile, position, first_index(profile, position, section, cross),
+        code::follow_rolls(profile, position, code::roll_from(profile, position, section, cross),
                            std::span(indices).first(static_cast<std::size_t>(count)));
     };
     follow(corner.cell.x, corner.section.u, corner.cell.y, std::max(a.x, b.x) - first_.x + 1,

@@ -230,11 +230,7 @@ int singles_log2_q8(const Contest& contest) {
     const int lines = contest.lines.count();
     const int steps = std::min(lines - 1, kMostSteps);
     const int first_line = (lines - 1 - steps) / 2;
-    int enough = contest.loss_for(kPassedOver_q8);
-    // In lines that another roll suits better, it may be regained.
-    for (int line = 0; line < lines; ++line)
-        enough += std::max(-contest.least_loss(line), 0);
-
+    const int enough = contest.loss_for(kPassedOver_q8) + contest.most_regained();
     const StepLosses losses(contest, first_line, steps, enough);
     ByShift by_shift(contest, enough);
     int sum = kSingles_q8 + kPassedOver_q8 +

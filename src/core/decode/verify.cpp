@@ -23,8 +23,8 @@ AxisReading reading_of(Profile profile, const Place& place, Axis axis) {
     const std::uint32_t position = is_x ? place.cell.x : place.cell.y;
     const std::uint32_t cross = is_x ? place.cell.y : place.cell.x;
     const int section = is_x ? place.section.u : place.section.v;
-    const int here = roll(profile, position) + section + static_cast<int>(cross % kSections);
-    return {position, static_cast<std::uint8_t>(here % kSections), 0, 0};
+    const int here = code::roll_from(profile, position, section, cross);
+    return {position, static_cast<std::uint8_t>(here), 0, 0};
 }
 
 /// Of all lines of an upright grid.
@@ -59,9 +59,9 @@ Place corner_place(Profile profile, const Decoding& decoding, const Upright& upr
 
 /// What all bits in view say before rivals are counted.
 struct Doubt {
-    bool is_too_much = true;
-    int odds_per_bit_q8 = 0;
-    int by_chance_q8 = 0;  ///< log2 of the probability that chance agrees as well
+    int odds_per_bit_q8 = 0;  ///< 0: nothing is known of the bits
+    /// log2 of the probability that chance agrees as well, of each axis.
+    std::array<int, 2> by_chance_q8{};
 };
 
 Doubt compare_with_chance(const Grid& grid, Profile profile, const Decoding& decoding,
@@ -73,7 +73,6 @@ Doubt compare_with_chance(const Grid& grid, Profile profile, const Decoding& dec
         compare(profile, upright, Axis::x, reading_of(profile, place, Axis::x)),
         compare(profile, upright, Axis::y, reading_of(profile, place, Axis::y))};
     fix.bit_errors = agreements[0].errors + agreements[1].errors;
-    fix.p_wrong_log2 = 0;
     for (const Agreement& agreement : agreements) {
         // Two patterns in view.
         if (agreement.errors > agreement.bits * options.max_bit_error_q8 / 256) return {};
@@ -81,72 +80,110 @@ Doubt compare_with_chance(const Grid& grid, Profile profile, const Decoding& dec
     // Both axes are read from the same dots, and so are misread alike.
     Confidence both = agreements[0].confidence;
     both.add(agreements[1].confidence);
-    Doubt doubt{false, odds_per_bit_q8(both), kNever_q8};
-    for (const Agreement& agreement : agreements) {
-        doubt.by_chance_q8 = add_log2(
-            doubt.by_chance_q8, 256 * chance_log2(agreement.confidence, doubt.odds_per_bit_q8));
+    Doubt doubt{odds_per_bit_q8(both), {}};
+    for (std::size_t i = 0; i < agreements.size(); ++i) {
+        doubt.by_chance_q8[i] = 256 * chance_log2(agreements[i].confidence, doubt.odds_per_bit_q8);
     }
-    // Where nothing is known of the bits, chance is as good; rivals only add to this.
-    doubt.is_too_much = doubt.by_chance_q8 > 256 * options.max_p_wrong_log2;
     return doubt;
 }
 
-/// The probability of being wrong; `rivals_q8(lines, reading)` gives the odds of one axis' rivals.
+/// Probability of each axis being wrong; `rivals_q8(lines, reading)` gives the odds of its rivals,
+/// which only add to chance: where that is too much already they are not counted.
 template <typename Rivals>
-int with_rivals(const Grid& grid, Profile profile, const Decoding& decoding,
-                std::span<LineScores> storage, const Doubt& doubt, Rivals rivals_q8) {
+std::array<int, 2> with_rivals(const Grid& grid, Profile profile, const Decoding& decoding,
+                               std::span<LineScores> storage, const Doubt& doubt, int limit_q8,
+                               Rivals rivals_q8) {
     const Upright upright(grid, decoding.region, decoding.pattern_from_grid);
     const Place place = corner_place(profile, decoding, upright);
-    int p_wrong_q8 = doubt.by_chance_q8;
+    std::array<int, 2> p_wrong_q8{};
     for (const Axis axis : {Axis::x, Axis::y}) {
+        const auto i = static_cast<std::size_t>(axis);
+        if (doubt.by_chance_q8[i] > limit_q8) continue;
         const auto half = scores_of(axis, storage);
         const Lines lines = decoding.lines_are_scored ? scored_lines(upright, axis, half)
                                                       : score_lines(upright, axis, half);
-        p_wrong_q8 = add_log2(p_wrong_q8, rivals_q8(lines, reading_of(profile, place, axis)));
+        p_wrong_q8[i] = std::min(
+            add_log2(doubt.by_chance_q8[i], rivals_q8(lines, reading_of(profile, place, axis))), 0);
     }
     return p_wrong_q8;
 }
 
-Status judge(int p_wrong_q8, const IntegrityOptions& options, Fix& fix) {
-    fix.p_wrong_log2 = std::min((p_wrong_q8 + 255) >> 8, 0);
-    return fix.p_wrong_log2 <= options.max_p_wrong_log2 ? Status::ok : Status::not_certain;
+int sum(const std::array<int, 2>& p_wrong_q8) {
+    return add_log2(p_wrong_q8[0], p_wrong_q8[1]);
+}
+
+/// Where nothing is known of the bits, chance is as good, and rivals only add to that: refused
+/// whatever the limit.
+bool is_hopeless(const Doubt& doubt, int limit_q8) {
+    return doubt.odds_per_bit_q8 == 0 || sum(doubt.by_chance_q8) > limit_q8;
+}
+
+Status judge(const Doubt& doubt, const IntegrityOptions& options, Decoding& decoding, Fix& fix) {
+    fix.p_wrong_log2 = std::min((sum(decoding.p_wrong_log2_q8) + 255) >> 8, 0);
+    const bool is_sure = !is_hopeless(doubt, 256 * options.max_p_wrong_log2) &&
+                         fix.p_wrong_log2 <= options.max_p_wrong_log2;
+    return is_sure ? Status::ok : Status::not_certain;
 }
 
 /// By quick_rivals.
-int estimate_quickly(const Grid& grid, Profile profile, const Decoding& decoding,
-                     const IntegrityOptions& options, std::span<LineScores> storage,
-                     const Doubt& doubt) {
-    return with_rivals(grid, profile, decoding, storage, doubt,
+std::array<int, 2> estimate_quickly(const Grid& grid, Profile profile, const Decoding& decoding,
+                                    int limit_q8, std::span<LineScores> storage,
+                                    const Doubt& doubt) {
+    return with_rivals(grid, profile, decoding, storage, doubt, limit_q8,
                        [&](const Lines& lines, const AxisReading& reading) {
                            return quick_rivals_log2_q8(
-                               Contest(profile, lines, reading, doubt.odds_per_bit_q8),
-                               256 * options.max_p_wrong_log2);
+                               Contest(profile, lines, reading, doubt.odds_per_bit_q8), limit_q8);
                        });
 }
 
 }  // namespace
 
-Status verify_quickly(const Grid& grid, Profile profile, const Decoding& decoding,
-                      const IntegrityOptions& options, std::span<LineScores> storage, Fix& fix) {
-    const Doubt doubt = compare_with_chance(grid, profile, decoding, options, fix);
-    if (doubt.is_too_much || doubt.odds_per_bit_q8 == 0) return Status::not_certain;
-    return judge(estimate_quickly(grid, profile, decoding, options, storage, doubt), options, fix);
+bool share_line(Axis axis, Profile profile, const Place& a, const Place& b) {
+    const AxisReading at_a = reading_of(profile, a, axis);
+    const AxisReading at_b = reading_of(profile, b, axis);
+    return at_a.position == at_b.position && at_a.roll == at_b.roll;
 }
 
-Status verify(const Grid& grid, Profile profile, const Decoding& decoding,
-              const IntegrityOptions& options, std::span<LineScores> storage, Fix& fix) {
+std::optional<Axis> sure_axis(const Decoding& decoding, const IntegrityOptions& options) {
+    const auto [x_q8, y_q8] = decoding.p_wrong_log2_q8;
+    const int surer_q8 = std::min(x_q8, y_q8);
+    // 0: nothing is known of it, whatever the limit.
+    if (surer_q8 == 0 || surer_q8 > 256 * options.max_p_wrong_log2) return {};
+    return x_q8 <= y_q8 ? Axis::x : Axis::y;
+}
+
+Status verify_quickly(const Grid& grid, Profile profile, Decoding& decoding,
+                      const IntegrityOptions& options, std::span<LineScores> storage, Fix& fix) {
+    decoding.p_wrong_log2_q8 = {};
+    const int limit_q8 = 256 * options.max_p_wrong_log2;
     const Doubt doubt = compare_with_chance(grid, profile, decoding, options, fix);
-    if (doubt.is_too_much || doubt.odds_per_bit_q8 == 0) return Status::not_certain;
-    const int quick_q8 = estimate_quickly(grid, profile, decoding, options, storage, doubt);
+    if (!is_hopeless(doubt, limit_q8)) {
+        decoding.p_wrong_log2_q8 =
+            estimate_quickly(grid, profile, decoding, limit_q8, storage, doubt);
+    }
+    return judge(doubt, options, decoding, fix);
+}
+
+Status verify(const Grid& grid, Profile profile, Decoding& decoding,
+              const IntegrityOptions& options, std::span<LineScores> storage, Fix& fix) {
+    decoding.p_wrong_log2_q8 = {};
+    const int limit_q8 = 256 * options.max_p_wrong_log2;
+    const Doubt doubt = compare_with_chance(grid, profile, decoding, options, fix);
+    if (doubt.odds_per_bit_q8 == 0) return judge(doubt, options, decoding, fix);
+    decoding.p_wrong_log2_q8 = estimate_quickly(grid, profile, decoding, limit_q8, storage, doubt);
     // Whoever accepts more doubt than usual wants to know how much there is.
     constexpr int kUsual_q8 = -30 * 256;
-    if (judge(quick_q8, options, fix) == Status::ok && quick_q8 <= kUsual_q8) return Status::ok;
-    const int p_wrong_q8 =
-        with_rivals(grid, profile, decoding, storage, doubt,
-                    [&](const Lines& lines, const AxisReading& reading) {
-                        return 256 * rivals_log2(profile, lines, reading, doubt.odds_per_bit_q8);
-                    });
-    return judge(std::min(quick_q8, p_wrong_q8), options, fix);
+    if (sum(decoding.p_wrong_log2_q8) > std::min(limit_q8, kUsual_q8)) {
+        const auto counted_q8 = with_rivals(grid, profile, decoding, storage, doubt, limit_q8,
+                                            [&](const Lines& lines, const AxisReading& reading) {
+                                                return 256 * rivals_log2(profile, lines, reading,
+                                                                         doubt.odds_per_bit_q8);
+                                            });
+        for (std::size_t i = 0; i < counted_q8.size(); ++i) {
+            decoding.p_wrong_log2_q8[i] = std::min(decoding.p_wrong_log2_q8[i], counted_q8[i]);
+        }
+    }
+    return judge(doubt, options, decoding, fix);
 }
 
 }  // namespace dotpose::core

@@ -1,7 +1,6 @@
 #include "core/lattice/axes.hpp"
 
 #include <array>
-#include <cstdlib>
 
 #include "core/fixed.hpp"
 
@@ -18,7 +17,7 @@ std::int32_t median_length(std::span<const Edge> edges, Values& scratch) {
     std::size_t n = 0;
     for (const Edge& edge : edges) {
         // Up to 128 px per axis, as neighbours are, half of the square fits.
-        if (std::max(std::abs(edge.step_q8.x), std::abs(edge.step_q8.y)) >= 1 << 15) continue;
+        if (larger_component(edge.step_q8) >= 1 << 15) continue;
         const auto x = static_cast<std::uint32_t>(edge.step_q8.x * edge.step_q8.x);
         const auto y = static_cast<std::uint32_t>(edge.step_q8.y * edge.step_q8.y);
         scratch[n++] = static_cast<std::int32_t>((x + y) / 2);
@@ -35,7 +34,7 @@ std::int32_t common_direction_bam(std::span<const Edge> edges, std::int32_t leng
     std::int32_t sum_im = 0;
     for (const Edge& edge : edges) {
         const Vec step = edge.step_q8;
-        if (std::max(std::abs(step.x), step.y) > 2 * length_q8) continue;
+        if (larger_component(step) > 2 * length_q8) continue;
         const std::int32_t x = (step.x * inverse_q16) >> 16;
         const std::int32_t y = (step.y * inverse_q16) >> 16;
         const std::int32_t squared_length = x * x + y * y;
@@ -70,7 +69,7 @@ class Clusters {
         const std::int32_t along_1 = e.x * means_q6_[1].x + e.y * means_q6_[1].y;
         // |edge -+ mean|^2 / 2 without the common |edge|^2
         const bool is_second =
-            half_squares_[1] - std::abs(along_1) < half_squares_[0] - std::abs(along_0);
+            half_squares_[1] - magnitude(along_1) < half_squares_[0] - magnitude(along_0);
         if ((is_second ? along_1 : along_0) < 0) edge_q8 = -edge_q8;
         return is_second ? 1 : 0;
     }
@@ -141,7 +140,7 @@ Status estimate_axes(std::span<const Edge> edges, Lattice& lattice) {
 bool is_nearly_square(Vec u, Vec v) {
     // Fourteen bits of the longer one are enough, and their fourth powers fit 64.
     int shift = 0;
-    while (std::max({u.x, -u.x, u.y, -u.y, v.x, -v.x, v.y, -v.y}) >> shift >= 1 << 14)
+    while (std::max(larger_component(u), larger_component(v)) >> shift >= 1 << 14)
         ++shift;
     u = {u.x >> shift, u.y >> shift};
     v = {v.x >> shift, v.y >> shift};

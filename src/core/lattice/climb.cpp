@@ -38,7 +38,7 @@ class Periodogram {
         Vec total;
         for (const std::uint16_t s : seeds_) {
             const Vec p = dots_[s].centre_q8 - centre_q8_;
-            if (std::max({p.x, -p.x, p.y, -p.y}) > reach_q8_) continue;
+            if (larger_component(p) > reach_q8_) continue;
             const auto phase_q16 = static_cast<std::int32_t>(dot(wave_q30, p) >> 22);
             total.x += rough_cosine(phase_q16);
             total.y += rough_sine(phase_q16);

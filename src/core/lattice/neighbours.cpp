@@ -1,7 +1,6 @@
 #include "core/lattice/neighbours.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "core/fixed.hpp"
 
@@ -9,11 +8,6 @@ namespace dotpose::core {
 namespace {
 
 constexpr int kDistanceBins = 64;
-
-std::int32_t square_distance(Vec a, Vec b) {
-    const Vec d = a - b;
-    return std::max(std::max(d.x, -d.x), std::max(d.y, -d.y));
-}
 
 /// The seeds sorted into square buckets, so that near ones are found without looking at all.
 class Buckets {
@@ -97,7 +91,7 @@ Nearest search(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
         for (int c = std::max(column - reach, 0); c <= last_column; ++c) {
             for (int s = buckets.first(c, r); s >= 0; s = buckets.next(s)) {
                 const Vec d = dots[seeds[static_cast<std::size_t>(s)]].centre_q8 - p;
-                if (s == self || std::abs(d.x) >= kFarthest_q8 || std::abs(d.y) >= kFarthest_q8) {
+                if (s == self || magnitude(d.x) >= kFarthest_q8 || magnitude(d.y) >= kFarthest_q8) {
                     continue;
                 }
                 nearest.offer(s, static_cast<std::uint32_t>(d.x * d.x) +
@@ -113,14 +107,14 @@ Nearest search(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
 int choose_seeds(std::span<const Dot> dots, Vec centre_q8, std::span<std::uint16_t> seeds) {
     std::int32_t farthest = 1;
     for (const Dot& dot : dots) {
-        farthest = std::max(farthest, square_distance(dot.centre_q8, centre_q8));
+        farthest = std::max(farthest, larger_component(dot.centre_q8 - centre_q8));
     }
     int shift = 0;
     while (farthest >> shift >= kDistanceBins)
         ++shift;
     std::array<std::uint16_t, kDistanceBins> histogram{};
     const auto bin_of = [&](const Dot& dot) {
-        return static_cast<std::size_t>(square_distance(dot.centre_q8, centre_q8) >> shift);
+        return static_cast<std::size_t>(larger_component(dot.centre_q8 - centre_q8) >> shift);
     };
     for (const Dot& dot : dots)
         ++histogram[bin_of(dot)];

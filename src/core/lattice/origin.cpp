@@ -1,7 +1,5 @@
 #include "core/lattice/origin.hpp"
 
-#include <cstdlib>
-
 #include "core/cells.hpp"
 
 namespace dotpose::core {
@@ -30,7 +28,7 @@ void find_origin(std::span<const Dot> dots, std::span<const std::uint16_t> seeds
     Phase j;
     for (const std::uint16_t seed : seeds) {
         const GridPoint g = cells(cells.from_centre_q3(dots[seed].centre_q8));
-        if (std::max(std::abs(g.cell.x), std::abs(g.cell.y)) > kReach_cells) continue;
+        if (larger_component(g.cell) > kReach_cells) continue;
         i.add(g.offset_q16.x);
         j.add(g.offset_q16.y);
     }

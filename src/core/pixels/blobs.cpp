@@ -20,24 +20,19 @@ constexpr int kMaxMass = 65535;
 /// Of runs that found no room.
 constexpr std::int16_t kNoBlob = -1;
 
+bool is_kept(Vec dot_q8, const Light& light, const DotList& list) {
+    const Vec image_centre_q8{(light.width_px - 1) * 128, (light.height_px - 1) * 128};
+    return larger_component(dot_q8 - image_centre_q8) <= list.kept_within_px * 256;
+}
+
 /// Gives up the outer dots, and all that will follow there, so that the inner ones find room.
 void make_room(const Light& light, DotList list) {
     list.kept_within_px -= list.kept_within_px / 8 + 1;
-    const Vec centre_q8{(light.width_px - 1) * 128, (light.height_px - 1) * 128};
-    const std::int32_t reach_q8 = list.kept_within_px * 256;
     const auto found = list.dots.first(static_cast<std::size_t>(list.count));
     const auto end = std::remove_if(found.begin(), found.end(), [&](const Dot& dot) {
-        const Vec d = dot.centre_q8 - centre_q8;
-        return std::max(std::max(d.x, -d.x), std::max(d.y, -d.y)) > reach_q8;
+        return !is_kept(dot.centre_q8, light, list);
     });
     list.count = static_cast<int>(end - found.begin());
-}
-
-bool is_kept(Vec centre_q8, const Light& light, const DotList& list) {
-    const std::int32_t dx = centre_q8.x - (light.width_px - 1) * 128;
-    const std::int32_t dy = centre_q8.y - (light.height_px - 1) * 128;
-    const std::int32_t reach_q8 = list.kept_within_px * 256;
-    return std::max(dx, -dx) <= reach_q8 && std::max(dy, -dy) <= reach_q8;
 }
 
 /// sum / mass in 1/256, rounded: 32 bits are enough for all but the largest blobs, which are cut by
@@ -90,7 +85,7 @@ void add_run(const Run& run, int v, const Light& light, OpenBlob& blob) {
         run.begin == 0 || run.end == light.width_px || v == 0 || v + 1 == light.height_px;
     if (at_border || width > kMaxDotSide_px || height > kMaxDotSide_px ||
         blob.area_px + width > kMaxDotArea_px ||
-        std::abs(run.begin - blob.first_u) > kMaxDotSide_px) {
+        magnitude(run.begin - blob.first_u) > kMaxDotSide_px) {
         blob.is_dot = false;
     }
     if (!blob.is_dot) return;
@@ -117,7 +112,7 @@ void add_run(const Run& run, int v, const Light& light, OpenBlob& blob) {
 void unite(OpenBlob& blob, OpenBlob& other) {
     const int du = other.first_u - blob.first_u;
     const int dv = other.first_v - blob.first_v;
-    blob.is_dot &= other.is_dot && std::abs(du) <= kMaxDotSide_px &&
+    blob.is_dot &= other.is_dot && magnitude(du) <= kMaxDotSide_px &&
                    blob.area_px + other.area_px <= kMaxDotArea_px;
     if (blob.is_dot) {
         blob.sum_x += other.sum_x + du * other.mass;

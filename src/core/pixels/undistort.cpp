@@ -1,19 +1,12 @@
 #include "core/pixels/undistort.hpp"
 
-#include "core/fixed.hpp"
+#include "core/plane.hpp"
 
 namespace dotpose::core {
 namespace {
 
-constexpr std::int64_t kOne_q30 = std::int64_t{1} << 30;
-
 Vec centre_of(const Lens& lens, Vec image_centre_q8) {
     return image_centre_q8 + Vec{lens.centre_dx_q8, lens.centre_dy_q8};
-}
-
-Vec divided(Vec r, std::int64_t divisor_q30) {
-    return {static_cast<std::int32_t>(divide_rounded(r.x * kOne_q30, divisor_q30)),
-            static_cast<std::int32_t>(divide_rounded(r.y * kOne_q30, divisor_q30))};
 }
 
 }  // namespace
@@ -23,7 +16,7 @@ Vec undistorted(const Lens& lens, Vec image_centre_q8, Vec point_q8) {
     const Vec r_d = point_q8 - centre_q8;  // eq. 1
     const std::int64_t squared_q8 = squared(r_d) >> 8;
     const std::int64_t stretch_q30 = kOne_q30 + ((lens.k_q40 * squared_q8) >> 18);
-    return centre_q8 + divided(r_d, std::max(stretch_q30, kOne_q30 / 4));  // eq. 2
+    return centre_q8 + divided_q30(r_d, std::max(stretch_q30, kOne_q30 / 4));  // eq. 2
 }
 
 void undistort(const Lens& lens, Vec image_centre_q8, std::span<Dot> dots) {
@@ -40,7 +33,11 @@ Vec distorted(const Lens& lens, Vec image_centre_q8, Vec point_q8) {
     const std::int64_t root_q30 = square_root(static_cast<std::uint64_t>(std::max<std::int64_t>(
                                                   kOne_q30 - ((lens.k_q40 * squared_q8) >> 16), 0))
                                               << 30);
-    return centre_q8 + divided(r_u, (kOne_q30 + root_q30) / 2);
+    return centre_q8 + divided_q30(r_u, (kOne_q30 + root_q30) / 2);
+}
+
+Vec distorted_point_q8(const Lens& lens, const PlaneFromImage& plane, Vec plane_point_q16) {
+    return distorted(lens, plane.centre_q8, image_point_q8(plane, plane_point_q16));
 }
 
 }  // namespace dotpose::core

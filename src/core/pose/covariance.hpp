@@ -1,13 +1,12 @@
-// Covariance of the pose from the residuals of its fit. The one stage in floating point.
+// Covariance of the pose from the residuals of its fit.
 #pragma once
 
-#include "core/pose/observations.hpp"
 #include "core/pose/refine.hpp"
 
 namespace dotpose::core {
 
 /// Sets covariance, residual and dots_used of the fix, for the pose at the reference point.
-void estimate_covariance(const Observations& observations, const FitQuality& quality,
-                         const PlaneFromImage& pattern_from_image, Vec reference_q8, Fix& fix);
+void estimate_covariance(const PoseFit& fit, const PlaneFromImage& pattern_from_image,
+                         Vec reference_q8, Fix& fix);
 
 }  // namespace dotpose::core

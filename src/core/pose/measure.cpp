@@ -3,14 +3,15 @@
 #include <array>
 #include <optional>
 
+#include "core/pixels/surroundings.hpp"
 #include "core/pixels/undistort.hpp"
 #include "core/plane.hpp"
 
 namespace dotpose::core {
 namespace {
 
-constexpr std::int32_t kNominal_q16 = 65536 / 6;
-constexpr int kIterations = 4;
+constexpr int kMostIterations = 5;
+constexpr int kSettled_q8 = 4;
 constexpr int kMostHalf_px = 24;
 
 /// The window that dots are seen through.
@@ -21,7 +22,14 @@ struct Window {
     /// For dots that blur has made about a tenth of the spacing wide (one sigma).
     explicit Window(std::int32_t spacing_q8)
         : half_px(std::min(std::max(spacing_q8 * 9 / 32 + 255, 768) / 256, kMostHalf_px)),
-          sigma_q8(std::max(spacing_q8 * 7 / 64, 256)) {}
+          sigma_q8(std::max(spacing_q8 * 11 / 128, 230)) {}
+
+    /// As wide as fits into the image around a pixel, neighbours included; 0 where that is too
+    /// little. Dots at the border tell most of the angle.
+    int half_within(const ImageView& image, int u, int v) const {
+        const int room = std::min({u, v, image.width_px - 1 - u, image.height_px - 1 - v}) - 1;
+        return 2 * room < half_px ? 0 : std::min(room, half_px);
+    }
 
     /// exp(-r^2 / (2 sigma^2)), times 2^16.
     std::int64_t weight_q16(std::int64_t squared_q16) const {
@@ -35,16 +43,7 @@ struct Window {
 /// A pixel, brought back into the range of its neighbours where it is far outside: a defect of the
 /// sensor. It has them: windows keep off the border.
 int without_defect(const ImageView& image, int u, int v) {
-    int low = 255;
-    int high = 0;
-    for (int dv = -1; dv <= 1; ++dv) {
-        const std::uint8_t* row = image.row(v + dv) + u;
-        for (int du = -1; du <= 1; ++du) {
-            if (du == 0 && dv == 0) continue;
-            low = std::min(low, int{row[du]});
-            high = std::max(high, int{row[du]});
-        }
-    }
+    const auto [low, high] = range_around(image, u, v);
     const int level = image.row(v)[u];
     const int far = high / 4;
     return level < low - far || level > high + far ? std::clamp(level, low, high) : level;
@@ -77,17 +76,17 @@ RimLight light_on_rim(const ImageView& image, int u0, int v0, int half) {
 
 /// The dot near a point; nothing where the window leaves the image, or holds no dark spot.
 std::optional<Dot> measure(const ImageView& image, const Window& window, Vec start_q8) {
+    // The fit tells dirt from dots that were printed badly; a closer limit would cut off the tail
+    // of these, which costs accuracy and hides how much it was.
+    const std::int64_t farthest = 9 * std::int64_t{window.sigma_q8} * window.sigma_q8;
     Vec centre_q8 = start_q8;
     std::int64_t mass_q24 = 0;
     int light_q8 = 0;
-    for (int iteration = 0; iteration < kIterations; ++iteration) {
+    for (int iteration = 0; iteration < kMostIterations; ++iteration) {
         const int u0 = (centre_q8.x + 128) >> 8;
         const int v0 = (centre_q8.y + 128) >> 8;
-        const int half = window.half_px;
-        if (u0 <= half || v0 <= half || u0 + half + 1 >= image.width_px ||
-            v0 + half + 1 >= image.height_px) {
-            return {};
-        }
+        const int half = window.half_within(image, u0, v0);
+        if (half == 0) return {};
         const RimLight light = light_on_rim(image, u0, v0, half);
         light_q8 = light.middle_q8;
         std::int64_t sum_x = 0;
@@ -110,7 +109,8 @@ std::optional<Dot> measure(const ImageView& image, const Window& window, Vec sta
                        static_cast<std::int32_t>(2 * sum_y / mass_q24)};
         centre_q8 = centre_q8 + step;
         const Vec moved = centre_q8 - start_q8;
-        if (squared(moved) > std::int64_t{window.sigma_q8} * window.sigma_q8 * 2) return {};
+        if (squared(moved) > farthest) return {};
+        if (squared(step) < kSettled_q8 * kSettled_q8) break;
     }
     // As a share of the light, which makes dots alike all over the image.
     const std::int64_t mass = mass_q24 / std::max(light_q8, 256);
@@ -151,11 +151,10 @@ int measure_dots(const ImageView& image, const Lens& lens, const PlaneFromImage&
             if (count == dots.size()) continue;
             const Vec step = nominal.pattern_step({i, j});
             const Symbol symbol = nominal.symbol(step);
-            const Vec place{step.x * 65536 + dx(symbol) * kNominal_q16,
-                            step.y * 65536 + dy(symbol) * kNominal_q16};
-            const auto dot = measure(image, window,
-                                     distorted(lens, pattern_from_image.centre_q8,
-                                               image_point_q8(pattern_from_image, place)));
+            const Vec place{step.x * 65536 + dx(symbol) * kDisplacement_q16,
+                            step.y * 65536 + dy(symbol) * kDisplacement_q16};
+            const auto dot =
+                measure(image, window, distorted_point_q8(lens, pattern_from_image, place));
             if (!dot) continue;
             cell.dot = static_cast<std::uint16_t>(count);
             dots[count++] = *dot;

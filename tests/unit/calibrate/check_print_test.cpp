@@ -1,13 +1,12 @@
-// Prints with known faults, scanned by a renderer of the tests' own (tests/scanned_page.hpp).
+// What is found on prints that were scanned by a renderer of the tests' own
+// (tests/scanned_page.hpp).
 #include "dotpose/check_print.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <numbers>
-#include <ostream>
 #include <string>
 #include <vector>
 
@@ -16,13 +15,15 @@
 
 #include "../../jpeg.hpp"
 #include "../../scanned_page.hpp"
+#include "../../temporary_directory.hpp"
 #include "../../xml_check.hpp"
 #include "dotpose/image_file.hpp"
 #include "dotpose/print.hpp"
 #include "dotpose/simulate.hpp"
 #include "dotpose/test_page.hpp"
+#include "print_checks.hpp"
 
-namespace dotpose {
+namespace dotpose::check_print_test {
 namespace {
 
 using test::scan_page;
@@ -32,40 +33,12 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr double kDegree_rad = std::numbers::pi / 180;
-constexpr double kScaleTolerance = 0.0002;
-constexpr double kRotationTolerance_rad = 0.02 * kDegree_rad;
-
-Sheet small_sheet() {
-    SheetOptions options;
-    options.paper = {70, 90};
-    options.origin = {123'456, 7'890};
-    options.pattern.section = {5, 41};
-    return make_sheet(options);
-}
-
-PrintCheck check(const GreyImage& scan, double dpi, const Pattern& pattern = {}) {
-    CheckPrintOptions options;
-    options.pattern = pattern;
-    options.resolution = Resolution{dpi, dpi};
-    return check_print(scan.view(), options);
-}
-
 /// What is left of a scan that was saved as JPEG.
 GreyImage through_jpeg(const GreyImage& scan, int quality) {
-    const auto path = std::filesystem::temp_directory_path() / "dotpose-check-print-test.jpg";
+    const test::TemporaryDirectory directory;
+    const auto path = directory.path() / "scan.jpg";
     std::ofstream(path, std::ios::binary) << test::jpeg_of(scan, quality);
-    GreyImage image = read_image(path);
-    std::filesystem::remove(path);
-    return image;
-}
-
-std::vector<std::string> faults(const PrintCheck& check) {
-    std::vector<std::string> names;
-    for (const Finding& finding : check.findings) {
-        if (finding.is_fault) names.emplace_back(name(finding.kind));
-    }
-    return names;
+    return read_image(path);
 }
 
 std::vector<std::string> remarks(const PrintCheck& check) {
@@ -75,76 +48,6 @@ std::vector<std::string> remarks(const PrintCheck& check) {
     }
     return names;
 }
-
-struct Fault {
-    const char* name;
-    ScanSettings settings;
-    std::vector<std::string> verdict;  ///< faults to be found, no others
-};
-void PrintTo(const Fault& fault, std::ostream* out) {
-    *out << fault.name << " at " << fault.settings.dpi << " dpi";
-}
-
-std::vector<Fault> all_faults() {
-    std::vector<Fault> list;
-    for (const double dpi : {300.0, 600.0}) {
-        const auto add = [&](const char* name, std::vector<std::string> verdict, auto change) {
-            ScanSettings settings;
-            settings.dpi = dpi;
-            change(settings);
-            list.push_back({name, settings, std::move(verdict)});
-        };
-        add("flawless", {}, [](ScanSettings&) {});
-        add("97_percent", {"scaled"}, [](ScanSettings& s) { s.scale_x = s.scale_y = 0.97; });
-        add("103_percent", {"scaled"}, [](ScanSettings& s) { s.scale_x = s.scale_y = 1.03; });
-        add("uneven", {"uneven_scale"}, [](ScanSettings& s) {
-            s.scale_x = 1.0025;
-            s.scale_y = 0.9975;
-        });
-        add("rotated", {}, [](ScanSettings& s) { s.rotation_rad = 1.5 * kDegree_rad; });
-        add("rotated_by_a_quarter", {}, [](ScanSettings& s) {
-            s.rotation_rad = 91.5 * kDegree_rad;
-            s.scale_x = 1.001;
-        });
-        add("skewed", {"skewed"}, [](ScanSettings& s) {
-            s.skew_rad = -0.3 * kDegree_rad;
-            s.scale_y = 1.001;
-        });
-        add("swollen", {"swollen"}, [](ScanSettings& s) { s.dot_growth = 1.8; });
-        add("thin", {"thin"}, [](ScanSettings& s) { s.dot_growth = 0.62; });
-        add("gaps", {"missing"}, [](ScanSettings& s) { s.missing = 0.05; });
-    }
-    return list;
-}
-
-class FaultyPrint : public testing::TestWithParam<Fault> {};
-
-TEST_P(FaultyPrint, is_measured_and_named) {
-    const Fault& fault = GetParam();
-    const ScanSettings& truth = fault.settings;
-    const Sheet sheet = small_sheet();
-    const PrintCheck result = check(scan_page(sheet, truth), truth.dpi);
-    ASSERT_EQ(result.fields.size(), 1U);
-    const PrintField& field = result.fields[0];
-    ASSERT_TRUE(field.scale);
-    EXPECT_NEAR(field.scale->scale_x, truth.scale_x, kScaleTolerance);
-    EXPECT_NEAR(field.scale->scale_y, truth.scale_y, kScaleTolerance);
-    EXPECT_NEAR(field.scale->rotation_rad, truth.rotation_rad, kRotationTolerance_rad);
-    EXPECT_NEAR(field.scale->skew_rad, truth.skew_rad, kRotationTolerance_rad);
-    EXPECT_NEAR(field.residual_mm, truth.jitter_mm, 0.005);
-    EXPECT_EQ(field.pattern.section.u, 5);
-    EXPECT_EQ(field.pattern.section.v, 41);
-    EXPECT_NEAR(field.missing_share(), truth.missing, 0.006);
-    EXPECT_LE(field.wrong_share(), 0.001);
-    EXPECT_NEAR(field.dot_mm, sheet.pattern.dot_mm * truth.dot_growth, 0.1 * field.dot_mm);
-    EXPECT_NEAR(field.paper_level, truth.paper_level, 1);
-    EXPECT_EQ(faults(result), fault.verdict);
-}
-
-INSTANTIATE_TEST_SUITE_P(all, FaultyPrint, testing::ValuesIn(all_faults()), [](const auto& test) {
-    return std::string(test.param.name) + "_" +
-           std::to_string(static_cast<int>(test.param.settings.dpi));
-});
 
 TEST(CheckPrint, finds_the_whole_region) {
     const Sheet sheet = small_sheet();
@@ -375,11 +278,11 @@ TEST(CheckPrint, patches_whose_dots_reach_all_around_are_not_good) {
 TEST(CheckPrint, draws_the_distortion) {
     const GreyImage scan = scan_page(small_sheet(), {});
     const PrintCheck result = check(scan, 600);
-    const auto path = std::filesystem::temp_directory_path() / "dotpose-check-print-test.svg";
+    const test::TemporaryDirectory directory;
+    const auto path = directory.path() / "distortion.svg";
     draw_distortion(path, scan.view(), result);
     std::ifstream stream(path);
     const std::string text{std::istreambuf_iterator<char>(stream), {}};
-    std::filesystem::remove(path);
     EXPECT_THAT(test::XmlCheck(text).problem(), IsEmpty());
     const auto count = [&](const std::string& part) {
         std::size_t n = 0;
@@ -421,4 +324,4 @@ TEST(CheckPrint, can_be_stopped) {
 }
 
 }  // namespace
-}  // namespace dotpose
+}  // namespace dotpose::check_print_test

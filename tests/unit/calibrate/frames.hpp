@@ -1,11 +1,16 @@
 /// Simulated frames for calibrations, with poses that a test decides.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "dotpose/camera_file.hpp"
+#include "dotpose/sheet_file.hpp"
 #include "dotpose/simulate.hpp"
 
 namespace dotpose::calibrate_test {
@@ -52,6 +57,114 @@ inline Camera true_camera(const CameraModel& model) {
     camera.centre_px = {(model.width_px - 1) / 2.0, (model.height_px - 1) / 2.0};
     camera.paper = PaperScale{model.mm_per_px, model.mm_per_px, 0, 0, 0};
     return camera;
+}
+
+// ---- A robot that carries the camera ----
+
+/// The image centre lies here, from the robot's centre, along the image axes.
+inline constexpr Vec2 kCameraOnRobot_mm{-14.5, 6.25};
+
+/// A robot that stands at a place, in a direction of its image x axis.
+inline GreyImage robot_frame(const CameraModel& camera, std::uint64_t seed, int index, double x_mm,
+                             double y_mm, double theta_rad) {
+    Setup setup;
+    setup.camera = camera;
+    setup.seed = seed;
+    const double c = std::cos(theta_rad);
+    const double s = std::sin(theta_rad);
+    const auto [x, y] = kCameraOnRobot_mm;
+    return render(moved_to(draw_shot(setup, static_cast<std::uint64_t>(index)),
+                           x_mm + c * x - s * y, y_mm + s * x + c * y, theta_rad));
+}
+
+// ---- A table with four sheets ----
+
+/// Sheets of 120 x 120 dots; the pattern reaches to the edge but for this.
+inline constexpr int kSide_cells = 120;
+inline constexpr double kMargin_mm = 0.3;
+inline constexpr double kPage_mm = (kSide_cells - 1) * kDefaultSpacing_mm + 2 * kMargin_mm;
+
+/// On the table: mm, x right, y down, angles clockwise.
+struct Lying {
+    double x_mm;
+    double y_mm;
+    double turn_rad;
+    AxisScale print = {};
+};
+using Table = std::array<Lying, 4>;
+
+/// Gaps of 0 to 3 mm, turns of up to 1 degree.
+inline const Table kTable = {Lying{0, 0, 0}, Lying{kPage_mm + 0.2, 0.4, 0.6 * kDegree_rad},
+                             Lying{-0.3, kPage_mm + 1.4, -0.3 * kDegree_rad},
+                             Lying{kPage_mm + 2.6, kPage_mm + 1.9, -1.0 * kDegree_rad}};
+
+/// Named a to d.
+inline std::vector<SheetEntry> sheets_of_table() {
+    std::vector<SheetEntry> entries;
+    for (std::uint32_t i = 0; i < kTable.size(); ++i) {
+        SheetEntry entry;
+        entry.name = std::string(1, static_cast<char>('a' + i));
+        entry.sheet.origin = {4096 + 2048 * i, 8192};
+        entry.sheet.columns = entry.sheet.rows = kSide_cells;
+        entry.sheet.width_mm = entry.sheet.height_mm = kPage_mm;
+        entry.sheet.origin_x_mm = entry.sheet.origin_y_mm = kMargin_mm;
+        entries.push_back(entry);
+    }
+    return entries;
+}
+
+inline CameraModel wide_camera() {
+    CameraModel camera;
+    camera.width_px = 376;
+    camera.height_px = 240;
+    camera.k = -2.2e-6;
+    return camera;
+}
+
+/// What the camera sees at a place of the table; dots of all sheets are dark on one paper.
+inline GreyImage table_frame(const Table& table, const CameraModel& camera, std::uint64_t seed,
+                             int index, double x_mm, double y_mm, double theta_rad) {
+    Setup setup;
+    setup.camera = camera;
+    setup.seed = seed;
+    GreyImage result;
+    const std::vector<SheetEntry> entries = sheets_of_table();
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const Lying& lying = table[i];
+        const double dx = x_mm - lying.x_mm;
+        const double dy = y_mm - lying.y_mm;
+        const double c = std::cos(lying.turn_rad);
+        const double s = std::sin(lying.turn_rad);
+        constexpr double kTooFar_mm = kPage_mm / 2 + 12;  // for any dot to be in view
+        if (std::abs(dx - kPage_mm / 2) > kTooFar_mm) continue;
+        if (std::abs(dy - kPage_mm / 2) > kTooFar_mm) continue;
+        const Sheet& sheet = entries[i].sheet;
+        Shot shot = moved_to(
+            draw_shot(setup, static_cast<std::uint64_t>(index)),
+            (c * dx + s * dy - kMargin_mm) / lying.print.x + sheet.origin.x * kDefaultSpacing_mm,
+            (c * dy - s * dx - kMargin_mm) / lying.print.y + sheet.origin.y * kDefaultSpacing_mm,
+            theta_rad - lying.turn_rad);
+        shot.page = page_of(sheet, seed + i + 1);
+        shot.page.print_scale = lying.print;
+        const GreyImage image = render(shot);
+        // Light and noise are the same each time.
+        if (result.pixels.empty()) result = image;
+        for (std::size_t k = 0; k < image.pixels.size(); ++k)
+            result.pixels[k] = std::min(result.pixels[k], image.pixels[k]);
+    }
+    return result;
+}
+
+/// Frame `index` of a drive along the seams, with the camera at any angle.
+inline GreyImage seam_frame(const Table& table, const CameraModel& camera, std::uint64_t seed,
+                            int index) {
+    Rng rng(seed, static_cast<std::uint64_t>(index));
+    const double along_mm = rng.uniform(5, 2 * kPage_mm - 5);
+    const double across_mm = kPage_mm + rng.uniform(-1.5, 2.5);
+    const double theta_rad = rng.uniform(-180, 180) * kDegree_rad;
+    const bool is_level = index % 2 == 0;
+    return table_frame(table, camera, seed, index, is_level ? along_mm : across_mm,
+                       is_level ? across_mm : along_mm, theta_rad);
 }
 
 }  // namespace dotpose::calibrate_test

@@ -1,12 +1,12 @@
 // Lens calibrations of simulated cameras, whose lens, tilt and focal length are known.
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "../../temporary_directory.hpp"
 #include "../../xml_check.hpp"
 #include "dotpose/calibrate.hpp"
 #include "frames.hpp"
@@ -200,11 +200,11 @@ TEST(CalibrateLens, CanBeStopped) {
 TEST(DrawCalibration, IsAPictureOfThreePanels) {
     const auto result =
         calibrate_lens(5, [](int i) { return nominal_frame(paper_camera(), 40, i); }, {});
-    const auto path = std::filesystem::temp_directory_path() / "dotpose-calibration-test.svg";
+    const test::TemporaryDirectory directory;
+    const auto path = directory.path() / "calibration.svg";
     draw_calibration(path, result);
     std::ostringstream text;
     text << std::ifstream(path).rdbuf();
-    std::filesystem::remove(path);
     EXPECT_EQ(test::XmlCheck(text.str()).problem(), "");
     for (const char* panel : {">Before<", ">After<", ">Coverage<"})
         EXPECT_THAT(text.str(), HasSubstr(panel));

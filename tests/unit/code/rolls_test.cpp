@@ -18,6 +18,28 @@ std::vector<std::uint8_t> followed(Profile profile, std::uint32_t position, int 
     return rolls;
 }
 
+TEST(RollFrom, GivesTheBitsBelowAndBeside) {
+    std::mt19937 rng(kSeed);
+    for (int i = 0; i < 300; ++i) {
+        const Profile profile = kProfiles[static_cast<std::size_t>(i % 3)];
+        const Place place = random_place(rng);
+        const auto [x, y] = place.cell;
+        const int column = code::roll_from(profile, x, place.section.u, y);
+        const int row = code::roll_from(profile, y, place.section.v, x);
+        ASSERT_GE(std::min(column, row), 0);
+        ASSERT_LT(std::max(column, row), kSections);
+        for (std::uint32_t n = 0; n < 63; ++n) {
+            const auto bit = [n](int roll) {
+                return main_bit(static_cast<std::uint32_t>(roll) + n);
+            };
+            ASSERT_EQ(bit(column), x_bit(symbol_at(profile, {x, y + n}, place.section)))
+                << describe(profile, place) << ", " << n;
+            ASSERT_EQ(bit(row), y_bit(symbol_at(profile, {x + n, y}, place.section)))
+                << describe(profile, place) << ", " << n;
+        }
+    }
+}
+
 TEST(FollowRolls, AreTheRollsOfEachPosition) {
     std::mt19937 rng(kSeed);
     for (int i = 0; i < 300; ++i) {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry.hpp"
+#include "planes.hpp"
 
 namespace dotpose::core_test {
 namespace {
@@ -12,27 +12,10 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 48;
 
-/// A plane of some spacing, and its formula in the numbers that it holds.
-PlaneFromImage random_plane(Rng& rng, double side_px, double spacing) {
-    const double angle = rng.uniform(0, 6.3);
-    const Vec2 du{std::cos(angle) / spacing, std::sin(angle) / spacing};
-    PlaneFromImage plane;
-    plane.centre_q8 = fixed({side_px / 2, side_px / 2}, 8);
-    plane.at_centre_q16 = fixed({rng.uniform(-3, 3), rng.uniform(-3, 3)}, 16);
-    plane.du_q24 = fixed(du, 24);
-    plane.dv_q24 = fixed({-du.y * rng.uniform(0.8, 1), du.x * rng.uniform(0.8, 1)}, 24);
-    return plane;
-}
-
-Vec2 formula(const PlaneFromImage& plane, Vec2 from_centre) {
-    return real(plane.at_centre_q16, 16) + from_centre.x * real(plane.du_q24, 24) +
-           from_centre.y * real(plane.dv_q24, 24);
-}
-
 TEST(Cells, PointsAreRoundedToEighthsOfAPixel) {
     Rng rng(kSeed);
     for (const double side : {188.0, 4096.0}) {
-        const PlaneFromImage plane = random_plane(rng, side, 11);
+        const PlaneFromImage plane = affine_plane(side, 11, 1, rng);
         const Cells cells(plane);
         for (int i = 0; i < 10000; ++i) {
             const Vec p_q8 = fixed({rng.uniform(0, side), rng.uniform(0, side)}, 8);
@@ -51,7 +34,7 @@ TEST(Cells, PlanePointsAreThoseOfTheFormula) {
         const double spacing = i % 4 < 2 ? rng.uniform(5.7, 6) : rng.uniform(6, 60);
         SCOPED_TRACE(testing::Message()
                      << "plane " << i << " at " << spacing << ", seed " << kSeed);
-        const PlaneFromImage plane = random_plane(rng, side, spacing);
+        const PlaneFromImage plane = affine_plane(side, spacing, 1, rng);
         const Cells cells(plane);
         const auto reach = static_cast<std::int32_t>(4 * side);
         for (int j = 0; j < 200; ++j) {
@@ -62,7 +45,7 @@ TEST(Cells, PlanePointsAreThoseOfTheFormula) {
                        reach;
             };
             const Vec p{coordinate(j & 1), coordinate(j & 2)};
-            const Vec2 exact = formula(plane, real(p, 3));
+            const Vec2 exact = formula(plane, real(plane.centre_q8, 8) + real(p, 3));
             // Slopes are cut to 2^-18 per px on either axis, the sum to 2^-16.
             const double tolerance =
                 (std::abs(p.x) + std::abs(p.y)) / 8.0 / (1 << 18) + 2.0 / 65536;

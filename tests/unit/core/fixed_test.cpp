@@ -21,6 +21,18 @@ double bam_difference(std::int32_t a, double b_rad) {
     return std::remainder(a - b_rad * kBamPerRad, 4294967296.0);
 }
 
+TEST(Fixed, TheLargerComponentCountsWhateverItsSign) {
+    for (const int s : {-1, 1}) {
+        for (const int t : {-1, 1}) {
+            EXPECT_EQ(larger_component({s * 3, t * 7}), 7);
+            EXPECT_EQ(larger_component({s * 7, t * 3}), 7);
+        }
+    }
+    EXPECT_EQ(larger_component({}), 0);
+    EXPECT_EQ(magnitude(INT64_MIN + 1), INT64_MAX);
+    EXPECT_EQ(magnitude(-5), 5);
+}
+
 TEST(Fixed, QuotientsAreRoundedToNearestHalvesAwayFromZero) {
     EXPECT_EQ(divide_rounded(5, 2), 3);
     EXPECT_EQ(divide_rounded(-5, 2), -3);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -14,6 +15,8 @@
 #include "dotpose/workspace.hpp"
 
 namespace dotpose::core_test {
+
+inline constexpr std::array kProfiles{Profile::anoto, Profile::published, Profile::microdots};
 
 inline double radians(double degrees) {
     return degrees * std::numbers::pi / 180;

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "dotpose/options.hpp"
-#include "geometry.hpp"
+#include "planes.hpp"
 
 namespace dotpose::core_test {
 namespace {
@@ -13,27 +13,10 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 26;
 
-/// The formula of PlaneFromImage.
-Vec2 formula(const PlaneFromImage& plane, Vec2 p) {
-    const Vec2 r = p - real(plane.centre_q8, 8);
-    const Vec2 perspective = real(plane.perspective_q30, 30);
-    const double divisor = 1 + perspective.x * r.x + perspective.y * r.y +
-                           std::ldexp(plane.lens_q40, -40) * (r.x * r.x + r.y * r.y);
-    return real(plane.at_centre_q16, 16) +
-           1 / divisor * (r.x * real(plane.du_q24, 24) + r.y * real(plane.dv_q24, 24));
-}
-
 /// A camera above the plane, which may be tilted and have a wide lens: each changes the scale by up
 /// to 10 % towards the corners.
 PlaneFromImage random_plane(Rng& rng, double side_px, bool is_bent) {
-    const double spacing = rng.uniform(6, 60);
-    const double angle = rng.uniform(0, 6.3);
-    const Vec2 du{std::cos(angle) / spacing, std::sin(angle) / spacing};
-    PlaneFromImage plane;
-    plane.centre_q8 = fixed({side_px / 2, side_px / 2}, 8);
-    plane.at_centre_q16 = fixed({rng.uniform(-3, 3), rng.uniform(-3, 3)}, 16);
-    plane.du_q24 = fixed(du, 24);
-    plane.dv_q24 = fixed({-du.y * rng.uniform(0.8, 1.2), du.x * rng.uniform(0.8, 1.2)}, 24);
+    PlaneFromImage plane = affine_plane(side_px, rng.uniform(6, 60), 1.2, rng);
     if (is_bent) {
         plane.perspective_q30 =
             fixed({rng.uniform(-0.1, 0.1) / side_px, rng.uniform(-0.1, 0.1) / side_px}, 30);

@@ -227,6 +227,23 @@ TEST(Dot, IsAsExactAtTheFarEndOfThePlane) {
     EXPECT_LT(distance(dot.centroid_px, expected), 0.003);
 }
 
+TEST(Dot, LiesWhereAStretchedPageHasIt) {
+    Page page = one_dot_page();
+    page.print_scale = {1.04, 0.97};
+    CameraPose pose;
+    pose.cell = {kDotCell.x - 4, kDotCell.y + 3};
+    pose.fraction_x = 0.25;
+    pose.theta_rad = 0.7;
+    Imperfections seen;
+    seen.blur_sigma_px = 0.5;
+    const Vec2 meant = dot_offset_mm(page, pose);
+    const Vec2 expected = Projection({}, pose).pixel_from_offset({1.04 * meant.x, 0.97 * meant.y});
+    const Darkness dot = measure(exact_levels(page, {}, pose, seen), 188, 200);
+    EXPECT_LT(distance(dot.centroid_px, expected), 0.003);
+    page.print_scale.y = 0;
+    EXPECT_THROW(render(page, {}, pose, seen, 1), BadArgument);
+}
+
 TEST(Dot, MissingAndJitterHaveTheirStatistics) {
     CameraModel camera;
     camera.width_px = 1000;

@@ -24,7 +24,7 @@ GreyImage drawn(const View& view) {
 
 /// The view's cells as a look at an image shows them.
 struct Looked {
-    Looked(const View& view_, Turn turn_, const GreyImage& image)
+    Looked(const View& view_, Turn turn_, const GreyImage& image, std::optional<Axis> known = {})
         : view(view_), turn(turn_), owned(64) {
         zero = {static_cast<int>(std::lround(view.at_centre.x)),
                 static_cast<int>(std::lround(view.at_centre.y))};
@@ -32,10 +32,17 @@ struct Looked {
         PaperMap paper;
         paper.levels = levels;
         measure_paper(image.view(), paper);
-        look_at_cells(image.view(), paper, Lens{},
-                      plane_from_lattice(lattice_of(view.mesh_turned(turn, zero)),
-                                         fixed(view.centre_px(), 8)),
-                      owned.grid);
+        const PlaneFromImage plane = plane_from_lattice(lattice_of(view.mesh_turned(turn, zero)),
+                                                        fixed(view.centre_px(), 8));
+        if (!known) {
+            look_at_cells(image.view(), paper, Lens{}, plane, owned.grid);
+        } else {
+            Decoding decoding;
+            decoding.pattern_from_grid = turn;
+            decoding.place = moved(view.profile, view.place, zero.x, zero.y);
+            look_at_cells_knowing(*known, view.profile, decoding, image.view(), paper, Lens{},
+                                  plane, owned.grid);
+        }
     }
     const Grid& grid() const { return owned.grid; }
     /// Shows `use(cell, its place in px, its bits on the pattern, the code's symbol)` all cells.
@@ -73,12 +80,15 @@ TEST(Look, ReadsTheBitsOfACleanFrame) {
         looked.visit([&](const GridCell& cell, Vec2 at, Bits bits, Symbol symbol) {
             SCOPED_TRACE(testing::Message()
                          << "view " << i << " at " << at.x << ", " << at.y << ", seed " << kSeed);
-            // Nothing is said where a place of the dot lies outside.
-            if (at.x < -1 || at.y < -1 || at.x > view.image_px.x || at.y > view.image_px.y) {
+            // Nothing is said where all places of the dot lie outside.
+            const double outside = view.spacing_px / 6 + 1;
+            if (at.x < -outside || at.y < -outside || at.x > view.image_px.x - 1 + outside ||
+                at.y > view.image_px.y - 1 + outside) {
                 EXPECT_EQ(cell.x, 0);
                 EXPECT_EQ(cell.y, 0);
             }
-            const double margin = view.spacing_px / 6 + 5;
+            // All of it that blur would show is in the image.
+            const double margin = view.spacing_px / 6 + 2;
             if (at.x < margin || at.y < margin || at.x > view.image_px.x - 1 - margin ||
                 at.y > view.image_px.y - 1 - margin) {
                 return;
@@ -89,6 +99,39 @@ TEST(Look, ReadsTheBitsOfACleanFrame) {
             EXPECT_NE(cell.dot, GridCell::kHidden);
         });
         EXPECT_GE(inside, 40);
+    }
+}
+
+// Every cell has a second, darker dot opposite to its own, which contradicts both bits.
+TEST(Look, KnowingOneAxisItLooksForTheOtherWhereTheDotCanBe) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 20; ++i) {
+        View view = random_view(rng);
+        view.spacing_px = rng.uniform(10, 16);
+        GreyImage image = drawn(view);
+        for (const PlacedDot& dot : pattern_dots(view)) {
+            const Vec2 middle = view.mesh().at(dot.cell.x, dot.cell.y);
+            darken(image, 2.0 * middle - dot.centre_px, 0.13 * view.spacing_px, 0.9);
+        }
+        for (const Axis known : {Axis::x, Axis::y}) {
+            const Looked looked(view, Turn{0}, image, known);
+            int inside = 0;
+            looked.visit([&](const GridCell&, Vec2 at, Bits bits, Symbol symbol) {
+                SCOPED_TRACE(testing::Message() << "view " << i << " at " << at.x << ", " << at.y
+                                                << ", seed " << kSeed);
+                const double margin = view.spacing_px / 6 + 5;
+                if (at.x < margin || at.y < margin || at.x > view.image_px.x - 1 - margin ||
+                    at.y > view.image_px.y - 1 - margin) {
+                    return;
+                }
+                ++inside;
+                const bool is_x_right = (bits.x > 0) == (x_bit(symbol) == 1);
+                const bool is_y_right = (bits.y > 0) == (y_bit(symbol) == 1);
+                EXPECT_EQ(is_x_right, known == Axis::y);
+                EXPECT_EQ(is_y_right, known == Axis::x);
+            });
+            EXPECT_GE(inside, 30);
+        }
     }
 }
 

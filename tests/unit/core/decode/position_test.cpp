@@ -13,7 +13,6 @@ namespace {
 using namespace core;
 
 constexpr std::uint64_t kSeed = 29;
-constexpr std::array kProfiles{Profile::anoto, Profile::published, Profile::microdots};
 using Decode = Status (*)(const Grid&, Profile, std::span<LineScores>, Decoding&);
 
 /// Decodes and compares with geometry.

@@ -15,7 +15,6 @@ namespace {
 using namespace core;
 
 constexpr std::uint64_t kSeed = 32;
-constexpr std::array kProfiles{Profile::anoto, Profile::published, Profile::microdots};
 
 struct Verdict {
     Status status;
@@ -28,8 +27,9 @@ Verdict judge(const Reading& reading, const IntegrityOptions& options = {},
               decltype(verify) how = verify) {
     Storage storage;
     Verdict verdict;
+    Decoding decoding = reading.truth();
     verdict.status =
-        how(reading.grid(), reading.view.profile, reading.truth(), options, storage, verdict.fix);
+        how(reading.grid(), reading.view.profile, decoding, options, storage, verdict.fix);
     return verdict;
 }
 
@@ -145,6 +145,77 @@ TEST(Verify, LinesThatAreScoredAreNotScoredAgain) {
             scores.fill(0);
         EXPECT_EQ(verify(reading.grid(), Profile::anoto, found, {}, storage, fix),
                   Status::not_certain);
+    }
+}
+
+TEST(Verify, RefusesTwoPatternsWhateverTheLimit) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 20; ++i) {
+        SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
+        Reading reading(random_view(rng), Turn{i % 4});
+        // Half of the bits contradict, as where the frame shows another pattern.
+        for (GridCell& cell : reading.owned.cells) {
+            if (rng.below(2) == 0) cell.x = static_cast<std::int8_t>(-cell.x);
+            if (rng.below(2) == 0) cell.y = static_cast<std::int8_t>(-cell.y);
+        }
+        IntegrityOptions any;
+        any.max_p_wrong_log2 = 0;
+        for (const auto how : {verify, verify_quickly}) {
+            const Verdict verdict = judge(reading, any, how);
+            EXPECT_EQ(verdict.status, Status::not_certain);
+            EXPECT_EQ(verdict.fix.p_wrong_log2, 0);
+        }
+        EXPECT_EQ(sure_axis(Decoding{}, any), std::nullopt);
+    }
+}
+
+TEST(Verify, TellsWhichAxisIsBeyondDoubt) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 40; ++i) {
+        SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
+        const Turn turn{i % 4};
+        Reading reading(random_view(rng), turn);
+        const Axis clear = i / 4 % 2 == 0 ? Axis::x : Axis::y;
+        // Of the other axis only a few bits are left. A grid that was found sideways has them in
+        // its own other bit.
+        const bool is_y_lost = (clear == Axis::x) == (turn.quarters % 2 == 0);
+        int kept = 30;
+        for (GridCell& cell : reading.owned.cells) {
+            if (cell.dot == GridCell::kNoDot || kept-- > 0) continue;
+            (is_y_lost ? cell.y : cell.x) = 0;
+        }
+        Storage storage;
+        Decoding decoding = reading.truth();
+        Fix fix;
+        EXPECT_EQ(verify(reading.grid(), Profile::anoto, decoding, {}, storage, fix),
+                  Status::not_certain);
+        EXPECT_EQ(sure_axis(decoding, {}), clear);
+        IntegrityOptions strict;
+        strict.max_p_wrong_log2 = -500;
+        EXPECT_EQ(sure_axis(decoding, strict), std::nullopt);
+    }
+}
+
+TEST(Verify, PlacesShareALineIfTheCodeSaysSo) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 200; ++i) {
+        SCOPED_TRACE(testing::Message() << "place " << i << ", seed " << kSeed);
+        const Place a = random_place(rng);
+        Place b = random_place(rng);
+        if (i % 2 == 0) b.cell.x = a.cell.x;
+        if (i % 4 == 0) b.section.u = a.section.u;
+        // The bits of x down the column of a place; no two rolls of the sequence look alike for so
+        // long.
+        bool is_alike = a.cell.x == b.cell.x;
+        for (int j = 0; j < 63; ++j) {
+            const auto bit = [&](const Place& place) {
+                const Place at = moved(Profile::anoto, place, 0, j);
+                return x_bit(symbol_at(Profile::anoto, at.cell, at.section));
+            };
+            is_alike = is_alike && bit(a) == bit(b);
+        }
+        EXPECT_EQ(share_line(Axis::x, Profile::anoto, a, b), is_alike);
+        EXPECT_TRUE(share_line(Axis::y, Profile::anoto, a, a));
     }
 }
 

@@ -44,6 +44,18 @@ inline std::vector<Vec2> intersections(const Mesh& mesh, const std::vector<Place
     return places;
 }
 
+/// Dots as the pattern has them, up to `reach` cells from the origin.
+inline std::vector<PlacedDot> displaced_dots(const Mesh& mesh, int reach, Vec2 image_px, Rng& rng) {
+    return placed_dots(mesh, reach, image_px, [&](int, int) { return random_displacement(rng); });
+}
+
+/// The error at an image's corner of the fit of three parameters per axis to dots that are
+/// displaced by 1/6 along one axis at random: 0.12 per dot. The variance there is 1 / n for the
+/// mean and 3 / n for each slope. Five times the deviation.
+inline double affine_tolerance(const std::vector<PlacedDot>& dots) {
+    return 5 * 0.118 * std::sqrt(7.0 / static_cast<double>(dots.size()));
+}
+
 inline Vec centre_q8(Vec2 image_px) {
     return fixed({(image_px.x - 1) / 2, (image_px.y - 1) / 2}, 8);
 }

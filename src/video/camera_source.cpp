@@ -1,10 +1,7 @@
-// Video files and cameras, through OpenCV.
+// Cameras, through OpenCV.
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <thread>
 
 #include <fmt/format.h>
@@ -35,13 +32,6 @@ void to_grey(const cv::Mat& picture, GreyImage& image) {
         image.pixels.insert(image.pixels.end(), grey.ptr(v), grey.ptr(v) + grey.cols);
 }
 
-/// What fails is told in our own words; what OpenCV and its decoder write on standard error is not
-/// for the user. To be called before either is used.
-void silence() {
-    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-    setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);  // AV_LOG_QUIET
-}
-
 /// Whatever a driver or decoder throws becomes an Error with the source's name.
 template <typename Action>
 auto guarded(const std::string& name, const Action& action) {
@@ -51,47 +41,6 @@ auto guarded(const std::string& name, const Action& action) {
         throw Error("cannot read " + name + ": " + problem.err);
     }
 }
-
-class VideoFile : public FrameSource {
-  public:
-    explicit VideoFile(const SourceOptions& options) : options_(options) {
-        // OpenCV says no more than that it failed.
-        if (!std::filesystem::exists(options.name)) {
-            throw Error("cannot read " + options.name + ": no such file or camera");
-        }
-        if (!std::ifstream(options.name)) throw Error("cannot read " + options.name);
-        const bool is_open =
-            guarded(options.name, [&] { return capture_.open(options.name, cv::CAP_FFMPEG); });
-        if (!is_open) throw Error(options.name + " is no video, or of a kind that is not known");
-        promised_ = std::llround(capture_.get(cv::CAP_PROP_FRAME_COUNT));
-    }
-
-    bool next(Frame& frame) override {
-        if (options_.stop()) return false;
-        const bool is_read = guarded(options_.name, [&] { return capture_.read(picture_); });
-        if (!is_read) {
-            // The decoder passes over what it cannot read, and says nothing.
-            if (frames_ < promised_) {
-                throw Error(fmt::format("{} is damaged or cut short: {} of {} frames were read",
-                                        options_.name, frames_, promised_));
-            }
-            return false;
-        }
-        to_grey(picture_, frame.image);
-        frame.time_us = options_.fps ? time_of(frames_, *options_.fps)
-                                     : std::llround(capture_.get(cv::CAP_PROP_POS_MSEC) * 1e3);
-        frame.index = frames_++;
-        return true;
-    }
-    double rate() const override { return options_.fps.value_or(capture_.get(cv::CAP_PROP_FPS)); }
-
-  private:
-    SourceOptions options_;
-    cv::VideoCapture capture_;
-    cv::Mat picture_;
-    std::int64_t frames_ = 0;
-    std::int64_t promised_ = 0;
-};
 
 /// A camera is read by a thread of its own, so that the newest frame is always the one given.
 class Camera : public FrameSource {
@@ -202,13 +151,9 @@ class Camera : public FrameSource {
 
 }  // namespace
 
-std::unique_ptr<FrameSource> open_video(const SourceOptions& options) {
-    silence();
-    return std::make_unique<VideoFile>(options);
-}
-
 std::unique_ptr<FrameSource> open_camera(const SourceOptions& options) {
-    silence();
+    // What fails is told in our own words.
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     return std::make_unique<Camera>(options);
 }
 

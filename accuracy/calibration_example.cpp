@@ -1,0 +1,66 @@
+#include <filesystem>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "../tests/unit/calibrate/frames.hpp"
+#include "calibration_measures.hpp"
+#include "dotpose/image_file.hpp"
+#include "dotpose/sheet_file.hpp"
+
+namespace dotpose {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace calibrate_test;
+
+constexpr double kRobot_x_mm = 60'000;
+constexpr double kRobot_y_mm = 45'000;
+
+/// Writes frame_at(0), frame_at(1), ... into a folder.
+template <typename FrameAt>
+void write_frames(const fs::path& folder, int frames, FrameAt frame_at) {
+    fs::create_directories(folder);
+    for (int i = 0; i < frames; ++i)
+        write_pgm(folder / fmt::format("frame_{:06}.pgm", i), frame_at(i).view());
+}
+
+/// The sheets of the table, where a ruler would have them.
+void write_sheets(const fs::path& path) {
+    fs::remove(path);
+    SheetFile file(path);
+    const std::vector<SheetEntry> entries = sheets_of_table();
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        SheetEntry entry = entries[i];
+        const auto to_mm = [](double mm) { return std::round(mm) / 1000; };
+        entry.world = WorldPose{to_mm(kTable[i].x_mm), -to_mm(kTable[i].y_mm), 0};
+        file.add(entry);
+    }
+    file.save();
+}
+
+}  // namespace
+
+void write_example(const std::string& folder, std::uint64_t seed) {
+    const fs::path root = folder;
+    const CameraModel camera = paper_camera();
+    write_frames(root / "frames", 20, [&](int i) { return nominal_frame(camera, seed, i); });
+    write_frames(root / "turn", 12, [&](int i) {
+        return robot_frame(camera, seed + 1, i, kRobot_x_mm, kRobot_y_mm, 30 * i * kDegree_rad);
+    });
+    write_frames(root / "line", 10, [&](int i) {
+        // It heads along x, and the image's x axis lies a quarter turn to the left of that.
+        return robot_frame(camera, seed + 2, i, kRobot_x_mm + 5 * i, kRobot_y_mm,
+                           -90 * kDegree_rad);
+    });
+    const CameraModel wide = wide_camera();
+    Table table = kTable;
+    table[1].print = {1.0021, 0.9988};
+    table[2].print = {0.9982, 1.0012};
+    table[3].print = {1.0006, 0.9990};
+    write_frames(root / "wide", 20, [&](int i) { return nominal_frame(wide, seed + 3, i); });
+    write_frames(root / "seams", 60, [&](int i) { return seam_frame(table, wide, seed + 4, i); });
+    write_sheets(root / "sheets.json");
+}
+
+}  // namespace dotpose

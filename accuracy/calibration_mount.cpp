@@ -1,0 +1,157 @@
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <numbers>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "../tests/unit/calibrate/frames.hpp"
+#include "calibration_measures.hpp"
+#include "calibration_tally.hpp"
+#include "dotpose/calibrate.hpp"
+#include "dotpose/locate.hpp"
+
+namespace dotpose {
+namespace {
+
+using namespace calibrate_test;
+
+constexpr double kPivot_x_mm = 60'000;
+constexpr double kPivot_y_mm = 45'000;
+constexpr int kLensFrames = 20;
+constexpr int kSpinFrames = 12;
+constexpr int kSeamFrames = 200;
+/// Prints err by up to this along each axis.
+constexpr double kPrintError = 0.003;
+
+void print_table(const std::string& title, const ErrorTable& table) {
+    for (const auto& [key, errors] : table) {
+        fmt::print("| {} | {} | {} | {:.5f} | {:.5f} | {} |\n", title, errors.count, key,
+                   errors.rms(), errors.largest, errors.normalised_text());
+    }
+    std::fflush(stdout);
+}
+
+void print_head(const std::string& what) {
+    fmt::print(
+        "\n| {} | values | error of | rms | largest | error² / variance |\n"
+        "|---|--:|---|--:|--:|--:|\n",
+        what);
+}
+
+/// Where the robot's centre is located from other places, off by how much along the robot's axes:
+/// the mean over all directions.
+Vec2 reference_error_mm(const Camera& camera, const CameraModel& model, std::uint64_t seed) {
+    const auto workspace = std::make_unique<LargeWorkspace>();
+    Vec2 mean;
+    int count = 0;
+    for (int i = 0; i < 24; ++i) {
+        const double theta_rad = (15 * i + 7) * kDegree_rad;
+        const GreyImage image =
+            robot_frame(model, seed, i, kPivot_x_mm + 500, kPivot_y_mm + 300, theta_rad);
+        Options options;
+        use_camera(camera, image.width_px, image.height_px, options);
+        const Fix fix =
+            with_camera(locate(image.view(), options, *workspace), camera, options, *workspace);
+        if (fix.status != Status::ok) continue;
+        const double dx = fix.x_mm(kDefaultSpacing_mm) - kPivot_x_mm - 500;
+        const double dy = fix.y_mm(kDefaultSpacing_mm) - kPivot_y_mm - 300;
+        mean.x += std::cos(theta_rad) * dx + std::sin(theta_rad) * dy;
+        mean.y += std::cos(theta_rad) * dy - std::sin(theta_rad) * dx;
+        ++count;
+    }
+    return {mean.x / count, mean.y / count};
+}
+
+void spin(const Camera& lens, const CameraModel& model, std::uint64_t seed, ErrorTable& errors) {
+    const auto frame_at = [&](int i) {
+        return robot_frame(model, seed, i, kPivot_x_mm, kPivot_y_mm, 30 * i * kDegree_rad);
+    };
+    const SpinCalibration found = calibrate_spin(kSpinFrames, frame_at, lens, {});
+    const auto add = [&](const char* key, double x, double y, double sigma) {
+        errors[key].add(x, sigma);
+        errors[key].add(y, sigma);
+    };
+    add("reference from the image centre, mm", found.offset_mm.x_mm + kCameraOnRobot_mm.x,
+        found.offset_mm.y_mm + kCameraOnRobot_mm.y, found.sigma_mm);
+    const PixelPoint pixel = found.camera.reference_px.value();
+    const PixelPoint truth =
+        pixel_from_image_centre(true_camera(model), {-kCameraOnRobot_mm.x, -kCameraOnRobot_mm.y});
+    const double mm = model.mm_per_px;
+    add("its pixel, in mm", mm * (pixel.u - truth.u), mm * (pixel.v - truth.v), NAN);
+    const Vec2 located = reference_error_mm(found.camera, model, seed + 1);
+    add("robot located with it, mm", located.x, located.y, found.sigma_mm);
+}
+
+Table draw_table(Rng& rng) {
+    Table table = kTable;
+    for (Lying& lying : table) {
+        lying.print = {1 + rng.uniform(-kPrintError, kPrintError),
+                       1 + rng.uniform(-kPrintError, kPrintError)};
+    }
+    // The mean of the first is what the sheet file says.
+    const double mean = std::sqrt(table[0].print.x * table[0].print.y);
+    table[0].print = {table[0].print.x / mean, table[0].print.y / mean};
+    return table;
+}
+
+void stitch(const Table& table, const CameraModel& model, const Camera& camera, std::uint64_t seed,
+            ErrorTable& errors) {
+    const auto frame_at = [&](int i) { return seam_frame(table, model, seed, i); };
+    const Stitching found = stitch_sheets(kSeamFrames, frame_at, sheets_of_table(), camera, {});
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        const SheetEntry& entry = found.sheets[i];
+        const StitchedSheet& sheet = found.stitched.at(i);
+        const std::string scale = i == 0 ? "print scale of the first sheet" : "print scale";
+        errors[scale].add(entry.print_scale_x - table[i].print.x, sheet.sigma_scale_x);
+        errors[scale].add(entry.print_scale_y - table[i].print.y, sheet.sigma_scale_y);
+        if (i == 0) continue;
+        const WorldPose& world = entry.world.value();
+        errors["place, mm"].add(1000 * world.x_m - table[i].x_mm, sheet.sigma_mm);
+        errors["place, mm"].add(-1000 * world.y_m - table[i].y_mm, sheet.sigma_mm);
+        errors["turn, degrees"].add((-world.yaw_rad - table[i].turn_rad) / kDegree_rad,
+                                    sheet.sigma_rad / kDegree_rad);
+    }
+}
+
+Camera calibrated(const CameraModel& model, std::uint64_t seed) {
+    const auto frame_at = [&](int i) { return nominal_frame(model, seed, i); };
+    return calibrate_lens(kLensFrames, frame_at, {}).camera;
+}
+
+/// Both with the true camera file and with an estimated one: `work(camera, model, seed, errors)`.
+template <typename Work>
+void measure_both(const std::string& what, std::uint64_t count, const CameraModel& model,
+                  const Counting& counting, Work work) {
+    if (count == 0) return;
+    print_head(what);
+    for (const bool is_estimated : {false, true}) {
+        const std::string title = is_estimated ? "calibrated from 20 frames" : "known";
+        const auto done = count_on_threads<ErrorTable>(
+            what, count, counting.threads, [&](std::uint64_t index, ErrorTable& errors) {
+                const std::uint64_t seed = scramble(counting.seed) + 1000 * index;
+                const Camera camera =
+                    is_estimated ? calibrated(model, seed + 500) : true_camera(model);
+                work(camera, model, seed, errors);
+            });
+        print_table(title, done.tally);
+    }
+}
+
+}  // namespace
+
+void measure_spins(std::uint64_t count, const Counting& counting) {
+    measure_both("spin: camera file", count, paper_camera(), counting, spin);
+}
+
+void measure_stitching(std::uint64_t count, const Counting& counting) {
+    measure_both(
+        "four sheets: camera file", count, wide_camera(), counting,
+        [](const Camera& camera, const CameraModel& model, std::uint64_t seed, ErrorTable& errors) {
+            Rng rng(seed);
+            stitch(draw_table(rng), model, camera, seed, errors);
+        });
+}
+
+}  // namespace dotpose

@@ -1,0 +1,54 @@
+#include "frames.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+#include <thread>
+#include <tuple>
+
+namespace dotpose::bench {
+namespace {
+
+/// Enough that the processor does not learn them by heart, and few enough to render.
+int count_of(const CameraModel& camera) {
+    constexpr int kMost = 20;
+    constexpr int kPixels = 4'000'000;
+    return std::clamp(kPixels / (camera.width_px * camera.height_px), 1, kMost);
+}
+
+}  // namespace
+
+const std::vector<KnownFrame>& nominal_frames(const CameraModel& camera) {
+    static std::map<std::tuple<int, int, double>, std::vector<KnownFrame>> rendered;
+    auto& frames = rendered[{camera.width_px, camera.height_px, camera.mm_per_px}];
+    if (frames.empty()) {
+        Setup setup;
+        setup.seed = kSeed;
+        setup.camera = camera;
+        const FrameSource frame_at = frames_of_setup(setup);
+        frames.resize(static_cast<std::size_t>(count_of(camera)));
+        on_all_cores(static_cast<int>(frames.size()),
+                     [&](int i) { frames[static_cast<std::size_t>(i)] = frame_at(i); });
+    }
+    return frames;
+}
+
+bool is_right(const Fix& fix, const Truth& truth) {
+    Outcome outcome;
+    outcome.fix = fix;
+    outcome.truth = truth;
+    return outcome.is_fix() && !outcome.is_wrong();
+}
+
+void on_all_cores(int count, const std::function<void(int)>& work) {
+    std::atomic<int> next{0};
+    const auto run = [&] {
+        for (int i = next++; i < count; i = next++)
+            work(i);
+    };
+    std::vector<std::jthread> threads;
+    for (unsigned i = 0; i < std::thread::hardware_concurrency(); ++i)
+        threads.emplace_back(run);
+}
+
+}  // namespace dotpose::bench

@@ -1,0 +1,175 @@
+// Reruns every number and picture of docs/speed.md. Run by `make bench`.
+//
+//   dotpose_bench [--quick] [--update docs/speed.md] [FOLDER]
+//   dotpose_bench --benchmark_filter=stage [--benchmark_...]
+//
+// Writes tables.md, pixels.svg and dots.svg to FOLDER (bench-out). --update also replaces the
+// generated parts of the document and the pictures beside it. --quick: to see that it works; its
+// numbers are for nobody. With options of Google Benchmark only the benchmarks that they ask for
+// are run and printed.
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <dotpose/error.hpp>
+
+#include "../accuracy/document.hpp"
+#include "benchmarks.hpp"
+#include "draw/svg.hpp"
+#include "machine.hpp"
+#include "plots.hpp"
+#include "varied.hpp"
+
+namespace dotpose::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+    fs::path out = "bench-out";
+    fs::path document;
+    bool is_quick = false;
+    bool is_partial = false;
+    std::vector<std::string> library = {"dotpose_bench"};  ///< what Google Benchmark gets
+};
+
+Arguments parse(int argc, char** argv) {
+    Arguments arguments;
+    // Repetitions take turns, so that a busy moment of the machine is not one benchmark's alone.
+    for (const char* option : {"--benchmark_enable_random_interleaving=true",
+                               "--benchmark_repetitions=9", "--benchmark_min_time=0.05"})
+        arguments.library.emplace_back(option);
+    for (int i = 1; i < argc; ++i) {
+        const std::string_view argument = argv[i];
+        if (argument == "--quick") {
+            arguments.is_quick = true;
+            arguments.library.emplace_back("--benchmark_repetitions=2");
+            arguments.library.emplace_back("--benchmark_min_time=0.01");
+        } else if (argument == "--update" && i + 1 < argc) {
+            arguments.document = argv[++i];
+        } else if (argument.starts_with("--benchmark_")) {
+            arguments.is_partial = true;
+            arguments.library.emplace_back(argument);
+        } else if (argument.starts_with('-')) {
+            throw BadArgument(
+                "usage: dotpose_bench [--quick] [--update DOCUMENT] [FOLDER]\n"
+                "       dotpose_bench --benchmark_filter=REGEX [--benchmark_...]");
+        } else {
+            arguments.out = argument;
+        }
+    }
+    if (arguments.is_partial && !arguments.document.empty()) {
+        throw BadArgument("--update needs all benchmarks, so no --benchmark_... beside it");
+    }
+    return arguments;
+}
+
+void run_benchmarks(std::vector<std::string> options, Results& results) {
+    std::vector<char*> argv;
+    for (std::string& option : options)
+        argv.push_back(option.data());
+    int argc = static_cast<int>(argv.size());
+    benchmark::Initialize(&argc, argv.data());
+    if (benchmark::ReportUnrecognizedArguments(argc, argv.data())) {
+        throw BadArgument("not an option of Google Benchmark");
+    }
+    add_frame_benchmarks();
+    add_stage_benchmarks();
+    add_code_benchmarks();
+    benchmark::RunSpecifiedBenchmarks(&results);
+    if (results.has_failed()) throw Error("a benchmark found a wrong answer");
+}
+
+struct Aim {
+    const char* words;
+    double at_most;
+    double measured;
+    int decimals;
+};
+
+/// What was aimed at, and how far it is.
+std::string aims_table(const std::vector<FrameTimes>& sizes, const Varied& varied) {
+    const double locate_us = varied.of(Way::twice).median_us;
+    double vga_us = 0;
+    for (const FrameTimes& times : sizes) {
+        if (times.camera.width_px == 640) vga_us = times.locate_us;
+    }
+    const std::vector<Aim> aims = {
+        {"188 x 120, median, µs", 15, locate_us, 1},
+        {"188 x 120, median / libapriltag with decimate 2", 0.125,
+         locate_us / varied.of(Way::apriltag_2).median_us, 3},
+        {"188 x 120, median / one pass", 30, locate_us / varied.of(Way::floor).median_us, 0},
+        {"640 x 480 with 2,500 dots, µs", 150, vga_us, 0},
+        {"188 x 120, longest / median, default", 1.5, varied.of(Way::twice).longest_over_median(),
+         2},
+        {"188 x 120, longest / median, `--effort once`", 1.5,
+         varied.of(Way::once).longest_over_median(), 2},
+        {"188 x 120, longest / median, `--effort device`", 1.5,
+         varied.of(Way::device).longest_over_median(), 2},
+    };
+    std::string table = "| | at most | measured | |\n|---|--:|--:|---|\n";
+    for (const Aim& aim : aims) {
+        table += fmt::format("| {} | {:g} | {} | {} |\n", aim.words, aim.at_most,
+                             fmt::format("{:.{}f}", aim.measured, aim.decimals),
+                             aim.measured <= aim.at_most ? "met" : "**missed**");
+    }
+    return table;
+}
+
+void run(const Arguments& arguments) {
+    Results results;
+    if (arguments.is_partial) return run_benchmarks(arguments.library, results);
+    // Found out now, not after minutes.
+    if (!arguments.document.empty()) read_document(arguments.document);
+    fs::create_directories(arguments.out);
+
+    const std::string load_before = load_average();
+    fmt::print(stderr, "benchmarks take turns for some minutes, results come at the end\n");
+    run_benchmarks(arguments.library, results);
+    const Varied varied =
+        arguments.is_quick ? time_varied_frames(200, 2) : time_varied_frames(2000, 10);
+    const std::string load =
+        fmt::format("- load average before: {}; after: {}\n", load_before, load_average());
+
+    const std::vector<FrameTimes> sizes = times_by_size(results);
+    const std::vector<FrameTimes> by_dots = times_by_dots(results);
+    const Blocks blocks = {{"machine", machine_list() + load}, {"aims", aims_table(sizes, varied)},
+                           {"sizes", size_table(sizes)},       {"dots", dots_table(by_dots)},
+                           {"varied", varied_table(varied)},   {"stages", stage_table(results)},
+                           {"code", code_table(results)}};
+    draw::write_file(arguments.out / "pixels.svg",
+                     [&](std::ostream& out) { draw_pixels(out, sizes); });
+    draw::write_file(arguments.out / "dots.svg",
+                     [&](std::ostream& out) { draw_dots(out, by_dots); });
+    draw::write_file(arguments.out / "tables.md", [&](std::ostream& out) {
+        for (const Block& block : blocks)
+            out << block.text << '\n';
+    });
+    for (const Block& block : blocks)
+        fmt::print("\n{}", block.text);
+    if (arguments.document.empty()) return;
+    update_document(arguments.document, blocks);
+    update_pictures(arguments.document, arguments.out);
+}
+
+}  // namespace
+}  // namespace dotpose::bench
+
+int main(int argc, char** argv) {
+    try {
+        dotpose::bench::run(dotpose::bench::parse(argc, argv));
+        return 0;
+    } catch (const dotpose::BadArgument& error) {
+        fmt::print(stderr, "dotpose_bench: {}\n", error.what());
+        return 2;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "dotpose_bench: {}\n", error.what());
+        return 1;
+    }
+}

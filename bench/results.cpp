@@ -1,0 +1,43 @@
+#include "results.hpp"
+
+#include <algorithm>
+
+#include <unistd.h>
+
+#include <dotpose/error.hpp>
+
+namespace dotpose::bench {
+namespace {
+
+/// The time that this thread was given, so that others on the machine do not count.
+double us_of(const benchmark::BenchmarkReporter::Run& run) {
+    return 1e6 * run.cpu_accumulated_time / static_cast<double>(run.iterations);
+}
+
+}  // namespace
+
+Results::Results() : ConsoleReporter(isatty(STDOUT_FILENO) == 1 ? OO_Color : OO_None) {}
+
+const Result& Results::of(const std::string& name) const {
+    const auto found = results_.find(name);
+    if (found == results_.end()) throw Error("no result of the benchmark " + name);
+    return found->second;
+}
+
+void Results::ReportRuns(const std::vector<Run>& repetitions) {
+    if (repetitions.front().run_type != Run::RT_Iteration) return;  // the library's own statistics
+    Run fastest = *std::ranges::min_element(repetitions, {}, us_of);
+    fastest.run_name.repetitions.clear();
+    ConsoleReporter::ReportRuns({fastest});
+    // One that found a wrong answer has not begun to count.
+    if (std::ranges::any_of(repetitions, [](const Run& run) { return run.iterations == 0; })) {
+        has_failed_ = true;
+        return;
+    }
+    Result& result = results_[fastest.run_name.function_name];
+    result.us = us_of(fastest);
+    const auto dots = fastest.counters.find("dots");
+    if (dots != fastest.counters.end()) result.dots = dots->second;
+}
+
+}  // namespace dotpose::bench

@@ -1,0 +1,151 @@
+#include "varied.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <dotpose/locate.hpp>
+
+#include "apriltag.hpp"
+#include "floor.hpp"
+#include "frames.hpp"
+
+namespace dotpose::bench {
+namespace {
+
+/// One way, and the frames that it gets.
+struct Subject {
+    std::vector<const GreyImage*> frames;
+    int found = 0;
+    std::function<void(GreyImage&)> run;
+    std::vector<double> fastest_us;
+};
+
+template <typename Frame>
+Subject subject_on(const std::vector<Frame>& frames, std::function<void(GreyImage&)> run) {
+    Subject subject;
+    for (const Frame& frame : frames)
+        subject.frames.push_back(&frame.image);
+    subject.run = std::move(run);
+    subject.fastest_us.assign(frames.size(), std::numeric_limits<double>::max());
+    return subject;
+}
+
+Subject locating(const std::vector<KnownFrame>& frames, Effort effort, Workspace& workspace) {
+    Options options;
+    options.effort = effort;
+    Subject subject = subject_on(frames, [options, &workspace](GreyImage& image) {
+        benchmark::DoNotOptimize(locate(image.view(), options, workspace));
+    });
+    for (const KnownFrame& frame : frames) {
+        const Fix fix = locate(frame.image.view(), options, workspace);
+        if (fix.status != Status::ok) continue;
+        if (!is_right(fix, frame.truth)) throw Error("a frame was located wrongly");
+        ++subject.found;
+    }
+    return subject;
+}
+
+Subject passing_over(const std::vector<KnownFrame>& frames) {
+    constexpr std::uint8_t kLevel = 128;
+    return subject_on(frames, [](GreyImage& image) {
+        benchmark::DoNotOptimize(count_dark(image.pixels, kLevel));
+    });
+}
+
+Subject detecting(std::vector<TagFrame>& frames, TagDetector& detector) {
+    Subject subject = subject_on(frames, [&detector](GreyImage& image) {
+        benchmark::DoNotOptimize(detector.detect(image));
+    });
+    for (TagFrame& frame : frames)
+        subject.found += detector.is_right(frame) ? 1 : 0;
+    return subject;
+}
+
+/// One look at every frame. Frames come as from a camera, all into the same memory; between two
+/// looks at one frame come all others, so that the processor does not know it by heart.
+void pass(Subject& subject) {
+    using Clock = std::chrono::steady_clock;
+    GreyImage camera = *subject.frames.front();
+    for (std::size_t i = 0; i < subject.frames.size(); ++i) {
+        std::ranges::copy(subject.frames[i]->pixels, camera.pixels.begin());
+        const auto start = Clock::now();
+        subject.run(camera);
+        const std::chrono::duration<double, std::micro> time = Clock::now() - start;
+        subject.fastest_us[i] = std::min(subject.fastest_us[i], time.count());
+    }
+}
+
+/// By nearest rank.
+double quantile(const std::vector<double>& sorted, double share) {
+    const double rank = std::ceil(share * static_cast<double>(sorted.size()));
+    return sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
+}
+
+FrameSpread spread_of(const Subject& subject) {
+    std::vector<double> us = subject.fastest_us;
+    std::ranges::sort(us);
+    return {static_cast<int>(us.size()), subject.found, quantile(us, 0.5), quantile(us, 0.99),
+            us.back()};
+}
+
+std::vector<KnownFrame> nominal_run(int count) {
+    Setup setup;
+    setup.seed = kSeed;
+    const FrameSource frame_at = frames_of_setup(setup);
+    std::vector<KnownFrame> frames(static_cast<std::size_t>(count));
+    on_all_cores(count, [&](int i) { frames[static_cast<std::size_t>(i)] = frame_at(i); });
+    return frames;
+}
+
+}  // namespace
+
+Varied time_varied_frames(int frame_count, int passes) {
+    const std::vector<KnownFrame> frames = nominal_run(frame_count);
+    std::vector<TagFrame> tags = render_tags({}, frame_count / 10);
+    const auto workspace = std::make_unique<SmallWorkspace>();
+    TagDetector detector_1(1);
+    TagDetector detector_2(2);
+    std::array<Subject, kWays> subjects = {
+        locating(frames, Effort::twice, *workspace),
+        locating(frames, Effort::once, *workspace),
+        locating(frames, Effort::device, *workspace),
+        passing_over(frames),
+        detecting(tags, detector_1),
+        detecting(tags, detector_2),
+    };
+    for (int i = 0; i < passes; ++i) {
+        for (Subject& subject : subjects)
+            pass(subject);
+    }
+    Varied varied;
+    std::ranges::transform(subjects, varied.spreads.begin(), spread_of);
+    return varied;
+}
+
+std::string varied_table(const Varied& varied) {
+    constexpr std::array<const char*, kWays> kNames = {
+        "`locate`, default", "`locate`, `--effort once`", "`locate`, `--effort device`",
+        "one pass",          "libapriltag, decimate 1",   "libapriltag, decimate 2",
+    };
+    std::string table =
+        "| | frames | found | median, µs | 99 %, µs | longest, µs | longest / median |\n"
+        "|---|--:|--:|--:|--:|--:|--:|\n";
+    for (std::size_t i = 0; i < kWays; ++i) {
+        const FrameSpread& s = varied.spreads[i];
+        const bool finds = i != static_cast<std::size_t>(Way::floor);
+        table += fmt::format("| {} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} |\n", kNames[i],
+                             s.frames, finds ? fmt::to_string(s.found) : "-", s.median_us, s.p99_us,
+                             s.longest_us, s.longest_over_median());
+    }
+    return table;
+}
+
+}  // namespace dotpose::bench

@@ -1,0 +1,34 @@
+/// Many different frames, each timed by itself: how even the time is.
+#pragma once
+
+#include <array>
+#include <string>
+
+namespace dotpose::bench {
+
+/// What looks at the frames, in the order of the table.
+enum class Way : std::uint8_t { twice, once, device, floor, apriltag_1, apriltag_2 };
+inline constexpr std::size_t kWays = 6;
+
+/// Times of one way, in µs: for each frame the fastest of several passes.
+struct FrameSpread {
+    int frames = 0;
+    int found = 0;
+    double median_us = 0;
+    double p99_us = 0;
+    double longest_us = 0;
+
+    double longest_over_median() const { return longest_us / median_us; }
+};
+
+struct Varied {
+    std::array<FrameSpread, kWays> spreads;
+    const FrameSpread& of(Way way) const { return spreads[static_cast<std::size_t>(way)]; }
+};
+
+/// Nominal frames of 188 x 120 px, and a tenth as many with a tag. Throws Error where a fix is
+/// wrong.
+Varied time_varied_frames(int frames, int passes);
+std::string varied_table(const Varied& varied);
+
+}  // namespace dotpose::bench

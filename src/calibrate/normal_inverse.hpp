@@ -1,0 +1,16 @@
+// Covariances of problems that share a few parameters among many poses.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+#include <ceres/problem.h>
+
+namespace dotpose::calibrate {
+
+/// The block of (J^T J)^-1 that belongs to the shared blocks of parameters, in their order. No
+/// residual may depend on more than one of the other blocks. Of these problems ceres::Covariance
+/// would take a minute.
+Eigen::MatrixXd normal_inverse(ceres::Problem& problem, const std::vector<double*>& shared);
+
+}  // namespace dotpose::calibrate

@@ -1,0 +1,346 @@
+#include "calibrate/sheet_graph.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <map>
+#include <set>
+#include <utility>
+
+#include <ceres/ceres.h>
+
+#include "calibrate/normal_inverse.hpp"
+
+namespace dotpose::calibrate {
+namespace {
+
+/// Of the whitened residual of one view, beyond which it counts less: one in 70 by chance.
+constexpr double kRobust_sigmas = 4;
+/// What is not to move.
+constexpr double kPinned = 1e-7;
+/// Of a camera's scale against the sheets', before the first frame.
+constexpr double kCameraPrior = 0.03;
+/// Of a camera's aspect and skew, if its file does not tell; pixels are square.
+constexpr double kSquarePrior = 0.002;
+
+/// A view, with camera, frame and sheet as parameters, in standard deviations.
+struct ViewResidual {
+    const SheetView& view;
+    Eigen::Vector2d first_mm;  ///< of the sheet's first intersection, from the page's corner
+
+    template <typename T>
+    bool operator()(const T* camera, const T* frame, const T* sheet, T* residual) const {
+        using std::cos;
+        using std::exp;
+        using std::sin;
+        using Vector = Eigen::Matrix<T, 2, 1>;
+        using Matrix = Eigen::Matrix<T, 2, 2>;
+        const auto turned = [](const T& angle) {
+            Matrix turn;
+            turn << cos(angle), -sin(angle), sin(angle), cos(angle);
+            return turn;
+        };
+        Matrix true_mm;
+        true_mm << 1.0 + camera[1], camera[2], T(0), 1.0 - camera[1];
+        true_mm *= exp(camera[0]);
+        const Matrix turn = turned(-sheet[2]);
+        Matrix nominal = Matrix::Zero();
+        nominal(0, 0) = exp(-sheet[3]);
+        nominal(1, 1) = exp(-sheet[4]);
+
+        const Vector seen = turned(frame[2]) * (true_mm * view.middle.template cast<T>());
+        const Vector world(frame[0] + seen[0] - sheet[0], frame[1] + seen[1] - sheet[1]);
+        const Vector on_page = turn * world - first_mm.template cast<T>();
+        const Vector place = nominal * on_page - view.place.template cast<T>();
+        const Matrix axes =
+            nominal * turned(frame[2] - sheet[2]) * true_mm - view.axes.template cast<T>();
+        Eigen::Matrix<T, 6, 1> off;
+        off << place, axes.col(0), axes.col(1);
+        Eigen::Map<Eigen::Matrix<T, 6, 1>> out(residual);
+        out = view.whitening.template cast<T>() * off;
+        return true;
+    }
+};
+
+/// (sum of weights * parameters - expected) / sigma
+template <int kSize>
+struct Pin {
+    std::array<double, kSize> weights;
+    double expected;
+    double sigma;
+
+    template <typename T>
+    bool operator()(const T* parameters, T* residual) const {
+        residual[0] = T(-expected);
+        for (std::size_t i = 0; i < kSize; ++i)
+            residual[0] += weights[i] * parameters[i];
+        residual[0] /= sigma;
+        return true;
+    }
+};
+
+template <std::size_t kSize>
+void pin(ceres::Problem& problem, std::array<double, kSize>& block,
+         const std::array<double, kSize>& weights, double expected, double sigma) {
+    constexpr int kCount = static_cast<int>(kSize);
+    problem.AddResidualBlock(new ceres::AutoDiffCostFunction<Pin<kCount>, 1, kCount>(
+                                 new Pin<kCount>{weights, expected, sigma}),
+                             nullptr, block.data());
+}
+
+template <std::size_t kSize>
+void pin_one(ceres::Problem& problem, std::array<double, kSize>& block, std::size_t index,
+             double expected, double sigma) {
+    std::array<double, kSize> weights{};
+    weights[index] = 1;
+    pin(problem, block, weights, expected, sigma);
+}
+
+/// A point of the camera frame, and the camera's x axis, on the page of a view's sheet.
+PlanePose on_page(const SheetView& view, const Eigen::Vector2d& in_camera, const Sheet& sheet,
+                  const AxisScale& scale) {
+    const Eigen::Vector2d at = view.place + view.axes * (in_camera - view.middle);
+    return {sheet.origin_x_mm + scale.x * at.x(), sheet.origin_y_mm + scale.y * at.y(),
+            std::atan2(scale.y * view.axes(1, 0), scale.x * view.axes(0, 0))};
+}
+
+/// Relative standard deviation of a value of the camera file; 0 if it does not tell.
+double relative_sigma(const Camera& camera, const char* key, double value) {
+    const auto found = camera.sigma.find(key);
+    return found == camera.sigma.end() ? 0 : found->second / value;
+}
+
+}  // namespace
+
+PlanePose PlanePose::operator*(const PlanePose& inner) const {
+    const double c = std::cos(turn);
+    const double s = std::sin(turn);
+    return {x + c * inner.x - s * inner.y, y + s * inner.x + c * inner.y, turn + inner.turn};
+}
+
+PlanePose PlanePose::inverse() const {
+    const double c = std::cos(turn);
+    const double s = std::sin(turn);
+    return {-c * x - s * y, s * x - c * y, -turn};
+}
+
+SheetGraph::SheetGraph(const std::vector<SheetEntry>& sheets, const std::optional<Camera>& camera,
+                       std::vector<SheetView> views, std::size_t fixed,
+                       const ScaleReference& reference)
+    : sheets_(sheets),
+      camera_(camera),
+      views_(std::move(views)),
+      fixed_(fixed),
+      reference_(reference),
+      nodes_(sheets.size()),
+      variances_(sheets.size()) {}
+
+void SheetGraph::solve() {
+    spread_from_fixed();
+    start_frames();
+    fit();
+}
+
+PlanePose SheetGraph::pose(std::size_t sheet) const {
+    const Node& node = nodes_[sheet].value();
+    return {node[0], node[1], node[2]};
+}
+
+AxisScale SheetGraph::print_scale(std::size_t sheet) const {
+    const Node& node = nodes_[sheet].value();
+    return {std::exp(node[3]), std::exp(node[4])};
+}
+
+double SheetGraph::sigma_mm(std::size_t sheet) const {
+    return std::sqrt((variances_[sheet][0] + variances_[sheet][1]) / 2);
+}
+
+double SheetGraph::sigma_rad(std::size_t sheet) const {
+    return std::sqrt(variances_[sheet][2]);
+}
+
+AxisScale SheetGraph::sigma_scale(std::size_t sheet) const {
+    const AxisScale scale = print_scale(sheet);
+    return {scale.x * std::sqrt(variances_[sheet][3]), scale.y * std::sqrt(variances_[sheet][4])};
+}
+
+bool SheetGraph::has_scale() const {
+    return std::ranges::any_of(views_, &SheetView::has_scale);
+}
+
+/// In the camera frame of a view.
+Eigen::Vector2d SheetGraph::centre_in_camera(const SheetView& view) const {
+    if (!view.has_scale()) return {0, 0};
+    const CameraPoint point =
+        on_paper(*camera_, {(camera_->width_px - 1) / 2.0, (camera_->height_px - 1) / 2.0});
+    return {point.x_mm, point.y_mm};
+}
+
+Eigen::Vector2d SheetGraph::centre_on_sheet(const SheetView& view) const {
+    return view.place + view.axes * (centre_in_camera(view) - view.middle);
+}
+
+PlanePose SheetGraph::image_centre(const SheetView& view) const {
+    return pose(view.sheet) * on_page(view, centre_in_camera(view), sheets_[view.sheet].sheet,
+                                      print_scale(view.sheet));
+}
+
+/// First poses, seam by seam: each by the frame that shows most of both.
+void SheetGraph::spread_from_fixed() {
+    const auto start = [this](std::size_t sheet, const PlanePose& pose) {
+        const AxisScale scale = sheets_[sheet].print_scale();
+        nodes_[sheet] = {pose.x, pose.y, pose.turn, std::log(scale.x), std::log(scale.y)};
+    };
+    const auto seen_on = [this](const SheetView& view) {
+        const SheetEntry& entry = sheets_[view.sheet];
+        return on_page(view, {0, 0}, entry.sheet, entry.print_scale());
+    };
+    start(fixed_, {});
+    std::deque<std::size_t> open{fixed_};
+    while (!open.empty()) {
+        const std::size_t from = open.front();
+        open.pop_front();
+        std::map<std::size_t, std::pair<std::size_t, PlanePose>> best;
+        for (const SheetView& near : views_) {
+            for (const SheetView& far : views_) {
+                if (near.sheet != from || far.frame != near.frame) continue;
+                if (is_connected(far.sheet)) continue;
+                const std::size_t dots = std::min(near.dots.size(), far.dots.size());
+                auto& candidate = best[far.sheet];
+                if (dots <= candidate.first) continue;
+                candidate = {dots, pose(from) * seen_on(near) * seen_on(far).inverse()};
+            }
+        }
+        for (const auto& [sheet, candidate] : best) {
+            start(sheet, candidate.second);
+            open.push_back(sheet);
+        }
+    }
+}
+
+/// First poses of the frames; leaves out views that tell nothing of how the sheets lie.
+void SheetGraph::start_frames() {
+    std::map<int, int> counts;
+    std::erase_if(views_, [this](const SheetView& view) { return !is_connected(view.sheet); });
+    for (const SheetView& view : views_)
+        ++counts[view.frame];
+    std::erase_if(
+        views_, [&](const SheetView& view) { return !view.has_scale() && counts[view.frame] < 2; });
+    for (const SheetView& view : views_) {
+        const PlanePose found = pose(view.sheet) * on_page(view, {0, 0}, sheets_[view.sheet].sheet,
+                                                           print_scale(view.sheet));
+        frames_[view.frame] = {found.x, found.y, found.turn};
+    }
+}
+
+void SheetGraph::fit() {
+    ceres::Problem problem;
+    add_views(problem);
+    pin_sheets(problem);
+    pin_camera(problem);
+    ceres::Solver::Options options;
+    options.logging_type = ceres::SILENT;
+    options.linear_solver_type = ceres::DENSE_SCHUR;
+    options.function_tolerance = 1e-12;
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem, &summary);
+    estimate_variances(problem, summary.final_cost);
+}
+
+void SheetGraph::add_views(ceres::Problem& problem) {
+    for (const SheetView& view : views_) {
+        const Sheet& sheet = sheets_[view.sheet].sheet;
+        problem.AddResidualBlock(
+            new ceres::AutoDiffCostFunction<ViewResidual, 6, 3, 3, 5>(
+                new ViewResidual{view, {sheet.origin_x_mm, sheet.origin_y_mm}}),
+            new ceres::HuberLoss(kRobust_sigmas), camera_scale_.data(), frames_[view.frame].data(),
+            nodes_[view.sheet]->data());
+    }
+}
+
+void SheetGraph::pin_sheets(ceres::Problem& problem) {
+    using By = ScaleReference::By;
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+        if (!is_connected(i)) continue;
+        Node& node = *nodes_[i];
+        const AxisScale file = sheets_[i].print_scale();
+        const std::array logs = {std::log(file.x), std::log(file.y)};
+        for (std::size_t axis = 0; axis < 2; ++axis)
+            pin_one(problem, node, 3 + axis, logs[axis], kUsualPrintError);
+        if (i == fixed_) {
+            for (std::size_t k = 0; k < 3; ++k)
+                pin_one(problem, node, k, 0, kPinned);
+        }
+        if (i == fixed_ && !has_scale()) {
+            // Views that are fitted to parts of frames would tell it, but err all alike.
+            pin<5>(problem, node, {0, 0, 0, 1, -1}, logs[0] - logs[1], kPinned);
+        }
+        if (i == fixed_ && reference_.by == By::fixed_sheet) {
+            pin<5>(problem, node, {0, 0, 0, 0.5, 0.5}, (logs[0] + logs[1]) / 2, kPinned);
+        }
+        if (reference_.by == By::width && sheets_[i].name == reference_.sheet) {
+            const Sheet& sheet = sheets_[i].sheet;
+            const double nominal_mm = (sheet.columns - 1) * sheet.pattern.spacing_mm;
+            pin_one(problem, node, 3, std::log(reference_.width_mm / nominal_mm), kPinned);
+        }
+    }
+}
+
+void SheetGraph::pin_camera(ceres::Problem& problem) {
+    if (!has_scale()) {
+        problem.SetParameterBlockConstant(camera_scale_.data());
+        return;
+    }
+    const Camera& camera = *camera_;
+    const double x = relative_sigma(camera, "mm_per_px_x", camera.paper->mm_per_px_x);
+    const double y = relative_sigma(camera, "mm_per_px_y", camera.paper->mm_per_px_y);
+    const double half = std::hypot(x, y) / 2;  // of the mean, and of half the difference
+    const double skew = relative_sigma(camera, "skew", 1);
+    const bool is_true = reference_.by == ScaleReference::By::camera;
+    pin_one(problem, camera_scale_, 0, 0, is_true ? std::max(half, kPinned) : kCameraPrior);
+    pin_one(problem, camera_scale_, 1, 0, half > 0 ? half : kSquarePrior);
+    pin_one(problem, camera_scale_, 2, 0, skew > 0 ? skew : kSquarePrior);
+}
+
+/// A dot errs alike in all frames that show it: frames are worth as much less as they repeat dots.
+double SheetGraph::repeats() const {
+    std::map<std::size_t, std::set<std::uint64_t>> different;
+    std::size_t all = 0;
+    std::size_t once = 0;
+    for (const SheetView& view : views_) {
+        different[view.sheet].insert(view.dots.begin(), view.dots.end());
+        all += view.dots.size();
+    }
+    for (const auto& [sheet, dots] : different)
+        once += dots.size();
+    return static_cast<double>(all) / static_cast<double>(std::max<std::size_t>(once, 1));
+}
+
+void SheetGraph::estimate_variances(ceres::Problem& problem, double cost) {
+    std::vector<double*> shared;
+    for (auto& node : nodes_) {
+        if (node) shared.push_back(node->data());
+    }
+    int residuals = problem.NumResiduals() - 6 * static_cast<int>(views_.size());
+    for (const SheetView& view : views_)
+        residuals += view.rows;
+    const int parameters =
+        problem.NumParameters() - (has_scale() ? 0 : static_cast<int>(camera_scale_.size()));
+    if (has_scale()) shared.push_back(camera_scale_.data());
+    // What frames say of themselves knows nothing of how sheets bend.
+    const double misfit = std::max(2 * cost / std::max(residuals - parameters, 1), 1.0);
+    const Eigen::MatrixXd covariance = misfit * repeats() * normal_inverse(problem, shared);
+    Eigen::Index row = 0;
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+        if (!nodes_[i]) continue;
+        for (double& variance : variances_[i]) {
+            variance = covariance(row, row);
+            ++row;
+        }
+        if (has_scale()) continue;
+        for (const std::size_t scale : {3, 4})  // they are those against the fixed sheet
+            variances_[i][scale] += kUsualPrintError * kUsualPrintError;
+    }
+}
+
+}  // namespace dotpose::calibrate

@@ -1,0 +1,77 @@
+// A graph whose nodes are sheets and frames, and whose links are what a frame shows of a sheet:
+// where the sheets lie beside each other, and how long they were printed.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+#include <ceres/problem.h>
+
+#include "calibrate/seam_frames.hpp"
+
+namespace dotpose::calibrate {
+
+/// A place and direction on a plane with x right, y DOWN: mm and radians, from +x towards +y.
+struct PlanePose {
+    double x = 0;
+    double y = 0;
+    double turn = 0;
+
+    /// The place of `inner`, which is told in the frame of this pose.
+    PlanePose operator*(const PlanePose& inner) const;
+    PlanePose inverse() const;
+};
+
+class SheetGraph {
+  public:
+    /// `fixed`: index of the sheet whose page's corner and upper edge are the frame of all poses.
+    SheetGraph(const std::vector<SheetEntry>& sheets, const std::optional<Camera>& camera,
+               std::vector<SheetView> views, std::size_t fixed, const ScaleReference& reference);
+
+    void solve();
+
+    bool is_connected(std::size_t sheet) const { return nodes_[sheet].has_value(); }
+    /// Of the page's corner and upper edge. The sheet must be connected.
+    PlanePose pose(std::size_t sheet) const;
+    AxisScale print_scale(std::size_t sheet) const;
+    double sigma_mm(std::size_t sheet) const;
+    double sigma_rad(std::size_t sheet) const;
+    AxisScale sigma_scale(std::size_t sheet) const;
+    /// The image centre by one view: mm from the sheet's first intersection as it was meant to be
+    /// printed, and its pose.
+    Eigen::Vector2d centre_on_sheet(const SheetView& view) const;
+    PlanePose image_centre(const SheetView& view) const;
+
+  private:
+    /// Place of the corner and turn of the upper edge; logarithms of the print scale.
+    using Node = std::array<double, 5>;
+    using FramePose = std::array<double, 3>;
+
+    Eigen::Vector2d centre_in_camera(const SheetView& view) const;
+    void spread_from_fixed();
+    void start_frames();
+    void fit();
+    void add_views(ceres::Problem& problem);
+    void pin_sheets(ceres::Problem& problem);
+    void pin_camera(ceres::Problem& problem);
+    void estimate_variances(ceres::Problem& problem, double cost);
+    double repeats() const;
+    bool has_scale() const;
+
+    const std::vector<SheetEntry>& sheets_;
+    std::optional<Camera> camera_;
+    std::vector<SheetView> views_;
+    std::size_t fixed_;
+    ScaleReference reference_;
+
+    std::vector<std::optional<Node>> nodes_;  ///< none: not connected
+    std::vector<Node> variances_;
+    std::map<int, FramePose> frames_;  ///< of the camera frame
+    /// The camera's mm against those of the fixed sheet: logarithm of the scale, aspect, skew.
+    std::array<double, 3> camera_scale_{};
+};
+
+}  // namespace dotpose::calibrate

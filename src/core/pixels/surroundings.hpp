@@ -1,0 +1,29 @@
+// Surroundings: the grey levels around a pixel.
+#pragma once
+
+#include <algorithm>
+
+#include "dotpose/image.hpp"
+
+namespace dotpose::core {
+
+struct LevelRange {
+    int low = 255;
+    int high = 0;
+};
+
+/// Of the eight neighbours of a pixel; it must not lie on the border.
+inline LevelRange range_around(const ImageView& image, int u, int v) {
+    LevelRange range;
+    for (int dv = -1; dv <= 1; ++dv) {
+        const std::uint8_t* row = image.row(v + dv) + u;
+        for (int du = -1; du <= 1; ++du) {
+            if (du == 0 && dv == 0) continue;
+            range.low = std::min(range.low, int{row[du]});
+            range.high = std::max(range.high, int{row[du]});
+        }
+    }
+    return range;
+}
+
+}  // namespace dotpose::core

@@ -1,0 +1,263 @@
+// Video files, through FFmpeg's libraries: they tell the time of every frame, and which frames are
+// damaged; OpenCV keeps both to itself.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libswscale/swscale.h>
+}
+
+#include "video/sources.hpp"
+
+namespace dotpose::video {
+namespace {
+
+/// Calls of these libraries that end what others of them began.
+struct Release {
+    void operator()(AVFormatContext* file) const { avformat_close_input(&file); }
+    void operator()(AVCodecContext* decoder) const { avcodec_free_context(&decoder); }
+    void operator()(AVPacket* packet) const { av_packet_free(&packet); }
+    void operator()(AVFrame* frame) const { av_frame_free(&frame); }
+    void operator()(SwsContext* converter) const { sws_freeContext(converter); }
+};
+template <typename T>
+using Owned = std::unique_ptr<T, Release>;
+
+template <typename T>
+Owned<T> owned(T* pointer) {
+    if (pointer == nullptr) throw Error("cannot read videos: out of memory");
+    return Owned<T>(pointer);
+}
+
+/// Brightness, whatever the format of the frame.
+class GreyConverter {
+  public:
+    void operator()(const AVFrame& picture, GreyImage& image) {
+        const int width = picture.width;
+        const int height = picture.height;
+        converter_.reset(sws_getCachedContext(
+            converter_.release(), width, height, static_cast<AVPixelFormat>(picture.format), width,
+            height, AV_PIX_FMT_GRAY8, SWS_POINT, nullptr, nullptr, nullptr));
+        if (!converter_) throw Error("the video has a pixel format that is not known");
+        if (picture.color_range == AVCOL_RANGE_JPEG) {
+            const int* colours = sws_getCoefficients(SWS_CS_DEFAULT);
+            sws_setColorspaceDetails(converter_.get(), colours, 1, colours, 1, 0, 1 << 16, 1 << 16);
+        }
+        // Its rows are as long as the converter likes them.
+        const auto grey = owned(av_frame_alloc());
+        grey->format = AV_PIX_FMT_GRAY8;
+        grey->width = width;
+        grey->height = height;
+        if (av_frame_get_buffer(grey.get(), 0) < 0 ||
+            sws_scale(converter_.get(), picture.data, picture.linesize, 0, height, grey->data,
+                      grey->linesize) != height) {
+            throw Error("cannot convert a frame of the video");
+        }
+        image.width_px = width;
+        image.height_px = height;
+        image.pixels.clear();
+        for (int v = 0; v < height; ++v) {
+            const std::uint8_t* row = grey->data[0] + std::ptrdiff_t{v} * grey->linesize[0];
+            image.pixels.insert(image.pixels.end(), row, row + width);
+        }
+    }
+
+  private:
+    Owned<SwsContext> converter_;
+};
+
+class VideoFile : public FrameSource {
+  public:
+    explicit VideoFile(const SourceOptions& options)
+        : options_(options), packet_(owned(av_packet_alloc())), picture_(owned(av_frame_alloc())) {
+        if (!std::filesystem::exists(options.name)) {
+            throw Error("cannot read " + options.name + ": no such file or camera");
+        }
+        if (!std::ifstream(options.name)) throw Error("cannot read " + options.name);
+        // What fails is told in our own words.
+        av_log_set_level(AV_LOG_QUIET);
+        if (!open()) throw Error(options.name + " is no video, or of a kind that is not known");
+    }
+
+    bool next(Frame& frame) override {
+        while (!options_.stop()) {
+            const int code = avcodec_receive_frame(decoder_.get(), picture_.get());
+            if (code == AVERROR(EAGAIN)) {
+                send_packet();
+            } else if (code == AVERROR_EOF) {
+                judge_end();
+                return false;
+            } else if (code < 0) {
+                pass_over();
+            } else if (take_picture(frame)) {
+                return true;
+            }
+        }
+        return false;
+    }
+    double rate() const override { return options_.fps.value_or(rate_); }
+
+  private:
+    bool open() {
+        AVFormatContext* file = nullptr;
+        // A name with a colon is no protocol.
+        const std::string url = "file:" + options_.name;
+        if (avformat_open_input(&file, url.c_str(), nullptr, nullptr) < 0) return false;
+        file_.reset(file);
+        // Later it also holds what was found by reading.
+        for (unsigned i = 0; i < file->nb_streams; ++i) {
+            const int entries = avformat_index_get_entries_count(file->streams[i]);
+            has_index_ = has_index_ || (entries > 0 && entries >= file->streams[i]->nb_frames);
+        }
+        if (avformat_find_stream_info(file, nullptr) < 0) return false;
+        const AVCodec* codec = nullptr;
+        const int index = av_find_best_stream(file, AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
+        if (index < 0) return false;
+        stream_ = file->streams[index];
+        const AVRational rate = av_guess_frame_rate(file, stream_, nullptr);
+        if (rate.num > 0 && rate.den > 0) rate_ = av_q2d(rate);
+        decoder_ = owned(avcodec_alloc_context3(codec));
+        decoder_->pkt_timebase = stream_->time_base;
+        return avcodec_parameters_to_context(decoder_.get(), stream_->codecpar) >= 0 &&
+               avcodec_open2(decoder_.get(), codec, nullptr) >= 0;
+    }
+
+    /// How long the file says the video is; 0: it does not say.
+    double duration_s() const {
+        if (stream_->duration > 0) {
+            return static_cast<double>(stream_->duration) * av_q2d(stream_->time_base);
+        }
+        // That of the longest stream.
+        const bool is_of_video = file_->nb_streams == 1 && file_->duration > 0;
+        return is_of_video ? static_cast<double>(file_->duration) / AV_TIME_BASE : 0;
+    }
+    /// How many frames the file says it has, or that take so long.
+    std::int64_t promised() const {
+        return stream_->nb_frames > 0 ? stream_->nb_frames : std::llround(duration_s() * rate_);
+    }
+    /// Throws Error if something is missing.
+    void judge_end() const {
+        const bool is_short = stream_->nb_frames > 0 ? frames_ < stream_->nb_frames
+                                                     : time_s_ + 2 / rate_ < duration_s();
+        const std::string of = promised() > frames_ ? fmt::format(" of {}", promised()) : "";
+        const std::string counts = fmt::format("{}{} frames were read", frames_, of);
+        if (is_damaged_ || is_short) {
+            throw Error(
+                fmt::format("{} is damaged or cut short: {}{}", options_.name, counts,
+                            is_counted_ ? "; times after the damage are only counted" : ""));
+        }
+        const bool is_regular = av_cmp_q(stream_->avg_frame_rate, stream_->r_frame_rate) == 0;
+        if (is_regular && frames_ < promised()) {
+            options_.tell(fmt::format("{} has gaps, from damage or from its recording: {}",
+                                      options_.name, counts));
+        }
+    }
+
+    /// The next packet of the video to the decoder, or at the end that there are no more.
+    void send_packet() {
+        constexpr int kMostFailures = 100;
+        for (int failures = 0; failures < kMostFailures;) {
+            const int code = av_read_frame(file_.get(), packet_.get());
+            if (code == AVERROR_EOF) break;
+            if (code < 0) {
+                ++failures;
+                pass_over();
+                continue;
+            }
+            const bool is_video = packet_->stream_index == stream_->index;
+            if (is_video) {
+                if ((packet_->flags & AV_PKT_FLAG_CORRUPT) != 0) pass_over();
+                correct_time();
+                if (avcodec_send_packet(decoder_.get(), packet_.get()) < 0) pass_over();
+            }
+            av_packet_unref(packet_.get());
+            if (is_video) return;
+        }
+        avcodec_send_packet(decoder_.get(), nullptr);
+    }
+
+    /// AVI stores no times: they are counted from packet to packet, wrongly after damage. But its
+    /// index tells which frame stands where.
+    void correct_time() {
+        if (std::string_view(file_->iformat->name) != "avi") return;
+        int first = 0;
+        int last = avformat_index_get_entries_count(stream_);
+        while (last - first > 1) {
+            const int middle = (first + last) / 2;
+            const AVIndexEntry* entry = avformat_index_get_entry(stream_, middle);
+            (entry->pos <= packet_->pos ? first : last) = middle;
+        }
+        const AVIndexEntry* entry = avformat_index_get_entry(stream_, first);
+        constexpr int kHeader = 8;
+        is_counted_ = is_counted_ || !has_index_ || entry == nullptr || packet_->pos < entry->pos ||
+                      packet_->pos > entry->pos + kHeader;
+        if (is_counted_) return;
+        packet_->dts = entry->timestamp;
+        if (packet_->pts != AV_NOPTS_VALUE) packet_->pts = entry->timestamp;
+    }
+
+    /// What follows may show what stood in other frames, up to the next that stands for itself.
+    void pass_over() {
+        is_damaged_ = true;
+        waits_for_key_frame_ = true;
+    }
+
+    /// False if the picture is not to be trusted.
+    bool take_picture(Frame& frame) {
+        const std::int64_t time = picture_->best_effort_timestamp;
+        if (time != AV_NOPTS_VALUE) {
+            const double time_s = static_cast<double>(time) * av_q2d(stream_->time_base);
+            if (!has_begun_) begin_s_ = time_s;
+            time_s_ = time_s - begin_s_;
+        } else if (has_begun_) {
+            time_s_ += 1 / rate_;
+        }
+        has_begun_ = true;
+        if (picture_->decode_error_flags != 0 || (picture_->flags & AV_FRAME_FLAG_CORRUPT) != 0) {
+            pass_over();
+            return false;
+        }
+        if (picture_->key_frame != 0) waits_for_key_frame_ = false;
+        if (waits_for_key_frame_) return false;
+        to_grey_(*picture_, frame.image);
+        frame.time_us =
+            options_.fps ? time_of(frames_, *options_.fps) : std::llround(time_s_ * 1e6);
+        frame.index = frames_++;
+        return true;
+    }
+
+    SourceOptions options_;
+    Owned<AVFormatContext> file_;
+    AVStream* stream_ = nullptr;  ///< of the file
+    Owned<AVCodecContext> decoder_;
+    Owned<AVPacket> packet_;
+    Owned<AVFrame> picture_;
+    GreyConverter to_grey_;
+    double rate_ = 30;
+    double begin_s_ = 0;  ///< of the first picture, as the file counts
+    double time_s_ = 0;   ///< of the newest
+    bool has_begun_ = false;
+    bool is_damaged_ = false;
+    bool has_index_ = false;
+    bool is_counted_ = false;  ///< times, because there is no index that fits
+    bool waits_for_key_frame_ = false;
+    std::int64_t frames_ = 0;  ///< given
+};
+
+}  // namespace
+
+std::unique_ptr<FrameSource> open_video(const SourceOptions& options) {
+    return std::make_unique<VideoFile>(options);
+}
+
+}  // namespace dotpose::video

@@ -1,0 +1,268 @@
+// Weak sightings: the probability that a place inside the tracker's gate was taken for another one
+// there, by enumeration, beside the bound that the tracker uses (docs/tracking.md).
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "code/basis.hpp"
+#include "core/decode/position.hpp"
+#include "core/decode/verify.hpp"
+#include "core/decode/window.hpp"
+#include "dotpose/random.hpp"
+
+namespace dotpose {
+namespace {
+
+constexpr int kMaxSide = 16;
+/// Two places inside a gate of less than 15 cells to either side are at most so far apart.
+constexpr int kReach = 29;
+constexpr std::uint64_t kSeed = 20;
+constexpr std::array kProfiles{Profile::anoto, Profile::published, Profile::microdots};
+
+/// Bits read upright from a part of the pattern.
+struct View {
+    Profile profile = Profile::anoto;
+    Place place;
+    int columns = 0;
+    int rows = 0;
+    double odds_log2 = 0;  ///< that a bit of full weight is right
+    std::array<GridCell, kMaxSide * kMaxSide> cells{};
+
+    Grid grid() {
+        Grid grid;
+        grid.storage = cells;
+        grid.side = kMaxSide;
+        grid.columns = columns;
+        grid.rows = rows;
+        return grid;
+    }
+};
+
+/// Draws size and noise, and reads what stands at the place.
+void read(View& view, Rng& rng) {
+    view.columns = 8 + static_cast<int>(rng.below(5));
+    view.rows = 8 + static_cast<int>(rng.below(5));
+    view.odds_log2 = rng.uniform(1.5, 6);
+    const double missing = rng.below(2) == 0 ? 0 : rng.uniform(0, 0.25);
+    const unsigned least_weight = rng.below(2) == 0 ? 127 : 8;
+    const auto bit = [&](int truth) {
+        const int weight = static_cast<int>(least_weight + rng.below(127 - least_weight + 1));
+        const bool is_wrong = rng.uniform() < 1 / (1 + std::exp2(view.odds_log2 * weight / 127));
+        return static_cast<std::int8_t>((truth == 1) != is_wrong ? weight : -weight);
+    };
+    Grid grid = view.grid();
+    for (int j = 0; j < view.rows; ++j) {
+        for (int i = 0; i < view.columns; ++i) {
+            grid.at(i, j) = {};
+            if (rng.uniform() < missing) continue;
+            const Place at = moved(view.profile, view.place, i, j);
+            const Symbol symbol = symbol_at(view.profile, at.cell, at.section);
+            grid.at(i, j) = {bit(x_bit(symbol)), bit(y_bit(symbol)), 0};
+        }
+    }
+}
+
+/// The p_wrong that the decoder claims, as a power of two; 1 if it found another place or none.
+int claim(View& view) {
+    Grid grid = view.grid();
+    Decoding decoding;
+    decoding.window = core::choose_window(grid, kWindowSide);
+    decoding.region = core::choose_window(grid, kMaxSide);
+    std::array<LineScores, 2 * kMaxSide> storage;
+    Fix fix;
+    if (core::decode_all(grid, view.profile, storage, decoding) != Status::ok) return 1;
+    const IntegrityOptions all{0, 256};
+    if (core::verify(grid, view.profile, decoding, all, storage, fix) != Status::ok) return 1;
+    return decoding.place == view.place && decoding.pattern_from_grid.quarters == 0
+               ? fix.p_wrong_log2
+               : 1;
+}
+
+/// Where each line that may be in view starts in the main sequence, at the view's first cell.
+std::vector<int> starts(Profile profile, std::uint32_t first, int section, std::uint32_t cross) {
+    std::vector<int> result;
+    for (int i = -kReach; i < kReach + kMaxSide; ++i) {
+        const auto position = static_cast<std::uint32_t>(static_cast<int>(first) + i);
+        result.push_back(roll(profile, position) + section + static_cast<int>(cross % kSections));
+    }
+    return result;
+}
+
+/// Odds of every other place within reach, against the true one: the product over all bits.
+/// sums[k]: of those at most k cells away along both axes.
+std::array<double, kReach + 1> odds_by_distance(View& view) {
+    const auto& [cell, section] = view.place;
+    const auto columns = starts(view.profile, cell.x, section.u, cell.y);
+    const auto rows = starts(view.profile, cell.y, section.v, cell.x);
+    const auto main = [](int index) {
+        return main_bit(static_cast<std::uint32_t>(index + kSections));
+    };
+    // What the bits of a line say for it: their weights if it starts in the main sequence at
+    // some index.
+    const Grid grid = view.grid();
+    const auto score = [&](bool is_x, int line, int start) {
+        int sum = 0;
+        for (int k = 0; k < (is_x ? view.rows : view.columns); ++k) {
+            const int weight = is_x ? grid.at(line, k).x : grid.at(k, line).y;
+            sum += main(start + k) == 1 ? weight : -weight;
+        }
+        return sum;
+    };
+    const auto total = [&](int dx, int dy) {
+        int sum = 0;
+        for (int i = 0; i < view.columns; ++i)
+            sum += score(true, i, columns[static_cast<std::size_t>(kReach + dx + i)] + dy);
+        for (int j = 0; j < view.rows; ++j)
+            sum += score(false, j, rows[static_cast<std::size_t>(kReach + dy + j)] + dx);
+        return sum;
+    };
+    const int of_truth = total(0, 0);
+    std::array<double, kReach + 1> sums{};
+    for (int dy = -kReach; dy <= kReach; ++dy) {
+        for (int dx = -kReach; dx <= kReach; ++dx) {
+            if (dx == 0 && dy == 0) continue;
+            // Half of the loss: a bit that contradicts adds its weight to one sum, and takes it
+            // from the other.
+            const double odds = std::exp2(view.odds_log2 / 127 * (total(dx, dy) - of_truth) / 2);
+            for (int k = std::max(std::abs(dx), std::abs(dy)); k <= kReach; ++k)
+                sums[static_cast<std::size_t>(k)] += odds;
+        }
+    }
+    return sums;
+}
+
+/// Draws views of a place until one is weak, and compares; gives the least margin.
+double margin_of_weak_view(Profile profile, const Place& place, Rng& rng) {
+    View view;
+    view.profile = profile;
+    view.place = place;
+    int p_wrong_log2 = 1;
+    while (p_wrong_log2 > -10 || p_wrong_log2 <= -30) {
+        read(view, rng);
+        p_wrong_log2 = claim(view);
+    }
+    const auto sums = odds_by_distance(view);
+    double least = 1e9;
+    for (unsigned k = 1; k <= kReach; ++k) {
+        // The narrowest gate with two places that far apart: k + 2 cells, as the tracker counts.
+        const int cells_log2 = std::bit_width(k + 1);
+        least = std::min(least, p_wrong_log2 + cells_log2 - 36 - std::log2(sums[k]));
+    }
+    return least;
+}
+
+TEST(WeakSighting, NoPlaceInTheGateIsLikelierThanTheBound) {
+    for (const Profile profile : kProfiles) {
+        for (std::uint64_t i = 0; i < 15; ++i) {
+            Rng rng(kSeed, i);
+            const auto position = [&] { return 40 + rng.below(kPositionsPerAxis - 100); };
+            const auto section = [&] { return static_cast<std::uint8_t>(rng.below(kSections)); };
+            const Place place = {{position(), position()}, {section(), section()}};
+            EXPECT_GT(margin_of_weak_view(profile, place, rng), 100)
+                << "view " << i << ", seed " << kSeed;
+        }
+    }
+}
+
+/// Five lines in a row that stand again, all rolled alike, a few lines on.
+struct Repetition {
+    std::uint32_t position = 0;
+    int distance = 0;  ///< in lines
+    int roll = 0;      ///< by how much those further on are rolled, 0 to 62
+};
+
+/// The position at these places in the four secondary sequences, which are coprime.
+std::uint32_t position_at(const code::Basis& basis, const std::array<std::uint32_t, 4>& places) {
+    std::uint64_t position = places[0];
+    std::uint64_t step = basis[0].length;
+    for (std::size_t k = 1; k < 4; ++k) {
+        while (position % basis[k].length != places[k])
+            position += step;
+        step *= basis[k].length;
+    }
+    return static_cast<std::uint32_t>(position);
+}
+
+/// All that there are within reach: where the same four digits stand again in all four sequences.
+std::vector<Repetition> repetitions(Profile profile) {
+    const code::Basis& basis = code::basis(profile);
+    std::vector<Repetition> found;
+    for (unsigned distance = 1; distance <= kReach; ++distance) {
+        std::array<std::vector<std::uint32_t>, 4> places;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const auto digit = [&](unsigned at) { return basis[k].digits[at % basis[k].length]; };
+            for (unsigned place = 0; place < basis[k].length; ++place) {
+                bool is_same = true;
+                for (unsigned i = place; i < place + 4; ++i)
+                    is_same = is_same && digit(i) == digit(i + distance);
+                if (is_same) places[k].push_back(place);
+            }
+        }
+        for (const std::uint32_t a : places[0]) {
+            for (const std::uint32_t b : places[1]) {
+                for (const std::uint32_t c : places[2]) {
+                    for (const std::uint32_t d : places[3]) {
+                        const std::uint32_t at = position_at(basis, {a, b, c, d});
+                        if (at < 100 || at > kPositionsPerAxis - 100) continue;
+                        const int turn = roll(profile, at + distance) - roll(profile, at);
+                        found.push_back(
+                            {at, static_cast<int>(distance), (turn + kSections) % kSections});
+                    }
+                }
+            }
+        }
+    }
+    return found;
+}
+
+/// A place, and a step within reach to another that shows five of the same columns and rows.
+struct Twin {
+    Place place;
+    int dx = 0;
+    int dy = 0;
+};
+
+/// All of them: the step along each axis undoes the roll along the other.
+std::vector<Twin> twins(Profile profile) {
+    const auto found = repetitions(profile);
+    std::vector<Twin> twins;
+    for (const Repetition& x : found) {
+        for (const Repetition& y : found) {
+            if ((x.roll + y.distance) % kSections == 0 && (y.roll + x.distance) % kSections == 0) {
+                twins.push_back({{{x.position, y.position}, {0, 0}}, x.distance, y.distance});
+            }
+            if (x.roll == y.distance && y.roll == x.distance) {
+                const auto further = y.position + static_cast<std::uint32_t>(y.distance);
+                twins.push_back({{{x.position, further}, {0, 0}}, x.distance, -y.distance});
+            }
+        }
+    }
+    return twins;
+}
+
+TEST(WeakSighting, NotEvenWhereThePatternNearlyRepeatsItself) {
+    for (const Profile profile : kProfiles) {
+        const auto all = twins(profile);
+        ASSERT_FALSE(all.empty());
+        for (std::uint64_t i = 0; i < 15; ++i) {
+            Rng rng(kSeed, i);
+            const auto& [place, dx, dy] = all[rng.below(static_cast<std::uint32_t>(all.size()))];
+            for (int k = 0; k < 25; ++k) {
+                const Place here = moved(profile, place, k % 5, k / 5);
+                const Place there = moved(profile, place, dx + k % 5, dy + k / 5);
+                ASSERT_EQ(symbol_at(profile, here.cell, here.section),
+                          symbol_at(profile, there.cell, there.section));
+            }
+            EXPECT_GT(margin_of_weak_view(profile, place, rng), 40)
+                << "view " << i << ", seed " << kSeed;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace dotpose

@@ -1,0 +1,113 @@
+// After start nothing is allocated: `locate` lives on its workspace. scripts/check-core-symbols
+// reads the same from the object code, malloc included.
+#include <cstdlib>
+#include <memory>
+#include <new>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "dotpose/locate.hpp"
+#include "dotpose/simulate.hpp"
+
+#ifndef __SANITIZE_ADDRESS__  // which has its own operator new, and must see what the tests do
+
+namespace {
+thread_local int allocations = 0;
+
+void* counted(std::size_t size, std::size_t alignment) {
+    ++allocations;
+    // aligned_alloc takes whole multiples of the alignment.
+    const std::size_t whole = (size + alignment - 1) / alignment * alignment;
+    void* memory = std::aligned_alloc(alignment, whole == 0 ? alignment : whole);
+    if (memory == nullptr) throw std::bad_alloc();
+    return memory;
+}
+}  // namespace
+
+// The forms for arrays, and those that do not throw, call these.
+void* operator new(std::size_t size) {
+    return counted(size, alignof(std::max_align_t));
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+    return counted(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+    std::free(memory);
+}
+
+namespace dotpose::core_test {
+namespace {
+
+/// Frames of every end: read at once, read at the second attempt, refused.
+std::vector<GreyImage> frames_of(int width_px, int height_px) {
+    std::vector<GreyImage> frames;
+    for (const Preset preset : kPresets) {
+        Setup setup;
+        setup.preset = preset;
+        setup.seed = 77;
+        setup.camera.width_px = width_px;
+        setup.camera.height_px = height_px;
+        for (std::uint64_t i = 0; i < 6; ++i)
+            frames.push_back(render(draw_shot(setup, i)));
+        for (const Scene scene : kScenes)
+            frames.push_back(render_scene(scene, draw_shot(setup, 0)));
+    }
+    return frames;
+}
+
+/// Locates all frames in all ways; `fixes` counts those that were found.
+int allocations_of(const std::vector<GreyImage>& frames, Workspace& workspace, int& fixes) {
+    int counted = 0;
+    for (const GreyImage& frame : frames) {
+        for (const Effort effort : {Effort::device, Effort::once, Effort::twice}) {
+            for (const Decoder decoder : {Decoder::window, Decoder::all}) {
+                Options options;
+                options.effort = effort;
+                options.decoder = decoder;
+                const int before = allocations;
+                const Fix fix = locate(frame.view(), options, workspace);
+                counted += allocations - before;
+                fixes += fix.status == Status::ok ? 1 : 0;
+            }
+        }
+    }
+    return counted;
+}
+
+TEST(Allocation, IsSeenWhereItHappens) {
+    const int before = allocations;
+    const auto one = std::make_unique<int>(1);
+    const std::vector<int> array(100, *one);
+    EXPECT_EQ(allocations - before, 2);
+    EXPECT_THAT(array, testing::Each(1));
+}
+
+TEST(Allocation, NoneInSmallFrames) {
+    const auto workspace = std::make_unique<SmallWorkspace>();
+    int fixes = 0;
+    EXPECT_EQ(allocations_of(frames_of(188, 120), *workspace, fixes), 0);
+    EXPECT_GT(fixes, 50);
+}
+
+TEST(Allocation, NoneInLargeFrames) {
+    const auto workspace = std::make_unique<LargeWorkspace>();
+    int fixes = 0;
+    EXPECT_EQ(allocations_of(frames_of(320, 240), *workspace, fixes), 0);
+    EXPECT_GT(fixes, 50);
+}
+
+}  // namespace
+}  // namespace dotpose::core_test
+
+#endif

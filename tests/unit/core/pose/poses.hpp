@@ -1,0 +1,79 @@
+// Views of the pattern with what may be wrong with their dots, and whether the pose fitted to them
+// is that of the camera.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "../reading.hpp"
+#include "core/plane.hpp"
+
+namespace dotpose::core_test {
+
+/// How far off the plane is at a pixel, in spacings.
+inline Vec2 error_at(const Reading& reading, const PlaneFromImage& found, Vec2 pixel) {
+    const Vec2 zero{static_cast<double>(reading.zero.x), static_cast<double>(reading.zero.y)};
+    const Vec2 expected = reading.view.pattern(pixel) - zero;
+    return real(core::plane_point_q16(found, fixed(pixel, 8)), 16) - expected;
+}
+
+/// The plane is right at a pixel, in value and slope.
+inline void expect_pose(const Reading& reading, const PlaneFromImage& found, Vec2 pixel,
+                        double tolerance) {
+    const Vec2 error = error_at(reading, found, pixel);
+    EXPECT_NEAR(error.x, 0, tolerance);
+    EXPECT_NEAR(error.y, 0, tolerance);
+    // Directions err by as much over half the image as positions do.
+    const View& view = reading.view;
+    const double slope = 2 * tolerance / view.image_px.y;
+    const PlaneFromImage flat = core::tangent(found, fixed(pixel, 8));
+    EXPECT_NEAR(real(flat.du_q24, 24).x, view.du().x, slope);
+    EXPECT_NEAR(real(flat.du_q24, 24).y, view.du().y, slope);
+    EXPECT_NEAR(real(flat.dv_q24, 24).x, view.dv().x, slope);
+    EXPECT_NEAR(real(flat.dv_q24, 24).y, view.dv().y, slope);
+}
+
+/// Exact dots, of any profile, and a grid that is off a little: that must not matter.
+inline Reading reading_off_grid(int i, Rng& rng) {
+    View view = random_view(rng);
+    view.spacing_px = rng.uniform(6, 11);
+    view.profile = kProfiles[static_cast<std::size_t>(i % 3)];
+    Reading reading(view, Turn{i % 4});
+    reading.plane.at_centre_q16.x += 2000;
+    reading.plane.du_q24.y += 3000;
+    return reading;
+}
+
+/// Every eighth dot is moved, by `least_px` to 2 px.
+inline std::vector<Dot> dots_with_outliers(const View& view, double least_px, Rng& rng) {
+    auto dots = dots_of(pattern_dots(view));
+    for (std::size_t d = 0; d < dots.size(); d += 8) {
+        const double angle = rng.uniform(0, 6.3);
+        const double away_px = rng.uniform(least_px, 2);
+        dots[d] =
+            dot_at(real(dots[d].centre_q8, 8) + away_px * Vec2{std::cos(angle), std::sin(angle)});
+    }
+    return dots;
+}
+
+/// Dots printed nearer to, or farther from, their intersections than a sixth of the spacing.
+inline std::vector<Dot> dots_displaced_by(double displacement, const View& view) {
+    std::vector<Dot> dots;
+    for (const PlacedDot& d : pattern_dots(view)) {
+        const Vec2 own = view.mesh().at(d.cell.x, d.cell.y);
+        dots.push_back(dot_at(own + 6 * displacement * (d.centre_px - own)));
+    }
+    return dots;
+}
+
+inline std::vector<Dot> noisy_dots(const std::vector<PlacedDot>& placed, double sigma_px,
+                                   Rng& rng) {
+    std::vector<Dot> dots;
+    for (const PlacedDot& d : placed)
+        dots.push_back(dot_at(d.centre_px + sigma_px * Vec2{rng.normal(), rng.normal()}));
+    return dots;
+}
+
+}  // namespace dotpose::core_test
