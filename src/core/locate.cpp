@@ -160,7 +160,8 @@ bool fit_pattern(const Options& options, const ImageView* image, Workspace& w, c
             core::measure_dots(*image, options.lens, w.pattern_from_image, nominal, w.grid, w.dots);
         core::undistort(options.lens, image_centre_q8(w.light), first(w.dots, w.dot_count));
     }
-    const core::Observations observations(w.found_dots(), w.grid, nominal);
+    const core::Observations observations(w.found_dots(), w.grid, nominal,
+                                          image != nullptr ? &w.smoothing.paper : nullptr);
     return core::refine_pose(observations, w.pattern_from_image, fit);
 }
 

@@ -14,21 +14,20 @@ namespace dotpose::core {
 namespace {
 
 /// Pixels that a look at one place takes in, per axis.
-constexpr int kTaps = 6;
+constexpr int kTaps = 4;
 constexpr std::size_t kMedianSample = 256;
 
-/// A pixel, limited to the range of its eight neighbours. At the border, where it has fewer, the
-/// next that has them.
-int without_impulse(const ImageView& image, int u, int v) {
-    u = std::clamp(u, 1, image.width_px - 2);
-    v = std::clamp(v, 1, image.height_px - 2);
-    const auto [low, high] = range_around(image, u, v);
-    return std::clamp(int{image.row(v)[u]}, low, high);
+/// A pixel without defect. At the border, where it has too few neighbours, the next that has them.
+int level_near(const ImageView& image, int u, int v) {
+    return without_defect(image, std::clamp(u, 1, image.width_px - 2),
+                          std::clamp(v, 1, image.height_px - 2));
 }
 
-/// The binomial (1 4 6 4 1) moved by a fraction of a pixel, in 1/4096.
+/// The binomial (1 2 1) moved by a fraction of a pixel, in 1/1024.
+// Dots blur into those of the places beside: a wider window sees more light, but more of the
+// neighbour's too, and of what lies around.
 std::array<int, kTaps> taps(std::int32_t position_q8) {
-    constexpr std::array<int, kTaps + 1> kBinomial{0, 1, 4, 6, 4, 1, 0};
+    constexpr std::array<int, kTaps + 1> kBinomial{0, 1, 2, 1, 0};
     const int fraction = position_q8 & 255;
     std::array<int, kTaps> weights;
     for (std::size_t i = 0; i < weights.size(); ++i) {
@@ -39,21 +38,20 @@ std::array<int, kTaps> taps(std::int32_t position_q8) {
 
 /// Weighted mean around a point, in 1/256 grey level; nothing outside the image.
 std::optional<int> level_q8(const ImageView& image, Vec point_q8) {
-    const int u0 = (point_q8.x >> 8) - 2;
-    const int v0 = (point_q8.y >> 8) - 2;
-    if (u0 < -2 || v0 < -2 || u0 + 3 >= image.width_px || v0 + 3 >= image.height_px) return {};
+    const int u0 = (point_q8.x >> 8) - 1;
+    const int v0 = (point_q8.y >> 8) - 1;
+    if (u0 < -1 || v0 < -1 || u0 + 2 >= image.width_px || v0 + 2 >= image.height_px) return {};
     const auto across = taps(point_q8.x);
     const auto down = taps(point_q8.y);
-    int sum_q12 = 0;
+    int sum_q18 = 0;
     for (int v = 0; v < kTaps; ++v) {
-        int row_sum_q12 = 0;
+        int row_sum_q10 = 0;
         for (int u = 0; u < kTaps; ++u) {
-            row_sum_q12 +=
-                across[static_cast<std::size_t>(u)] * without_impulse(image, u0 + u, v0 + v);
+            row_sum_q10 += across[static_cast<std::size_t>(u)] * level_near(image, u0 + u, v0 + v);
         }
-        sum_q12 += down[static_cast<std::size_t>(v)] * (row_sum_q12 >> 8);
+        sum_q18 += down[static_cast<std::size_t>(v)] * (row_sum_q10 >> 2);
     }
-    return sum_q12 >> 8;
+    return sum_q18 >> 10;
 }
 
 /// What shows at one of a cell's four places.
@@ -105,11 +103,6 @@ class Eye {
     Vec image_of(std::int32_t x_q16, std::int32_t y_q16) const {
         return distorted_point_q8(lens_, plane_, {x_q16, y_q16});
     }
-    /// Paper level at the pixel of the image next to this one.
-    int paper_near(Vec px) const {
-        return paper_at(paper_, std::clamp(px.x, 0, image_.width_px - 1),
-                        std::clamp(px.y, 0, image_.height_px - 1));
-    }
     /// Mean darkness of a square of 2/5 spacing.
     int shade_q8(Vec centre_q8, int half_px) const;
 
@@ -135,7 +128,7 @@ int Eye::shade_q8(Vec centre_q8, int half_px) const {
         }
     }
     if (count == 0) return 0;
-    const int paper = paper_near({u0, v0});
+    const int paper = paper_at(paper_, u0, v0);
     return (paper * count - sum) * 256 / (paper * count);
 }
 
@@ -171,8 +164,8 @@ int Eye::darkest_around_q8(const CellView& view, Symbol symbol) const {
 }
 
 int Eye::light_q8(const CellView& view) const {
-    const int here = paper_near({view.centre_q8.x >> 8, view.centre_q8.y >> 8});
-    return here * 256 / paper_near({image_.width_px / 2, image_.height_px / 2});
+    const int here = paper_at(paper_, view.centre_q8.x >> 8, view.centre_q8.y >> 8);
+    return here * 256 / paper_at(paper_, image_.width_px / 2, image_.height_px / 2);
 }
 
 /// `use(cell, what the grid keeps of it, view)` for all cells of which something is seen.

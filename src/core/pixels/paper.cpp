@@ -30,6 +30,12 @@ int level(const PaperMap& map, int column, int row) {
     return map.levels[static_cast<std::size_t>(row * map.columns + column)];
 }
 
+/// The nearest to a pixel, which may lie outside the image.
+Vec block_at(const PaperMap& map, int u, int v) {
+    return {std::clamp(u / map.block_px, 0, map.columns - 1),
+            std::clamp(v / map.block_px, 0, map.rows - 1)};
+}
+
 }  // namespace
 
 void measure_paper(const ImageView& image, PaperMap& map) {
@@ -46,11 +52,10 @@ void measure_paper(const ImageView& image, PaperMap& map) {
 }
 
 int brightest_paper_near(const PaperMap& map, int u, int v) {
-    const int column = u / map.block_px;
-    const int row = v / map.block_px;
+    const Vec block = block_at(map, u, v);
     int brightest = 1;
-    for (int r = std::max(row - 1, 0); r <= std::min(row + 1, map.rows - 1); ++r) {
-        for (int c = std::max(column - 1, 0); c <= std::min(column + 1, map.columns - 1); ++c) {
+    for (int r = std::max(block.y - 1, 0); r <= std::min(block.y + 1, map.rows - 1); ++r) {
+        for (int c = std::max(block.x - 1, 0); c <= std::min(block.x + 1, map.columns - 1); ++c) {
             brightest = std::max(brightest, level(map, c, r));
         }
     }
@@ -58,7 +63,8 @@ int brightest_paper_near(const PaperMap& map, int u, int v) {
 }
 
 int paper_at(const PaperMap& map, int u, int v) {
-    const int own = level(map, u / map.block_px, v / map.block_px);
+    const Vec block = block_at(map, u, v);
+    const int own = level(map, block.x, block.y);
     const int brightest = brightest_paper_near(map, u, v);
     return 4 * own >= 3 * brightest ? std::max(own, 1) : brightest;
 }

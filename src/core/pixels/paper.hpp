@@ -13,7 +13,8 @@ void measure_paper(const ImageView& image, PaperMap& map);
 /// The brightest paper of a pixel's block and the eight around it.
 int brightest_paper_near(const PaperMap& map, int u, int v);
 
-/// The paper at a pixel: that of its block, unless graphics cover most of it.
+/// The paper at a pixel: that of its block, unless graphics cover most of it. Outside the image
+/// that of the nearest block.
 int paper_at(const PaperMap& map, int u, int v);
 
 }  // namespace dotpose::core

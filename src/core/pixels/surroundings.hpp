@@ -26,4 +26,13 @@ inline LevelRange range_around(const ImageView& image, int u, int v) {
     return range;
 }
 
+/// A pixel, brought back into the range of its neighbours where it is far outside: a defect of the
+/// sensor. It must not lie on the border.
+inline int without_defect(const ImageView& image, int u, int v) {
+    const auto [low, high] = range_around(image, u, v);
+    const int level = image.row(v)[u];
+    const int far = high / 4;
+    return level < low - far || level > high + far ? std::clamp(level, low, high) : level;
+}
+
 }  // namespace dotpose::core

@@ -38,9 +38,10 @@ void estimate_covariance(const PoseFit& fit, const PlaneFromImage& pattern_from_
         for (std::size_t j = 0; j < 3; ++j) {
             float sum = 0;
             for (std::size_t k = 0; k < kPoseParameters; ++k) {
-                if (fit.is_fitted[k]) sum += gradients[i][k] * gradients[j][k];
+                for (std::size_t l = 0; l < kPoseParameters; ++l)
+                    sum += gradients[i][k] * fit.covariance[k][l] * gradients[j][l];
             }
-            fix.covariance[i][j] = fit.variance * sum;
+            fix.covariance[i][j] = sum;
         }
     }
 }

@@ -1,6 +1,7 @@
 #include "core/pose/measure.hpp"
 
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "core/pixels/surroundings.hpp"
@@ -14,6 +15,18 @@ constexpr int kMostIterations = 5;
 constexpr int kSettled_q8 = 4;
 constexpr int kMostHalf_px = 24;
 
+Vec rounded_px(Vec point_q8) {
+    return {(point_q8.x + 128) >> 8, (point_q8.y + 128) >> 8};
+}
+
+/// The pixels that a dot is seen through, ends inclusive.
+struct Box {
+    int left;
+    int right;
+    int top;
+    int bottom;
+};
+
 /// The window that dots are seen through.
 struct Window {
     int half_px = 0;
@@ -22,99 +35,169 @@ struct Window {
     /// For dots that blur has made about a tenth of the spacing wide (one sigma).
     explicit Window(std::int32_t spacing_q8)
         : half_px(std::min(std::max(spacing_q8 * 9 / 32 + 255, 768) / 256, kMostHalf_px)),
-          sigma_q8(std::max(spacing_q8 * 11 / 128, 230)) {}
+          sigma_q8(std::max(spacing_q8 * 13 / 128, 230)) {}
 
-    /// As wide as fits into the image around a pixel, neighbours included; 0 where that is too
-    /// little. Dots at the border tell most of the angle.
-    int half_within(const ImageView& image, int u, int v) const {
-        const int room = std::min({u, v, image.width_px - 1 - u, image.height_px - 1 - v}) - 1;
-        return 2 * room < half_px ? 0 : std::min(room, half_px);
-    }
-
-    /// exp(-r^2 / (2 sigma^2)), times 2^16.
-    std::int64_t weight_q16(std::int64_t squared_q16) const {
-        // In powers of two: r^2 / (2 sigma^2 ln 2).
-        const auto log2_q8 =
-            static_cast<int>(squared_q16 * 185 / (std::int64_t{sigma_q8} * sigma_q8));
-        return log2_q8 >= 30 * 256 ? 0 : (std::int64_t{1} << 32) / exp2_q16(log2_q8);
+    /// What of it lies in the image around a pixel, the neighbours of each included; nothing where
+    /// the pixel itself does not. Dots at the border tell most of angle and tilt.
+    std::optional<Box> box_around(const ImageView& image, int u, int v) const {
+        const int last_u = image.width_px - 2;
+        const int last_v = image.height_px - 2;
+        if (u < 1 || v < 1 || u > last_u || v > last_v) return {};
+        return Box{std::max(u - half_px, 1), std::min(u + half_px, last_u),
+                   std::max(v - half_px, 1), std::min(v + half_px, last_v)};
     }
 };
 
-/// A pixel, brought back into the range of its neighbours where it is far outside: a defect of the
-/// sensor. It has them: windows keep off the border.
-int without_defect(const ImageView& image, int u, int v) {
-    const auto [low, high] = range_around(image, u, v);
-    const int level = image.row(v)[u];
-    const int far = high / 4;
-    return level < low - far || level > high + far ? std::clamp(level, low, high) : level;
-}
-
-/// The light on the paper around a dot: a plane through the window's rim, in 1/256 grey level.
+/// The light on the paper around a dot, in grey levels: a plane through the window's rim.
 struct RimLight {
-    int middle_q8 = 0;
-    int slope_x_q8 = 0;  ///< per px
-    int slope_y_q8 = 0;
+    float middle = 0;
+    float slope_u = 0;  ///< per px
+    float slope_v = 0;
 
-    int at(int du, int dv) const { return middle_q8 + slope_x_q8 * du + slope_y_q8 * dv; }
+    float at(int du, int dv) const {
+        return middle + slope_u * static_cast<float>(du) + slope_v * static_cast<float>(dv);
+    }
 };
 
-RimLight light_on_rim(const ImageView& image, int u0, int v0, int half) {
-    int left = 0;
-    int right = 0;
-    int top = 0;
-    int bottom = 0;
-    for (int i = -half; i <= half; ++i) {
-        left += without_defect(image, u0 - half, v0 + i);
-        right += without_defect(image, u0 + half, v0 + i);
-        top += without_defect(image, u0 + i, v0 - half);
-        bottom += without_defect(image, u0 + i, v0 + half);
+/// From the sides of the window that lie in the image: two at least, as no window is as large. With
+/// one of two opposite sides the light is taken to be even in that direction.
+RimLight light_on_rim(const ImageView& image, int u, int v, int half, const Box& box) {
+    const auto side = [](bool is_inside, int first, int last, auto level) -> std::optional<float> {
+        if (!is_inside) return {};
+        int sum = 0;
+        for (int i = first; i <= last; ++i)
+            sum += level(i);
+        return static_cast<float>(sum) / static_cast<float>(last - first + 1);
+    };
+    const auto column = [&](int at) {
+        return side(at == u - half || at == u + half, box.top, box.bottom,
+                    [&](int i) { return without_defect(image, at, i); });
+    };
+    const auto row = [&](int at) {
+        return side(at == v - half || at == v + half, box.left, box.right,
+                    [&](int i) { return without_defect(image, i, at); });
+    };
+    const std::array sides{column(box.left), column(box.right), row(box.top), row(box.bottom)};
+    float sum = 0;
+    float count = 0;
+    for (const auto& level : sides) {
+        sum += level.value_or(0);
+        count += level ? 1.0F : 0.0F;
     }
-    const int side = 2 * half + 1;
-    return {(left + right + top + bottom) * 64 / side, (right - left) * 256 / (2 * half * side),
-            (bottom - top) * 256 / (2 * half * side)};
+    const auto slope = [half](const auto& from, const auto& to) {
+        return from && to ? (*to - *from) / static_cast<float>(2 * half) : 0.0F;
+    };
+    return {sum / count, slope(sides[0], sides[1]), slope(sides[2], sides[3])};
 }
 
-/// The dot near a point; nothing where the window leaves the image, or holds no dark spot.
+/// A Gaussian dot fitted to what the window shows, by one step of Gauss and Newton: for a dot of
+/// the window's width that is `offset` away from its middle,
+///
+///     darkness(d) = height exp(-d^2 / 2) (1 + offset . d), everything in units of sigma.
+///
+/// In a whole window this is the windowed centroid; cut by the image's border it is not biased.
+class DotFit {
+  public:
+    void add(float profile, float darkness, float x, float y) {
+        const float square = profile * profile;
+        one_ += square;
+        x_ += square * x;
+        y_ += square * y;
+        xx_ += square * x * x;
+        xy_ += square * x * y;
+        yy_ += square * y * y;
+        dark_ += profile * darkness;
+        dark_x_ += profile * darkness * x;
+        dark_y_ += profile * darkness * y;
+    }
+
+    struct Result {
+        float height;
+        float offset_x;
+        float offset_y;
+    };
+    /// Nothing where it is light rather than dark.
+    std::optional<Result> solve() const {
+        const float x = x_ / one_;
+        const float y = y_ / one_;
+        const float xx = xx_ - x * x_;
+        const float xy = xy_ - x * y_;
+        const float yy = yy_ - y * y_;
+        const float dark_x = dark_x_ - x * dark_;
+        const float dark_y = dark_y_ - y * dark_;
+        const float determinant = xx * yy - xy * xy;
+        const float slope_x = (dark_x * yy - dark_y * xy) / determinant;
+        const float slope_y = (dark_y * xx - dark_x * xy) / determinant;
+        const float height = (dark_ - slope_x * x_ - slope_y * y_) / one_;
+        if (!(height > 0)) return {};
+        return Result{height, slope_x / height, slope_y / height};
+    }
+
+  private:
+    float one_ = 0, x_ = 0, y_ = 0, xx_ = 0, xy_ = 0, yy_ = 0;
+    float dark_ = 0, dark_x_ = 0, dark_y_ = 0;
+};
+
+/// The window's profile along one axis: distances from its middle, in sigma, and exp(-d^2 / 2).
+struct Across {
+    std::array<float, 2 * kMostHalf_px + 1> distance;
+    std::array<float, 2 * kMostHalf_px + 1> profile;
+
+    Across(int first, int last, std::int32_t middle_q8, std::int32_t sigma_q8) {
+        for (int i = first; i <= last; ++i) {
+            const float d = static_cast<float>(i * 256 - middle_q8) / static_cast<float>(sigma_q8);
+            distance[static_cast<std::size_t>(i - first)] = d;
+            profile[static_cast<std::size_t>(i - first)] = std::exp(-d * d / 2);
+        }
+    }
+};
+
+DotFit fit_dot(const ImageView& image, const Window& window, const Box& box, Vec middle_q8,
+               const RimLight& light) {
+    const Across across(box.left, box.right, middle_q8.x, window.sigma_q8);
+    const Across down(box.top, box.bottom, middle_q8.y, window.sigma_q8);
+    const Vec pixel = rounded_px(middle_q8);
+    DotFit fit;
+    for (int v = box.top; v <= box.bottom; ++v) {
+        const auto j = static_cast<std::size_t>(v - box.top);
+        for (int u = box.left; u <= box.right; ++u) {
+            const auto i = static_cast<std::size_t>(u - box.left);
+            const auto level = static_cast<float>(without_defect(image, u, v));
+            fit.add(across.profile[i] * down.profile[j], light.at(u - pixel.x, v - pixel.y) - level,
+                    across.distance[i], down.distance[j]);
+        }
+    }
+    return fit;
+}
+
+/// The dot near a point; nothing outside the image, or where there is no dark spot.
 std::optional<Dot> measure(const ImageView& image, const Window& window, Vec start_q8) {
     // The fit tells dirt from dots that were printed badly; a closer limit would cut off the tail
     // of these, which costs accuracy and hides how much it was.
     const std::int64_t farthest = 9 * std::int64_t{window.sigma_q8} * window.sigma_q8;
-    Vec centre_q8 = start_q8;
-    std::int64_t mass_q24 = 0;
-    int light_q8 = 0;
+    const auto sigma_q8 = static_cast<float>(window.sigma_q8);
+    Dot dot{start_q8, 0, 0};
     for (int iteration = 0; iteration < kMostIterations; ++iteration) {
-        const int u0 = (centre_q8.x + 128) >> 8;
-        const int v0 = (centre_q8.y + 128) >> 8;
-        const int half = window.half_within(image, u0, v0);
-        if (half == 0) return {};
-        const RimLight light = light_on_rim(image, u0, v0, half);
-        light_q8 = light.middle_q8;
-        std::int64_t sum_x = 0;
-        std::int64_t sum_y = 0;
-        mass_q24 = 0;
-        for (int v = v0 - half; v <= v0 + half; ++v) {
-            for (int u = u0 - half; u <= u0 + half; ++u) {
-                const Vec d{u * 256 - centre_q8.x, v * 256 - centre_q8.y};
-                const std::int64_t weight =
-                    window.weight_q16(squared(d)) *
-                    (light.at(u - u0, v - v0) - without_defect(image, u, v) * 256);
-                mass_q24 += weight;
-                sum_x += weight * d.x;
-                sum_y += weight * d.y;
-            }
-        }
-        if (mass_q24 <= 0) return {};
-        // A window as wide as the dot shows half of its distance from the middle.
-        const Vec step{static_cast<std::int32_t>(2 * sum_x / mass_q24),
-                       static_cast<std::int32_t>(2 * sum_y / mass_q24)};
-        centre_q8 = centre_q8 + step;
-        const Vec moved = centre_q8 - start_q8;
-        if (squared(moved) > farthest) return {};
+        const Vec pixel = rounded_px(dot.centre_q8);
+        const auto box = window.box_around(image, pixel.x, pixel.y);
+        if (!box) return {};
+        const RimLight light = light_on_rim(image, pixel.x, pixel.y, window.half_px, *box);
+        const auto fit = fit_dot(image, window, *box, dot.centre_q8, light).solve();
+        if (!fit) return {};
+        constexpr float kFarthestStep = 4;
+        const auto step_q8 = [=](float offset) {
+            return static_cast<std::int32_t>(std::clamp(offset, -kFarthestStep, kFarthestStep) *
+                                             sigma_q8);
+        };
+        const Vec step{step_q8(fit->offset_x), step_q8(fit->offset_y)};
+        dot.centre_q8 = dot.centre_q8 + step;
+        // As a share of the light, which makes dots alike all over the image.
+        const float mass = 16384 * fit->height / std::max(light.middle, 1.0F);
+        dot.mass = static_cast<std::uint16_t>(std::min(mass, 65535.0F));
+        if (squared(dot.centre_q8 - start_q8) > farthest) return {};
         if (squared(step) < kSettled_q8 * kSettled_q8) break;
     }
-    // As a share of the light, which makes dots alike all over the image.
-    const std::int64_t mass = mass_q24 / std::max(light_q8, 256);
-    return Dot{centre_q8, static_cast<std::uint16_t>(std::min<std::int64_t>(mass >> 8, 65535)), 0};
+    return dot;
 }
 
 /// Drops what is much lighter or much darker than the typical dot: paper where a dot is missing,
@@ -130,7 +213,7 @@ void drop_strange(Grid& grid, std::span<Dot> dots) {
     for (GridCell& cell : grid.storage.first(static_cast<std::size_t>(grid.columns * grid.rows))) {
         if (!cell.has_dot()) continue;
         const int mass = dots[cell.dot].mass;
-        if (3 * mass < 2 * typical || 2 * mass > 3 * typical) cell.dot = GridCell::kNoDot;
+        if (2 * mass < typical || 2 * mass > 3 * typical) cell.dot = GridCell::kNoDot;
     }
 }
 

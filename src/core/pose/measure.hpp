@@ -12,7 +12,8 @@ namespace dotpose::core {
 
 /// Replaces the dots found by those measured, one for each cell that shows one where it should be,
 /// and links the cells to them: Gaussian-windowed centroids (Bertin, SExtractor: XWIN), iterated
-/// from the nominal places. Returns the number of dots.
+/// from the nominal places, in windows that the image's border may cut. Their mass is height over
+/// light, 2^-14. Returns the number of dots.
 int measure_dots(const ImageView& image, const Lens& lens, const PlaneFromImage& pattern_from_image,
                  const Nominal& nominal, Grid& grid, std::span<Dot> dots);
 

@@ -51,6 +51,10 @@ ScaledPlane::Sight ScaledPlane::look(Vec image_point_q8) const {
              Parameters{0, 1, v, u, -qy * u, -qy * v, -v, u, -qy * t}}};
 }
 
+float ScaledPlane::scale() const {
+    return std::sqrt((du_x_ * du_x_ + du_y_ * du_y_ + dv_x_ * dv_x_ + dv_y_ * dv_y_) / 2);
+}
+
 Parameters ScaledPlane::distortions() const {
     return {0, 0, 0, 0, tilt_x_, tilt_y_, (du_x_ - dv_y_) / 2, (dv_x_ + du_y_) / 2, bend_};
 }
@@ -68,14 +72,17 @@ PlaneFromImage ScaledPlane::changed(const Parameters& by) const {
     return result;
 }
 
-void Normal::add(const std::array<Parameters, 2>& jacobian, float residual_x, float residual_y) {
+void Normal::add(const std::array<Parameters, 2>& jacobian, float residual_x, float residual_y,
+                 float weight) {
     const auto& [a, b] = jacobian;
     for (std::size_t i = 0; i < kPoseParameters; ++i) {
+        const float ai = weight * a[i];
+        const float bi = weight * b[i];
         for (std::size_t j = 0; j <= i; ++j)
-            m_[i][j] += a[i] * a[j] + b[i] * b[j];
-        right_[i] += a[i] * residual_x + b[i] * residual_y;
+            m_[i][j] += ai * a[j] + bi * b[j];
+        right_[i] += ai * residual_x + bi * residual_y;
     }
-    squared_residuals_ += residual_x * residual_x + residual_y * residual_y;
+    squared_residuals_ += weight * (residual_x * residual_x + residual_y * residual_y);
     ++points_;
 }
 

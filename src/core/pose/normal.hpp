@@ -11,6 +11,9 @@ namespace dotpose::core {
 /// Parameters of a plane, in the order in which they earn their place: at_centre (x, y); scale and
 /// turn; perspective (x, y); shear (2); lens.
 constexpr std::size_t kPoseParameters = 9;
+constexpr std::size_t kTilt = 4;
+constexpr std::size_t kShear = 6;
+constexpr std::size_t kBend = 8;
 using Parameters = std::array<float, kPoseParameters>;
 
 /// A plane as the fit sees it: lengths in the image in units of `reach_px`, so that the
@@ -30,6 +33,8 @@ class ScaledPlane {
     /// Perspective, shear and lens: the parameters that a plain camera would not need; 0 for the
     /// others.
     Parameters distortions() const;
+    /// Spacings per unit.
+    float scale() const;
     /// The plane with its parameters changed.
     PlaneFromImage changed(const Parameters& by) const;
 
@@ -43,7 +48,8 @@ class ScaledPlane {
 /// Sums of the normal equations, and their solution by Cholesky's decomposition.
 class Normal {
   public:
-    void add(const std::array<Parameters, 2>& jacobian, float residual_x, float residual_y);
+    void add(const std::array<Parameters, 2>& jacobian, float residual_x, float residual_y,
+             float weight = 1);
 
     /// The parameters that the points determine; the first four must be. Then L L^T is the matrix.
     bool decompose();
@@ -54,6 +60,9 @@ class Normal {
     Parameters unwhitened(Parameters column) const;
     /// L^T column.
     Parameters times_transposed(const Parameters& column) const;
+
+    /// An element of L.
+    float factor(std::size_t row, std::size_t column) const { return m_[row][column]; }
 
     const Parameters& right() const { return right_; }
     float squared_residuals() const { return squared_residuals_; }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/decode/nominal.hpp"
+#include "core/pixels/paper.hpp"
 #include "core/plane.hpp"
 
 namespace dotpose::core {
@@ -20,8 +21,19 @@ inline Vec nominal_place_q16(const Observation& o, std::int32_t displacement_q16
 
 class Observations {
   public:
-    Observations(std::span<const Dot> dots, const Grid& grid, const Nominal& nominal)
-        : dots_(dots), grid_(grid), nominal_(nominal) {}
+    /// `paper`: of the image in which all dots were measured alike, otherwise null.
+    Observations(std::span<const Dot> dots, const Grid& grid, const Nominal& nominal,
+                 const PaperMap* paper = nullptr)
+        : dots_(dots), grid_(grid), nominal_(nominal), paper_(paper) {}
+
+    bool know_noise() const { return paper_ != nullptr; }
+    /// What pixel noise makes of a dot's centre, as a variance, relative to that on the lightest
+    /// paper: noise is the same everywhere, and contrast as large as the light.
+    float noise(const Observation& o) const {
+        const float light =
+            static_cast<float>(paper_at(*paper_, o.image_point_q8.x >> 8, o.image_point_q8.y >> 8));
+        return 255.0F * 255.0F / (light * light);
+    }
 
     /// At least as many as `visit` shows.
     int count() const { return static_cast<int>(dots_.size()); }
@@ -42,6 +54,7 @@ class Observations {
     std::span<const Dot> dots_;
     const Grid& grid_;
     const Nominal& nominal_;
+    const PaperMap* paper_;
 };
 
 }  // namespace dotpose::core

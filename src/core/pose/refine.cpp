@@ -1,27 +1,26 @@
 #include "core/pose/refine.hpp"
 
 #include <algorithm>
-#include <cfloat>
 
 namespace dotpose::core {
 namespace {
 
 /// So many dots, evenly spread, tell the displacement and the scatter.
 constexpr std::size_t kSample = 256;
+constexpr float kPower30 = 1073741824.0F;
 
 /// A step so small, in squared deviations of the pose, needs no other after it: it would be smaller
 /// by far.
 constexpr float kSettled = 0.01F;
 
-/// Terms that are kept only in the share that is more than chance.
-struct Group {
-    std::size_t first;
-    std::size_t count;
-    /// They must explain so many times more than chance would. The curvature of a lens must be
-    /// beyond doubt.
-    float needed;
-};
-constexpr std::array<Group, 3> kGroups{{{4, 2, 1}, {6, 2, 1}, {8, 1, 12}}};
+/// What cameras and prints are like, with deviations of a tilt: the change of scale from the middle
+/// to the outermost dot, of which 2 degrees make about 0.01; of a shear, relative to the scale; of
+/// a bend, the outermost dot's displacement relative to its distance. A bend must be beyond doubt.
+constexpr std::array<Terms, 3> kTerms{{
+    {kTilt, 2, {{{0.1F, 0}, {0.8F, 0.01F}, {0.1F, 0.1F}}}},
+    {kShear, 2, {{{0.5F, 0}, {0.4F, 0.002F}, {0.1F, 0.03F}}}},
+    {kBend, 1, {{{0.99F, 0}, {0.005F, 0.01F}, {0.005F, 0.1F}}}},
+}};
 
 /// Median over a sample of the dots.
 template <typename Value>
@@ -43,6 +42,41 @@ int reach_px(const Observations& observations, Vec centre_q8) {
     });
     return reach_q8 / 256 + 1;
 }
+
+/// How the scatter of dots depends on the light: printers scatter alike everywhere, noise counts
+/// the more the less light there is. A line fitted to squared residuals.
+class Scatter {
+  public:
+    void add(float noise, float squared_residual) {
+        count_ += 1;
+        noise_ += noise;
+        squares_ += squared_residual;
+        noise_noise_ += noise * noise;
+        noise_squares_ += noise * squared_residual;
+    }
+    void fit() {
+        const float mean_noise = noise_ / count_;
+        const float mean_square = squares_ / count_;
+        const float spread = noise_noise_ / count_ - mean_noise * mean_noise;
+        constexpr float kLeastSpread = 1e-4F;
+        if (spread <= kLeastSpread * mean_noise * mean_noise || mean_square <= 0) return;
+        constexpr float kMostByNoise = 0.9F;
+        const float slope = (noise_squares_ / count_ - mean_noise * mean_square) / spread;
+        by_noise_ = std::clamp(slope / mean_square, 0.0F, kMostByNoise / mean_noise);
+        always_ = 1 - by_noise_ * mean_noise;
+    }
+    /// That the typical dot has, over that of a dot.
+    float weight(float noise) const { return 1 / (always_ + by_noise_ * noise); }
+
+  private:
+    float count_ = 0;
+    float noise_ = 0;
+    float squares_ = 0;
+    float noise_noise_ = 0;
+    float noise_squares_ = 0;
+    float always_ = 1;
+    float by_noise_ = 0;
+};
 
 /// One round of Gauss and Newton.
 class Round {
@@ -69,19 +103,30 @@ class Round {
         // 4 sigma out, where 1 dot in 3,000 is lost by chance.
         const std::int64_t limit_q30 =
             12 * std::int64_t{sampled_median(observations_, squared_residual_q30)} + 64;
-        const float limit = static_cast<float>(limit_q30) / 1073741824.0F;
+        const float limit = static_cast<float>(limit_q30) / kPower30;
+        Scatter scatter;
+        if (observations_.know_noise()) {
+            observations_.visit([&](const Observation& o) {
+                const float square = static_cast<float>(squared_residual_q30(o)) / kPower30;
+                scatter.add(observations_.noise(o), std::min(square, limit));
+            });
+            scatter.fit();
+        }
         fit.normal = {};
         observations_.visit([&](const Observation& o) {
             const Vec target = nominal_place_q16(o, displacement_q16) - pose_.at_centre_q16;
             const ScaledPlane::Sight sight = plane_.look(o.image_point_q8);
             const float rx = static_cast<float>(target.x) / 65536.0F - sight.x;
             const float ry = static_cast<float>(target.y) / 65536.0F - sight.y;
-            if (rx * rx + ry * ry <= limit) fit.normal.add(sight.jacobian, rx, ry);
+            const float weight =
+                observations_.know_noise() ? scatter.weight(observations_.noise(o)) : 1.0F;
+            if (weight * (rx * rx + ry * ry) <= limit)
+                fit.normal.add(sight.jacobian, rx, ry, weight);
         });
     }
 
-    /// The plane of least squares, with as much of the further terms as is more than chance
-    /// (James and Stein 1961). `moved`: by how much it differs, in squared deviations.
+    /// The plane of least squares, with as much of the further terms as is to be believed. `moved`:
+    /// by how much it differs, in squared deviations.
     bool solve(PoseFit& fit, PlaneFromImage& pose, float& moved) const {
         Normal& normal = fit.normal;
         if (normal.points() < 3 || !normal.decompose()) return false;
@@ -91,34 +136,41 @@ class Round {
             left -= part * part;
         fit.dots = normal.points();
         const int freedom = std::max(2 * fit.dots - static_cast<int>(kPoseParameters), 1);
-        fit.variance = std::max(left, 0.0F) / static_cast<float>(freedom);
-        // Whitened, what each group explains is independent of those after it.
+        constexpr float kExact = 1e-12F;
+        fit.variance = std::max(left / static_cast<float>(freedom), kExact);
+        // Whitened, what each of the further terms explains is independent of those after it.
         Parameters all = normal.unwhitened(step);
         const Parameters now = plane_.distortions();
-        for (std::size_t i = 4; i < kPoseParameters; ++i)
+        for (std::size_t i = kTilt; i < kPoseParameters; ++i)
             all[i] += now[i];
         const Parameters whole = normal.times_transposed(all);
-        fit.is_fitted.fill(true);
-        for (const Group& group : kGroups) {
-            float gain = 0;
-            for (std::size_t i = group.first; i < group.first + group.count; ++i)
-                gain += whole[i] * whole[i];
-            const float by_chance = static_cast<float>(group.count) * fit.variance;
-            const float share = gain > group.needed * by_chance ? 1 - by_chance / gain : 0;
-            for (std::size_t i = group.first; i < group.first + group.count; ++i) {
-                step[i] -= (1 - share) * whole[i];
-                fit.is_fitted[i] = share > 0;
-            }
-        }
+        believe(whole, fit, step);
         pose = plane_.changed(normal.unwhitened(step));
         moved = 0;
         for (const float part : step)
             moved += part * part;
-        moved /= std::max(fit.variance, FLT_MIN);
+        moved /= fit.variance;
         return true;
     }
 
   private:
+    /// Takes back from a step what is not to be believed of the further terms. `whole`: these as
+    /// fitted, whitened.
+    void believe(const Parameters& whole, PoseFit& fit, Parameters& step) const {
+        fit.covariance = {};
+        for (std::size_t i = 0; i < kTilt; ++i)
+            fit.covariance[i][i] = fit.variance;
+        for (const Terms& terms : kTerms) {
+            const float unit = terms.first == kShear ? plane_.scale() : 1;
+            const Belief belief = belief_in(terms, fit.normal, whole, fit.variance, unit);
+            for (std::size_t i = 0; i < terms.count; ++i) {
+                step[terms.first + i] += belief.mean[i] - whole[terms.first + i];
+                for (std::size_t j = 0; j < terms.count; ++j)
+                    fit.covariance[terms.first + i][terms.first + j] = belief.covariance[i][j];
+            }
+        }
+    }
+
     const Observations& observations_;
     const PlaneFromImage& pose_;
     ScaledPlane plane_;

@@ -4,6 +4,7 @@
 // floating point, of single precision.
 #pragma once
 
+#include "core/pose/belief.hpp"
 #include "core/pose/normal.hpp"
 #include "core/pose/observations.hpp"
 #include "dotpose/workspace.hpp"
@@ -16,13 +17,12 @@ struct PoseFit {
     int dots = 0;        ///< used; others lay too far off
     float variance = 0;  ///< of one coordinate of one dot, spacings^2
     Normal normal;       ///< of the parameters of `jacobian`, decomposed
-    /// Which of the parameters were fitted.
-    std::array<bool, kPoseParameters> is_fitted{};
+    std::array<Parameters, kPoseParameters> covariance;  ///< of the parameters whitened
 };
 
-/// Improves the pose; dots farther off than most are left out, and terms are kept in the share that
-/// is more than chance: each costs accuracy. Returns false, with the pose as it was, when the dots
-/// do not determine it.
+/// Improves the pose; dots farther off than most are left out, and terms that a plain camera would
+/// not need are kept as far as they are to be believed (pose/belief): each costs accuracy. Returns
+/// false, with the pose as it was, when the dots do not determine it.
 bool refine_pose(const Observations& observations, PlaneFromImage& pattern_from_image,
                  PoseFit& fit);
 
