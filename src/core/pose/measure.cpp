@@ -35,7 +35,7 @@ struct Window {
     /// For dots that blur has made about a tenth of the spacing wide (one sigma).
     explicit Window(std::int32_t spacing_q8)
         : half_px(std::min(std::max(spacing_q8 * 9 / 32 + 255, 768) / 256, kMostHalf_px)),
-          sigma_q8(std::max(spacing_q8 * 13 / 128, 230)) {}
+          sigma_q8(std::max(spacing_q8 * 12 / 128, 230)) {}
 
     /// What of it lies in the image around a pixel, the neighbours of each included; nothing where
     /// the pixel itself does not. Dots at the border tell most of angle and tilt.

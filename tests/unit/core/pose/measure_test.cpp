@@ -82,7 +82,7 @@ TEST(MeasureDots, FindsTheirCentresInUnevenLight) {
         SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
         View view = random_view(rng);
         view.spacing_px = rng.uniform(9, 16);
-        expect_measured(view, pattern_dots(view), i % 4, 6, 0.05, rng);
+        expect_measured(view, pattern_dots(view), i % 4, 1.6, 0.09, rng);
     }
 }
 
@@ -100,7 +100,8 @@ TEST(MeasureDots, FindsBadlyPrintedOnesWhereTheyAre) {
             Vec2& at = placed[d].centre_px;
             at = at + 0.15 * view.spacing_px * Vec2{std::cos(direction), std::sin(direction)};
         }
-        expect_measured(view, placed, i % 4, 7, 0.12, rng);
+        // Half a spacing from a neighbour, whose rim the window sees.
+        expect_measured(view, placed, i % 4, 7, 0.14, rng);
     }
 }
 

@@ -136,6 +136,27 @@ TEST(Normal, FindsTheStepThatExplainsTheResiduals) {
     }
 }
 
+TEST(Normal, CountsAPointOfWeightThreeThreeTimes) {
+    Rng rng(kSeed);
+    const ScaledPlane plane(random_plane(rng), kReach_px);
+    Normal weighted;
+    Normal repeated;
+    for (int i = 0; i < 40; ++i) {
+        const auto sight = plane.look(random_pixel_q8(rng));
+        const auto residual = static_cast<float>(rng.uniform(-1, 1));
+        weighted.add(sight.jacobian, residual, -residual, 3);
+        for (int n = 0; n < 3; ++n)
+            repeated.add(sight.jacobian, residual, -residual);
+    }
+    EXPECT_EQ(weighted.points(), 40);
+    EXPECT_NEAR(weighted.squared_residuals(), repeated.squared_residuals(), 1e-3);
+    for (std::size_t k = 0; k < kPoseParameters; ++k)
+        EXPECT_NEAR(weighted.right()[k], repeated.right()[k], 1e-2);
+    ASSERT_TRUE(weighted.decompose() && repeated.decompose());
+    for (std::size_t k = 0; k < kPoseParameters; ++k)
+        EXPECT_NEAR(weighted.factor(k, k), repeated.factor(k, k), 1e-2);
+}
+
 TEST(Normal, LeavesOutWhatThePointsDoNotDetermine) {
     // On one line, the terms with y cannot be told from others.
     Rng rng(kSeed);

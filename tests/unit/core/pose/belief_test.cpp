@@ -1,0 +1,149 @@
+// What is believed of further terms, against integrals over all that they might be.
+#include "core/pose/belief.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "dotpose/random.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+using namespace core;
+
+constexpr std::uint64_t kSeed = 62;
+constexpr Terms kTwo{kTilt, 2, {{{0.3F, 0}, {0.5F, 0.02F}, {0.2F, 0.2F}}}};
+constexpr Terms kOne{kBend, 1, {{{0.6F, 0}, {0.3F, 0.02F}, {0.1F, 0.2F}}}};
+
+/// Equations of points that tell all parameters, some of them together only.
+Normal random_normal(Rng& rng) {
+    Normal normal;
+    for (int i = 0; i < 30; ++i) {
+        std::array<Parameters, 2> jacobian;
+        for (Parameters& row : jacobian) {
+            for (float& value : row)
+                value = static_cast<float>(rng.uniform(-1, 1));
+            row[kTilt + 1] += row[kTilt];
+        }
+        normal.add(jacobian, 0, 0);
+    }
+    EXPECT_TRUE(normal.decompose());
+    return normal;
+}
+
+double density(double x, double variance) {
+    return std::exp(-x * x / (2 * variance)) / std::sqrt(variance);
+}
+
+/// Mean and covariance of the whitened terms by summing over a fine grid of what they might be.
+struct Integral {
+    double mean[2] = {};
+    double covariance[2][2] = {};
+
+    Integral(const Terms& terms, const Normal& normal, const double (&seen)[2], double variance,
+             double unit) {
+        const std::size_t i = terms.first;
+        const double a = normal.factor(i, i);
+        const double b = terms.count > 1 ? normal.factor(i + 1, i) : 0;
+        const double c = terms.count > 1 ? normal.factor(i + 1, i + 1) : 0;
+        double sum = 0;
+        double sums[2] = {};
+        double squares[2][2] = {};
+        const auto add = [&](double p, double q, double probability) {
+            const double white[2] = {a * p + b * q, c * q};
+            const double weight = probability * density(seen[0] - white[0], variance) *
+                                  density(seen[1] - white[1], variance);
+            sum += weight;
+            for (int r = 0; r < 2; ++r) {
+                sums[r] += weight * white[r];
+                for (int s = 0; s < 2; ++s)
+                    squares[r][s] += weight * white[r] * white[s];
+            }
+        };
+        for (const Terms::Kind& kind : terms.kinds) {
+            const double deviation = static_cast<double>(kind.deviation) * unit;
+            const auto probability = static_cast<double>(kind.probability);
+            if (deviation == 0) {
+                add(0, 0, probability);
+                continue;
+            }
+            constexpr int kSteps = 300;
+            constexpr double kReach = 6;
+            constexpr double kStep = 2 * kReach / kSteps;
+            const double per_step = kStep / std::sqrt(2 * std::acos(-1.0));
+            for (int m = -kSteps / 2; m <= kSteps / 2; ++m) {
+                const double x = m * kStep;
+                if (terms.count == 1) {
+                    add(x * deviation, 0, probability * per_step * density(x, 1));
+                    continue;
+                }
+                for (int n = -kSteps / 2; n <= kSteps / 2; ++n) {
+                    const double y = n * kStep;
+                    add(x * deviation, y * deviation,
+                        probability * per_step * per_step * density(x, 1) * density(y, 1));
+                }
+            }
+        }
+        for (int r = 0; r < 2; ++r) {
+            mean[r] = sums[r] / sum;
+            for (int s = 0; s < 2; ++s)
+                covariance[r][s] = squares[r][s] / sum - sums[r] * sums[s] / (sum * sum);
+        }
+    }
+};
+
+void expect_integral(const Terms& terms, Rng& rng) {
+    for (int i = 0; i < 30; ++i) {
+        SCOPED_TRACE(testing::Message() << "case " << i << ", seed " << kSeed);
+        const Normal normal = random_normal(rng);
+        const double variance = rng.uniform(0.01, 0.05);
+        const double unit = rng.uniform(0.5, 2);
+        const double reach = 5 * std::sqrt(variance) * rng.uniform();
+        const double seen[2] = {rng.uniform(-reach, reach),
+                                terms.count > 1 ? rng.uniform(-reach, reach) : 0};
+        Parameters whitened{};
+        for (std::size_t k = 0; k < terms.count; ++k)
+            whitened[terms.first + k] = static_cast<float>(seen[k]);
+        const Belief belief = belief_in(terms, normal, whitened, static_cast<float>(variance),
+                                        static_cast<float>(unit));
+        const Integral expected(terms, normal, seen, variance, unit);
+        for (std::size_t r = 0; r < terms.count; ++r) {
+            // Probabilities are known to 2 %.
+            EXPECT_NEAR(belief.mean[r], expected.mean[r], 0.02 * std::sqrt(variance));
+            for (std::size_t s = 0; s < terms.count; ++s)
+                EXPECT_NEAR(belief.covariance[r][s], expected.covariance[r][s], 0.03 * variance);
+        }
+    }
+}
+
+TEST(Belief, OfTwoTermsIsTheIntegralOverAllTheyMightBe) {
+    Rng rng(kSeed);
+    expect_integral(kTwo, rng);
+}
+
+TEST(Belief, OfOneTermIsTheIntegralOverAllItMightBe) {
+    Rng rng(kSeed);
+    expect_integral(kOne, rng);
+}
+
+TEST(Belief, WhatIsSeenBeyondDoubtIsKept) {
+    Rng rng(kSeed);
+    const Normal normal = random_normal(rng);
+    Parameters whitened{};
+    whitened[kTilt] = 0.1F;
+    whitened[kTilt + 1] = -0.2F;
+    const Belief belief = belief_in(kTwo, normal, whitened, 1e-8F, 1);
+    EXPECT_NEAR(belief.mean[0], 0.1, 1e-4);
+    EXPECT_NEAR(belief.mean[1], -0.2, 1e-4);
+    EXPECT_NEAR(belief.covariance[0][0], 1e-8, 1e-10);
+}
+
+TEST(Belief, TermsThatNothingTellsAreNone) {
+    const Belief belief = belief_in(kTwo, Normal{}, Parameters{}, 0.01F, 1);
+    EXPECT_EQ(belief.mean[0], 0);
+    EXPECT_EQ(belief.covariance[1][1], 0);
+}
+
+}  // namespace
+}  // namespace dotpose::core_test
