@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "core/fixed.hpp"
+#include <tuple>
 
 namespace dotpose::core {
 namespace {
@@ -35,61 +34,72 @@ Symmetric spread_of(const Terms& terms, const Normal& normal, float variance) {
     return {(a * a + b * b) * scale, b * c * scale, c * c * scale};
 }
 
-/// 2^log2, for log2 <= 0.
-float power_of_two(float log2) {
-    constexpr float kLeast = -60;
-    const auto log2_q8 = static_cast<int>(std::max(log2, kLeast) * 256);
-    const int whole = log2_q8 >> 8;
-    return std::ldexp(static_cast<float>(exp2_q16(log2_q8 - whole * 256)), whole - 16);
+/// The terms if they are of one kind.
+struct Posterior {
+    Symmetric precision;  ///< of noise and terms together, in units of the noise's
+    Pair mean;
+    float distance;  ///< what is seen, in squared deviations
+    float share;     ///< probability of the kind; before `weigh`, that before the frame is seen
+
+    Posterior() = default;
+    Posterior(const Terms::Kind& kind, const Symmetric& spread, const Pair& seen, float variance,
+              float unit) {
+        const float own = kind.deviation * unit * kind.deviation * unit;
+        precision = Symmetric{1 + own * spread.xx, own * spread.xy, 1 + own * spread.yy}.inverse();
+        const Pair lost = precision * seen;
+        mean = {seen[0] - lost[0], seen[1] - lost[1]};
+        distance = (lost[0] * seen[0] + lost[1] * seen[1]) / variance;
+        share = kind.probability;
+    }
+};
+using Posteriors = std::array<Posterior, std::tuple_size_v<decltype(Terms::kinds)>>;
+
+/// The kinds by how well each explains what is seen.
+void weigh(Posteriors& kinds) {
+    float nearest = kinds[0].distance;
+    for (const Posterior& kind : kinds)
+        nearest = std::min(nearest, kind.distance);
+    float sum = 0;
+    for (Posterior& kind : kinds) {
+        kind.share *=
+            std::sqrt(kind.precision.determinant()) * std::exp((nearest - kind.distance) / 2);
+        sum += kind.share;
+    }
+    for (Posterior& kind : kinds)
+        kind.share /= sum;
+}
+
+/// Of all kinds together: the covariance has that of each, and how far they are apart.
+Belief mixed(const Posteriors& kinds, float variance) {
+    Belief belief{};
+    for (const Posterior& kind : kinds) {
+        for (std::size_t i = 0; i < 2; ++i)
+            belief.mean[i] += kind.share * kind.mean[i];
+    }
+    for (const Posterior& kind : kinds) {
+        const Symmetric& precision = kind.precision;
+        const std::array<Pair, 2> kept{Pair{1 - precision.xx, -precision.xy},
+                                       Pair{-precision.xy, 1 - precision.yy}};
+        const Pair off{kind.mean[0] - belief.mean[0], kind.mean[1] - belief.mean[1]};
+        for (std::size_t i = 0; i < 2; ++i) {
+            for (std::size_t j = 0; j < 2; ++j)
+                belief.covariance[i][j] += kind.share * (variance * kept[i][j] + off[i] * off[j]);
+        }
+    }
+    return belief;
 }
 
 }  // namespace
 
 Belief belief_in(const Terms& terms, const Normal& normal, const Parameters& whitened,
                  float variance, float unit) {
-    constexpr std::size_t kKinds = 3;
     const Pair seen{whitened[terms.first], terms.count > 1 ? whitened[terms.first + 1] : 0.0F};
     const Symmetric spread = spread_of(terms, normal, variance);
-    // Of the noise and of the terms together, inverse, for each kind.
-    std::array<Symmetric, kKinds> precision;
-    std::array<float, kKinds> distance;
-    for (std::size_t k = 0; k < kKinds; ++k) {
-        const float deviation = terms.kinds[k].deviation * unit;
-        const float own = deviation * deviation;
-        precision[k] =
-            Symmetric{1 + own * spread.xx, own * spread.xy, 1 + own * spread.yy}.inverse();
-        const Pair p = precision[k] * seen;
-        distance[k] = (p[0] * seen[0] + p[1] * seen[1]) / variance;
-    }
-    const float nearest = *std::min_element(distance.begin(), distance.end());
-    std::array<float, kKinds> share;
-    float sum = 0;
-    for (std::size_t k = 0; k < kKinds; ++k) {
-        constexpr float kHalfLog2OfE = 0.7213475F;
-        share[k] = terms.kinds[k].probability * std::sqrt(precision[k].determinant()) *
-                   power_of_two((nearest - distance[k]) * kHalfLog2OfE);
-        sum += share[k];
-    }
-    Belief belief{};
-    std::array<Pair, kKinds> means;
-    for (std::size_t k = 0; k < kKinds; ++k) {
-        share[k] /= sum;
-        // Each kind keeps 1 - precision of what is seen.
-        const Pair lost = precision[k] * seen;
-        means[k] = {seen[0] - lost[0], seen[1] - lost[1]};
-        for (std::size_t i = 0; i < 2; ++i)
-            belief.mean[i] += share[k] * means[k][i];
-    }
-    for (std::size_t k = 0; k < kKinds; ++k) {
-        const Pair off{means[k][0] - belief.mean[0], means[k][1] - belief.mean[1]};
-        const std::array<Pair, 2> kept{Pair{1 - precision[k].xx, -precision[k].xy},
-                                       Pair{-precision[k].xy, 1 - precision[k].yy}};
-        for (std::size_t i = 0; i < 2; ++i) {
-            for (std::size_t j = 0; j < 2; ++j)
-                belief.covariance[i][j] += share[k] * (variance * kept[i][j] + off[i] * off[j]);
-        }
-    }
-    return belief;
+    Posteriors kinds;
+    for (std::size_t k = 0; k < kinds.size(); ++k)
+        kinds[k] = Posterior(terms.kinds[k], spread, seen, variance, unit);
+    weigh(kinds);
+    return mixed(kinds, variance);
 }
 
 }  // namespace dotpose::core

@@ -109,10 +109,9 @@ void expect_integral(const Terms& terms, Rng& rng) {
                                         static_cast<float>(unit));
         const Integral expected(terms, normal, seen, variance, unit);
         for (std::size_t r = 0; r < terms.count; ++r) {
-            // Probabilities are known to 2 %.
-            EXPECT_NEAR(belief.mean[r], expected.mean[r], 0.02 * std::sqrt(variance));
+            EXPECT_NEAR(belief.mean[r], expected.mean[r], 0.001 * std::sqrt(variance));
             for (std::size_t s = 0; s < terms.count; ++s)
-                EXPECT_NEAR(belief.covariance[r][s], expected.covariance[r][s], 0.03 * variance);
+                EXPECT_NEAR(belief.covariance[r][s], expected.covariance[r][s], 0.001 * variance);
         }
     }
 }
