@@ -185,6 +185,11 @@ TEST(CalibrateMount, RefusesUselessFramesWithAdvice) {
     EXPECT_THAT(refusal([&] { calibrate_spin(2, still, {}, {}); }),
                 HasSubstr("only 2 of 2 frames could be located; at least 3 are needed"));
     EXPECT_THAT(refusal([&] { calibrate_drive(4, still, {}, {}); }), HasSubstr("drive straight"));
+    const auto curve = [&](int i) {
+        return robot_frame(model, 57, i, kPivot_x_mm + 10 * i, kPivot_y_mm, 8 * i * kDegree_rad);
+    };
+    EXPECT_THAT(refusal([&] { calibrate_drive(3, curve, {}, {}); }),
+                HasSubstr("the robot turned by 8 degrees off its mean direction"));
     const auto camera = true_camera(paper_camera());
     CameraModel other;
     other.width_px = 200;
