@@ -155,7 +155,10 @@ void describe_sheets(const SheetGraph& graph, std::size_t fixed, Stitching& resu
 Stitching stitch_sheets(int frames, const FrameAt& frame_at, std::vector<SheetEntry> sheets,
                         const std::optional<Camera>& camera, const CalibrateOptions& options,
                         const ScaleReference& reference) {
-    if (sheets.size() < 2) throw Error("stitching needs a sheet file with at least two sheets");
+    if (sheets.size() < 2) {
+        throw Error(fmt::format("stitching needs a sheet file with at least two sheets, not {}",
+                                sheets.size()));
+    }
     require_reference(reference, sheets, camera);
     Stitching result;
     result.frames = frames;
