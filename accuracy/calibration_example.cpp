@@ -14,9 +14,6 @@ namespace {
 namespace fs = std::filesystem;
 using namespace calibrate_test;
 
-constexpr double kRobot_x_mm = 60'000;
-constexpr double kRobot_y_mm = 45'000;
-
 /// Writes frame_at(0), frame_at(1), ... into a folder.
 template <typename FrameAt>
 void write_frames(const fs::path& folder, int frames, FrameAt frame_at) {
@@ -46,11 +43,11 @@ void write_example(const std::string& folder, std::uint64_t seed) {
     const CameraModel camera = paper_camera();
     write_frames(root / "frames", 20, [&](int i) { return nominal_frame(camera, seed, i); });
     write_frames(root / "turn", 12, [&](int i) {
-        return robot_frame(camera, seed + 1, i, kRobot_x_mm, kRobot_y_mm, 30 * i * kDegree_rad);
+        return robot_frame(camera, seed + 1, i, kPivot_x_mm, kPivot_y_mm, 30 * i * kDegree_rad);
     });
     write_frames(root / "line", 10, [&](int i) {
         // It heads along x, and the image's x axis lies a quarter turn to the left of that.
-        return robot_frame(camera, seed + 2, i, kRobot_x_mm + 5 * i, kRobot_y_mm,
+        return robot_frame(camera, seed + 2, i, kPivot_x_mm + 5 * i, kPivot_y_mm,
                            -90 * kDegree_rad);
     });
     const CameraModel wide = wide_camera();

@@ -1,7 +1,5 @@
 #include <cmath>
 #include <cstdio>
-#include <memory>
-#include <numbers>
 #include <string>
 
 #include <fmt/format.h>
@@ -10,15 +8,12 @@
 #include "calibration_measures.hpp"
 #include "calibration_tally.hpp"
 #include "dotpose/calibrate.hpp"
-#include "dotpose/locate.hpp"
 
 namespace dotpose {
 namespace {
 
 using namespace calibrate_test;
 
-constexpr double kPivot_x_mm = 60'000;
-constexpr double kPivot_y_mm = 45'000;
 constexpr int kLensFrames = 20;
 constexpr int kSpinFrames = 12;
 constexpr int kSeamFrames = 200;
@@ -40,30 +35,6 @@ void print_head(const std::string& what) {
         what);
 }
 
-/// Where the robot's centre is located from other places, off by how much along the robot's axes:
-/// the mean over all directions.
-Vec2 reference_error_mm(const Camera& camera, const CameraModel& model, std::uint64_t seed) {
-    const auto workspace = std::make_unique<LargeWorkspace>();
-    Vec2 mean;
-    int count = 0;
-    for (int i = 0; i < 24; ++i) {
-        const double theta_rad = (15 * i + 7) * kDegree_rad;
-        const GreyImage image =
-            robot_frame(model, seed, i, kPivot_x_mm + 500, kPivot_y_mm + 300, theta_rad);
-        Options options;
-        use_camera(camera, image.width_px, image.height_px, options);
-        const Fix fix =
-            with_camera(locate(image.view(), options, *workspace), camera, options, *workspace);
-        if (fix.status != Status::ok) continue;
-        const double dx = fix.x_mm(kDefaultSpacing_mm) - kPivot_x_mm - 500;
-        const double dy = fix.y_mm(kDefaultSpacing_mm) - kPivot_y_mm - 300;
-        mean.x += std::cos(theta_rad) * dx + std::sin(theta_rad) * dy;
-        mean.y += std::cos(theta_rad) * dy - std::sin(theta_rad) * dx;
-        ++count;
-    }
-    return {mean.x / count, mean.y / count};
-}
-
 void spin(const Camera& lens, const CameraModel& model, std::uint64_t seed, ErrorTable& errors) {
     const auto frame_at = [&](int i) {
         return robot_frame(model, seed, i, kPivot_x_mm, kPivot_y_mm, 30 * i * kDegree_rad);
@@ -80,8 +51,8 @@ void spin(const Camera& lens, const CameraModel& model, std::uint64_t seed, Erro
         pixel_from_image_centre(true_camera(model), {-kCameraOnRobot_mm.x, -kCameraOnRobot_mm.y});
     const double mm = model.mm_per_px;
     add("its pixel, in mm", mm * (pixel.u - truth.u), mm * (pixel.v - truth.v), NAN);
-    const Vec2 located = reference_error_mm(found.camera, model, seed + 1);
-    add("robot located with it, mm", located.x, located.y, found.sigma_mm);
+    const Vec2 located = robot_error(found.camera, model, seed + 1).place_mm;
+    add("robot located with it, mm", located.x, located.y, NAN);
 }
 
 Table draw_table(Rng& rng) {

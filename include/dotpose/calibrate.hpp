@@ -190,13 +190,13 @@ struct Stitching {
 };
 
 /// Lays sheets out in the world by frames that show parts of two, and finds by how much they were
-/// printed longer than meant. The first sheet with a world pose keeps it; if none has one, the
-/// first that is seen becomes the world: its corner the origin, its upper edge the x axis.
-/// `camera`: lens and view; without a view, which only mounted cameras have, it is fitted to each
-/// part of a frame. Then places are less exact, and they hold if the fixed sheet was printed to the
-/// scales that the sheet file says. Throws
-/// Error: no sheets, no frame shows two of them, the sheet of the reference not among those joined;
-/// BadArgument: a reference that does not exist.
+/// printed longer than meant. Of the sheets seen beside another one, the first with a world pose
+/// keeps it; if no sheet has one, the first becomes the world: its corner the origin, its upper
+/// edge the x axis. `camera`: lens and view; without a view, which only mounted cameras have, it is
+/// fitted to each part of a frame. Then places are less exact, and they hold if the fixed sheet was
+/// printed to the scales that the sheet file says. Throws Error: no sheets, no frame shows two of
+/// them, none of those shown lies in the world though others do, the sheet of the reference not
+/// among those joined; BadArgument: a reference that does not exist.
 Stitching stitch_sheets(int frames, const FrameAt& frame_at, std::vector<SheetEntry> sheets,
                         const std::optional<Camera>& camera, const CalibrateOptions& options,
                         const ScaleReference& reference = {});

@@ -1,5 +1,5 @@
 // The calibration of a lens: frames -> sightings -> fit -> the same once more with the lens known
-// -> camera and verdict.
+// -> once more with all dots -> camera and verdict.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +9,7 @@
 #include <Eigen/Cholesky>
 #include <fmt/format.h>
 
+#include "calibrate/all_dots.hpp"
 #include "calibrate/lens_fit.hpp"
 #include "calibrate/paper_view.hpp"
 #include "calibrate/sighting.hpp"
@@ -321,7 +322,8 @@ LensCalibration calibrate_lens(int frames, const FrameAt& frame_at,
     const FitSetting setting{series.width_px, series.height_px, options.pattern.spacing_mm};
     // Only with the lens known are dots found out to the corners.
     sighter.use_lens(lens_of(camera_of(fit_all(first, setting).after, setting)));
-    const auto sightings = sight_again(first, series, sighter);
+    auto sightings = sight_again(first, series, sighter);
+    take_all_dots(fit_all(sightings, setting).after, setting, options.pattern.profile, sightings);
     const Fits fits = fit_all(sightings, setting);
     result.located = static_cast<int>(sightings.size());
     result.camera = camera_of(fits.after, setting);

@@ -59,14 +59,20 @@ struct Seen {
 struct MountedResidual {
     Seen seen;
 
+    /// In mm, from what the distortion centre looks at, along the image axes there.
+    template <typename T>
+    std::array<T, 2> on_paper(const T* lens, const T* paper) const {
+        const auto [a, b] = seen.undistorted(lens);
+        const T divisor = 1.0 + (paper[3] * a + paper[4] * b) / seen.reach_px;
+        return {paper[0] * (a + paper[2] * b) / divisor, paper[1] * b / divisor};
+    }
     template <typename T>
     bool operator()(const T* lens, const T* paper, const T* displacement, const T* pose,
                     T* residual) const {
-        const auto [a, b] = seen.undistorted(lens);
-        const T divisor = 1.0 + (paper[3] * a + paper[4] * b) / seen.reach_px;
-        const auto [x, y] = seen.printed(*displacement, pose);
-        residual[0] = (paper[0] * (a + paper[2] * b) / divisor - x) / seen.mm_per_px;
-        residual[1] = (paper[1] * b / divisor - y) / seen.mm_per_px;
+        const auto [x, y] = on_paper(lens, paper);
+        const auto [printed_x, printed_y] = seen.printed(*displacement, pose);
+        residual[0] = (x - printed_x) / seen.mm_per_px;
+        residual[1] = (y - printed_y) / seen.mm_per_px;
         return true;
     }
 };
@@ -76,8 +82,7 @@ struct HandheldResidual {
     Seen seen;
 
     template <typename T>
-    bool operator()(const T* lens, const T* shape, const T* displacement, const T* pose,
-                    T* residual) const {
+    std::array<T, 2> on_paper(const T* lens, const T* shape, const T* pose) const {
         using std::cos;
         using std::sin;
         const auto [u, v] = seen.undistorted(lens);
@@ -95,9 +100,15 @@ struct HandheldResidual {
         const T m10 = sx * sy + b * per_focal * cx * sy;
         const T m11 = cx - b * per_focal * sx;
         const T factor = pose[3] / (m00 * m11 - m01 * m10);
-        const auto [x, y] = seen.printed(*displacement, pose);
-        residual[0] = (factor * (m11 * a - m01 * b) - x) / seen.mm_per_px;
-        residual[1] = (factor * (m00 * b - m10 * a) - y) / seen.mm_per_px;
+        return {factor * (m11 * a - m01 * b), factor * (m00 * b - m10 * a)};
+    }
+    template <typename T>
+    bool operator()(const T* lens, const T* shape, const T* displacement, const T* pose,
+                    T* residual) const {
+        const auto [x, y] = on_paper(lens, shape, pose);
+        const auto [printed_x, printed_y] = seen.printed(*displacement, pose);
+        residual[0] = (x - printed_x) / seen.mm_per_px;
+        residual[1] = (y - printed_y) / seen.mm_per_px;
         return true;
     }
 };
@@ -338,6 +349,23 @@ LensFit fit_lens(const std::vector<Sighting>& frames, const FitSetting& setting,
     }
     Fitter(frames, setting, fit).run();
     return fit;
+}
+
+std::array<double, 2> place_on_paper(const LensFit& fit, std::size_t frame, PixelPoint pixel,
+                                     const FitSetting& setting) {
+    Seen seen{};
+    seen.reach_px = setting.reach_px();
+    seen.u = (pixel.u - (setting.width_px - 1) / 2.0) / seen.reach_px;
+    seen.v = (pixel.v - (setting.height_px - 1) / 2.0) / seen.reach_px;
+    const auto& pose = fit.poses[frame];
+    const SharedModel& c = fit.camera;
+    const auto [x, y] =
+        fit.stand == Stand::by_hand
+            ? HandheldResidual{seen}.on_paper(c.lens.data(), c.shape.data(), pose.data())
+            : MountedResidual{seen}.on_paper(c.lens.data(), c.paper.data());
+    const double cosine = std::cos(pose[2]);
+    const double sine = std::sin(pose[2]);
+    return {pose[0] + cosine * x - sine * y, pose[1] + sine * x + cosine * y};
 }
 
 }  // namespace dotpose::calibrate

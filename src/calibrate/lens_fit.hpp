@@ -56,4 +56,9 @@ struct FitSetting {
 LensFit fit_lens(const std::vector<Sighting>& frames, const FitSetting& setting, Stand stand,
                  const LensFit* start = nullptr);
 
+/// Where a fit has a pixel of one of its frames on the paper: mm from the intersection where the
+/// frame's steps start.
+std::array<double, 2> place_on_paper(const LensFit& fit, std::size_t frame, PixelPoint pixel,
+                                     const FitSetting& setting);
+
 }  // namespace dotpose::calibrate

@@ -21,6 +21,8 @@ using Eigen::Vector2d;
 constexpr int kLeastSpinFrames = 3;
 constexpr double kLeastTurn_rad = std::numbers::pi / 6;
 constexpr double kLeastDrive_mm = 5;
+/// A robot that turns by more than this does not drive straight.
+constexpr double kMostSwerve_rad = std::numbers::pi / 36;
 
 /// Place (mm, from the first frame's cell) and angle of the image centre in one frame.
 struct Station {
@@ -204,9 +206,16 @@ DriveCalibration calibrate_drive(int frames, const FrameAt& frame_at,
     // Of the line's direction, and of the mean angle.
     const double line = result.residual_mm * result.residual_mm / axes.eigenvalues()[1];
     double squares = 0;
+    double swerve_rad = 0;
     for (const Station& station : found.stations) {
         const double off = std::remainder(station.theta_rad - theta_rad, 2 * std::numbers::pi);
         squares += off * off;
+        swerve_rad = std::max(swerve_rad, std::abs(off));
+    }
+    if (swerve_rad > kMostSwerve_rad) {
+        throw Error(fmt::format(
+            "the robot turned by {:.0f} degrees off its mean direction: drive straight ahead",
+            swerve_rad * 180 / std::numbers::pi));
     }
     result.sigma_rad = std::sqrt(line + squares / (count * std::max(count - 1, 1.0)));
     result.camera = camera.value_or(found.camera);

@@ -102,6 +102,9 @@ Sighting Sighter::read_workspace(const ImageView& image) const {
     sighting.dots = dots_read(w, options_.profile);
     for (SightedDot& dot : sighting.dots)
         dot.pixel = distorted(used, dot.pixel);
+    for (const Dot& dot : w.found_dots())
+        sighting.blobs.push_back(
+            distorted(used, {dot.centre_q8.x / 256.0, dot.centre_q8.y / 256.0}));
     sighting.dot_width = 2 * half_width(image, sighting.dots, sighting.spacing_px);
     return sighting;
 }

@@ -21,10 +21,11 @@ struct SightedDot {
 std::vector<SightedDot> dots_read(const Workspace& workspace, Profile profile);
 
 struct Sighting {
-    int frame = 0;                 ///< its index
-    Place place;                   ///< where the steps start
-    std::vector<SightedDot> dots;  ///< pixels in the image as it is, distorted
-    double dot_width = 0;          ///< at half depth, in spacings
+    int frame = 0;                  ///< its index
+    Place place;                    ///< where the steps start
+    std::vector<SightedDot> dots;   ///< pixels in the image as it is, distorted
+    std::vector<PixelPoint> blobs;  ///< all that look like dots, in the image as it is
+    double dot_width = 0;           ///< at half depth, in spacings
     double spacing_px = 0;
 };
 

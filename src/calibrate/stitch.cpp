@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -86,19 +87,26 @@ void describe_seams(const std::vector<SheetView>& views, const SheetGraph& graph
     }
 }
 
-/// The sheet that stays: the first with a pose in the world, otherwise the first that is seen
-/// beside another one.
+/// The sheet that stays, of those that are seen beside another one: the first with a pose in the
+/// world, otherwise the first.
 std::size_t fixed_sheet(const std::vector<SheetEntry>& sheets,
                         const std::vector<SheetView>& views) {
-    const auto has_world = std::ranges::find_if(
-        sheets, [](const SheetEntry& entry) { return entry.world.has_value(); });
-    if (has_world != sheets.end()) return static_cast<std::size_t>(has_world - sheets.begin());
-    std::size_t fixed = sheets.size();
+    std::set<std::size_t> joined;
     for (std::size_t i = 1; i < views.size(); ++i) {
         if (views[i].frame == views[i - 1].frame)
-            fixed = std::min({fixed, views[i].sheet, views[i - 1].sheet});
+            joined.insert({views[i].sheet, views[i - 1].sheet});
     }
-    return fixed;
+    const auto lies_in_world = [&](std::size_t i) { return sheets[i].world.has_value(); };
+    const auto fixed = std::ranges::find_if(joined, lies_in_world);
+    if (fixed != joined.end()) return *fixed;
+    for (const SheetEntry& entry : sheets) {
+        if (!entry.world) continue;
+        throw Error(fmt::format(
+            "no frame shows '{}', which lies in the world, beside another sheet: take frames over "
+            "its seams",
+            entry.name));
+    }
+    return *joined.begin();
 }
 
 void require_reference(const ScaleReference& reference, const std::vector<SheetEntry>& sheets,
@@ -147,7 +155,10 @@ void describe_sheets(const SheetGraph& graph, std::size_t fixed, Stitching& resu
 Stitching stitch_sheets(int frames, const FrameAt& frame_at, std::vector<SheetEntry> sheets,
                         const std::optional<Camera>& camera, const CalibrateOptions& options,
                         const ScaleReference& reference) {
-    if (sheets.size() < 2) throw Error("stitching needs a sheet file with at least two sheets");
+    if (sheets.size() < 2) {
+        throw Error(fmt::format("stitching needs a sheet file with at least two sheets, not {}",
+                                sheets.size()));
+    }
     require_reference(reference, sheets, camera);
     Stitching result;
     result.frames = frames;

@@ -83,7 +83,7 @@ class SpinPicture {
             full_mm = std::max(full_mm, std::hypot(station.off_x_mm, station.off_y_mm));
         const double per_mm = 0.45 * kPanelSide / full_mm;
         draw_frame(1, "What stays put",
-                   fmt::format("{:.4f} mm rms per axis; farthest {:.4f}; circle: +- {:.4f} mm",
+                   fmt::format("{:.4f} mm rms; farthest {:.4f}; circle: +- {:.4f} mm",
                                spin_.residual_mm, full_mm, spin_.sigma_mm));
         for (const SpinStation& station : spin_.stations) {
             const Point off = per_mm * Point{station.off_x_mm, station.off_y_mm};

@@ -103,7 +103,7 @@ class StitchingPicture {
             panel, title,
             all.empty()
                 ? std::string("not all of these sheets lay in the world")
-                : fmt::format("{:.4f} mm rms per axis between sheets; longest arrow {:.4f} mm",
+                : fmt::format("{:.4f} mm rms per axis; longest arrow {:.4f} mm",
                               std::sqrt(squares / 2 / static_cast<double>(all.size())), full_mm),
             svg_);
     }

@@ -126,11 +126,9 @@ TEST_F(CalibrateCommand, UselessInputIsRefusedAndNothingIsWritten) {
 
 TEST_F(CalibrateCommand, ACameraFileOfAnotherSizeIsAnErrorOfEachImage) {
     simulate("frames", 1);
-    std::ofstream(directory_ / "large.yaml")
-        << "{format: dotpose-camera, version: 1, width_px: 640, height_px: 480, k_per_px2: 0, "
-           "centre_px: [319.5, 239.5]}";
+    std::ofstream(directory_ / "large.yaml") << kLargeCamera;
     EXPECT_EQ(run("locate --camera large.yaml frames/frame_000000.pgm"), 1);
-    EXPECT_THAT(errors_, HasSubstr("frame_000000.pgm: the camera file is for images of 640 x 480"));
+    EXPECT_THAT(errors_, HasSubstr(std::string("frame_000000.pgm") + kNotForLargeCamera));
     EXPECT_EQ(run("locate --camera none.yaml frames/frame_000000.pgm"), 1);
     EXPECT_EQ(run("locate --camera large.yaml --k 0 frames/frame_000000.pgm"), 2);
 }

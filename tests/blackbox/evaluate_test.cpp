@@ -136,11 +136,9 @@ TEST_F(EvaluateCommand, ACameraFileIsUsedAsLocateDoes) {
 
 TEST_F(EvaluateCommand, ACameraFileOfAnotherSizeIsAProblemOfEachImage) {
     ASSERT_EQ(run("simulate -o frames --frames 2"), 0);
-    std::ofstream(directory_ / "large.yaml")
-        << "{format: dotpose-camera, version: 1, width_px: 640, height_px: 480, k_per_px2: 0, "
-           "centre_px: [319.5, 239.5]}";
+    std::ofstream(directory_ / "large.yaml") << kLargeCamera;
     EXPECT_EQ(run("evaluate frames --camera large.yaml"), 1);
-    EXPECT_THAT(errors_, HasSubstr("frame_000001.pgm: the camera file is for images of 640 x 480"));
+    EXPECT_THAT(errors_, HasSubstr(std::string("frame_000001.pgm") + kNotForLargeCamera));
     EXPECT_EQ(run("evaluate frames --truth robot"), 2);
     EXPECT_EQ(run("evaluate --preset clean --camera large.yaml"), 2);
 }

@@ -20,6 +20,12 @@ inline std::string read_file(const fs::path& path) {
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
+/// A camera file for images of 640 x 480 px, and what is said of each image of another size.
+inline constexpr const char* kLargeCamera =
+    "{format: dotpose-camera, version: 1, width_px: 640, height_px: 480, k_per_px2: 0, "
+    "centre_px: [319.5, 239.5]}";
+inline constexpr const char* kNotForLargeCamera = ": the camera file is for images of 640 x 480";
+
 /// Runs the tool in a directory of its own, and keeps what the last run said.
 class ToolCommand : public testing::Test {
   protected:

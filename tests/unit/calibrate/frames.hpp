@@ -5,11 +5,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "dotpose/camera_file.hpp"
+#include "dotpose/locate.hpp"
 #include "dotpose/sheet_file.hpp"
 #include "dotpose/simulate.hpp"
 
@@ -75,6 +77,46 @@ inline GreyImage robot_frame(const CameraModel& camera, std::uint64_t seed, int 
     const auto [x, y] = kCameraOnRobot_mm;
     return render(moved_to(draw_shot(setup, static_cast<std::uint64_t>(index)),
                            x_mm + c * x - s * y, y_mm + s * x + c * y, theta_rad));
+}
+
+/// Where it turns on the spot.
+inline constexpr double kPivot_x_mm = 60'000;
+inline constexpr double kPivot_y_mm = 45'000;
+
+/// How far a robot that stands elsewhere is located from where it is, along its own axes, and by
+/// how much it is turned: means over many directions, so that what is left is the calibration's
+/// error.
+struct RobotError {
+    Vec2 place_mm;
+    double heading_rad = 0;
+    int located = 0;
+};
+inline constexpr int kRobotStands = 24;
+inline RobotError robot_error(const Camera& camera, const CameraModel& model, std::uint64_t seed) {
+    const auto workspace = std::make_unique<LargeWorkspace>();
+    constexpr double kStand_x_mm = kPivot_x_mm + 500;
+    constexpr double kStand_y_mm = kPivot_y_mm + 300;
+    RobotError sum;
+    for (int i = 0; i < kRobotStands; ++i) {
+        const double theta_rad = (360.0 / kRobotStands * i + 7) * kDegree_rad;
+        const GreyImage image = robot_frame(model, seed, i, kStand_x_mm, kStand_y_mm, theta_rad);
+        Options options;
+        use_camera(camera, image.width_px, image.height_px, options);
+        const Fix fix =
+            with_camera(locate(image.view(), options, *workspace), camera, options, *workspace);
+        if (fix.status != Status::ok) continue;
+        const double dx = fix.x_mm(kDefaultSpacing_mm) - kStand_x_mm;
+        const double dy = fix.y_mm(kDefaultSpacing_mm) - kStand_y_mm;
+        const double c = std::cos(theta_rad);
+        const double s = std::sin(theta_rad);
+        sum.place_mm.x += c * dx + s * dy;
+        sum.place_mm.y += c * dy - s * dx;
+        sum.heading_rad += std::remainder(fix.theta_rad() - theta_rad, 2 * std::numbers::pi);
+        ++sum.located;
+    }
+    return {{sum.place_mm.x / sum.located, sum.place_mm.y / sum.located},
+            sum.heading_rad / sum.located,
+            sum.located};
 }
 
 // ---- A table with four sheets ----

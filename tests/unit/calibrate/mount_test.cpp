@@ -19,9 +19,6 @@ namespace {
 using namespace dotpose::calibrate_test;
 using testing::HasSubstr;
 
-constexpr double kPivot_x_mm = 60'000;
-constexpr double kPivot_y_mm = 45'000;
-
 PixelPoint true_reference(const CameraModel& camera) {
     return {(camera.width_px - 1) / 2.0 - kCameraOnRobot_mm.x / camera.mm_per_px,
             (camera.height_px - 1) / 2.0 - kCameraOnRobot_mm.y / camera.mm_per_px};
@@ -85,39 +82,8 @@ TEST(CalibrateSpin, TheReferenceStaysPutAfterwards) {
     }
 }
 
-/// How far a robot that stands elsewhere is located from where it is, along its own axes, and by
-/// how much it is turned: means over many directions, so that what is left is the calibration's
-/// error.
-struct RobotError {
-    Vec2 place_mm;
-    double heading_rad = 0;
-};
-RobotError robot_error(const Camera& camera, const CameraModel& model, std::uint64_t seed) {
-    const auto workspace = std::make_unique<LargeWorkspace>();
-    constexpr int kStands = 12;
-    RobotError mean;
-    for (int i = 0; i < kStands; ++i) {
-        const double theta_rad = (30 * i + 11) * kDegree_rad;
-        const GreyImage image =
-            robot_frame(model, seed, i, kPivot_x_mm + 500, kPivot_y_mm + 300, theta_rad);
-        Options options;
-        use_camera(camera, image.width_px, image.height_px, options);
-        const Fix fix =
-            with_camera(locate(image.view(), options, *workspace), camera, options, *workspace);
-        EXPECT_EQ(fix.status, Status::ok);
-        const double dx = fix.x_mm(kDefaultSpacing_mm) - kPivot_x_mm - 500;
-        const double dy = fix.y_mm(kDefaultSpacing_mm) - kPivot_y_mm - 300;
-        const double c = std::cos(theta_rad);
-        const double s = std::sin(theta_rad);
-        mean.place_mm.x += (c * dx + s * dy) / kStands;
-        mean.place_mm.y += (c * dy - s * dx) / kStands;
-        mean.heading_rad +=
-            std::remainder(fix.theta_rad() - theta_rad, 2 * std::numbers::pi) / kStands;
-    }
-    return mean;
-}
-
 double off_mm(const RobotError& error) {
+    EXPECT_EQ(error.located, kRobotStands);
     return std::hypot(error.place_mm.x, error.place_mm.y);
 }
 
@@ -219,6 +185,11 @@ TEST(CalibrateMount, RefusesUselessFramesWithAdvice) {
     EXPECT_THAT(refusal([&] { calibrate_spin(2, still, {}, {}); }),
                 HasSubstr("only 2 of 2 frames could be located; at least 3 are needed"));
     EXPECT_THAT(refusal([&] { calibrate_drive(4, still, {}, {}); }), HasSubstr("drive straight"));
+    const auto curve = [&](int i) {
+        return robot_frame(model, 57, i, kPivot_x_mm + 10 * i, kPivot_y_mm, 8 * i * kDegree_rad);
+    };
+    EXPECT_THAT(refusal([&] { calibrate_drive(3, curve, {}, {}); }),
+                HasSubstr("the robot turned by 8 degrees off its mean direction"));
     const auto camera = true_camera(paper_camera());
     CameraModel other;
     other.width_px = 200;

@@ -210,6 +210,28 @@ TEST(StitchSheets, KeepsTheSheetThatLiesInTheWorldAndNamesThoseNotSeen) {
     EXPECT_FALSE(stitching.sheets[2].world.has_value());
 }
 
+// A frame that did not show the sheet in the world crashed.
+TEST(StitchSheets, FramesMustShowASheetThatLiesInTheWorld) {
+    const CameraModel model = wide_camera();
+    const auto c_beside_d = [&](int i) {
+        return table_frame(kTable, model, 65, i, kPage_mm + 1.2, kPage_mm + 12 + 4.0 * i, 0.7 * i);
+    };
+    std::vector<SheetEntry> entries = sheets_of_table();
+    entries[0].world = WorldPose{1.25, -0.5, 0.3};
+    try {
+        stitch_sheets(1, c_beside_d, entries, true_camera(model), {});
+        FAIL() << "not refused";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("no frame shows 'a', which lies in the world"));
+    }
+    entries[3].world = WorldPose{1, 2, 0};
+    const auto stitching = stitch_sheets(6, c_beside_d, entries, true_camera(model), {});
+    EXPECT_THAT(stitching.unconnected, ElementsAre("a", "b"));
+    EXPECT_EQ(stitching.sheets[3].world->x_m, 1);
+    EXPECT_NEAR(stitching.sheets[2].world->yaw_rad, kTable[3].turn_rad - kTable[2].turn_rad,
+                0.02 * kDegree_rad);
+}
+
 TEST(StitchSheets, RefusesFramesWithoutASeam) {
     const CameraModel model = wide_camera();
     const auto plain = [&](int i) { return plain_frame(model, i); };

@@ -1,0 +1,61 @@
+#include "calibrate/all_dots.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace dotpose::calibrate {
+namespace {
+
+/// How far a dot may be from where it is expected, in spacings: beyond all errors of print and fit,
+/// so that the fit decides which dots are outliers, and closer than another dot can be.
+constexpr double kReach_sigmas = 6;
+constexpr double kLeastReach = 0.1;
+constexpr double kMostReach = 1.0 / 3;
+
+struct Candidate {
+    double off;  ///< spacings
+    SightedDot dot;
+};
+
+/// A blob as the dot of the intersection that is nearest to where it should be.
+Candidate candidate(PixelPoint pixel, const Place& start, double x, double y, double displacement,
+                    Profile profile) {
+    const Vec step{static_cast<std::int32_t>(std::lround(x)),
+                   static_cast<std::int32_t>(std::lround(y))};
+    const Place place = moved(profile, start, step.x, step.y);
+    const Symbol symbol = symbol_at(profile, place.cell, place.section);
+    const double off =
+        std::hypot(x - step.x - displacement * dx(symbol), y - step.y - displacement * dy(symbol));
+    return {off, {pixel, step, symbol}};
+}
+
+}  // namespace
+
+void take_all_dots(const LensFit& fit, const FitSetting& setting, Profile profile,
+                   std::vector<Sighting>& frames) {
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        Sighting& frame = frames[i];
+        const double reach =
+            std::clamp(kReach_sigmas * fit.residual_px / frame.spacing_px, kLeastReach, kMostReach);
+        std::map<std::pair<int, int>, Candidate> nearest;
+        for (const PixelPoint& blob : frame.blobs) {
+            const auto [x_mm, y_mm] = place_on_paper(fit, i, blob, setting);
+            const Candidate found =
+                candidate(blob, frame.place, x_mm / setting.spacing_mm, y_mm / setting.spacing_mm,
+                          fit.camera.displacement, profile);
+            if (found.off > reach) continue;
+            const auto [entry, is_new] =
+                nearest.try_emplace({found.dot.step.x, found.dot.step.y}, found);
+            if (!is_new && found.off < entry->second.off) entry->second = found;
+        }
+        // A frame that the fit does not describe keeps what was read.
+        if (2 * nearest.size() < frame.dots.size()) continue;
+        frame.dots.clear();
+        for (const auto& [step, found] : nearest)
+            frame.dots.push_back(found.dot);
+    }
+}
+
+}  // namespace dotpose::calibrate
