@@ -162,8 +162,11 @@ struct PlaneFromImage {
 /// One cell of the matrices P of the paper's Fig. 8.
 struct GridCell {
     static constexpr std::uint16_t kNoDot = 65535;
-    static constexpr std::uint16_t kHidden = 65534;  ///< under graphics
+    /// Graphics cover some of the cell's four places: this and a bit for each, by Symbol.
+    static constexpr std::uint16_t kHidden = 65504;
     bool has_dot() const { return dot < kHidden; }
+    bool is_hidden() const { return dot >= kHidden && dot != kNoDot; }
+    bool is_hidden(int symbol) const { return is_hidden() && (dot >> symbol & 1) != 0; }
     std::int8_t x = 0;  ///< quasi-probability of the x bit, in 1/127: positive for 1
     std::int8_t y = 0;
     std::uint16_t dot = kNoDot;  ///< index of the dot read here

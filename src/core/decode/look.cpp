@@ -216,10 +216,10 @@ class Ink {
         int trust_q4 = 16;
         int light_q8 = 256;
     };
-    /// Marks the cell as hidden where graphics cover one of its places.
+    /// Marks in the cell which of its places graphics cover.
     Look look_at(const CellView& view, GridCell& cell) const {
         Look look;
-        int hidden = 0;
+        unsigned hidden = 0;
         int darkest_q8 = 0;
         int beside_q8 = 0;
         for (std::size_t i = 0; i < view.places.size(); ++i) {
@@ -229,19 +229,19 @@ class Ink {
             if (!place.is_seen) continue;
             const int around_q8 = eye_.darkest_around_q8(view, static_cast<Symbol>(i));
             if (std::max(place.shade_q8, around_q8) > graphics_q8_) {
-                ++hidden;
+                hidden |= 1U << i;
                 continue;
             }
             look.darkness_q8[i] = place.darkness_q8;
             darkest_q8 = std::max(darkest_q8, place.darkness_q8);
             beside_q8 = std::max(beside_q8, around_q8);
         }
-        if (hidden > 0) cell.dot = GridCell::kHidden;
+        if (hidden != 0) cell.dot = static_cast<std::uint16_t>(GridCell::kHidden + hidden);
         look.light_q8 = std::min(eye_.light_q8(view), 1024);
         // In hard frames bits were this much less sure than those of cells in plain view.
         constexpr std::array<int, 5> kBySeen_q4{0, 6, 8, 10, 16};
         look.trust_q4 = kBySeen_q4[static_cast<std::size_t>(view.places_seen())];
-        if (hidden > 0) look.trust_q4 = std::min(look.trust_q4, 10);
+        if (hidden != 0) look.trust_q4 = std::min(look.trust_q4, 10);
         if (5 * beside_q8 > 3 * graphics_q8_) look.trust_q4 = std::min(look.trust_q4, 7);
         // Too dark for a dot: dirt.
         if (10 * darkest_q8 > 13 * contrast_q8_) look.trust_q4 = std::min(look.trust_q4, 12);
@@ -302,7 +302,7 @@ bool read_cells(const Eye& eye, Grid& grid, SetBits set_bits) {
     visit(eye, grid, [&](Vec at, GridCell& cell, const CellView& view) {
         const Ink::Look look = ink.look_at(view, cell);
         set_bits(at, cell, ink, look);
-        if (view.places_seen() < 4 || cell.dot == GridCell::kHidden) return;
+        if (view.places_seen() < 4 || cell.is_hidden()) return;
         ++cells;
         crowded += ink.is_crowded(look);
     });

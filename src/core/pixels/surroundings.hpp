@@ -26,13 +26,19 @@ inline LevelRange range_around(const ImageView& image, int u, int v) {
     return range;
 }
 
-/// A pixel, brought back into the range of its neighbours where it is far outside: a defect of the
-/// sensor. It must not lie on the border.
+/// A pixel; the mean of its neighbours where it is far outside their range: a defect of the sensor.
+/// It must not lie on the border.
 inline int without_defect(const ImageView& image, int u, int v) {
     const auto [low, high] = range_around(image, u, v);
     const int level = image.row(v)[u];
     const int far = high / 4;
-    return level < low - far || level > high + far ? std::clamp(level, low, high) : level;
+    if (level >= low - far && level <= high + far) return level;
+    int sum = 4 - level;
+    for (int dv = -1; dv <= 1; ++dv) {
+        for (int du = -1; du <= 1; ++du)
+            sum += image.row(v + dv)[u + du];
+    }
+    return sum / 8;
 }
 
 }  // namespace dotpose::core

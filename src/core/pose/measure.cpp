@@ -229,11 +229,11 @@ int measure_dots(const ImageView& image, const Lens& lens, const PlaneFromImage&
     for (int j = grid.j0; j < grid.j0 + grid.rows; ++j) {
         for (int i = grid.i0; i < grid.i0 + grid.columns; ++i) {
             GridCell& cell = grid.at(i, j);
-            if (cell.dot == GridCell::kHidden) continue;
-            cell.dot = GridCell::kNoDot;
-            if (count == dots.size()) continue;
             const Vec step = nominal.pattern_step({i, j});
             const Symbol symbol = nominal.symbol(step);
+            const bool is_hidden = cell.is_hidden(static_cast<int>(symbol));
+            cell.dot = GridCell::kNoDot;
+            if (is_hidden || count == dots.size()) continue;
             const Vec place{step.x * 65536 + dx(symbol) * kDisplacement_q16,
                             step.y * 65536 + dy(symbol) * kDisplacement_q16};
             const auto dot =

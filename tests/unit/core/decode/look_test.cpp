@@ -96,7 +96,7 @@ TEST(Look, ReadsTheBitsOfACleanFrame) {
             ++inside;
             EXPECT_TRUE(is_right(bits, symbol));
             EXPECT_GE(std::min(std::abs(bits.x), std::abs(bits.y)), 40);
-            EXPECT_NE(cell.dot, GridCell::kHidden);
+            EXPECT_FALSE(cell.is_hidden());
         });
         EXPECT_GE(inside, 40);
     }

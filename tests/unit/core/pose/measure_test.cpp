@@ -117,11 +117,41 @@ TEST(MeasureDots, BlankPaperAndHiddenCellsHaveNone) {
               0);
     for (GridCell& cell : reading.owned.cells) {
         EXPECT_FALSE(cell.has_dot());
-        cell.dot = GridCell::kHidden;
+        cell.dot = GridCell::kHidden + 0b1111;
     }
     EXPECT_EQ(measure_dots(drawn(view, pattern_dots(view), 0).view(), Lens{}, reading.plane,
                            nominal, reading.owned.grid, measured),
               0);
+}
+
+TEST(MeasureDots, DotsBesideGraphicsAreSeen) {
+    Rng rng(kSeed);
+    const View view = random_view(rng);
+    const auto placed = pattern_dots(view);
+    Reading reading(view, {}, dots_of(placed));
+    ASSERT_EQ(reading.status, Status::ok);
+    const Nominal nominal(reading.grid(), view.profile, reading.truth());
+    const Grid& grid = reading.grid();
+    const auto symbol_at = [&](int i, int j) {
+        return static_cast<int>(nominal.symbol(nominal.pattern_step({i, j})));
+    };
+    const auto mark = [&](auto hidden_places) {
+        for (int j = grid.j0; j < grid.j0 + grid.rows; ++j) {
+            for (int i = grid.i0; i < grid.i0 + grid.columns; ++i)
+                grid.at(i, j).dot =
+                    static_cast<std::uint16_t>(GridCell::kHidden + hidden_places(symbol_at(i, j)));
+        }
+    };
+    const GreyImage image = drawn(view, placed, 0);
+    std::vector<Dot> measured(1000);
+    const auto count = [&] {
+        return measure_dots(image.view(), Lens{}, upright_plane(reading.plane, reading.turn),
+                            nominal, reading.owned.grid, measured);
+    };
+    mark([](int symbol) { return 0b1111 & ~(1 << symbol); });
+    EXPECT_GT(count(), 100);
+    mark([](int symbol) { return 1 << symbol; });
+    EXPECT_EQ(count(), 0);
 }
 
 TEST(MeasureDots, StopsWhereTheirMemoryEnds) {
