@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "dotpose/error.hpp"
+#include "page_cut.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -73,10 +74,20 @@ FrameLocator::Found FrameLocator::find(ImageView image, int max_p_wrong_log2) {
         used_.profile = profile;
         Found found{locate(image, used_, *workspace_), std::nullopt};
         found.place = find_sheet(sheets_, profile, found.fix);
-        if (found.place) return found;
+        if (found.place) return on_its_page(found, image);
         if (best.fix.status != Status::ok) best = found;
     }
     return best;
+}
+
+/// Once more without what lies beside the page, if there is any and that leaves enough to see.
+FrameLocator::Found FrameLocator::on_its_page(const Found& found, ImageView image) {
+    if (sheets_.size() == 1) return found;
+    const auto cut = cut_to_page(image, used_, found.fix, *found.place);
+    if (!cut) return found;
+    Found again{locate(cut->view(), used_, *workspace_), std::nullopt};
+    again.place = find_sheet(sheets_, used_.profile, again.fix);
+    return again.place && again.place->entry == found.place->entry ? again : found;
 }
 
 double FrameLocator::spacing_mm(const Found& found) const {
