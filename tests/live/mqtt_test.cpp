@@ -257,6 +257,23 @@ TEST_F(Mqtt, LastWillIsSentWhenTheRobotVanishes) {
     });
 }
 
+TEST_F(Mqtt, LastWillIsNotSentWhenTheRobotTakesItsLeave) {
+    const Broker broker(directory_);
+    std::atomic<bool> is_heard = false;
+    MqttSubscriber subscriber(options(broker), "will",
+                              [&](const auto&, const auto&) { is_heard = true; });
+    for (int i = 0; i < 20; ++i) {
+        MqttOptions mqtt = options(broker);
+        mqtt.will_topic = "will";
+        mqtt.will = "lost";
+        MqttPublisher publisher(mqtt);
+        publisher.publish("t", "here");
+        publisher.flush(5s);
+    }
+    std::this_thread::sleep_for(200ms);
+    EXPECT_FALSE(is_heard);
+}
+
 TEST_F(Mqtt, FleetSeesAWatchedRobot) {
     const Broker broker(directory_);
     const DriveCamera camera(188, 120);
