@@ -182,6 +182,7 @@ TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
                           &sent, &dropped),
               2)
         << errors_;
+    std::printf("%d states sent, %d dropped\n", sent, dropped);
     EXPECT_EQ(sent + dropped, kFrames + 1);  // the last one says that the robot is lost
     // 500 frames, less the 50 states that are kept; far fewer if this machine was held up.
     EXPECT_GT(dropped, 300);
