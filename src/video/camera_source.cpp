@@ -128,10 +128,10 @@ class Camera : public FrameSource {
             }
             if (is_away_) options_.tell("the camera " + options_.name + " is back");
             is_away_ = false;
-            Frame frame;
-            to_grey(picture, frame.image);
             read_at_ = steady_clock::now();
             newest_us_ = time_us();
+            Frame frame;
+            to_grey(picture, frame.image);
             put(std::move(frame), newest_us_);
         }
     }
