@@ -267,6 +267,7 @@ TEST_F(Mqtt, LastWillIsNotSentWhenTheRobotTakesItsLeave) {
         MqttOptions mqtt = options(broker);
         mqtt.will_topic = "will";
         mqtt.will = "lost";
+        mqtt.qos = 1;
         MqttPublisher publisher(mqtt);
         publisher.publish("t", "here");
         publisher.flush(5s);
