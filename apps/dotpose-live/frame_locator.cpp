@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "dotpose/error.hpp"
+#include "page_cut.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -71,12 +72,33 @@ FrameLocator::Found FrameLocator::find(ImageView image, int max_p_wrong_log2) {
     used_.integrity.max_p_wrong_log2 = max_p_wrong_log2;
     for (const Profile profile : profiles_) {
         used_.profile = profile;
-        Found found{locate(image, used_, *workspace_), std::nullopt};
-        found.place = find_sheet(sheets_, profile, found.fix);
+        Found found = look(image, used_);
+        if (sheets_.size() > 1) found = without_neighbours(found, image);
         if (found.place) return found;
         if (best.fix.status != Status::ok) best = found;
     }
     return best;
+}
+
+FrameLocator::Found FrameLocator::look(ImageView image, const Options& options) {
+    const Fix fix = locate(image, options, *workspace_);
+    return {fix, find_sheet(sheets_, options.profile, fix)};
+}
+
+/// A frame across the edge of a page: once more without what lies beside it, if that leaves enough.
+FrameLocator::Found FrameLocator::without_neighbours(const Found& found, ImageView image) {
+    Found guess = found;
+    if (found.fix.status == Status::not_certain) {
+        // Of two patterns in the frame the better one. It only says where to cut.
+        Options any = used_;
+        any.integrity = {.max_p_wrong_log2 = 0, .max_bit_error_q8 = 128};
+        guess = look(image, any);
+    }
+    if (!guess.place) return found;
+    const auto cut = cut_to_page(image, used_, guess.fix, *guess.place);
+    if (!cut) return found;
+    const Found again = look(cut->view(), used_);
+    return again.place && again.place->entry == guess.place->entry ? again : found;
 }
 
 double FrameLocator::spacing_mm(const Found& found) const {

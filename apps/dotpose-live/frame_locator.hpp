@@ -57,6 +57,8 @@ class FrameLocator {
     };
     void use_sheets();
     Found find(ImageView image, int max_p_wrong_log2);
+    Found look(ImageView image, const Options& options);
+    Found without_neighbours(const Found& found, ImageView image);
     std::optional<Sighting> sighting_of(const Found& found, std::int64_t time_us) const;
     double spacing_mm(const Found& found) const;
 

@@ -22,6 +22,7 @@ namespace {
 constexpr const char* kExamples =
     "Examples:\n"
     "  dotpose watch 0 --size 640x480 --exposure 50\n"
+    "  dotpose watch http://192.168.4.1:81/stream --sheets sheets.json\n"
     "  dotpose watch run.mp4 --sheets sheets.json --log run.csv --map run.svg\n"
     "  dotpose watch 'frames/*.pgm' --fps 50 --record run-overlay.mp4\n"
     "  ffmpeg -i run.mp4 -f rawvideo -pix_fmt gray - | dotpose watch - --size 640x480 --fps 30\n\n"
@@ -94,8 +95,9 @@ video::Region parse_region(const std::string& text) {
 
 void add_source_options(CLI::App& command, video::SourceOptions& source) {
     command
-        .add_option("source", source.name,
-                    "Camera (0, 1 ... or /dev/video0), video file, folder or glob of images, or -")
+        .add_option(
+            "source", source.name,
+            "Camera (0, 1 ..., /dev/video0, or URL), video file, folder or glob of images, or -")
         ->type_name("SOURCE")
         ->required();
     command

@@ -99,6 +99,7 @@ void StateOutput::take(const Reading& reading) {
 WatchOutputs::WatchOutputs(const OutputOptions& options, const FrameLocator& locator)
     : options_(options),
       locator_(locator),
+      sheets_(map_sheets(locator.sheets(), locator.plane())),
       lines_(options.out),
       screen_(options.screen),
       begun_(std::chrono::steady_clock::now()) {
@@ -122,6 +123,7 @@ bool WatchOutputs::take(const video::Frame& frame, const Reading& reading, std::
     if (log_) log_->write(csv_line(values));
     if (packets_) packets_->write(reading, locator_.options().profile);
     if (states_) states_->take(reading);
+    if (frame.image.pixels.empty()) return screen_.is_wanted();
     return !screen_.is_on() || show(frame, reading, dropped);
 }
 
@@ -136,6 +138,7 @@ bool WatchOutputs::show(const video::Frame& frame, const Reading& reading, std::
     scene.is_good = ok;
     scene.y_up = locator_.plane() == Plane::sheet_world;
     scene.path = path_.marks();
+    scene.sheets = sheets_;
     scene.lines.push_back(fmt::format("frame {}   {:.3f} s", reading.index,
                                       static_cast<double>(reading.time_us) * 1e-6));
     scene.lines.push_back(ok ? fmt::format("{} dots, {} bits wrong, p {:.0e}", fix.dots_used,
@@ -162,7 +165,7 @@ void WatchOutputs::finish() {
     draw::Map map;
     map.title = fmt::format("{} frames, {} fixes", tally_.frames, tally_.fixes);
     map.y_up = locator_.plane() == Plane::sheet_world;
-    map.sheets = map_sheets(locator_.sheets(), locator_.plane());
+    map.sheets = sheets_;
     if (!path_.marks().empty()) {
         const video::PathMark& last = path_.marks().back();
         map.robots.push_back(

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "fields.hpp"
 #include "frame_locator.hpp"
@@ -95,6 +96,7 @@ class WatchOutputs {
 
     OutputOptions options_;
     const FrameLocator& locator_;
+    std::vector<draw::MapSheet> sheets_;
     Lines lines_;
     std::optional<Lines> log_;
     std::optional<PacketOutput> packets_;

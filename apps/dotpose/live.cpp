@@ -1,5 +1,6 @@
 // The commands of `dotpose-live`, which lies beside this program.
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <string>
@@ -25,6 +26,8 @@ namespace {
     for (std::string& word : words)
         arguments.push_back(word.data());
     arguments.push_back(nullptr);
+    // Seconds until a camera that gives no frames is told; OpenCV looks when it is loaded.
+    setenv("OPENCV_VIDEOIO_V4L_SELECT_TIMEOUT", "2", 0);
     execv(program.c_str(), arguments.data());
     throw Error("cannot start " + program + ": " + std::strerror(errno));
 }

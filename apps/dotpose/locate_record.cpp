@@ -42,6 +42,7 @@ std::string reason(const Record& record) {
         case Status::ok:
             return {};
         case Status::image_too_small:
+            if (record.width_px == 0) return "the camera gives no image";
             return fmt::format("the image is {} x {} px; at least {} x {} are needed",
                                record.width_px, record.height_px, kMinFrameSide_px,
                                kMinFrameSide_px);

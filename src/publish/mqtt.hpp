@@ -83,6 +83,7 @@ class MqttClient {
     bool is_connected_ = false;
     std::string failure_;  ///< why the newest attempt to connect failed
     bool ends_ = false;
+    std::chrono::steady_clock::time_point ends_by_;
     std::string refusal_;  ///< why the broker does not let us in
     std::thread thread_;
 };

@@ -1,7 +1,8 @@
-// Cameras, through OpenCV.
+// Cameras, at this computer (V4L2) or in the network, through OpenCV.
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <thread>
 
 #include <fmt/format.h>
@@ -45,11 +46,12 @@ auto guarded(const std::string& name, const Action& action) {
 /// A camera is read by a thread of its own, so that the newest frame is always the one given.
 class Camera : public FrameSource {
   public:
-    explicit Camera(const SourceOptions& options) : options_(options) {
+    explicit Camera(const SourceOptions& options)
+        : options_(options), is_remote_(is_url(options.name)) {
         if (!open()) {
-            throw Error(
-                fmt::format("cannot open the camera {}: there is none, or another program uses it",
-                            options.name));
+            throw Error(fmt::format("cannot open the camera {}: {}", options.name,
+                                    is_remote_ ? "nothing answers there, or what does is no video"
+                                               : "there is none, or another program uses it"));
         }
         rate_ = capture_.get(cv::CAP_PROP_FPS);
         thread_ = std::thread([this] { run(); });
@@ -74,6 +76,11 @@ class Camera : public FrameSource {
   private:
     bool open() {
         return guarded(options_.name, [this] {
+            if (is_remote_) {
+                return capture_.open(options_.name, cv::CAP_FFMPEG,
+                                     {cv::CAP_PROP_OPEN_TIMEOUT_MSEC, kPatience_ms,
+                                      cv::CAP_PROP_READ_TIMEOUT_MSEC, kPatience_ms});
+            }
             const bool is_number =
                 options_.name.find_first_not_of("0123456789") == std::string::npos;
             const bool is_open = is_number ? capture_.open(std::stoi(options_.name), cv::CAP_V4L2)
@@ -97,12 +104,13 @@ class Camera : public FrameSource {
         if (options_.gain) capture_.set(cv::CAP_PROP_GAIN, *options_.gain);
     }
 
-    /// When the driver took the frame, on the monotonic clock, where it tells.
+    /// When the driver took the frame, on the monotonic clock, where it tells. A stream's own times
+    /// are on no clock that we know.
     std::int64_t time_us() const {
-        const double driver_ms = capture_.get(cv::CAP_PROP_POS_MSEC);
+        const double driver_ms = is_remote_ ? 0 : capture_.get(cv::CAP_PROP_POS_MSEC);
         if (driver_ms > 0) return std::llround(driver_ms * 1e3);
         using namespace std::chrono;
-        return duration_cast<microseconds>(steady_clock::now().time_since_epoch()).count();
+        return duration_cast<microseconds>(read_at_.time_since_epoch()).count();
     }
 
     void run() {
@@ -115,37 +123,58 @@ class Camera : public FrameSource {
                 is_read = false;
             }
             if (!is_read) {
-                wait_for_return();
+                try_again();
                 continue;
             }
+            if (is_away_) options_.tell("the camera " + options_.name + " is back");
+            is_away_ = false;
+            read_at_ = steady_clock::now();
+            newest_us_ = time_us();
             Frame frame;
-            frame.time_us = time_us();
-            frame.index = frames_++;
             to_grey(picture, frame.image);
-            latest_.put(std::move(frame));
+            put(std::move(frame), newest_us_);
         }
     }
 
-    void wait_for_return() {
-        options_.tell("the camera " + options_.name + " does not answer; waiting for it");
+    void put(Frame frame, std::int64_t time_us) {
+        frame.time_us = time_us;
+        frame.index = frames_++;
+        latest_.put(std::move(frame));
+    }
+
+    /// Tells, on the camera's clock, that time goes by without a frame.
+    void put_none() {
+        using namespace std::chrono;
+        put({}, newest_us_ + duration_cast<microseconds>(steady_clock::now() - read_at_).count());
+    }
+
+    /// One attempt to open it anew.
+    void try_again() {
+        if (!is_away_) {
+            options_.tell("the camera " + options_.name + " does not answer; waiting for it");
+        }
+        is_away_ = true;
         capture_.release();
-        for (bool is_open = false; !is_open && !ends_;) {
-            std::this_thread::sleep_for(500ms);
-            try {
-                is_open = open();
-            } catch (const Error&) {
-                is_open = false;
-            }
-            if (is_open) options_.tell("the camera " + options_.name + " is back");
+        std::this_thread::sleep_for(500ms);
+        if (frames_ > 0) put_none();
+        try {
+            open();
+        } catch (const Error&) {  // the next read fails too
         }
     }
+
+    static constexpr int kPatience_ms = 2000;  ///< with a camera in the network
 
     SourceOptions options_;
+    bool is_remote_;
     cv::VideoCapture capture_;
     double rate_ = 0;
     Latest<Frame> latest_;
     std::atomic<bool> ends_ = false;
+    bool is_away_ = false;
     std::int64_t frames_ = 0;
+    std::int64_t newest_us_ = 0;  ///< time of the newest frame
+    steady_clock::time_point read_at_ = steady_clock::now();
     std::thread thread_;
 };
 
@@ -154,6 +183,7 @@ class Camera : public FrameSource {
 std::unique_ptr<FrameSource> open_camera(const SourceOptions& options) {
     // What fails is told in our own words.
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+    setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);  // AV_LOG_QUIET
     return std::make_unique<Camera>(options);
 }
 

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 bool is_camera(const std::string& name) {
     return name.find_first_not_of("0123456789") == std::string::npos ||
-           name.starts_with("/dev/video");
+           name.starts_with("/dev/video") || is_url(name);
 }
 
 /// Cuts the region out of every frame of another source.
@@ -26,7 +26,7 @@ class Cropped : public FrameSource {
 
     bool next(Frame& frame) override {
         if (!whole_->next(frame)) return false;
-        frame.image = cropped(frame.image, region_);
+        if (!frame.image.pixels.empty()) frame.image = cropped(frame.image, region_);
         return true;
     }
     std::int64_t dropped() const override { return whole_->dropped(); }
@@ -49,6 +49,10 @@ std::unique_ptr<FrameSource> open_whole(const SourceOptions& options) {
 }
 
 }  // namespace
+
+bool is_url(const std::string& name) {
+    return name.find("://") != std::string::npos;
+}
 
 std::unique_ptr<FrameSource> open_source(const SourceOptions& options) {
     auto source = open_whole(options);

@@ -13,7 +13,7 @@
 namespace dotpose::video {
 
 struct Frame {
-    GreyImage image;
+    GreyImage image;           ///< empty: time goes by, and the camera gives nothing
     std::int64_t time_us = 0;  ///< of the frame itself, on the source's clock; increases
     std::int64_t index = 0;    ///< counts the source's frames from 0, those that were dropped too
     std::string file;          ///< of an image in a folder
@@ -28,8 +28,8 @@ struct Region {
 };
 
 struct SourceOptions {
-    /// A camera's number or device (/dev/video...), a video file, a folder or glob of images, or
-    /// "-" for raw frames on standard input.
+    /// A camera's number, device (/dev/video...) or URL (http://..., rtsp://...), a video file, a
+    /// folder or glob of images, or "-" for raw frames on standard input.
     std::string name;
     /// Of raw frames, where they are required, and of what a camera is asked for. 0: not given.
     int width_px = 0;

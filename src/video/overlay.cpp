@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include <opencv2/imgproc.hpp>
 
@@ -71,31 +73,60 @@ void draw_captions(const Scene& scene, cv::Mat panel) {
     }
 }
 
-/// The path, scaled to fill the panel.
-void draw_path(const Scene& scene, cv::Mat panel) {
-    if (scene.path.empty()) return;
-    double left = scene.path[0].x;
-    double right = left;
-    double low = scene.path[0].y;
-    double high = low;
-    for (const PathMark& mark : scene.path) {
-        left = std::min(left, mark.x);
-        right = std::max(right, mark.x);
-        low = std::min(low, mark.y);
-        high = std::max(high, mark.y);
+/// Sheets and path from above, scaled to fill the panel.
+class Plan {
+  public:
+    Plan(const Scene& scene, cv::Mat panel) : panel_(std::move(panel)), y_up_(scene.y_up) {
+        for (const PathMark& mark : scene.path)
+            reach({mark.x, mark.y});
+        for (const draw::MapSheet& sheet : scene.sheets) {
+            for (const draw::Point& corner : sheet.corners_mm)
+                reach(corner);
+        }
+        scale_ = std::min((panel_.cols - 2 * kMargin) / std::max(most_.x - least_.x, 1e-3),
+                          (panel_.rows - 2 * kMargin) / std::max(most_.y - least_.y, 1e-3));
     }
-    constexpr double kMargin = 16;
-    const double scale = std::min((panel.cols - 2 * kMargin) / std::max(right - left, 1e-3),
-                                  (panel.rows - 2 * kMargin) / std::max(high - low, 1e-3));
-    const auto at = [&](const PathMark& mark) {
-        const double y = (mark.y - low) * scale + kMargin;
-        return pixel({(mark.x - left) * scale + kMargin, scene.y_up ? panel.rows - y : y});
-    };
+
+    void line(draw::Point from, draw::Point to, const cv::Scalar& colour, int width) {
+        cv::line(panel_, at(from), at(to), colour, width, cv::LINE_AA);
+    }
+    void spot(draw::Point place, const cv::Scalar& colour) {
+        cv::circle(panel_, at(place), 5, colour, -1, cv::LINE_AA);
+    }
+
+  private:
+    static constexpr double kMargin = 16;
+
+    void reach(draw::Point point) {
+        least_ = {std::min(least_.x, point.x), std::min(least_.y, point.y)};
+        most_ = {std::max(most_.x, point.x), std::max(most_.y, point.y)};
+    }
+    cv::Point at(draw::Point point) const {
+        const double y = (point.y - least_.y) * scale_ + kMargin;
+        return pixel({(point.x - least_.x) * scale_ + kMargin, y_up_ ? panel_.rows - y : y});
+    }
+
+    cv::Mat panel_;
+    bool y_up_;
+    draw::Point least_{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
+    draw::Point most_{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::lowest()};
+    double scale_ = 1;
+};
+
+void draw_plan(const Scene& scene, const cv::Mat& panel) {
+    Plan plan(scene, panel);
+    for (const draw::MapSheet& sheet : scene.sheets) {
+        for (std::size_t i = 0; i < sheet.corners_mm.size(); ++i) {
+            const std::size_t next = (i + 1) % sheet.corners_mm.size();
+            plan.line(sheet.corners_mm[i], sheet.corners_mm[next], kInk, 1);
+        }
+    }
+    const auto point = [](const PathMark& mark) { return draw::Point{mark.x, mark.y}; };
     for (std::size_t i = 1; i < scene.path.size(); ++i) {
         if (scene.path[i].is_jump) continue;
-        cv::line(panel, at(scene.path[i - 1]), at(scene.path[i]), kGrid, 2, cv::LINE_AA);
+        plan.line(point(scene.path[i - 1]), point(scene.path[i]), kGrid, 2);
     }
-    cv::circle(panel, at(scene.path.back()), 5, scene.is_good ? kGood : kBad, -1, cv::LINE_AA);
+    if (!scene.path.empty()) plan.spot(point(scene.path.back()), scene.is_good ? kGood : kBad);
 }
 
 }  // namespace
@@ -119,7 +150,7 @@ cv::Mat overlay(const Scene& scene) {
     if (view.reached().pose) draw_pose(view, frame);
     const int captions = kLineHeight * (static_cast<int>(scene.lines.size()) + 1);
     draw_captions(scene, picture(cv::Rect(width, 0, kPanelWidth, height)));
-    draw_path(scene, picture(cv::Rect(width, captions, kPanelWidth, height - captions)));
+    draw_plan(scene, picture(cv::Rect(width, captions, kPanelWidth, height - captions)));
     return picture;
 }
 

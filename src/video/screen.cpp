@@ -1,7 +1,6 @@
 #include "video/screen.hpp"
 
-#include <cstdlib>
-
+#include <dlfcn.h>
 #include <opencv2/highgui.hpp>
 #include <opencv2/videoio.hpp>
 
@@ -29,10 +28,19 @@ class Screen::Output {
         try {
             const cv::Mat picture = overlay(scene);
             if (!options_.record.empty()) record(picture);
-            return !options_.has_window || display(picture);
+            if (options_.has_window) display(picture);
+            return is_wanted();
         } catch (const cv::Exception& problem) {
             throw Error("cannot show the frame: " + problem.err);
         }
+    }
+
+    bool is_wanted() const {
+        if (!is_shown_) return true;
+        constexpr int kEscape = 27;
+        const int key = cv::waitKey(1);
+        return key != 'q' && key != kEscape &&
+               cv::getWindowProperty(kWindow, cv::WND_PROP_VISIBLE) >= 1;
     }
 
   private:
@@ -49,17 +57,16 @@ class Screen::Output {
         writer_.write(picture);
     }
 
-    bool display(const cv::Mat& picture) {
-        constexpr int kEscape = 27;
+    void display(const cv::Mat& picture) {
+        if (!is_shown_) cv::namedWindow(kWindow, cv::WINDOW_AUTOSIZE | cv::WINDOW_GUI_NORMAL);
+        is_shown_ = true;
         cv::imshow(kWindow, picture);
-        const int key = cv::waitKey(1);
-        return key != 'q' && key != kEscape &&
-               cv::getWindowProperty(kWindow, cv::WND_PROP_VISIBLE) >= 1;
     }
 
     ScreenOptions options_;
     cv::VideoWriter writer_;
     cv::Size size_;
+    bool is_shown_ = false;
 };
 
 Screen::Screen(const ScreenOptions& options) : output_(std::make_unique<Output>(options)) {}
@@ -73,12 +80,19 @@ bool Screen::show(const Scene& scene) {
     return output_->show(scene);
 }
 
+bool Screen::is_wanted() {
+    return output_->is_wanted();
+}
+
 bool has_display() {
-    const auto is_set = [](const char* variable) {
-        const char* value = std::getenv(variable);
-        return value != nullptr && *value != '\0';
-    };
-    return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY");
+    // Qt, which draws the window, ends the program if nobody answers. It brings this library along.
+    void* library = dlopen("libX11.so.6", RTLD_LAZY);
+    if (library == nullptr) return false;
+    const auto connect = reinterpret_cast<void* (*)(const char*)>(dlsym(library, "XOpenDisplay"));
+    const auto leave = reinterpret_cast<int (*)(void*)>(dlsym(library, "XCloseDisplay"));
+    void* display = connect != nullptr && leave != nullptr ? connect(nullptr) : nullptr;
+    if (display != nullptr) leave(display);
+    return display != nullptr;
 }
 
 }  // namespace dotpose::video

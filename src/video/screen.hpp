@@ -11,6 +11,7 @@
 #include "dotpose/image.hpp"
 #include "dotpose/options.hpp"
 #include "dotpose/workspace.hpp"
+#include "draw/track_map.hpp"
 
 namespace dotpose::video {
 
@@ -26,10 +27,11 @@ struct Scene {
     ImageView image;
     const Workspace* workspace = nullptr;  ///< after `locate` of this image
     const Options* options = nullptr;
-    bool is_good = false;            ///< colour of the captions
-    std::vector<std::string> lines;  ///< captions: pose, rate, quality
-    std::span<const PathMark> path;  ///< so far
-    bool y_up = false;               ///< of the path's plane
+    bool is_good = false;                    ///< colour of the captions
+    std::vector<std::string> lines;          ///< captions: pose, rate, quality
+    std::span<const PathMark> path;          ///< so far
+    std::span<const draw::MapSheet> sheets;  ///< in the path's plane
+    bool y_up = false;                       ///< of that plane
 };
 
 struct ScreenOptions {
@@ -53,12 +55,15 @@ class Screen {
     /// Escape in it.
     bool show(const Scene& scene);
 
+    /// Without anything new to show. The same return value.
+    bool is_wanted();
+
   private:
     class Output;
     std::unique_ptr<Output> output_;
 };
 
-/// Whether a window can be opened here.
+/// Whether a window can be opened here: an X server answers, be it that of a Wayland session.
 bool has_display();
 
 }  // namespace dotpose::video

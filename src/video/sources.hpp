@@ -10,6 +10,9 @@ std::unique_ptr<FrameSource> open_images(const SourceOptions& options);
 std::unique_ptr<FrameSource> open_video(const SourceOptions& options);
 std::unique_ptr<FrameSource> open_camera(const SourceOptions& options);
 
+/// Whether the name is that of something in the network.
+bool is_url(const std::string& name);
+
 /// Time of a frame where only its number is known.
 std::int64_t time_of(std::int64_t index, double fps);
 

@@ -41,7 +41,7 @@ class Broker {
         std::ofstream configuration(directory / "mosquitto.conf");
         configuration << "listener " << port_ << " 127.0.0.1\n"
                       << "persistence true\npersistence_location " << directory.string() << "/\n"
-                      << "max_queued_messages 100000\nset_tcp_nodelay true\nuser root\n";
+                      << "max_queued_messages 100000\nuser root\n";
         if (users.empty()) {
             configuration << "allow_anonymous true\n";
         } else {

@@ -182,6 +182,7 @@ TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
                           &sent, &dropped),
               2)
         << errors_;
+    std::printf("%d states sent, %d dropped\n", sent, dropped);
     EXPECT_EQ(sent + dropped, kFrames + 1);  // the last one says that the robot is lost
     // 500 frames, less the 50 states that are kept; far fewer if this machine was held up.
     EXPECT_GT(dropped, 300);
@@ -255,6 +256,24 @@ TEST_F(Mqtt, LastWillIsSentWhenTheRobotVanishes) {
         const std::lock_guard lock(mutex);
         return heard == "lost";
     });
+}
+
+TEST_F(Mqtt, LastWillIsNotSentWhenTheRobotTakesItsLeave) {
+    const Broker broker(directory_);
+    std::atomic<bool> is_heard = false;
+    MqttSubscriber subscriber(options(broker), "will",
+                              [&](const auto&, const auto&) { is_heard = true; });
+    for (int i = 0; i < 20; ++i) {
+        MqttOptions mqtt = options(broker);
+        mqtt.will_topic = "will";
+        mqtt.will = "lost";
+        mqtt.qos = 1;
+        MqttPublisher publisher(mqtt);
+        publisher.publish("t", "here");
+        publisher.flush(5s);
+    }
+    std::this_thread::sleep_for(200ms);
+    EXPECT_FALSE(is_heard);
 }
 
 TEST_F(Mqtt, FleetSeesAWatchedRobot) {

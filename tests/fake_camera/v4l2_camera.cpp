@@ -1,0 +1,213 @@
+// A camera for a machine without one: loaded with LD_PRELOAD, it answers what OpenCV asks the
+// kernel about /dev/video0. It shows the raw grey frames of the file FAKE_CAMERA, of the size
+// FAKE_CAMERA_SIZE, again and again; without the file it is unplugged. What it is asked to set, and
+// the times of its frames in us, stand in the file FAKE_CAMERA_LOG.
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <dlfcn.h>
+#include <linux/videodev2.h>
+#include <sys/mman.h>
+#include <sys/types.h>
+#include <unistd.h>
+
+namespace {
+
+constexpr int kBuffers = 4;
+
+struct FakeCamera {
+    int descriptor = -1;  ///< a piece of memory in place of the device; holds the buffers
+    int width_px = 0;
+    int height_px = 0;
+    double fps = 30;
+    bool waits[kBuffers] = {};  ///< buffers that want a frame
+    std::vector<char> frames;
+    unsigned sequence = 0;
+    double next_s = 0;
+
+    std::size_t frame_size() const { return static_cast<std::size_t>(width_px * height_px); }
+    /// YUYV, and whole pages of memory.
+    std::size_t buffer_size() const { return (2 * frame_size() + 4095) / 4096 * 4096; }
+};
+FakeCamera camera;
+
+double now_s() {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
+}
+
+bool is_plugged_in() {
+    return access(std::getenv("FAKE_CAMERA"), F_OK) == 0;
+}
+
+void note(const char* what, long long value) {
+    std::ofstream(std::getenv("FAKE_CAMERA_LOG"), std::ios::app) << what << ' ' << value << '\n';
+}
+
+int failed(int why) {
+    errno = why;
+    return -1;
+}
+
+int open_camera() {
+    if (!is_plugged_in()) return failed(ENOENT);
+    std::ifstream file(std::getenv("FAKE_CAMERA"), std::ios::binary);
+    camera.frames.assign(std::istreambuf_iterator<char>(file), {});
+    std::sscanf(std::getenv("FAKE_CAMERA_SIZE"), "%dx%d", &camera.width_px, &camera.height_px);
+    camera.descriptor = memfd_create("camera", 0);
+    if (ftruncate(camera.descriptor, static_cast<off_t>(kBuffers * camera.buffer_size())) != 0) {
+        return -1;
+    }
+    camera.next_s = now_s();
+    return camera.descriptor;
+}
+
+void tell_format(v4l2_format& format) {
+    v4l2_pix_format& pixels = format.fmt.pix;
+    pixels.width = static_cast<unsigned>(camera.width_px);
+    pixels.height = static_cast<unsigned>(camera.height_px);
+    pixels.pixelformat = V4L2_PIX_FMT_YUYV;
+    pixels.field = V4L2_FIELD_NONE;
+    pixels.bytesperline = 2 * pixels.width;
+    pixels.sizeimage = pixels.bytesperline * pixels.height;
+}
+
+/// The next frame, when its time has come; late ones are not made up for.
+int give_frame(v4l2_buffer& buffer) {
+    while (now_s() < camera.next_s)
+        usleep(500);
+    if (!is_plugged_in()) return failed(ENODEV);
+    unsigned index = 0;
+    while (index < kBuffers && !camera.waits[index])
+        ++index;
+    if (index == kBuffers) return failed(EAGAIN);
+    camera.waits[index] = false;
+    const std::size_t size = camera.frame_size();
+    const char* frame = camera.frames.data() + camera.sequence * size % camera.frames.size();
+    std::vector<char> picture(camera.buffer_size(), '\x80');
+    for (std::size_t i = 0; i < size; ++i)
+        picture[2 * i] = frame[i];
+    const auto at = static_cast<off_t>(index * picture.size());
+    if (pwrite(camera.descriptor, picture.data(), picture.size(), at) < 0) return -1;
+    buffer.index = index;
+    buffer.length = static_cast<unsigned>(camera.buffer_size());
+    buffer.bytesused = static_cast<unsigned>(2 * size);
+    buffer.sequence = camera.sequence++;
+    buffer.flags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
+    const auto time_us = static_cast<long long>(camera.next_s * 1e6);
+    note("time", time_us);
+    buffer.timestamp = {time_us / 1'000'000, time_us % 1'000'000};
+    camera.next_s = std::max(camera.next_s + 1 / camera.fps, now_s());
+    return 0;
+}
+
+int set_rate(v4l2_streamparm& rate) {
+    v4l2_fract& interval = rate.parm.capture.timeperframe;
+    if (interval.numerator > 0) camera.fps = interval.denominator * 1.0 / interval.numerator;
+    note("fps", std::llround(camera.fps));
+    return 0;
+}
+
+int get_rate(v4l2_streamparm& rate) {
+    rate.parm.capture.timeperframe = {1, static_cast<unsigned>(camera.fps)};
+    return 0;
+}
+
+int set_control(const v4l2_control& control) {
+    switch (control.id) {
+        case V4L2_CID_EXPOSURE_AUTO:
+            note("exposure_auto", control.value);
+            return 0;
+        case V4L2_CID_EXPOSURE_ABSOLUTE:
+            note("exposure", control.value);
+            return 0;
+        case V4L2_CID_GAIN:
+            note("gain", control.value);
+            return 0;
+        default:
+            return failed(EINVAL);
+    }
+}
+
+int answer(unsigned long request, void* argument) {
+    const auto index = [](const v4l2_buffer& buffer) { return buffer.index; };
+    switch (request) {
+        case VIDIOC_QUERYCAP: {
+            auto& what = *static_cast<v4l2_capability*>(argument);
+            what = {};
+            std::strcpy(reinterpret_cast<char*>(what.card), "fake");
+            what.capabilities = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
+            return 0;
+        }
+        case VIDIOC_S_FMT:
+        case VIDIOC_TRY_FMT: {
+            const auto& wanted = static_cast<v4l2_format*>(argument)->fmt.pix;
+            if (request == VIDIOC_S_FMT) note("width", wanted.width);
+            [[fallthrough]];
+        }
+        case VIDIOC_G_FMT:
+            tell_format(*static_cast<v4l2_format*>(argument));
+            return 0;
+        case VIDIOC_S_PARM:
+            return set_rate(*static_cast<v4l2_streamparm*>(argument));
+        case VIDIOC_G_PARM:
+            return get_rate(*static_cast<v4l2_streamparm*>(argument));
+        case VIDIOC_QUERYCTRL:
+            return 0;
+        case VIDIOC_S_CTRL:
+            return set_control(*static_cast<v4l2_control*>(argument));
+        case VIDIOC_REQBUFS:
+            static_cast<v4l2_requestbuffers*>(argument)->count = kBuffers;
+            return 0;
+        case VIDIOC_QUERYBUF: {
+            auto& buffer = *static_cast<v4l2_buffer*>(argument);
+            buffer.length = static_cast<unsigned>(camera.buffer_size());
+            buffer.m.offset = index(buffer) * buffer.length;
+            return 0;
+        }
+        case VIDIOC_QBUF:
+            camera.waits[index(*static_cast<v4l2_buffer*>(argument))] = true;
+            return 0;
+        case VIDIOC_DQBUF:
+            return give_frame(*static_cast<v4l2_buffer*>(argument));
+        case VIDIOC_STREAMON:
+        case VIDIOC_STREAMOFF:
+            return 0;
+        default:
+            return failed(EINVAL);
+    }
+}
+
+}  // namespace
+
+extern "C" int open(const char* path, int flags, ...) {
+    if (std::strcmp(path, "/dev/video0") == 0) return open_camera();
+    va_list rest;
+    va_start(rest, flags);
+    const mode_t mode = va_arg(rest, mode_t);
+    va_end(rest);
+    using Open = int (*)(const char*, int, ...);
+    static const auto real = reinterpret_cast<Open>(dlsym(RTLD_NEXT, "open"));
+    return real(path, flags, mode);
+}
+
+extern "C" int ioctl(int descriptor, unsigned long request, ...) noexcept {
+    va_list rest;
+    va_start(rest, request);
+    void* argument = va_arg(rest, void*);
+    va_end(rest);
+    if (descriptor == camera.descriptor) return answer(request, argument);
+    using Ioctl = int (*)(int, unsigned long, ...);
+    static const auto real = reinterpret_cast<Ioctl>(dlsym(RTLD_NEXT, "ioctl"));
+    return real(descriptor, request, argument);
+}

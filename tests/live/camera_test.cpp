@@ -1,0 +1,172 @@
+// `dotpose watch` on cameras: one at this computer, which the kernel is only made to have
+// (tests/fake_camera), and one in the network. Both go away in mid-run and come back.
+#include <algorithm>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "../blackbox/tool_command.hpp"
+#include "../drive.hpp"
+#include "broker.hpp"
+
+namespace dotpose::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+/// Shell functions: waits until so many lines of a file hold a word, as long as the tool runs.
+constexpr const char* kWaiting =
+    "has() { until [ $(grep -c \"$2\" $1) -ge $3 ]; do kill -0 $watch; sleep 0.05; done; }\n"
+    "set -e; touch lines told; trap 'kill $camera $watch 2>/dev/null || true' EXIT\n";
+/// From the first frames to the end of the run, for a camera that `unplug` and `plug_in` work on.
+constexpr const char* kRun =
+    "has lines '\"ok\"' 30; unplug\n"
+    "has told 'does not answer; waiting for it' 1; has lines '\"lost\"' 2\n"
+    "plug_in; has told 'is back' 1; seen=$(grep -c '\"ok\"' lines)\n"
+    "has lines '\"ok\"' $((seen + 30)); kill -INT $watch; wait $watch";
+
+class Cameras : public ToolCommand {
+  protected:
+    void SetUp() override {
+        ToolCommand::SetUp();
+        SheetFile sheets(directory_ / "sheets.json");
+        for (const SheetEntry& entry : drive_sheets())
+            sheets.add(entry);
+        sheets.save();
+        // The robot rests.
+        const DriveCamera camera(188, 120);
+        std::ofstream raw(directory_ / "camera.raw", std::ios::binary);
+        for (int i = 0; i < 10; ++i) {
+            const GreyImage image = camera.frame(drive_, i);
+            raw.write(reinterpret_cast<const char*>(image.pixels.data()),
+                      static_cast<std::streamsize>(image.pixels.size()));
+        }
+    }
+
+    std::vector<json> lines() const {
+        std::vector<json> lines;
+        std::istringstream stream(file("lines"));
+        for (std::string line; std::getline(stream, line);)
+            lines.push_back(json::parse(line));
+        return lines;
+    }
+
+    /// The robot was seen, lost while the camera was away, and seen again, where it truly is.
+    void expect_seen_lost_and_seen() {
+        std::string events;
+        std::int64_t last_frame = -1;
+        double last_s = 0;
+        for (const json& line : lines()) {
+            events += line.value("events", "") + " ";
+            EXPECT_GT(line["frame"], last_frame);
+            EXPECT_GT(line["t_s"], last_s);
+            last_frame = line["frame"];
+            last_s = line["t_s"];
+            if (line["status"] != "ok") continue;
+            EXPECT_NEAR(line["x_m"].get<double>() * 1000, drive_.at(0).x_mm, 0.02);
+            EXPECT_NEAR(line["y_m"].get<double>() * 1000, drive_.at(0).y_mm, 0.02);
+        }
+        EXPECT_THAT(events, testing::MatchesRegex("fix [a-z ]*lost +fix [a-z ]*"));
+        EXPECT_THAT(file("told"), HasSubstr(" 1 times lost, 0 times kidnapped, "));
+    }
+
+    const Drive drive_;
+};
+
+TEST_F(Cameras, AtThisComputer) {
+#ifdef __SANITIZE_ADDRESS__
+    GTEST_SKIP() << "the sanitizer must be loaded first";
+#endif
+    ASSERT_EQ(
+        shell(
+            std::string(kWaiting) +
+            "export FAKE_CAMERA=$PWD/camera.raw FAKE_CAMERA_SIZE=188x120 FAKE_CAMERA_LOG=$PWD/log\n"
+            "LD_PRELOAD='" DOTPOSE_FAKE_CAMERA
+            "' \"$T\" watch 0 --size 188x120 --fps 100 --exposure 50 --gain 3 --no-window "
+            "--sheets sheets.json -o lines 2>told & watch=$!\n"
+            "unplug() { mv camera.raw away; }; plug_in() { mv away camera.raw; }\n" +
+            kRun),
+        0)
+        << errors_ << file("told");
+    expect_seen_lost_and_seen();
+
+    std::multiset<std::string> settings;
+    std::set<std::int64_t> times_us;
+    std::istringstream log(file("log"));
+    std::string what;
+    for (std::int64_t value = 0; log >> what >> value;) {
+        if (what == "time") times_us.insert(value);
+        settings.insert(fmt::format("{} {}", what, value));
+    }
+    // Again when it is back.
+    for (const char* setting : {"width 188", "fps 100", "exposure_auto 1", "exposure 50", "gain 3"})
+        EXPECT_EQ(settings.count(setting), 2U) << setting;
+    for (const json& line : lines()) {
+        const auto time_us = std::llround(line["t_s"].get<double>() * 1e6);
+        // The driver tells them in milliseconds, of type double.
+        const auto at = times_us.lower_bound(time_us - 1);
+        const bool is_of_driver = at != times_us.end() && *at <= time_us + 1;
+        EXPECT_EQ(is_of_driver, line["status"] == "ok") << line;
+    }
+}
+
+TEST_F(Cameras, InTheNetwork) {
+    ASSERT_EQ(
+        shell(fmt::format("port={}\n", free_port()) + kWaiting +
+              "plug_in() {\n"
+              "    ffmpeg -v error -re -stream_loop -1 -f rawvideo -pix_fmt gray -s 188x120 -r 50 "
+              "        -i camera.raw -c:v mjpeg -q:v 2 -pix_fmt yuvj420p -f mpjpeg -listen 1 "
+              "        -content_type 'multipart/x-mixed-replace;boundary=ffmpeg' "
+              "        http://127.0.0.1:$port/ & camera=$!\n"
+              "    until grep -q \":$(printf %04X $port) 00000000:0000 0A\" /proc/net/tcp; do "
+              "        kill -0 $camera; sleep 0.05; done; }\n"
+              "unplug() { kill -KILL $camera; wait $camera || true; }\n"
+              "plug_in; \"$T\" watch http://127.0.0.1:$port/stream --no-window "
+              "--sheets sheets.json -o lines 2>told & watch=$!\n" +
+              kRun),
+        0)
+        << errors_ << file("told");
+    expect_seen_lost_and_seen();
+}
+
+TEST_F(Cameras, ThatIsNotThere) {
+    const std::string url = fmt::format("http://127.0.0.1:{}/stream", free_port());
+    EXPECT_EQ(run("watch --no-window " + url), 1);
+    EXPECT_EQ(errors_, "dotpose: cannot open the camera " + url +
+                           ": nothing answers there, or what does is no video\n");
+}
+
+class Window : public Cameras {};
+
+TEST_F(Window, ShowsTheFramesAndEndsWithAKey) {
+    if (shell("command -v Xvfb && command -v xdotool") != 0) GTEST_SKIP() << "no Xvfb, no xdotool";
+    // Without the key it would not end.
+    ASSERT_EQ(shell(std::string(kWaiting) +
+                    "mkfifo display frames; Xvfb -displayfd 1 > display 2>/dev/null & camera=$!\n"
+                    "read number < display; export DISPLAY=:$number QT_LOGGING_RULES='*=false'\n"
+                    "(while cat camera.raw; do sleep 0.1; done) > frames 2>/dev/null &\n"
+                    "\"$T\" watch - --size 188x120 -o lines < frames 2>told & watch=$!\n"
+                    "has lines ok 10; window=$(xdotool search --sync --name dotpose)\n"
+                    "xdotool getwindowgeometry $window; xdotool key --window $window Escape\n"
+                    "wait $watch"),
+              0)
+        << errors_ << file("told");
+    // The frame, 800 px wide, and a panel of 400.
+    EXPECT_THAT(output_, HasSubstr("Geometry: 1200x"));
+}
+
+TEST_F(Window, IsDoneWithoutWhereTheDisplayIsGone) {
+    EXPECT_EQ(shell("DISPLAY=:nonsense \"$T\" watch - --size 188x120 < camera.raw"), 0);
+    EXPECT_EQ(std::ranges::count(output_, '\n'), 10);
+}
+
+}  // namespace
+}  // namespace dotpose::test
