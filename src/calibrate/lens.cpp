@@ -148,6 +148,7 @@ Camera camera_of(const LensFit& fit, const FitSetting& setting) {
     camera.sigma["centre_v_px"] = fit.sigma.lens[2];
     if (fit.stand == Stand::mounted) {
         describe_mounted(fit, reach_px, camera);
+        describe_centre(fit, reach_px, camera);
     } else {
         describe_handheld(fit, reach_px, camera);
     }

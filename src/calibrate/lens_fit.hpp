@@ -30,8 +30,8 @@ struct LensFit {
     Stand stand = Stand::mounted;
     SharedModel camera;
     SharedModel sigma;  ///< standard deviations
-    /// Covariance of `camera.paper`.
-    Eigen::Matrix<double, 5, 5> paper_covariance = Eigen::Matrix<double, 5, 5>::Zero();
+    /// Covariance of `camera.lens` and `camera.paper`.
+    Eigen::Matrix<double, 8, 8> mounted_covariance = Eigen::Matrix<double, 8, 8>::Zero();
     /// Of each frame: place (mm, from the intersection where its steps start), turn; by hand also
     /// mm per px and tilt.
     std::vector<std::array<double, 6>> poses;

@@ -113,6 +113,17 @@ PixelPoint pixel_of(const Vector2d& offset_mm, const Stations& stations) {
     return pixel_from_image_centre(stations.camera, {offset_mm.x(), offset_mm.y()});
 }
 
+/// Of a point given in mm from the image centre: what the calibration of the lens did not tell of
+/// where the image centre looks, and in which direction. Per axis.
+double sigma_of_lens_mm(const Camera& camera, const Vector2d& offset_mm) {
+    const auto sigma = [&](const char* key) {
+        const auto found = camera.sigma.find(key);
+        return found == camera.sigma.end() ? 0 : found->second;
+    };
+    return std::hypot(sigma("image_centre_mm"),
+                      offset_mm.norm() * sigma("image_axis_rad") / std::numbers::sqrt2);
+}
+
 void require_stations(std::size_t found, int least, int frames) {
     if (found >= static_cast<std::size_t>(least)) return;
     throw Error(fmt::format("only {} of {} frames could be located; at least {} are needed", found,
@@ -158,8 +169,9 @@ SpinCalibration calibrate_spin(int frames, const FrameAt& frame_at,
     }
     const int freedom = 2 * result.located - 4;
     result.residual_mm = std::sqrt(squares / freedom);
-    result.sigma_mm = result.residual_mm * std::sqrt(normal.inverse()(2, 2));
     result.camera = camera.value_or(found.camera);
+    result.sigma_mm = std::hypot(result.residual_mm * std::sqrt(normal.inverse()(2, 2)),
+                                 sigma_of_lens_mm(result.camera, offset));
     result.camera.reference_px = pixel_of(offset, found);
     result.offset_mm = {offset.x(), offset.y()};
     result.camera.sigma["reference_u_px"] = result.sigma_mm / found.mm_per_px;

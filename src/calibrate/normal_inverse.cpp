@@ -18,6 +18,14 @@ struct Own {
     MatrixXd with_itself;
 };
 
+/// J^T J, as far as it is not 0.
+struct Normal {
+    ceres::CRSMatrix jacobian;  ///< the columns of the shared blocks come first
+    MatrixXd shared;
+    std::vector<Own> owns;
+    std::vector<std::size_t> own_of_column;  ///< of those that are not shared
+};
+
 /// Of one scale, so that no precision is lost.
 MatrixXd inverse_of(const MatrixXd& normal) {
     const Eigen::VectorXd scale = normal.diagonal().cwiseSqrt().cwiseMax(1e-30).cwiseInverse();
@@ -26,49 +34,93 @@ MatrixXd inverse_of(const MatrixXd& normal) {
     return scale.asDiagonal() * inverse * scale.asDiagonal();
 }
 
-}  // namespace
+/// `work(column, value)` with what one row of the Jacobian holds.
+template <typename Work>
+void for_each_in_row(const ceres::CRSMatrix& matrix, std::size_t row, Work work) {
+    for (auto i = static_cast<std::size_t>(matrix.rows[row]);
+         i < static_cast<std::size_t>(matrix.rows[row + 1]); ++i)
+        work(Index{matrix.cols[i]}, matrix.values[i]);
+}
 
-MatrixXd normal_inverse(ceres::Problem& problem, const std::vector<double*>& shared) {
+void add_squares(Normal& normal) {
+    const Index size = normal.shared.rows();
+    const ceres::CRSMatrix& jacobian = normal.jacobian;
+    for (std::size_t row = 0; row + 1 < jacobian.rows.size(); ++row) {
+        for_each_in_row(jacobian, row, [&](Index a, double value_a) {
+            for_each_in_row(jacobian, row, [&](Index b, double value_b) {
+                const double product = value_a * value_b;
+                if (a < size && b < size) normal.shared(a, b) += product;
+                if (a < size) return;
+                Own& own = normal.owns[normal.own_of_column[static_cast<std::size_t>(a - size)]];
+                if (b < size) own.with_shared(a - own.begin, b) += product;
+                if (b >= size) own.with_itself(a - own.begin, b - own.begin) += product;
+            });
+        });
+    }
+}
+
+Normal normal_of(ceres::Problem& problem, const std::vector<double*>& shared) {
     std::vector<double*> blocks;
     problem.GetParameterBlocks(&blocks);
     std::erase_if(blocks, [&](double* block) { return std::ranges::count(shared, block) > 0; });
     Index size = 0;
     for (double* block : shared)
         size += problem.ParameterBlockSize(block);
-    std::vector<Own> owns;
-    std::vector<std::size_t> own_of_column;
+    Normal normal;
+    normal.shared = MatrixXd::Zero(size, size);
     for (double* block : blocks) {
         const Index width = problem.ParameterBlockSize(block);
-        own_of_column.insert(own_of_column.end(), static_cast<std::size_t>(width), owns.size());
-        owns.push_back({size + static_cast<Index>(own_of_column.size()) - width,
-                        MatrixXd::Zero(width, size), MatrixXd::Zero(width, width)});
+        const Index begin = size + static_cast<Index>(normal.own_of_column.size());
+        normal.own_of_column.insert(normal.own_of_column.end(), static_cast<std::size_t>(width),
+                                    normal.owns.size());
+        normal.owns.push_back({begin, MatrixXd::Zero(width, size), MatrixXd::Zero(width, width)});
     }
     ceres::Problem::EvaluateOptions options;
     options.parameter_blocks = shared;
     options.parameter_blocks.insert(options.parameter_blocks.end(), blocks.begin(), blocks.end());
-    ceres::CRSMatrix rows;
-    problem.Evaluate(options, nullptr, nullptr, nullptr, &rows);
+    problem.Evaluate(options, nullptr, nullptr, nullptr, &normal.jacobian);
+    add_squares(normal);
+    return normal;
+}
 
-    MatrixXd normal = MatrixXd::Zero(size, size);
-    for (std::size_t row = 0; row + 1 < rows.rows.size(); ++row) {
-        for (auto i = static_cast<std::size_t>(rows.rows[row]);
-             i < static_cast<std::size_t>(rows.rows[row + 1]); ++i) {
-            for (auto j = static_cast<std::size_t>(rows.rows[row]);
-                 j < static_cast<std::size_t>(rows.rows[row + 1]); ++j) {
-                const double product = rows.values[i] * rows.values[j];
-                const Index a = rows.cols[i];
-                const Index b = rows.cols[j];
-                if (a < size && b < size) normal(a, b) += product;
-                if (a < size) continue;
-                Own& own = owns[own_of_column[static_cast<std::size_t>(a - size)]];
-                if (b < size) own.with_shared(a - own.begin, b) += product;
-                if (b >= size) own.with_itself(a - own.begin, b - own.begin) += product;
-            }
-        }
+/// How the best values of a block follow the shared ones, with the sign turned.
+MatrixXd following(const Own& own) {
+    return inverse_of(own.with_itself) * own.with_shared;
+}
+
+MatrixXd inverse_of_shared(const Normal& normal) {
+    MatrixXd left = normal.shared;
+    for (const Own& own : normal.owns)
+        left -= own.with_shared.transpose() * following(own);
+    return inverse_of(left);
+}
+
+}  // namespace
+
+MatrixXd normal_inverse(ceres::Problem& problem, const std::vector<double*>& shared) {
+    return inverse_of_shared(normal_of(problem, shared));
+}
+
+MatrixXd normal_gain(ceres::Problem& problem, const std::vector<double*>& shared) {
+    const Normal normal = normal_of(problem, shared);
+    const Index size = normal.shared.rows();
+    std::vector<MatrixXd> followings;
+    for (const Own& own : normal.owns)
+        followings.push_back(following(own));
+    MatrixXd left = MatrixXd::Zero(size, normal.jacobian.num_rows);
+    for (Index row = 0; row < left.cols(); ++row) {
+        for_each_in_row(
+            normal.jacobian, static_cast<std::size_t>(row), [&](Index column, double value) {
+                if (column < size) {
+                    left(column, row) += value;
+                    return;
+                }
+                const auto own = normal.own_of_column[static_cast<std::size_t>(column - size)];
+                left.col(row) -=
+                    value * followings[own].row(column - normal.owns[own].begin).transpose();
+            });
     }
-    for (const Own& own : owns)
-        normal -= own.with_shared.transpose() * inverse_of(own.with_itself) * own.with_shared;
-    return inverse_of(normal);
+    return inverse_of_shared(normal) * left;
 }
 
 }  // namespace dotpose::calibrate

@@ -13,4 +13,8 @@ namespace dotpose::calibrate {
 /// would take a minute.
 Eigen::MatrixXd normal_inverse(ceres::Problem& problem, const std::vector<double*>& shared);
 
+/// By how much the shared blocks' best values move with each residual, those in the order in which
+/// they were added: times its transpose it is the matrix above.
+Eigen::MatrixXd normal_gain(ceres::Problem& problem, const std::vector<double*>& shared);
+
 }  // namespace dotpose::calibrate

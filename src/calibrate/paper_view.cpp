@@ -1,6 +1,10 @@
 #include "calibrate/paper_view.hpp"
 
+#include <array>
 #include <cmath>
+#include <complex>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -53,6 +57,56 @@ struct TiltResidual {
     }
 };
 
+/// x, y (mm) and direction (radians) of the image centre.
+using CentrePose = Eigen::Vector3d;
+
+/// Of a camera, once what it sees has been laid as `with_camera` does, by place, angle and scale,
+/// onto what the other one sees in the same pixels.
+CentrePose centre_pose(const Camera& camera, const Camera& other) {
+    using Point = std::complex<double>;
+    const auto seen = [](const Camera& by, PixelPoint straight) {
+        const CameraPoint at = on_paper(by, straight);
+        return Point(at.x_mm, at.y_mm);
+    };
+    constexpr int kParts = 16;
+    std::vector<std::pair<Point, Point>> points;
+    for (int i = 0; i < kParts * kParts; ++i) {
+        const PixelPoint pixel{(i % kParts + 0.5) / kParts * camera.width_px - 0.5,
+                               (i / kParts + 0.5) / kParts * camera.height_px - 0.5};
+        points.emplace_back(seen(camera, undistorted(camera, pixel)),
+                            seen(other, undistorted(other, pixel)));
+    }
+    Point from;
+    Point to;
+    for (const auto& [a, b] : points) {
+        from += a / double{kParts * kParts};
+        to += b / double{kParts * kParts};
+    }
+    Point product;
+    double squares = 0;
+    for (const auto& [a, b] : points) {
+        product += std::conj(a - from) * (b - to);
+        squares += std::norm(a - from);
+    }
+    const Point turn = product / squares;
+    const PixelPoint centre{(camera.width_px - 1) / 2.0, (camera.height_px - 1) / 2.0};
+    const Point at = to + turn * (seen(camera, centre) - from);
+    return {at.real(), at.imag(), std::arg(turn) + image_axis_rad(camera, centre)};
+}
+
+/// With one of the parameters of `LensFit::mounted_covariance` moved.
+Camera with_moved(Camera camera, Eigen::Index parameter, double step, double reach_px) {
+    PaperScale& paper = camera.paper.value();
+    const std::array<double*, 8> values = {
+        &camera.k_per_px2,  &camera.centre_px.u, &camera.centre_px.v,  &paper.mm_per_px_x,
+        &paper.mm_per_px_y, &paper.skew,         &paper.perspective_u, &paper.perspective_v};
+    const std::array units = {
+        1 / (reach_px * reach_px), 1.0, 1.0, 1.0, 1.0, 1.0, 1 / reach_px, 1 / reach_px};
+    const auto i = static_cast<std::size_t>(parameter);
+    *values[i] += step * units[i];
+    return camera;
+}
+
 }  // namespace
 
 void describe_mounted(const LensFit& fit, double reach_px, Camera& camera) {
@@ -69,7 +123,7 @@ void describe_mounted(const LensFit& fit, double reach_px, Camera& camera) {
     constexpr double kBeyondDoubt = 5;
     if (!(perspective_sigmas > kBeyondDoubt)) return;
 
-    const PaperCovariance lower = fit.paper_covariance.llt().matrixL();
+    const PaperCovariance lower = fit.mounted_covariance.bottomRightCorner<5, 5>().llt().matrixL();
     const auto residual = new TiltResidual{Eigen::Map<const Paper>(paper.data()), lower.inverse()};
     // Perspective is tilt over focal length; half a reach per focal length is a usual lens.
     std::array tilt{std::sqrt(paper[0] * paper[1]), -2 * paper[4], 2 * paper[3], 0.5};
@@ -99,6 +153,21 @@ void describe_mounted(const LensFit& fit, double reach_px, Camera& camera) {
     camera.tilt = Tilt{tilt[1], tilt[2]};
     camera.sigma["tilt_x_rad"] = std::sqrt(matrix[5]);
     camera.sigma["tilt_y_rad"] = std::sqrt(matrix[10]);
+}
+
+void describe_centre(const LensFit& fit, double reach_px, Camera& camera) {
+    // So small a step that differences are derivatives, for any parameter.
+    constexpr double kStep_sigmas = 0.01;
+    const CentrePose here = centre_pose(camera, camera);
+    Eigen::Matrix<double, 3, 8> derivative;
+    for (Eigen::Index i = 0; i < 8; ++i) {
+        const double step = kStep_sigmas * std::sqrt(fit.mounted_covariance(i, i));
+        derivative.col(i) =
+            (centre_pose(with_moved(camera, i, step, reach_px), camera) - here) / step;
+    }
+    const Eigen::Matrix3d covariance = derivative * fit.mounted_covariance * derivative.transpose();
+    camera.sigma["image_centre_mm"] = std::sqrt((covariance(0, 0) + covariance(1, 1)) / 2);
+    camera.sigma["image_axis_rad"] = std::sqrt(covariance(2, 2));
 }
 
 void describe_handheld(const LensFit& fit, double reach_px, Camera& camera) {

@@ -9,6 +9,11 @@ namespace dotpose::calibrate {
 /// a camera with square pixels that sees the paper like this.
 void describe_mounted(const LensFit& fit, double reach_px, Camera& camera);
 
+/// Once `paper` is set: the standard deviations of where the image centre looks, and in which
+/// direction, against the dots in view. They are far smaller than those of the parameters, whose
+/// errors cancel out there.
+void describe_centre(const LensFit& fit, double reach_px, Camera& camera);
+
 /// Sets the focal length, if the tilts of the frames tell it.
 void describe_handheld(const LensFit& fit, double reach_px, Camera& camera);
 

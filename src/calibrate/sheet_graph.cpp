@@ -4,9 +4,10 @@
 #include <cmath>
 #include <deque>
 #include <map>
-#include <set>
 #include <utility>
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <ceres/ceres.h>
 
 #include "calibrate/normal_inverse.hpp"
@@ -302,18 +303,56 @@ void SheetGraph::pin_camera(ceres::Problem& problem) {
     pin_one(problem, camera_scale_, 2, 0, skew > 0 ? skew : kSquarePrior);
 }
 
-/// A dot errs alike in all frames that show it: frames are worth as much less as they repeat dots.
-double SheetGraph::repeats() const {
-    std::map<std::size_t, std::set<std::uint64_t>> different;
-    std::size_t all = 0;
-    std::size_t once = 0;
-    for (const SheetView& view : views_) {
-        different[view.sheet].insert(view.dots.begin(), view.dots.end());
-        all += view.dots.size();
+/// Those of an affine map fitted to the dots, of such a size that dots that err by their deviation
+/// make whitened residuals of deviation 1.
+std::vector<SheetGraph::DotShare> SheetGraph::dot_shares(const SheetView& view) const {
+    const Pattern& pattern = sheets_[view.sheet].sheet.pattern;
+    const Cell first = sheets_[view.sheet].sheet.origin;
+    const Eigen::Matrix2d camera_from_sheet = view.axes.inverse();
+    Eigen::Matrix3Xd places(3, view.dots.size());  // 1, x, y, as the camera sees them
+    for (Eigen::Index i = 0; i < places.cols(); ++i) {
+        const std::uint64_t dot = view.dots[static_cast<std::size_t>(i)];
+        const Eigen::Vector2d steps(static_cast<double>((dot >> 32) - first.x),
+                                    static_cast<double>((dot & 0xffffffff) - first.y));
+        places.col(i) << 1, camera_from_sheet * (pattern.spacing_mm * steps - view.place);
     }
-    for (const auto& [sheet, dots] : different)
-        once += dots.size();
-    return static_cast<double>(all) / static_cast<double>(std::max<std::size_t>(once, 1));
+    const Eigen::Matrix3d normal = places * places.transpose();
+    const Eigen::Matrix3Xd fitted = normal.ldlt().solve(places);
+    std::vector<DotShare> shares(view.dots.size(), DotShare::Zero());
+    Eigen::Matrix<double, 6, 6> squares = Eigen::Matrix<double, 6, 6>::Zero();
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+        DotShare off;
+        for (Eigen::Index k = 0; k < 3; ++k)  // place, then axes column by column
+            off.middleRows<2>(2 * k) =
+                fitted(k, static_cast<Eigen::Index>(i)) * Eigen::Matrix2d::Identity();
+        shares[i] = view.whitening * off;
+        squares += shares[i] * shares[i].transpose();
+    }
+    const auto known = squares.topLeftCorner(view.rows, view.rows);
+    const Eigen::MatrixXd lower = known.llt().matrixL();
+    for (DotShare& share : shares)
+        share.topRows(view.rows) =
+            lower.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd(share.topRows(view.rows)));
+    return shares;
+}
+
+/// Of what is shared, by how the dots were printed: a dot errs alike in all frames that show it.
+Eigen::MatrixXd SheetGraph::print_covariance(const Eigen::MatrixXd& gain) const {
+    std::map<std::pair<std::size_t, std::uint64_t>, Eigen::MatrixX2d> of_dots;
+    Eigen::Index row = 0;
+    for (const SheetView& view : views_) {
+        const std::vector<DotShare> shares = dot_shares(view);
+        for (std::size_t i = 0; i < shares.size(); ++i) {
+            const auto [dot, is_new] = of_dots.try_emplace({view.sheet, view.dots[i]});
+            if (is_new) dot->second.setZero(gain.rows(), 2);
+            dot->second += gain.middleCols<6>(row) * shares[i];
+        }
+        row += 6;
+    }
+    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(gain.rows(), gain.rows());
+    for (const auto& [dot, moves] : of_dots)
+        covariance += moves * moves.transpose();
+    return covariance;
 }
 
 void SheetGraph::estimate_variances(ceres::Problem& problem, double cost) {
@@ -329,7 +368,10 @@ void SheetGraph::estimate_variances(ceres::Problem& problem, double cost) {
     if (has_scale()) shared.push_back(camera_scale_.data());
     // What frames say of themselves knows nothing of how sheets bend.
     const double misfit = std::max(2 * cost / std::max(residuals - parameters, 1), 1.0);
-    const Eigen::MatrixXd covariance = misfit * repeats() * normal_inverse(problem, shared);
+    const Eigen::MatrixXd gain = normal_gain(problem, shared);
+    const auto pins = gain.rightCols(gain.cols() - 6 * static_cast<Eigen::Index>(views_.size()));
+    const Eigen::MatrixXd covariance =
+        misfit * print_covariance(gain) + Eigen::MatrixXd(pins * pins.transpose());
     Eigen::Index row = 0;
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
         if (!nodes_[i]) continue;

@@ -49,6 +49,8 @@ class SheetGraph {
     /// Place of the corner and turn of the upper edge; logarithms of the print scale.
     using Node = std::array<double, 5>;
     using FramePose = std::array<double, 3>;
+    /// How the whitened residuals of a view move with a dot of it, along x and y of the sheet.
+    using DotShare = Eigen::Matrix<double, 6, 2>;
 
     Eigen::Vector2d centre_in_camera(const SheetView& view) const;
     void spread_from_fixed();
@@ -58,7 +60,8 @@ class SheetGraph {
     void pin_sheets(ceres::Problem& problem);
     void pin_camera(ceres::Problem& problem);
     void estimate_variances(ceres::Problem& problem, double cost);
-    double repeats() const;
+    std::vector<DotShare> dot_shares(const SheetView& view) const;
+    Eigen::MatrixXd print_covariance(const Eigen::MatrixXd& gain) const;
     bool has_scale() const;
 
     const std::vector<SheetEntry>& sheets_;
