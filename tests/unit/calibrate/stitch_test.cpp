@@ -142,28 +142,6 @@ TEST(StitchSheets, FramesThatRepeatDotsDoNotMakeItMoreCertain) {
     EXPECT_NEAR(twice.sigma_scale_y / once.sigma_scale_y, 1, 0.05);
 }
 
-// Those of print scales were 1.4 times too large.
-TEST(StitchSheets, DeviationsAreTrue) {
-    const CameraModel model = wide_camera();
-    constexpr int kSeries = 12;
-    double squares = 0;  // of errors in units of their deviations
-    for (int series = 0; series < kSeries; ++series) {
-        const auto frame_at = [&](int i) {
-            return table_frame(kTable, model, 80U + unsigned(series), i, kPage_mm + 0.5,
-                               8 + 3.0 * i, 0.7 * i);
-        };
-        const auto stitching =
-            stitch_sheets(16, frame_at, sheets_of_table(), true_camera(model), {});
-        const SheetEntry& entry = stitching.sheets[1];
-        const StitchedSheet& sheet = stitching.stitched.at(1);
-        squares += std::pow((entry.print_scale_x - 1) / sheet.sigma_scale_x, 2);
-        squares += std::pow((entry.print_scale_y - 1) / sheet.sigma_scale_y, 2);
-    }
-    // 24 values: by chance within these in 99 of 100.
-    EXPECT_GT(squares / (2 * kSeries), 0.41);
-    EXPECT_LT(squares / (2 * kSeries), 1.9);
-}
-
 TEST(DrawStitching, ShowsSheetsBeforeAndAfter) {
     const CameraModel model = wide_camera();
     std::vector<SheetEntry> before = sheets_of_table();
