@@ -306,7 +306,7 @@ bool read_cells(const Eye& eye, Grid& grid, SetBits set_bits) {
         ++cells;
         crowded += ink.is_crowded(look);
     });
-    // Up to a third in hard frames, about half where two patterns lie on one another.
+    // Up to 0.22 in hard frames.
     return 8 * crowded <= 3 * cells;
 }
 

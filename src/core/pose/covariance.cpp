@@ -35,13 +35,13 @@ void estimate_covariance(const PoseFit& fit, const PlaneFromImage& pattern_from_
     for (Parameters& gradient : gradients)
         gradient = fit.normal.whitened(gradient);
     for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t j = 0; j < 3; ++j) {
+        for (std::size_t j = 0; j <= i; ++j) {
             float sum = 0;
             for (std::size_t k = 0; k < kPoseParameters; ++k) {
                 for (std::size_t l = 0; l < kPoseParameters; ++l)
                     sum += gradients[i][k] * fit.covariance[k][l] * gradients[j][l];
             }
-            fix.covariance[i][j] = sum;
+            fix.covariance[i][j] = fix.covariance[j][i] = sum;
         }
     }
 }

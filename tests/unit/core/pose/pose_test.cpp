@@ -158,6 +158,7 @@ struct Scatter {
             for (std::size_t c = 0; c < 3; ++c) {
                 squares[r][c] += error[r] * error[c];
                 claimed[r][c] += static_cast<double>(fix.covariance[r][c]);
+                EXPECT_EQ(fix.covariance[r][c], fix.covariance[c][r]);
             }
         }
         residual_px += static_cast<double>(fix.residual_px);
