@@ -7,6 +7,7 @@
 // --quick: a tenth of the frames, to see that it works; its numbers are for nobody.
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -113,10 +114,13 @@ std::string three(const Quantiles& quantiles, int decimals) {
 }
 
 std::string frame_row(Preset preset, const Way& way, const Score& score) {
-    return fmt::format("| {} | {} | {} | {:.2f} % | {} | {} | {} | {:.2f} / {:.2f} / {:.2f} |\n",
-                       name(preset), way.name, score.frames, 100 * score.located_share(),
-                       score.wrong, three(score.position_um, 2), three(score.angle_deg, 3),
-                       score.normalised[0], score.normalised[1], score.normalised[2]);
+    // Devices claim none.
+    const auto& [x, y, theta] = score.normalised;
+    const std::string normalised =
+        std::isfinite(x) ? fmt::format("{:.2f} / {:.2f} / {:.2f}", x, y, theta) : "-";
+    return fmt::format("| {} | {} | {} | {:.2f} % | {} | {} | {} | {} |\n", name(preset), way.name,
+                       score.frames, 100 * score.located_share(), score.wrong,
+                       three(score.position_um, 2), three(score.angle_deg, 3), normalised);
 }
 
 std::string status_rows(Preset preset, const Score& score) {
