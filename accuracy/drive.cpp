@@ -184,10 +184,7 @@ struct Runs {
 int run(const Arguments& arguments) {
     const test::TemporaryDirectory directory;
     const std::string sheets = (directory.path() / "sheets.json").string();
-    SheetFile file(sheets);
-    for (const SheetEntry& entry : test::drive_sheets())
-        file.add(entry);
-    file.save();
+    test::save_drive_sheets(sheets);
     const std::size_t speeds = arguments.speeds_mm_s.size();
     const auto count = count_on_threads<Runs>(
         "drives", speeds * kKinds.size(), arguments.threads, [&](std::uint64_t index, Runs& runs) {

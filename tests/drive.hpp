@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <numbers>
 #include <vector>
 
@@ -112,6 +113,14 @@ inline std::vector<SheetEntry> drive_sheets() {
         sheets.push_back(entry);
     }
     return sheets;
+}
+
+/// Writes them as a sheet file.
+inline void save_drive_sheets(const std::filesystem::path& path) {
+    SheetFile sheets(path);
+    for (const SheetEntry& entry : drive_sheets())
+        sheets.add(entry);
+    sheets.save();
 }
 
 class DriveCamera {

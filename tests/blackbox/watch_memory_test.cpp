@@ -20,10 +20,7 @@ class WatchMemory : public ToolCommand {
 
     /// Half a second of the drive, to be seen again and again.
     void put_frames() {
-        SheetFile sheets(directory_ / "sheets.json");
-        for (const SheetEntry& entry : drive_sheets())
-            sheets.add(entry);
-        sheets.save();
+        save_drive_sheets(directory_ / "sheets.json");
         const DriveCamera camera(188, 120);
         const Drive drive;
         std::ofstream raw(directory_ / "drive.raw", std::ios::binary);

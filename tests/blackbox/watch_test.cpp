@@ -39,10 +39,7 @@ class Watch : public ToolCommand {
 
     void SetUp() override {
         ToolCommand::SetUp();
-        SheetFile sheets(directory_ / "sheets.json");
-        for (const SheetEntry& entry : drive_sheets())
-            sheets.add(entry);
-        sheets.save();
+        save_drive_sheets(directory_ / "sheets.json");
     }
 
     /// Renders frames of the drive, as drive.raw.

@@ -37,10 +37,7 @@ class Cameras : public ToolCommand {
   protected:
     void SetUp() override {
         ToolCommand::SetUp();
-        SheetFile sheets(directory_ / "sheets.json");
-        for (const SheetEntry& entry : drive_sheets())
-            sheets.add(entry);
-        sheets.save();
+        save_drive_sheets(directory_ / "sheets.json");
         // The robot rests.
         const DriveCamera camera(188, 120);
         std::ofstream raw(directory_ / "camera.raw", std::ios::binary);

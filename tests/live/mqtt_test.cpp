@@ -284,10 +284,7 @@ TEST_F(Mqtt, FleetSeesAWatchedRobot) {
         write_pgm(directory_ / ("f" + std::to_string(100 + i) + ".pgm"),
                   camera.frame(drive, 240 + i).view());
     }
-    SheetFile sheets(directory_ / "table.json");
-    for (const SheetEntry& entry : drive_sheets())
-        sheets.add(entry);
-    sheets.save();
+    save_drive_sheets(directory_ / "table.json");
     std::thread fleet([&] {
         shell("'" DOTPOSE_TOOL "' fleet --mqtt " + broker.url() +
               " --sheets table.json --map fleet.svg --seconds 4 --every 0.2");
