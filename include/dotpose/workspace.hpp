@@ -73,7 +73,7 @@ struct Light {
     bool has_contrast = false;  ///< anywhere so far
     /// Pixels of the two newest bands; rows have a margin and are filled up to whole tiles.
     std::span<std::uint8_t> rows;
-    std::span<Tile> tiles;     ///< of the three newest bands
+    std::span<Tile> tiles;     ///< of the four newest bands
     std::span<Levels> levels;  ///< of the band being thresholded
     /// Half of `Levels::extent` in each byte, for every eight columns.
     std::span<std::size_t> half_levels;
@@ -108,7 +108,7 @@ struct OpenBlob {
     std::int32_t first_u = 0;
     std::int32_t first_v = 0;
     std::int32_t last_v = 0;
-    OpenBlob* part_of = nullptr;  ///< the blob that it was found to belong to
+    OpenBlob* part_of = nullptr;  ///< the blob that it was found to belong to; unused: the next such
     bool has_core = false;
     bool is_dot = true;  ///< false once it touches the border or is larger than any dot
     bool in_use = false;
@@ -127,7 +127,8 @@ struct OpenBlobs {
     int run_count = 0;
     bool newest_in_second_half = false;
     std::span<OpenBlob> blobs;
-    int next_free = 0;
+    std::size_t blobs_begun = 0;       ///< those after them have not been used in this image
+    OpenBlob* first_unused = nullptr;  ///< of those before
 };
 
 /// A connection between two seeds that both count each other among their four nearest.
@@ -308,7 +309,7 @@ class WorkspaceOf : public Workspace {
     std::array<std::uint32_t, MaxWidth> smooth_sums_{};
     alignas(
         8) std::array<std::uint8_t, 2 * kTile_px*(kKeptMargin_px + MaxWidth + kTile_px)> rows_{};
-    std::array<Tile, 3 * kTiles> tiles_{};
+    std::array<Tile, 4 * kTiles> tiles_{};
     std::array<Levels, kTiles> levels_{};
     std::array<std::size_t, kTiles + 1> half_levels_{};
     std::array<Run, 2 * kRuns> runs_{};
@@ -335,7 +336,7 @@ class DeviceWorkspace : public Workspace {
         pixels.take(open.blobs, kBlobs);
         pixels.take(open.runs, 2 * kRuns);
         pixels.take(light.half_levels, kTiles);
-        pixels.take(light.tiles, 3 * kTiles);
+        pixels.take(light.tiles, 4 * kTiles);
         pixels.take(light.levels, kTiles);
         Shelf lattices{memory_};
         lattices.take(edges, 2 * kSeeds);

@@ -61,21 +61,21 @@ void close_blob(const OpenBlob& blob, const Light& light, DotList list) {
 
 /// A fresh blob that begins at a pixel; none if there are too many already.
 OpenBlob* open_blob(int u, int v, OpenBlobs& open) {
-    const int capacity = static_cast<int>(open.blobs.size());
-    for (int tries = 0; tries < capacity; ++tries) {
-        OpenBlob& blob = open.blobs[static_cast<std::size_t>(open.next_free)];
-        open.next_free = open.next_free + 1 == capacity ? 0 : open.next_free + 1;
-        if (blob.in_use) continue;
-        // One by one: the libraries of small devices clear byte by byte.
-        blob.sum_x = blob.sum_y = blob.mass = blob.area_px = 0;
-        blob.first_u = u;
-        blob.first_v = v;
-        blob.part_of = nullptr;
-        blob.has_core = false;
-        blob.is_dot = blob.in_use = true;
-        return &blob;
+    OpenBlob* blob = open.first_unused;
+    if (blob != nullptr) {
+        open.first_unused = blob->part_of;
+    } else {
+        if (open.blobs_begun == open.blobs.size()) return nullptr;
+        blob = &open.blobs[open.blobs_begun++];
     }
-    return nullptr;
+    // One by one: the libraries of small devices clear byte by byte.
+    blob->sum_x = blob->sum_y = blob->mass = blob->area_px = 0;
+    blob->first_u = u;
+    blob->first_v = v;
+    blob->part_of = nullptr;
+    blob->has_core = false;
+    blob->is_dot = blob->in_use = true;
+    return blob;
 }
 
 /// Adds the pixels of a run, which lie in the blob's reach.
@@ -220,13 +220,18 @@ void connect(std::span<const Run> above, std::span<Run> below, int v, OpenBlobs&
 }
 
 /// Ends the blobs of the row above that row `v` does not go on with.
-void close_blobs(std::span<const Run> above, int v, const Light& light, DotList list) {
+void close_blobs(std::span<const Run> above, int v, const Light& light, OpenBlobs& open,
+                 DotList list) {
     for (const Run& run : above) {
-        if (run.blob == nullptr || !run.blob->in_use) continue;
-        const bool is_whole = run.blob->part_of == nullptr;
-        if (is_whole && run.blob->last_v == v) continue;
-        run.blob->in_use = false;
-        if (is_whole) close_blob(*run.blob, light, list);
+        OpenBlob* const blob = run.blob;
+        if (blob == nullptr || !blob->in_use) continue;
+        if (blob->part_of == nullptr) {
+            if (blob->last_v == v) continue;
+            close_blob(*blob, light, list);
+        }
+        blob->in_use = false;
+        blob->part_of = open.first_unused;
+        open.first_unused = blob;
     }
 }
 
@@ -234,9 +239,8 @@ void close_blobs(std::span<const Run> above, int v, const Light& light, DotList 
 
 void begin_blobs(const Light& light, OpenBlobs& open, DotList list) {
     open.run_count = 0;
-    open.next_free = 0;
-    for (OpenBlob& blob : open.blobs)
-        blob.in_use = false;
+    open.blobs_begun = 0;
+    open.first_unused = nullptr;
     list.count = 0;
     list.kept_within_px = std::max(light.width_px, light.height_px);
 }
@@ -256,7 +260,7 @@ void grow_blobs(int v, const Light& light, OpenBlobs& open, DotList list) {
         run.blob = whole(run.blob);
         if (run.blob != nullptr) add_run(row, run, v, light, *run.blob);
     }
-    close_blobs(above, v, light, list);
+    close_blobs(above, v, light, open, list);
 }
 
 void sift_dots(const BlobOptions& options, DotList list) {

@@ -10,7 +10,7 @@
 namespace dotpose::core {
 namespace {
 
-constexpr int kBandsKept = 3;
+constexpr int kBandsKept = 4;  // three are needed
 constexpr unsigned kContrastBins = 64;
 /// Dots are sought in every n-th row: they are higher than that; paper in fewer.
 constexpr int kDotsEvery = 2;
@@ -18,7 +18,7 @@ constexpr int kPaperEvery = 4;
 
 std::span<Tile> tiles_of(const Light& light, int band) {
     const auto n = static_cast<std::size_t>(light.tiles_per_band);
-    return light.tiles.subspan(static_cast<std::size_t>(band % kBandsKept) * n, n);
+    return light.tiles.subspan(static_cast<std::size_t>(band & (kBandsKept - 1)) * n, n);
 }
 
 /// Copies as many blocks as fit into `size` bytes from `done` on; returns how far it got.
@@ -121,24 +121,35 @@ void measure_tiles(int band, const Light& light, std::span<Tile> tiles) {
     }
 }
 
-/// Brightest mean and darkest pixel.
-Tile both(Tile a, Tile b) {
-    return {std::max(a.mean, b.mean), std::min(a.darkest, b.darkest)};
-}
+/// Brightest mean and darkest pixel of some tiles.
+struct Extremes {
+    int mean = 0;
+    int darkest = 255;
+
+    void take(int other_mean, int other_darkest) {
+        mean = std::max(mean, other_mean);
+        darkest = std::min(darkest, other_darkest);
+    }
+};
 
 /// The tiles of a band and of those above and below; at the image's rims, the band itself instead.
 struct ThreeBands {
-    std::span<const Tile> above;
-    std::span<const Tile> here;
-    std::span<const Tile> below;
+    const Tile* above;
+    const Tile* here;
+    const Tile* below;
 
-    Tile column(std::size_t tile) const { return both(both(above[tile], here[tile]), below[tile]); }
+    Extremes column(std::size_t tile) const {
+        Extremes column;
+        for (const Tile* band : {above, here, below})
+            column.take(band[tile].mean, band[tile].darkest);
+        return column;
+    }
 };
 
 ThreeBands three_bands(const Light& light, int band) {
-    const auto here = tiles_of(light, band);
-    return {band > 0 ? tiles_of(light, band - 1) : here, here,
-            band + 1 < band_count(light) ? tiles_of(light, band + 1) : here};
+    const Tile* here = tiles_of(light, band).data();
+    return {band > 0 ? tiles_of(light, band - 1).data() : here, here,
+            band + 1 < band_count(light) ? tiles_of(light, band + 1).data() : here};
 }
 
 /// 1 / (paper + 1), to tell contrasts relative to the paper's level in `kContrastBins`-ths.
@@ -181,18 +192,21 @@ void measure_levels(int band, const ThresholdOptions& options, Light& light) {
     std::array<std::uint16_t, kContrastBins> histogram{};
     int count = 0;
     const ThreeBands bands = three_bands(light, band);
-    Tile left{};
-    Tile here = bands.column(0);
+    Extremes left;
+    Extremes here = bands.column(0);
     for (std::size_t t = 0; t < levels.size(); ++t) {
-        const Tile right = t + 1 < levels.size() ? bands.column(t + 1) : Tile{};
-        const Tile near = both(both(left, here), right);
+        const Extremes right = t + 1 < levels.size() ? bands.column(t + 1) : Extremes{};
+        Extremes near = here;
+        near.take(left.mean, left.darkest);
+        near.take(right.mean, right.darkest);
         left = here;
         here = right;
         const int contrast = near.mean - near.darkest;
         levels[t] = Levels{};
         if (contrast < options.min_contrast) continue;
-        ++histogram[(static_cast<unsigned>(contrast) * kInverses_q16[near.mean]) >> 16];
-        levels[t].paper = near.mean;
+        const std::uint32_t inverse_q16 = kInverses_q16[static_cast<std::size_t>(near.mean)];
+        ++histogram[(static_cast<std::uint32_t>(contrast) * inverse_q16) >> 16];
+        levels[t].paper = static_cast<std::uint8_t>(near.mean);
         light.has_contrast = true;
         ++count;
     }

@@ -22,7 +22,7 @@ int take_row(const std::uint8_t* pixels, Light& light);
 void measure_levels(int band, const ThresholdOptions& options, Light& light);
 
 inline int band_count(const Light& light) {
-    return (light.height_px + light.tile_px - 1) / light.tile_px;
+    return (light.height_px + light.tile_px - 1) >> light.tile_shift;
 }
 /// First row of a band, and one past its last.
 inline int band_begin(const Light& light, int band) {
