@@ -108,7 +108,8 @@ struct OpenBlob {
     std::int32_t first_u = 0;
     std::int32_t first_v = 0;
     std::int32_t last_v = 0;
-    OpenBlob* part_of = nullptr;  ///< the blob that it was found to belong to; unused: the next such
+    OpenBlob* part_of =
+        nullptr;  ///< the blob that it was found to belong to; unused: the next such
     bool has_core = false;
     bool is_dot = true;  ///< false once it touches the border or is larger than any dot
     bool in_use = false;

@@ -107,18 +107,6 @@ void add_pixels(const std::uint8_t* row, const Run& run, int v, const Light& lig
     blob.area_px += run.end - run.begin;
 }
 
-void add_run(const std::uint8_t* row, const Run& run, int v, const Light& light, OpenBlob& blob) {
-    blob.last_v = v;
-    if (!blob.is_dot) return;
-    const int width = run.end - run.begin;
-    const bool at_border =
-        run.begin == 0 || run.end == light.width_px || v == 0 || v + 1 == light.height_px;
-    blob.is_dot = !at_border && width <= kMaxDotSide_px && v - blob.first_v < kMaxDotSide_px &&
-                  blob.area_px + width <= kMaxDotArea_px &&
-                  magnitude(run.begin - blob.first_u) <= kMaxDotSide_px;
-    if (blob.is_dot) add_pixels(row, run, v, light, blob);
-}
-
 /// Adds `other` to `blob`; both belong to the same dark spot after all.
 void unite(OpenBlob& blob, OpenBlob& other) {
     const int du = other.first_u - blob.first_u;
@@ -176,7 +164,8 @@ bool are_light(const std::uint8_t* pixels, Word half_level) {
 }
 
 /// Finds the stretches of dark pixels in a row; returns how many.
-int find_runs(const std::uint8_t* row, const Light& light, std::span<Run> runs) {
+int find_runs(int v, const Light& light, std::span<Run> runs) {
+    const std::uint8_t* row = kept_row(light, v);
     Run* run = runs.data();
     const Run* const end = run + runs.size();
     const Word* const half_levels = light.half_levels.data();
@@ -219,6 +208,25 @@ void connect(std::span<const Run> above, std::span<Run> below, int v, OpenBlobs&
     }
 }
 
+/// Adds each run of row `v` to its blob.
+void add_runs(std::span<Run> runs, int v, const Light& light) {
+    const std::uint8_t* row = kept_row(light, v);
+    const bool is_rim = v == 0 || v + 1 == light.height_px;
+    for (Run& run : runs) {
+        run.blob = whole(run.blob);
+        if (run.blob == nullptr) continue;
+        OpenBlob& blob = *run.blob;
+        blob.last_v = v;
+        if (!blob.is_dot) continue;
+        const int width = run.end - run.begin;
+        blob.is_dot = !is_rim && run.begin != 0 && run.end != light.width_px &&
+                      width <= kMaxDotSide_px && v - blob.first_v < kMaxDotSide_px &&
+                      blob.area_px + width <= kMaxDotArea_px &&
+                      magnitude(run.begin - blob.first_u) <= kMaxDotSide_px;
+        if (blob.is_dot) add_pixels(row, run, v, light, blob);
+    }
+}
+
 /// Ends the blobs of the row above that row `v` does not go on with.
 void close_blobs(std::span<const Run> above, int v, const Light& light, OpenBlobs& open,
                  DotList list) {
@@ -252,14 +260,10 @@ void grow_blobs(int v, const Light& light, OpenBlobs& open, DotList list) {
     const auto newer = open.runs.subspan(open.newest_in_second_half ? half : 0, half);
 
     const auto above = older.first(static_cast<std::size_t>(open.run_count));
-    const std::uint8_t* row = kept_row(light, v);
-    open.run_count = find_runs(row, light, newer);
+    open.run_count = find_runs(v, light, newer);
     const auto below = newer.first(static_cast<std::size_t>(open.run_count));
     connect(above, below, v, open);
-    for (Run& run : below) {
-        run.blob = whole(run.blob);
-        if (run.blob != nullptr) add_run(row, run, v, light, *run.blob);
-    }
+    add_runs(below, v, light);
     close_blobs(above, v, light, open, list);
 }
 
