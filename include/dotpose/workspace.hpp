@@ -127,6 +127,8 @@ struct OpenBlobs {
     std::span<Run> runs;  ///< of the newest row and of the one above, in halves
     int run_count = 0;
     bool newest_in_second_half = false;
+    int most_runs = INT32_MAX;  ///< of one image: what exceeds them is not looked at
+    int runs_left = 0;
     std::span<OpenBlob> blobs;
     std::size_t blobs_begun = 0;       ///< those after them have not been used in this image
     OpenBlob* first_unused = nullptr;  ///< of those before
@@ -334,6 +336,7 @@ class DeviceWorkspace : public Workspace {
         Shelf pixels{memory_};
         pixels.take(light.rows,
                     2 * kSmallestTile_px * (kKeptMargin_px + kTiles * kSmallestTile_px));
+        open.most_runs = kMostRuns;
         pixels.take(open.blobs, kBlobs);
         pixels.take(open.runs, 2 * kRuns);
         pixels.take(light.half_levels, kTiles);
@@ -360,6 +363,9 @@ class DeviceWorkspace : public Workspace {
     // Runs and blobs of one row: many more than dots; what exceeds them is noise or graphics.
     static constexpr int kRuns = 64;
     static constexpr int kBlobs = 72;
+    // Of a whole frame, to bound the time: dots have 500, and noisy frames that were ever located
+    // up to 2,600.
+    static constexpr int kMostRuns = 2800;
 
     /// Hands out memory from the beginning on; larger alignments first.
     struct Shelf {

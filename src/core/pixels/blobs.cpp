@@ -170,10 +170,9 @@ int find_runs(int v, const Light& light, std::span<Run> runs) {
     const Run* const end = run + runs.size();
     const Word* const half_levels = light.half_levels.data();
     const auto width = static_cast<std::size_t>(light.width_px);
-    for (std::size_t u = 0; u < width; u += kSmallestTile_px) {
+    for (std::size_t u = 0; u < width && run != end; u += kSmallestTile_px) {
         if (are_light(row + u, half_levels[u / kSmallestTile_px])) continue;
         run = write_runs(u, row, light, run, end);
-        if (run == end) break;
         u = static_cast<std::size_t>(run[-1].end) / kSmallestTile_px * kSmallestTile_px;
     }
     // Rows are filled up to whole tiles.
@@ -247,6 +246,7 @@ void close_blobs(std::span<const Run> above, int v, const Light& light, OpenBlob
 
 void begin_blobs(const Light& light, OpenBlobs& open, DotList list) {
     open.run_count = 0;
+    open.runs_left = open.most_runs;
     open.blobs_begun = 0;
     open.first_unused = nullptr;
     list.count = 0;
@@ -260,7 +260,9 @@ void grow_blobs(int v, const Light& light, OpenBlobs& open, DotList list) {
     const auto newer = open.runs.subspan(open.newest_in_second_half ? half : 0, half);
 
     const auto above = older.first(static_cast<std::size_t>(open.run_count));
-    open.run_count = find_runs(v, light, newer);
+    const auto room = newer.first(std::min(half, static_cast<std::size_t>(open.runs_left)));
+    open.run_count = find_runs(v, light, room);
+    open.runs_left -= open.run_count;
     const auto below = newer.first(static_cast<std::size_t>(open.run_count));
     connect(above, below, v, open);
     add_runs(below, v, light);
