@@ -1,5 +1,7 @@
 #include "core/affine.hpp"
 
+#include <bit>
+
 namespace dotpose::core {
 namespace {
 
@@ -14,12 +16,8 @@ std::int64_t centred(std::int64_t sum_ab, std::int64_t sum_a, std::int64_t sum_b
 
 /// Shift to the left (right if negative) that brings the value into [2^29, 2^30).
 int normalising_shift(std::int64_t value) {
-    int shift = 0;
-    for (std::int64_t m = value; m >= std::int64_t{1} << 30; m >>= 1)
-        --shift;
-    for (std::int64_t m = value; m != 0 && m < std::int64_t{1} << 29; m <<= 1)
-        ++shift;
-    return shift;
+    return value == 0 ? 0
+                      : 30 - static_cast<int>(std::bit_width(static_cast<std::uint64_t>(value)));
 }
 
 std::int64_t shifted(std::int64_t value, int shift) {
@@ -85,11 +83,15 @@ bool AffineFit::solve(int fraction_bits, AffineMap& map) const {
 }
 
 std::int32_t scaled_quotient(std::int64_t numerator, std::int64_t denominator, int shift) {
-    while (shift > 0 && magnitude(numerator) < std::int64_t{1} << 61) {
-        numerator *= 2;
-        --shift;
+    if (shift > 0) {
+        // The numerator gets 62 bits, if it takes so many.
+        const auto bits = std::bit_width(static_cast<std::uint64_t>(magnitude(numerator)));
+        const int up = std::clamp(62 - static_cast<int>(bits), 0, shift);
+        numerator *= std::int64_t{1} << up;
+        shift -= up;
+        denominator >>= shift;
+        shift = 0;
     }
-    if (shift > 0) denominator >>= shift;
     const std::int64_t quotient = divide_rounded(numerator, std::max<std::int64_t>(denominator, 1));
     return shift < 0 ? shift_rounded(quotient, -shift) : static_cast<std::int32_t>(quotient);
 }

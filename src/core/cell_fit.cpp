@@ -1,30 +1,18 @@
 #include "core/cell_fit.hpp"
 
+#include <bit>
+
 #include "core/affine.hpp"
 
 namespace dotpose::core {
 namespace {
 
-/// Shift to the right after which a value fits so many bits.
+/// Shift to the right after which a value >= 0 fits so many bits.
 int excess_bits(std::int64_t value, int bits) {
-    int shift = 0;
-    while (value >> shift >> bits != 0)
-        ++shift;
-    return shift;
+    return std::max(static_cast<int>(std::bit_width(static_cast<std::uint64_t>(value))) - bits, 0);
 }
 
 }  // namespace
-
-void CellFit::carry_over() {
-    all_.xx += recent_.xx;
-    all_.xy += recent_.xy;
-    all_.yy += recent_.yy;
-    all_.ix += recent_.ix;
-    all_.iy += recent_.iy;
-    all_.jx += recent_.jx;
-    all_.jy += recent_.jy;
-    recent_ = {};
-}
 
 bool CellFit::solve(int bits, PlaneFromImage& plane) {
     carry_over();

@@ -10,17 +10,16 @@ namespace dotpose::core {
 class CellFit {
   public:
     /// Image points in 1/8 px from the plane's centre, within 2048 px; targets within 2^15.
-    void add(Vec p, Vec target) {
+    [[gnu::always_inline]] void add(const Vec& p, const Vec& target) {
+        ++n_;
         p_ = p_ + p;
         target_ = target_ + target;
-        recent_.xx += p.x * p.x;
-        recent_.xy += p.x * p.y;
-        recent_.yy += p.y * p.y;
-        recent_.ix += target.x * p.x;
-        recent_.iy += target.x * p.y;
-        recent_.jx += target.y * p.x;
-        recent_.jy += target.y * p.y;
-        if (++n_ % kMostRecent == 0) carry_over();
+        if ((offset(p.x) | offset(p.y)) >= 2 * kNear) {
+            all_.add(p, target);
+            return;
+        }
+        recent_.add(p, target);
+        if (n_ % kMostRecent == 0) carry_over();
     }
     int count() const { return n_; }
     /// Sets all of the plane but its centre, perspective and lens; targets were in 2^-bits cells.
@@ -28,14 +27,37 @@ class CellFit {
     bool solve(int bits, PlaneFromImage& plane);
 
   private:
-    /// Products of so many points fit 32 bits, which small processors add up three times as fast.
-    static constexpr int kMostRecent = 4;
+    /// Image points from -kNear to kNear - 1: products of so many of them fit 32 bits, which small
+    /// processors add up three times as fast.
+    static constexpr std::uint32_t kNear = 1024;
+    static constexpr int kMostRecent = 32;
+    static std::uint32_t offset(std::int32_t a) { return static_cast<std::uint32_t>(a) + kNear; }
+
     template <typename Int>
     struct Products {
         Int xx = 0, xy = 0, yy = 0;
         Int ix = 0, iy = 0, jx = 0, jy = 0;
+
+        [[gnu::always_inline]] void add(const Vec& p, const Vec& target) {
+            xx += p.x * p.x;
+            xy += p.x * p.y;
+            yy += p.y * p.y;
+            ix += target.x * p.x;
+            iy += target.x * p.y;
+            jx += target.y * p.x;
+            jy += target.y * p.y;
+        }
     };
-    void carry_over();
+    void carry_over() {
+        all_.xx += recent_.xx;
+        all_.xy += recent_.xy;
+        all_.yy += recent_.yy;
+        all_.ix += recent_.ix;
+        all_.iy += recent_.iy;
+        all_.jx += recent_.jx;
+        all_.jy += recent_.jy;
+        recent_ = {};
+    }
     /// n^2 times the covariance of what has this sum of products and these sums.
     std::int64_t moment(std::int64_t products, std::int32_t a, std::int32_t b) const {
         return n_ * products - std::int64_t{a} * b;

@@ -1,6 +1,7 @@
 #include "core/lattice/axes.hpp"
 
 #include <array>
+#include <bit>
 
 #include "core/fixed.hpp"
 
@@ -139,16 +140,19 @@ Status estimate_axes(std::span<const Edge> edges, Lattice& lattice) {
 
 bool is_nearly_square(Vec u, Vec v) {
     // Fourteen bits of the longer one are enough, and their fourth powers fit 64.
-    int shift = 0;
-    while (std::max(larger_component(u), larger_component(v)) >> shift >= 1 << 14)
-        ++shift;
+    const auto longest =
+        static_cast<std::uint32_t>(std::max(larger_component(u), larger_component(v)));
+    const int shift = std::max(static_cast<int>(std::bit_width(longest)) - 14, 0);
     u = {u.x >> shift, u.y >> shift};
     v = {v.x >> shift, v.y >> shift};
-    const std::int64_t uu = squared(u);
-    const std::int64_t vv = squared(v);
-    const std::int64_t area = cross(u, v);
+    const std::int32_t uu = u.x * u.x + u.y * u.y;
+    const std::int32_t vv = v.x * v.x + v.y * v.y;
+    const std::int32_t area = u.x * v.y - u.y * v.x;
     // Lengths within 3:2, and the sine of the angle between at least 0.9.
-    return area > 0 && 4 * uu <= 9 * vv && 4 * vv <= 9 * uu && 100 * (area * area / 81) >= uu * vv;
+    const std::int64_t squared_area = std::int64_t{area} * area;
+    return area > 0 && std::int64_t{4} * uu <= std::int64_t{9} * vv &&
+           std::int64_t{4} * vv <= std::int64_t{9} * uu &&
+           100 * (squared_area / 81) >= std::int64_t{uu} * vv;
 }
 
 bool is_nearly_square(const PlaneFromImage& plane) {

@@ -8,32 +8,46 @@
 namespace dotpose::core {
 namespace {
 
-/// How well the dots within reach sit on the grid, and the grid that fits them best.
-struct Judged : Regularity {
-    std::int32_t squared_offsets_q14 = 0;
-    CellFit fit;
-};
+/// Whether |a| <= limit, in both components.
+bool is_within(Vec a, std::int32_t limit) {
+    const auto twice = static_cast<std::uint32_t>(2 * limit);
+    return static_cast<std::uint32_t>(a.x + limit) <= twice &&
+           static_cast<std::uint32_t>(a.y + limit) <= twice;
+}
 
-Judged judge(std::span<const Dot> dots, int reach_cells, const LatticeOptions& options,
-             const PlaneFromImage& plane) {
+/// Shows the dots within reach to `use(p, grid_point)`, which says whether they count as near an
+/// intersection.
+template <typename Use>
+Regularity look_at(std::span<const Dot> dots, int reach_cells, const PlaneFromImage& plane,
+                   Use use) {
     constexpr int kFarthest_cells = 500;
     const Cells cells(plane);
-    Judged found;
+    Regularity found;
     for (const Dot& dot : dots) {
         const Vec p = cells.from_centre_q3(dot.centre_q8);
         const GridPoint g = cells(p);
-        const int distance = larger_component(g.cell);
-        if (distance > kFarthest_cells) continue;
-        found.farthest_cell = std::max(found.farthest_cell, distance);
-        if (distance > reach_cells) continue;
+        if (!is_within(g.cell, found.farthest_cell)) {
+            const int distance = larger_component(g.cell);
+            if (distance > kFarthest_cells) continue;
+            found.farthest_cell = distance;
+        }
+        if (!is_within(g.cell, reach_cells)) continue;
         ++found.dots;
-        const Vec offset_q8{g.offset_q16.x >> 8, g.offset_q16.y >> 8};
-        found.squared_offsets_q14 += (offset_q8.x * offset_q8.x + offset_q8.y * offset_q8.y) >> 2;
-        if (larger_component(g.offset_q16) > options.max_offset_q16) continue;
-        ++found.near_intersections;
-        found.fit.add(p, g.cell);
+        found.near_intersections += use(p, g);
     }
     return found;
+}
+
+/// Whether the dots sit on a grid, and displaced.
+Status judge(std::span<const Dot> dots, int reach_cells, const LatticeOptions& options,
+             const PlaneFromImage& plane) {
+    std::int32_t squared_offsets_q14 = 0;
+    const Regularity found = look_at(dots, reach_cells, plane, [&](const Vec&, const GridPoint& g) {
+        const Vec offset_q8{g.offset_q16.x >> 8, g.offset_q16.y >> 8};
+        squared_offsets_q14 += (offset_q8.x * offset_q8.x + offset_q8.y * offset_q8.y) >> 2;
+        return is_within(g.offset_q16, options.max_offset_q16);
+    });
+    return found.verdict(squared_offsets_q14 / std::max(found.dots, 1) * 64);
 }
 
 }  // namespace
@@ -41,16 +55,21 @@ Judged judge(std::span<const Dot> dots, int reach_cells, const LatticeOptions& o
 Status grow_grid(std::span<const Dot> dots, const LatticeOptions& options, Vec image_centre_q8,
                  const Lattice& first, PlaneFromImage& plane) {
     plane = plane_from_lattice(first, image_centre_q8);
-    Judged found;
+    Regularity found;
+    const std::int32_t max_offset_q16 = options.max_offset_q16;
     constexpr int kMostRounds = 3;
     const auto fit = [&](int reach_cells) {
-        found = judge(dots, reach_cells, options, plane);
-        return found.fit.solve(0, plane) && is_nearly_square(plane);
+        CellFit sums;
+        found = look_at(dots, reach_cells, plane, [&](const Vec& p, const GridPoint& g) {
+            if (!is_within(g.offset_q16, max_offset_q16)) return false;
+            sums.add(p, g.cell);
+            return true;
+        });
+        CellFit fitted = sums;  // So that `sums` may stay in registers.
+        return fitted.solve(0, plane) && is_nearly_square(plane);
     };
     if (!fit_outwards(kMostRounds, found, fit)) return Status::no_grid;
-    found = judge(dots, found.farthest_cell, options, plane);
-    const std::int32_t mean_q14 = found.squared_offsets_q14 / std::max(found.dots, 1);
-    return found.verdict(mean_q14 * 64);
+    return judge(dots, found.farthest_cell, options, plane);
 }
 
 }  // namespace dotpose::core

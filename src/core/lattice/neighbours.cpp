@@ -9,98 +9,118 @@ namespace {
 
 constexpr int kDistanceBins = 64;
 
-/// The seeds sorted into square buckets, so that near ones are found without looking at all.
+/// The seeds sorted into square buckets, row by row, so that near ones lie together.
 class Buckets {
   public:
+    struct Seed {
+        std::int32_t x_q8;  ///< from the corner of the first bucket
+        std::int32_t y_q8;
+        std::int16_t index;
+    };
+
     Buckets(std::span<const Dot> dots, std::span<const std::uint16_t> seeds);
 
     int columns() const { return columns_; }
     int rows() const { return rows_; }
     std::int32_t size_q8() const { return 1 << shift_; }
-    int first(int column, int row) const {
-        return first_[static_cast<std::size_t>(row * columns_ + column)];
+    int column(Vec point_q8) const { return point_q8.x >> shift_; }
+    int row(Vec point_q8) const { return point_q8.y >> shift_; }
+    std::span<const Seed> all() const { return std::span(sorted_).first(count_); }
+    /// Those in the columns from `first` to `last` of one row, as far as these exist.
+    std::span<const Seed> in_row(int row, int first, int last) const {
+        if (row < 0 || row >= rows_) return {};
+        const std::uint16_t* const begins = &begin_[static_cast<std::size_t>(row * columns_)];
+        const std::size_t begin = begins[std::clamp(first, 0, columns_)];
+        const std::size_t end = begins[std::clamp(last + 1, 0, columns_)];
+        return {&sorted_[begin], end - begin};
     }
-    int next(int seed) const { return next_[static_cast<std::size_t>(seed)]; }
-    int column(Vec point_q8) const { return (point_q8.x - corner_.x) >> shift_; }
-    int row(Vec point_q8) const { return (point_q8.y - corner_.y) >> shift_; }
 
   private:
-    static constexpr int kMost = kMaxSeeds;
     int shift_ = 0;
     int columns_ = 1;
     int rows_ = 1;
-    Vec corner_;
-    std::array<std::int16_t, kMost> first_;
-    std::array<std::int16_t, kMaxSeeds> next_;
+    std::size_t count_;
+    std::array<std::uint16_t, kMaxSeeds + 1> begin_;  ///< of each bucket, and where the last ends
+    std::array<Seed, kMaxSeeds> sorted_;
 };
 
-Buckets::Buckets(std::span<const Dot> dots, std::span<const std::uint16_t> seeds) {
-    corner_ = dots[seeds[0]].centre_q8;
-    Vec end = corner_;
+Buckets::Buckets(std::span<const Dot> dots, std::span<const std::uint16_t> seeds)
+    : count_(seeds.size()) {
+    Vec corner = dots[seeds[0]].centre_q8;
+    Vec end = corner;
     for (const std::uint16_t s : seeds) {
         const Vec p = dots[s].centre_q8;
-        corner_ = {std::min(corner_.x, p.x), std::min(corner_.y, p.y)};
+        corner = {std::min(corner.x, p.x), std::min(corner.y, p.y)};
         end = {std::max(end.x, p.x), std::max(end.y, p.y)};
     }
     // One to four seeds a bucket: then the four nearest lie in the 3 x 3 buckets around.
+    const int most = static_cast<int>(seeds.size());
     do {
         ++shift_;
-        columns_ = column(end) + 1;
-        rows_ = row(end) + 1;
-    } while (columns_ > kMost || rows_ > kMost ||
-             columns_ * rows_ > std::max(static_cast<int>(seeds.size()), 1));
-    std::fill_n(first_.begin(), columns_ * rows_, std::int16_t{-1});
+        columns_ = column(end - corner) + 1;
+        rows_ = row(end - corner) + 1;
+    } while (columns_ > most || rows_ > most || columns_ * rows_ > most);
+    // Counted, then where each bucket ends, then filled from there backwards.
+    const int buckets = columns_ * rows_;
+    std::fill_n(begin_.begin(), buckets + 1, std::uint16_t{0});
+    const auto bucket_of = [&](Vec p) {
+        return static_cast<std::size_t>(row(p) * columns_ + column(p));
+    };
+    for (const std::uint16_t s : seeds)
+        ++begin_[bucket_of(dots[s].centre_q8 - corner)];
+    for (std::size_t k = 1; k <= static_cast<std::size_t>(buckets); ++k)
+        begin_[k] = static_cast<std::uint16_t>(begin_[k] + begin_[k - 1]);
     for (std::size_t s = 0; s < seeds.size(); ++s) {
-        const Vec p = dots[seeds[s]].centre_q8;
-        std::int16_t& head = first_[static_cast<std::size_t>(row(p) * columns_ + column(p))];
-        next_[s] = head;
-        head = static_cast<std::int16_t>(s);
+        const Vec p = dots[seeds[s]].centre_q8 - corner;
+        sorted_[--begin_[bucket_of(p)]] = {p.x, p.y, static_cast<std::int16_t>(s)};
     }
 }
 
 /// Distances squared, in 2^-16 px^2, up to 128 px per axis: no grid is coarser.
 constexpr std::int32_t kFarthest_q8 = 1 << 15;
-constexpr std::uint32_t kNone = UINT32_MAX;
 
-/// The four nearest found so far, nearest first.
-struct Nearest {
-    std::array<std::int16_t, 4> seeds{-1, -1, -1, -1};
-    std::array<std::uint32_t, 4> squared_q16{kNone, kNone, kNone, kNone};
-
-    void offer(int seed, std::uint32_t distance) {
-        if (distance >= squared_q16[3]) return;
-        std::size_t i = 3;
-        for (; i > 0 && distance < squared_q16[i - 1]; --i) {
-            squared_q16[i] = squared_q16[i - 1];
-            seeds[i] = seeds[i - 1];
-        }
-        squared_q16[i] = distance;
-        seeds[i] = static_cast<std::int16_t>(seed);
+/// The four nearest of one seed found so far, nearest first.
+class Nearest {
+  public:
+    /// Nearer than the square root of `within_q16`.
+    Nearest(const Buckets::Seed& self, std::uint32_t within_q16) : self_(self) {
+        squared_q16_.fill(within_q16);
     }
-};
 
-Nearest search(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
-               const Buckets& buckets, int self, int reach) {
-    const Vec p = dots[seeds[static_cast<std::size_t>(self)]].centre_q8;
-    const int column = buckets.column(p);
-    const int row = buckets.row(p);
-    const int last_column = std::min(column + reach, buckets.columns() - 1);
-    const int last_row = std::min(row + reach, buckets.rows() - 1);
-    Nearest nearest;
-    for (int r = std::max(row - reach, 0); r <= last_row; ++r) {
-        for (int c = std::max(column - reach, 0); c <= last_column; ++c) {
-            for (int s = buckets.first(c, r); s >= 0; s = buckets.next(s)) {
-                const Vec d = dots[seeds[static_cast<std::size_t>(s)]].centre_q8 - p;
-                if (s == self || magnitude(d.x) >= kFarthest_q8 || magnitude(d.y) >= kFarthest_q8) {
-                    continue;
-                }
-                nearest.offer(s, static_cast<std::uint32_t>(d.x * d.x) +
-                                     static_cast<std::uint32_t>(d.y * d.y));
+    void search(std::span<const Buckets::Seed> seeds) {
+        for (const Buckets::Seed& seed : seeds) {
+            // Too far off for 32 bits, it may be taken for near, but is not kept.
+            const Vec d{seed.x_q8 - self_.x_q8, seed.y_q8 - self_.y_q8};
+            const std::uint32_t distance = wrapped_square(d.x) + wrapped_square(d.y);
+            if (distance >= squared_q16_[3] || &seed == &self_) continue;
+            if (larger_component(d) < kFarthest_q8) insert<3>(seed.index, distance);
+        }
+    }
+    bool are_four() const { return seeds_[3] >= 0; }
+    const std::array<std::int16_t, 4>& seeds() const { return seeds_; }
+
+  private:
+    static std::uint32_t wrapped_square(std::int32_t a) {
+        return static_cast<std::uint32_t>(a) * static_cast<std::uint32_t>(a);
+    }
+    template <std::size_t kPlace>
+    void insert(std::int16_t seed, std::uint32_t distance) {
+        if constexpr (kPlace > 0) {
+            if (distance < squared_q16_[kPlace - 1]) {
+                squared_q16_[kPlace] = squared_q16_[kPlace - 1];
+                seeds_[kPlace] = seeds_[kPlace - 1];
+                insert<kPlace - 1>(seed, distance);
+                return;
             }
         }
+        squared_q16_[kPlace] = distance;
+        seeds_[kPlace] = seed;
     }
-    return nearest;
-}
+
+    const Buckets::Seed& self_;
+    std::array<std::int16_t, 4> seeds_{-1, -1, -1, -1};
+    std::array<std::uint32_t, 4> squared_q16_;
+};
 
 }  // namespace
 
@@ -136,18 +156,21 @@ void find_neighbours(std::span<const Dot> dots, std::span<const std::uint16_t> s
                      std::span<std::array<std::int16_t, 4>> neighbours) {
     if (seeds.empty()) return;
     const Buckets buckets(dots, seeds);
-    for (std::size_t s = 0; s < seeds.size(); ++s) {
-        Nearest nearest;
-        const int most_reach = std::max(buckets.columns(), buckets.rows());
-        for (int reach = 1; reach <= most_reach; ++reach) {
-            nearest = search(dots, seeds, buckets, static_cast<int>(s), reach);
+    const int most_reach = std::max(buckets.columns(), buckets.rows());
+    for (const Buckets::Seed& seed : buckets.all()) {
+        const int column = buckets.column({seed.x_q8, seed.y_q8});
+        const int row = buckets.row({seed.x_q8, seed.y_q8});
+        for (int reach = 1;; ++reach) {
             const std::int32_t sure_q8 = reach * buckets.size_q8();
-            if (sure_q8 >= kFarthest_q8 ||
-                nearest.squared_q16[3] <= static_cast<std::uint32_t>(sure_q8 * sure_q8)) {
-                break;
-            }
+            const bool is_last = reach >= most_reach || sure_q8 >= kFarthest_q8;
+            Nearest nearest(seed,
+                            is_last ? UINT32_MAX : static_cast<std::uint32_t>(sure_q8 * sure_q8));
+            for (int r = row - reach; r <= row + reach; ++r)
+                nearest.search(buckets.in_row(r, column - reach, column + reach));
+            if (!is_last && !nearest.are_four()) continue;
+            neighbours[static_cast<std::size_t>(seed.index)] = nearest.seeds();
+            break;
         }
-        neighbours[s] = nearest.seeds;
     }
 }
 

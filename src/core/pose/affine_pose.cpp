@@ -11,19 +11,24 @@ namespace {
 /// So many dots, evenly spread, tell the displacement and the scatter.
 constexpr int kSample = 64;
 
-/// Median over a sample of the dots.
-template <typename Value>
-std::int32_t sampled_median(const Observations& observations, Value value) {
-    const int every = observations.count() / kSample + 1;
-    std::array<std::int32_t, kSample> values;
-    std::size_t count = 0;
-    int seen = 0;
-    observations.visit([&](const Observation& o) {
-        if (++seen < every) return;
-        seen = 0;
-        values[count++] = value(o);
-    });
-    return median(std::span(values).first(count));
+/// What is displaced by so much in the direction of each symbol.
+std::array<Vec, 4> displacements(std::int32_t length) {
+    std::array<Vec, 4> all;
+    for (std::size_t s = 0; s < all.size(); ++s) {
+        const auto symbol = static_cast<Symbol>(s);
+        all[s] = {dx(symbol) * length, dy(symbol) * length};
+    }
+    return all;
+}
+
+/// Where an observation lies against its intersection.
+struct Offset {
+    Vec q16;
+    Symbol symbol;
+};
+
+std::int32_t squared_q16(Vec a_q16) {
+    return (a_q16.x >> 8) * (a_q16.x >> 8) + (a_q16.y >> 8) * (a_q16.y >> 8);
 }
 
 }  // namespace
@@ -33,36 +38,46 @@ int fit_affine_pose(const Observations& observations, PlaneFromImage& pose) {
     const auto offset_q16 = [&](const Observation& o, Vec p) {
         return cells.plane_point_q16(p) - Vec{o.pattern_step.x * 65536, o.pattern_step.y * 65536};
     };
+    std::array<Offset, kSample> sample;
+    std::size_t count = 0;
+    observations.visit(
+        [&](const Observation& o) {
+            sample[count++] = {offset_q16(o, cells.from_centre_q3(o.image_point_q8)), o.symbol};
+        },
+        observations.count() / kSample + 1);
+    const auto sampled_median = [&](auto value) {
+        std::array<std::int32_t, kSample> values;
+        for (std::size_t s = 0; s < count; ++s)
+            values[s] = value(sample[s]);
+        return median(std::span(values).first(count));
+    };
     // As printed and seen: ink spreads and lenses blur differently each time.
-    const std::int32_t displacement_q16 = sampled_median(observations, [&](const Observation& o) {
-        const Vec offset = offset_q16(o, cells.from_centre_q3(o.image_point_q8));
-        return offset.x * dx(o.symbol) + offset.y * dy(o.symbol);
+    const std::int32_t displacement_q16 = sampled_median([](const Offset& offset) {
+        return offset.q16.x * dx(offset.symbol) + offset.q16.y * dy(offset.symbol);
     });
-    const auto squared_residual_q16 = [&](const Observation& o, Vec p) {
-        const Vec r = offset_q16(o, p) -
-                      Vec{dx(o.symbol) * displacement_q16, dy(o.symbol) * displacement_q16};
-        return (r.x >> 8) * (r.x >> 8) + (r.y >> 8) * (r.y >> 8);
+    const auto displaced_q16 = displacements(displacement_q16);
+    const auto squared_residual_q16 = [&](Vec offset, Symbol symbol) {
+        return squared_q16(offset - displaced_q16[static_cast<std::size_t>(symbol)]);
     };
     // Squared distances of a plane Gaussian have their median at 1.39 sigma^2; 12 medians lie
     // 4 sigma out, where 1 dot in 3,000 is lost by chance.
-    const std::int32_t limit_q16 =
-        12 * sampled_median(observations,
-                            [&](const Observation& o) {
-                                return squared_residual_q16(o,
-                                                            cells.from_centre_q3(o.image_point_q8));
-                            }) +
-        1;
+    const std::int32_t limit_q16 = 12 * sampled_median([&](const Offset& offset) {
+                                       return squared_residual_q16(offset.q16, offset.symbol);
+                                   }) +
+                                   1;
 
     // Where dots were printed, in 1/64 cells: at most 2^15 of them.
     constexpr int kTargetBits = 6;
-    const std::int32_t displacement = shift_rounded(displacement_q16, 16 - kTargetBits);
-    CellFit fit;
+    const auto targets = displacements(shift_rounded(displacement_q16, 16 - kTargetBits));
+    CellFit sums;
     observations.visit([&](const Observation& o) {
         const Vec p = cells.from_centre_q3(o.image_point_q8);
-        if (squared_residual_q16(o, p) > limit_q16) return;
-        fit.add(p, {o.pattern_step.x * (1 << kTargetBits) + dx(o.symbol) * displacement,
-                    o.pattern_step.y * (1 << kTargetBits) + dy(o.symbol) * displacement});
+        if (squared_residual_q16(offset_q16(o, p), o.symbol) > limit_q16) return;
+        const Vec step{o.pattern_step.x * (1 << kTargetBits),
+                       o.pattern_step.y * (1 << kTargetBits)};
+        sums.add(p, step + targets[static_cast<std::size_t>(o.symbol)]);
     });
+    CellFit fit = sums;  // So that `sums` may stay in registers.
     return fit.solve(kTargetBits, pose) ? fit.count() : 0;
 }
 

@@ -38,14 +38,18 @@ class Observations {
     /// At least as many as `visit` shows.
     int count() const { return static_cast<int>(dots_.size()); }
 
+    /// Shows all observations, or one out of `every`.
     template <typename Use>
-    void visit(Use use) const {
+    void visit(Use use, int every = 1) const {
+        const Vec along_row = nominal_.pattern_step({1, 0});
+        const GridCell* cell = grid_.storage.data();
+        int skipped = 0;
         for (int j = grid_.j0; j < grid_.j0 + grid_.rows; ++j) {
-            for (int i = grid_.i0; i < grid_.i0 + grid_.columns; ++i) {
-                const GridCell& cell = grid_.at(i, j);
-                if (!cell.has_dot()) continue;
-                const Vec step = nominal_.pattern_step({i, j});
-                use(Observation{dots_[cell.dot].centre_q8, step, nominal_.symbol(step)});
+            Vec step = nominal_.pattern_step({grid_.i0, j});
+            for (int i = 0; i < grid_.columns; ++i, ++cell, step = step + along_row) {
+                if (!cell->has_dot() || ++skipped < every) continue;
+                skipped = 0;
+                use(Observation{dots_[cell->dot].centre_q8, step, nominal_.symbol(step)});
             }
         }
     }
