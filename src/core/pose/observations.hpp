@@ -40,12 +40,13 @@ class Observations {
 
     template <typename Use>
     void visit(Use use) const {
+        const Vec along = nominal_.pattern_step({1, 0});
+        const GridCell* cell = grid_.storage.data();
         for (int j = grid_.j0; j < grid_.j0 + grid_.rows; ++j) {
-            for (int i = grid_.i0; i < grid_.i0 + grid_.columns; ++i) {
-                const GridCell& cell = grid_.at(i, j);
-                if (!cell.has_dot()) continue;
-                const Vec step = nominal_.pattern_step({i, j});
-                use(Observation{dots_[cell.dot].centre_q8, step, nominal_.symbol(step)});
+            Vec step = nominal_.pattern_step({grid_.i0, j});
+            for (int i = 0; i < grid_.columns; ++i, ++cell, step = step + along) {
+                if (!cell->has_dot()) continue;
+                use(Observation{dots_[cell->dot].centre_q8, step, nominal_.symbol(step)});
             }
         }
     }
