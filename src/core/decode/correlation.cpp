@@ -30,14 +30,17 @@ using Line = std::span<const std::int8_t>;
 
 /// Both lines' weights from `first` on, 0 where they have ended.
 void gather(Line a, Line b, std::size_t first, Weights& weights) {
-    const auto end_of = [&](Line line) { return std::min(std::max(line.size(), first), first + kAtOnce); };
+    const auto rest = [&](Line line) {
+        line = line.subspan(std::min(first, line.size()));
+        return line.first(std::min(line.size(), kAtOnce));
+    };
     weights.fill(0);
     std::int32_t* weight = weights.data();
-    for (std::size_t i = first; i < end_of(a); ++i)
-        *weight++ = a[i];
+    for (const std::int8_t of_a : rest(a))
+        *weight++ = of_a;
     weight = weights.data();
-    for (std::size_t i = first; i < end_of(b); ++i)
-        *weight++ += b[i] * 65536;
+    for (const std::int8_t of_b : rest(b))
+        *weight++ += of_b * 65536;
 }
 
 /// For each string of bits the sum of a group of weights, negative where the bit is 0.
@@ -83,13 +86,14 @@ void correlate_both(Line a, Line b, LineScores& scores_a, LineScores& scores_b) 
         ++first;
     while (end > first && are_zero(end - 1))
         --end;
-    auto take = end - first <= 3 * kGroup ? take_sums<3, false> : take_sums<kGroups, false>;
+    const std::size_t groups = end - first <= 3 * kGroup ? 3 : kGroups;
+    auto take = groups == 3 ? take_sums<3, false> : take_sums<kGroups, false>;
     std::size_t phase = first;
     do {
         Weights weights;
         gather(a, b, first, weights);
         std::array<Sums, kGroups> sums;
-        for (std::size_t group = 0; group < kGroups; ++group)
+        for (std::size_t group = 0; group < groups; ++group)
             sum_signed(&weights[group * kGroup], sums[group]);
         while (phase >= kSections)
             phase -= kSections;
@@ -111,6 +115,15 @@ Match best_match(const LineScores& scores) {
         if (scores[o] > best.score) best = {scores[o], static_cast<std::uint8_t>(o)};
     }
     return best;
+}
+
+Extremes extremes_of(const LineScores& scores) {
+    Extremes extremes{scores[0], scores[0]};
+    for (const std::int16_t score : scores) {
+        extremes.most = std::max<std::int32_t>(extremes.most, score);
+        extremes.least = std::min<std::int32_t>(extremes.least, score);
+    }
+    return extremes;
 }
 
 }  // namespace dotpose::core
