@@ -9,8 +9,8 @@ namespace {
 constexpr std::size_t kGroup = 5;
 constexpr std::size_t kGroups = 4;
 constexpr std::size_t kAtOnce = kGroup * kGroups;
-/// Weights of two lines, or sums of them, at once: they fit 16 bits, so a + 65536 b adds up like one
-/// number.
+/// Weights of two lines, or sums of them, at once: they fit 16 bits, so a + 65536 b adds up like
+/// one number.
 using Weights = std::array<std::int32_t, kAtOnce>;
 using Sums = std::array<std::int32_t, 1 << kGroup>;
 

@@ -239,9 +239,9 @@ class ByShift {
 
     const Contest& contest_;
     int enough_;
-    std::size_t count_ = 0;    ///< of lines at which something is lost
-    std::size_t anchors_ = 0;  ///< who shares none of the first ones has lost enough
-    bool all_matter_ = false;  ///< even who shares none at all
+    std::size_t count_ = 0;               ///< of lines at which something is lost
+    std::size_t anchors_ = 0;             ///< who shares none of the first ones has lost enough
+    bool all_matter_ = false;             ///< even who shares none at all
     std::array<Loss, kMaxLines> losses_;  ///< the greatest first
 };
 
@@ -322,7 +322,8 @@ int singles_log2_q8(const Contest& contest) {
             std::uint32_t places = similar[word];
             for (std::uint32_t place = 32 * word; places != 0; ++place, places >>= 1) {
                 if ((places & 1) == 0) continue;
-                sum = by_shift.add(k, place < ahead ? place + a.length - ahead : place - ahead, sum);
+                sum =
+                    by_shift.add(k, place < ahead ? place + a.length - ahead : place - ahead, sum);
             }
         }
     }
