@@ -121,11 +121,14 @@ bool choose_windows(Located& l) {
     const Region window = core::choose_window(l.w.grid, kWindowSide);
     const Region region =
         core::choose_window(l.w.grid, static_cast<int>(l.w.line_scores.size() / 2));
-    return window.i0 == l.w.decoding.window.i0 && region.i0 == l.w.decoding.region.i0;
+    // Devices have no use for the smaller one.
+    const Region& found = l.w.decoding.window;
+    return (found.columns == 0 || window.i0 == found.i0) &&
+           region.i0 == l.w.decoding.region.i0;
 }
 
 bool rank_turns(Located& l) {
-    const auto turns = core::rank_turns(l.w.grid, l.w.decoding.region);
+    const auto turns = core::rank_turns(l.w.grid, l.w.decoding.region).turns;
     const int turn = l.w.decoding.pattern_from_grid.quarters;
     return turns[0].quarters == turn || turns[1].quarters == turn;
 }

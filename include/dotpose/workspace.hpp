@@ -226,6 +226,8 @@ struct Region {
 struct Decoding {
     Region window;  ///< the 8 x 8 cells read most clearly
     Region region;  ///< all that is decoded: at most kMaxLines x kMaxLines cells
+    /// Of some lines of the region with the main sequence, at the likeliest turn.
+    std::int32_t agreement = 0;
     Turn pattern_from_grid;
     Place place;  ///< where grid cell (0, 0) stands in the code, seen or not
     /// Whether `Workspace::line_scores` are those of the region, turned so.

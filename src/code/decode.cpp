@@ -58,15 +58,17 @@ consteval std::uint32_t inverse(std::uint32_t a, std::uint32_t m) {
 
 /// The position that leaves these remainders modulo 236, 233, 31 and 241: Garner's mixed-radix form
 /// of the Chinese remainder theorem, which stays within 32 bits.
-std::uint32_t from_remainders(const std::array<std::uint32_t, 4>& r) {
+std::uint32_t from_remainders(const code::Basis& basis, const std::array<std::uint32_t, 4>& r) {
     constexpr std::uint32_t kM1 = 236, kM2 = 233, kM3 = 31, kM4 = 241;
     static_assert(kM1 * kM2 * kM3 * kM4 == kPositionsPerAxis);
-    const std::uint32_t k2 = (r[1] + 2 * kM2 - r[0]) % kM2 * inverse(kM1, kM2) % kM2;
-    const std::uint32_t p2 = r[0] + kM1 * k2;
-    const std::uint32_t k3 = (r[2] + kM3 - p2 % kM3) % kM3 * inverse(kM1 * kM2, kM3) % kM3;
-    const std::uint32_t p3 = p2 + kM1 * kM2 * k3;
-    const std::uint32_t k4 = (r[3] + kM4 - p3 % kM4) % kM4 * inverse(kM1 * kM2 * kM3, kM4) % kM4;
-    return p3 + kM1 * kM2 * kM3 * k4;
+    // The next digit of the form: what is left of the remainder, divided by the product so far.
+    const auto digit = [&](std::size_t n, std::uint32_t so_far, std::uint32_t inverse) {
+        const code::Secondary& a = basis[n];
+        return a.place_of((r[n] + a.length - a.place_of(so_far)) * inverse);
+    };
+    const std::uint32_t p2 = r[0] + kM1 * digit(1, r[0], inverse(kM1, kM2));
+    const std::uint32_t p3 = p2 + kM1 * kM2 * digit(2, p2, inverse(kM1 * kM2, kM3));
+    return p3 + kM1 * kM2 * kM3 * digit(3, p3, inverse(kM1 * kM2 * kM3, kM4));
 }
 
 /// Place in the main sequence of a whole column or row of bits; kAbsent if there is none.
@@ -120,14 +122,15 @@ Status position_from_rolls(Profile profile, std::span<const std::uint8_t> rolls,
     }
     std::array<std::uint32_t, 4> remainders{};
     int ways = 1;
+    const code::Basis& basis = code::basis(profile);
     for (std::size_t n = 0; n < remainders.size(); ++n) {
-        const Places places = find(code::basis(profile)[n], static_cast<int>(n), deltas);
+        const Places places = find(basis[n], static_cast<int>(n), deltas);
+        if (places.count == 0) return Status::not_in_code;
         remainders[n] = places.first;
         ways *= places.count;
     }
-    if (ways == 0) return Status::not_in_code;
     if (ways > 1) return Status::ambiguous;
-    position = from_remainders(remainders);
+    position = from_remainders(basis, remainders);
     return Status::ok;
 }
 

@@ -99,24 +99,30 @@ auto* decoder(const Options& options) {
     return options.decoder == Decoder::window ? core::decode_window : core::decode_all;
 }
 
+/// The reason for which bits are refused, or a better one.
+Status refused(Status reason, const Workspace& w) {
+    const Decoding& decoding = w.decoding;
+    return core::is_mirrored(w.grid, decoding.region, decoding.agreement) ? Status::mirrored
+                                                                          : reason;
+}
+
 /// Bits -> position in the code.
 Status read_position(const Options& options, decltype(core::decode_all) decode, Workspace& w) {
     Decoding& decoding = w.decoding;
-    decoding.window = core::choose_window(w.grid, kWindowSide);  // II-B.5
+    // Devices have no time for what is only shown.
+    if (decode != core::decode_briefly) {
+        decoding.window = core::choose_window(w.grid, kWindowSide);  // II-B.5
+    }
     decoding.region = core::choose_window(w.grid, static_cast<int>(w.line_scores.size() / 2));
     const Status status = decode(w.grid, options.profile, w.line_scores, decoding);  // II-B.6-7
-    if (status != Status::ok && core::is_mirrored(w.grid, decoding.region)) return Status::mirrored;
-    return status;
+    return status == Status::ok ? status : refused(status, w);
 }
 
 /// Whether all dots in view agree with the position.
 Status verify_position(const Options& options, decltype(core::verify) verify, Workspace& w) {
     const Status status =
         verify(w.grid, options.profile, w.decoding, options.integrity, w.line_scores, w.fix);
-    if (status != Status::ok && core::is_mirrored(w.grid, w.decoding.region)) {
-        return Status::mirrored;
-    }
-    return status;
+    return status == Status::ok ? status : refused(status, w);
 }
 
 /// Blobs -> position in the code.

@@ -1,5 +1,7 @@
 #include "core/decode/correlation.hpp"
 
+#include <utility>
+
 #include "code/sequences.hpp"
 
 namespace dotpose::core {
@@ -9,50 +11,62 @@ namespace {
 constexpr std::size_t kGroup = 5;
 constexpr std::size_t kGroups = 4;
 constexpr std::size_t kAtOnce = kGroup * kGroups;
-/// Weights of two lines, or sums of them, at once: they fit 16 bits, so a + 65536 b adds up like one
-/// number.
+/// Weights of two lines, or sums of them, at once: they fit 16 bits, so a + 65536 b adds up like
+/// one number.
 using Weights = std::array<std::int32_t, kAtOnce>;
 using Sums = std::array<std::int32_t, 1 << kGroup>;
 
-/// The `kGroup` bits of the main sequence that follow any index, the first in the lowest.
+/// The `kGroup` bits of the main sequence that follow any index, the first in the lowest: as a
+/// distance in bytes in Sums, because small processors have to multiply by themselves.
 constexpr auto kStrings = [] {
     std::array<std::uint8_t, 2 * kSections + kAtOnce> strings{};
     for (std::size_t i = 0; i < strings.size(); ++i) {
         for (std::size_t k = 0; k < kGroup; ++k) {
-            strings[i] =
-                static_cast<std::uint8_t>(strings[i] | code::kMain[(i + k) % kSections] << k);
+            const std::size_t bit = code::kMain[(i + k) % kSections] * sizeof(std::int32_t) << k;
+            strings[i] = static_cast<std::uint8_t>(strings[i] | bit);
         }
     }
     return strings;
 }();
 
+std::int32_t sum_at(const Sums& sums, std::uint8_t bytes) {
+    const void* first = sums.data();
+    const void* sum = static_cast<const std::byte*>(first) + bytes;
+    return *static_cast<const std::int32_t*>(sum);
+}
+
 using Line = std::span<const std::int8_t>;
 
 /// Both lines' weights from `first` on, 0 where they have ended.
 void gather(Line a, Line b, std::size_t first, Weights& weights) {
-    const auto end_of = [&](Line line) { return std::min(std::max(line.size(), first), first + kAtOnce); };
+    const auto rest = [&](Line line) {
+        line = line.subspan(std::min(first, line.size()));
+        return line.first(std::min(line.size(), kAtOnce));
+    };
     weights.fill(0);
     std::int32_t* weight = weights.data();
-    for (std::size_t i = first; i < end_of(a); ++i)
-        *weight++ = a[i];
+    for (const std::int8_t of_a : rest(a))
+        *weight++ = of_a;
     weight = weights.data();
-    for (std::size_t i = first; i < end_of(b); ++i)
-        *weight++ += b[i] * 65536;
+    for (const std::int8_t of_b : rest(b))
+        *weight++ += of_b * 65536;
+}
+
+template <std::size_t... I>
+void append_sums(Sums& sums, std::int32_t weight, std::index_sequence<I...>) {
+    ((sums[sizeof...(I) + I] = sums[I] + 2 * weight), ...);
 }
 
 /// For each string of bits the sum of a group of weights, negative where the bit is 0.
 // By itself, as it is long: without loops it takes half of the time.
 [[gnu::noinline]] void sum_signed(const std::int32_t* weights, Sums& sums) {
+    static_assert(kGroup == 5);
     sums[0] = -(weights[0] + weights[1] + weights[2] + weights[3] + weights[4]);
-    std::size_t count = 1;
-#pragma GCC unroll 5
-    for (std::size_t k = 0; k < kGroup; ++k) {
-        const std::int32_t twice = 2 * weights[k];
-#pragma GCC unroll 16
-        for (std::size_t i = 0; i < count; ++i)
-            sums[count + i] = sums[i] + twice;
-        count *= 2;
-    }
+    append_sums(sums, weights[0], std::make_index_sequence<1>{});
+    append_sums(sums, weights[1], std::make_index_sequence<2>{});
+    append_sums(sums, weights[2], std::make_index_sequence<4>{});
+    append_sums(sums, weights[3], std::make_index_sequence<8>{});
+    append_sums(sums, weights[4], std::make_index_sequence<16>{});
 }
 
 /// Adds the sums of all groups to the scores, or sets the scores to them.
@@ -61,9 +75,9 @@ void take_sums(const std::array<Sums, kGroups>& sums, std::size_t phase, LineSco
                LineScores& scores_b) {
     const std::uint8_t* string = kStrings.data() + phase;
     for (std::size_t o = 0; o < kSections; ++o, ++string) {
-        std::int32_t sum = sums[0][string[0]];
+        std::int32_t sum = sum_at(sums[0], string[0]);
         for (std::size_t group = 1; group < Groups; ++group)
-            sum += sums[group][string[group * kGroup]];
+            sum += sum_at(sums[group], string[group * kGroup]);
         const std::int32_t of_b = (sum + 0x8000) >> 16;
         scores_a[o] = static_cast<std::int16_t>(Adds ? scores_a[o] + sum : sum);
         scores_b[o] = static_cast<std::int16_t>(Adds ? scores_b[o] + of_b : of_b);
@@ -83,13 +97,14 @@ void correlate_both(Line a, Line b, LineScores& scores_a, LineScores& scores_b) 
         ++first;
     while (end > first && are_zero(end - 1))
         --end;
-    auto take = end - first <= 3 * kGroup ? take_sums<3, false> : take_sums<kGroups, false>;
+    const std::size_t groups = end - first <= 3 * kGroup ? 3 : kGroups;
+    auto take = groups == 3 ? take_sums<3, false> : take_sums<kGroups, false>;
     std::size_t phase = first;
     do {
         Weights weights;
         gather(a, b, first, weights);
         std::array<Sums, kGroups> sums;
-        for (std::size_t group = 0; group < kGroups; ++group)
+        for (std::size_t group = 0; group < groups; ++group)
             sum_signed(&weights[group * kGroup], sums[group]);
         while (phase >= kSections)
             phase -= kSections;
@@ -111,6 +126,15 @@ Match best_match(const LineScores& scores) {
         if (scores[o] > best.score) best = {scores[o], static_cast<std::uint8_t>(o)};
     }
     return best;
+}
+
+Extremes extremes_of(const LineScores& scores) {
+    Extremes extremes{scores[0], scores[0]};
+    for (const std::int16_t score : scores) {
+        extremes.most = std::max<std::int32_t>(extremes.most, score);
+        extremes.least = std::min<std::int32_t>(extremes.least, score);
+    }
+    return extremes;
 }
 
 }  // namespace dotpose::core

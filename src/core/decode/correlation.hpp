@@ -26,4 +26,11 @@ void correlate_both(std::span<const std::int8_t> a, std::span<const std::int8_t>
 /// The best of all offsets; the smallest of equal ones.
 Match best_match(const LineScores& scores);
 
+struct Extremes {
+    std::int32_t most = 0;
+    std::int32_t least = 0;
+};
+
+Extremes extremes_of(const LineScores& scores);
+
 }  // namespace dotpose::core

@@ -1,9 +1,15 @@
 #include "core/decode/double_rivals.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 namespace dotpose::core {
 namespace {
+
+/// Most rivals are hopeless after so many lines.
+constexpr std::size_t kFirstLines = 5;
+/// More than any loss makes up for.
+constexpr std::int32_t kNoLoss = INT32_MIN / 8;
 
 /// Lines in the order of what they say: the mean odds of a rival that does not share them.
 struct Ranking {
@@ -16,6 +22,9 @@ struct Ranking {
     float odds_without_anchor = 1;
     /// What a rival loses in a line of the ranking, by how much further its roll is plus 126.
     std::array<std::array<std::int16_t, 4 * kSections>, kMaxLines> losses;
+    /// The same of the first lines; and so little that nothing matters, where it shares the line.
+    std::array<std::array<std::int32_t, 4 * kSections>, kFirstLines> first_losses;
+    std::array<std::array<std::int32_t, 4 * kSections>, kFirstLines> first_losses_unshared;
 };
 
 float mean_odds(const Contest& contest, int line) {
@@ -45,6 +54,12 @@ Ranking::Ranking(const Contest& contest) {
             losses[i][static_cast<std::size_t>(shift)] =
                 static_cast<std::int16_t>(contest.loss(lines[i], shift % kSections));
         }
+    }
+    for (std::size_t i = 0; i < kFirstLines; ++i) {
+        std::copy(losses[i].begin(), losses[i].end(), first_losses[i].begin());
+        first_losses_unshared[i] = first_losses[i];
+        for (std::size_t shift = 0; shift < 4 * kSections; shift += kSections)
+            first_losses_unshared[i][shift] = kNoLoss;
     }
 }
 
@@ -94,13 +109,49 @@ float odds_of_anchored(const Contest& contest, const Ranking& ranking, const Gro
     return contest.odds(lost);
 }
 
+/// What rivals with one growth in the first sequence lose in the first lines but the anchor.
+class FirstLosses {
+  public:
+    FirstLosses(const Ranking& ranking, const Growth& a, std::size_t anchor) : anchor_(anchor) {
+        std::size_t line = 0;
+        for (std::size_t n = 0; n < losses_.size(); ++n, ++line) {
+            if (line == anchor) ++line;
+            lines_[n] = line;
+            const auto& losses =
+                line < anchor ? ranking.first_losses_unshared[line] : ranking.first_losses[line];
+            losses_[n] = losses.data() + 2 * kSections + a[line] - a[anchor];
+        }
+    }
+
+    /// As far as no line before the anchor is shared.
+    std::int32_t operator()(const Growth& b) const {
+        std::int32_t lost = 0;
+        for (std::size_t n = 0; n < losses_.size(); ++n)
+            lost += losses_[n][b[lines_[n]] - b[anchor_]];
+        return lost;
+    }
+
+  private:
+    std::size_t anchor_;
+    std::array<std::size_t, kFirstLines - 1> lines_;
+    std::array<const std::int32_t*, kFirstLines - 1> losses_;
+};
+
 float sum_of_pair(const Contest& contest, const Ranking& ranking, const Growths& first,
                   const Growths& second) {
     float sum = 0;
     first.visit([&](const Growth& a) {
+        std::array<std::optional<FirstLosses>, kMaxLines> first_losses;
+        for (int anchor = 0; anchor < ranking.anchors; ++anchor) {
+            const auto n = static_cast<std::size_t>(anchor);
+            first_losses[n].emplace(ranking, a, n);
+        }
         second.visit([&](const Growth& b) {
-            for (int anchor = 0; anchor < ranking.anchors; ++anchor)
-                sum += odds_of_anchored(contest, ranking, a, b, anchor);
+            for (int anchor = 0; anchor < ranking.anchors; ++anchor) {
+                const std::int32_t lost = (*first_losses[static_cast<std::size_t>(anchor)])(b);
+                sum += contest.is_hopeless(lost) ? kNegligible
+                                                 : odds_of_anchored(contest, ranking, a, b, anchor);
+            }
             sum += kSections * ranking.odds_without_anchor;
         });
     });

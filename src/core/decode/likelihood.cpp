@@ -56,15 +56,23 @@ Status assign(std::span<const Dot> dots, PointOf point_of, Grid& grid) {
     }
     lay_out(least, most, grid);
 
-    for (std::size_t d = 0; d < dots.size(); ++d) {
-        const GridPoint g = point_of(dots[d]);
-        if (!grid.contains(g.cell.x, g.cell.y)) continue;
+    // Writing cells, small processors would read the grid's members anew for each dot.
+    const Grid here = grid;
+    const auto columns = static_cast<unsigned>(here.columns);
+    const auto rows = static_cast<unsigned>(here.rows);
+    std::uint16_t index = 0;
+    for (const Dot& dot : dots) {
+        const GridPoint g = point_of(dot);
+        const auto i = static_cast<unsigned>(g.cell.x - here.i0);
+        const auto j = static_cast<unsigned>(g.cell.y - here.j0);
         // Eq. 7-8. differs: with y down, left and down mean x bit 1, right and down y bit 1.
-        const GridCell read{quasi_probability(g.offset_q16.y - g.offset_q16.x),
-                            quasi_probability(g.offset_q16.y + g.offset_q16.x),
-                            static_cast<std::uint16_t>(d)};
-        GridCell& cell = grid.at(g.cell.x, g.cell.y);
-        if (quality(read) > quality(cell)) cell = read;  // Fig. 8
+        if (i < columns && j < rows) {
+            const GridCell read{quasi_probability(g.offset_q16.y - g.offset_q16.x),
+                                quasi_probability(g.offset_q16.y + g.offset_q16.x), index};
+            GridCell& cell = here.storage[j * columns + i];
+            if (quality(read) > quality(cell)) cell = read;  // Fig. 8
+        }
+        ++index;
     }
     return Status::ok;
 }

@@ -6,92 +6,115 @@
 namespace dotpose::core {
 namespace {
 
-/// How the bits of a line are taken.
-struct Reading {
-    bool is_column;
-    std::int8_t GridCell::*bit;
-    bool flipped;
-    bool reversed;
-};
-
 /// So many lines of the middle half, which has the longest ones, settle the turn.
 constexpr int kVoters = 4;
 
-/// Sum over columns (or rows) of the best correlation with the main sequence.
-std::int32_t agreement(const Grid& grid, const Region& region, Reading how) {
-    const int lines = how.is_column ? region.columns : region.rows;
-    const int length = how.is_column ? region.rows : region.columns;
-    const auto read = [&](int i, Line& line) {
-        for (int n = 0; n < length; ++n) {
-            const int along = how.reversed ? length - 1 - n : n;
-            const GridCell& cell = how.is_column ? grid.at(region.i0 + i, region.j0 + along)
-                                                 : grid.at(region.i0 + along, region.j0 + i);
-            const std::int8_t weight = cell.*how.bit;
-            line[static_cast<std::size_t>(n)] =
-                how.flipped ? static_cast<std::int8_t>(-weight) : weight;
-        }
-        return std::span<const std::int8_t>(line).first(static_cast<std::size_t>(length));
-    };
-    std::array<Line, 2> storage;
+/// Those columns, or rows, of a region, and one of the bits of their cells.
+class Voters {
+  public:
+    Voters(const Grid& grid, const Region& region, bool are_columns, std::int8_t GridCell::*bit)
+        : first_(&grid.at(region.i0, region.j0)),
+          across_(are_columns ? 1 : grid.columns),
+          along_(are_columns ? grid.columns : 1),
+          length_(are_columns ? region.rows : region.columns),
+          bit_(bit) {
+        const int lines = are_columns ? region.columns : region.rows;
+        step_ = std::max(lines / (2 * kVoters), 1);
+        first_ += (lines - (kVoters - 1) * step_) / 2 * across_;
+    }
+
+    std::span<const std::int8_t> read(int voter, bool reversed, Line& line) const {
+        const GridCell* cell = first_ + voter * step_ * across_;
+        const int step = reversed ? -along_ : along_;
+        if (reversed) cell += (length_ - 1) * along_;
+        for (int n = 0; n < length_; ++n)
+            line[static_cast<std::size_t>(n)] = cell[n * step].*bit_;
+        return std::span(line).first(static_cast<std::size_t>(length_));
+    }
+
+  private:
+    const GridCell* first_;
+    int across_;  ///< cells from one line to the next
+    int along_;   ///< and within a line
+    int length_;
+    int step_;  ///< lines from one voter to the next
+    std::int8_t GridCell::*bit_;
+};
+
+/// Sum over lines of the best correlation with the main sequence, as they are and flipped.
+struct Agreement {
+    std::int32_t as_is = 0;
+    std::int32_t flipped = 0;
+};
+
+Agreement agreement(const Voters& voters, bool reversed) {
+    std::array<Line, 2> lines;
     std::array<LineScores, 2> scores;
-    std::int32_t sum = 0;
-    const int step = std::max(lines / (2 * kVoters), 1);
-    const int first = (lines - (kVoters - 1) * step) / 2;
-    for (int i = first; i < first + kVoters * step; i += 2 * step) {
-        correlate_both(read(i, storage[0]), read(i + step, storage[1]), scores[0], scores[1]);
-        sum += best_match(scores[0]).score + best_match(scores[1]).score;
+    Agreement sum;
+    for (int i = 0; i < kVoters; i += 2) {
+        correlate_both(voters.read(i, reversed, lines[0]), voters.read(i + 1, reversed, lines[1]),
+                       scores[0], scores[1]);
+        for (const LineScores& of_line : scores) {
+            const Extremes extremes = extremes_of(of_line);
+            sum.as_is += extremes.most;
+            sum.flipped -= extremes.least;
+        }
     }
     return sum;
 }
 
-/// Agreement of the columns (of the x bits) and of the rows (of the y bits), as they are and after
-/// half a turn, which flips and reverses them.
-struct Votes {
-    std::int32_t columns, turned_columns, rows, turned_rows;
-};
+/// The best that any sequence could do.
+std::int32_t most_possible(const Voters& voters) {
+    std::int32_t sum = 0;
+    Line storage;
+    for (int i = 0; i < kVoters; ++i) {
+        for (const std::int8_t weight : voters.read(i, false, storage))
+            sum += magnitude<int>(weight);
+    }
+    return sum;
+}
 
-Votes votes(const Grid& grid, const Region& region) {
-    return {agreement(grid, region, {true, &GridCell::x, false, false}),
-            agreement(grid, region, {true, &GridCell::x, true, true}),
-            agreement(grid, region, {false, &GridCell::y, false, false}),
-            agreement(grid, region, {false, &GridCell::y, true, true})};
+/// Agreement of the best way to read lines.
+std::int32_t best_agreement(const Voters& voters) {
+    const Agreement forwards = agreement(voters, false);
+    const Agreement backwards = agreement(voters, true);
+    return std::max(std::max(forwards.as_is, forwards.flipped),
+                    std::max(backwards.as_is, backwards.flipped));
 }
 
 }  // namespace
 
-std::array<Turn, 4> rank_turns(const Grid& grid, const Region& region) {
+Orientation rank_turns(const Grid& grid, const Region& region) {
     // differs: the paper counts lines that stand in the main sequence exactly; the sum of best
     // correlations is the same vote, but lines with a misread bit keep their say.
-    const Votes v = votes(grid, region);
+    const Voters x_columns(grid, region, true, &GridCell::x);
+    const Voters y_rows(grid, region, false, &GridCell::y);
+    const std::int32_t columns = agreement(x_columns, false).as_is;
+    const std::int32_t rows = agreement(y_rows, false).as_is;
+    // Half a turn flips and reverses.
+    const std::int32_t turned_columns = agreement(x_columns, true).flipped;
+    const std::int32_t turned_rows = agreement(y_rows, true).flipped;
     // A quarter turn lays rows into columns and flips only one of the two: see `turned`.
-    const std::array<std::int32_t, 4> scores{v.columns + v.rows, v.turned_columns + v.rows,
-                                             v.turned_columns + v.turned_rows,
-                                             v.columns + v.turned_rows};
+    const std::array<std::int32_t, 4> scores{columns + rows, turned_columns + rows,
+                                             turned_columns + turned_rows, columns + turned_rows};
     std::array<Turn, 4> turns{Turn{0}, Turn{1}, Turn{2}, Turn{3}};
+    const auto score = [&](Turn t) { return scores[static_cast<std::size_t>(t.quarters)]; };
     std::sort(turns.begin(), turns.end(), [&](Turn a, Turn b) {
-        const auto score = [&](Turn t) { return scores[static_cast<std::size_t>(t.quarters)]; };
         return score(a) != score(b) ? score(a) > score(b) : a.quarters < b.quarters;
     });
-    return turns;
+    return {turns, score(turns[0])};
 }
 
-bool is_mirrored(const Grid& grid, const Region& region) {
+bool is_mirrored(const Grid& grid, const Region& region, std::int32_t upright) {
     // In a mirror image the projections of eq. 7 and 8 change places, and lines may run backwards.
-    std::int32_t columns = 0;
-    std::int32_t rows = 0;
-    for (const bool flipped : {false, true}) {
-        for (const bool reversed : {false, true}) {
-            columns =
-                std::max(columns, agreement(grid, region, {true, &GridCell::y, flipped, reversed}));
-            rows =
-                std::max(rows, agreement(grid, region, {false, &GridCell::x, flipped, reversed}));
-        }
-    }
-    const Votes v = votes(grid, region);
-    const std::int32_t upright =
-        std::max(v.columns, v.turned_columns) + std::max(v.rows, v.turned_rows);
+    const Voters y_columns(grid, region, true, &GridCell::y);
+    const Voters x_rows(grid, region, false, &GridCell::x);
     // Lines of random bits reach about 60 % of what lines of the main sequence do.
-    return 4 * (columns + rows) > 5 * upright;
+    const auto is_much = [&](std::int32_t mirrored) { return 4 * mirrored > 5 * upright; };
+    const std::int32_t most_of_rows = most_possible(x_rows);
+    if (!is_much(most_possible(y_columns) + most_of_rows)) return false;
+    const std::int32_t columns = best_agreement(y_columns);
+    return is_much(columns + most_of_rows) && is_much(columns + best_agreement(x_rows));
 }
 
 }  // namespace dotpose::core

@@ -9,12 +9,17 @@
 
 namespace dotpose::core {
 
-/// The four turns, the likeliest first: columns and rows each vote on whether they agree better
-/// with the main sequence as they are, or flipped and reversed.
-std::array<Turn, 4> rank_turns(const Grid& grid, const Region& region);
+struct Orientation {
+    std::array<Turn, 4> turns;  ///< the likeliest first
+    std::int32_t agreement;     ///< of some lines with the main sequence, at the likeliest turn
+};
+
+/// Ranks the four turns: columns and rows each vote on whether they agree better with the main
+/// sequence as they are, or flipped and reversed.
+Orientation rank_turns(const Grid& grid, const Region& region);
 
 /// Whether the region agrees with the mirrored pattern, whose columns carry the bits of rows, much
-/// better than with the pattern itself.
-bool is_mirrored(const Grid& grid, const Region& region);
+/// better than with the pattern itself: than `agreement`, as of its orientation.
+bool is_mirrored(const Grid& grid, const Region& region, std::int32_t agreement);
 
 }  // namespace dotpose::core

@@ -40,10 +40,11 @@ void set_place(Profile profile, const Upright& upright, Turn turn, const AxisRea
 
 Status decode_lines(const Grid& grid, Profile profile, std::span<LineScores> storage,
                     SearchLimits limits, Decoding& decoding) {
+    const auto [turns, agreement] = rank_turns(grid, decoding.region);
+    decoding.agreement = agreement;
     if (decoding.region.columns < kFewestLines || decoding.region.rows < kFewestLines) {
         return Status::grid_too_small;
     }
-    const std::array<Turn, 4> turns = rank_turns(grid, decoding.region);
     std::int32_t best = INT32_MIN;
     Status status = Status::not_in_code;
     for (const Turn turn : {turns[0], turns[1]}) {
@@ -71,12 +72,13 @@ Status decode_lines(const Grid& grid, Profile profile, std::span<LineScores> sto
 Status decode_window(const Grid& grid, Profile profile, std::span<LineScores> storage,
                      Decoding& decoding) {
     const Region& window = decoding.window;
+    decoding.agreement = rank_turns(grid, decoding.region).agreement;
     constexpr int kFewestDots_q8 = 256 / 3;
     if (window.columns < kWindowSide || window.rows < kWindowSide ||
         mean_quality_q8(grid, window) < kFewestDots_q8) {
         return Status::grid_too_small;
     }
-    const Turn turn = rank_turns(grid, window)[0];
+    const Turn turn = rank_turns(grid, window).turns[0];
     const Upright upright(grid, window, turn);
     AxisReading x;
     AxisReading y;

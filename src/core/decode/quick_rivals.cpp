@@ -106,8 +106,10 @@ int far_log2_q8(const Contest& contest, bool roughly) {
 constexpr int kMostSteps = 18;
 
 /// What a rival has lost at least, from the steps in which its digits differ from the reading's:
-/// there it does not share one of the two lines. Every other step, so that none counts twice.
-/// Losses are in eighths of what is enough, rounded down.
+/// there it does not share one of the two lines, and loses at least the lesser loss of both. In
+/// parts of what is enough, rounded down.
+constexpr unsigned kEnough = 16;
+
 struct Steps {
     Steps(const Contest& contest, int first_line_, int count_, int enough);
 
@@ -118,56 +120,51 @@ struct Steps {
 
 Steps::Steps(const Contest& contest, int first_line_, int count_, int enough)
     : first_line(first_line_), count(count_) {
-    const int eighth = (enough + 7) / 8;
+    constexpr int kParts = kEnough;
+    const int part = (enough + kParts - 1) / kParts;
     for (int step = 0; step < count; ++step) {
         const int line = first_line + step;
         int lost = std::min(contest.least_loss(line), contest.least_loss(line + 1));
-        std::uint8_t eighths = 0;
-        for (; eighths < 8 && lost >= eighth; lost -= eighth)
-            ++eighths;
-        losses[static_cast<std::size_t>(step)] = eighths;
+        std::uint8_t parts = 0;
+        for (; parts < kParts && lost >= part; lost -= part)
+            ++parts;
+        losses[static_cast<std::size_t>(step)] = parts;
     }
 }
 
 /// Losses of 32 rivals, one in each bit.
 class Losses {
   public:
-    void add(std::uint32_t rivals, unsigned eighths) {
-        if (eighths >= 8) {
+    void add(std::uint32_t rivals, unsigned parts) {
+        if (parts >= kEnough) {
             enough_ |= rivals;
             return;
         }
         std::uint32_t carry = 0;
-        if ((eighths & 1) != 0) {
-            carry = ones_ & rivals;
-            ones_ ^= rivals;
-        }
-        if ((eighths & 2) != 0) {
-            const std::uint32_t either = twos_ ^ rivals;
-            const std::uint32_t both = twos_ & rivals;
-            twos_ = either ^ carry;
-            carry = both | (either & carry);
-        } else {
-            const std::uint32_t both = twos_ & carry;
-            twos_ ^= carry;
-            carry = both;
-        }
-        // Fours and what is added there and carried there: of three, two are enough.
-        if ((eighths & 4) != 0) {
-            enough_ |= (rivals & carry) | (fours_ & (rivals | carry));
-            fours_ ^= rivals ^ carry;
-        } else {
-            enough_ |= fours_ & carry;
-            fours_ ^= carry;
-        }
+        add_digit(ones_, (parts & 1) != 0, rivals, carry);
+        add_digit(twos_, (parts & 2) != 0, rivals, carry);
+        add_digit(fours_, (parts & 4) != 0, rivals, carry);
+        add_digit(eights_, (parts & 8) != 0, rivals, carry);
+        enough_ |= carry;
     }
     /// Which have lost enough.
     std::uint32_t enough() const { return enough_; }
 
   private:
+    static void add_digit(std::uint32_t& digit, bool adds, std::uint32_t rivals,
+                          std::uint32_t& carry) {
+        const std::uint32_t before = digit;
+        digit ^= carry;
+        carry &= before;
+        if (!adds) return;
+        carry |= digit & rivals;
+        digit ^= rivals;
+    }
+
     std::uint32_t ones_ = 0;
     std::uint32_t twos_ = 0;
     std::uint32_t fours_ = 0;
+    std::uint32_t eights_ = 0;
     std::uint32_t enough_ = 0;
 };
 
@@ -178,32 +175,34 @@ class SimilarPlaces {
     SimilarPlaces(const code::Secondary& a, std::uint32_t own, const Steps& steps)
         : sequence_(a), own_(own) {
         for (int step = 0; step < steps.count; ++step) {
-            const unsigned eighths = steps.losses[static_cast<std::size_t>(step)];
-            if (eighths != 0) {
-                Half& half = halves_[static_cast<std::size_t>(step % 2)];
-                half.steps[half.count++] = {a.places_of[a.digits[own]],
-                                            static_cast<std::uint8_t>(step),
-                                            static_cast<std::uint8_t>(eighths)};
+            const std::uint8_t parts = steps.losses[static_cast<std::size_t>(step)];
+            if (parts != 0) {
+                steps_[count_++] = {a.places_of[a.digits[own]], static_cast<std::uint8_t>(step),
+                                    parts};
             }
             if (++own == a.length) own = 0;
         }
     }
 
     /// Of the places from 32 * word on.
-    std::uint32_t operator[](std::uint32_t word) const {
-        const std::uint32_t places = sequence_.length - 32 * word;
-        std::uint32_t similar = places < 32 ? (std::uint32_t{1} << places) - 1 : ~std::uint32_t{0};
-        if (own_ / 32 == word) similar &= ~(std::uint32_t{1} << own_ % 32);
-        for (const Half& half : halves_) {
-            Losses losses;
-            for (const Step& step : std::span(half.steps).first(half.count)) {
-                const std::uint32_t* here = step.places + word;
-                const std::uint32_t equal =
-                    here[0] >> step.ahead | here[1] << 1 << (31 - step.ahead);
-                losses.add(~equal, step.eighths);
-            }
-            similar &= ~losses.enough();
+    // By itself, so that small processors can keep what it needs in registers.
+    [[gnu::noinline]] std::uint32_t operator[](std::uint32_t word) const {
+        Losses losses;
+        std::uint32_t counted = 0;
+        int before = -1;
+        for (const Step& step : std::span(steps_).first(count_)) {
+            const std::uint32_t* here = step.places + word;
+            const std::uint32_t equal = here[0] >> step.ahead | here[1] << 1 << (31 - step.ahead);
+            // No line is counted twice, as part of two steps.
+            if (step.ahead != before + 1) counted = 0;
+            before = step.ahead;
+            counted = ~(equal | counted);
+            losses.add(counted, step.parts);
         }
+        const std::uint32_t places = sequence_.length - 32 * word;
+        std::uint32_t similar = ~losses.enough();
+        if (places < 32) similar &= (std::uint32_t{1} << places) - 1;
+        if (own_ / 32 == word) similar &= ~(std::uint32_t{1} << own_ % 32);
         return similar;
     }
 
@@ -211,81 +210,98 @@ class SimilarPlaces {
     struct Step {
         const std::uint32_t* places;  ///< where the reading's digit stands
         std::uint8_t ahead;
-        std::uint8_t eighths;
-    };
-    struct Half {
-        std::size_t count = 0;
-        std::array<Step, kMostSteps / 2> steps;
+        std::uint8_t parts;  ///< of what is enough
     };
     const code::Secondary& sequence_;
     std::uint32_t own_;
-    std::array<Half, 2> halves_;
+    std::size_t count_ = 0;
+    std::array<Step, kMostSteps> steps_;
 };
 
 /// Rivals that differ in one sequence, at every shift at which they share lines enough to matter.
 class ByShift {
   public:
-    ByShift(const Contest& contest, int enough) : contest_(contest) {
-        for (int line = 0; line < contest.lines.count(); ++line) {
-            const int loss = std::max(contest.least_loss(line), 0);
-            losses_[static_cast<std::size_t>(line)] = loss;
-            in_all_ += loss;
-        }
-        most_kept_ = in_all_ - enough;
-    }
+    ByShift(const Contest& contest, int enough);
 
     /// Adds the odds of the rival at a place to a sum.
-    int add(std::size_t sequence, std::uint32_t place, int sum) {
-        // What is below was kept by other rivals.
-        none_ += in_all_ + 1;
-        return most_kept(sequence, place) - none_ > most_kept_ ? add_closely(sequence, place, sum)
-                                                              : sum;
+    int add(std::size_t sequence, std::uint32_t place, int sum) const {
+        return all_matter_ || may_matter(sequence, place) ? add_closely(sequence, place, sum) : sum;
     }
 
   private:
-    /// The most that is kept at any shift, more than `none_`.
-    // By itself, so that small processors can keep all it needs in registers.
-    [[gnu::noinline]] int most_kept(std::size_t sequence, std::uint32_t place) {
-        const std::uint8_t* own =
-            contest_.basis[sequence].rolls + contest_.places[sequence];
-        const std::uint8_t* rival = contest_.basis[sequence].rolls + place;
-        const int* loss = losses_.data();
-        int* by_shift = kept_.data();
-        const int none = none_;
-        int most = none;
-        for (const int* end = loss + contest_.lines.count(); loss != end; ++loss) {
-            int shift = *rival++ - *own++;
-            if (shift < 0) shift += kSections;
-            const int kept = std::max(by_shift[shift], none) + *loss;
-            by_shift[shift] = kept;
-            most = std::max(most, kept);
-        }
-        return most;
-    }
+    struct Loss {
+        int line;
+        int least;  ///< of who does not share the line
+    };
 
-    int add_closely(std::size_t sequence, std::uint32_t place, int sum) {
-        Growth growth;
-        grow(contest_, sequence, place, growth);
-        for (int line = 0; line < contest_.lines.count(); ++line) {
-            int& kept = kept_[growth[static_cast<std::size_t>(line)]];
-            if (kept - none_ > most_kept_) {
-                const std::optional<int> lost = loss_of_growth(contest_, growth, line);
-                const int odds = lost ? contest_.log2_odds_q8(*lost) : kNever_q8;
-                if (odds > kPassedOver_q8) sum = add_log2(sum, odds);
-            }
-            // Those that share another line at the same shift are the same.
-            kept = 0;
-        }
-        return sum;
-    }
+    bool may_matter(std::size_t sequence, std::uint32_t place) const;
+    int add_closely(std::size_t sequence, std::uint32_t place, int sum) const;
 
     const Contest& contest_;
-    int in_all_ = 0;
-    int most_kept_;  ///< of those that have lost enough
-    int none_ = 0;
-    std::array<int, kMaxLines> losses_;  ///< at least, of who does not share the line
-    std::array<int, kSections> kept_{};  ///< by the shift at which lines are shared
+    int enough_;
+    std::size_t count_ = 0;               ///< of lines at which something is lost
+    std::size_t anchors_ = 0;             ///< who shares none of the first ones has lost enough
+    bool all_matter_ = false;             ///< even who shares none at all
+    std::array<Loss, kMaxLines> losses_;  ///< the greatest first
 };
+
+ByShift::ByShift(const Contest& contest, int enough) : contest_(contest), enough_(enough) {
+    for (int line = 0; line < contest.lines.count(); ++line) {
+        const int least = contest.least_loss(line);
+        if (least <= 0) continue;
+        std::size_t i = count_++;
+        for (; i > 0 && losses_[i - 1].least < least; --i)
+            losses_[i] = losses_[i - 1];
+        losses_[i] = {line, least};
+    }
+    int lost = 0;
+    for (; anchors_ < count_ && lost < enough; ++anchors_)
+        lost += losses_[anchors_].least;
+    all_matter_ = lost < enough;
+}
+
+/// Whether at some shift not enough is lost.
+// By itself, so that small processors can keep all it needs in registers.
+[[gnu::noinline]] bool ByShift::may_matter(std::size_t sequence, std::uint32_t place) const {
+    const std::uint8_t* own = contest_.basis[sequence].rolls + contest_.places[sequence];
+    const std::uint8_t* rival = contest_.basis[sequence].rolls + place;
+    const auto shift_at = [&](int line) {
+        const int shift = rival[line] - own[line];
+        return shift < 0 ? shift + kSections : shift;
+    };
+    const Loss* end = losses_.data() + count_;
+    for (const Loss* anchor = losses_.data(); anchor != losses_.data() + anchors_; ++anchor) {
+        const int shift = shift_at(anchor->line);
+        int lost = 0;
+        for (const Loss* loss = losses_.data(); loss != end && lost < enough_; ++loss) {
+            if (shift_at(loss->line) != shift) lost += loss->least;
+        }
+        if (lost < enough_) return true;
+    }
+    return false;
+}
+
+int ByShift::add_closely(std::size_t sequence, std::uint32_t place, int sum) const {
+    Growth growth;
+    grow(contest_, sequence, place, growth);
+    std::array<int, kSections> kept{};  // by the shift at which lines are shared
+    int in_all = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+        in_all += losses_[i].least;
+        kept[growth[static_cast<std::size_t>(losses_[i].line)]] += losses_[i].least;
+    }
+    for (int line = 0; line < contest_.lines.count(); ++line) {
+        int& here = kept[growth[static_cast<std::size_t>(line)]];
+        if (in_all - here < enough_) {
+            const std::optional<int> lost = loss_of_growth(contest_, growth, line);
+            const int odds = lost ? contest_.log2_odds_q8(*lost) : kNever_q8;
+            if (odds > kPassedOver_q8) sum = add_log2(sum, odds);
+        }
+        // Those that share another line at the same shift are the same.
+        here = 0;
+    }
+    return sum;
+}
 
 /// Rivals that differ in one sequence: those that have surely lost enough are passed over; the
 /// others, few, are looked at one by one.
@@ -306,7 +322,8 @@ int singles_log2_q8(const Contest& contest) {
             std::uint32_t places = similar[word];
             for (std::uint32_t place = 32 * word; places != 0; ++place, places >>= 1) {
                 if ((places & 1) == 0) continue;
-                sum = by_shift.add(k, place < ahead ? place + a.length - ahead : place - ahead, sum);
+                sum =
+                    by_shift.add(k, place < ahead ? place + a.length - ahead : place - ahead, sum);
             }
         }
     }

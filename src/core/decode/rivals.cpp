@@ -16,7 +16,9 @@ constexpr int kMostShared = code::kOrder;
 /// Odds at which a closer look at the rivals changes nothing any more, or cannot help.
 constexpr float kFarBelowDoubt = 1e-12F;
 constexpr float kBeyondHelp = 1e-4F;
-static_assert(4 * code::kA3.size() >= kMaxLines, "steps back from any line stay positive");
+
+/// Turns of the shortest sequence that are as long as all lines.
+constexpr std::uint32_t kTurns = kMaxLines / code::kA3.size() + 1;
 
 using Places = std::array<std::uint32_t, 4>;
 
@@ -63,37 +65,34 @@ float sum_of_other_sections(const Contest& contest) {
     return sum;
 }
 
-/// By how much more a rival's roll grows than the reading's from `step` lines after a shared run's
-/// beginning to the next line.
-int difference(const Contest& contest, const Places& own, const Places& rival, int step) {
+/// Sum of the rolls that the sequences add up to a line, from their places at the first line on.
+int roll_at(const Contest& contest, const Places& places, int line) {
     int sum = 0;
-    for (std::size_t k = 0; k < contest.basis.size(); ++k) {
-        const code::Secondary& a = contest.basis[k];
-        const auto at = [&](std::uint32_t place) {
-            // The shortest sequence, four times over, is longer than any line count.
-            const std::uint32_t ahead = place + 4U * a.length + static_cast<std::uint32_t>(step);
-            return int{a.digits[ahead % a.length]};
-        };
-        if (own[k] != rival[k]) sum += a.weight * (at(rival[k]) - at(own[k]));
-    }
+    for (std::size_t k = 0; k < places.size(); ++k)
+        sum += contest.basis[k].rolls[places[k] + static_cast<std::uint32_t>(line)];
     return sum;
 }
 
-/// Odds of a rival that shares `shared_lines` lines from `run` on.
-float odds_of_twin(const Contest& contest, const Places& own, const Places& rival, int run,
-                   int shared_lines) {
+/// Odds of a rival that shares `shared_lines` lines from `run` on; places are those at the first
+/// line.
+float odds_of_twin(const Contest& contest, const Places& rival, int run, int shared_lines) {
+    const auto growth = [&](int line) {
+        return roll_at(contest, rival, line) - roll_at(contest, contest.places, line);
+    };
+    // Positive.
+    const int base = growth(run) - 8 * kSections;
     int lost = 0;
-    int shift = 0;
+    const auto is_hopeless_with = [&](int line) {
+        const auto shift =
+            code::few_modulo_sections(static_cast<std::uint32_t>(growth(line) - base));
+        lost += contest.loss(line, static_cast<int>(shift));
+        return contest.is_hopeless(lost);
+    };
     for (int line = run + shared_lines; line < contest.lines.count(); ++line) {
-        shift = (shift + difference(contest, own, rival, line - 1 - run)) % kSections;
-        lost += contest.loss(line, shift);
-        if (contest.is_hopeless(lost)) return kNegligible;
+        if (is_hopeless_with(line)) return kNegligible;
     }
-    shift = 0;
     for (int line = run - 1; line >= 0; --line) {
-        shift = (shift - difference(contest, own, rival, line - run)) % kSections;
-        lost += contest.loss(line, shift);
-        if (contest.is_hopeless(lost)) return kNegligible;
+        if (is_hopeless_with(line)) return kNegligible;
     }
     return contest.odds(lost);
 }
@@ -105,17 +104,21 @@ float sum_of_near_rivals(const Contest& contest, const code::Twins& twins, int s
     const auto order = static_cast<std::size_t>(shared_lines - 4);
     float sum = 0;
     for (int run = 0; run + shared_lines <= contest.lines.count(); ++run) {
-        Places own;
+        Places own;  // at the run
         for (std::size_t k = 0; k < own.size(); ++k) {
-            own[k] = (contest.position + static_cast<std::uint32_t>(run)) % contest.basis[k].length;
+            own[k] =
+                (contest.places[k] + static_cast<std::uint32_t>(run)) % contest.basis[k].length;
         }
         Places rival = own;
+        Places first = contest.places;
         for (std::size_t k = 0; k < own.size();) {
             for (k = 0; k < own.size(); ++k) {
+                const std::uint32_t length = contest.basis[k].length;
                 rival[k] = twins[k][order][rival[k]];
+                first[k] = (rival[k] + kTurns * length - static_cast<std::uint32_t>(run)) % length;
                 if (rival[k] != own[k]) break;
             }
-            if (k < own.size()) sum += odds_of_twin(contest, own, rival, run, shared_lines);
+            if (k < own.size()) sum += odds_of_twin(contest, first, run, shared_lines);
         }
     }
     return sum;
@@ -132,7 +135,8 @@ int rivals_log2(Profile profile, const Lines& lines, const AxisReading& reading,
     float expected = sum_of_far_rivals(contest, kMostShared, 2);
     // The more rivals are looked at one by one, the fewer remain to be feared for their number.
     if (known + expected > kFarBelowDoubt && expected > known && expected < kBeyondHelp) {
-        known += sum_of_double_rivals(contest) + sum_of_near_rivals(contest, code::twins(profile), kMostShared - 1);
+        known += sum_of_double_rivals(contest) +
+                 sum_of_near_rivals(contest, code::twins(profile), kMostShared - 1);
         expected = sum_of_far_rivals(contest, kMostShared - 1, 3);
     }
     int exponent = 0;

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "code/rolls.hpp"
+#include "core/decode/correlation.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -10,28 +11,36 @@ namespace {
 constexpr int kChoices = 8;  // offsets tried in one line
 constexpr int kMaxRunLength = 8;
 
-/// The offsets of one line that agree best, best first.
-struct Choices {
-    std::array<std::uint8_t, kChoices> rolls{};
-    std::array<std::int16_t, kChoices> scores{};
-};
+/// The offsets of one line that agree best, best first and of equals the smallest: found as they
+/// are asked for, which is rarely beyond the first.
+class Choices {
+  public:
+    Choices() = default;
+    explicit Choices(const LineScores& scores) : scores_(&scores) {}
 
-Choices best_choices(const LineScores& scores) {
-    Choices choices;
-    choices.scores.fill(INT16_MIN);
-    for (std::size_t o = 0; o < scores.size(); ++o) {
-        const std::int16_t score = scores[o];
-        if (score <= choices.scores[kChoices - 1]) continue;
-        std::size_t i = kChoices - 1;
-        for (; i > 0 && score > choices.scores[i - 1]; --i) {
-            choices.scores[i] = choices.scores[i - 1];
-            choices.rolls[i] = choices.rolls[i - 1];
-        }
-        choices.scores[i] = score;
-        choices.rolls[i] = static_cast<std::uint8_t>(o);
+    /// `i` is less than kChoices, and at most one more than it was in any call before.
+    const Match& operator[](int i) {
+        if (i == known_) matches_[static_cast<std::size_t>(known_++)] = next();
+        return matches_[static_cast<std::size_t>(i)];
     }
-    return choices;
-}
+
+  private:
+    Match next() const {
+        if (known_ == 0) return best_match(*scores_);
+        const Match last = matches_[static_cast<std::size_t>(known_ - 1)];
+        Match best{INT16_MIN, 0};
+        for (std::size_t o = 0; o < scores_->size(); ++o) {
+            const int score = (*scores_)[o];
+            if (score > last.score || score <= best.score) continue;
+            if (score < last.score || o > last.roll) best = {score, static_cast<std::uint8_t>(o)};
+        }
+        return best;
+    }
+
+    const LineScores* scores_ = nullptr;
+    int known_ = 0;
+    std::array<Match, kChoices> matches_;
+};
 
 /// By how much the best offset of a line leads the second best, and its score.
 struct Lead {
@@ -69,18 +78,21 @@ AxisReading evaluate(Profile profile, const Lines& lines, int line, std::uint32_
     return reading;
 }
 
+using Run = std::array<Choices, kMaxRunLength>;
+
 /// How many choices of each line of a run are combined: the next-cheapest choice of any line is
 /// added as long as the combinations stay few.
-std::array<int, kMaxRunLength> widen(const Choices* run, int length, int most_readings) {
+std::array<int, kMaxRunLength> widen(Run& run, int length, int most_readings) {
     std::array<int, kMaxRunLength> widths;
     widths.fill(1);
     for (int readings = 1;;) {
         int cheapest = -1;
         int least_loss = INT32_MAX;
         for (int i = 0; i < length; ++i) {
-            const int width = widths[static_cast<std::size_t>(i)];
+            const auto n = static_cast<std::size_t>(i);
+            const int width = widths[n];
             if (width == kChoices || readings / width * (width + 1) > most_readings) continue;
-            const int loss = run[i].scores[0] - run[i].scores[static_cast<std::size_t>(width)];
+            const int loss = run[n][0].score - run[n][width].score;
             if (loss < least_loss) {
                 least_loss = loss;
                 cheapest = i;
@@ -93,38 +105,42 @@ std::array<int, kMaxRunLength> widen(const Choices* run, int length, int most_re
     }
 }
 
+/// Reads the lines from `first` on at these rolls, and keeps what is better than the best so far.
+/// Returns whether that is clear.
+bool improve(Profile profile, const Lines& lines, int first, std::span<const std::uint8_t> rolls,
+             AxisReading& best) {
+    std::uint32_t position = 0;
+    if (position_from_rolls(profile, rolls, position) != Status::ok) return false;
+    AxisReading reading = evaluate(profile, lines, first, position, rolls[0]);
+    if (reading.score <= best.score) return false;
+    reading.most_possible = best.most_possible;
+    best = reading;
+    return best.is_clear();
+}
+
 /// Reads one run in all combinations of its lines' choices, until one is clear.
 void try_run(Profile profile, const Lines& lines, int first, int length, int most_readings,
-             std::int32_t most_possible, AxisReading& best) {
-    std::array<Choices, kMaxRunLength> storage;
-    for (int i = 0; i < length; ++i)
-        storage[static_cast<std::size_t>(i)] = best_choices(lines[first + i]);
-    const Choices* run = storage.data();
+             AxisReading& best) {
+    Run run;
+    std::array<std::uint8_t, kMaxRunLength> storage;
+    const auto rolls = std::span(storage).first(static_cast<std::size_t>(length));
+    for (std::size_t n = 0; n < rolls.size(); ++n) {
+        run[n] = Choices(lines[first + static_cast<int>(n)]);
+        rolls[n] = run[n][0].roll;
+    }
+    if (improve(profile, lines, first, rolls, best)) return;
     const auto widths = widen(run, length, most_readings);
     std::array<int, kMaxRunLength> choice{};
-    std::array<std::uint8_t, kMaxRunLength> rolls{};
-    for (int digit = 0; digit < length;) {
-        for (int i = 0; i < length; ++i) {
-            const auto n = static_cast<std::size_t>(i);
-            rolls[n] = run[i].rolls[static_cast<std::size_t>(choice[n])];
-        }
-        std::uint32_t position = 0;
-        const auto used =
-            std::span<const std::uint8_t>(rolls).first(static_cast<std::size_t>(length));
-        if (position_from_rolls(profile, used, position) == Status::ok) {
-            const AxisReading reading = evaluate(profile, lines, first, position, rolls[0]);
-            if (reading.score > best.score) {
-                best = reading;
-                best.most_possible = most_possible;
-                if (best.is_clear()) return;
-            }
-        }
+    while (true) {
         // Counts up, the last line fastest.
-        for (digit = 0; digit < length; ++digit) {
-            const auto n = static_cast<std::size_t>(length - 1 - digit);
-            if (++choice[n] < widths[n]) break;
-            choice[n] = 0;
+        std::size_t n = rolls.size();
+        while (n > 0 && choice[n - 1] + 1 == widths[n - 1]) {
+            choice[--n] = 0;
+            rolls[n] = run[n][0].roll;
         }
+        if (n-- == 0) return;
+        rolls[n] = run[n][++choice[n]].roll;
+        if (improve(profile, lines, first, rolls, best)) return;
     }
 }
 
@@ -158,13 +174,13 @@ Status find_axis(Profile profile, const Lines& lines, AxisReading& best, SearchL
         leads[static_cast<std::size_t>(i)] = lead;
         most_possible += lead.best;
     }
-    best = {0, 0, INT32_MIN, 0};
+    best = {0, 0, INT32_MIN, most_possible};
     std::array<bool, kMaxLines> taken{};
     for (int run = 0; run < limits.runs; ++run) {
         const int first = clearest_run(leads, lines.count(), length, taken);
         if (first < 0) break;
         taken[static_cast<std::size_t>(first)] = true;
-        try_run(profile, lines, first, length, limits.readings, most_possible, best);
+        try_run(profile, lines, first, length, limits.readings, best);
         if (best.is_clear()) break;
     }
     return best.score == INT32_MIN ? Status::not_in_code : Status::ok;

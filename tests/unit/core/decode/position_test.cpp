@@ -49,9 +49,11 @@ TEST(Position, IsReadAtAllFourTurns) {
         ASSERT_EQ(reading.status, Status::ok);
         expect_truth(decode_window, reading);
         expect_truth(decode_all, reading);
-        EXPECT_EQ(rank_turns(reading.grid(), reading.decoding.window)[0].quarters, turn.quarters);
-        EXPECT_EQ(rank_turns(reading.grid(), reading.decoding.region)[0].quarters, turn.quarters);
-        EXPECT_FALSE(is_mirrored(reading.grid(), reading.decoding.region));
+        const Orientation of_window = rank_turns(reading.grid(), reading.decoding.window);
+        EXPECT_EQ(of_window.turns[0].quarters, turn.quarters);
+        const Orientation of_all = rank_turns(reading.grid(), reading.decoding.region);
+        EXPECT_EQ(of_all.turns[0].quarters, turn.quarters);
+        EXPECT_FALSE(is_mirrored(reading.grid(), reading.decoding.region, of_all.agreement));
     });
 }
 
@@ -106,7 +108,9 @@ TEST(Position, TheMirrorImageIsKnown) {
                             -behind.mesh().inverse(mesh.origin).y};
         const Reading reading(behind, turn, dots);
         ASSERT_EQ(reading.status, Status::ok);
-        EXPECT_TRUE(is_mirrored(reading.grid(), reading.decoding.region));
+        const Orientation orientation = rank_turns(reading.grid(), reading.decoding.region);
+        EXPECT_TRUE(
+            is_mirrored(reading.grid(), reading.decoding.region, orientation.agreement));
     });
 }
 
