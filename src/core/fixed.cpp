@@ -18,10 +18,32 @@ constexpr std::int32_t kCordicGain_q30 = 652032874;
 
 constexpr std::int32_t kHalfTurn = INT32_MIN;
 
+std::int32_t middle(std::int32_t a, std::int32_t b, std::int32_t c) {
+    return std::max(std::min(a, b), std::min(std::max(a, b), c));
+}
+
+/// The value that stands at `rank` when sorted (Hoare's FIND, 1961).
 std::int32_t of_rank(std::size_t rank, std::span<std::int32_t> values) {
-    const auto place = values.begin() + static_cast<std::ptrdiff_t>(rank);
-    std::nth_element(values.begin(), place, values.end());
-    return *place;
+    std::int32_t* const wanted = &values[rank];
+    std::int32_t* first = values.data();
+    std::int32_t* last = first + values.size() - 1;
+    while (first < last) {
+        const std::int32_t pivot = middle(*first, first[(last - first) / 2], *last);
+        std::int32_t* low = first;
+        std::int32_t* high = last;
+        while (low <= high) {
+            while (*low < pivot)
+                ++low;
+            while (*high > pivot)
+                --high;
+            if (low <= high) std::swap(*low++, *high--);
+        }
+        // What lies between the two is the pivot.
+        if (wanted > high) first = low;
+        if (wanted < low) last = high;
+        if (wanted > high && wanted < low) break;
+    }
+    return *wanted;
 }
 
 }  // namespace
