@@ -23,6 +23,8 @@ namespace dotpose {
 inline constexpr int kSmallestTile_px = 8;
 inline constexpr int kLargestTile_px = 16;
 inline constexpr int kLargestFinelyTiled_px = 240;
+/// White pixels before each row that is kept.
+inline constexpr int kKeptMargin_px = 8;
 /// Dots nearest the image centre that give the first estimate of the grid.
 inline constexpr int kMaxSeeds = 256;
 /// Side of the decoding window of the paper (section II-B.5).
@@ -69,16 +71,12 @@ struct Light {
     int tiles_per_band = 0;
     int rows_taken = 0;
     bool has_contrast = false;  ///< anywhere so far
-    /// Pixels of the two newest bands; rows are filled up to whole tiles.
+    /// Pixels of the two newest bands; rows have a margin and are filled up to whole tiles.
     std::span<std::uint8_t> rows;
-    /// Of the newest band, for every four columns: sums of their pixels, in two halves, and how
-    /// dark each is together with its neighbour, in seven bits.
-    std::span<std::uint32_t> sums;
-    std::span<std::uint32_t> darkest;
-    std::span<Tile> tiles;     ///< of the three newest bands
+    std::span<Tile> tiles;     ///< of the four newest bands
     std::span<Levels> levels;  ///< of the band being thresholded
     /// Half of `Levels::extent` in each byte, for every eight columns.
-    std::span<std::uint32_t> half_levels;
+    std::span<std::size_t> half_levels;
 };
 
 /// The paper's grey level in the square blocks of an image.
@@ -101,25 +99,27 @@ struct Smoothing {
     int sums_end = 0;
 };
 
-/// Stretch of blob pixels in one row, end exclusive.
-struct Run {
-    std::int16_t begin = 0;
-    std::int16_t end = 0;
-    std::int16_t blob = 0;
-};
-
 /// A blob that still grows: sums over its pixels, relative to its first one.
 struct OpenBlob {
     std::int32_t sum_x = 0;  ///< weight times (u - first_u)
     std::int32_t sum_y = 0;  ///< weight times (v - first_v)
     std::int32_t mass = 0;
-    std::int16_t first_u = 0;
-    std::int16_t first_v = 0;
-    std::int16_t last_v = 0;
-    std::uint16_t area_px = 0;
+    std::int32_t area_px = 0;
+    std::int32_t first_u = 0;
+    std::int32_t first_v = 0;
+    std::int32_t last_v = 0;
+    OpenBlob* part_of =
+        nullptr;  ///< the blob that it was found to belong to; unused: the next such
     bool has_core = false;
     bool is_dot = true;  ///< false once it touches the border or is larger than any dot
     bool in_use = false;
+};
+
+/// Stretch of blob pixels in one row, end exclusive.
+struct Run {
+    std::int32_t begin = 0;
+    std::int32_t end = 0;
+    OpenBlob* blob = nullptr;  ///< none if there were too many
 };
 
 /// Blobs that reach into the newest thresholded row.
@@ -127,8 +127,11 @@ struct OpenBlobs {
     std::span<Run> runs;  ///< of the newest row and of the one above, in halves
     int run_count = 0;
     bool newest_in_second_half = false;
+    int most_runs = INT32_MAX;  ///< of one image: what exceeds them is not looked at
+    int runs_left = 0;
     std::span<OpenBlob> blobs;
-    int next_free = 0;
+    std::size_t blobs_begun = 0;       ///< those after them have not been used in this image
+    OpenBlob* first_unused = nullptr;  ///< of those before
 };
 
 /// A connection between two seeds that both count each other among their four nearest.
@@ -278,8 +281,6 @@ class WorkspaceOf : public Workspace {
         smoothing.paper.levels = papers_;
         smoothing.column_sums = smooth_sums_;
         light.rows = rows_;
-        light.sums = sums_;
-        light.darkest = darkest_;
         light.tiles = tiles_;
         light.levels = levels_;
         light.half_levels = half_levels_;
@@ -309,12 +310,11 @@ class WorkspaceOf : public Workspace {
     // Blocks are a tenth of the shorter side, so at least 6 px: at most 11 x 683 of them.
     std::array<std::uint8_t, 11 * 683> papers_{};
     std::array<std::uint32_t, MaxWidth> smooth_sums_{};
-    alignas(8) std::array<std::uint8_t, 2 * kTile_px*(MaxWidth + kTile_px)> rows_{};
-    std::array<std::uint32_t, (MaxWidth + kTile_px) / 4> sums_{};
-    std::array<std::uint32_t, (MaxWidth + kTile_px) / 4> darkest_{};
-    std::array<Tile, 3 * kTiles> tiles_{};
+    alignas(
+        8) std::array<std::uint8_t, 2 * kTile_px*(kKeptMargin_px + MaxWidth + kTile_px)> rows_{};
+    std::array<Tile, 4 * kTiles> tiles_{};
     std::array<Levels, kTiles> levels_{};
-    std::array<std::uint32_t, kTiles + 1> half_levels_{};
+    std::array<std::size_t, kTiles + 1> half_levels_{};
     std::array<Run, 2 * kRuns> runs_{};
     std::array<OpenBlob, 2 * kRuns> blobs_{};
     std::array<Dot, MaxDots> dots_{};
@@ -334,13 +334,13 @@ class DeviceWorkspace : public Workspace {
         max_width_px = kWidth_px;
         dots = dots_;
         Shelf pixels{memory_};
-        pixels.take(light.rows, 2 * kSmallestTile_px * kTiles * kSmallestTile_px);
-        pixels.take(light.sums, kTiles * kSmallestTile_px / 4);
-        pixels.take(light.darkest, kTiles * kSmallestTile_px / 4);
-        pixels.take(light.half_levels, kTiles);
-        pixels.take(light.tiles, 3 * kTiles);
+        pixels.take(light.rows,
+                    2 * kSmallestTile_px * (kKeptMargin_px + kTiles * kSmallestTile_px));
+        open.most_runs = kMostRuns;
         pixels.take(open.blobs, kBlobs);
         pixels.take(open.runs, 2 * kRuns);
+        pixels.take(light.half_levels, kTiles);
+        pixels.take(light.tiles, 4 * kTiles);
         pixels.take(light.levels, kTiles);
         Shelf lattices{memory_};
         lattices.take(edges, 2 * kSeeds);
@@ -362,7 +362,10 @@ class DeviceWorkspace : public Workspace {
     static constexpr int kGridSide = 24;
     // Runs and blobs of one row: many more than dots; what exceeds them is noise or graphics.
     static constexpr int kRuns = 64;
-    static constexpr int kBlobs = 48;
+    static constexpr int kBlobs = 72;
+    // Of a whole frame, to bound the time: dots have 500, and noisy frames that were ever located
+    // up to 2,600.
+    static constexpr int kMostRuns = 2800;
 
     /// Hands out memory from the beginning on; larger alignments first.
     struct Shelf {

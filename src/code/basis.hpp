@@ -18,4 +18,16 @@ constexpr const Basis& basis(Profile profile) {
     return kBasis<kA4Restored>;
 }
 
+constexpr const Twins& twins(Profile profile) {
+    switch (profile) {
+        case Profile::published:
+            return kTwins<kA4Published>;
+        case Profile::microdots:
+            return kTwins<kA4Microdots>;
+        case Profile::anoto:
+            break;
+    }
+    return kTwins<kA4Restored>;
+}
+
 }  // namespace dotpose::code

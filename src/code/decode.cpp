@@ -113,7 +113,8 @@ Status position_from_rolls(Profile profile, std::span<const std::uint8_t> rolls,
     Deltas storage{};
     const auto deltas = std::span(storage).first(rolls.size() - 1);
     for (std::size_t i = 0; i < deltas.size(); ++i) {
-        const int d = (rolls[i + 1] + kSections - rolls[i]) % kSections;
+        const int step = rolls[i + 1] - rolls[i];
+        const int d = step < 0 ? step + kSections : step;
         if (d < code::kSmallestDelta || d > code::kLargestDelta) return Status::not_in_code;
         deltas[i] = static_cast<std::uint8_t>(d);
     }

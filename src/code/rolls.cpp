@@ -1,29 +1,37 @@
 #include "code/rolls.hpp"
 
+#include <algorithm>
+#include <array>
+
 #include "code/basis.hpp"
 
 namespace dotpose::code {
 
 int roll_from(Profile profile, std::uint32_t position, int section, std::uint32_t cross) {
-    return (roll(profile, position) + section + static_cast<int>(cross % kSections)) % kSections;
+    const auto sum = static_cast<std::uint32_t>(roll(profile, position) + section);
+    return static_cast<int>(modulo_sections(sum + modulo_sections(cross)));
 }
 
 void follow_rolls(Profile profile, std::uint32_t position, int first_roll,
                   std::span<std::uint8_t> rolls) {
     const Basis& sequences = basis(profile);
-    std::array<std::uint32_t, 4> places;
-    for (std::size_t k = 0; k < places.size(); ++k)
-        places[k] = position % sequences[k].length;
-    int roll = first_roll;
-    for (std::uint8_t& out : rolls) {
-        out = static_cast<std::uint8_t>(roll);
-        roll += kSmallestDelta;
-        for (std::size_t k = 0; k < places.size(); ++k) {
-            const Secondary& a = sequences[k];
-            roll += a.weight * a.digits[places[k]];
-            if (++places[k] == a.length) places[k] = 0;
+    std::uint32_t sum = static_cast<std::uint32_t>(first_roll) + 4 * kSections;
+    while (true) {
+        std::array<const std::uint8_t*, 4> here;
+        for (std::size_t k = 0; k < here.size(); ++k) {
+            here[k] = sequences[k].rolls + sequences[k].place_of(position);
+            sum -= *here[k];
         }
-        if (roll >= kSections) roll -= kSections;
+        const auto roll_at = [&](std::size_t i) {
+            return few_modulo_sections(sum + here[0][i] + here[1][i] + here[2][i] + here[3][i] + kSmallestDelta * static_cast<std::uint32_t>(i));
+        };
+        const std::size_t count = std::min(rolls.size(), kLinesAhead - 1);
+        for (std::size_t i = 0; i < count; ++i)
+            rolls[i] = static_cast<std::uint8_t>(roll_at(i));
+        rolls = rolls.subspan(count);
+        if (rolls.empty()) return;
+        sum = roll_at(count) + 4 * kSections;
+        position += static_cast<std::uint32_t>(count);
     }
 }
 

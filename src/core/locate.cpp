@@ -293,7 +293,7 @@ Status begin(int width_px, int height_px, const Options& options, Workspace& w) 
 
 void push_row(const std::uint8_t* pixels, const Options& options, Workspace& w) {
     int ready = core::take_row(pixels, w.light);
-    const int newest = (w.light.rows_taken - 1) / w.light.tile_px;
+    const int newest = (w.light.rows_taken - 1) >> w.light.tile_shift;
     const bool is_last = w.light.rows_taken == w.light.height_px;
     for (int band = newest - ready + (is_last ? 1 : 0); ready > 0; --ready, ++band) {
         core::measure_levels(band, options.threshold, w.light);

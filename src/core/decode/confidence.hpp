@@ -18,25 +18,33 @@ class Confidence {
 
     /// weight: -127 to 127.
     void add(int weight, bool is_wrong) {
-        Count& count = counts_[static_cast<std::size_t>((weight < 0 ? -weight : weight) / 8)];
-        ++count.bits;
-        count.wrong += is_wrong;
+        const int level = (weight < 0 ? -weight : weight) >> 3;
+        ++counts_[static_cast<std::size_t>(2 * level + (is_wrong ? 1 : 0))];
     }
     void add(const Confidence& other) {
-        for (std::size_t i = 0; i < counts_.size(); ++i) {
-            counts_[i].bits += other.counts_[i].bits;
-            counts_[i].wrong += other.counts_[i].wrong;
-        }
+        for (std::size_t i = 0; i < counts_.size(); ++i)
+            counts_[i] += other.counts_[i];
     }
-    int bits(int level) const { return counts_[static_cast<std::size_t>(level)].bits; }
-    int wrong(int level) const { return counts_[static_cast<std::size_t>(level)].wrong; }
+    int bits(int level) const {
+        return counts_[static_cast<std::size_t>(2 * level)] + wrong(level);
+    }
+    int wrong(int level) const { return counts_[static_cast<std::size_t>(2 * level + 1)]; }
+    /// Of all levels.
+    int bits() const {
+        int sum = 0;
+        for (const std::int32_t count : counts_)
+            sum += count;
+        return sum;
+    }
+    int wrong() const {
+        int sum = 0;
+        for (int level = 0; level < kLevels; ++level)
+            sum += wrong(level);
+        return sum;
+    }
 
   private:
-    struct Count {
-        std::int32_t bits = 0;
-        std::int32_t wrong = 0;
-    };
-    std::array<Count, kLevels> counts_{};
+    std::array<std::int32_t, 2 * kLevels> counts_{};  ///< of each level: right, wrong
 };
 
 /// The odds, as a power of two in 2^-8, that a bit of weight 127 is right; those of weaker ones

@@ -9,36 +9,25 @@ Contest::Contest(Profile profile, const Lines& lines_, const AxisReading& readin
       lines(lines_),
       position(reading.position),
       odds_per_bit_q8_(odds_q8) {
+    for (std::size_t k = 0; k < places.size(); ++k)
+        places[k] = basis[k].place_of(position);
     const auto count = static_cast<std::size_t>(lines.count());
     code::follow_rolls(profile, reading.position, reading.roll, std::span(rolls_).first(count));
     for (int i = 0; i < lines.count(); ++i) {
         const LineScores& scores = lines[i];
         const std::size_t own = rolls_[static_cast<std::size_t>(i)];
         int best_other = INT16_MIN;
-        for (std::size_t o = 0; o < scores.size(); ++o) {
-            if (o != own) best_other = std::max<int>(best_other, scores[o]);
-        }
+        const auto look_at = [&](const std::int16_t* begin, const std::int16_t* end) {
+            for (; begin != end; ++begin)
+                best_other = std::max<int>(best_other, *begin);
+        };
+        look_at(scores.data(), &scores[own]);
+        look_at(&scores[own] + 1, scores.data() + scores.size());
         const int least_loss = scores[own] - best_other;
         least_losses_[static_cast<std::size_t>(i)] = static_cast<std::int16_t>(least_loss);
         most_regained_ += std::max(-least_loss, 0);
     }
     hopeless_score_ = most_regained_ + -kNegligible_q8 * 2 * 127 / odds_q8;
-}
-
-Growth growth_of(const Contest& contest, const code::Secondary& a, std::uint32_t rival_place) {
-    Growth growth;
-    std::uint32_t own = contest.position % a.length;
-    std::uint32_t rival = rival_place;
-    int grown = 0;
-    for (int line = 0; line < contest.lines.count(); ++line) {
-        growth[static_cast<std::size_t>(line)] = static_cast<std::uint8_t>(grown);
-        grown += a.weight * (a.digits[rival] - a.digits[own]);
-        if (grown < 0) grown += kSections;
-        if (grown >= kSections) grown -= kSections;
-        own = own + 1 == a.length ? 0 : own + 1;
-        rival = rival + 1 == a.length ? 0 : rival + 1;
-    }
-    return growth;
 }
 
 std::optional<int> loss_of_growth(const Contest& contest, const Growth& growth, int shared) {

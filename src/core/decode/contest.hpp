@@ -27,6 +27,7 @@ class Contest {
         return lines[line][static_cast<std::size_t>(own)] -
                lines[line][static_cast<std::size_t>(other)];
     }
+    int own_roll(int line) const { return rolls_[static_cast<std::size_t>(line)]; }
     /// The least that a rival loses in a line which it does not share; may be negative.
     int least_loss(int line) const { return least_losses_[static_cast<std::size_t>(line)]; }
     /// The most that it may win back in lines that another roll suits better.
@@ -51,6 +52,8 @@ class Contest {
     const code::Basis& basis;
     const Lines lines;
     const std::uint32_t position;  ///< of the first line, as read
+    /// The same in each of the sequences.
+    std::array<std::uint32_t, 4> places;
 
   private:
     int odds_per_bit_q8_;
@@ -60,13 +63,23 @@ class Contest {
     std::array<std::int16_t, kMaxLines> least_losses_{};
 };
 
-/// By how much the roll of a rival grows beyond that of the reading from the first line to each
-/// other, modulo 63.
+/// By how much the roll of a rival exceeds that of the reading in each line, but for a shift of all
+/// lines, modulo 63.
 using Growth = std::array<std::uint8_t, kMaxLines>;
 
 /// Of a rival whose place differs in one sequence only.
-Growth growth_of(const Contest& contest, const code::Secondary& sequence,
-                 std::uint32_t rival_place);
+inline void grow(const Contest& contest, std::size_t sequence, std::uint32_t rival_place,
+                 Growth& growth) {
+    static_assert(kMaxLines <= code::kLinesAhead);
+    const std::uint8_t* rolls = contest.basis[sequence].rolls;
+    const std::uint8_t* own = rolls + contest.places[sequence];
+    const std::uint8_t* rival = rolls + rival_place;
+    for (int line = 0; line < contest.lines.count(); ++line) {
+        const int grown = rival[line] - own[line];
+        growth[static_cast<std::size_t>(line)] =
+            static_cast<std::uint8_t>(grown < 0 ? grown + kSections : grown);
+    }
+}
 
 /// What a rival that shares the line `shared`, and none before, has lost when that gets hopeless,
 /// or in all; nothing if it shares one before.

@@ -51,10 +51,11 @@ Ranking::Ranking(const Contest& contest) {
 /// Growth of all places of a sequence, line by line of a ranking.
 class Growths {
   public:
-    Growths(const Contest& contest, const Ranking& ranking, const code::Secondary& a)
-        : own_(contest.position % a.length), length_(a.length) {
+    Growths(const Contest& contest, const Ranking& ranking, std::size_t sequence)
+        : own_(contest.places[sequence]), length_(contest.basis[sequence].length) {
+        Growth by_line;
         for (std::uint32_t rival = 0; rival < length_; ++rival) {
-            const Growth by_line = growth_of(contest, a, rival);
+            grow(contest, sequence, rival, by_line);
             for (std::size_t i = 0; i < static_cast<std::size_t>(contest.lines.count()); ++i)
                 growths_[rival][i] = by_line[ranking.lines[i]];
         }
@@ -112,10 +113,9 @@ float sum_of_double_rivals(const Contest& contest) {
     const Ranking ranking(contest);
     float sum = 0;
     for (std::size_t k = 0; k < contest.basis.size(); ++k) {
-        const Growths first(contest, ranking, contest.basis[k]);
+        const Growths first(contest, ranking, k);
         for (std::size_t l = k + 1; l < contest.basis.size(); ++l) {
-            sum +=
-                sum_of_pair(contest, ranking, first, Growths(contest, ranking, contest.basis[l]));
+            sum += sum_of_pair(contest, ranking, first, Growths(contest, ranking, l));
         }
     }
     return sum;

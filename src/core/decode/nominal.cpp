@@ -1,21 +1,9 @@
 #include "core/decode/nominal.hpp"
 
 #include "code/rolls.hpp"
-#include "code/sequences.hpp"
+#include "code/tables.hpp"
 
 namespace dotpose::core {
-namespace {
-
-/// The main sequence as often as any line is long, from any index.
-constexpr auto kMainRepeated = [] {
-    std::array<std::uint8_t, kSections + kMaxGridSide> bits{};
-    for (std::size_t i = 0; i < bits.size(); ++i)
-        bits[i] = code::kMain[i % kSections];
-    return bits;
-}();
-
-}  // namespace
-
 Nominal::Nominal(const Grid& grid, Profile profile, const Decoding& decoding)
     : turn_(decoding.pattern_from_grid) {
     const Vec a = pattern_step({grid.i0, grid.j0});
@@ -36,7 +24,7 @@ Nominal::Nominal(const Grid& grid, Profile profile, const Decoding& decoding)
 Symbol Nominal::symbol(Vec pattern_step) const {
     const auto column = static_cast<std::size_t>(pattern_step.x - first_.x);
     const auto row = static_cast<std::size_t>(pattern_step.y - first_.y);
-    return make_symbol(kMainRepeated[columns_[column] + row], kMainRepeated[rows_[row] + column]);
+    return make_symbol(code::kMainRepeated[columns_[column] + row], code::kMainRepeated[rows_[row] + column]);
 }
 
 }  // namespace dotpose::core

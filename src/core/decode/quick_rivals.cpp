@@ -24,10 +24,11 @@ constexpr std::array<Set, 5> kSets{
 /// log2(1.03): see ExpectedRivals.
 constexpr int kUnevenness_q8 = 11;
 
-/// Lines in a row that two positions share at most.
+/// Lines in a row that two positions share at most; in the misprinted code.
+constexpr int kMostShared = 7;
+
 int most_shared(const Contest& contest) {
-    constexpr int kMisprinted = 7;
-    return contest.basis[3].has_twins ? kMisprinted : code::kOrder;
+    return contest.basis[3].has_twins ? kMostShared : code::kOrder;
 }
 
 /// What a rival that does not share a line may have in odds there.
@@ -37,17 +38,22 @@ struct LineOdds {
 };
 using AllLineOdds = std::array<LineOdds, kMaxLines>;
 
+/// 2^-b in 2^-12 for each half bit, rounded up.
+constexpr std::array<std::uint16_t, 26> kPowers{4096, 2897, 2048, 1449, 1024, 725, 512, 363, 256,
+                                                182,  128,  91,   64,   46,   32,  23,  16,  12,
+                                                8,    6,    4,    3,    2,    2,   1,   1};
+
 /// log2 of the sum of 2^-b over all other rolls, b being the bits that they lose more than the
 /// best.
 int log2_of_others_q8(const Contest& contest, int line) {
-    // 2^-b in 2^-12 for each half bit, rounded up.
-    constexpr std::array<std::uint16_t, 26> kPowers{
-        4096, 2897, 2048, 1449, 1024, 725, 512, 363, 256, 182, 128, 91, 64,
-        46,   32,   23,   16,   12,   8,   6,   4,   3,   2,   2,   1,  1};
+    const std::int16_t* scores = contest.lines[line].data();
+    const int own = contest.own_roll(line);
+    const int best = scores[own] - contest.least_loss(line);
     std::uint32_t sum_q12 = 0;
-    for (int shift = 1; shift < kSections; ++shift) {
-        const int more = contest.loss(line, shift) - contest.least_loss(line);
-        const auto half_bits = static_cast<std::size_t>(-contest.log2_odds_q8(more) >> 7);
+    for (int roll = 0; roll < kSections; ++roll) {
+        if (roll == own) continue;
+        const auto half_bits =
+            static_cast<std::size_t>(-contest.log2_odds_q8(best - scores[roll]) >> 7);
         sum_q12 += kPowers[std::min(half_bits, kPowers.size() - 1)];
     }
     // log2(1 + f) is at most f + 0.087.
@@ -60,29 +66,26 @@ int log2_of_others_q8(const Contest& contest, int line) {
 /// most the probability of the one that stays shared, so a line has at most that share of the sum
 /// of its odds, and at most the best of them.
 int far_log2_q8(const Contest& contest, const Set& set, const AllLineOdds& odds) {
-    constexpr std::size_t kMostShared = 7;
-    const auto most = static_cast<std::size_t>(most_shared(contest));
-    std::array<int, kMostShared> shared;  // lines in a row so far, less one
-    shared.fill(kNever_q8);
-    int apart = 0;
+    const int most = most_shared(contest);
+    const int equal = set.equal_q8 + kUnevenness_q8;
+    // All sums are divided by the probability that every line so far is shared: then those that
+    // share the lines from one on, and none before it, stay as they are.
+    std::array<int, kMostShared + kMaxLines> sharing;
+    std::fill_n(sharing.begin(), kMostShared, kNever_q8);
+    int* newest = &sharing[kMostShared];
+    *newest = 0;
+    int apart = odds[0].sum_q8;
     int sum = 0;
-    for (int line = 0; line < contest.lines.count(); ++line) {
-        const LineOdds& here = odds[static_cast<std::size_t>(line)];
-        if (line == 0) {
-            shared[0] = 0;
-            apart = here.sum_q8;
-        } else {
-            const int equal = set.equal_q8 + kUnevenness_q8;
-            for (std::size_t n = most; --n > 0;)
-                shared[n] = shared[n - 1] + equal;
-            shared[0] = apart + equal;
-            apart = sum + std::min(here.best_q8 + kUnevenness_q8, here.sum_q8 + equal);
-        }
+    for (int line = 0;;) {
         sum = apart;
-        for (std::size_t n = 0; n < most; ++n)
-            sum = add_log2(sum, shared[n]);
+        for (int n = 0; n < most; ++n)
+            sum = add_log2(sum, newest[-n]);
+        if (++line == contest.lines.count()) break;
+        const LineOdds& here = odds[static_cast<std::size_t>(line)];
+        *++newest = apart;
+        apart = sum - equal + std::min(here.best_q8 + kUnevenness_q8, here.sum_q8 + equal);
     }
-    return sum + set.rivals_q8;
+    return sum + (contest.lines.count() - 1) * equal + set.rivals_q8;
 }
 
 /// All sets together: roughly, with the number of rolls times the best for the sum, or exactly.
@@ -104,123 +107,183 @@ constexpr int kMostSteps = 18;
 
 /// What a rival has lost at least, from the steps in which its digits differ from the reading's:
 /// there it does not share one of the two lines. Every other step, so that none counts twice.
-class StepLosses {
-  public:
-    StepLosses(const Contest& contest, int first_line, int steps, int enough);
+/// Losses are in eighths of what is enough, rounded down.
+struct Steps {
+    Steps(const Contest& contest, int first_line_, int count_, int enough);
 
-    /// Whether either the even or the odd steps say that enough is lost.
-    bool suffice(std::uint32_t steps_that_differ) const {
-        std::uint32_t sums = missing_;
-        for (const auto& group : sums_) {
-            sums += group[steps_that_differ & ((1U << kGroup) - 1)];
-            steps_that_differ >>= kGroup;
+    int first_line;
+    int count;
+    std::array<std::uint8_t, kMostSteps> losses;
+};
+
+Steps::Steps(const Contest& contest, int first_line_, int count_, int enough)
+    : first_line(first_line_), count(count_) {
+    const int eighth = (enough + 7) / 8;
+    for (int step = 0; step < count; ++step) {
+        const int line = first_line + step;
+        int lost = std::min(contest.least_loss(line), contest.least_loss(line + 1));
+        std::uint8_t eighths = 0;
+        for (; eighths < 8 && lost >= eighth; lost -= eighth)
+            ++eighths;
+        losses[static_cast<std::size_t>(step)] = eighths;
+    }
+}
+
+/// Losses of 32 rivals, one in each bit.
+class Losses {
+  public:
+    void add(std::uint32_t rivals, unsigned eighths) {
+        if (eighths >= 8) {
+            enough_ |= rivals;
+            return;
         }
-        return (sums & kTops) != 0;
+        std::uint32_t carry = 0;
+        if ((eighths & 1) != 0) {
+            carry = ones_ & rivals;
+            ones_ ^= rivals;
+        }
+        if ((eighths & 2) != 0) {
+            const std::uint32_t either = twos_ ^ rivals;
+            const std::uint32_t both = twos_ & rivals;
+            twos_ = either ^ carry;
+            carry = both | (either & carry);
+        } else {
+            const std::uint32_t both = twos_ & carry;
+            twos_ ^= carry;
+            carry = both;
+        }
+        // Fours and what is added there and carried there: of three, two are enough.
+        if ((eighths & 4) != 0) {
+            enough_ |= (rivals & carry) | (fours_ & (rivals | carry));
+            fours_ ^= rivals ^ carry;
+        } else {
+            enough_ |= fours_ & carry;
+            fours_ ^= carry;
+        }
+    }
+    /// Which have lost enough.
+    std::uint32_t enough() const { return enough_; }
+
+  private:
+    std::uint32_t ones_ = 0;
+    std::uint32_t twos_ = 0;
+    std::uint32_t fours_ = 0;
+    std::uint32_t enough_ = 0;
+};
+
+/// The rivals that differ in one sequence so little that, as far as the steps tell, not enough is
+/// lost: by their places at the first step, 32 at a time.
+class SimilarPlaces {
+  public:
+    SimilarPlaces(const code::Secondary& a, std::uint32_t own, const Steps& steps)
+        : sequence_(a), own_(own) {
+        for (int step = 0; step < steps.count; ++step) {
+            const unsigned eighths = steps.losses[static_cast<std::size_t>(step)];
+            if (eighths != 0) {
+                Half& half = halves_[static_cast<std::size_t>(step % 2)];
+                half.steps[half.count++] = {a.places_of[a.digits[own]],
+                                            static_cast<std::uint8_t>(step),
+                                            static_cast<std::uint8_t>(eighths)};
+            }
+            if (++own == a.length) own = 0;
+        }
+    }
+
+    /// Of the places from 32 * word on.
+    std::uint32_t operator[](std::uint32_t word) const {
+        const std::uint32_t places = sequence_.length - 32 * word;
+        std::uint32_t similar = places < 32 ? (std::uint32_t{1} << places) - 1 : ~std::uint32_t{0};
+        if (own_ / 32 == word) similar &= ~(std::uint32_t{1} << own_ % 32);
+        for (const Half& half : halves_) {
+            Losses losses;
+            for (const Step& step : std::span(half.steps).first(half.count)) {
+                const std::uint32_t* here = step.places + word;
+                const std::uint32_t equal =
+                    here[0] >> step.ahead | here[1] << 1 << (31 - step.ahead);
+                losses.add(~equal, step.eighths);
+            }
+            similar &= ~losses.enough();
+        }
+        return similar;
     }
 
   private:
-    static constexpr int kGroup = 6;
-    static constexpr std::uint32_t kTops = 0x80008000;
-    static constexpr int kMostLoss = 0x7000 / kMostSteps;
-
-    /// Of each combination of steps of a group: even ones in the lower half, odd ones in the upper.
-    std::array<std::array<std::uint32_t, 1 << kGroup>, kMostSteps / kGroup> sums_{};
-    std::uint32_t missing_;  ///< what is not enough, in each half, from the top bit down
+    struct Step {
+        const std::uint32_t* places;  ///< where the reading's digit stands
+        std::uint8_t ahead;
+        std::uint8_t eighths;
+    };
+    struct Half {
+        std::size_t count = 0;
+        std::array<Step, kMostSteps / 2> steps;
+    };
+    const code::Secondary& sequence_;
+    std::uint32_t own_;
+    std::array<Half, 2> halves_;
 };
 
-StepLosses::StepLosses(const Contest& contest, int first_line, int steps, int enough) {
-    missing_ = static_cast<std::uint32_t>(0x8000 - std::min(enough, 0x7FFF)) * 0x10001;
-    for (int step = 0; step < kMostSteps; ++step) {
-        auto& group = sums_[static_cast<std::size_t>(step / kGroup)];
-        const std::size_t bit = std::size_t{1} << (step % kGroup);
-        std::uint32_t lost = 0;
-        if (step < steps) {
-            const int line = first_line + step;
-            const int least = std::min(contest.least_loss(line), contest.least_loss(line + 1));
-            lost = static_cast<std::uint32_t>(std::clamp(least, 0, kMostLoss));
-        }
-        for (std::size_t i = 0; i < bit; ++i)
-            group[bit + i] = group[i] + (step % 2 == 0 ? lost : lost << 16);
-    }
-}
-
-/// The digits of a sequence from some place on, as two planes of bits.
-struct Digits {
-    std::uint32_t low = 0;
-    std::uint32_t high = 0;
-
-    void push(unsigned digit, int count) {
-        low = low >> 1 | (digit & 1) << (count - 1);
-        high = high >> 1 | digit >> 1 << (count - 1);
-    }
-    std::uint32_t differ(Digits other) const { return (low ^ other.low) | (high ^ other.high); }
-};
-
-/// Places of a sequence.
-struct Places {
-    std::array<std::uint8_t, 241> places;
-    int count = 0;
-};
-
-/// Those at which the digits differ so little from those at `own` that not enough is lost.
-// By itself, so that small processors can keep all it needs in registers.
-[[gnu::noinline]] Places similar_places(const code::Secondary& a, std::uint32_t own, int count,
-                                        const StepLosses& losses) {
-    Digits ours;
-    Digits theirs;
-    std::uint32_t ahead = 0;
-    std::uint32_t place = own;
-    for (int i = 0; i < count; ++i) {
-        ours.push(a.digits[place], count);
-        if (++place == a.length) place = 0;
-        theirs.push(a.digits[ahead], count);
-        if (++ahead == a.length) ahead = 0;
-    }
-    Places similar;
-    for (place = 0; place < a.length; ++place) {
-        if (place != own && !losses.suffice(ours.differ(theirs))) {
-            similar.places[static_cast<std::size_t>(similar.count++)] =
-                static_cast<std::uint8_t>(place);
-        }
-        theirs.push(a.digits[ahead], count);
-        if (++ahead == a.length) ahead = 0;
-    }
-    return similar;
-}
-
-/// Rivals with one growth, at every shift at which they share lines enough to matter.
+/// Rivals that differ in one sequence, at every shift at which they share lines enough to matter.
 class ByShift {
   public:
-    ByShift(const Contest& contest, int enough) : contest_(contest), enough_(enough) {
-        for (int line = 0; line < contest.lines.count(); ++line)
-            in_all_ += std::max(contest.least_loss(line), 0);
+    ByShift(const Contest& contest, int enough) : contest_(contest) {
+        for (int line = 0; line < contest.lines.count(); ++line) {
+            const int loss = std::max(contest.least_loss(line), 0);
+            losses_[static_cast<std::size_t>(line)] = loss;
+            in_all_ += loss;
+        }
+        most_kept_ = in_all_ - enough;
     }
 
-    /// Adds their odds to a sum.
-    int add(const Growth& growth, int sum) {
-        const int lines = contest_.lines.count();
-        bool matters = false;
-        for (int line = 0; line < lines; ++line) {
-            int& kept = kept_[growth[static_cast<std::size_t>(line)]];
-            kept += std::max(contest_.least_loss(line), 0);
-            matters |= in_all_ - kept < enough_;
+    /// Adds the odds of the rival at a place to a sum.
+    int add(std::size_t sequence, std::uint32_t place, int sum) {
+        // What is below was kept by other rivals.
+        none_ += in_all_ + 1;
+        return most_kept(sequence, place) - none_ > most_kept_ ? add_closely(sequence, place, sum)
+                                                              : sum;
+    }
+
+  private:
+    /// The most that is kept at any shift, more than `none_`.
+    // By itself, so that small processors can keep all it needs in registers.
+    [[gnu::noinline]] int most_kept(std::size_t sequence, std::uint32_t place) {
+        const std::uint8_t* own =
+            contest_.basis[sequence].rolls + contest_.places[sequence];
+        const std::uint8_t* rival = contest_.basis[sequence].rolls + place;
+        const int* loss = losses_.data();
+        int* by_shift = kept_.data();
+        const int none = none_;
+        int most = none;
+        for (const int* end = loss + contest_.lines.count(); loss != end; ++loss) {
+            int shift = *rival++ - *own++;
+            if (shift < 0) shift += kSections;
+            const int kept = std::max(by_shift[shift], none) + *loss;
+            by_shift[shift] = kept;
+            most = std::max(most, kept);
         }
-        for (int line = 0; line < lines; ++line) {
+        return most;
+    }
+
+    int add_closely(std::size_t sequence, std::uint32_t place, int sum) {
+        Growth growth;
+        grow(contest_, sequence, place, growth);
+        for (int line = 0; line < contest_.lines.count(); ++line) {
             int& kept = kept_[growth[static_cast<std::size_t>(line)]];
-            if (matters && in_all_ - kept < enough_) {
+            if (kept - none_ > most_kept_) {
                 const std::optional<int> lost = loss_of_growth(contest_, growth, line);
                 const int odds = lost ? contest_.log2_odds_q8(*lost) : kNever_q8;
                 if (odds > kPassedOver_q8) sum = add_log2(sum, odds);
             }
+            // Those that share another line at the same shift are the same.
             kept = 0;
         }
         return sum;
     }
 
-  private:
     const Contest& contest_;
-    int enough_;  ///< loss
     int in_all_ = 0;
+    int most_kept_;  ///< of those that have lost enough
+    int none_ = 0;
+    std::array<int, kMaxLines> losses_;  ///< at least, of who does not share the line
     std::array<int, kSections> kept_{};  ///< by the shift at which lines are shared
 };
 
@@ -228,22 +291,23 @@ class ByShift {
 /// others, few, are looked at one by one.
 int singles_log2_q8(const Contest& contest) {
     const int lines = contest.lines.count();
-    const int steps = std::min(lines - 1, kMostSteps);
-    const int first_line = (lines - 1 - steps) / 2;
+    const int count = std::min(lines - 1, kMostSteps);
     const int enough = contest.loss_for(kPassedOver_q8) + contest.most_regained();
-    const StepLosses losses(contest, first_line, steps, enough);
+    const Steps steps(contest, (lines - 1 - count) / 2, count, enough);
     ByShift by_shift(contest, enough);
     int sum = kSingles_q8 + kPassedOver_q8 +
               256 * static_cast<int>(std::bit_width(static_cast<unsigned>(lines)));
-    for (const code::Secondary& a : contest.basis) {
-        const std::uint32_t own = contest.position % a.length;
-        const auto ahead = static_cast<std::uint32_t>(first_line);
-        const std::uint32_t own_ahead = (own + ahead) % a.length;
-        const Places similar = similar_places(a, own_ahead, steps, losses);
-        for (int i = 0; i < similar.count; ++i) {
-            const std::uint32_t place = similar.places[static_cast<std::size_t>(i)];
-            const std::uint32_t rival = place + (place < ahead ? a.length : 0U) - ahead;
-            sum = by_shift.add(growth_of(contest, a, rival), sum);
+    for (std::size_t k = 0; k < contest.basis.size(); ++k) {
+        const code::Secondary& a = contest.basis[k];
+        const auto ahead = static_cast<std::uint32_t>(steps.first_line) % a.length;
+        const std::uint32_t own = contest.places[k] + ahead;
+        const SimilarPlaces similar(a, own < a.length ? own : own - a.length, steps);
+        for (std::uint32_t word = 0; 32 * word < a.length; ++word) {
+            std::uint32_t places = similar[word];
+            for (std::uint32_t place = 32 * word; places != 0; ++place, places >>= 1) {
+                if ((places & 1) == 0) continue;
+                sum = by_shift.add(k, place < ahead ? place + a.length - ahead : place - ahead, sum);
+            }
         }
     }
     return sum;

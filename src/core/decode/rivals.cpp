@@ -37,11 +37,11 @@ float sum_of_far_rivals(const Contest& contest, int shared_lines, int fewest_dif
 /// share some line with the reading.
 float sum_of_single_rivals(const Contest& contest) {
     float sum = 0;
-    for (const code::Secondary& a : contest.basis) {
-        const std::uint32_t own = contest.position % a.length;
-        for (std::uint32_t rival = 0; rival < a.length; ++rival) {
-            if (rival == own) continue;
-            const Growth growth = growth_of(contest, a, rival);
+    Growth growth;
+    for (std::size_t k = 0; k < contest.basis.size(); ++k) {
+        for (std::uint32_t rival = 0; rival < contest.basis[k].length; ++rival) {
+            if (rival == contest.places[k]) continue;
+            grow(contest, k, rival, growth);
             for (int shared = 0; shared < contest.lines.count(); ++shared) {
                 const std::optional<int> lost = loss_of_growth(contest, growth, shared);
                 if (lost) sum += contest.odds(*lost);
@@ -101,7 +101,7 @@ float odds_of_twin(const Contest& contest, const Places& own, const Places& riva
 /// Rivals that share that many consecutive lines, four or five, or more: one by one, from the
 /// places in the secondary sequences at which the digits of the three or four differences stand
 /// again.
-float sum_of_near_rivals(const Contest& contest, int shared_lines) {
+float sum_of_near_rivals(const Contest& contest, const code::Twins& twins, int shared_lines) {
     const auto order = static_cast<std::size_t>(shared_lines - 4);
     float sum = 0;
     for (int run = 0; run + shared_lines <= contest.lines.count(); ++run) {
@@ -112,7 +112,7 @@ float sum_of_near_rivals(const Contest& contest, int shared_lines) {
         Places rival = own;
         for (std::size_t k = 0; k < own.size();) {
             for (k = 0; k < own.size(); ++k) {
-                rival[k] = contest.basis[k].next_twins[order][rival[k]];
+                rival[k] = twins[k][order][rival[k]];
                 if (rival[k] != own[k]) break;
             }
             if (k < own.size()) sum += odds_of_twin(contest, own, rival, run, shared_lines);
@@ -128,11 +128,11 @@ int rivals_log2(Profile profile, const Lines& lines, const AxisReading& reading,
     if (odds_per_bit_q8 <= 0 || lines.count() <= kMostShared) return 0;
     const Contest contest(profile, lines, reading, odds_per_bit_q8);
     float known = sum_of_single_rivals(contest) + sum_of_other_sections(contest) +
-                  sum_of_near_rivals(contest, kMostShared);
+                  sum_of_near_rivals(contest, code::twins(profile), kMostShared);
     float expected = sum_of_far_rivals(contest, kMostShared, 2);
     // The more rivals are looked at one by one, the fewer remain to be feared for their number.
     if (known + expected > kFarBelowDoubt && expected > known && expected < kBeyondHelp) {
-        known += sum_of_double_rivals(contest) + sum_of_near_rivals(contest, kMostShared - 1);
+        known += sum_of_double_rivals(contest) + sum_of_near_rivals(contest, code::twins(profile), kMostShared - 1);
         expected = sum_of_far_rivals(contest, kMostShared - 1, 3);
     }
     int exponent = 0;

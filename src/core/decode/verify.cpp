@@ -1,7 +1,7 @@
 #include "core/decode/verify.hpp"
 
 #include "code/rolls.hpp"
-#include "code/sequences.hpp"
+#include "code/tables.hpp"
 #include "core/decode/confidence.hpp"
 #include "core/decode/lines.hpp"
 #include "core/decode/quick_rivals.hpp"
@@ -10,13 +10,6 @@
 
 namespace dotpose::core {
 namespace {
-
-/// Bits of one axis that were read and compared with the code.
-struct Agreement {
-    int bits = 0;
-    int errors = 0;
-    Confidence confidence;
-};
 
 AxisReading reading_of(Profile profile, const Place& place, Axis axis) {
     const bool is_x = axis == Axis::x;
@@ -27,9 +20,9 @@ AxisReading reading_of(Profile profile, const Place& place, Axis axis) {
     return {position, static_cast<std::uint8_t>(here), 0, 0};
 }
 
-/// Of all lines of an upright grid.
-Agreement compare(Profile profile, const Upright& upright, Axis axis, const AxisReading& reading) {
-    Agreement agreement;
+/// The bits of one axis, of all lines of an upright grid, against the code.
+Confidence compare(Profile profile, const Upright& upright, Axis axis, const AxisReading& reading) {
+    Confidence confidence;
     Line storage;
     const int lines = axis == Axis::x ? upright.columns() : upright.rows();
     std::array<std::uint8_t, kMaxGridSide> rolls;
@@ -37,18 +30,13 @@ Agreement compare(Profile profile, const Upright& upright, Axis axis, const Axis
                        std::span(rolls).first(static_cast<std::size_t>(lines)));
     for (int i = 0; i < lines; ++i) {
         const auto line = axis == Axis::x ? upright.column(i, storage) : upright.row(i, storage);
-        std::size_t index = rolls[static_cast<std::size_t>(i)];
+        const std::uint8_t* bit = code::kMainRepeated.data() + rolls[static_cast<std::size_t>(i)];
         for (const std::int8_t weight : line) {
-            const bool bit = code::kMain[index] != 0;
-            index = index + 1 == kSections ? 0 : index + 1;
-            if (weight == 0) continue;
-            const bool is_wrong = (weight > 0) != bit;
-            agreement.confidence.add(weight, is_wrong);
-            agreement.errors += is_wrong;
-            ++agreement.bits;
+            const bool is_one = *bit++ != 0;
+            if (weight != 0) confidence.add(weight, (weight > 0) != is_one);
         }
     }
-    return agreement;
+    return confidence;
 }
 
 /// The place of the top left symbol.
@@ -72,17 +60,17 @@ Doubt compare_with_chance(const Grid& grid, Profile profile, const Decoding& dec
     const std::array agreements{
         compare(profile, upright, Axis::x, reading_of(profile, place, Axis::x)),
         compare(profile, upright, Axis::y, reading_of(profile, place, Axis::y))};
-    fix.bit_errors = agreements[0].errors + agreements[1].errors;
-    for (const Agreement& agreement : agreements) {
+    fix.bit_errors = agreements[0].wrong() + agreements[1].wrong();
+    for (const Confidence& agreement : agreements) {
         // Two patterns in view.
-        if (agreement.errors > agreement.bits * options.max_bit_error_q8 / 256) return {};
+        if (agreement.wrong() > agreement.bits() * options.max_bit_error_q8 / 256) return {};
     }
     // Both axes are read from the same dots, and so are misread alike.
-    Confidence both = agreements[0].confidence;
-    both.add(agreements[1].confidence);
+    Confidence both = agreements[0];
+    both.add(agreements[1]);
     Doubt doubt{odds_per_bit_q8(both), {}};
     for (std::size_t i = 0; i < agreements.size(); ++i) {
-        doubt.by_chance_q8[i] = 256 * chance_log2(agreements[i].confidence, doubt.odds_per_bit_q8);
+        doubt.by_chance_q8[i] = 256 * chance_log2(agreements[i], doubt.odds_per_bit_q8);
     }
     return doubt;
 }

@@ -9,19 +9,21 @@ namespace dotpose::core {
 Region choose_window(const Grid& grid, int side) {
     const int columns = std::min(side, grid.columns);
     const int rows = std::min(side, grid.rows);
+    Region window{grid.i0, grid.j0, columns, rows};
+    if (columns == grid.columns && rows == grid.rows) return window;
     // The sums over the rows above the window's lower edge, column by column, slide downwards.
     std::array<std::int32_t, kMaxGridSide> column_sums{};
     std::int32_t best = -1;
-    Region window{grid.i0, grid.j0, columns, rows};
+    const GridCell* cell = grid.storage.data();
     for (int j = 0; j < grid.rows; ++j) {
         std::int32_t sum = 0;
-        for (int i = 0; i < grid.columns; ++i) {
+        for (int i = 0; i < grid.columns; ++i, ++cell) {
             std::int32_t& column = column_sums[static_cast<std::size_t>(i)];
-            column += quality(grid.at(grid.i0 + i, grid.j0 + j));
-            if (j >= rows) column -= quality(grid.at(grid.i0 + i, grid.j0 + j - rows));
+            column += quality(*cell);
+            if (j >= rows) column -= quality(cell[-rows * grid.columns]);
             sum += column;
             if (i >= columns) sum -= column_sums[static_cast<std::size_t>(i - columns)];
-            if (i < columns - 1 || j < rows - 1 || sum <= best) continue;
+            if (sum <= best || i < columns - 1 || j < rows - 1) continue;
             best = sum;
             window.i0 = grid.i0 + i - columns + 1;
             window.j0 = grid.j0 + j - rows + 1;

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstring>
-#include <type_traits>
 
 #include "core/fixed.hpp"
 #include "core/pixels/light.hpp"
+#include "core/pixels/words.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -17,8 +16,6 @@ namespace {
 constexpr int kMaxDotArea_px = 1024;
 constexpr int kMaxDotSide_px = 48;
 constexpr int kMaxMass = 65535;
-/// Of runs that found no room.
-constexpr std::int16_t kNoBlob = -1;
 
 bool is_kept(Vec dot_q8, const Light& light, const DotList& list) {
     const Vec image_centre_q8{(light.width_px - 1) * 128, (light.height_px - 1) * 128};
@@ -47,65 +44,67 @@ std::int32_t mean_q8(std::int32_t sum, std::int32_t mass) {
     return is_negative ? -mean : mean;
 }
 
-void close_blob(OpenBlob& blob, const Light& light, DotList list) {
-    blob.in_use = false;
+void close_blob(const OpenBlob& blob, const Light& light, DotList list) {
     if (!blob.has_core || !blob.is_dot) return;
     const Vec centre_q8{blob.first_u * 256 + mean_q8(blob.sum_x, blob.mass),
                         blob.first_v * 256 + mean_q8(blob.sum_y, blob.mass)};
-    if (!is_kept(centre_q8, light, list)) return;
-    while (list.count == static_cast<int>(list.dots.size()))
-        make_room(light, list);
-    if (!is_kept(centre_q8, light, list)) return;
-    list.dots[static_cast<std::size_t>(list.count++)] = {
-        centre_q8, static_cast<std::uint16_t>(std::min(blob.mass, kMaxMass)), blob.area_px};
-}
-
-/// The index of a fresh blob that begins at a pixel; kNoBlob if there are too many already.
-std::int16_t open_blob(int u, int v, OpenBlobs& open) {
-    const int capacity = static_cast<int>(open.blobs.size());
-    for (int tries = 0; open.blobs[static_cast<std::size_t>(open.next_free)].in_use; ++tries) {
-        if (tries == capacity) return kNoBlob;
-        open.next_free = open.next_free + 1 == capacity ? 0 : open.next_free + 1;
-    }
-    OpenBlob& blob = open.blobs[static_cast<std::size_t>(open.next_free)];
-    blob.sum_x = blob.sum_y = blob.mass = 0;
-    blob.area_px = 0;
-    blob.has_core = false;
-    blob.is_dot = blob.in_use = true;
-    blob.first_u = static_cast<std::int16_t>(u);
-    blob.first_v = static_cast<std::int16_t>(v);
-    return static_cast<std::int16_t>(open.next_free);
-}
-
-void add_run(const Run& run, int v, const Light& light, OpenBlob& blob) {
-    blob.last_v = static_cast<std::int16_t>(v);
-    const int width = run.end - run.begin;
-    const int height = v - blob.first_v + 1;
-    const bool at_border =
-        run.begin == 0 || run.end == light.width_px || v == 0 || v + 1 == light.height_px;
-    if (at_border || width > kMaxDotSide_px || height > kMaxDotSide_px ||
-        blob.area_px + width > kMaxDotArea_px ||
-        magnitude(run.begin - blob.first_u) > kMaxDotSide_px) {
-        blob.is_dot = false;
-    }
-    if (!blob.is_dot) return;
-    const std::uint8_t* row = kept_row(light, v);
-    std::int32_t mass = 0;
-    for (int u = run.begin; u < run.end;) {
-        const int tile = u >> light.tile_shift;
-        const Levels level = light.levels[static_cast<std::size_t>(tile)];
-        const int end = std::min<int>((tile + 1) << light.tile_shift, run.end);
-        for (; u < end; ++u) {
-            // From the threshold, not from the paper: a pixel that just passes it moves nothing.
-            const int weight = level.extent - row[u];
-            mass += weight;
-            blob.sum_x += weight * (u - blob.first_u);
-            blob.has_core |= row[u] < level.core;
+    while (is_kept(centre_q8, light, list)) {
+        if (list.count < static_cast<int>(list.dots.size())) {
+            list.dots[static_cast<std::size_t>(list.count++)] = {
+                centre_q8, static_cast<std::uint16_t>(std::min(blob.mass, kMaxMass)),
+                static_cast<std::uint16_t>(blob.area_px)};
+            return;
         }
+        make_room(light, list);
+    }
+}
+
+/// A fresh blob that begins at a pixel; none if there are too many already.
+OpenBlob* open_blob(int u, int v, OpenBlobs& open) {
+    OpenBlob* blob = open.first_unused;
+    if (blob != nullptr) {
+        open.first_unused = blob->part_of;
+    } else {
+        if (open.blobs_begun == open.blobs.size()) return nullptr;
+        blob = &open.blobs[open.blobs_begun++];
+    }
+    // One by one: the libraries of small devices clear byte by byte.
+    blob->sum_x = blob->sum_y = blob->mass = blob->area_px = 0;
+    blob->first_u = u;
+    blob->first_v = v;
+    blob->part_of = nullptr;
+    blob->has_core = false;
+    blob->is_dot = blob->in_use = true;
+    return blob;
+}
+
+/// Adds the pixels of a run, which lie in the blob's reach.
+void add_pixels(const std::uint8_t* row, const Run& run, int v, const Light& light,
+                OpenBlob& blob) {
+    std::int32_t mass = 0;
+    std::int32_t moment =
+        0;  // weight times (u - begin): each counts once for every pixel before it
+    for (int end = run.end; end > run.begin;) {
+        const int tile = (end - 1) >> light.tile_shift;
+        const int begin = std::max<int>(tile << light.tile_shift, run.begin);
+        const Levels& level = light.levels[static_cast<std::size_t>(tile)];
+        const int extent = level.extent;
+        int darkest = extent;
+        const std::uint8_t* pixel = row + end;
+        do {
+            const int grey = *--pixel;
+            moment += mass;
+            // From the threshold, not from the paper: a pixel that just passes it moves nothing.
+            mass += extent - grey;
+            if (grey < darkest) darkest = grey;
+        } while (pixel != row + begin);
+        if (darkest < level.core) blob.has_core = true;
+        end = begin;
     }
     blob.mass += mass;
+    blob.sum_x += moment + mass * (run.begin - blob.first_u);
     blob.sum_y += mass * (v - blob.first_v);
-    blob.area_px = static_cast<std::uint16_t>(blob.area_px + width);
+    blob.area_px += run.end - run.begin;
 }
 
 /// Adds `other` to `blob`; both belong to the same dark spot after all.
@@ -118,106 +117,128 @@ void unite(OpenBlob& blob, OpenBlob& other) {
         blob.sum_x += other.sum_x + du * other.mass;
         blob.sum_y += other.sum_y + dv * other.mass;
         blob.mass += other.mass;
-        blob.area_px = static_cast<std::uint16_t>(blob.area_px + other.area_px);
+        blob.area_px += other.area_px;
     }
     blob.has_core |= other.has_core;
-    other.in_use = false;
+    other.part_of = &blob;
 }
 
-/// As many pixels at a time as fit a register, the first in the lowest byte.
-using Word = std::conditional_t<sizeof(void*) == 8, std::uint64_t, std::uint32_t>;
-static_assert(std::endian::native == std::endian::little);
-constexpr Word kTops = static_cast<Word>(0x8080808080808080);
-
-/// The top bit of each byte: whether the pixel is at least as light as an even level.
-Word light_pixels(const std::uint8_t* pixels, Word half_level) {
-    Word word = 0;
-    std::memcpy(&word, __builtin_assume_aligned(pixels, sizeof(Word)), sizeof word);
-    return ((word >> 1 | kTops) - half_level) & kTops;
+/// Whether none of eight pixels is darker than an even level, of which each byte holds half.
+bool are_light(const std::uint8_t* pixels, Word half_level) {
+    Word light = kTops;
+    for (std::size_t k = 0; k < kSmallestTile_px; k += sizeof(Word))
+        light &= (word_at(pixels + k) >> 1 | kTops) - half_level;
+    return light == kTops;
 }
 
-/// Stretches of dark pixels, from the chunks of eight pixels that have some.
-class RunFinder {
-  public:
-    explicit RunFinder(std::span<Run> runs) : runs_(runs) {}
-
-    // Not inlined: rare, and in the way of the loop over all chunks.
-    [[gnu::noinline]] void take(int u, const std::uint8_t* pixels, Word half_level) {
-        if (u != next_u_) close(next_u_);
-        next_u_ = u + kSmallestTile_px;
-        for (; u < next_u_; u += static_cast<int>(sizeof(Word)), pixels += sizeof(Word)) {
-            const Word dark = light_pixels(pixels, half_level) ^ kTops;
-            Word changes = dark ^ (dark << 8 | (is_open_ ? 0x80U : 0U));
-            for (; changes != 0; changes &= changes - 1) {
-                const int at = u + std::countr_zero(changes) / 8;
-                if (is_open_) {
-                    close(at);
-                } else {
-                    open(at);
-                }
+/// Writes down the runs from eight pixels at `u` that show some to eight that end light, as far as
+/// there is room. Returns where the next run belongs.
+// Not inlined: rare, and in the way of the loop over all pixels.
+[[gnu::noinline]] Run* write_runs(std::size_t u, const std::uint8_t* row, const Light& light,
+                                  Run* run, const Run* end) {
+    const Word* half_level = light.half_levels.data() + u / kSmallestTile_px;
+    const std::uint8_t* const row_end = row + light.width_px;
+    const std::uint8_t* pixel = row + u;
+    bool is_dark = false;
+    do {
+        const auto extent = static_cast<unsigned>(2 * (*half_level++ & 0xFF));
+        const std::uint8_t* const next = pixel + kSmallestTile_px;
+        while (true) {
+            if (is_dark) {
+                while (pixel != next && *pixel < extent)
+                    ++pixel;
+                if (pixel == next) break;
+                run++->end = static_cast<int>(pixel - row);
+                if (run == end) return run;
+            } else {
+                while (pixel != next && *pixel >= extent)
+                    ++pixel;
+                if (pixel == next) break;
+                run->begin = static_cast<int>(pixel - row);
             }
+            is_dark = !is_dark;
         }
-    }
-    int finish(int width_px) {
-        close(std::min(next_u_, width_px));
-        return static_cast<int>(count_);
-    }
+    } while (is_dark && pixel < row_end);
+    if (is_dark) run++->end = light.width_px;
+    return run;
+}
 
-  private:
-    void open(int u) {
-        if (count_ == runs_.size()) return;
-        runs_[count_].begin = static_cast<std::int16_t>(u);
-        is_open_ = true;
+/// Finds the stretches of dark pixels in a row; returns how many.
+int find_runs(int v, const Light& light, std::span<Run> runs) {
+    const std::uint8_t* row = kept_row(light, v);
+    Run* run = runs.data();
+    const Run* const end = run + runs.size();
+    const Word* const half_levels = light.half_levels.data();
+    const auto width = static_cast<std::size_t>(light.width_px);
+    for (std::size_t u = 0; u < width && run != end; u += kSmallestTile_px) {
+        if (are_light(row + u, half_levels[u / kSmallestTile_px])) continue;
+        run = write_runs(u, row, light, run, end);
+        u = static_cast<std::size_t>(run[-1].end) / kSmallestTile_px * kSmallestTile_px;
     }
-    void close(int u) {
-        if (is_open_) runs_[count_++].end = static_cast<std::int16_t>(u);
-        is_open_ = false;
-    }
+    // Rows are filled up to whole tiles.
+    if (run != runs.data()) run[-1].end = std::min(run[-1].end, light.width_px);
+    return static_cast<int>(run - runs.data());
+}
 
-    std::span<Run> runs_;
-    std::size_t count_ = 0;
-    int next_u_ = 0;
-    bool is_open_ = false;
-};
-
-[[gnu::noinline]] int find_runs(int v, const Light& light, std::span<Run> runs) {
-    RunFinder finder(runs);
-    const auto used = light.half_levels.first(static_cast<std::size_t>(light.width_px + 7) / 8);
-    const std::uint8_t* pixels = kept_row(light, v);
-    int u = 0;
-    for (const std::uint32_t four_levels : used) {
-        const Word half_level = static_cast<Word>(std::uint64_t{four_levels} << 32 | four_levels);
-        Word all = kTops;
-        for (std::size_t k = 0; k < kSmallestTile_px; k += sizeof(Word))
-            all &= light_pixels(pixels + k, half_level);
-        if (all != kTops) finder.take(u, pixels, half_level);
-        pixels += kSmallestTile_px;
-        u += kSmallestTile_px;
-    }
-    return finder.finish(light.width_px);
+/// The blob that a run belongs to.
+OpenBlob* whole(OpenBlob* blob) {
+    while (blob != nullptr && blob->part_of != nullptr)
+        blob = blob->part_of;
+    return blob;
 }
 
 /// Gives each run of the new row the blob of the runs above that it touches (corners count).
-void connect(std::span<Run> above, std::span<Run> below, int v, OpenBlobs& open) {
-    std::size_t first = 0;
-    for (std::size_t r = 0; r < below.size(); ++r) {
-        Run& run = below[r];
-        run.blob = kNoBlob;
-        while (first < above.size() && above[first].end < run.begin)
+void connect(std::span<const Run> above, std::span<Run> below, int v, OpenBlobs& open) {
+    auto first = above.begin();
+    for (Run& run : below) {
+        run.blob = nullptr;
+        while (first != above.end() && first->end < run.begin)
             ++first;
-        for (std::size_t a = first; a < above.size() && above[a].begin <= run.end; ++a) {
-            const std::int16_t other = above[a].blob;
-            if (run.blob == kNoBlob) run.blob = other;
-            if (run.blob == other || other == kNoBlob) continue;
-            unite(open.blobs[static_cast<std::size_t>(run.blob)],
-                  open.blobs[static_cast<std::size_t>(other)]);
-            const auto rename = [&](Run& named) {
-                if (named.blob == other) named.blob = run.blob;
-            };
-            std::for_each(above.begin(), above.end(), rename);
-            std::for_each(below.begin(), below.begin() + static_cast<std::ptrdiff_t>(r), rename);
+        for (auto touching = first; touching != above.end() && touching->begin <= run.end;
+             ++touching) {
+            OpenBlob* const blob = whole(touching->blob);
+            if (run.blob == nullptr) {
+                run.blob = blob;
+            } else if (blob != nullptr && blob != run.blob) {
+                unite(*run.blob, *blob);
+            }
         }
-        if (run.blob == kNoBlob) run.blob = open_blob(run.begin, v, open);
+        if (run.blob == nullptr) run.blob = open_blob(run.begin, v, open);
+    }
+}
+
+/// Adds each run of row `v` to its blob.
+void add_runs(std::span<Run> runs, int v, const Light& light) {
+    const std::uint8_t* row = kept_row(light, v);
+    const bool is_rim = v == 0 || v + 1 == light.height_px;
+    for (Run& run : runs) {
+        run.blob = whole(run.blob);
+        if (run.blob == nullptr) continue;
+        OpenBlob& blob = *run.blob;
+        blob.last_v = v;
+        if (!blob.is_dot) continue;
+        const int width = run.end - run.begin;
+        blob.is_dot = !is_rim && run.begin != 0 && run.end != light.width_px &&
+                      width <= kMaxDotSide_px && v - blob.first_v < kMaxDotSide_px &&
+                      blob.area_px + width <= kMaxDotArea_px &&
+                      magnitude(run.begin - blob.first_u) <= kMaxDotSide_px;
+        if (blob.is_dot) add_pixels(row, run, v, light, blob);
+    }
+}
+
+/// Ends the blobs of the row above that row `v` does not go on with.
+void close_blobs(std::span<const Run> above, int v, const Light& light, OpenBlobs& open,
+                 DotList list) {
+    for (const Run& run : above) {
+        OpenBlob* const blob = run.blob;
+        if (blob == nullptr || !blob->in_use) continue;
+        if (blob->part_of == nullptr) {
+            if (blob->last_v == v) continue;
+            close_blob(*blob, light, list);
+        }
+        blob->in_use = false;
+        blob->part_of = open.first_unused;
+        open.first_unused = blob;
     }
 }
 
@@ -225,9 +246,9 @@ void connect(std::span<Run> above, std::span<Run> below, int v, OpenBlobs& open)
 
 void begin_blobs(const Light& light, OpenBlobs& open, DotList list) {
     open.run_count = 0;
-    open.next_free = 0;
-    for (OpenBlob& blob : open.blobs)
-        blob.in_use = false;
+    open.runs_left = open.most_runs;
+    open.blobs_begun = 0;
+    open.first_unused = nullptr;
     list.count = 0;
     list.kept_within_px = std::max(light.width_px, light.height_px);
 }
@@ -239,18 +260,13 @@ void grow_blobs(int v, const Light& light, OpenBlobs& open, DotList list) {
     const auto newer = open.runs.subspan(open.newest_in_second_half ? half : 0, half);
 
     const auto above = older.first(static_cast<std::size_t>(open.run_count));
-    open.run_count = find_runs(v, light, newer);
+    const auto room = newer.first(std::min(half, static_cast<std::size_t>(open.runs_left)));
+    open.run_count = find_runs(v, light, room);
+    open.runs_left -= open.run_count;
     const auto below = newer.first(static_cast<std::size_t>(open.run_count));
     connect(above, below, v, open);
-    for (const Run& run : below) {
-        if (run.blob == kNoBlob) continue;
-        add_run(run, v, light, open.blobs[static_cast<std::size_t>(run.blob)]);
-    }
-    for (const Run& run : above) {
-        if (run.blob == kNoBlob) continue;
-        OpenBlob& blob = open.blobs[static_cast<std::size_t>(run.blob)];
-        if (blob.in_use && blob.last_v < v) close_blob(blob, light, list);
-    }
+    add_runs(below, v, light);
+    close_blobs(above, v, light, open, list);
 }
 
 void sift_dots(const BlobOptions& options, DotList list) {

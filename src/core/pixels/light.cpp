@@ -5,10 +5,12 @@
 #include <bit>
 #include <cstring>
 
+#include "core/pixels/words.hpp"
+
 namespace dotpose::core {
 namespace {
 
-constexpr int kBandsKept = 3;
+constexpr int kBandsKept = 4;  // three are needed
 constexpr unsigned kContrastBins = 64;
 /// Dots are sought in every n-th row: they are higher than that; paper in fewer.
 constexpr int kDotsEvery = 2;
@@ -16,125 +18,147 @@ constexpr int kPaperEvery = 4;
 
 std::span<Tile> tiles_of(const Light& light, int band) {
     const auto n = static_cast<std::size_t>(light.tiles_per_band);
-    return light.tiles.subspan(static_cast<std::size_t>(band % kBandsKept) * n, n);
+    return light.tiles.subspan(static_cast<std::size_t>(band & (kBandsKept - 1)) * n, n);
 }
 
-std::uint32_t word_at(const std::uint8_t* bytes) {
-    std::uint32_t word = 0;
-    std::memcpy(&word, __builtin_assume_aligned(bytes, 4), sizeof word);
-    return word;
+/// Copies as many blocks as fit into `size` bytes from `done` on; returns how far it got.
+template <std::size_t kBlock>
+std::size_t copy_blocks(const std::uint8_t* from, std::uint8_t* to, std::size_t done,
+                        std::size_t size) {
+    for (; done + kBlock <= size; done += kBlock)
+        std::memcpy(__builtin_assume_aligned(to + done, 4),
+                    __builtin_assume_aligned(from + done, 4), kBlock);
+    return done;
 }
 
-// Four pixels at a time, of seven bits each: the eighth is free for comparisons.
-constexpr std::uint32_t kTops = 0x80808080;
-
-/// a - b in each byte, or 0 where that is negative.
-constexpr std::uint32_t excess(std::uint32_t a, std::uint32_t b) {
-    const std::uint32_t difference = (a | kTops) - b;
-    const std::uint32_t is_positive = difference & kTops;
-    return difference & (is_positive - (is_positive >> 7));
-}
-
-/// Dark is what two pixels side by side agree on: a defect pixel is no ink.
-void find_darkest(const std::uint8_t* row, std::size_t words, std::uint32_t* darkest) {
-    std::uint32_t before = ~kTops;
-    for (std::size_t i = 0; i < words; ++i) {
-        const std::uint32_t here = word_at(row + 4 * i) >> 1 & ~kTops;
-        const std::uint32_t left = here << 8 | before >> 24;
-        const std::uint32_t lighter = left + excess(here, left);
-        darkest[i] -= excess(darkest[i], lighter);
-        before = here;
-    }
-}
-
-void add_up(const std::uint8_t* row, std::size_t words, std::uint32_t* sums) {
-    for (std::size_t i = 0; i < words; ++i) {
-        const std::uint32_t word = word_at(row + 4 * i);
-        sums[i] += (word & 0x00FF00FF) + (word >> 8 & 0x00FF00FF);
-    }
-}
-
+/// Keeps a row, and repeats its last pixel to the end of its tile.
 void keep_row(const std::uint8_t* pixels, const Light& light, std::uint8_t* row) {
     const auto width = static_cast<std::size_t>(light.width_px);
-    const auto whole = static_cast<std::size_t>(light.tile_px * light.tiles_per_band);
+    const auto whole = static_cast<std::size_t>(light.tiles_per_band) << light.tile_shift;
     std::size_t u = 0;
     if (reinterpret_cast<std::uintptr_t>(pixels) % 4 == 0) {
         // The libraries of small devices copy byte by byte.
-        struct alignas(4) Block {
-            std::array<std::uint32_t, 4> words;
-        };
-        for (; u + sizeof(Block) <= width; u += sizeof(Block)) {
-            Block block;
-            std::memcpy(&block, __builtin_assume_aligned(pixels + u, 4), sizeof block);
-            std::memcpy(__builtin_assume_aligned(row + u, 4), &block, sizeof block);
+        u = copy_blocks<16>(pixels, row, u, width);
+        u = copy_blocks<4>(pixels, row, u, width);
+    }
+    if (u < width) std::copy(pixels + u, pixels + width, row + u);
+    for (u = width; u < whole; ++u)
+        row[u] = pixels[width - 1];
+    std::fill_n(row - kKeptMargin_px, kKeptMargin_px, std::uint8_t{255});
+}
+
+/// The least of all bytes, seven bits each; tops are set.
+constexpr unsigned least_byte(Word bytes) {
+    for (std::size_t shift = 4 * sizeof bytes; shift >= 8; shift /= 2)
+        bytes -= excess(bytes, bytes >> shift & ~kTops);
+    return static_cast<unsigned>(bytes) & 0x7F;
+}
+
+/// The sum of 16-bit numbers.
+constexpr std::uint32_t sum_of_halves(Word halves) {
+    for (std::size_t shift = 4 * sizeof halves; shift >= 16; shift /= 2)
+        halves += halves >> shift;
+    return static_cast<std::uint32_t>(halves) & 0xFFFF;
+}
+
+/// The darkest in a column of eight pixels, for each byte of a word, in seven bits; tops are set.
+/// Dark is what two pixels side by side agree on: a defect pixel is no ink.
+// Not inlined, nor is the next: small devices have registers for one loop.
+[[gnu::noinline]] Word darkest_in_column(const std::uint8_t* pixels, std::ptrdiff_t stride,
+                                         const std::uint8_t* end) {
+    Word darkest = ~Word{0};
+    // From the word before on, as the smallest devices address no bytes before a pointer.
+    for (pixels -= sizeof(Word), end -= sizeof(Word); pixels < end; pixels += stride) {
+#pragma GCC unroll 2
+        for (std::size_t k = 0; k < kSmallestTile_px; k += sizeof(Word)) {
+            const Word word = word_at(pixels + k + sizeof(Word));
+            const Word here = word >> 1 | kTops;
+            const Word left = (word << 8 | pixels[k + sizeof(Word) - 1]) >> 1 & ~kTops;
+            darkest -= excess(darkest, left + excess(here, left));
         }
     }
-    std::copy(pixels + u, pixels + width, row + u);
-    std::fill(row + width, row + whole, pixels[width - 1]);
+    return darkest;
 }
 
-/// Rows evenly about the middle of a band; of the last one, the first if it has no other.
-bool shows_paper(int v, const Light& light) {
-    const int in_band = v & (light.tile_px - 1);
-    const int rows = std::min(light.height_px - (v - in_band), light.tile_px);
-    return in_band % kPaperEvery == kPaperEvery / 2 || (in_band == 0 && rows <= kPaperEvery / 2);
+/// The sum of a column of eight pixels.
+[[gnu::noinline]] std::uint32_t sum_of_column(const std::uint8_t* pixels, std::ptrdiff_t stride,
+                                              const std::uint8_t* end) {
+    constexpr Word kHalves = static_cast<Word>(0x00FF00FF00FF00FF);
+    Word halves = 0;
+    for (; pixels < end; pixels += stride) {
+#pragma GCC unroll 2
+        for (std::size_t k = 0; k < kSmallestTile_px; k += sizeof(Word)) {
+            const Word word = word_at(pixels + k);
+            halves += (word & kHalves) + (word >> 8 & kHalves);
+        }
+    }
+    return sum_of_halves(halves);
 }
 
-/// `last` is the last row in the band.
-void close_tiles(int last, const Light& light, std::span<Tile> tiles) {
-    const int rows = std::max((last + kPaperEvery / 2) / kPaperEvery, 1);
-    const auto words = static_cast<std::size_t>(light.tile_px) / 4;
-    const auto pixels = static_cast<std::uint32_t>(rows * light.tile_px);
+/// Sets the tiles of a band that ends with the newest row.
+void measure_tiles(int band, const Light& light, std::span<Tile> tiles) {
+    const std::ptrdiff_t stride = kept_stride(light);
+    const int rows = band_end(light, band) - band_begin(light, band);
+    const std::uint8_t* column = kept_row(light, band_begin(light, band));
+    const std::uint8_t* end = column + rows * stride;
+    // Rows evenly about the middle; of a narrow last band, its first.
+    const std::ptrdiff_t to_paper = rows > kPaperEvery / 2 ? kPaperEvery / 2 * stride : 0;
+    const int paper_rows = std::max((rows - 1 + kPaperEvery / 2) / kPaperEvery, 1);
+    const auto pixels = static_cast<std::uint32_t>(paper_rows * light.tile_px);
     const std::uint32_t inverse_q20 = ((1U << 20) + pixels - 1) / pixels;
-    std::size_t i = 0;
     for (Tile& tile : tiles) {
         std::uint32_t sum = 0;
-        std::uint32_t darkest = ~kTops;
-        for (const std::size_t end = i + words; i < end; ++i) {
-            sum += (light.sums[i] & 0xFFFF) + (light.sums[i] >> 16);
-            darkest -= excess(darkest, light.darkest[i]);
+        unsigned darkest = 0x7F;
+        for (int u = 0; u < light.tile_px; u += kSmallestTile_px) {
+            sum += sum_of_column(column + to_paper, kPaperEvery * stride, end);
+            darkest =
+                std::min(darkest, least_byte(darkest_in_column(column, kDotsEvery * stride, end)));
+            column += kSmallestTile_px;
+            end += kSmallestTile_px;
         }
-        darkest -= excess(darkest, darkest >> 16 | 0x7F7F0000);
-        darkest -= excess(darkest, darkest >> 8 | 0x7F7F7F00);
         tile.mean = static_cast<std::uint8_t>((sum * inverse_q20) >> 20);
-        tile.darkest = static_cast<std::uint8_t>(2 * (darkest & 0x7F));
+        tile.darkest = static_cast<std::uint8_t>(2 * darkest);
     }
 }
 
-/// Brightest mean and darkest pixel.
-Tile both(Tile a, Tile b) {
-    return {std::max(a.mean, b.mean), std::min(a.darkest, b.darkest)};
-}
+/// Brightest mean and darkest pixel of some tiles.
+struct Extremes {
+    int mean = 0;
+    int darkest = 255;
+
+    void take(int other_mean, int other_darkest) {
+        mean = std::max(mean, other_mean);
+        darkest = std::min(darkest, other_darkest);
+    }
+};
 
 /// The tiles of a band and of those above and below; at the image's rims, the band itself instead.
 struct ThreeBands {
-    std::span<const Tile> above;
-    std::span<const Tile> here;
-    std::span<const Tile> below;
+    const Tile* above;
+    const Tile* here;
+    const Tile* below;
 
-    Tile column(std::size_t tile) const { return both(both(above[tile], here[tile]), below[tile]); }
+    Extremes column(std::size_t tile) const {
+        Extremes column;
+        for (const Tile* band : {above, here, below})
+            column.take(band[tile].mean, band[tile].darkest);
+        return column;
+    }
 };
 
 ThreeBands three_bands(const Light& light, int band) {
-    const auto here = tiles_of(light, band);
-    return {band > 0 ? tiles_of(light, band - 1) : here, here,
-            band + 1 < band_count(light) ? tiles_of(light, band + 1) : here};
+    const Tile* here = tiles_of(light, band).data();
+    return {band > 0 ? tiles_of(light, band - 1).data() : here, here,
+            band + 1 < band_count(light) ? tiles_of(light, band + 1).data() : here};
 }
 
-/// Contrasts relative to the paper's level, in `kContrastBins`-ths.
-class RelativeContrast {
-  public:
-    unsigned bin(unsigned contrast, unsigned paper) {
-        // Neighbouring tiles often have the same paper.
-        if (paper != paper_) inverse_q16_ = (kContrastBins << 16) / (paper + 1);
-        paper_ = paper;
-        return (contrast * inverse_q16_) >> 16;
-    }
-
-  private:
-    unsigned paper_ = UINT32_MAX;
-    unsigned inverse_q16_ = 0;
-};
+/// 1 / (paper + 1), to tell contrasts relative to the paper's level in `kContrastBins`-ths.
+constexpr auto kInverses_q16 = [] {
+    std::array<std::uint32_t, 256> inverses{};
+    for (std::uint32_t paper = 0; paper < inverses.size(); ++paper)
+        inverses[paper] = (kContrastBins << 16) / (paper + 1);
+    return inverses;
+}();
 
 }  // namespace
 
@@ -151,20 +175,12 @@ void begin_light(int width_px, int height_px, Light& light) {
 
 int take_row(const std::uint8_t* pixels, Light& light) {
     const int v = light.rows_taken++;
-    const int in_band = v & (light.tile_px - 1);
-    const auto words = static_cast<std::size_t>(light.tile_px * light.tiles_per_band) / 4;
-    std::uint8_t* row = kept_row(light, v);
-    keep_row(pixels, light, row);
-    if (in_band == 0) {
-        std::fill_n(light.sums.begin(), words, 0U);
-        std::fill_n(light.darkest.begin(), words, ~kTops);
-    }
-    if (in_band % kDotsEvery == 0) find_darkest(row, words, light.darkest.data());
-    if (shows_paper(v, light)) add_up(row, words, light.sums.data());
+    keep_row(pixels, light, kept_row(light, v));
     const bool is_last = v + 1 == light.height_px;
-    if (in_band + 1 < light.tile_px && !is_last) return 0;
+    const bool ends_band = ((v + 1) & (light.tile_px - 1)) == 0;
+    if (!ends_band && !is_last) return 0;
     const int band = v >> light.tile_shift;
-    close_tiles(in_band, light, tiles_of(light, band));
+    measure_tiles(band, light, tiles_of(light, band));
     return (band > 0 ? 1 : 0) + (is_last ? 1 : 0);
 }
 
@@ -176,19 +192,21 @@ void measure_levels(int band, const ThresholdOptions& options, Light& light) {
     std::array<std::uint16_t, kContrastBins> histogram{};
     int count = 0;
     const ThreeBands bands = three_bands(light, band);
-    RelativeContrast relative;
-    Tile left{};
-    Tile here = bands.column(0);
+    Extremes left;
+    Extremes here = bands.column(0);
     for (std::size_t t = 0; t < levels.size(); ++t) {
-        const Tile right = t + 1 < levels.size() ? bands.column(t + 1) : Tile{};
-        const Tile near = both(both(left, here), right);
+        const Extremes right = t + 1 < levels.size() ? bands.column(t + 1) : Extremes{};
+        Extremes near = here;
+        near.take(left.mean, left.darkest);
+        near.take(right.mean, right.darkest);
         left = here;
         here = right;
         const int contrast = near.mean - near.darkest;
         levels[t] = Levels{};
         if (contrast < options.min_contrast) continue;
-        ++histogram[relative.bin(static_cast<unsigned>(contrast), near.mean)];
-        levels[t].paper = near.mean;
+        const std::uint32_t inverse_q16 = kInverses_q16[static_cast<std::size_t>(near.mean)];
+        ++histogram[(static_cast<std::uint32_t>(contrast) * inverse_q16) >> 16];
+        levels[t].paper = static_cast<std::uint8_t>(near.mean);
         light.has_contrast = true;
         ++count;
     }
@@ -197,20 +215,20 @@ void measure_levels(int band, const ThresholdOptions& options, Light& light) {
         below += histogram[static_cast<std::size_t>(bin)];
         if (10 * below > 3 * count) break;
     }
+    const int depth_q8 = (2 * bin + 1) * static_cast<int>(256 / (2 * kContrastBins));
+    const int to_extent_q16 = depth_q8 * options.extent_q8;
+    const int to_core_q16 = depth_q8 * options.core_q8;
+    Word* half_level = light.half_levels.data();
     for (Levels& level : levels) {
-        if (level.paper == 0) continue;
-        const int depth_q8 =
-            level.paper * (2 * bin + 1) * static_cast<int>(256 / (2 * kContrastBins));
-        const int to_extent = (depth_q8 * options.extent_q8) >> 16;
-        const int to_core = (depth_q8 * options.core_q8) >> 16;
-        // Even, so that blobs may compare seven bits.
-        level.extent = static_cast<std::uint8_t>((level.paper - to_extent) & ~1);
-        level.core = static_cast<std::uint8_t>(level.paper - to_core);
-    }
-    std::size_t chunk = 0;
-    for (const Levels& level : levels) {
+        if (level.paper != 0) {
+            const int to_extent = (level.paper * to_extent_q16) >> 16;
+            const int to_core = (level.paper * to_core_q16) >> 16;
+            // Even, so that blobs may compare seven bits.
+            level.extent = static_cast<std::uint8_t>((level.paper - to_extent) & ~1);
+            level.core = static_cast<std::uint8_t>(level.paper - to_core);
+        }
         for (int u = 0; u < light.tile_px; u += kSmallestTile_px)
-            light.half_levels[chunk++] = level.extent / 2U * 0x01010101U;
+            *half_level++ = in_all_bytes(level.extent / 2);
     }
 }
 

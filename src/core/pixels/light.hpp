@@ -22,7 +22,7 @@ int take_row(const std::uint8_t* pixels, Light& light);
 void measure_levels(int band, const ThresholdOptions& options, Light& light);
 
 inline int band_count(const Light& light) {
-    return (light.height_px + light.tile_px - 1) / light.tile_px;
+    return (light.height_px + light.tile_px - 1) >> light.tile_shift;
 }
 /// First row of a band, and one past its last.
 inline int band_begin(const Light& light, int band) {
@@ -31,12 +31,15 @@ inline int band_begin(const Light& light, int band) {
 inline int band_end(const Light& light, int band) {
     return std::min((band + 1) * light.tile_px, light.height_px);
 }
-/// A row of one of the two newest bands: whole tiles, past `width_px` filled with the last pixel.
-/// Begins at a multiple of 8 bytes.
+/// From one kept row to the next.
+inline std::ptrdiff_t kept_stride(const Light& light) {
+    return (static_cast<std::ptrdiff_t>(light.tiles_per_band) << light.tile_shift) + kKeptMargin_px;
+}
+/// A row of one of the two newest bands: whole tiles, past `width_px` filled with the last pixel,
+/// and white in the margin before the first. Begins at a multiple of 8 bytes.
 inline std::uint8_t* kept_row(const Light& light, int v) {
     const int slot = v & (2 * light.tile_px - 1);
-    return light.rows.data() +
-           static_cast<std::ptrdiff_t>(slot) * light.tile_px * light.tiles_per_band;
+    return light.rows.data() + slot * kept_stride(light) + kKeptMargin_px;
 }
 
 }  // namespace dotpose::core

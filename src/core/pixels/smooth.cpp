@@ -1,6 +1,7 @@
 #include "core/pixels/smooth.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 
 #include "core/pixels/paper.hpp"
@@ -20,23 +21,39 @@ void clip_impulses(const ImageView& image, int v, std::uint8_t* out) {
     const std::uint8_t* above = image.row(std::max(v - 1, 0));
     const std::uint8_t* here = image.row(v);
     const std::uint8_t* below = image.row(std::min(v + 1, image.height_px - 1));
-    for (int u = 0; u < image.width_px; ++u) {
-        const int left = std::max(u - 1, 0);
-        const int right = std::min(u + 1, image.width_px - 1);
-        const auto [low_above, high_above] = std::minmax({above[left], above[u], above[right]});
-        const auto [low_below, high_below] = std::minmax({below[left], below[u], below[right]});
-        const auto [low_here, high_here] = std::minmax({here[left], here[right]});
-        out[u] = std::clamp(here[u], std::min({low_above, low_below, low_here}),
-                            std::max({high_above, high_below, high_here}));
-    }
+    const auto clipped = [=](int left, int u, int right) {
+        const std::uint8_t low_beside = std::min(here[left], here[right]);
+        const std::uint8_t low_above = std::min(std::min(above[left], above[u]), above[right]);
+        const std::uint8_t low_below = std::min(std::min(below[left], below[u]), below[right]);
+        const std::uint8_t high_beside = std::max(here[left], here[right]);
+        const std::uint8_t high_above = std::max(std::max(above[left], above[u]), above[right]);
+        const std::uint8_t high_below = std::max(std::max(below[left], below[u]), below[right]);
+        const std::uint8_t low = std::min(std::min(low_above, low_below), low_beside);
+        const std::uint8_t high = std::max(std::max(high_above, high_below), high_beside);
+        return std::min(std::max(here[u], low), high);
+    };
+    const int last = image.width_px - 1;
+    out[0] = clipped(0, 0, 1);
+    for (int u = 1; u < last; ++u)
+        out[u] = clipped(u - 1, u, u + 1);
+    out[last] = clipped(last - 1, last, last);
 }
 
 void weight_along(const std::uint8_t* pixels, int width_px, std::uint16_t* out) {
-    const auto at = [&](int u) { return int{pixels[std::clamp(u, 0, width_px - 1)]}; };
-    for (int u = 0; u < width_px; ++u) {
-        out[u] = static_cast<std::uint16_t>(at(u - 2) + at(u + 2) + 4 * (at(u - 1) + at(u + 1)) +
-                                            6 * at(u));
+    const auto weighted = [](int far_left, int left, int own, int right, int far_right) {
+        return static_cast<std::uint16_t>(far_left + far_right + 4 * (left + right) + 6 * own);
+    };
+    const auto at_border = [&](int u) {
+        const auto at = [&](int i) { return int{pixels[std::clamp(i, 0, width_px - 1)]}; };
+        out[u] = weighted(at(u - 2), at(u - 1), at(u), at(u + 1), at(u + 2));
+    };
+    at_border(0);
+    at_border(1);
+    for (int u = 2; u < width_px - 2; ++u) {
+        out[u] = weighted(pixels[u - 2], pixels[u - 1], pixels[u], pixels[u + 1], pixels[u + 2]);
     }
+    at_border(width_px - 2);
+    at_border(width_px - 1);
 }
 
 /// Half the side of the surroundings: they reach over two spacings wherever 8 dots are in view.
@@ -51,15 +68,18 @@ int half_side(int at, int length, int largest) {
 /// around counts as paper: strokes of graphics are no shadow.
 void add_row(const ImageView& image, int v, bool add, Smoothing& smoothing) {
     const std::uint8_t* row = image.row(v);
+    std::uint32_t* sums = smoothing.column_sums.data();
     const int block_px = smoothing.paper.block_px;
+    // x ^ flip - flip is -x where flip is -1.
+    const std::uint32_t flip = add ? 0 : UINT32_MAX;
     for (int begin = 0; begin < image.width_px; begin += block_px) {
-        const int paper = brightest_paper_near(smoothing.paper, begin, v);
+        const auto paper =
+            static_cast<std::uint32_t>(brightest_paper_near(smoothing.paper, begin, v));
         const int end = std::min(begin + block_px, image.width_px);
         for (int u = begin; u < end; ++u) {
-            const auto level =
-                static_cast<std::uint32_t>(10 * row[u] < 7 * paper ? paper : int{row[u]});
-            std::uint32_t& sum = smoothing.column_sums[static_cast<std::size_t>(u)];
-            sum = add ? sum + level : sum - level;
+            const std::uint32_t pixel = row[u];
+            const std::uint32_t level = 10 * pixel < 7 * paper ? paper : pixel;
+            sums[u] += (level ^ flip) - flip;
         }
     }
 }
@@ -76,6 +96,32 @@ void move_sums(const ImageView& image, int begin, int end, Smoothing& smoothing)
 /// the contrast of the dots near them.
 constexpr std::uint32_t kDarkest = kEvenLevel * 4 / 5;
 
+/// Quotients, rounded down, without dividing. For n / d < 256 and d < 2^20 they are exact: the
+/// factor is too large by less than one, which makes n / d larger by less than n / 2^48 < 1 / d.
+class Divider {
+  public:
+    std::uint32_t quotient(std::uint32_t n, std::uint32_t d) {
+        if (d != divisor_) {
+            divisor_ = d;
+            factor_ = (std::uint64_t{1} << kBits) / d + 1;
+        }
+        return static_cast<std::uint32_t>(n * factor_ >> kBits);
+    }
+
+  private:
+    static constexpr int kBits = 48;
+    std::uint32_t divisor_ = 0;
+    std::uint64_t factor_ = 0;
+};
+
+/// kEvenLevel / mean in 2^-24, rounded up: times a pixel it is too large by less than 1 / 256.
+constexpr auto kEvened_q24 = [] {
+    std::array<std::uint32_t, 256> factors{};
+    for (std::uint32_t mean = 1; mean < factors.size(); ++mean)
+        factors[mean] = ((std::uint32_t{kEvenLevel} << 24) - 1) / mean + 1;
+    return factors;
+}();
+
 /// Divides each pixel by the mean of its surroundings.
 void even_out(const ImageView& image, int v, Smoothing& smoothing) {
     const int largest = smoothing.paper.block_px;
@@ -83,21 +129,23 @@ void even_out(const ImageView& image, int v, Smoothing& smoothing) {
     move_sums(image, std::max(v - half_height, 0), std::min(v + half_height + 1, image.height_px),
               smoothing);
     const auto rows = static_cast<std::uint32_t>(smoothing.sums_end - smoothing.sums_begin);
+    const std::uint32_t* columns = smoothing.column_sums.data();
+    std::uint8_t* pixels = smoothing.row.data();
+    Divider divider;
     std::uint32_t sum = 0;
     int begin = 0;
     int end = 0;
     for (int u = 0; u < image.width_px; ++u) {
         const int half_width = half_side(u, image.width_px, largest);
-        while (end < std::min(u + half_width + 1, image.width_px)) {
-            sum += smoothing.column_sums[static_cast<std::size_t>(end++)];
-        }
+        while (end < std::min(u + half_width + 1, image.width_px))
+            sum += columns[end++];
         while (begin < u - half_width)
-            sum -= smoothing.column_sums[static_cast<std::size_t>(begin++)];
+            sum -= columns[begin++];
         const std::uint32_t mean =
-            std::max(sum / (rows * static_cast<std::uint32_t>(end - begin)), 1U);
-        std::uint8_t& pixel = smoothing.row[static_cast<std::size_t>(u)];
-        pixel = static_cast<std::uint8_t>(
-            std::clamp(pixel * std::uint32_t{kEvenLevel} / mean, kDarkest, 255U));
+            std::max(divider.quotient(sum, rows * static_cast<std::uint32_t>(end - begin)), 1U);
+        const std::uint64_t evened = std::uint64_t{pixels[u]} * kEvened_q24[mean] >> 24;
+        pixels[u] = static_cast<std::uint8_t>(
+            std::clamp(static_cast<std::uint32_t>(evened), kDarkest, 255U));
     }
 }
 

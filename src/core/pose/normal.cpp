@@ -1,89 +1,69 @@
 #include "core/pose/normal.hpp"
 
-#include <algorithm>
 #include <cmath>
 
-#include "core/fixed.hpp"
-
 namespace dotpose::core {
-namespace {
 
-constexpr float kPower16 = 65536.0F;
-constexpr float kPower24 = 16777216.0F;
-constexpr float kPower30 = 1073741824.0F;
-constexpr float kPower40 = kPower24 * kPower16;
-
-std::int32_t rounded(float value) {
-    return static_cast<std::int32_t>(value + (value < 0 ? -0.5F : 0.5F));
+void NormalSums::add(const Sights& sights, const Residuals& residuals) {
+    const auto& [u, v] = sights.scale;
+    const auto& [ax, ay] = sights.tilt_x;
+    const auto& [bx, by] = sights.tilt_y;
+    const auto& [cx, cy] = sights.bend;
+    const auto& [rx, ry] = residuals.off;
+    const Four w = residuals.weight;
+    less_points_ += w > 0;
+    // The weight goes with the later one of two parameters.
+    const Four wu = w * u;
+    const Four wv = w * v;
+    const Four wax = w * ax;
+    const Four way = w * ay;
+    const Four wbx = w * bx;
+    const Four wby = w * by;
+    const Four wcx = w * cx;
+    const Four wcy = w * cy;
+    add_each(one_scale_square_, w, wu, wv, w * (rx * rx + ry * ry));
+    add_each(tilts_, wax, way, wbx, wby);
+    add_each(bend_off_, wcx, wcy, w * rx, w * ry);
+    add_each(scale_turned_, wu * u + wv * v, wv * u - wu * v, wu * u - wv * v, wu * v + wv * u);
+    add_each(tilt_x_turned_, wax * u + way * v, way * u - wax * v, ax * wu - ay * wv,
+             ax * wv + ay * wu);
+    add_each(tilt_y_turned_, wbx * u + wby * v, wby * u - wbx * v, bx * wu - by * wv,
+             bx * wv + by * wu);
+    add_each(bend_turned_, wcx * u + wcy * v, wcy * u - wcx * v, wcx * u - wcy * v,
+             wcx * v + wcy * u);
+    add_each(off_turned_, rx * wu + ry * wv, ry * wu - rx * wv, rx * wu - ry * wv,
+             rx * wv + ry * wu);
+    add_each(tilt_tilt_, wax * ax + way * ay, wbx * ax + wby * ay, wbx * bx + wby * by, Four{});
+    add_each(bend_further_, wcx * ax + wcy * ay, wcx * bx + wcy * by, wcx * cx + wcy * cy, Four{});
+    add_each(off_further_, wax * rx + way * ry, wbx * rx + wby * ry, wcx * rx + wcy * ry, Four{});
 }
 
-}  // namespace
-
-ScaledPlane::ScaledPlane(const PlaneFromImage& plane, int reach_px)
-    : plane_(plane), reach_px_(static_cast<float>(reach_px)) {
-    const auto slope = [&](std::int32_t value) {
-        return static_cast<float>(value) * reach_px_ / kPower24;
-    };
-    du_x_ = slope(plane.du_q24.x);
-    du_y_ = slope(plane.du_q24.y);
-    dv_x_ = slope(plane.dv_q24.x);
-    dv_y_ = slope(plane.dv_q24.y);
-    tilt_x_ = static_cast<float>(plane.perspective_q30.x) * reach_px_ / kPower30;
-    tilt_y_ = static_cast<float>(plane.perspective_q30.y) * reach_px_ / kPower30;
-    bend_ = static_cast<float>(plane.lens_q40) * reach_px_ * reach_px_ / kPower40;
-}
-
-ScaledPlane::Sight ScaledPlane::look(Vec image_point_q8) const {
-    const Vec p = image_point_q8 - plane_.centre_q8;
-    const float unit = 1.0F / (256.0F * reach_px_);
-    const float x = static_cast<float>(p.x) * unit;
-    const float y = static_cast<float>(p.y) * unit;
-    const float r2 = x * x + y * y;
-    const float divisor = std::max(1 + tilt_x_ * x + tilt_y_ * y + bend_ * r2, 0.25F);
-    const float u = x / divisor;
-    const float v = y / divisor;
-    const float t = r2 / divisor;
-    const float qx = du_x_ * u + dv_x_ * v;
-    const float qy = du_y_ * u + dv_y_ * v;
-    return {qx,
-            qy,
-            {Parameters{1, 0, u, -v, -qx * u, -qx * v, u, v, -qx * t},
-             Parameters{0, 1, v, u, -qy * u, -qy * v, -v, u, -qy * t}}};
-}
-
-float ScaledPlane::scale() const {
-    return std::sqrt((du_x_ * du_x_ + du_y_ * du_y_ + dv_x_ * dv_x_ + dv_y_ * dv_y_) / 2);
-}
-
-Parameters ScaledPlane::distortions() const {
-    return {0, 0, 0, 0, tilt_x_, tilt_y_, (du_x_ - dv_y_) / 2, (dv_x_ + du_y_) / 2, bend_};
-}
-
-PlaneFromImage ScaledPlane::changed(const Parameters& by) const {
-    const auto slope = [&](float value) { return rounded(value / reach_px_ * kPower24); };
-    PlaneFromImage result = plane_;
-    result.at_centre_q16 =
-        result.at_centre_q16 + Vec{rounded(by[0] * kPower16), rounded(by[1] * kPower16)};
-    result.du_q24 = result.du_q24 + Vec{slope(by[2] + by[6]), slope(by[3] + by[7])};
-    result.dv_q24 = result.dv_q24 + Vec{slope(by[7] - by[3]), slope(by[2] - by[6])};
-    result.perspective_q30 = {rounded((tilt_x_ + by[4]) / reach_px_ * kPower30),
-                              rounded((tilt_y_ + by[5]) / reach_px_ * kPower30)};
-    result.lens_q40 = rounded((bend_ + by[8]) / (reach_px_ * reach_px_) * kPower40);
-    return result;
-}
-
-void Normal::add(const std::array<Parameters, 2>& jacobian, float residual_x, float residual_y,
-                 float weight) {
-    const auto& [a, b] = jacobian;
-    for (std::size_t i = 0; i < kPoseParameters; ++i) {
-        const float ai = weight * a[i];
-        const float bi = weight * b[i];
-        for (std::size_t j = 0; j <= i; ++j)
-            m_[i][j] += ai * a[j] + bi * b[j];
-        right_[i] += ai * residual_x + bi * residual_y;
-    }
-    squared_residuals_ += weight * (residual_x * residual_x + residual_y * residual_y);
-    ++points_;
+Normal::Normal(const NormalSums& sum) : squared_residuals_(sum.one_scale_square_[3]) {
+    for (int i = 0; i < 4; ++i)
+        points_ -= sum.less_points_[i];
+    const float one = sum.one_scale_square_[0];
+    const float u = sum.one_scale_square_[1];
+    const float v = sum.one_scale_square_[2];
+    const Four& a = sum.tilts_;
+    const Four& c = sum.bend_off_;
+    const Four& z = sum.scale_turned_;
+    const Four& az = sum.tilt_x_turned_;
+    const Four& bz = sum.tilt_y_turned_;
+    const Four& cz = sum.bend_turned_;
+    const Four& rz = sum.off_turned_;
+    const Four& t = sum.tilt_tilt_;
+    const Four& ca = sum.bend_further_;
+    const Four& ra = sum.off_further_;
+    m_ = {{{one},
+           {0, one},
+           {u, v, z[0]},
+           {-v, u, -z[1], z[0]},
+           {a[0], a[1], az[0], az[1], t[0]},
+           {a[2], a[3], bz[0], bz[1], t[1], t[2]},
+           {u, -v, z[2], -z[3], az[2], bz[2], z[0]},
+           {v, u, z[3], z[2], az[3], bz[3], z[1], z[0]},
+           {c[0], c[1], cz[0], cz[1], ca[0], ca[1], cz[2], cz[3], ca[2]}}};
+    right_ = {c[2], c[3], rz[0], rz[1], ra[0], ra[1], rz[2], rz[3], ra[2]};
 }
 
 bool Normal::decompose() {

@@ -1,55 +1,46 @@
 // Normal equations of the pose's least-squares fit, in single precision.
 #pragma once
 
-#include <array>
-#include <cstddef>
-
-#include "dotpose/workspace.hpp"
+#include "core/pose/sights.hpp"
 
 namespace dotpose::core {
 
-/// Parameters of a plane, in the order in which they earn their place: at_centre (x, y); scale and
-/// turn; perspective (x, y); shear (2); lens.
-constexpr std::size_t kPoseParameters = 9;
-constexpr std::size_t kTilt = 4;
-constexpr std::size_t kShear = 6;
-constexpr std::size_t kBend = 8;
-using Parameters = std::array<float, kPoseParameters>;
-
-/// A plane as the fit sees it: lengths in the image in units of `reach_px`, so that the
-/// derivatives by all parameters are of like size and single precision suffices.
-class ScaledPlane {
-  public:
-    ScaledPlane(const PlaneFromImage& plane, int reach_px);
-
-    /// Where a pixel lies from `at_centre`, and the derivatives of that by the parameters.
-    struct Sight {
-        float x;
-        float y;
-        std::array<Parameters, 2> jacobian;
-    };
-    Sight look(Vec image_point_q8) const;
-
-    /// Perspective, shear and lens: the parameters that a plain camera would not need; 0 for the
-    /// others.
-    Parameters distortions() const;
-    /// Spacings per unit.
-    float scale() const;
-    /// The plane with its parameters changed.
-    PlaneFromImage changed(const Parameters& by) const;
-
-  private:
-    PlaneFromImage plane_;
-    float reach_px_;
-    float du_x_, du_y_, dv_x_, dv_y_;  ///< spacings per unit
-    float tilt_x_, tilt_y_, bend_;     ///< per unit, per unit^2
+/// By how much four points lie off where they should, and what each counts: none with 0.
+struct Residuals {
+    FourVecs off;
+    Four weight;
 };
 
-/// Sums of the normal equations, and their solution by Cholesky's decomposition.
+/// Sums over points, of which the normal equations consist.
+class NormalSums {
+  public:
+    void add(const Sights& sights, const Residuals& residuals);
+
+  private:
+    friend class Normal;
+
+    FourInts less_points_{};
+    // Derivatives by scale and further terms, and residuals ...
+    Four one_scale_square_{};  ///< 1; scale; the squared residual
+    Four tilts_{};             ///< tilt_x, tilt_y
+    Four bend_off_{};          ///< bend; the residual
+    // ... times those by scale, turn and shear (2) ...
+    Four scale_turned_{};
+    Four tilt_x_turned_{};
+    Four tilt_y_turned_{};
+    Four bend_turned_{};
+    Four off_turned_{};
+    // ... and times each other.
+    Four tilt_tilt_{};     ///< xx, yx, yy
+    Four bend_further_{};  ///< tilt_x, tilt_y, bend
+    Four off_further_{};   ///< tilt_x, tilt_y, bend
+};
+
+/// The normal equations, and their solution by Cholesky's decomposition.
 class Normal {
   public:
-    void add(const std::array<Parameters, 2>& jacobian, float residual_x, float residual_y,
-             float weight = 1);
+    Normal() = default;
+    explicit Normal(const NormalSums& sums);
 
     /// The parameters that the points determine; the first four must be. Then L L^T is the matrix.
     bool decompose();
@@ -70,7 +61,7 @@ class Normal {
     bool determines(std::size_t parameter) const { return m_[parameter][parameter] > 0; }
 
   private:
-    std::array<Parameters, kPoseParameters> m_{};
+    std::array<Parameters, kPoseParameters> m_{};  ///< the lower triangle
     Parameters right_{};
     float squared_residuals_ = 0;
     int points_ = 0;

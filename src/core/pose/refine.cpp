@@ -2,11 +2,12 @@
 
 #include <algorithm>
 
+#include "core/pose/quick_median.hpp"
+#include "core/pose/survey.hpp"
+
 namespace dotpose::core {
 namespace {
 
-/// So many dots, evenly spread, tell the displacement and the scatter.
-constexpr std::size_t kSample = 256;
 constexpr float kPower30 = 1073741824.0F;
 
 /// A step so small, in squared deviations of the pose, needs no other after it: it would be smaller
@@ -21,27 +22,6 @@ constexpr std::array<Terms, 3> kTerms{{
     {kShear, 2, {{{0.5F, 0}, {0.4F, 0.002F}, {0.1F, 0.03F}}}},
     {kBend, 1, {{{0.99F, 0}, {0.005F, 0.01F}, {0.005F, 0.1F}}}},
 }};
-
-/// Median over a sample of the dots.
-template <typename Value>
-std::int32_t sampled_median(const Observations& observations, Value value) {
-    const int every = observations.count() / static_cast<int>(kSample) + 1;
-    std::array<std::int32_t, kSample> values;
-    std::size_t count = 0;
-    int seen = 0;
-    observations.visit([&](const Observation& o) {
-        if (seen++ % every == 0) values[count++] = value(o);
-    });
-    return median(std::span(values).first(count));
-}
-
-int reach_px(const Observations& observations, Vec centre_q8) {
-    int reach_q8 = 0;
-    observations.visit([&](const Observation& o) {
-        reach_q8 = std::max(reach_q8, larger_component(o.image_point_q8 - centre_q8));
-    });
-    return reach_q8 / 256 + 1;
-}
 
 /// How the scatter of dots depends on the light: printers scatter alike everywhere, noise counts
 /// the more the less light there is. A line fitted to squared residuals.
@@ -66,7 +46,7 @@ class Scatter {
         always_ = 1 - by_noise_ * mean_noise;
     }
     /// That the typical dot has, over that of a dot.
-    float weight(float noise) const { return 1 / (always_ + by_noise_ * noise); }
+    Four weight(Four noise) const { return 1 / (always_ + by_noise_ * noise); }
 
   private:
     float count_ = 0;
@@ -81,48 +61,40 @@ class Scatter {
 /// One round of Gauss and Newton.
 class Round {
   public:
-    Round(const Observations& observations, const PlaneFromImage& pose, int reach_px)
-        : observations_(observations), pose_(pose), plane_(pose, reach_px) {}
-
-    /// Sums up all dots that are not too far off.
-    void add_dots(PoseFit& fit) const {
+    Round(const Survey& survey, const PlaneFromImage& pose)
+        : survey_(survey), pose_(pose), plane_(pose, survey.reach_px()) {
+        const Batch& sample = survey.sample();
+        Batch::Values<std::int32_t> x_q16;  // from the intersection
+        Batch::Values<std::int32_t> y_q16;
+        Batch::Values<std::int32_t> values;
+        for (std::size_t i = 0; i < sample.count; ++i) {
+            const Vec offset =
+                point_q16(sample, i) - Vec{sample.step_x_q16[i], sample.step_y_q16[i]};
+            x_q16[i] = offset.x;
+            y_q16[i] = offset.y;
+            values[i] = offset.x * sample.dx[i] + offset.y * sample.dy[i];
+        }
         // As printed and seen: ink spreads and lenses blur differently each time.
-        const std::int32_t displacement_q16 =
-            sampled_median(observations_, [&](const Observation& o) {
-                const Vec offset = plane_point_q16(pose_, o.image_point_q8) -
-                                   Vec{o.pattern_step.x * 65536, o.pattern_step.y * 65536};
-                return offset.x * dx(o.symbol) + offset.y * dy(o.symbol);
-            });
-        const auto squared_residual_q30 = [&](const Observation& o) {
-            const Vec residual =
-                plane_point_q16(pose_, o.image_point_q8) - nominal_place_q16(o, displacement_q16);
-            return static_cast<std::int32_t>(
-                std::min<std::int64_t>(squared(residual) >> 2, INT32_MAX));
-        };
+        displacement_q16_ = quick_median(std::span(values).first(sample.count));
+        for (std::size_t i = 0; i < sample.count; ++i) {
+            values[i] = squared_q30({x_q16[i] - sample.dx[i] * displacement_q16_,
+                                     y_q16[i] - sample.dy[i] * displacement_q16_});
+        }
         // Squared distances of a plane Gaussian have their median at 1.39 sigma^2; 12 medians lie
         // 4 sigma out, where 1 dot in 3,000 is lost by chance.
-        const std::int64_t limit_q30 =
-            12 * std::int64_t{sampled_median(observations_, squared_residual_q30)} + 64;
-        const float limit = static_cast<float>(limit_q30) / kPower30;
-        Scatter scatter;
-        if (observations_.know_noise()) {
-            observations_.visit([&](const Observation& o) {
-                const float square = static_cast<float>(squared_residual_q30(o)) / kPower30;
-                scatter.add(observations_.noise(o), std::min(square, limit));
-            });
-            scatter.fit();
-        }
-        fit.normal = {};
-        observations_.visit([&](const Observation& o) {
-            const Vec target = nominal_place_q16(o, displacement_q16) - pose_.at_centre_q16;
-            const ScaledPlane::Sight sight = plane_.look(o.image_point_q8);
-            const float rx = static_cast<float>(target.x) / 65536.0F - sight.x;
-            const float ry = static_cast<float>(target.y) / 65536.0F - sight.y;
-            const float weight =
-                observations_.know_noise() ? scatter.weight(observations_.noise(o)) : 1.0F;
-            if (weight * (rx * rx + ry * ry) <= limit)
-                fit.normal.add(sight.jacobian, rx, ry, weight);
+        const std::int64_t typical_q30 = quick_median(std::span(values).first(sample.count));
+        limit_ = static_cast<float>(12 * typical_q30 + 64) / kPower30;
+    }
+
+    /// Sums up all dots that are not too far off.
+    Normal normal(bool know_noise) const {
+        const Scatter scatter = know_noise ? scatter_of_dots() : Scatter();
+        NormalSums sums;
+        survey_.visit([&](const Batch& batch) {
+            for (std::size_t i = 0; i < batch.count; i += 4)
+                add_four(batch, i, scatter, sums);
         });
+        return Normal(sums);
     }
 
     /// The plane of least squares, with as much of the further terms as is to be believed. `moved`:
@@ -154,6 +126,44 @@ class Round {
     }
 
   private:
+    static std::int32_t squared_q30(Vec residual_q16) {
+        return static_cast<std::int32_t>(
+            std::min<std::int64_t>(squared(residual_q16) >> 2, INT32_MAX));
+    }
+
+    Vec point_q16(const Batch& batch, std::size_t i) const {
+        return plane_point_q16(pose_, pose_.centre_q8 + Vec{batch.x_q8[i], batch.y_q8[i]});
+    }
+
+    Scatter scatter_of_dots() const {
+        Scatter scatter;
+        survey_.visit([&](const Batch& batch) {
+            for (std::size_t i = 0; i < batch.count; ++i) {
+                const Vec target{batch.step_x_q16[i] + batch.dx[i] * displacement_q16_,
+                                 batch.step_y_q16[i] + batch.dy[i] * displacement_q16_};
+                const std::int32_t square_q30 = squared_q30(point_q16(batch, i) - target);
+                scatter.add(batch.noise[i],
+                            std::min(static_cast<float>(square_q30) / kPower30, limit_));
+            }
+        });
+        scatter.fit();
+        return scatter;
+    }
+
+    void add_four(const Batch& batch, std::size_t i, const Scatter& scatter,
+                  NormalSums& sums) const {
+        const Sights sights = plane_.look(four_at(&batch.x_q8[i]), four_at(&batch.y_q8[i]));
+        const auto target = [&](const auto& step_q16, const auto& direction, std::int32_t at_q16) {
+            const FourInts target_q16 =
+                four_at(&step_q16[i]) + four_at(&direction[i]) * displacement_q16_ - at_q16;
+            return __builtin_convertvector(target_q16, Four) / 65536.0F;
+        };
+        const Four x = target(batch.step_x_q16, batch.dx, pose_.at_centre_q16.x) - sights.at.x;
+        const Four y = target(batch.step_y_q16, batch.dy, pose_.at_centre_q16.y) - sights.at.y;
+        const Four weight = scatter.weight(four_at(&batch.noise[i]));
+        sums.add(sights, {{x, y}, weight * (x * x + y * y) <= limit_ ? weight : Four{}});
+    }
+
     /// Takes back from a step what is not to be believed of the further terms. `whole`: these as
     /// fitted, whitened.
     void believe(const Parameters& whole, PoseFit& fit, Parameters& step) const {
@@ -171,20 +181,23 @@ class Round {
         }
     }
 
-    const Observations& observations_;
+    const Survey& survey_;
     const PlaneFromImage& pose_;
     ScaledPlane plane_;
+    std::int32_t displacement_q16_ = 0;
+    float limit_ = 0;  ///< of squared residuals
 };
 
 }  // namespace
 
 bool refine_pose(const Observations& observations, PlaneFromImage& pose, PoseFit& fit) {
     constexpr int kMostRounds = 4;
-    fit.reach_px = reach_px(observations, pose.centre_q8);
+    const Survey survey(observations, pose.centre_q8);
+    fit.reach_px = survey.reach_px();
     float moved = 1;
     for (int i = 0; i < kMostRounds && moved > kSettled; ++i) {
-        const Round round(observations, pose, fit.reach_px);
-        round.add_dots(fit);
+        const Round round(survey, pose);
+        fit.normal = round.normal(observations.know_noise());
         PlaneFromImage better;
         if (!round.solve(fit, better, moved)) return false;
         pose = better;

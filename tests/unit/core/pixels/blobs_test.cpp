@@ -217,6 +217,23 @@ TEST(Blobs, AFullListKeepsTheDotsNearestTheCentre) {
     EXPECT_EQ(blobs_of(image, large).size(), centres.size());
 }
 
+TEST(Blobs, NoMoreRunsAreLookedAtThanTheWorkspaceSays) {
+    // Seven rows of ten dots, each of two runs.
+    GreyImage image = blank(188, 120);
+    for (int v = 10; v < 80; v += 10) {
+        for (int u = 10; u < 110; u += 10)
+            fill(image, u, v, u + 2, v + 2, 40);
+    }
+    LargeWorkspace w;
+    for (const int rows : {0, 3, 7}) {
+        w.open.most_runs = rows * 20;
+        EXPECT_EQ(static_cast<int>(blobs_of(image, w).size()), rows * 10);
+    }
+    // A row that is cut short ends the dots in it there.
+    w.open.most_runs = 3 * 20 + 5;
+    EXPECT_EQ(blobs_of(image, w).size(), 35u);
+}
+
 /// The 8-connected sets of dark pixels, found by flooding.
 struct Flood {
     Vec2 centre;

@@ -103,9 +103,9 @@ TEST(Light, HalfOfTheLevelStandsForEveryEightColumns) {
             for (int u = 0; u < w.light.width_px; ++u) {
                 const auto tile = static_cast<std::size_t>(u / w.light.tile_px);
                 const unsigned half = w.light.levels[tile].extent / 2U;
-                const std::uint32_t four = w.light.half_levels[static_cast<std::size_t>(u / 8)];
-                for (int byte = 0; byte < 4; ++byte)
-                    ASSERT_EQ(four >> 8 * byte & 0xFF, half) << "column " << u;
+                const std::size_t bytes = w.light.half_levels[static_cast<std::size_t>(u / 8)];
+                for (std::size_t byte = 0; byte < sizeof bytes; ++byte)
+                    ASSERT_EQ(bytes >> 8 * byte & 0xFF, half) << "column " << u;
             }
             EXPECT_GT(w.light.levels[0].extent, w.light.levels[5].extent);
         });
@@ -124,6 +124,8 @@ TEST(Light, RowsAreFilledUpToWholeTiles) {
             for (int v = band_begin(w.light, band); v < band_end(w.light, band); ++v) {
                 const std::uint8_t* row = kept_row(w.light, v);
                 EXPECT_EQ(reinterpret_cast<std::uintptr_t>(row) % 8, 0u);
+                for (int u = -kKeptMargin_px; u < 0; ++u)
+                    ASSERT_EQ(row[u], 255) << u << ", " << v;
                 for (int u = 0; u < (width + 7) / 8 * 8; ++u)
                     ASSERT_EQ(row[u], std::min(u, width - 1) + v) << u << ", " << v;
             }

@@ -18,16 +18,22 @@ constexpr Terms kOne{kBend, 1, {{{0.6F, 0}, {0.3F, 0.02F}, {0.1F, 0.2F}}}};
 
 /// Equations of points that tell all parameters, some of them together only.
 Normal random_normal(Rng& rng) {
-    Normal normal;
-    for (int i = 0; i < 30; ++i) {
-        std::array<Parameters, 2> jacobian;
-        for (Parameters& row : jacobian) {
-            for (float& value : row)
-                value = static_cast<float>(rng.uniform(-1, 1));
-            row[kTilt + 1] += row[kTilt];
-        }
-        normal.add(jacobian, 0, 0);
+    const auto random = [&] {
+        Four values;
+        for (int i = 0; i < 4; ++i)
+            values[i] = static_cast<float>(rng.uniform(-1, 1));
+        return values;
+    };
+    NormalSums sums;
+    for (int i = 0; i < 8; ++i) {
+        Sights sights;
+        for (FourVecs* each : {&sights.scale, &sights.tilt_x, &sights.tilt_y, &sights.bend})
+            *each = {random(), random()};
+        sights.tilt_y.x += sights.tilt_x.x;
+        sights.tilt_y.y += sights.tilt_x.y;
+        sums.add(sights, {{Four{}, Four{}}, Four{1, 1, 1, 1}});
     }
+    Normal normal(sums);
     EXPECT_TRUE(normal.decompose());
     return normal;
 }

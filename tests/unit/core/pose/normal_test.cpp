@@ -35,16 +35,22 @@ Vec random_pixel_q8(Rng& rng) {
     return fixed({rng.uniform(0, 187), rng.uniform(0, 119)}, 8);
 }
 
+/// As the first of four; the others are elsewhere.
+Sights look(const ScaledPlane& scaled, const PlaneFromImage& plane, Vec pixel_q8) {
+    const Vec p{pixel_q8.x - plane.centre_q8.x, pixel_q8.y - plane.centre_q8.y};
+    return scaled.look(FourInts{p.x, 256, -5000, 7000}, FourInts{p.y, -256, 3000, 3000});
+}
+
 TEST(ScaledPlane, SeesPointsWhereThePlaneHasThem) {
     Rng rng(kSeed);
     for (int i = 0; i < 1000; ++i) {
         const PlaneFromImage plane = random_plane(rng);
         const Vec pixel_q8 = random_pixel_q8(rng);
-        const auto sight = ScaledPlane(plane, kReach_px).look(pixel_q8);
+        const Sights sights = look(ScaledPlane(plane, kReach_px), plane, pixel_q8);
         const Vec2 expected =
             real(plane_point_q16(plane, pixel_q8), 16) - real(plane.at_centre_q16, 16);
-        ASSERT_NEAR(sight.x, expected.x, 3e-5) << "plane " << i << ", seed " << kSeed;
-        ASSERT_NEAR(sight.y, expected.y, 3e-5) << "plane " << i << ", seed " << kSeed;
+        ASSERT_NEAR(sights.at.x[0], expected.x, 3e-5) << "plane " << i << ", seed " << kSeed;
+        ASSERT_NEAR(sights.at.y[0], expected.y, 3e-5) << "plane " << i << ", seed " << kSeed;
     }
 }
 
@@ -64,10 +70,10 @@ TEST(ScaledPlane, ChangesAsItsDerivativesTell) {
             const Vec2 change = (1 / (2.0 * static_cast<double>(kStep))) *
                                 (real(plane_point_q16(scaled.changed(more), pixel_q8), 16) -
                                  real(plane_point_q16(scaled.changed(less), pixel_q8), 16));
-            const auto sight = scaled.look(pixel_q8);
+            const auto jacobian = look(scaled, plane, pixel_q8).jacobian(0);
             // Points are rounded to 2^-16 spacings.
-            ASSERT_NEAR(sight.jacobian[0][k], change.x, 0.02);
-            ASSERT_NEAR(sight.jacobian[1][k], change.y, 0.02);
+            ASSERT_NEAR(jacobian[0][k], change.x, 0.02);
+            ASSERT_NEAR(jacobian[1][k], change.y, 0.02);
         }
     }
 }
@@ -88,25 +94,40 @@ TEST(ScaledPlane, DistortionsAreWhatMakesItDifferFromAPlainCamera) {
 
 /// Sights of many points, with residuals that a known step explains.
 struct Problem {
-    ScaledPlane plane;
+    static constexpr int kPoints = 150;
     Normal normal;
     double squared_residuals = 0;
 
-    Problem(const Parameters& step, Rng& rng, bool on_one_line = false)
-        : plane(random_plane(rng), kReach_px) {
-        for (int i = 0; i < 150; ++i) {
-            Vec pixel_q8 = random_pixel_q8(rng);
-            if (on_one_line) pixel_q8.y = fixed({0, 59.5}, 8).y;
-            const auto sight = plane.look(pixel_q8);
-            Vec2 residual{};
-            for (std::size_t k = 0; k < kPoseParameters; ++k) {
-                residual = residual + static_cast<double>(step[k]) *
-                                          Vec2{sight.jacobian[0][k], sight.jacobian[1][k]};
+    Problem(const Parameters& step, Rng& rng, bool on_one_line = false) {
+        const ScaledPlane plane(random_plane(rng), kReach_px);
+        NormalSums sums;
+        for (int first = 0; first < kPoints; first += 4) {
+            FourInts x_q8;
+            FourInts y_q8;
+            for (int k = 0; k < 4; ++k) {
+                const Vec pixel_q8 = random_pixel_q8(rng);
+                x_q8[k] = pixel_q8.x - 93 * 256;
+                y_q8[k] = on_one_line ? 0 : pixel_q8.y - 59 * 256;
             }
-            squared_residuals += residual.x * residual.x + residual.y * residual.y;
-            normal.add(sight.jacobian, static_cast<float>(residual.x),
-                       static_cast<float>(residual.y));
+            const Sights sights = plane.look(x_q8, y_q8);
+            Residuals residuals{};
+            for (int k = 0; k < 4 && first + k < kPoints; ++k) {
+                const Vec2 off = explained_by(step, sights.jacobian(static_cast<std::size_t>(k)));
+                squared_residuals += off.x * off.x + off.y * off.y;
+                residuals.off.x[k] = static_cast<float>(off.x);
+                residuals.off.y[k] = static_cast<float>(off.y);
+                residuals.weight[k] = 1;
+            }
+            sums.add(sights, residuals);
         }
+        normal = Normal(sums);
+    }
+
+    static Vec2 explained_by(const Parameters& step, const std::array<Parameters, 2>& jacobian) {
+        Vec2 sum{};
+        for (std::size_t k = 0; k < kPoseParameters; ++k)
+            sum = sum + static_cast<double>(step[k]) * Vec2{jacobian[0][k], jacobian[1][k]};
+        return sum;
     }
 };
 
@@ -117,7 +138,7 @@ TEST(Normal, FindsTheStepThatExplainsTheResiduals) {
         for (float& value : step)
             value = static_cast<float>(rng.uniform(-0.1, 0.1));
         Problem problem(step, rng);
-        EXPECT_EQ(problem.normal.points(), 150);
+        EXPECT_EQ(problem.normal.points(), Problem::kPoints);
         EXPECT_NEAR(problem.normal.squared_residuals(), problem.squared_residuals,
                     1e-4 * problem.squared_residuals);
         ASSERT_TRUE(problem.normal.decompose());
@@ -136,25 +157,76 @@ TEST(Normal, FindsTheStepThatExplainsTheResiduals) {
     }
 }
 
+double product(float a, float b) {
+    return static_cast<double>(a) * static_cast<double>(b);
+}
+
+TEST(Normal, IsThatOfItsDefinition) {
+    Rng rng(kSeed);
+    const ScaledPlane plane(random_plane(rng), kReach_px);
+    NormalSums sums;
+    double expected[kPoseParameters][kPoseParameters] = {};
+    double right[kPoseParameters] = {};
+    for (int n = 0; n < 10; ++n) {
+        const Sights sights =
+            plane.look(FourInts{n, -9000, 700 * n, 11000}, FourInts{-8000, 300 * n, 4000, 900 * n});
+        const Residuals residuals{{Four{0.5F, -1, 2, 0.1F}, Four{1, 0.3F, -0.7F, 0.2F}},
+                                  Four{1, 0.5F, 0, 3}};
+        sums.add(sights, residuals);
+        for (int point = 0; point < 4; ++point) {
+            const auto [a, b] = sights.jacobian(static_cast<std::size_t>(point));
+            const auto weight = static_cast<double>(residuals.weight[point]);
+            for (std::size_t i = 0; i < kPoseParameters; ++i) {
+                right[i] += weight * (product(a[i], residuals.off.x[point]) +
+                                      product(b[i], residuals.off.y[point]));
+                for (std::size_t j = 0; j < kPoseParameters; ++j)
+                    expected[i][j] += weight * (product(a[i], a[j]) + product(b[i], b[j]));
+            }
+        }
+    }
+    Normal normal(sums);
+    EXPECT_EQ(normal.points(), 30);
+    for (std::size_t i = 0; i < kPoseParameters; ++i)
+        EXPECT_NEAR(normal.right()[i], right[i], 1e-4) << i;
+    ASSERT_TRUE(normal.decompose());
+    for (std::size_t i = 0; i < kPoseParameters; ++i) {
+        for (std::size_t j = 0; j <= i; ++j) {
+            double sum = 0;
+            for (std::size_t k = 0; k <= j; ++k)
+                sum += product(normal.factor(i, k), normal.factor(j, k));
+            EXPECT_NEAR(sum, expected[i][j], 1e-3) << i << ", " << j;
+        }
+    }
+}
+
 TEST(Normal, CountsAPointOfWeightThreeThreeTimes) {
     Rng rng(kSeed);
     const ScaledPlane plane(random_plane(rng), kReach_px);
-    Normal weighted;
-    Normal repeated;
-    for (int i = 0; i < 40; ++i) {
-        const auto sight = plane.look(random_pixel_q8(rng));
-        const auto residual = static_cast<float>(rng.uniform(-1, 1));
-        weighted.add(sight.jacobian, residual, -residual, 3);
+    NormalSums weighted;
+    NormalSums repeated;
+    for (int i = 0; i < 10; ++i) {
+        FourInts x_q8;
+        FourInts y_q8;
+        Four off;
+        for (int k = 0; k < 4; ++k) {
+            x_q8[k] = random_pixel_q8(rng).x;
+            y_q8[k] = random_pixel_q8(rng).y;
+            off[k] = static_cast<float>(rng.uniform(-1, 1));
+        }
+        const Sights sights = plane.look(x_q8, y_q8);
+        weighted.add(sights, {{off, -off}, Four{3, 3, 3, 3}});
         for (int n = 0; n < 3; ++n)
-            repeated.add(sight.jacobian, residual, -residual);
+            repeated.add(sights, {{off, -off}, Four{1, 1, 1, 1}});
     }
-    EXPECT_EQ(weighted.points(), 40);
-    EXPECT_NEAR(weighted.squared_residuals(), repeated.squared_residuals(), 1e-3);
+    Normal one(weighted);
+    Normal three(repeated);
+    EXPECT_EQ(one.points(), 40);
+    EXPECT_NEAR(one.squared_residuals(), three.squared_residuals(), 1e-3);
     for (std::size_t k = 0; k < kPoseParameters; ++k)
-        EXPECT_NEAR(weighted.right()[k], repeated.right()[k], 1e-2);
-    ASSERT_TRUE(weighted.decompose() && repeated.decompose());
+        EXPECT_NEAR(one.right()[k], three.right()[k], 1e-2);
+    ASSERT_TRUE(one.decompose() && three.decompose());
     for (std::size_t k = 0; k < kPoseParameters; ++k)
-        EXPECT_NEAR(weighted.factor(k, k), repeated.factor(k, k), 1e-2);
+        EXPECT_NEAR(one.factor(k, k), three.factor(k, k), 1e-2);
 }
 
 TEST(Normal, LeavesOutWhatThePointsDoNotDetermine) {
@@ -173,11 +245,13 @@ TEST(Normal, LeavesOutWhatThePointsDoNotDetermine) {
 }
 
 TEST(Normal, NeedsPoints) {
-    Normal none;
+    Normal none{NormalSums()};
     EXPECT_FALSE(none.decompose());
-    Normal one;
-    one.add(ScaledPlane({{}, {}, {1 << 20, 0}, {0, 1 << 20}, {}, 0}, 10).look({256, 256}).jacobian,
-            0, 0);
+    NormalSums sums;
+    const ScaledPlane plane({{}, {}, {1 << 20, 0}, {0, 1 << 20}, {}, 0}, 10);
+    sums.add(plane.look(FourInts{256}, FourInts{256}), {{Four{}, Four{}}, Four{1}});
+    Normal one(sums);
+    EXPECT_EQ(one.points(), 1);
     EXPECT_FALSE(one.decompose());
 }
 

@@ -1,0 +1,36 @@
+// As many pixels at a time as fit a register, the first in the lowest byte.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace dotpose::core {
+
+using Word = std::size_t;
+static_assert(std::endian::native == std::endian::little);
+
+/// The same byte everywhere.
+constexpr Word in_all_bytes(std::uint8_t byte) {
+    return static_cast<Word>(0x0101010101010101) * byte;
+}
+
+/// Pixels are compared in seven bits: the eighth shows how it went.
+inline constexpr Word kTops = in_all_bytes(0x80);
+
+/// `pixels` is a multiple of the word's size.
+inline Word word_at(const std::uint8_t* pixels) {
+    Word word = 0;
+    std::memcpy(&word, __builtin_assume_aligned(pixels, sizeof(Word)), sizeof word);
+    return word;
+}
+
+/// a - b in each byte, or 0 where that is negative; tops of `a` are set, of `b` clear.
+constexpr Word excess(Word a, Word b) {
+    const Word difference = a - b;
+    const Word is_positive = difference & kTops;
+    return difference & (is_positive - (is_positive >> 7));
+}
+
+}  // namespace dotpose::core

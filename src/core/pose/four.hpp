@@ -1,0 +1,36 @@
+// Four: arithmetic on four numbers at once, in vector instructions where there are any.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+
+namespace dotpose::core {
+
+using Four = float __attribute__((vector_size(16)));
+using FourInts = std::int32_t __attribute__((vector_size(16)));
+
+/// Four numbers in a row in memory.
+inline Four four_at(const float* first) {
+    Four four;
+    std::memcpy(&four, first, sizeof four);
+    return four;
+}
+inline FourInts four_at(const std::int32_t* first) {
+    FourInts four;
+    std::memcpy(&four, first, sizeof four);
+    return four;
+}
+
+/// Adds to each of four sums its four values, one after the other.
+inline void add_each(Four& sums, Four a, Four b, Four c, Four d) {
+    const Four ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
+    const Four cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5);
+    const Four ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+    const Four cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+    sums += __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5);
+    sums += __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
+    sums += __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
+    sums += __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
+}
+
+}  // namespace dotpose::core

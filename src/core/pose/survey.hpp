@@ -1,0 +1,77 @@
+// Survey: the observations as the rounds of a fit go through them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "core/pose/observations.hpp"
+
+namespace dotpose::core {
+
+/// Dots, one array for each of their properties: loops over these become vector instructions.
+struct Batch {
+    static constexpr std::size_t kMost = 256;
+    template <typename Value>
+    using Values = std::array<Value, kMost>;
+
+    std::size_t count = 0;
+    Values<std::int32_t> x_q8;  ///< in the image, from the centre of the plane
+    Values<std::int32_t> y_q8;
+    Values<std::int32_t> step_x_q16;  ///< of the intersection, in spacings
+    Values<std::int32_t> step_y_q16;
+    Values<std::int32_t> dx;  ///< direction of the displacement: -1, 0 or 1
+    Values<std::int32_t> dy;
+    Values<float> noise;  ///< Observations::noise where it is known, otherwise 0
+
+    void add(Vec from_centre_q8, Vec pattern_step, Symbol symbol, float its_noise) {
+        x_q8[count] = from_centre_q8.x;
+        y_q8[count] = from_centre_q8.y;
+        step_x_q16[count] = pattern_step.x * 65536;
+        step_y_q16[count] = pattern_step.y * 65536;
+        dx[count] = dotpose::dx(symbol);
+        dy[count] = dotpose::dy(symbol);
+        noise[count++] = its_noise;
+    }
+    /// With dots that are not counted and lie where none could, up to a multiple of four.
+    void fill_up();
+};
+
+class Survey {
+  public:
+    Survey(const Observations& observations, Vec centre_q8);
+
+    /// No dot is farther from the centre along an axis.
+    int reach_px() const { return reach_px_; }
+    /// Evenly spread dots; all, where they are no more than these.
+    const Batch& sample() const { return sample_; }
+
+    /// Shows all dots, in batches filled up.
+    template <typename Use>
+    void visit(Use use) const {
+        if (sample_is_all_) return use(sample_);
+        Batch batch;
+        observations_.visit([&](const Observation& o) {
+            if (batch.count == Batch::kMost) {
+                use(batch);
+                batch.count = 0;
+            }
+            add(o, batch);
+        });
+        batch.fill_up();
+        use(batch);
+    }
+
+  private:
+    void add(const Observation& o, Batch& batch) const {
+        batch.add(o.image_point_q8 - centre_q8_, o.pattern_step, o.symbol,
+                  observations_.know_noise() ? observations_.noise(o) : 0);
+    }
+
+    const Observations& observations_;
+    Vec centre_q8_;
+    int reach_px_ = 1;
+    bool sample_is_all_;
+    Batch sample_;
+};
+
+}  // namespace dotpose::core
