@@ -23,7 +23,8 @@ void follow_rolls(Profile profile, std::uint32_t position, int first_roll,
             sum -= *here[k];
         }
         const auto roll_at = [&](std::size_t i) {
-            return few_modulo_sections(sum + here[0][i] + here[1][i] + here[2][i] + here[3][i] + kSmallestDelta * static_cast<std::uint32_t>(i));
+            return few_modulo_sections(sum + here[0][i] + here[1][i] + here[2][i] + here[3][i] +
+                                       kSmallestDelta * static_cast<std::uint32_t>(i));
         };
         const std::size_t count = std::min(rolls.size(), kLinesAhead - 1);
         for (std::size_t i = 0; i < count; ++i)

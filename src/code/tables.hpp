@@ -131,18 +131,17 @@ struct Tables {
     static constexpr auto kPlacesOf2 = places_of(Sequence, Base == 3 ? 2 : 1);
     static constexpr std::array<const std::uint32_t*, 3> kPlacesOf{
         kPlacesOf0.data(), kPlacesOf1.data(), kPlacesOf2.data()};
-    static constexpr Secondary kSecondary{
-        Sequence.data(),
-        kRolls.data(),
-        kPlaces.data(),
-        kPlacesOf.data(),
-        (1U << 20) / kLength,
-        65536 % kLength,
-        kLength,
-        turn_roll(kLength, kRolls[kLength]),
-        Base,
-        Weight,
-        !is_quasi_de_bruijn(Sequence, kOrder, Base)};
+    static constexpr Secondary kSecondary{Sequence.data(),
+                                          kRolls.data(),
+                                          kPlaces.data(),
+                                          kPlacesOf.data(),
+                                          (1U << 20) / kLength,
+                                          65536 % kLength,
+                                          kLength,
+                                          turn_roll(kLength, kRolls[kLength]),
+                                          Base,
+                                          Weight,
+                                          !is_quasi_de_bruijn(Sequence, kOrder, Base)};
 };
 
 using Basis = std::array<Secondary, 4>;

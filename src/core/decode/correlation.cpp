@@ -9,8 +9,8 @@ namespace {
 constexpr std::size_t kGroup = 5;
 constexpr std::size_t kGroups = 4;
 constexpr std::size_t kAtOnce = kGroup * kGroups;
-/// Weights of two lines, or sums of them, at once: they fit 16 bits, so a + 65536 b adds up like one
-/// number.
+/// Weights of two lines, or sums of them, at once: they fit 16 bits, so a + 65536 b adds up like
+/// one number.
 using Weights = std::array<std::int32_t, kAtOnce>;
 using Sums = std::array<std::int32_t, 1 << kGroup>;
 
@@ -30,7 +30,9 @@ using Line = std::span<const std::int8_t>;
 
 /// Both lines' weights from `first` on, 0 where they have ended.
 void gather(Line a, Line b, std::size_t first, Weights& weights) {
-    const auto end_of = [&](Line line) { return std::min(std::max(line.size(), first), first + kAtOnce); };
+    const auto end_of = [&](Line line) {
+        return std::min(std::max(line.size(), first), first + kAtOnce);
+    };
     weights.fill(0);
     std::int32_t* weight = weights.data();
     for (std::size_t i = first; i < end_of(a); ++i)

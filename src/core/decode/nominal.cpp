@@ -24,7 +24,8 @@ Nominal::Nominal(const Grid& grid, Profile profile, const Decoding& decoding)
 Symbol Nominal::symbol(Vec pattern_step) const {
     const auto column = static_cast<std::size_t>(pattern_step.x - first_.x);
     const auto row = static_cast<std::size_t>(pattern_step.y - first_.y);
-    return make_symbol(code::kMainRepeated[columns_[column] + row], code::kMainRepeated[rows_[row] + column]);
+    return make_symbol(code::kMainRepeated[columns_[column] + row],
+                       code::kMainRepeated[rows_[row] + column]);
 }
 
 }  // namespace dotpose::core

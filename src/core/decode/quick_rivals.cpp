@@ -198,8 +198,8 @@ class SimilarPlaces {
             Losses losses;
             for (const Step& step : std::span(half.steps).first(half.count)) {
                 const std::uint32_t* here = step.places + word;
-                const std::uint32_t equal =
-                    here[0] >> step.ahead | here[1] << 1 << (31 - step.ahead);
+                const std::uint32_t equal = here[0] >> step.ahead | here[1] << 1
+                                                                            << (31 - step.ahead);
                 losses.add(~equal, step.eighths);
             }
             similar &= ~losses.enough();
@@ -239,15 +239,14 @@ class ByShift {
         // What is below was kept by other rivals.
         none_ += in_all_ + 1;
         return most_kept(sequence, place) - none_ > most_kept_ ? add_closely(sequence, place, sum)
-                                                              : sum;
+                                                               : sum;
     }
 
   private:
     /// The most that is kept at any shift, more than `none_`.
     // By itself, so that small processors can keep all it needs in registers.
     [[gnu::noinline]] int most_kept(std::size_t sequence, std::uint32_t place) {
-        const std::uint8_t* own =
-            contest_.basis[sequence].rolls + contest_.places[sequence];
+        const std::uint8_t* own = contest_.basis[sequence].rolls + contest_.places[sequence];
         const std::uint8_t* rival = contest_.basis[sequence].rolls + place;
         const int* loss = losses_.data();
         int* by_shift = kept_.data();
@@ -306,7 +305,8 @@ int singles_log2_q8(const Contest& contest) {
             std::uint32_t places = similar[word];
             for (std::uint32_t place = 32 * word; places != 0; ++place, places >>= 1) {
                 if ((places & 1) == 0) continue;
-                sum = by_shift.add(k, place < ahead ? place + a.length - ahead : place - ahead, sum);
+                sum =
+                    by_shift.add(k, place < ahead ? place + a.length - ahead : place - ahead, sum);
             }
         }
     }

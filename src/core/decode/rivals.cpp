@@ -132,7 +132,8 @@ int rivals_log2(Profile profile, const Lines& lines, const AxisReading& reading,
     float expected = sum_of_far_rivals(contest, kMostShared, 2);
     // The more rivals are looked at one by one, the fewer remain to be feared for their number.
     if (known + expected > kFarBelowDoubt && expected > known && expected < kBeyondHelp) {
-        known += sum_of_double_rivals(contest) + sum_of_near_rivals(contest, code::twins(profile), kMostShared - 1);
+        known += sum_of_double_rivals(contest) +
+                 sum_of_near_rivals(contest, code::twins(profile), kMostShared - 1);
         expected = sum_of_far_rivals(contest, kMostShared - 1, 3);
     }
     int exponent = 0;
