@@ -14,12 +14,9 @@ class CellFit {
         ++n_;
         p_ = p_ + p;
         target_ = target_ + target;
-        if ((offset(p.x) | offset(p.y)) >= 2 * kNear) {
-            all_.add(p, target);
-            return;
-        }
         recent_.add(p, target);
-        if (n_ % kMostRecent == 0) carry_over();
+        const bool is_far = (offset(p.x) | offset(p.y)) >= 2 * kNear;
+        if (is_far || n_ % kMostRecent == 0) carry_over();
     }
     int count() const { return n_; }
     /// Sets all of the plane but its centre, perspective and lens; targets were in 2^-bits cells.
@@ -27,8 +24,8 @@ class CellFit {
     bool solve(int bits, PlaneFromImage& plane);
 
   private:
-    /// Image points from -kNear to kNear - 1: products of so many of them fit 32 bits, which small
-    /// processors add up three times as fast.
+    /// Image points from -kNear to kNear - 1: products of so many of them, and one of a point that
+    /// is farther off, fit 32 bits, which small processors add up three times as fast.
     static constexpr std::uint32_t kNear = 1024;
     static constexpr int kMostRecent = 32;
     static std::uint32_t offset(std::int32_t a) { return static_cast<std::uint32_t>(a) + kNear; }

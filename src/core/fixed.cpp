@@ -1,6 +1,7 @@
 #include "core/fixed.hpp"
 
 #include <array>
+#include <bit>
 
 namespace dotpose::core {
 namespace {
@@ -17,10 +18,32 @@ constexpr std::int32_t kCordicGain_q30 = 652032874;
 
 constexpr std::int32_t kHalfTurn = INT32_MIN;
 
+std::int32_t middle(std::int32_t a, std::int32_t b, std::int32_t c) {
+    return std::max(std::min(a, b), std::min(std::max(a, b), c));
+}
+
+/// The value that stands at `rank` when sorted (Hoare's FIND, 1961).
 std::int32_t of_rank(std::size_t rank, std::span<std::int32_t> values) {
-    const auto place = values.begin() + static_cast<std::ptrdiff_t>(rank);
-    std::nth_element(values.begin(), place, values.end());
-    return *place;
+    std::int32_t* const wanted = &values[rank];
+    std::int32_t* first = values.data();
+    std::int32_t* last = first + values.size() - 1;
+    while (first < last) {
+        const std::int32_t pivot = middle(*first, first[(last - first) / 2], *last);
+        std::int32_t* low = first;
+        std::int32_t* high = last;
+        while (low <= high) {
+            while (*low < pivot)
+                ++low;
+            while (*high > pivot)
+                --high;
+            if (low <= high) std::swap(*low++, *high--);
+        }
+        // What lies between the two is the pivot.
+        if (wanted > high) first = low;
+        if (wanted < low) last = high;
+        if (wanted > high && wanted < low) break;
+    }
+    return *wanted;
 }
 
 }  // namespace
@@ -61,22 +84,29 @@ std::int32_t angle_bam(Vec direction) {
         y = -y;
         angle = static_cast<std::uint32_t>(kHalfTurn);
     }
-    while (x + magnitude(y) < (std::int64_t{1} << 40)) {
-        x *= 2;
-        y *= 2;
-    }
-    for (std::size_t i = 0; i < kAtan.size(); ++i) {
-        const std::int64_t x_before = x;
-        if (y > 0) {
-            x += y >> i;
-            y -= x_before >> i;
+    // 41 bits, so that the many small errors of cutting off stay far below the last step.
+    const auto bits = std::bit_width(static_cast<std::uint64_t>(x + magnitude(y)));
+    x <<= 41 - static_cast<int>(bits);
+    y *= std::int64_t{1} << (41 - bits);
+    const auto turn = [&](auto& along, auto& across, auto shifted_along, std::size_t i) {
+        if (across > 0) {
+            along += across >> i;
+            across -= shifted_along;
             angle += static_cast<std::uint32_t>(kAtan[i]);
         } else {
-            x -= y >> i;
-            y += x_before >> i;
+            along -= across >> i;
+            across += shifted_along;
             angle -= static_cast<std::uint32_t>(kAtan[i]);
         }
-    }
+    };
+    // Before step i, |y| is at most 2^(1 - i) of the length, which these rotations bring up to 1.65
+    // times 2^41: from step 12 on, it fits 32 bits, and so does what is subtracted.
+    constexpr std::size_t kNarrow = 12;
+    for (std::size_t i = 0; i < kNarrow; ++i)
+        turn(x, y, x >> i, i);
+    auto narrow_y = static_cast<std::int32_t>(y);
+    for (std::size_t i = kNarrow; i < kAtan.size(); ++i)
+        turn(x, narrow_y, static_cast<std::int32_t>(x >> kNarrow) >> (i - kNarrow), i);
     return static_cast<std::int32_t>(angle);
 }
 
@@ -88,10 +118,10 @@ Vec unit_q30(std::int32_t angle) {
                                           static_cast<std::uint32_t>(kHalfTurn));
         opposite = true;
     }
-    std::int64_t x = kCordicGain_q30;
-    std::int64_t y = 0;
+    std::int32_t x = kCordicGain_q30;
+    std::int32_t y = 0;
     for (std::size_t i = 0; i < kAtan.size(); ++i) {
-        const std::int64_t x_before = x;
+        const std::int32_t x_before = x;
         if (angle >= 0) {
             x -= y >> i;
             y += x_before >> i;
@@ -102,8 +132,7 @@ Vec unit_q30(std::int32_t angle) {
             angle += kAtan[i];
         }
     }
-    const Vec unit{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)};
-    return opposite ? -unit : unit;
+    return opposite ? Vec{-x, -y} : Vec{x, y};
 }
 
 }  // namespace dotpose::core

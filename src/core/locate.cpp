@@ -91,8 +91,8 @@ Status find_grid_thoroughly(const Options& options, Workspace& w) {
 }
 
 /// Dots and grid -> bits.
-Status read_bits(Workspace& w) {
-    return core::assign_likelihoods(w.found_dots(), w.grid_from_image, w.grid);  // II-B.4, eq. 7-9
+Status read_bits(decltype(core::assign_likelihoods) assign, Workspace& w) {
+    return assign(w.found_dots(), w.grid_from_image, w.grid);  // II-B.4, eq. 7-9
 }
 
 auto* decoder(const Options& options) {
@@ -130,7 +130,7 @@ Status find_position(const Options& options, decltype(core::decode_all) decode,
                      decltype(core::verify) verify, Workspace& w) {
     Status status = find_dots(options, w);
     if (status == Status::ok) status = find_grid(options, w);
-    if (status == Status::ok) status = read_bits(w);
+    if (status == Status::ok) status = read_bits(core::assign_affine_likelihoods, w);
     if (status == Status::ok) status = read_position(options, decode, w);
     if (status == Status::ok) status = verify_position(options, verify, w);
     return status;
@@ -150,8 +150,8 @@ Status measure_affine_pose(const Options& options, Workspace& w) {
     const core::Observations observations(w.found_dots(), w.grid, nominal);
     w.fix.dots_used = core::fit_affine_pose(observations, w.pattern_from_image);
     if (w.fix.dots_used == 0) return Status::no_grid;
-    core::write_pose(w.pattern_from_image, reference_q8(options, w), options.profile,
-                     w.decoding.place, w.fix);
+    core::write_affine_pose(w.pattern_from_image, reference_q8(options, w), options.profile,
+                            w.decoding.place, w.fix);
     return Status::ok;
 }
 
@@ -242,7 +242,7 @@ Fix locate_filtered(const ImageView& image, const Options& options, Workspace& w
         push_row(core::next_smooth_row(image, w.smoothing), filtered, w);
     if (status == Status::ok) status = find_dots(filtered, w);
     if (status == Status::ok) status = find_grid_thoroughly(filtered, w);
-    if (status == Status::ok) status = read_bits(w);
+    if (status == Status::ok) status = read_bits(core::assign_likelihoods, w);
     if (status == Status::ok) {
         const bool is_one_pattern =
             core::look_at_cells(image, w.smoothing.paper, options.lens, w.grid_from_image, w.grid);

@@ -69,6 +69,14 @@ Vec image_point_q8(const PlaneFromImage& plane, Vec plane_point) {
     return point_q8;
 }
 
+PlaneFromImage affine_tangent(const PlaneFromImage& plane, Vec image_point_q8) {
+    PlaneFromImage result = plane;
+    result.centre_q8 = image_point_q8;
+    result.at_centre_q16 =
+        plane.at_centre_q16 + linear_q16(plane, image_point_q8 - plane.centre_q8);
+    return result;
+}
+
 PlaneFromImage tangent(const PlaneFromImage& plane, Vec image_point_q8) {
     PlaneFromImage result;
     result.centre_q8 = image_point_q8;

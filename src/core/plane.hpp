@@ -37,6 +37,9 @@ Vec image_point_q8(const PlaneFromImage& plane, Vec plane_point_q16);
 /// and slope.
 PlaneFromImage tangent(const PlaneFromImage& plane, Vec image_point_q8);
 
+/// The same of a plane that is without perspective and lens anyway.
+PlaneFromImage affine_tangent(const PlaneFromImage& plane, Vec image_point_q8);
+
 /// The divisor 1 + perspective . (x, y) + lens (x^2 + y^2), at least 1/4.
 std::int64_t divisor_q30(const PlaneFromImage& plane, Vec from_centre_q8);
 

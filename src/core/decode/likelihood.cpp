@@ -82,7 +82,12 @@ Status assign(std::span<const Dot> dots, PointOf point_of, Grid& grid) {
 Status assign_likelihoods(std::span<const Dot> dots, const PlaneFromImage& grid_from_image,
                           Grid& grid) {
     const auto exactly = [&](const Dot& dot) { return grid_point(grid_from_image, dot.centre_q8); };
-    if (!is_affine(grid_from_image)) return assign(dots, exactly, grid);
+    return is_affine(grid_from_image) ? assign_affine_likelihoods(dots, grid_from_image, grid)
+                                      : assign(dots, exactly, grid);
+}
+
+Status assign_affine_likelihoods(std::span<const Dot> dots, const PlaneFromImage& grid_from_image,
+                                 Grid& grid) {
     const Cells cells(grid_from_image);
     const auto quickly = [&](const Dot& dot) { return cells(cells.from_centre_q3(dot.centre_q8)); };
     return assign(dots, quickly, grid);

@@ -17,6 +17,10 @@ void lay_out(Vec least, Vec most, Grid& grid);
 Status assign_likelihoods(std::span<const Dot> dots, const PlaneFromImage& grid_from_image,
                           Grid& grid);
 
+/// The same for a grid without perspective and lens.
+Status assign_affine_likelihoods(std::span<const Dot> dots, const PlaneFromImage& grid_from_image,
+                                 Grid& grid);
+
 /// |P^(x) P^(y)|: how likely a dot represents its symbol.
 inline int quality(const GridCell& cell) {
     const int product = cell.x * cell.y;

@@ -50,6 +50,18 @@ std::int32_t common_direction_bam(std::span<const Edge> edges, std::int32_t leng
     return angle_bam({sum_re, sum_im}) / 4;
 }
 
+/// On which side of the origin, and in which cluster, an edge is.
+enum class Side : std::uint8_t { first, second, opposite_first, opposite_second };
+
+std::size_t cluster_of(Side side) {
+    return static_cast<std::size_t>(side) & 1;
+}
+/// The edge turned towards the cluster.
+Vec turned(Vec edge, Side side) {
+    return side >= Side::opposite_first ? -edge : edge;
+}
+using Sides = std::array<Side, kMostEdges>;
+
 /// The two clusters that are kept, of four: the others are their mirror images in the origin, which
 /// is the constraint of Fig. 5.
 class Clusters {
@@ -63,16 +75,16 @@ class Clusters {
     }
     const std::array<Vec, 2>& means_q8() const { return means_q8_; }
 
-    /// Returns the index of the nearest one and turns the edge towards it.
-    std::size_t nearest(Vec& edge_q8) const {
+    /// The nearest one.
+    Side nearest(Vec edge_q8) const {
         const Vec e{edge_q8.x >> 2, edge_q8.y >> 2};
         const std::int32_t along_0 = e.x * means_q6_[0].x + e.y * means_q6_[0].y;
         const std::int32_t along_1 = e.x * means_q6_[1].x + e.y * means_q6_[1].y;
         // |edge -+ mean|^2 / 2 without the common |edge|^2
         const bool is_second =
             half_squares_[1] - magnitude(along_1) < half_squares_[0] - magnitude(along_0);
-        if ((is_second ? along_1 : along_0) < 0) edge_q8 = -edge_q8;
-        return is_second ? 1 : 0;
+        if (is_second) return along_1 < 0 ? Side::opposite_second : Side::second;
+        return along_0 < 0 ? Side::opposite_first : Side::first;
     }
 
   private:
@@ -81,36 +93,42 @@ class Clusters {
     std::array<std::int32_t, 2> half_squares_;
 };
 
-Clusters constrained_k_means(std::span<const Edge> edges, Clusters clusters) {
-    for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-        std::array<Vec, 2> sums{};
-        std::array<std::int32_t, 2> counts{};
-        for (const Edge& edge : edges) {
-            Vec step = edge.step_q8;
-            const std::size_t k = clusters.nearest(step);
-            sums[k] = sums[k] + step;
-            ++counts[k];
+/// Of the edges of one cluster, turned towards it.
+struct Sum {
+    Vec total;
+    std::int32_t count = 0;
+};
+
+/// Finds the side of each edge.
+void constrained_k_means(std::span<const Edge> edges, Clusters clusters, Sides& sides) {
+    for (int iteration = 0;; ++iteration) {
+        std::array<Sum, 2> sums{};
+        for (std::size_t e = 0; e < edges.size(); ++e) {
+            const Side side = clusters.nearest(edges[e].step_q8);
+            sides[e] = side;
+            Sum& sum = sums[cluster_of(side)];
+            sum.total = sum.total + turned(edges[e].step_q8, side);
+            ++sum.count;
         }
         std::array<Vec, 2> means = clusters.means_q8();
         for (std::size_t k = 0; k < 2; ++k) {
-            if (counts[k] == 0) continue;
-            means[k] = {sums[k].x / counts[k], sums[k].y / counts[k]};
+            const auto& [total, count] = sums[k];
+            if (count > 0) means[k] = {total.x / count, total.y / count};
         }
-        if (means == clusters.means_q8()) break;
+        if (means == clusters.means_q8() || iteration == kMaxIterations) break;
         clusters = Clusters(means);
     }
-    return clusters;
 }
 
 /// Medians of the edges of one cluster, separately in x and y (last lines of Fig. 5).
-Vec cluster_median(std::span<const Edge> edges, const Clusters& clusters, std::size_t cluster,
+Vec cluster_median(std::span<const Edge> edges, const Sides& sides, std::size_t cluster,
                    Values& scratch) {
     const auto x = std::span(scratch).first(scratch.size() / 2);
     const auto y = std::span(scratch).last(scratch.size() / 2);
     std::size_t n = 0;
-    for (const Edge& edge : edges) {
-        Vec step = edge.step_q8;
-        if (clusters.nearest(step) != cluster || n == x.size()) continue;
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+        if (cluster_of(sides[e]) != cluster || n == x.size()) continue;
+        const Vec step = turned(edges[e].step_q8, sides[e]);
         x[n] = step.x;
         y[n++] = step.y;
     }
@@ -127,9 +145,10 @@ Status estimate_axes(std::span<const Edge> edges, Lattice& lattice) {
     const Vec unit = unit_q30(common_direction_bam(edges, length_q8));
     const Vec along{shift_rounded(std::int64_t{unit.x} * length_q8, 30),
                     shift_rounded(std::int64_t{unit.y} * length_q8, 30)};
-    const Clusters clusters = constrained_k_means(edges, Clusters({along, Vec{-along.y, along.x}}));
-    const Vec u = cluster_median(edges, clusters, 0, scratch);
-    const Vec v = cluster_median(edges, clusters, 1, scratch);
+    Sides sides;
+    constrained_k_means(edges, Clusters({along, Vec{-along.y, along.x}}), sides);
+    const Vec u = cluster_median(edges, sides, 0, scratch);
+    const Vec v = cluster_median(edges, sides, 1, scratch);
     // Symmetric edges are 4 % too short on average, because each dot chose its nearest: the
     // displacements along an edge that shorten it favour it. Measured in docs/pipeline.md.
     constexpr std::int32_t kLengthening_q8 = 267;

@@ -12,10 +12,10 @@ constexpr int kDistanceBins = 64;
 /// The seeds sorted into square buckets, row by row, so that near ones lie together.
 class Buckets {
   public:
-    struct Seed {
-        std::int32_t x_q8;  ///< from the corner of the first bucket
+    /// Of a seed, from the corner of the first bucket.
+    struct Point {
+        std::int32_t x_q8;
         std::int32_t y_q8;
-        std::int16_t index;
     };
 
     Buckets(std::span<const Dot> dots, std::span<const std::uint16_t> seeds);
@@ -23,11 +23,14 @@ class Buckets {
     int columns() const { return columns_; }
     int rows() const { return rows_; }
     std::int32_t size_q8() const { return 1 << shift_; }
-    int column(Vec point_q8) const { return point_q8.x >> shift_; }
-    int row(Vec point_q8) const { return point_q8.y >> shift_; }
-    std::span<const Seed> all() const { return std::span(sorted_).first(count_); }
+    int column(const Point& p) const { return p.x_q8 >> shift_; }
+    int row(const Point& p) const { return p.y_q8 >> shift_; }
+    std::span<const Point> all() const { return std::span(sorted_).first(count_); }
+    std::int16_t seed_at(const Point* p) const {
+        return seeds_[static_cast<std::size_t>(p - sorted_.data())];
+    }
     /// Those in the columns from `first` to `last` of one row, as far as these exist.
-    std::span<const Seed> in_row(int row, int first, int last) const {
+    std::span<const Point> in_row(int row, int first, int last) const {
         if (row < 0 || row >= rows_) return {};
         const std::uint16_t* const begins = &begin_[static_cast<std::size_t>(row * columns_)];
         const std::size_t begin = begins[std::clamp(first, 0, columns_)];
@@ -41,7 +44,9 @@ class Buckets {
     int rows_ = 1;
     std::size_t count_;
     std::array<std::uint16_t, kMaxSeeds + 1> begin_;  ///< of each bucket, and where the last ends
-    std::array<Seed, kMaxSeeds> sorted_;
+    std::array<Point, kMaxSeeds> sorted_;
+    std::array<std::uint8_t, kMaxSeeds> seeds_;  ///< their indices
+    static_assert(kMaxSeeds <= 256);
 };
 
 Buckets::Buckets(std::span<const Dot> dots, std::span<const std::uint16_t> seeds)
@@ -57,22 +62,28 @@ Buckets::Buckets(std::span<const Dot> dots, std::span<const std::uint16_t> seeds
     const int most = static_cast<int>(seeds.size());
     do {
         ++shift_;
-        columns_ = column(end - corner) + 1;
-        rows_ = row(end - corner) + 1;
+        columns_ = ((end.x - corner.x) >> shift_) + 1;
+        rows_ = ((end.y - corner.y) >> shift_) + 1;
     } while (columns_ > most || rows_ > most || columns_ * rows_ > most);
     // Counted, then where each bucket ends, then filled from there backwards.
     const int buckets = columns_ * rows_;
     std::fill_n(begin_.begin(), buckets + 1, std::uint16_t{0});
-    const auto bucket_of = [&](Vec p) {
+    const auto point_of = [&](std::size_t s) {
+        const Vec p = dots[seeds[s]].centre_q8 - corner;
+        return Point{p.x, p.y};
+    };
+    const auto bucket_of = [&](const Point& p) {
         return static_cast<std::size_t>(row(p) * columns_ + column(p));
     };
-    for (const std::uint16_t s : seeds)
-        ++begin_[bucket_of(dots[s].centre_q8 - corner)];
+    for (std::size_t s = 0; s < seeds.size(); ++s)
+        ++begin_[bucket_of(point_of(s))];
     for (std::size_t k = 1; k <= static_cast<std::size_t>(buckets); ++k)
         begin_[k] = static_cast<std::uint16_t>(begin_[k] + begin_[k - 1]);
     for (std::size_t s = 0; s < seeds.size(); ++s) {
-        const Vec p = dots[seeds[s]].centre_q8 - corner;
-        sorted_[--begin_[bucket_of(p)]] = {p.x, p.y, static_cast<std::int16_t>(s)};
+        const Point p = point_of(s);
+        const std::size_t place = --begin_[bucket_of(p)];
+        sorted_[place] = p;
+        seeds_[place] = static_cast<std::uint8_t>(s);
     }
 }
 
@@ -83,73 +94,81 @@ constexpr std::int32_t kFarthest_q8 = 1 << 15;
 class Nearest {
   public:
     /// Nearer than the square root of `within_q16`.
-    Nearest(const Buckets::Seed& self, std::uint32_t within_q16) : self_(self) {
+    Nearest(const Buckets::Point& self, std::uint32_t within_q16) : self_(self) {
         squared_q16_.fill(within_q16);
     }
 
-    void search(std::span<const Buckets::Seed> seeds) {
-        for (const Buckets::Seed& seed : seeds) {
+    void search(std::span<const Buckets::Point> points) {
+        for (const Buckets::Point& p : points) {
             // Too far off for 32 bits, it may be taken for near, but is not kept.
-            const Vec d{seed.x_q8 - self_.x_q8, seed.y_q8 - self_.y_q8};
+            const Vec d{p.x_q8 - self_.x_q8, p.y_q8 - self_.y_q8};
             const std::uint32_t distance = wrapped_square(d.x) + wrapped_square(d.y);
-            if (distance >= squared_q16_[3] || &seed == &self_) continue;
-            if (larger_component(d) < kFarthest_q8) insert<3>(seed.index, distance);
+            if (distance >= squared_q16_[3] || &p == &self_) continue;
+            if (larger_component(d) < kFarthest_q8) insert<3>(&p, distance);
         }
     }
-    bool are_four() const { return seeds_[3] >= 0; }
-    const std::array<std::int16_t, 4>& seeds() const { return seeds_; }
+    bool are_four() const { return points_[3] != nullptr; }
+    /// Null where there are none.
+    const std::array<const Buckets::Point*, 4>& points() const { return points_; }
 
   private:
     static std::uint32_t wrapped_square(std::int32_t a) {
         return static_cast<std::uint32_t>(a) * static_cast<std::uint32_t>(a);
     }
     template <std::size_t kPlace>
-    void insert(std::int16_t seed, std::uint32_t distance) {
+    void insert(const Buckets::Point* p, std::uint32_t distance) {
         if constexpr (kPlace > 0) {
             if (distance < squared_q16_[kPlace - 1]) {
                 squared_q16_[kPlace] = squared_q16_[kPlace - 1];
-                seeds_[kPlace] = seeds_[kPlace - 1];
-                insert<kPlace - 1>(seed, distance);
+                points_[kPlace] = points_[kPlace - 1];
+                insert<kPlace - 1>(p, distance);
                 return;
             }
         }
         squared_q16_[kPlace] = distance;
-        seeds_[kPlace] = seed;
+        points_[kPlace] = p;
     }
 
-    const Buckets::Seed& self_;
-    std::array<std::int16_t, 4> seeds_{-1, -1, -1, -1};
+    const Buckets::Point& self_;
+    std::array<const Buckets::Point*, 4> points_{};
     std::array<std::uint32_t, 4> squared_q16_;
 };
+
+/// Makes one bin of every two.
+void widen(std::array<std::uint16_t, kDistanceBins>& histogram) {
+    for (std::size_t k = 0; k < kDistanceBins / 2; ++k) {
+        histogram[k] = static_cast<std::uint16_t>(histogram[2 * k] + histogram[2 * k + 1]);
+    }
+    std::fill(histogram.begin() + kDistanceBins / 2, histogram.end(), std::uint16_t{0});
+}
 
 }  // namespace
 
 int choose_seeds(std::span<const Dot> dots, Vec centre_q8, std::span<std::uint16_t> seeds) {
-    std::int32_t farthest = 1;
-    for (const Dot& dot : dots) {
-        farthest = std::max(farthest, larger_component(dot.centre_q8 - centre_q8));
-    }
-    int shift = 0;
-    while (farthest >> shift >= kDistanceBins)
-        ++shift;
+    // Bins as narrow as they can be where the last one holds the farthest dot.
     std::array<std::uint16_t, kDistanceBins> histogram{};
-    const auto bin_of = [&](const Dot& dot) {
-        return static_cast<std::size_t>(larger_component(dot.centre_q8 - centre_q8) >> shift);
-    };
-    for (const Dot& dot : dots)
-        ++histogram[bin_of(dot)];
+    int shift = 0;
+    int counted = 0;
+    for (const Dot& dot : dots) {
+        const std::int32_t distance = larger_component(dot.centre_q8 - centre_q8);
+        for (; distance >> shift >= kDistanceBins; ++shift) {
+            if (counted > 0) widen(histogram);
+        }
+        ++counted;
+        ++histogram[static_cast<std::size_t>(distance >> shift)];
+    }
     std::size_t bins = 1;
     for (std::size_t total = histogram[0]; bins < kDistanceBins; ++bins) {
         total += histogram[bins];
         if (total > seeds.size()) break;
     }
-    int count = 0;
-    for (std::size_t i = 0; i < dots.size() && count < static_cast<int>(seeds.size()); ++i) {
-        if (bin_of(dots[i]) < bins) {
-            seeds[static_cast<std::size_t>(count++)] = static_cast<std::uint16_t>(i);
-        }
+    const std::int32_t reach_q8 = static_cast<std::int32_t>(bins) << shift;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < dots.size() && count < seeds.size(); ++i) {
+        if (larger_component(dots[i].centre_q8 - centre_q8) < reach_q8)
+            seeds[count++] = static_cast<std::uint16_t>(i);
     }
-    return count;
+    return static_cast<int>(count);
 }
 
 void find_neighbours(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
@@ -157,18 +176,22 @@ void find_neighbours(std::span<const Dot> dots, std::span<const std::uint16_t> s
     if (seeds.empty()) return;
     const Buckets buckets(dots, seeds);
     const int most_reach = std::max(buckets.columns(), buckets.rows());
-    for (const Buckets::Seed& seed : buckets.all()) {
-        const int column = buckets.column({seed.x_q8, seed.y_q8});
-        const int row = buckets.row({seed.x_q8, seed.y_q8});
+    for (const Buckets::Point& p : buckets.all()) {
+        const int column = buckets.column(p);
+        const int row = buckets.row(p);
         for (int reach = 1;; ++reach) {
             const std::int32_t sure_q8 = reach * buckets.size_q8();
             const bool is_last = reach >= most_reach || sure_q8 >= kFarthest_q8;
-            Nearest nearest(seed,
+            Nearest nearest(p,
                             is_last ? UINT32_MAX : static_cast<std::uint32_t>(sure_q8 * sure_q8));
             for (int r = row - reach; r <= row + reach; ++r)
                 nearest.search(buckets.in_row(r, column - reach, column + reach));
             if (!is_last && !nearest.are_four()) continue;
-            neighbours[static_cast<std::size_t>(seed.index)] = nearest.seeds();
+            auto& found = neighbours[static_cast<std::size_t>(buckets.seed_at(&p))];
+            std::transform(nearest.points().begin(), nearest.points().end(), found.begin(),
+                           [&](const auto* q) {
+                               return q == nullptr ? std::int16_t{-1} : buckets.seed_at(q);
+                           });
             break;
         }
     }
@@ -177,21 +200,18 @@ void find_neighbours(std::span<const Dot> dots, std::span<const std::uint16_t> s
 int connect_symmetric(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
                       std::span<const std::array<std::int16_t, 4>> neighbours,
                       std::span<Edge> edges) {
-    int count = 0;
+    std::size_t count = 0;
     for (std::size_t s = 0; s < seeds.size(); ++s) {
+        const auto from = static_cast<std::int16_t>(s);
         for (const std::int16_t to : neighbours[s]) {
-            if (to <= static_cast<int>(s) || !counts(neighbours, to, static_cast<int>(s))) continue;
-            Edge edge{static_cast<std::int16_t>(s), to, {}};
-            edge.step_q8 =
+            if (to <= from || !counts(neighbours, to, from)) continue;
+            const Vec step =
                 dots[seeds[static_cast<std::size_t>(to)]].centre_q8 - dots[seeds[s]].centre_q8;
-            if (edge.step_q8.y < 0 || (edge.step_q8.y == 0 && edge.step_q8.x < 0)) {
-                std::swap(edge.from, edge.to);
-                edge.step_q8 = -edge.step_q8;
-            }
-            edges[static_cast<std::size_t>(count++)] = edge;
+            const bool is_up = step.y < 0 || (step.y == 0 && step.x < 0);
+            edges[count++] = is_up ? Edge{to, from, -step} : Edge{from, to, step};
         }
     }
-    return count;
+    return static_cast<int>(count);
 }
 
 }  // namespace dotpose::core

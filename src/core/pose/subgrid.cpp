@@ -12,9 +12,10 @@ PlaneFromImage upright_plane(const PlaneFromImage& grid_from_image, Turn pattern
     return pattern;
 }
 
-void write_pose(const PlaneFromImage& pattern_from_image, Vec reference_q8, Profile profile,
-                const Place& place, Fix& fix) {
-    const PlaneFromImage there = tangent(pattern_from_image, reference_q8);
+namespace {
+
+/// The pose at the centre of a plane without perspective and lens.
+void write_pose(const PlaneFromImage& there, Profile profile, const Place& place, Fix& fix) {
     // Eq. 10-12: the decoded position plus the way from there to the reference point, in grid
     // units.
     const Vec t = there.at_centre_q16;
@@ -29,6 +30,18 @@ void write_pose(const PlaneFromImage& pattern_from_image, Vec reference_q8, Prof
     const auto du_length_q24 = square_root(static_cast<std::uint64_t>(squared(du)));
     fix.spacing_px_q16 =
         static_cast<std::int32_t>((std::int64_t{1} << 40) / std::max(du_length_q24, 1U));
+}
+
+}  // namespace
+
+void write_pose(const PlaneFromImage& pattern_from_image, Vec reference_q8, Profile profile,
+                const Place& place, Fix& fix) {
+    write_pose(tangent(pattern_from_image, reference_q8), profile, place, fix);
+}
+
+void write_affine_pose(const PlaneFromImage& pattern_from_image, Vec reference_q8, Profile profile,
+                       const Place& place, Fix& fix) {
+    write_pose(affine_tangent(pattern_from_image, reference_q8), profile, place, fix);
 }
 
 }  // namespace dotpose::core

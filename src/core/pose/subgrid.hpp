@@ -13,4 +13,8 @@ PlaneFromImage upright_plane(const PlaneFromImage& grid_from_image, Turn pattern
 void write_pose(const PlaneFromImage& pattern_from_image, Vec reference_q8, Profile profile,
                 const Place& place, Fix& fix);
 
+/// The same of a plane without perspective and lens.
+void write_affine_pose(const PlaneFromImage& pattern_from_image, Vec reference_q8, Profile profile,
+                       const Place& place, Fix& fix);
+
 }  // namespace dotpose::core
