@@ -5,6 +5,7 @@
 
 #include "core/decode/likelihood.hpp"
 #include "core/decode/nominal.hpp"
+#include "core/pixels/level_sums.hpp"
 #include "core/pixels/paper.hpp"
 #include "core/pixels/surroundings.hpp"
 #include "core/pixels/undistort.hpp"
@@ -110,8 +111,8 @@ class Eye {
     void look_at(CellView& view) const;
     /// Paper level at the middle of the cell, over that at the middle of the image.
     int light_q8(const CellView& view) const;
-    /// Shade of the darkest square 2/15 spacing away from a place.
-    int darkest_around_q8(const CellView& view, Symbol symbol) const;
+    /// Shade of the darkest square 2/15 spacing away from each place that is seen.
+    std::array<int, 4> darkest_around_q8(const CellView& view) const;
 
   private:
     /// Where the image shows an intersection.
@@ -120,6 +121,10 @@ class Eye {
     }
     /// Mean darkness of a square of 2/5 spacing.
     int shade_q8(Vec centre_q8, int half_px) const;
+    /// The same from the sum over its pixels.
+    int darkness_q8(Vec centre_q8, int sum, int pixels) const;
+    template <typename Shade>
+    static std::array<int, 4> darkest_around_q8(const CellView& view, Shade shade_q8);
 
     const ImageView& image_;
     const PaperMap& paper_;
@@ -127,24 +132,30 @@ class Eye {
     const PlaneFromImage& plane_;
 };
 
+/// Of large squares not all pixels are taken.
+int step_px(int half_px) {
+    return std::max(half_px / 3, 1);
+}
+
+int Eye::darkness_q8(Vec point_q8, int sum, int pixels) const {
+    if (pixels == 0) return 0;
+    const int paper = paper_at(paper_, (point_q8.x + 128) >> 8, (point_q8.y + 128) >> 8);
+    return (paper * pixels - sum) * 256 / (paper * pixels);
+}
+
 int Eye::shade_q8(Vec centre_q8, int half_px) const {
-    const int u0 = (centre_q8.x + 128) >> 8;
-    const int v0 = (centre_q8.y + 128) >> 8;
-    const int step = std::max(half_px / 3, 1);
+    const PixelBox box(image_, centre_q8, half_px);
+    const int step = step_px(half_px);
     int sum = 0;
     int count = 0;
-    for (int v = std::max(v0 - half_px, 0); v <= std::min(v0 + half_px, image_.height_px - 1);
-         v += step) {
+    for (int v = box.top; v <= box.bottom; v += step) {
         const std::uint8_t* row = image_.row(v);
-        for (int u = std::max(u0 - half_px, 0); u <= std::min(u0 + half_px, image_.width_px - 1);
-             u += step) {
+        for (int u = box.left; u <= box.right; u += step) {
             sum += row[u];
             ++count;
         }
     }
-    if (count == 0) return 0;
-    const int paper = paper_at(paper_, u0, v0);
-    return (paper * count - sum) * 256 / (paper * count);
+    return darkness_q8(centre_q8, sum, count);
 }
 
 template <typename Use>
@@ -182,16 +193,38 @@ void Eye::look_at(CellView& view) const {
     }
 }
 
-int Eye::darkest_around_q8(const CellView& view, Symbol symbol) const {
+template <typename Shade>
+std::array<int, 4> Eye::darkest_around_q8(const CellView& view, Shade shade_q8) {
     constexpr int kFar = 8;
     constexpr int kDiagonal = 5;
-    int darkest = 0;
-    for (const Vec d :
-         {Vec{kFar, 0}, Vec{-kFar, 0}, Vec{0, kFar}, Vec{0, -kFar}, Vec{kDiagonal, kDiagonal},
-          Vec{-kDiagonal, kDiagonal}, Vec{kDiagonal, -kDiagonal}, Vec{-kDiagonal, -kDiagonal}}) {
-        darkest = std::max(darkest, shade_q8(view.at(place_60th(symbol) + d), view.half_px));
+    std::array<int, 4> darkest{};
+    for (std::size_t i = 0; i < darkest.size(); ++i) {
+        if (!view.places[i].is_seen) continue;
+        const Vec place = place_60th(static_cast<Symbol>(i));
+        for (const Vec d : {Vec{kFar, 0}, Vec{-kFar, 0}, Vec{0, kFar}, Vec{0, -kFar},
+                            Vec{kDiagonal, kDiagonal}, Vec{-kDiagonal, kDiagonal},
+                            Vec{kDiagonal, -kDiagonal}, Vec{-kDiagonal, -kDiagonal}}) {
+            darkest[i] = std::max(darkest[i], shade_q8(view.at(place + d)));
+        }
     }
     return darkest;
+}
+
+std::array<int, 4> Eye::darkest_around_q8(const CellView& view) const {
+    // No square's centre is farther away than a third of the spacing.
+    const int reach_px =
+        std::max(larger_component(view.u_q8), larger_component(view.v_q8)) / (3 * 256) + 1 +
+        view.half_px;
+    if (step_px(view.half_px) > 1 || 2 * reach_px >= LevelSums::kMostSide_px) {
+        return darkest_around_q8(view,
+                                 [&](Vec point_q8) { return shade_q8(point_q8, view.half_px); });
+    }
+    const LevelSums sums(image_, PixelBox(image_, view.centre_q8, reach_px));
+    return darkest_around_q8(view, [&](Vec point_q8) {
+        const PixelBox box(image_, point_q8, view.half_px);
+        const int pixels = box.pixels();
+        return darkness_q8(point_q8, pixels > 0 ? sums.of(box) : 0, pixels);
+    });
 }
 
 int Eye::light_q8(const CellView& view) const {
@@ -244,12 +277,13 @@ class Ink {
         unsigned hidden = 0;
         int darkest_q8 = 0;
         int beside_q8 = 0;
+        const std::array<int, 4> darkest_around_q8 = eye_.darkest_around_q8(view);
         for (std::size_t i = 0; i < view.places.size(); ++i) {
             const PlaceView& place = view.places[i];
             // As likely as not there is a dot where nothing is seen.
             look.darkness_q8[i] = contrast_q8_ / 2;
             if (!place.is_seen) continue;
-            const int around_q8 = eye_.darkest_around_q8(view, static_cast<Symbol>(i));
+            const int around_q8 = darkest_around_q8[i];
             if (std::max(place.shade_q8, around_q8) > graphics_q8_) {
                 hidden |= 1U << i;
                 continue;
