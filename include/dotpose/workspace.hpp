@@ -84,7 +84,8 @@ struct PaperMap {
     int block_px = 0;
     int columns = 0;
     int rows = 0;
-    std::span<std::uint8_t> levels;  ///< row by row
+    std::span<std::uint8_t> levels;     ///< row by row
+    std::span<std::uint8_t> brightest;  ///< of each block and the eight around it
 };
 
 /// Rows of an image that is being filtered for a second attempt.
@@ -281,6 +282,7 @@ class WorkspaceOf : public Workspace {
         smoothing.lines = smooth_lines_;
         smoothing.row = smooth_row_;
         smoothing.paper.levels = papers_;
+        smoothing.paper.brightest = brightest_papers_;
         smoothing.column_sums = smooth_sums_;
         light.rows = rows_;
         light.tiles = tiles_;
@@ -311,6 +313,7 @@ class WorkspaceOf : public Workspace {
     std::array<std::uint8_t, MaxWidth> smooth_row_{};
     // Blocks are a tenth of the shorter side, so at least 6 px: at most 11 x 683 of them.
     std::array<std::uint8_t, 11 * 683> papers_{};
+    std::array<std::uint8_t, 11 * 683> brightest_papers_{};
     std::array<std::uint32_t, MaxWidth> smooth_sums_{};
     alignas(
         8) std::array<std::uint8_t, 2 * kTile_px*(kKeptMargin_px + MaxWidth + kTile_px)> rows_{};

@@ -1,10 +1,11 @@
 #include "core/decode/look.hpp"
 
 #include <array>
-#include <optional>
+#include <utility>
 
 #include "core/decode/likelihood.hpp"
 #include "core/decode/nominal.hpp"
+#include "core/pixels/level_sums.hpp"
 #include "core/pixels/paper.hpp"
 #include "core/pixels/surroundings.hpp"
 #include "core/pixels/undistort.hpp"
@@ -36,11 +37,17 @@ std::array<int, kTaps> taps(std::int32_t position_q8) {
     return weights;
 }
 
-/// Weighted mean around a point, in 1/256 grey level; nothing outside the image.
-std::optional<int> level_q8(const ImageView& image, Vec point_q8) {
+/// Whether there is a pixel to either side of a point.
+bool is_inside(const ImageView& image, Vec point_q8) {
+    const int u = point_q8.x >> 8;
+    const int v = point_q8.y >> 8;
+    return u >= 0 && v >= 0 && u + 1 < image.width_px && v + 1 < image.height_px;
+}
+
+/// Weighted mean around a point inside the image, in 1/256 grey level.
+int level_q8(const ImageView& image, Vec point_q8) {
     const int u0 = (point_q8.x >> 8) - 1;
     const int v0 = (point_q8.y >> 8) - 1;
-    if (u0 < -1 || v0 < -1 || u0 + 2 >= image.width_px || v0 + 2 >= image.height_px) return {};
     const auto across = taps(point_q8.x);
     const auto down = taps(point_q8.y);
     int sum_q18 = 0;
@@ -52,6 +59,10 @@ std::optional<int> level_q8(const ImageView& image, Vec point_q8) {
         sum_q18 += down[static_cast<std::size_t>(v)] * (row_sum_q10 >> 2);
     }
     return sum_q18 >> 10;
+}
+
+Vec place_60th(Symbol symbol) {
+    return {10 * dx(symbol), 10 * dy(symbol)};
 }
 
 /// What shows at one of a cell's four places.
@@ -69,6 +80,12 @@ struct CellView {
     int half_px = 0;                  ///< of a square of 2/5 spacing
     std::array<PlaceView, 4> places;  ///< by Symbol
 
+    CellView(const ImageView& image, Vec centre, Vec right, Vec below)
+        : centre_q8(centre), u_q8(right - centre), v_q8(below - centre) {
+        for (std::size_t i = 0; i < places.size(); ++i)
+            places[i].is_seen = is_inside(image, at(place_60th(static_cast<Symbol>(i))));
+    }
+
     int places_seen() const {
         return static_cast<int>(std::count_if(
             places.begin(), places.end(), [](const PlaceView& place) { return place.is_seen; }));
@@ -80,10 +97,6 @@ struct CellView {
     }
 };
 
-Vec place_60th(Symbol symbol) {
-    return {10 * dx(symbol), 10 * dy(symbol)};
-}
-
 /// Looks at an image through a grid laid over it.
 class Eye {
   public:
@@ -91,20 +104,27 @@ class Eye {
         const PlaneFromImage& plane)
         : image_(image), paper_(paper), lens_(lens), plane_(plane) {}
 
-    /// Nothing where no place is in the image.
-    std::optional<CellView> look_at(Vec cell) const;
+    /// Cells of which a place is in the image, before they are looked at: `use(cell, view)`.
+    template <typename Use>
+    void visit(const Grid& grid, Use use) const;
+    /// What shows at the places.
+    void look_at(CellView& view) const;
     /// Paper level at the middle of the cell, over that at the middle of the image.
     int light_q8(const CellView& view) const;
-    /// Shade of the darkest square 2/15 spacing away from a place.
-    int darkest_around_q8(const CellView& view, Symbol symbol) const;
+    /// Shade of the darkest square 2/15 spacing away from each place that is seen.
+    std::array<int, 4> darkest_around_q8(const CellView& view) const;
 
   private:
-    /// Where the image shows a point of the plane, in spacings.
-    Vec image_of(std::int32_t x_q16, std::int32_t y_q16) const {
-        return distorted_point_q8(lens_, plane_, {x_q16, y_q16});
+    /// Where the image shows an intersection.
+    Vec image_of(int i, int j) const {
+        return distorted_point_q8(lens_, plane_, {i * 65536, j * 65536});
     }
     /// Mean darkness of a square of 2/5 spacing.
     int shade_q8(Vec centre_q8, int half_px) const;
+    /// The same from the sum over its pixels.
+    int darkness_q8(Vec centre_q8, int sum, int pixels) const;
+    template <typename Shade>
+    static std::array<int, 4> darkest_around_q8(const CellView& view, Shade shade_q8);
 
     const ImageView& image_;
     const PaperMap& paper_;
@@ -112,55 +132,99 @@ class Eye {
     const PlaneFromImage& plane_;
 };
 
+/// Of large squares not all pixels are taken.
+int step_px(int half_px) {
+    return std::max(half_px / 3, 1);
+}
+
+int Eye::darkness_q8(Vec point_q8, int sum, int pixels) const {
+    if (pixels == 0) return 0;
+    const int paper = paper_at(paper_, (point_q8.x + 128) >> 8, (point_q8.y + 128) >> 8);
+    return (paper * pixels - sum) * 256 / (paper * pixels);
+}
+
 int Eye::shade_q8(Vec centre_q8, int half_px) const {
-    const int u0 = (centre_q8.x + 128) >> 8;
-    const int v0 = (centre_q8.y + 128) >> 8;
-    const int step = std::max(half_px / 3, 1);
+    const PixelBox box(image_, centre_q8, half_px);
+    const int step = step_px(half_px);
     int sum = 0;
     int count = 0;
-    for (int v = std::max(v0 - half_px, 0); v <= std::min(v0 + half_px, image_.height_px - 1);
-         v += step) {
+    for (int v = box.top; v <= box.bottom; v += step) {
         const std::uint8_t* row = image_.row(v);
-        for (int u = std::max(u0 - half_px, 0); u <= std::min(u0 + half_px, image_.width_px - 1);
-             u += step) {
+        for (int u = box.left; u <= box.right; u += step) {
             sum += row[u];
             ++count;
         }
     }
-    if (count == 0) return 0;
-    const int paper = paper_at(paper_, u0, v0);
-    return (paper * count - sum) * 256 / (paper * count);
+    return darkness_q8(centre_q8, sum, count);
 }
 
-std::optional<CellView> Eye::look_at(Vec cell) const {
-    CellView view;
-    view.centre_q8 = image_of(cell.x * 65536, cell.y * 65536);
-    view.u_q8 = image_of(cell.x * 65536 + 65536, cell.y * 65536) - view.centre_q8;
-    view.v_q8 = image_of(cell.x * 65536, cell.y * 65536 + 65536) - view.centre_q8;
+template <typename Use>
+void Eye::visit(const Grid& grid, Use use) const {
+    // An intersection is a corner of four cells.
+    std::array<Vec, kMaxGridSide + 1> here;
+    std::array<Vec, kMaxGridSide + 1> below;
+    const auto find_row = [&](int j, std::array<Vec, kMaxGridSide + 1>& row) {
+        for (int i = 0; i <= grid.columns; ++i)
+            row[static_cast<std::size_t>(i)] = image_of(grid.i0 + i, j);
+    };
+    find_row(grid.j0, below);
+    for (int j = grid.j0; j < grid.j0 + grid.rows; ++j) {
+        std::swap(here, below);
+        find_row(j + 1, below);
+        for (int i = 0; i < grid.columns; ++i) {
+            const auto at = static_cast<std::size_t>(i);
+            CellView view(image_, here[at], here[at + 1], below[at]);
+            if (view.places_seen() > 0) use(Vec{grid.i0 + i, j}, view);
+        }
+    }
+}
+
+void Eye::look_at(CellView& view) const {
     const auto spacing_q8 =
         static_cast<std::int32_t>(square_root(static_cast<std::uint64_t>(squared(view.u_q8))));
     view.half_px = std::max((spacing_q8 / 5 + 128) >> 8, 1);
     for (std::size_t i = 0; i < view.places.size(); ++i) {
+        PlaceView& place = view.places[i];
+        if (!place.is_seen) continue;
         const Vec place_q8 = view.at(place_60th(static_cast<Symbol>(i)));
-        const std::optional<int> level = level_q8(image_, place_q8);
-        if (!level) continue;
         const int paper = paper_at(paper_, place_q8.x >> 8, place_q8.y >> 8);
-        view.places[i] = {true, (paper * 256 - *level) / paper, shade_q8(place_q8, view.half_px)};
+        place.darkness_q8 = (paper * 256 - level_q8(image_, place_q8)) / paper;
+        place.shade_q8 = shade_q8(place_q8, view.half_px);
     }
-    if (view.places_seen() == 0) return {};
-    return view;
 }
 
-int Eye::darkest_around_q8(const CellView& view, Symbol symbol) const {
+template <typename Shade>
+std::array<int, 4> Eye::darkest_around_q8(const CellView& view, Shade shade_q8) {
     constexpr int kFar = 8;
     constexpr int kDiagonal = 5;
-    int darkest = 0;
-    for (const Vec d :
-         {Vec{kFar, 0}, Vec{-kFar, 0}, Vec{0, kFar}, Vec{0, -kFar}, Vec{kDiagonal, kDiagonal},
-          Vec{-kDiagonal, kDiagonal}, Vec{kDiagonal, -kDiagonal}, Vec{-kDiagonal, -kDiagonal}}) {
-        darkest = std::max(darkest, shade_q8(view.at(place_60th(symbol) + d), view.half_px));
+    std::array<int, 4> darkest{};
+    for (std::size_t i = 0; i < darkest.size(); ++i) {
+        if (!view.places[i].is_seen) continue;
+        const Vec place = place_60th(static_cast<Symbol>(i));
+        for (const Vec d : {Vec{kFar, 0}, Vec{-kFar, 0}, Vec{0, kFar}, Vec{0, -kFar},
+                            Vec{kDiagonal, kDiagonal}, Vec{-kDiagonal, kDiagonal},
+                            Vec{kDiagonal, -kDiagonal}, Vec{-kDiagonal, -kDiagonal}}) {
+            darkest[i] = std::max(darkest[i], shade_q8(view.at(place + d)));
+        }
     }
     return darkest;
+}
+
+std::array<int, 4> Eye::darkest_around_q8(const CellView& view) const {
+    // No square's centre is farther away than a third of the spacing.
+    const int reach_px =
+        std::max(larger_component(view.u_q8), larger_component(view.v_q8)) / (3 * 256) + 1 +
+        view.half_px;
+    if (step_px(view.half_px) > 1 || 2 * reach_px >= LevelSums::kMostSide_px) {
+        return darkest_around_q8(view,
+                                 [&](Vec point_q8) { return shade_q8(point_q8, view.half_px); });
+    }
+    const LevelSums sums(image_, PixelBox(image_, view.centre_q8, reach_px));
+    return darkest_around_q8(view, [&](Vec point_q8) {
+        const PixelBox box(image_, point_q8, view.half_px);
+        const int pixels = box.pixels();
+        return darkness_q8(point_q8, pixels > 0 ? sums.of(box) : 0, pixels);
+    });
 }
 
 int Eye::light_q8(const CellView& view) const {
@@ -168,26 +232,17 @@ int Eye::light_q8(const CellView& view) const {
     return here * 256 / paper_at(paper_, image_.width_px / 2, image_.height_px / 2);
 }
 
-/// `use(cell, what the grid keeps of it, view)` for all cells of which something is seen.
-template <typename Use>
-void visit(const Eye& eye, Grid& grid, Use use) {
-    for (int j = grid.j0; j < grid.j0 + grid.rows; ++j) {
-        for (int i = grid.i0; i < grid.i0 + grid.columns; ++i) {
-            if (const auto view = eye.look_at({i, j})) use(Vec{i, j}, grid.at(i, j), *view);
-        }
-    }
-}
-
 /// What a cell's darkest place typically looks like: the medians over the cells.
-PlaceView typical_place(const Eye& eye, Grid& grid) {
+PlaceView typical_place(const Eye& eye, const Grid& grid) {
     std::array<std::int32_t, kMedianSample> darkness;
     std::array<std::int32_t, kMedianSample> shade;
     std::size_t count = 0;
     int seen = 0;
     const int every = grid.columns * grid.rows / static_cast<int>(kMedianSample) + 1;
-    visit(eye, grid, [&](Vec, const GridCell&, const CellView& view) {
+    eye.visit(grid, [&](Vec, CellView& view) {
         if (view.places_seen() < 4) return;
         if (seen++ % every != 0) return;
+        eye.look_at(view);
         const PlaceView& darkest = *std::max_element(
             view.places.begin(), view.places.end(),
             [](const PlaceView& a, const PlaceView& b) { return a.darkness_q8 < b.darkness_q8; });
@@ -201,7 +256,7 @@ PlaceView typical_place(const Eye& eye, Grid& grid) {
 /// How dark dots and graphics are in this image, and what a cell's darkness says of its bits.
 class Ink {
   public:
-    Ink(const Eye& eye, Grid& grid) : eye_(eye) {
+    Ink(const Eye& eye, const Grid& grid) : eye_(eye) {
         const PlaceView typical = typical_place(eye, grid);
         contrast_q8_ = typical.darkness_q8;
         // Between the shade of a dot and that of solid ink.
@@ -222,12 +277,13 @@ class Ink {
         unsigned hidden = 0;
         int darkest_q8 = 0;
         int beside_q8 = 0;
+        const std::array<int, 4> darkest_around_q8 = eye_.darkest_around_q8(view);
         for (std::size_t i = 0; i < view.places.size(); ++i) {
             const PlaceView& place = view.places[i];
             // As likely as not there is a dot where nothing is seen.
             look.darkness_q8[i] = contrast_q8_ / 2;
             if (!place.is_seen) continue;
-            const int around_q8 = eye_.darkest_around_q8(view, static_cast<Symbol>(i));
+            const int around_q8 = darkest_around_q8[i];
             if (std::max(place.shade_q8, around_q8) > graphics_q8_) {
                 hidden |= 1U << i;
                 continue;
@@ -299,7 +355,9 @@ bool read_cells(const Eye& eye, Grid& grid, SetBits set_bits) {
     int cells = 0;
     int crowded = 0;
     const Ink ink(eye, grid);
-    visit(eye, grid, [&](Vec at, GridCell& cell, const CellView& view) {
+    eye.visit(grid, [&](Vec at, CellView& view) {
+        GridCell& cell = grid.at(at.x, at.y);
+        eye.look_at(view);
         const Ink::Look look = ink.look_at(view, cell);
         set_bits(at, cell, ink, look);
         if (view.places_seen() < 4 || cell.is_hidden()) return;

@@ -1,6 +1,9 @@
 // Paper: its grey level all over the image, under dots and graphics as well.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+
 #include "dotpose/image.hpp"
 #include "dotpose/workspace.hpp"
 
@@ -10,11 +13,21 @@ namespace dotpose::core {
 /// pixels exceed.
 void measure_paper(const ImageView& image, PaperMap& map);
 
-/// The brightest paper of a pixel's block and the eight around it.
-int brightest_paper_near(const PaperMap& map, int u, int v);
+/// The block of a pixel; outside the image the nearest.
+inline std::size_t block_at(const PaperMap& map, int u, int v) {
+    const int column = std::clamp(u / map.block_px, 0, map.columns - 1);
+    const int row = std::clamp(v / map.block_px, 0, map.rows - 1);
+    return static_cast<std::size_t>(row * map.columns + column);
+}
 
-/// The paper at a pixel: that of its block, unless graphics cover most of it. Outside the image
-/// that of the nearest block.
-int paper_at(const PaperMap& map, int u, int v);
+/// The brightest paper of a pixel's block and the eight around it.
+inline int brightest_paper_near(const PaperMap& map, int u, int v) {
+    return map.brightest[block_at(map, u, v)];
+}
+
+/// The paper at a pixel: that of its block, unless graphics cover most of it.
+inline int paper_at(const PaperMap& map, int u, int v) {
+    return map.levels[block_at(map, u, v)];
+}
 
 }  // namespace dotpose::core

@@ -56,6 +56,15 @@ void weight_along(const std::uint8_t* pixels, int width_px, std::uint16_t* out) 
     at_border(width_px - 1);
 }
 
+void weight_down(const std::array<const std::uint16_t*, kRows>& rows, int width_px,
+                 std::uint8_t* out) {
+    const auto [top, above, own, below, bottom] = rows;
+    for (int u = 0; u < width_px; ++u) {
+        const int sum = top[u] + bottom[u] + 4 * (above[u] + below[u]) + 6 * own[u];
+        out[u] = static_cast<std::uint8_t>((sum + 128) >> 8);
+    }
+}
+
 /// Half the side of the surroundings: they reach over two spacings wherever 8 dots are in view.
 /// Towards the border they shrink, and so stay even around the pixel: a gradient of the light does
 /// no harm.
@@ -132,21 +141,33 @@ void even_out(const ImageView& image, int v, Smoothing& smoothing) {
     const std::uint32_t* columns = smoothing.column_sums.data();
     std::uint8_t* pixels = smoothing.row.data();
     Divider divider;
+    const int width_px = image.width_px;
     std::uint32_t sum = 0;
-    int begin = 0;
-    int end = 0;
-    for (int u = 0; u < image.width_px; ++u) {
-        const int half_width = half_side(u, image.width_px, largest);
-        while (end < std::min(u + half_width + 1, image.width_px))
-            sum += columns[end++];
-        while (begin < u - half_width)
-            sum -= columns[begin++];
-        const std::uint32_t mean =
-            std::max(divider.quotient(sum, rows * static_cast<std::uint32_t>(end - begin)), 1U);
+    const auto even = [&](int u, int columns_in_sum) {
+        const std::uint32_t area = rows * static_cast<std::uint32_t>(columns_in_sum);
+        const std::uint32_t mean = std::max(divider.quotient(sum, area), 1U);
         const std::uint64_t evened = std::uint64_t{pixels[u]} * kEvened_q24[mean] >> 24;
         pixels[u] = static_cast<std::uint8_t>(
             std::clamp(static_cast<std::uint32_t>(evened), kDarkest, 255U));
+    };
+    int begin = 0;
+    int end = 0;
+    const auto even_near_border = [&](int u) {
+        const int half_width = half_side(u, width_px, largest);
+        while (end < std::min(u + half_width + 1, width_px))
+            sum += columns[end++];
+        while (begin < u - half_width)
+            sum -= columns[begin++];
+        even(u, end - begin);
+    };
+    for (int u = 0; u <= largest; ++u)
+        even_near_border(u);
+    for (int u = largest + 1; u < width_px - largest; ++u) {
+        sum += columns[end++] - columns[begin++];
+        even(u, 2 * largest + 1);
     }
+    for (int u = width_px - largest; u < width_px; ++u)
+        even_near_border(u);
 }
 
 }  // namespace
@@ -171,11 +192,7 @@ const std::uint8_t* next_smooth_row(const ImageView& image, Smoothing& smoothing
     const auto at = [&](int row) {
         return line(smoothing, std::clamp(row, 0, image.height_px - 1), image.width_px);
     };
-    const std::uint16_t* const rows[kRows] = {at(v - 2), at(v - 1), at(v), at(v + 1), at(v + 2)};
-    for (int u = 0; u < image.width_px; ++u) {
-        const int sum = rows[0][u] + rows[4][u] + 4 * (rows[1][u] + rows[3][u]) + 6 * rows[2][u];
-        out[u] = static_cast<std::uint8_t>((sum + 128) >> 8);
-    }
+    weight_down({at(v - 2), at(v - 1), at(v), at(v + 1), at(v + 2)}, image.width_px, out);
     even_out(image, v, smoothing);
     return out;
 }

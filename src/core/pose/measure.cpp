@@ -7,6 +7,7 @@
 #include "core/pixels/surroundings.hpp"
 #include "core/pixels/undistort.hpp"
 #include "core/plane.hpp"
+#include "core/pose/four.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -25,6 +26,8 @@ struct Box {
     int right;
     int top;
     int bottom;
+
+    bool operator==(const Box&) const = default;
 };
 
 /// The window that dots are seen through.
@@ -48,34 +51,59 @@ struct Window {
     }
 };
 
+constexpr int kMostSide_px = 2 * kMostHalf_px + 1;
+/// With what is missing to whole fours.
+constexpr std::size_t kMostInFours = kMostSide_px + 3;
+
+/// Grey levels of the pixels of a box, without defects.
+class Patch {
+  public:
+    /// A box that is shown already costs nothing.
+    void show(const ImageView& image, const Box& box) {
+        if (box == box_) return;
+        box_ = box;
+        for (int v = box.top; v <= box.bottom; ++v) {
+            float* row = levels_[static_cast<std::size_t>(v - box.top)].data();
+            for (int u = box.left; u <= box.right; ++u)
+                *row++ = static_cast<float>(without_defect(image, u, v));
+            std::fill_n(row, 3, 0.0F);
+        }
+    }
+    const Box& box() const { return box_; }
+    /// From the left side of the box, with at least three zeros after the right side.
+    const float* row(int v) const { return levels_[static_cast<std::size_t>(v - box_.top)].data(); }
+    float at(int u, int v) const { return row(v)[u - box_.left]; }
+
+  private:
+    Box box_{0, -1, 0, -1};
+    std::array<std::array<float, kMostInFours>, kMostSide_px> levels_;
+};
+
 /// The light on the paper around a dot, in grey levels: a plane through the window's rim.
 struct RimLight {
     float middle = 0;
     float slope_u = 0;  ///< per px
     float slope_v = 0;
-
-    float at(int du, int dv) const {
-        return middle + slope_u * static_cast<float>(du) + slope_v * static_cast<float>(dv);
-    }
 };
 
-/// From the sides of the window that lie in the image: two at least, as no window is as large. With
-/// one of two opposite sides the light is taken to be even in that direction.
-RimLight light_on_rim(const ImageView& image, int u, int v, int half, const Box& box) {
+/// From the sides of the window around a pixel that lie in the image: two at least, as no window is
+/// as large. With one of two opposite sides the light is taken to be even in that direction.
+RimLight light_on_rim(const Patch& patch, Vec pixel, int half) {
     const auto side = [](bool is_inside, int first, int last, auto level) -> std::optional<float> {
         if (!is_inside) return {};
-        int sum = 0;
+        float sum = 0;
         for (int i = first; i <= last; ++i)
             sum += level(i);
-        return static_cast<float>(sum) / static_cast<float>(last - first + 1);
+        return sum / static_cast<float>(last - first + 1);
     };
+    const Box& box = patch.box();
     const auto column = [&](int at) {
-        return side(at == u - half || at == u + half, box.top, box.bottom,
-                    [&](int i) { return without_defect(image, at, i); });
+        return side(at == pixel.x - half || at == pixel.x + half, box.top, box.bottom,
+                    [&](int i) { return patch.at(at, i); });
     };
     const auto row = [&](int at) {
-        return side(at == v - half || at == v + half, box.left, box.right,
-                    [&](int i) { return without_defect(image, i, at); });
+        return side(at == pixel.y - half || at == pixel.y + half, box.left, box.right,
+                    [&](int i) { return patch.at(i, at); });
     };
     const std::array sides{column(box.left), column(box.right), row(box.top), row(box.bottom)};
     float sum = 0;
@@ -98,17 +126,13 @@ RimLight light_on_rim(const ImageView& image, int u, int v, int half, const Box&
 /// In a whole window this is the windowed centroid; cut by the image's border it is not biased.
 class DotFit {
   public:
-    void add(float profile, float darkness, float x, float y) {
-        const float square = profile * profile;
-        one_ += square;
-        x_ += square * x;
-        y_ += square * y;
-        xx_ += square * x * x;
-        xy_ += square * x * y;
-        yy_ += square * y * y;
-        dark_ += profile * darkness;
-        dark_x_ += profile * darkness * x;
-        dark_y_ += profile * darkness * y;
+    /// Four pixels of a row.
+    void add(Four profile, Four darkness, Four x, float y) {
+        const Four square = profile * profile;
+        const Four dark = profile * darkness;
+        add_each(one_x_y_xx_, square, square * x, square * y, square * x * x);
+        add_each(xy_yy_dark_, square * x * y, square * y * y, dark, dark * x);
+        add_each(dark_y_, dark * y, Four{}, Four{}, Four{});
     }
 
     struct Result {
@@ -118,53 +142,69 @@ class DotFit {
     };
     /// Nothing where it is light rather than dark.
     std::optional<Result> solve() const {
-        const float x = x_ / one_;
-        const float y = y_ / one_;
-        const float xx = xx_ - x * x_;
-        const float xy = xy_ - x * y_;
-        const float yy = yy_ - y * y_;
-        const float dark_x = dark_x_ - x * dark_;
-        const float dark_y = dark_y_ - y * dark_;
+        const float one = one_x_y_xx_[0];
+        const float sum_x = one_x_y_xx_[1];
+        const float sum_y = one_x_y_xx_[2];
+        const float dark = xy_yy_dark_[2];
+        const float x = sum_x / one;
+        const float y = sum_y / one;
+        const float xx = one_x_y_xx_[3] - x * sum_x;
+        const float xy = xy_yy_dark_[0] - x * sum_y;
+        const float yy = xy_yy_dark_[1] - y * sum_y;
+        const float dark_x = xy_yy_dark_[3] - x * dark;
+        const float dark_y = dark_y_[0] - y * dark;
         const float determinant = xx * yy - xy * xy;
         const float slope_x = (dark_x * yy - dark_y * xy) / determinant;
         const float slope_y = (dark_y * xx - dark_x * xy) / determinant;
-        const float height = (dark_ - slope_x * x_ - slope_y * y_) / one_;
+        const float height = (dark - slope_x * sum_x - slope_y * sum_y) / one;
         if (!(height > 0)) return {};
         return Result{height, slope_x / height, slope_y / height};
     }
 
   private:
-    float one_ = 0, x_ = 0, y_ = 0, xx_ = 0, xy_ = 0, yy_ = 0;
-    float dark_ = 0, dark_x_ = 0, dark_y_ = 0;
+    // Weighted by the profile's square: 1, x, y, x^2; xy, y^2; by the profile: the darkness.
+    Four one_x_y_xx_{};
+    Four xy_yy_dark_{};
+    Four dark_y_{};
 };
 
-/// The window's profile along one axis: distances from its middle, in sigma, and exp(-d^2 / 2).
+/// The window's profile along one axis: distances from its middle, in sigma, and exp(-d^2 / 2);
+/// zero in what is missing to whole fours.
 struct Across {
-    std::array<float, 2 * kMostHalf_px + 1> distance;
-    std::array<float, 2 * kMostHalf_px + 1> profile;
+    using Values = std::array<float, kMostInFours>;
+    Values distance;
+    Values profile;
+    Values from_pixel;  ///< px
 
-    Across(int first, int last, std::int32_t middle_q8, std::int32_t sigma_q8) {
-        for (int i = first; i <= last; ++i) {
+    Across(int first, int last, int pixel, std::int32_t middle_q8, std::int32_t sigma_q8) {
+        std::size_t count = 0;
+        for (int i = first; i <= last; ++i, ++count) {
             const float d = static_cast<float>(i * 256 - middle_q8) / static_cast<float>(sigma_q8);
-            distance[static_cast<std::size_t>(i - first)] = d;
-            profile[static_cast<std::size_t>(i - first)] = std::exp(-d * d / 2);
+            distance[count] = d;
+            profile[count] = std::exp(-d * d / 2);
+            from_pixel[count] = static_cast<float>(i - pixel);
         }
+        for (Values* values : {&distance, &profile, &from_pixel})
+            std::fill_n(values->begin() + static_cast<std::ptrdiff_t>(count), 3, 0.0F);
     }
 };
 
-DotFit fit_dot(const ImageView& image, const Window& window, const Box& box, Vec middle_q8,
-               const RimLight& light) {
-    const Across across(box.left, box.right, middle_q8.x, window.sigma_q8);
-    const Across down(box.top, box.bottom, middle_q8.y, window.sigma_q8);
+DotFit fit_dot(const Patch& patch, const RimLight& light, std::int32_t sigma_q8, Vec middle_q8) {
+    const Box& box = patch.box();
     const Vec pixel = rounded_px(middle_q8);
+    const Across across(box.left, box.right, pixel.x, middle_q8.x, sigma_q8);
+    const Across down(box.top, box.bottom, pixel.y, middle_q8.y, sigma_q8);
+    const auto columns = static_cast<std::size_t>(box.right - box.left + 1);
     DotFit fit;
     for (int v = box.top; v <= box.bottom; ++v) {
         const auto j = static_cast<std::size_t>(v - box.top);
-        for (int u = box.left; u <= box.right; ++u) {
-            const auto i = static_cast<std::size_t>(u - box.left);
-            const auto level = static_cast<float>(without_defect(image, u, v));
-            fit.add(across.profile[i] * down.profile[j], light.at(u - pixel.x, v - pixel.y) - level,
-                    across.distance[i], down.distance[j]);
+        const float* levels = patch.row(v);
+        const float slope_v = light.slope_v * down.from_pixel[j];
+        for (std::size_t i = 0; i < columns; i += 4) {
+            const Four paper =
+                light.middle + light.slope_u * four_at(&across.from_pixel[i]) + slope_v;
+            fit.add(four_at(&across.profile[i]) * down.profile[j], paper - four_at(levels + i),
+                    four_at(&across.distance[i]), down.distance[j]);
         }
     }
     return fit;
@@ -177,12 +217,14 @@ std::optional<Dot> measure(const ImageView& image, const Window& window, Vec sta
     const std::int64_t farthest = 9 * std::int64_t{window.sigma_q8} * window.sigma_q8;
     const auto sigma_q8 = static_cast<float>(window.sigma_q8);
     Dot dot{start_q8, 0, 0};
+    Patch patch;
     for (int iteration = 0; iteration < kMostIterations; ++iteration) {
         const Vec pixel = rounded_px(dot.centre_q8);
         const auto box = window.box_around(image, pixel.x, pixel.y);
         if (!box) return {};
-        const RimLight light = light_on_rim(image, pixel.x, pixel.y, window.half_px, *box);
-        const auto fit = fit_dot(image, window, *box, dot.centre_q8, light).solve();
+        patch.show(image, *box);
+        const RimLight light = light_on_rim(patch, pixel, window.half_px);
+        const auto fit = fit_dot(patch, light, window.sigma_q8, dot.centre_q8).solve();
         if (!fit) return {};
         constexpr float kFarthestStep = 4;
         const auto step_q8 = [=](float offset) {

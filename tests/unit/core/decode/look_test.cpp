@@ -29,8 +29,10 @@ struct Looked {
         zero = {static_cast<int>(std::lround(view.at_centre.x)),
                 static_cast<int>(std::lround(view.at_centre.y))};
         std::array<std::uint8_t, 400> levels;
+        std::array<std::uint8_t, 400> brightest;
         PaperMap paper;
         paper.levels = levels;
+        paper.brightest = brightest;
         measure_paper(image.view(), paper);
         const PlaneFromImage plane = plane_from_lattice(lattice_of(view.mesh_turned(turn, zero)),
                                                         fixed(view.centre_px(), 8));

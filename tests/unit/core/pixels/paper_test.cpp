@@ -15,9 +15,11 @@ using namespace core;
 struct Measured {
     explicit Measured(const GreyImage& image) {
         map.levels = levels;
+        map.brightest = brightest;
         measure_paper(image.view(), map);
     }
     std::array<std::uint8_t, 400> levels{};
+    std::array<std::uint8_t, 400> brightest{};
     PaperMap map;
 };
 

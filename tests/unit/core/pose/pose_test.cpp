@@ -212,7 +212,7 @@ struct HalfDark {
     static constexpr int kLight = 240;
     static constexpr int kDark = 60;
     std::array<std::uint8_t, 16 * 10> levels{};
-    PaperMap map{12, 16, 10, levels};
+    PaperMap map{12, 16, 10, levels, {}};
 
     HalfDark() {
         for (std::size_t i = 0; i < levels.size(); ++i)
