@@ -9,7 +9,10 @@ set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE NEVER)
 
 set(machine "-march=m14k -msoft-float -mno-abicalls -fno-pic -fno-pie -G0")
 set(CMAKE_ASM_FLAGS_INIT "${machine}")
-set(CMAKE_CXX_FLAGS_INIT "${machine} -isystem ${CMAKE_CURRENT_LIST_DIR}/../firmware/mips32r2/include")
+# The core runs instructions in order, one a cycle: moved about, they only need more registers and
+# jumps.
+set(order "-fno-schedule-insns -fno-reorder-blocks")
+set(CMAKE_CXX_FLAGS_INIT "${machine} ${order} -isystem ${CMAKE_CURRENT_LIST_DIR}/../firmware/mips32r2/include")
 # libgcc is built for an FPU, which its integer functions do not notice.
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-static -no-pie -Wl,--no-warn-mismatch")
 

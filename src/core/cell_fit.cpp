@@ -14,6 +14,11 @@ int excess_bits(std::int64_t value, int bits) {
 
 }  // namespace
 
+[[gnu::noinline]] std::int64_t CellFit::moment(std::int64_t products, std::int32_t a,
+                                               std::int32_t b) const {
+    return n_ * products - std::int64_t{a} * b;
+}
+
 bool CellFit::solve(int bits, PlaneFromImage& plane) {
     carry_over();
     if (n_ < 3) return false;

@@ -56,9 +56,7 @@ class CellFit {
         recent_ = {};
     }
     /// n^2 times the covariance of what has this sum of products and these sums.
-    std::int64_t moment(std::int64_t products, std::int32_t a, std::int32_t b) const {
-        return n_ * products - std::int64_t{a} * b;
-    }
+    std::int64_t moment(std::int64_t products, std::int32_t a, std::int32_t b) const;
 
     std::int32_t n_ = 0;
     Vec p_;

@@ -65,8 +65,7 @@ Status grow_grid(std::span<const Dot> dots, const LatticeOptions& options, Vec i
             sums.add(p, g.cell);
             return true;
         });
-        CellFit fitted = sums;  // So that `sums` may stay in registers.
-        return fitted.solve(0, plane) && is_nearly_square(plane);
+        return sums.solve(0, plane) && is_nearly_square(plane);
     };
     if (!fit_outwards(kMostRounds, found, fit)) return Status::no_grid;
     return judge(dots, found.farthest_cell, options, plane);

@@ -29,12 +29,11 @@ class Buckets {
     std::int16_t seed_at(const Point* p) const {
         return seeds_[static_cast<std::size_t>(p - sorted_.data())];
     }
-    /// Those in the columns from `first` to `last` of one row, as far as these exist.
+    /// Those in the columns from `first` to `last` of one row.
     std::span<const Point> in_row(int row, int first, int last) const {
-        if (row < 0 || row >= rows_) return {};
         const std::uint16_t* const begins = &begin_[static_cast<std::size_t>(row * columns_)];
-        const std::size_t begin = begins[std::clamp(first, 0, columns_)];
-        const std::size_t end = begins[std::clamp(last + 1, 0, columns_)];
+        const std::size_t begin = begins[first];
+        const std::size_t end = begins[last + 1];
         return {&sorted_[begin], end - begin};
     }
 
@@ -93,8 +92,10 @@ constexpr std::int32_t kFarthest_q8 = 1 << 15;
 /// The four nearest of one seed found so far, nearest first.
 class Nearest {
   public:
-    /// Nearer than the square root of `within_q16`.
-    Nearest(const Buckets::Point& self, std::uint32_t within_q16) : self_(self) {
+    /// Nearer than the square root of `within_q16`. `may_be_far`: others may be 128 px away or
+    /// more.
+    Nearest(const Buckets::Point& self, std::uint32_t within_q16, bool may_be_far)
+        : self_(self), may_be_far_(may_be_far) {
         squared_q16_.fill(within_q16);
     }
 
@@ -104,7 +105,8 @@ class Nearest {
             const Vec d{p.x_q8 - self_.x_q8, p.y_q8 - self_.y_q8};
             const std::uint32_t distance = wrapped_square(d.x) + wrapped_square(d.y);
             if (distance >= squared_q16_[3] || &p == &self_) continue;
-            if (larger_component(d) < kFarthest_q8) insert<3>(&p, distance);
+            if (may_be_far_ && larger_component(d) >= kFarthest_q8) continue;
+            insert<3>(&p, distance);
         }
     }
     bool are_four() const { return points_[3] != nullptr; }
@@ -130,6 +132,7 @@ class Nearest {
     }
 
     const Buckets::Point& self_;
+    bool may_be_far_;
     std::array<const Buckets::Point*, 4> points_{};
     std::array<std::uint32_t, 4> squared_q16_;
 };
@@ -182,10 +185,15 @@ void find_neighbours(std::span<const Dot> dots, std::span<const std::uint16_t> s
         for (int reach = 1;; ++reach) {
             const std::int32_t sure_q8 = reach * buckets.size_q8();
             const bool is_last = reach >= most_reach || sure_q8 >= kFarthest_q8;
-            Nearest nearest(p,
-                            is_last ? UINT32_MAX : static_cast<std::uint32_t>(sure_q8 * sure_q8));
-            for (int r = row - reach; r <= row + reach; ++r)
-                nearest.search(buckets.in_row(r, column - reach, column + reach));
+            const auto within_q16 =
+                is_last ? UINT32_MAX : static_cast<std::uint32_t>(sure_q8 * sure_q8);
+            // One bucket more than `reach` away, and so at most twice as far.
+            Nearest nearest(p, within_q16, 2 * sure_q8 > kFarthest_q8);
+            const int left = std::max(column - reach, 0);
+            const int right = std::min(column + reach, buckets.columns() - 1);
+            const int bottom = std::min(row + reach, buckets.rows() - 1);
+            for (int r = std::max(row - reach, 0); r <= bottom; ++r)
+                nearest.search(buckets.in_row(r, left, right));
             if (!is_last && !nearest.are_four()) continue;
             auto& found = neighbours[static_cast<std::size_t>(buckets.seed_at(&p))];
             std::transform(nearest.points().begin(), nearest.points().end(), found.begin(),

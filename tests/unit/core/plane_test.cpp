@@ -107,5 +107,20 @@ TEST(Plane, TheTangentHasItsValueAndSlope) {
     }
 }
 
+TEST(Plane, TheTangentOfAnAffinePlaneIsThePlane) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 200; ++i) {
+        SCOPED_TRACE(testing::Message() << "plane " << i << ", seed " << kSeed);
+        const PlaneFromImage plane = random_plane(rng, 188, false);
+        const Vec2 p = real(fixed({rng.uniform(0, 187), rng.uniform(0, 187)}, 8), 8);
+        const PlaneFromImage there = affine_tangent(plane, fixed(p, 8));
+        EXPECT_EQ(there.centre_q8, fixed(p, 8));
+        for (const Vec2 step : {Vec2{0, 0}, Vec2{20, 0}, Vec2{0, 20}}) {
+            EXPECT_NEAR(formula(there, p + step).x, formula(plane, p + step).x, 1e-5);
+            EXPECT_NEAR(formula(there, p + step).y, formula(plane, p + step).y, 1e-5);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace dotpose::core_test

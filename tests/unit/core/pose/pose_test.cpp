@@ -115,7 +115,8 @@ TEST(Pose, IsWrittenAsCellFractionAngleAndSpacing) {
         const Vec2 centre{rng.uniform(0, 4000), rng.uniform(0, 4000)};
         const PlaneFromImage plane{
             fixed(centre, 8), fixed(at, 16), fixed(du, 24), fixed({-du.y, du.x}, 24), {}, 0};
-        write_pose(plane, fixed(centre, 8), Profile::anoto, place, fix);
+        auto* const write = i % 2 == 0 ? write_pose : write_affine_pose;
+        write(plane, fixed(centre, 8), Profile::anoto, place, fix);
         const auto nearest = [](double value) { return std::remainder(value, kPositionsPerAxis); };
         ASSERT_NEAR(nearest(fix.x_grid() - place.cell.x - at.x), 0, 1e-5);
         ASSERT_NEAR(nearest(fix.y_grid() - place.cell.y - at.y), 0, 1e-5);
