@@ -48,8 +48,15 @@ void* memset(void* to, int value, std::size_t size) {
     const auto byte = static_cast<unsigned char>(value);
     auto* word = static_cast<Word*>(to);
     if (are_aligned(to, nullptr)) {
+        const Word four = 0x01010101U * byte;
+        for (; size >= 4 * sizeof(Word); size -= 4 * sizeof(Word)) {
+            *word++ = four;
+            *word++ = four;
+            *word++ = four;
+            *word++ = four;
+        }
         for (; size >= sizeof(Word); size -= sizeof(Word))
-            *word++ = 0x01010101U * byte;
+            *word++ = four;
     }
     auto* target = reinterpret_cast<unsigned char*>(word);
     while (size-- > 0)

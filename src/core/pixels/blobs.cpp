@@ -123,17 +123,22 @@ void unite(OpenBlob& blob, OpenBlob& other) {
     other.part_of = &blob;
 }
 
-/// Whether none of eight pixels is darker than an even level, of which each byte holds half.
-bool are_light(const std::uint8_t* pixels, Word half_level) {
-    Word light = kTops;
-    for (std::size_t k = 0; k < kSmallestTile_px; k += sizeof(Word))
-        light &= (word_at(pixels + k) >> 1 | kTops) - half_level;
-    return light == kTops;
+/// Passes over pixels, eight at a time, none of which is darker than their even level; of that,
+/// each byte of `half_level` holds half. Returns where the next eight begin, `end` at last.
+// Not inlined: small devices have registers for one loop.
+[[gnu::noinline]] const std::uint8_t* skip_light(const std::uint8_t* pixels, const Word* half_level,
+                                                 const std::uint8_t* end) {
+    for (; pixels < end; pixels += kSmallestTile_px, ++half_level) {
+        Word light = kTops;
+        for (std::size_t k = 0; k < kSmallestTile_px; k += sizeof(Word))
+            light &= (word_at(pixels + k) >> 1 | kTops) - *half_level;
+        if (light != kTops) return pixels;
+    }
+    return end;
 }
 
 /// Writes down the runs from eight pixels at `u` that show some to eight that end light, as far as
 /// there is room. Returns where the next run belongs.
-// Not inlined: rare, and in the way of the loop over all pixels.
 [[gnu::noinline]] Run* write_runs(std::size_t u, const std::uint8_t* row, const Light& light,
                                   Run* run, const Run* end) {
     const Word* half_level = light.half_levels.data() + u / kSmallestTile_px;
@@ -165,15 +170,17 @@ bool are_light(const std::uint8_t* pixels, Word half_level) {
 
 /// Finds the stretches of dark pixels in a row; returns how many.
 int find_runs(int v, const Light& light, std::span<Run> runs) {
-    const std::uint8_t* row = kept_row(light, v);
+    const std::uint8_t* const row = kept_row(light, v);
+    const std::uint8_t* const row_end = row + light.width_px;
+    const Word* const half_levels = light.half_levels.data();
     Run* run = runs.data();
     const Run* const end = run + runs.size();
-    const Word* const half_levels = light.half_levels.data();
-    const auto width = static_cast<std::size_t>(light.width_px);
-    for (std::size_t u = 0; u < width && run != end; u += kSmallestTile_px) {
-        if (are_light(row + u, half_levels[u / kSmallestTile_px])) continue;
-        run = write_runs(u, row, light, run, end);
-        u = static_cast<std::size_t>(run[-1].end) / kSmallestTile_px * kSmallestTile_px;
+    std::size_t u = 0;
+    while (run != end) {
+        const std::uint8_t* dark = skip_light(row + u, half_levels + u / kSmallestTile_px, row_end);
+        if (dark == row_end) break;
+        run = write_runs(static_cast<std::size_t>(dark - row), row, light, run, end);
+        u = (static_cast<std::size_t>(run[-1].end) / kSmallestTile_px + 1) * kSmallestTile_px;
     }
     // Rows are filled up to whole tiles.
     if (run != runs.data()) run[-1].end = std::min(run[-1].end, light.width_px);

@@ -130,6 +130,8 @@ struct Extremes {
         mean = std::max(mean, other_mean);
         darkest = std::min(darkest, other_darkest);
     }
+    void take(const Tile& tile) { take(tile.mean, tile.darkest); }
+    void take(const Extremes& other) { take(other.mean, other.darkest); }
 };
 
 /// The tiles of a band and of those above and below; at the image's rims, the band itself instead.
@@ -139,9 +141,9 @@ struct ThreeBands {
     const Tile* below;
 
     Extremes column(std::size_t tile) const {
-        Extremes column;
-        for (const Tile* band : {above, here, below})
-            column.take(band[tile].mean, band[tile].darkest);
+        Extremes column{above[tile].mean, above[tile].darkest};
+        column.take(here[tile]);
+        column.take(below[tile]);
         return column;
     }
 };
@@ -197,8 +199,8 @@ void measure_levels(int band, const ThresholdOptions& options, Light& light) {
     for (std::size_t t = 0; t < levels.size(); ++t) {
         const Extremes right = t + 1 < levels.size() ? bands.column(t + 1) : Extremes{};
         Extremes near = here;
-        near.take(left.mean, left.darkest);
-        near.take(right.mean, right.darkest);
+        near.take(left);
+        near.take(right);
         left = here;
         here = right;
         const int contrast = near.mean - near.darkest;
