@@ -176,7 +176,8 @@ class SimilarPlaces {
         : sequence_(a), own_(own) {
         for (int step = 0; step < steps.count; ++step) {
             const std::uint8_t parts = steps.losses[static_cast<std::size_t>(step)];
-            if (parts != 0) {
+            // Less is not worth the work.
+            if (parts > 1) {
                 steps_[count_++] = {a.places_of[a.digits[own]], static_cast<std::uint8_t>(step),
                                     parts};
             }
@@ -198,6 +199,7 @@ class SimilarPlaces {
             before = step.ahead;
             counted = ~(equal | counted);
             losses.add(counted, step.parts);
+            if (losses.enough() == ~std::uint32_t{0}) return 0;
         }
         const std::uint32_t places = sequence_.length - 32 * word;
         std::uint32_t similar = ~losses.enough();
