@@ -90,9 +90,10 @@ Status find_grid_thoroughly(const Options& options, Workspace& w) {
                              w.grid_from_image);
 }
 
-/// Dots and grid -> bits.
+/// Dots and grid, which is affine -> bits.
 Status read_bits(Workspace& w) {
-    return core::assign_likelihoods(w.found_dots(), w.grid_from_image, w.grid);  // II-B.4, eq. 7-9
+    const core::Cells cells(w.grid_from_image);
+    return core::assign_likelihoods(w.found_dots(), cells, w.grid);  // II-B.4, eq. 7-9
 }
 
 auto* decoder(const Options& options) {
@@ -242,7 +243,9 @@ Fix locate_filtered(const ImageView& image, const Options& options, Workspace& w
         push_row(core::next_smooth_row(image, w.smoothing), filtered, w);
     if (status == Status::ok) status = find_dots(filtered, w);
     if (status == Status::ok) status = find_grid_thoroughly(filtered, w);
-    if (status == Status::ok) status = read_bits(w);
+    if (status == Status::ok) {
+        status = core::assign_likelihoods(w.found_dots(), w.grid_from_image, w.grid);
+    }
     if (status == Status::ok) {
         const bool is_one_pattern =
             core::look_at_cells(image, w.smoothing.paper, options.lens, w.grid_from_image, w.grid);

@@ -1,7 +1,5 @@
 #include "core/decode/likelihood.hpp"
 
-#include "core/cells.hpp"
-
 namespace dotpose::core {
 namespace {
 
@@ -81,11 +79,18 @@ Status assign(std::span<const Dot> dots, PointOf point_of, Grid& grid) {
 
 Status assign_likelihoods(std::span<const Dot> dots, const PlaneFromImage& grid_from_image,
                           Grid& grid) {
-    const auto exactly = [&](const Dot& dot) { return grid_point(grid_from_image, dot.centre_q8); };
-    if (!is_affine(grid_from_image)) return assign(dots, exactly, grid);
-    const Cells cells(grid_from_image);
-    const auto quickly = [&](const Dot& dot) { return cells(cells.from_centre_q3(dot.centre_q8)); };
-    return assign(dots, quickly, grid);
+    if (is_affine(grid_from_image)) return assign_likelihoods(dots, Cells(grid_from_image), grid);
+    const auto point_of = [&](const Dot& dot) {
+        return grid_point(grid_from_image, dot.centre_q8);
+    };
+    return assign(dots, point_of, grid);
+}
+
+Status assign_likelihoods(std::span<const Dot> dots, const Cells& cells, Grid& grid) {
+    const auto point_of = [&](const Dot& dot) {
+        return cells(cells.from_centre_q3(dot.centre_q8));
+    };
+    return assign(dots, point_of, grid);
 }
 
 }  // namespace dotpose::core

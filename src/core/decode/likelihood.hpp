@@ -1,6 +1,7 @@
 // Likelihood: how likely each bit of each dot is 1 or 0. Paper section II-B.4, eq. 7-9, Fig. 7-8.
 #pragma once
 
+#include "core/cells.hpp"
 #include "dotpose/status.hpp"
 #include "dotpose/workspace.hpp"
 
@@ -16,6 +17,9 @@ void lay_out(Vec least, Vec most, Grid& grid);
 /// kept of a larger grid. Errors: grid_too_small.
 Status assign_likelihoods(std::span<const Dot> dots, const PlaneFromImage& grid_from_image,
                           Grid& grid);
+
+/// The same without perspective and lens: all that devices need.
+Status assign_likelihoods(std::span<const Dot> dots, const Cells& cells, Grid& grid);
 
 /// |P^(x) P^(y)|: how likely a dot represents its symbol.
 inline int quality(const GridCell& cell) {
