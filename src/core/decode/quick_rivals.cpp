@@ -105,11 +105,11 @@ int far_log2_q8(const Contest& contest, bool roughly) {
 /// Steps between adjacent lines in which digits are compared.
 constexpr int kMostSteps = 18;
 
-/// What a rival has lost at least, from the steps in which its digits differ from the reading's:
-/// there it does not share one of the two lines, and loses at least the lesser loss of both. In
-/// parts of what is enough, rounded down.
+/// Parts that make up what is enough.
 constexpr unsigned kEnough = 16;
 
+/// What a rival loses at least where its digits differ from the reading's: one of the two lines of
+/// the step is not shared, so the lesser loss of both. In parts of what is enough, rounded down.
 struct Steps {
     Steps(const Contest& contest, int first_line_, int count_, int enough);
 
