@@ -123,8 +123,7 @@ bool choose_windows(Located& l) {
         core::choose_window(l.w.grid, static_cast<int>(l.w.line_scores.size() / 2));
     // Devices have no use for the smaller one.
     const Region& found = l.w.decoding.window;
-    return (found.columns == 0 || window.i0 == found.i0) &&
-           region.i0 == l.w.decoding.region.i0;
+    return (found.columns == 0 || window.i0 == found.i0) && region.i0 == l.w.decoding.region.i0;
 }
 
 bool rank_turns(Located& l) {

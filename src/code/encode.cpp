@@ -42,29 +42,42 @@ int section_of(Profile profile, int roll_seen, std::uint32_t position,
         static_cast<std::uint32_t>(roll_seen + 2 * kSections - roll(profile, position) - shift)));
 }
 
-Place moved(Profile profile, Place place, std::int32_t dx, std::int32_t dy) noexcept {
+namespace {
+
+/// One axis of a place: its position, the section of its own lines and that of those across.
+struct AxisPlace {
+    std::uint32_t position;
+    std::uint8_t own;
+    std::uint8_t cross;
+};
+
+// By itself, as it is needed twice and rarely goes past an end.
+[[gnu::noinline]] AxisPlace moved(Profile profile, AxisPlace place, std::int32_t distance) {
+    const std::int64_t target = std::int64_t{place.position} + distance;
+    const bool is_before = target < 0;
+    if (!is_before && target < kPositionsPerAxis) {
+        place.position = static_cast<std::uint32_t>(target);
+        return place;
+    }
     // Going once around x, columns find their rolls shifted by those of a whole turn, and rows read
     // at an x that is a whole turn larger.
-    const auto step = [&](std::uint32_t& p, std::int32_t d, std::uint8_t& own,
-                          std::uint8_t& cross) {
-        const auto turn_roll = [&] { return roll(profile, kPositionsPerAxis); };
-        constexpr int kTurnShift = kPositionsPerAxis % kSections;
-        const std::int64_t target = std::int64_t{p} + d;
-        if (target < 0) {
-            own = static_cast<std::uint8_t>((own + kSections - turn_roll()) % kSections);
-            cross = static_cast<std::uint8_t>((cross + kSections - kTurnShift) % kSections);
-            p = static_cast<std::uint32_t>(target + kPositionsPerAxis);
-        } else if (target >= kPositionsPerAxis) {
-            own = static_cast<std::uint8_t>((own + turn_roll()) % kSections);
-            cross = static_cast<std::uint8_t>((cross + kTurnShift) % kSections);
-            p = static_cast<std::uint32_t>(target - kPositionsPerAxis);
-        } else {
-            p = static_cast<std::uint32_t>(target);
-        }
+    const auto shifted = [&](int section, int by) {
+        const int sum = section + (is_before ? kSections - by : by);
+        return static_cast<std::uint8_t>(sum % kSections);
     };
-    step(place.cell.x, dx, place.section.u, place.section.v);
-    step(place.cell.y, dy, place.section.v, place.section.u);
+    place.own = shifted(place.own, roll(profile, kPositionsPerAxis));
+    place.cross = shifted(place.cross, kPositionsPerAxis % kSections);
+    const std::int64_t turn = kPositionsPerAxis;
+    place.position = static_cast<std::uint32_t>(is_before ? target + turn : target - turn);
     return place;
+}
+
+}  // namespace
+
+Place moved(Profile profile, Place place, std::int32_t dx, std::int32_t dy) noexcept {
+    const AxisPlace x = moved(profile, {place.cell.x, place.section.u, place.section.v}, dx);
+    const AxisPlace y = moved(profile, {place.cell.y, x.cross, x.own}, dy);
+    return {{x.position, y.position}, {y.cross, y.own}};
 }
 
 }  // namespace dotpose

@@ -6,8 +6,8 @@
 namespace dotpose::core {
 namespace {
 
-/// Most rivals are hopeless after so many lines.
-constexpr std::size_t kFirstLines = 5;
+/// Most rivals are hopeless after so many lines: all there are, where there are fewest.
+constexpr std::size_t kFirstLines = 6;
 /// More than any loss makes up for.
 constexpr std::int32_t kNoLoss = INT32_MIN / 8;
 

@@ -105,11 +105,11 @@ int far_log2_q8(const Contest& contest, bool roughly) {
 /// Steps between adjacent lines in which digits are compared.
 constexpr int kMostSteps = 18;
 
-/// What a rival has lost at least, from the steps in which its digits differ from the reading's:
-/// there it does not share one of the two lines, and loses at least the lesser loss of both. In
-/// parts of what is enough, rounded down.
+/// Parts that make up what is enough.
 constexpr unsigned kEnough = 16;
 
+/// What a rival loses at least where its digits differ from the reading's: one of the two lines of
+/// the step is not shared, so the lesser loss of both. In parts of what is enough, rounded down.
 struct Steps {
     Steps(const Contest& contest, int first_line_, int count_, int enough);
 
@@ -176,7 +176,8 @@ class SimilarPlaces {
         : sequence_(a), own_(own) {
         for (int step = 0; step < steps.count; ++step) {
             const std::uint8_t parts = steps.losses[static_cast<std::size_t>(step)];
-            if (parts != 0) {
+            // Less is not worth the work.
+            if (parts > 1) {
                 steps_[count_++] = {a.places_of[a.digits[own]], static_cast<std::uint8_t>(step),
                                     parts};
             }
@@ -198,6 +199,7 @@ class SimilarPlaces {
             before = step.ahead;
             counted = ~(equal | counted);
             losses.add(counted, step.parts);
+            if (losses.enough() == ~std::uint32_t{0}) return 0;
         }
         const std::uint32_t places = sequence_.length - 32 * word;
         std::uint32_t similar = ~losses.enough();

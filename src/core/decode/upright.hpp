@@ -76,13 +76,7 @@ class Upright {
   private:
     bool is_sideways() const { return turn_.quarters % 2 == 1; }
     static std::span<const std::int8_t> weights(const GridCell* cell, int stride, int count,
-                                                std::int8_t GridCell::*bit, int sign, Line& line) {
-        for (int i = 0; i < count; ++i) {
-            line[static_cast<std::size_t>(i)] =
-                static_cast<std::int8_t>(cell[i * stride].*bit * sign);
-        }
-        return std::span(line).first(static_cast<std::size_t>(count));
-    }
+                                                std::int8_t GridCell::*bit, int sign, Line& line);
 
     Region region_;
     Turn turn_;

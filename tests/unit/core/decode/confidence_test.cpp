@@ -34,6 +34,8 @@ TEST(Confidence, KeepsEachWeightInAStepAroundIt) {
             EXPECT_LE(std::abs(Confidence::weight_of(level) - weight), 4) << weight;
         }
         EXPECT_EQ(bits, 2) << weight;
+        EXPECT_EQ(found.bits(), 2) << weight;
+        EXPECT_EQ(found.wrong(), 1) << weight;
     }
 }
 

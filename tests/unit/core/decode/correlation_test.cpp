@@ -36,6 +36,9 @@ TEST(Correlation, IsWhatAgreesMinusWhatDoesNot) {
         const auto best = std::max_element(scores.begin(), scores.end());
         EXPECT_EQ(match.score, *best);
         EXPECT_EQ(match.roll, best - scores.begin());
+        const Extremes extremes = extremes_of(scores);
+        EXPECT_EQ(extremes.most, *best);
+        EXPECT_EQ(extremes.least, *std::min_element(scores.begin(), scores.end()));
     }
 }
 

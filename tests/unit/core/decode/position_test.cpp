@@ -109,8 +109,7 @@ TEST(Position, TheMirrorImageIsKnown) {
         const Reading reading(behind, turn, dots);
         ASSERT_EQ(reading.status, Status::ok);
         const Orientation orientation = rank_turns(reading.grid(), reading.decoding.region);
-        EXPECT_TRUE(
-            is_mirrored(reading.grid(), reading.decoding.region, orientation.agreement));
+        EXPECT_TRUE(is_mirrored(reading.grid(), reading.decoding.region, orientation.agreement));
     });
 }
 
