@@ -1,5 +1,7 @@
 #include "core/lattice/climb.hpp"
 
+#include <array>
+
 #include "core/fixed.hpp"
 
 namespace dotpose::core {
@@ -28,17 +30,18 @@ constexpr std::int32_t kQuarter_bam = 1 << 30;
 /// Sums of the waves over the dots near the centre.
 class Periodogram {
   public:
-    Periodogram(std::span<const Dot> dots, std::span<const std::uint16_t> seeds, Vec centre_q8)
-        : dots_(dots), seeds_(seeds), centre_q8_(centre_q8) {}
-
-    void set_reach(std::int32_t reach_q8) { reach_q8_ = reach_q8; }
+    Periodogram(std::span<const Dot> dots, std::span<const std::uint16_t> seeds, Vec centre_q8,
+                std::int32_t reach_q8) {
+        for (const std::uint16_t s : seeds) {
+            const Vec p = dots[s].centre_q8 - centre_q8;
+            if (larger_component(p) <= reach_q8) points_q8_[count_++] = p;
+        }
+    }
 
     Vec sum(const Wave& wave) const {
         const Vec wave_q30 = wave.vector_q30();
         Vec total;
-        for (const std::uint16_t s : seeds_) {
-            const Vec p = dots_[s].centre_q8 - centre_q8_;
-            if (larger_component(p) > reach_q8_) continue;
+        for (const Vec p : std::span(points_q8_).first(count_)) {
             const auto phase_q16 = static_cast<std::int32_t>(dot(wave_q30, p) >> 22);
             total.x += rough_cosine(phase_q16);
             total.y += rough_sine(phase_q16);
@@ -53,10 +56,8 @@ class Periodogram {
     }
 
   private:
-    std::span<const Dot> dots_;
-    std::span<const std::uint16_t> seeds_;
-    Vec centre_q8_;
-    std::int32_t reach_q8_ = INT32_MAX;
+    std::array<Vec, kMaxSeeds> points_q8_;  ///< from the centre
+    std::size_t count_ = 0;
 };
 
 constexpr std::int32_t kDegree_bam = 11930465;
@@ -127,20 +128,20 @@ void climb_periodogram(std::span<const Dot> dots, std::span<const std::uint16_t>
     Wave wave{angle_bam({lattice.u_q16.x / 2 + lattice.v_q16.y / 2,
                          lattice.u_q16.y / 2 - lattice.v_q16.x / 2}),
               static_cast<std::int32_t>(length_q16)};
-    Periodogram periodogram(dots, seeds, centre_q8);
-    const auto power = [&](const Wave& w) { return periodogram.power(w); };
-    const auto power_of_square = [&](const Wave& w) { return periodogram.power_of_square(w); };
     // A few cells wide, the peak is broad enough for a coarse raster to meet it.
-    periodogram.set_reach(wave.spacing_q16 / 256 * 5);
-    wave = best_around(wave, {2 * kDegree_bam, wave.spacing_q16 / 40, 6, 4}, power_of_square);
+    const Periodogram near(dots, seeds, centre_q8, wave.spacing_q16 / 256 * 5);
+    wave = best_around(wave, {2 * kDegree_bam, wave.spacing_q16 / 40, 6, 4},
+                       [&](const Wave& w) { return near.power_of_square(w); });
     // A tilted camera sees the two at their own spacings and angles.
     const Raster tilt{3 * kDegree_bam, wave.spacing_q16 / 25, 3, 3};
-    Wave first = best_around(wave, tilt, power);
-    Wave second = best_around(wave.turned(kQuarter_bam), tilt, power);
-    periodogram.set_reach(wave.spacing_q16 / 256 * 8);
-    first = climb(first, power);
-    second = climb(second, power);
-    lattice = lattice_of(periodogram, first, second, centre_q8);
+    const auto near_power = [&](const Wave& w) { return near.power(w); };
+    Wave first = best_around(wave, tilt, near_power);
+    Wave second = best_around(wave.turned(kQuarter_bam), tilt, near_power);
+    const Periodogram wider(dots, seeds, centre_q8, wave.spacing_q16 / 256 * 8);
+    const auto wider_power = [&](const Wave& w) { return wider.power(w); };
+    first = climb(first, wider_power);
+    second = climb(second, wider_power);
+    lattice = lattice_of(wider, first, second, centre_q8);
 }
 
 }  // namespace dotpose::core

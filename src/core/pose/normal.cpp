@@ -11,7 +11,7 @@ void NormalSums::add(const Sights& sights, const Residuals& residuals) {
     const auto& [cx, cy] = sights.bend;
     const auto& [rx, ry] = residuals.off;
     const Four w = residuals.weight;
-    less_points_ += w > 0;
+    less_points_ += w > 0.0F;
     // The weight goes with the later one of two parameters.
     const Four wu = w * u;
     const Four wv = w * v;

@@ -46,7 +46,7 @@ class Scatter {
         always_ = 1 - by_noise_ * mean_noise;
     }
     /// That the typical dot has, over that of a dot.
-    Four weight(Four noise) const { return 1 / (always_ + by_noise_ * noise); }
+    Four weight(Four noise) const { return 1.0F / (always_ + by_noise_ * noise); }
 
   private:
     float count_ = 0;

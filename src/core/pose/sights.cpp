@@ -37,7 +37,7 @@ Sights ScaledPlane::look(FourInts x_q8, FourInts y_q8) const {
     const Four x = __builtin_convertvector(x_q8, Four) * unit;
     const Four y = __builtin_convertvector(y_q8, Four) * unit;
     const Four r2 = x * x + y * y;
-    const Four denominator = 1 + tilt_x_ * x + tilt_y_ * y + bend_ * r2;
+    const Four denominator = 1.0F + tilt_x_ * x + tilt_y_ * y + bend_ * r2;
     const Four divisor = denominator < 0.25F ? Four{} + 0.25F : denominator;
     const Four u = x / divisor;
     const Four v = y / divisor;

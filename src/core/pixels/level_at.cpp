@@ -1,0 +1,58 @@
+#include "core/pixels/level_at.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "core/pixels/surroundings.hpp"
+
+namespace dotpose::core {
+namespace {
+
+/// Pixels that a look at one place takes in, per axis.
+constexpr int kTaps = 4;
+
+/// The binomial (1 2 1) moved by a fraction of a pixel, in 1/1024.
+// Dots blur into those of the places beside: a wider window sees more light, but more of the
+// neighbour's too, and of what lies around.
+std::array<int, kTaps> taps(std::int32_t position_q8) {
+    constexpr std::array<int, kTaps + 1> kBinomial{0, 1, 2, 1, 0};
+    const int fraction = position_q8 & 255;
+    std::array<int, kTaps> weights;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        weights[i] = kBinomial[i + 1] * (256 - fraction) + kBinomial[i] * fraction;
+    }
+    return weights;
+}
+
+/// A pixel without defect. At the border, where it has too few neighbours, the next that has them.
+int level_near(const ImageView& image, int u, int v) {
+    return without_defect(image, std::clamp(u, 1, image.width_px - 2),
+                          std::clamp(v, 1, image.height_px - 2));
+}
+
+}  // namespace
+
+bool shows_level(const ImageView& image, Vec point_q8) {
+    const int u = point_q8.x >> 8;
+    const int v = point_q8.y >> 8;
+    return u >= 0 && v >= 0 && u + 1 < image.width_px && v + 1 < image.height_px;
+}
+
+int level_at_q8(const ImageView& image, Vec point_q8) {
+    const int u0 = (point_q8.x >> 8) - 1;
+    const int v0 = (point_q8.y >> 8) - 1;
+    const auto across = taps(point_q8.x);
+    const auto down = taps(point_q8.y);
+    int sum_q18 = 0;
+    for (int v = 0; v < kTaps; ++v) {
+        int row_sum_q10 = 0;
+        for (int u = 0; u < kTaps; ++u) {
+            row_sum_q10 += across[static_cast<std::size_t>(u)] * level_near(image, u0 + u, v0 + v);
+        }
+        sum_q18 += down[static_cast<std::size_t>(v)] * (row_sum_q10 >> 2);
+    }
+    return sum_q18 >> 10;
+}
+
+}  // namespace dotpose::core
