@@ -109,8 +109,8 @@ struct OpenBlob {
     std::int32_t first_u = 0;
     std::int32_t first_v = 0;
     std::int32_t last_v = 0;
-    OpenBlob* part_of =
-        nullptr;  ///< the blob that it was found to belong to; unused: the next such
+    /// The blob that it was found to belong to; of one that is not in use, the next such.
+    OpenBlob* part_of = nullptr;
     bool has_core = false;
     bool is_dot = true;  ///< false once it touches the border or is larger than any dot
     bool in_use = false;
@@ -339,9 +339,7 @@ class DeviceWorkspace : public Workspace {
         max_width_px = kWidth_px;
         dots = dots_;
         Shelf pixels{memory_};
-        pixels.take(light.rows,
-                    2 * kSmallestTile_px * (kKeptMargin_px + kTiles * kSmallestTile_px));
-        open.most_runs = kMostRuns;
+        pixels.take(light.rows, kRowBytes);
         pixels.take(open.blobs, kBlobs);
         pixels.take(open.runs, 2 * kRuns);
         pixels.take(light.half_levels, kTiles);
@@ -355,6 +353,7 @@ class DeviceWorkspace : public Workspace {
         decoders.take(grid.storage, kGridSide * kGridSide);
         decoders.take(line_scores, 2 * kGridSide);
         grid.side = kGridSide;
+        open.most_runs = kMostRuns;
     }
     DeviceWorkspace(const DeviceWorkspace&) = delete;
     DeviceWorkspace& operator=(const DeviceWorkspace&) = delete;
@@ -382,9 +381,19 @@ class DeviceWorkspace : public Workspace {
         }
     };
 
+    static constexpr std::size_t kRowBytes =
+        2 * kSmallestTile_px * (kKeptMargin_px + kTiles * kSmallestTile_px);
+    static constexpr std::size_t kPixelBytes =
+        kRowBytes + kBlobs * sizeof(OpenBlob) + 2 * kRuns * sizeof(Run) +
+        kTiles * (sizeof(std::size_t) + 4 * sizeof(Tile) + sizeof(Levels));
+    static constexpr std::size_t kLatticeBytes =
+        kSeeds * (2 * sizeof(Edge) + 4 * sizeof(std::int16_t) + sizeof(std::uint16_t));
+    static constexpr std::size_t kDecoderBytes =
+        kGridSide * kGridSide * sizeof(GridCell) + 2 * kGridSide * sizeof(LineScores);
+
     std::array<Dot, kDots> dots_{};
-    alignas(8) std::array<std::byte, kGridSide * kGridSide * sizeof(GridCell) +
-                                         2 * kGridSide * sizeof(LineScores)> memory_{};
+    alignas(
+        8) std::array<std::byte, std::max({kPixelBytes, kLatticeBytes, kDecoderBytes})> memory_{};
 };
 
 /// For the paper's 188 x 120 px sensor.
