@@ -57,7 +57,7 @@ int log2_of_others_q8(const Contest& contest, int line) {
         sum_q12 += kPowers[std::min(half_bits, kPowers.size() - 1)];
     }
     // log2(1 + f) is at most f + 0.087.
-    const int whole = std::bit_width(sum_q12) - 1;
+    const int whole = static_cast<int>(std::bit_width(sum_q12)) - 1;
     const auto fraction_q8 = static_cast<int>(sum_q12 * 256 >> whole) - 256;
     return (whole - 12) * 256 + fraction_q8 + 23;
 }
