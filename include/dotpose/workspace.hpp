@@ -366,7 +366,7 @@ class DeviceWorkspace : public Workspace {
     static constexpr int kGridSide = 24;
     // Runs and blobs of one row: many more than dots; what exceeds them is noise or graphics.
     static constexpr int kRuns = 64;
-    static constexpr int kBlobs = 72;
+    static constexpr int kBlobs = 56;
     // Of a whole frame, to bound the time: dots have 500, and noisy frames that were ever located
     // up to 2,600.
     static constexpr int kMostRuns = 2800;

@@ -31,7 +31,10 @@ PlaneFromImage plane_from_lattice(const Lattice& lattice, Vec centre_q8) {
 
 std::int64_t divisor_q30(const PlaneFromImage& plane, Vec from_centre_q8) {
     const std::int64_t tilt_q30 = dot(plane.perspective_q30, from_centre_q8) >> 8;
-    const std::int64_t bend_q30 = (plane.lens_q40 * (squared(from_centre_q8) >> 8)) >> 18;
+    // Farther from the centre than any pixel, bending no more keeps within 64 bits.
+    constexpr std::int64_t kFarthest_q8 = (std::int64_t{1} << 32) - 1;
+    const std::int64_t distance_q8 = std::min(squared(from_centre_q8) >> 8, kFarthest_q8);
+    const std::int64_t bend_q30 = (plane.lens_q40 * distance_q8) >> 18;
     return std::max(kOne_q30 + tilt_q30 + bend_q30, kOne_q30 / 4);
 }
 
@@ -52,6 +55,12 @@ Vec image_point_q8(const PlaneFromImage& plane, Vec plane_point) {
     // Newton's method with the slope where the search stands; exact at once where it is the same
     // everywhere, but for what the division cuts off.
     constexpr int kMostRounds = 12;
+    // Where the map folds, the search may leave all images behind.
+    constexpr std::int32_t kFarthest_q8 = 1 << 21;
+    const auto within_reach = [](std::int64_t a_q8) {
+        return static_cast<std::int32_t>(
+            std::clamp<std::int64_t>(a_q8, -kFarthest_q8, kFarthest_q8));
+    };
     Vec point_q8 = plane.centre_q8;
     for (int round = 0; round < kMostRounds; ++round) {
         const PlaneFromImage here = is_affine(plane) ? plane : tangent(plane, point_q8);
@@ -59,11 +68,11 @@ Vec image_point_q8(const PlaneFromImage& plane, Vec plane_point) {
             std::max<std::int64_t>(cross(here.du_q24, here.dv_q24) >> 16, 1);
         const Vec missing_q16 = plane_point - plane_point_q16(plane, point_q8);
         const auto quotient = [&](std::int64_t numerator_q40) {
-            return static_cast<std::int32_t>(divide_rounded(numerator_q40, area_q32));
+            return within_reach(divide_rounded(numerator_q40, area_q32));
         };
         const Vec step_q8{quotient(cross(missing_q16, here.dv_q24)),
                           quotient(cross(here.du_q24, missing_q16))};
-        point_q8 = point_q8 + step_q8;
+        point_q8 = {within_reach(point_q8.x + step_q8.x), within_reach(point_q8.y + step_q8.y)};
         if (step_q8 == Vec{}) break;
     }
     return point_q8;
@@ -87,7 +96,9 @@ PlaneFromImage tangent(const PlaneFromImage& plane, Vec image_point_q8) {
     // Quotient rule, with d(divisor) = perspective + 2 lens (x, y).
     const auto slope = [&](Vec linear_q24, std::int32_t perspective_q30, std::int32_t along_q8) {
         const std::int64_t bend_q30 = (std::int64_t{plane.lens_q40} * along_q8) >> 17;
-        const std::int64_t d_q30 = perspective_q30 + bend_q30;
+        constexpr std::int64_t kSteepest_q30 = std::int64_t{1} << 31;
+        const std::int64_t d_q30 =
+            std::clamp(perspective_q30 + bend_q30, -kSteepest_q30, kSteepest_q30);
         const auto component = [&](std::int32_t a_q24, std::int32_t value_q16) {
             return static_cast<std::int32_t>(a_q24 - ((value_q16 * d_q30) >> 22));
         };

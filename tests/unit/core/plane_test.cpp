@@ -86,6 +86,20 @@ TEST(Plane, ImagePointsAreTheInverse) {
     }
 }
 
+TEST(Plane, TheSearchForImagePointsEndsWhereTheMapFolds) {
+    // As much lens as any fit can hold, far outside of what it was fitted to: no image point is
+    // there, and none of the numbers may overflow on the way.
+    Rng rng(kSeed);
+    for (int i = 0; i < 2000; ++i) {
+        SCOPED_TRACE(testing::Message() << "plane " << i << ", seed " << kSeed);
+        PlaneFromImage plane = random_plane(rng, 188, true);
+        plane.lens_q40 = static_cast<std::int32_t>(rng.bits()) >> rng.below(13);
+        const Vec far = fixed({rng.uniform(-250, 250), rng.uniform(-250, 250)}, 16);
+        const Vec found = image_point_q8(plane, far);
+        EXPECT_LE(larger_component(found), 1 << 21);
+    }
+}
+
 TEST(Plane, TheTangentHasItsValueAndSlope) {
     Rng rng(kSeed);
     for (int i = 0; i < 200; ++i) {
