@@ -34,7 +34,7 @@ class Buckets {
         const std::uint16_t* const begins = &begin_[static_cast<std::size_t>(row * columns_)];
         const std::size_t begin = begins[first];
         const std::size_t end = begins[last + 1];
-        return {&sorted_[begin], end - begin};
+        return all().subspan(begin, end - begin);
     }
 
   private:

@@ -35,7 +35,10 @@ bool may_be_neighbours(const Dot& a, const Dot& b) {
     return std::max(x, y) < 128 * 256;
 }
 
-/// Points of one of several kinds: scattered, in clumps, on a line, on a grid, some twice.
+constexpr int kKinds = 6;
+
+/// Points of one of several kinds: scattered, in clumps, on a line, on a grid, some twice, on a
+/// grid whose last row has one dot when the list is full.
 std::vector<Dot> points(Rng& rng, int count, int kind) {
     std::vector<Dot> dots;
     for (int i = 0; i < count; ++i) {
@@ -44,6 +47,7 @@ std::vector<Dot> points(Rng& rng, int count, int kind) {
         if (kind == 2) p = {11.0 * i, 3.0 * i};
         if (kind == 3) p = {11.0 * (i % 16), 11.0 * (i / 16)};
         if (kind == 4 && i % 5 == 4) p = real(dots[static_cast<std::size_t>(i - 1)].centre_q8, 8);
+        if (kind == 5) p = {11.0 * (i % 17), 16.0 * (i / 17)};
         dots.push_back(dot_at(p));
     }
     return dots;
@@ -52,14 +56,17 @@ std::vector<Dot> points(Rng& rng, int count, int kind) {
 TEST(Neighbours, AreTheFourNearestOfAll) {
     Rng rng(kSeed);
     for (int set = 0; set < 300; ++set) {
-        const int count = set < 10 ? set + 1 : 1 + static_cast<int>(rng.below(kMaxSeeds));
-        const auto dots = points(rng, count, set % 5);
+        const bool is_full = set % 4 == 3;
+        const int count = is_full    ? kMaxSeeds
+                          : set < 10 ? set + 1
+                                     : 1 + static_cast<int>(rng.below(kMaxSeeds));
+        const auto dots = points(rng, count, set % kKinds);
         // Seeds are some of the dots, in any order.
         auto seeds = all_of(dots);
         for (std::size_t i = seeds.size(); i > 1; --i) {
             std::swap(seeds[i - 1], seeds[rng.below(static_cast<std::uint32_t>(i))]);
         }
-        if (seeds.size() > 40) seeds.resize(seeds.size() - 20);
+        if (seeds.size() > 40 && !is_full) seeds.resize(seeds.size() - 20);
         Table found(seeds.size());
         find_neighbours(dots, seeds, found);
         for (std::size_t s = 0; s < seeds.size(); ++s) {
@@ -95,7 +102,7 @@ TEST(Neighbours, EdgesAreThosePairsThatBothEndsCount) {
     Rng rng(kSeed);
     for (int set = 0; set < 200; ++set) {
         SCOPED_TRACE(testing::Message() << "set " << set << ", seed " << kSeed);
-        const auto dots = points(rng, 1 + static_cast<int>(rng.below(kMaxSeeds)), set % 5);
+        const auto dots = points(rng, 1 + static_cast<int>(rng.below(kMaxSeeds)), set % kKinds);
         const auto seeds = all_of(dots);
         Table neighbours(seeds.size());
         find_neighbours(dots, seeds, neighbours);
