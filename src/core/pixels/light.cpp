@@ -44,7 +44,6 @@ void keep_row(const std::uint8_t* pixels, const Light& light, std::uint8_t* row)
     if (u < width) std::copy(pixels + u, pixels + width, row + u);
     for (u = width; u < whole; ++u)
         row[u] = pixels[width - 1];
-    std::fill_n(row - kKeptMargin_px, kKeptMargin_px, std::uint8_t{255});
 }
 
 /// The least of all bytes, seven bits each; tops are set.
@@ -173,6 +172,8 @@ void begin_light(int width_px, int height_px, Light& light) {
     light.tiles_per_band = (width_px + light.tile_px - 1) / light.tile_px;
     light.rows_taken = 0;
     light.has_contrast = false;
+    for (int v = 0; v < 2 * light.tile_px; ++v)
+        std::fill_n(kept_row(light, v) - kKeptMargin_px, kKeptMargin_px, std::uint8_t{255});
 }
 
 int take_row(const std::uint8_t* pixels, Light& light) {

@@ -14,6 +14,7 @@ int blocks_along(int length_px, int side) {
 
 /// The level that a third of a block's pixels exceed; of some of them, evenly spread.
 std::uint8_t paper_of_block(const ImageView& image, int u0, int v0, int side) {
+    static_assert(kSamplesPerSide * kSamplesPerSide <= UINT8_MAX);
     std::array<std::uint8_t, 256> pixels_of_level{};
     int count = 0;
     const int step = std::max(side / kSamplesPerSide, 1);
