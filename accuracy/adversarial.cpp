@@ -1,15 +1,18 @@
 // How often is `locate` deceived?
 //
-//   dotpose_adversarial [--frames N] [--seed S] [--threads N]
+//   dotpose_adversarial [--frames N] [--class NAME] [--seed S] [--threads N]
 //
-// N frames, evenly over the classes of tests/adversarial_frames.hpp. Exits 1 if any fix is wrong.
+// N frames, evenly over the classes of tests/adversarial_frames.hpp, or all of one class. Exits 1
+// if any fix is wrong.
 // Ctrl-C prints the table of the frames seen so far. The times are wall time on one thread.
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdlib>
+#include <map>
 #include <memory>
 #include <numeric>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -62,16 +65,15 @@ struct Tally {
     }
 };
 
-void try_frame(std::uint64_t seed, std::uint64_t frame_index, Workspace& workspace, Tally& tally) {
-    const std::size_t n = frame_index % kClasses;
-    const std::uint64_t index = frame_index / kClasses;
+void try_frame(Adversary adversary, std::uint64_t seed, std::uint64_t index, Workspace& workspace,
+               Tally& tally) {
     const auto start = Clock::now();
-    const test::AdversarialFrame frame = test::make_adversarial(test::kAdversaries[n], seed, index);
+    const test::AdversarialFrame frame = test::make_adversarial(adversary, seed, index);
     const auto rendered = Clock::now();
     const Fix fix = locate(frame.image.view(), frame.options, workspace);
     const auto located = Clock::now();
     const Verdict verdict = test::judge(fix, frame);
-    ClassTally& mine = tally.classes[n];
+    ClassTally& mine = tally.classes[static_cast<std::size_t>(adversary)];
     ++mine.verdicts[static_cast<std::size_t>(verdict)];
     mine.rendering += rendered - start;
     mine.locating += located - rendered;
@@ -79,8 +81,8 @@ void try_frame(std::uint64_t seed, std::uint64_t frame_index, Workspace& workspa
         tally.wrong.push_back(fmt::format(
             "wrong: {}, seed {}, index {}: cell {}, {}, theta {:.3f}, section {}, {}, 2^{}, "
             "{} bit errors",
-            name(test::kAdversaries[n]), seed, index, fix.cell.x, fix.cell.y, fix.theta_rad(),
-            fix.section.u, fix.section.v, fix.p_wrong_log2, fix.bit_errors));
+            name(adversary), seed, index, fix.cell.x, fix.cell.y, fix.theta_rad(), fix.section.u,
+            fix.section.v, fix.p_wrong_log2, fix.bit_errors));
     }
 }
 
@@ -105,17 +107,19 @@ void print(Tally& tally) {
     fmt::print(" {:>9} {:>9}\n", "render ms", "locate ms");
     ClassTally all;
     for (std::size_t c = 0; c < kClasses; ++c) {
+        if (tally.classes[c].frames() == 0) continue;
         line(name(test::kAdversaries[c]), tally.classes[c]);
         all += tally.classes[c];
     }
     line("all", all);
 }
 
-int run(const Counting& counting, std::uint64_t frames) {
+int run(const Counting& counting, std::uint64_t frames, std::span<const Adversary> adversaries) {
     Count<Tally> count = count_on_threads<Tally>(
         "adversarial frames", frames, counting.threads, [&](std::uint64_t i, Tally& mine) {
             thread_local const auto kWorkspace = std::make_unique<LargeWorkspace>();
-            try_frame(counting.seed, i, *kWorkspace, mine);
+            try_frame(adversaries[i % adversaries.size()], counting.seed, i / adversaries.size(),
+                      *kWorkspace, mine);
         });
     print(count.tally);
     fmt::print("seed {}, {} threads: {}\n", counting.seed, counting.threads,
@@ -131,6 +135,12 @@ int main(int argc, char** argv) {
     CLI::App app("How often is `locate` deceived? Status 1 if any fix is wrong.",
                  "dotpose_adversarial");
     add_count(app, "--frames", frames, "How many, evenly over the classes");
+    std::map<std::string, Adversary> by_name;
+    for (const Adversary adversary : test::kAdversaries)
+        by_name.emplace(name(adversary), adversary);
+    std::vector<Adversary> adversaries(test::kAdversaries.begin(), test::kAdversaries.end());
+    app.add_option("--class", adversaries, "Only frames of this class, given once or more")
+        ->transform(CLI::CheckedTransformer(by_name));
     counting.add_to(app);
-    return run_program(app, argc, argv, [&] { return run(counting, frames); });
+    return run_program(app, argc, argv, [&] { return run(counting, frames, adversaries); });
 }

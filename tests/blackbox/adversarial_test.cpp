@@ -37,6 +37,27 @@ TEST(Adversarial, ColumnsAndRowsAreOfOnePattern) {
     EXPECT_NE(test::judge(fix, frame), test::Verdict::wrong);
 }
 
+// A seam between two sections makes one step of one sequence another one, and elsewhere in that
+// sequence stand just the digits that come of it: each of these was once located there.
+TEST(Adversarial, WhatASeamExplainsBetterIsNoFix) {
+    const auto workspace = std::make_unique<LargeWorkspace>();
+    struct Seam {
+        std::uint64_t seed;
+        std::uint64_t index;
+    };
+    for (const Seam& seam : {Seam{11007, 1674}, {11009, 89}, {11016, 1875}, {11019, 578}}) {
+        const test::AdversarialFrame frame =
+            test::make_adversarial(Adversary::seam, seam.seed, seam.index);
+        for (const Effort effort : {Effort::device, Effort::once, Effort::twice}) {
+            Options options = frame.options;
+            options.effort = effort;
+            const Fix fix = locate(frame.image.view(), options, *workspace);
+            EXPECT_NE(test::judge(fix, frame), test::Verdict::wrong)
+                << "index " << seam.index << ", seed " << seam.seed;
+        }
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Classes, AdversarialClass, testing::ValuesIn(test::kAdversaries),
                          [](const testing::TestParamInfo<Adversary>& adversary) {
                              std::string title(test::name(adversary.param));

@@ -10,12 +10,16 @@
 
 namespace dotpose::core {
 
+/// Lines in a row that two positions share at most; in the misprinted code.
+inline constexpr int kMostShared = 7;
+
 /// Odds below 2^-64 are not followed up, but still counted, at this value.
 inline constexpr int kNegligible_q8 = -64 * 256;
 inline constexpr float kNegligible = 5.5e-20F;
 
 class Contest {
   public:
+    /// Odds are above 0.
     Contest(Profile profile, const Lines& lines_, const AxisReading& reading, int odds_per_bit_q8);
 
     /// Score that a rival gives up in a line whose roll it puts `shift` further; |shift| < 63.
@@ -32,6 +36,8 @@ class Contest {
     int least_loss(int line) const { return least_losses_[static_cast<std::size_t>(line)]; }
     /// The most that it may win back in lines that another roll suits better.
     int most_regained() const { return most_regained_; }
+    /// Lines in a row that a rival shares at most.
+    int most_shared() const { return basis[3].has_twins ? kMostShared : code::kOrder; }
     /// Odds of a rival, against the reading, that has lost so much score: a power of two in 2^-8.
     int log2_odds_q8(int lost) const {
         // Half of the score is weight; 129 / 2^15 is 1 / (2 * 127). More loss makes no difference.

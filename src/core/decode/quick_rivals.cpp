@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "core/decode/similar_places.hpp"
+
 namespace dotpose::core {
 namespace {
 
@@ -23,13 +25,6 @@ constexpr std::array<Set, 5> kSets{
     {{3694, -661}, {4444, -811}, {5712, -1067}, {6057, -1217}, {7326, -1473}}};
 /// log2(1.03): see ExpectedRivals.
 constexpr int kUnevenness_q8 = 11;
-
-/// Lines in a row that two positions share at most; in the misprinted code.
-constexpr int kMostShared = 7;
-
-int most_shared(const Contest& contest) {
-    return contest.basis[3].has_twins ? kMostShared : code::kOrder;
-}
 
 /// What a rival that does not share a line may have in odds there.
 struct LineOdds {
@@ -66,7 +61,7 @@ int log2_of_others_q8(const Contest& contest, int line) {
 /// most the probability of the one that stays shared, so a line has at most that share of the sum
 /// of its odds, and at most the best of them.
 int far_log2_q8(const Contest& contest, const Set& set, const AllLineOdds& odds) {
-    const int most = most_shared(contest);
+    const int most = contest.most_shared();
     const int equal = set.equal_q8 + kUnevenness_q8;
     // All sums are divided by the probability that every line so far is shared: then those that
     // share the lines from one on, and none before it, stay as they are.
@@ -101,124 +96,6 @@ int far_log2_q8(const Contest& contest, bool roughly) {
         sum = add_log2(sum, far_log2_q8(contest, set, odds));
     return sum;
 }
-
-/// Steps between adjacent lines in which digits are compared.
-constexpr int kMostSteps = 18;
-
-/// Parts that make up what is enough.
-constexpr unsigned kEnough = 16;
-
-/// What a rival loses at least where its digits differ from the reading's: one of the two lines of
-/// the step is not shared, so the lesser loss of both. In parts of what is enough, rounded down.
-struct Steps {
-    Steps(const Contest& contest, int first_line_, int count_, int enough);
-
-    int first_line;
-    int count;
-    std::array<std::uint8_t, kMostSteps> losses;
-};
-
-Steps::Steps(const Contest& contest, int first_line_, int count_, int enough)
-    : first_line(first_line_), count(count_) {
-    constexpr int kParts = kEnough;
-    const int part = (enough + kParts - 1) / kParts;
-    for (int step = 0; step < count; ++step) {
-        const int line = first_line + step;
-        int lost = std::min(contest.least_loss(line), contest.least_loss(line + 1));
-        std::uint8_t parts = 0;
-        for (; parts < kParts && lost >= part; lost -= part)
-            ++parts;
-        losses[static_cast<std::size_t>(step)] = parts;
-    }
-}
-
-/// Losses of 32 rivals, one in each bit.
-class Losses {
-  public:
-    void add(std::uint32_t rivals, unsigned parts) {
-        if (parts >= kEnough) {
-            enough_ |= rivals;
-            return;
-        }
-        std::uint32_t carry = 0;
-        add_digit(ones_, (parts & 1) != 0, rivals, carry);
-        add_digit(twos_, (parts & 2) != 0, rivals, carry);
-        add_digit(fours_, (parts & 4) != 0, rivals, carry);
-        add_digit(eights_, (parts & 8) != 0, rivals, carry);
-        enough_ |= carry;
-    }
-    /// Which have lost enough.
-    std::uint32_t enough() const { return enough_; }
-
-  private:
-    static void add_digit(std::uint32_t& digit, bool adds, std::uint32_t rivals,
-                          std::uint32_t& carry) {
-        const std::uint32_t before = digit;
-        digit ^= carry;
-        carry &= before;
-        if (!adds) return;
-        carry |= digit & rivals;
-        digit ^= rivals;
-    }
-
-    std::uint32_t ones_ = 0;
-    std::uint32_t twos_ = 0;
-    std::uint32_t fours_ = 0;
-    std::uint32_t eights_ = 0;
-    std::uint32_t enough_ = 0;
-};
-
-/// The rivals that differ in one sequence so little that, as far as the steps tell, not enough is
-/// lost: by their places at the first step, 32 at a time.
-class SimilarPlaces {
-  public:
-    SimilarPlaces(const code::Secondary& a, std::uint32_t own, const Steps& steps)
-        : sequence_(a), own_(own) {
-        for (int step = 0; step < steps.count; ++step) {
-            const std::uint8_t parts = steps.losses[static_cast<std::size_t>(step)];
-            // Less is not worth the work.
-            if (parts > 1) {
-                steps_[count_++] = {a.places_of[a.digits[own]], static_cast<std::uint8_t>(step),
-                                    parts};
-            }
-            if (++own == a.length) own = 0;
-        }
-    }
-
-    /// Of the places from 32 * word on.
-    // By itself, so that small processors can keep what it needs in registers.
-    [[gnu::noinline]] std::uint32_t operator[](std::uint32_t word) const {
-        Losses losses;
-        std::uint32_t counted = 0;
-        int before = -1;
-        for (const Step& step : std::span(steps_).first(count_)) {
-            const std::uint32_t* here = step.places + word;
-            const std::uint32_t equal = here[0] >> step.ahead | here[1] << 1 << (31 - step.ahead);
-            // No line is counted twice, as part of two steps.
-            if (step.ahead != before + 1) counted = 0;
-            before = step.ahead;
-            counted = ~(equal | counted);
-            losses.add(counted, step.parts);
-            if (losses.enough() == ~std::uint32_t{0}) return 0;
-        }
-        const std::uint32_t places = sequence_.length - 32 * word;
-        std::uint32_t similar = ~losses.enough();
-        if (places < 32) similar &= (std::uint32_t{1} << places) - 1;
-        if (own_ / 32 == word) similar &= ~(std::uint32_t{1} << own_ % 32);
-        return similar;
-    }
-
-  private:
-    struct Step {
-        const std::uint32_t* places;  ///< where the reading's digit stands
-        std::uint8_t ahead;
-        std::uint8_t parts;  ///< of what is enough
-    };
-    const code::Secondary& sequence_;
-    std::uint32_t own_;
-    std::size_t count_ = 0;
-    std::array<Step, kMostSteps> steps_;
-};
 
 /// Rivals that differ in one sequence, at every shift at which they share lines enough to matter.
 class ByShift {
@@ -309,26 +186,14 @@ int ByShift::add_closely(std::size_t sequence, std::uint32_t place, int sum) con
 /// others, few, are looked at one by one.
 int singles_log2_q8(const Contest& contest) {
     const int lines = contest.lines.count();
-    const int count = std::min(lines - 1, kMostSteps);
     const int enough = contest.loss_for(kPassedOver_q8) + contest.most_regained();
-    const Steps steps(contest, (lines - 1 - count) / 2, count, enough);
     ByShift by_shift(contest, enough);
     int sum = kSingles_q8 + kPassedOver_q8 +
               256 * static_cast<int>(std::bit_width(static_cast<unsigned>(lines)));
-    for (std::size_t k = 0; k < contest.basis.size(); ++k) {
-        const code::Secondary& a = contest.basis[k];
-        const auto ahead = static_cast<std::uint32_t>(steps.first_line) % a.length;
-        const std::uint32_t own = contest.places[k] + ahead;
-        const SimilarPlaces similar(a, own < a.length ? own : own - a.length, steps);
-        for (std::uint32_t word = 0; 32 * word < a.length; ++word) {
-            std::uint32_t places = similar[word];
-            for (std::uint32_t place = 32 * word; places != 0; ++place, places >>= 1) {
-                if ((places & 1) == 0) continue;
-                sum =
-                    by_shift.add(k, place < ahead ? place + a.length - ahead : place - ahead, sum);
-            }
-        }
-    }
+    visit_similar_places(contest, Steps(contest, enough, Excused::none),
+                         [&](std::size_t sequence, std::uint32_t place) {
+                             sum = by_shift.add(sequence, place, sum);
+                         });
     return sum;
 }
 

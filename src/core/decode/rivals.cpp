@@ -12,7 +12,7 @@ namespace dotpose::core {
 namespace {
 
 /// Consecutive lines that distinct positions can share: one more, and five differences are equal.
-constexpr int kMostShared = code::kOrder;
+constexpr int kMostOfDistinct = code::kOrder;
 /// Odds at which a closer look at the rivals changes nothing any more, or cannot help.
 constexpr float kFarBelowDoubt = 1e-12F;
 constexpr float kBeyondHelp = 1e-4F;
@@ -126,18 +126,16 @@ float sum_of_near_rivals(const Contest& contest, const code::Twins& twins, int s
 
 }  // namespace
 
-int rivals_log2(Profile profile, const Lines& lines, const AxisReading& reading,
-                int odds_per_bit_q8) {
-    if (odds_per_bit_q8 <= 0 || lines.count() <= kMostShared) return 0;
-    const Contest contest(profile, lines, reading, odds_per_bit_q8);
+int rivals_log2(Profile profile, const Contest& contest) {
+    if (contest.lines.count() <= kMostOfDistinct) return 0;
     float known = sum_of_single_rivals(contest) + sum_of_other_sections(contest) +
-                  sum_of_near_rivals(contest, code::twins(profile), kMostShared);
-    float expected = sum_of_far_rivals(contest, kMostShared, 2);
+                  sum_of_near_rivals(contest, code::twins(profile), kMostOfDistinct);
+    float expected = sum_of_far_rivals(contest, kMostOfDistinct, 2);
     // The more rivals are looked at one by one, the fewer remain to be feared for their number.
     if (known + expected > kFarBelowDoubt && expected > known && expected < kBeyondHelp) {
         known += sum_of_double_rivals(contest) +
-                 sum_of_near_rivals(contest, code::twins(profile), kMostShared - 1);
-        expected = sum_of_far_rivals(contest, kMostShared - 1, 3);
+                 sum_of_near_rivals(contest, code::twins(profile), kMostOfDistinct - 1);
+        expected = sum_of_far_rivals(contest, kMostOfDistinct - 1, 3);
     }
     int exponent = 0;
     std::frexp(known + expected, &exponent);  // sum < 2^exponent

@@ -2,12 +2,11 @@
 // with it, is the true one? docs/integrity.md derives the sums.
 #pragma once
 
-#include "core/decode/lines.hpp"
+#include "core/decode/contest.hpp"
 
 namespace dotpose::core {
 
 /// Upper bound, as a power of two, of the summed odds of all rivals of a reading.
-int rivals_log2(Profile profile, const Lines& lines, const AxisReading& reading,
-                int odds_per_bit_q8);
+int rivals_log2(Profile profile, const Contest& contest);
 
 }  // namespace dotpose::core

@@ -6,6 +6,7 @@
 #include "core/decode/lines.hpp"
 #include "core/decode/quick_rivals.hpp"
 #include "core/decode/rivals.hpp"
+#include "core/decode/seam_rivals.hpp"
 #include "core/decode/upright.hpp"
 
 namespace dotpose::core {
@@ -75,8 +76,8 @@ Doubt compare_with_chance(const Grid& grid, Profile profile, const Decoding& dec
     return doubt;
 }
 
-/// Probability of each axis being wrong; `rivals_q8(lines, reading)` gives the odds of its rivals,
-/// which only add to chance: where that is too much already they are not counted.
+/// Probability of each axis being wrong; `rivals_q8(contest)` gives the odds of its rivals, which
+/// only add to chance: where that is too much already they are not counted.
 template <typename Rivals>
 std::array<int, 2> with_rivals(const Grid& grid, Profile profile, const Decoding& decoding,
                                std::span<LineScores> storage, const Doubt& doubt, int limit_q8,
@@ -90,8 +91,11 @@ std::array<int, 2> with_rivals(const Grid& grid, Profile profile, const Decoding
         const auto half = scores_of(axis, storage);
         const Lines lines = decoding.lines_are_scored ? scored_lines(upright, axis, half)
                                                       : score_lines(upright, axis, half);
-        p_wrong_q8[i] = std::min(
-            add_log2(doubt.by_chance_q8[i], rivals_q8(lines, reading_of(profile, place, axis))), 0);
+        const Contest contest(profile, lines, reading_of(profile, place, axis),
+                              doubt.odds_per_bit_q8);
+        int sum_q8 = add_log2(doubt.by_chance_q8[i], rivals_q8(contest));
+        if (sum_q8 <= limit_q8) sum_q8 = add_log2(sum_q8, seam_rivals_log2_q8(contest));
+        p_wrong_q8[i] = std::min(sum_q8, 0);
     }
     return p_wrong_q8;
 }
@@ -117,11 +121,9 @@ Status judge(const Doubt& doubt, const IntegrityOptions& options, Decoding& deco
 std::array<int, 2> estimate_quickly(const Grid& grid, Profile profile, const Decoding& decoding,
                                     int limit_q8, std::span<LineScores> storage,
                                     const Doubt& doubt) {
-    return with_rivals(grid, profile, decoding, storage, doubt, limit_q8,
-                       [&](const Lines& lines, const AxisReading& reading) {
-                           return quick_rivals_log2_q8(
-                               Contest(profile, lines, reading, doubt.odds_per_bit_q8), limit_q8);
-                       });
+    return with_rivals(
+        grid, profile, decoding, storage, doubt, limit_q8,
+        [&](const Contest& contest) { return quick_rivals_log2_q8(contest, limit_q8); });
 }
 
 }  // namespace
@@ -162,11 +164,9 @@ Status verify(const Grid& grid, Profile profile, Decoding& decoding,
     // Whoever accepts more doubt than usual wants to know how much there is.
     constexpr int kUsual_q8 = -30 * 256;
     if (sum(decoding.p_wrong_log2_q8) > std::min(limit_q8, kUsual_q8)) {
-        const auto counted_q8 = with_rivals(grid, profile, decoding, storage, doubt, limit_q8,
-                                            [&](const Lines& lines, const AxisReading& reading) {
-                                                return 256 * rivals_log2(profile, lines, reading,
-                                                                         doubt.odds_per_bit_q8);
-                                            });
+        const auto counted_q8 = with_rivals(
+            grid, profile, decoding, storage, doubt, limit_q8,
+            [&](const Contest& contest) { return 256 * rivals_log2(profile, contest); });
         for (std::size_t i = 0; i < counted_q8.size(); ++i) {
             decoding.p_wrong_log2_q8[i] = std::min(decoding.p_wrong_log2_q8[i], counted_q8[i]);
         }

@@ -3,65 +3,18 @@
 
 #include <gtest/gtest.h>
 
-#include "../../code/reference.hpp"
-#include "core/decode/correlation.hpp"
+#include "contest_case.hpp"
 #include "core/decode/rivals.hpp"
-#include "dotpose/random.hpp"
 
 namespace dotpose::core_test {
 namespace {
 
-using namespace core;
-
 constexpr std::uint64_t kSeed = 51;
 
-/// Lines of the code from some position, read with some odds.
-struct Case {
-    Profile profile;
-    std::uint32_t position;
-    std::vector<int> rolls;
-    std::vector<LineScores> storage;
-    int odds_q8;
-
-    Lines lines() const { return {storage}; }
-    AxisReading reading() const { return {position, static_cast<std::uint8_t>(rolls[0]), 0, 0}; }
-    Contest contest() const { return {profile, lines(), reading(), odds_q8}; }
-};
-
-/// A line of `bits` bits of the main sequence, `wrong` of which are flipped, with weights up to
-/// `most`.
-LineScores line_scores(int roll, int bits, double wrong, int most, Rng& rng) {
-    std::vector<std::int8_t> weights;
-    for (int i = 0; i < bits; ++i) {
-        const int weight = most - static_cast<int>(rng.below(static_cast<std::uint32_t>(most) / 2));
-        const bool is_one =
-            (code_test::digit_at(code_test::kMainText, static_cast<std::uint64_t>(roll + i)) ==
-             1) != (rng.uniform() < wrong);
-        weights.push_back(static_cast<std::int8_t>(is_one ? weight : -weight));
-    }
-    LineScores scores;
-    correlate(weights, scores);
-    return scores;
-}
-
-/// Without its lines.
-Case random_place(Rng& rng, int lines) {
-    Case c;
-    c.profile = code_test::kProfiles[rng.below(3)];
-    c.position = rng.below(kPositionsPerAxis);
-    int here = static_cast<int>(rng.below(kSections));
-    for (int line = 0; line < lines; ++line) {
-        c.rolls.push_back(here);
-        here = (here + code_test::reference_delta(
-                           c.profile, std::uint64_t{c.position} + static_cast<unsigned>(line))) %
-               63;
-    }
-    return c;
-}
-
 /// Some lines of which some bits are missing, weak and wrong. Odds are such as go with that.
-Case random_case(Rng& rng) {
-    Case c = random_place(rng, 6 + static_cast<int>(rng.below(rng.below(2) == 0 ? 12 : 59)));
+ContestCase random_case(Rng& rng) {
+    ContestCase c =
+        at_random_place(rng, 6 + static_cast<int>(rng.below(rng.below(2) == 0 ? 12 : 59)));
     const int bits = 6 + static_cast<int>(rng.below(rng.below(2) == 0 ? 12 : 59));
     const double wrong = rng.uniform(0, 0.1);
     for (const int own : c.rolls) {
@@ -74,7 +27,7 @@ Case random_case(Rng& rng) {
 }
 
 /// All places of one sequence but the reading's, with every shift at which they share some line.
-double sum_of_singles(const Case& c) {
+double sum_of_singles(const ContestCase& c) {
     const auto texts = code_test::secondary_texts(c.profile);
     const std::size_t count = c.rolls.size();
     double sum = 0;
@@ -108,7 +61,7 @@ double sum_of_singles(const Case& c) {
 }
 
 /// The quick estimate; at least that of the single rivals.
-double checked(const Case& c) {
+double checked(const ContestCase& c) {
     const double quick = quick_rivals_log2_q8(c.contest()) / 256.0;
     EXPECT_LE(quick, 0);
     if (quick < 0) {
@@ -134,7 +87,7 @@ TEST(QuickRivals, CountWhatSharesTheOnlyLinesThatSayMuch) {
     int told = 0;
     for (int i = 0; i < 400; ++i) {
         SCOPED_TRACE(testing::Message() << "case " << i << ", seed " << kSeed);
-        Case c = random_place(rng, 6 + static_cast<int>(rng.below(30)));
+        ContestCase c = at_random_place(rng, 6 + static_cast<int>(rng.below(30)));
         const auto clear = rng.below(static_cast<std::uint32_t>(c.rolls.size()));
         const std::uint32_t clear_lines = 4 + rng.below(6);
         for (std::uint32_t line = 0; line < c.rolls.size(); ++line) {
@@ -154,7 +107,7 @@ TEST(QuickRivals, CountOthersThatLinesFitBetter) {
     int told = 0;
     for (int i = 0; i < 300; ++i) {
         SCOPED_TRACE(testing::Message() << "case " << i << ", seed " << kSeed);
-        Case c = random_place(rng, 15 + static_cast<int>(rng.below(30)));
+        ContestCase c = at_random_place(rng, 15 + static_cast<int>(rng.below(30)));
         for (const int own : c.rolls) {
             const int shown = rng.below(15) == 0 ? static_cast<int>(rng.below(63)) : own;
             c.storage.push_back(line_scores(shown, 40, 0.05, 127, rng));
@@ -169,12 +122,12 @@ TEST(QuickRivals, AreNoFewerThanACloseLookShows) {
     Rng rng(kSeed);
     int told = 0;
     for (int i = 0; i < 200; ++i) {
-        const Case c = random_case(rng);
+        const ContestCase c = random_case(rng);
         const double quick = quick_rivals_log2_q8(c.contest()) / 256.0;
         if (quick == 0) continue;
         ++told;
         // Known rivals may be counted twice there, and the sum is rounded up to a power of two.
-        EXPECT_GE(quick, rivals_log2(c.profile, c.lines(), c.reading(), c.odds_q8) - 2)
+        EXPECT_GE(quick, rivals_log2(c.profile, c.contest()) - 2)
             << "case " << i << ", seed " << kSeed;
     }
     EXPECT_GE(told, 40) << "seed " << kSeed;
@@ -183,13 +136,13 @@ TEST(QuickRivals, AreNoFewerThanACloseLookShows) {
 TEST(QuickRivals, FewLinesOrWeakOddsDoNotTell) {
     Rng rng(kSeed);
     for (int lines = 1; lines <= 5; ++lines) {
-        Case c = random_place(rng, lines);
+        ContestCase c = at_random_place(rng, lines);
         for (const int own : c.rolls)
             c.storage.push_back(line_scores(own, 20, 0, 127, rng));
         c.odds_q8 = 8 * 256;
         EXPECT_EQ(quick_rivals_log2_q8(c.contest()), 0) << lines;
     }
-    Case c = random_place(rng, 17);
+    ContestCase c = at_random_place(rng, 17);
     for (const int own : c.rolls)
         c.storage.push_back(line_scores(own, 12, 0, 127, rng));
     c.odds_q8 = 8;

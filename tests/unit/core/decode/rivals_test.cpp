@@ -38,7 +38,7 @@ int rivals_of_window(Profile profile, const Place& place, int columns, int odds_
         (roll(profile, place.cell.x) + place.section.u + static_cast<int>(place.cell.y % 63)) % 63);
     // The line agrees wholly with the roll that the code has there.
     EXPECT_EQ(lines[0][reading.roll], 127 * kRows);
-    return rivals_log2(profile, lines, reading, odds_q8);
+    return rivals_log2(profile, Contest(profile, lines, reading, odds_q8));
 }
 
 TEST(Rivals, GetFewerWithEveryColumn) {
@@ -62,13 +62,12 @@ TEST(Rivals, GetFewerWithEveryColumn) {
     }
 }
 
-TEST(Rivals, FewLinesOrNoOddsExcludeNone) {
+TEST(Rivals, FewLinesExcludeNone) {
     Rng rng(kSeed);
     const Place place = random_place(rng);
     for (int columns = 1; columns <= 5; ++columns) {
         EXPECT_EQ(rivals_of_window(Profile::anoto, place, columns, 8 * 256), 0) << columns;
     }
-    EXPECT_EQ(rivals_of_window(Profile::anoto, place, 17, 0), 0);
     EXPECT_LT(rivals_of_window(Profile::anoto, place, 17, 8 * 256), 0);
 }
 

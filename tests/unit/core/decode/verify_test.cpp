@@ -277,7 +277,8 @@ double exact_p_wrong(const Reading& reading) {
         read.roll = static_cast<std::uint8_t>(
             (roll(profile, own) + section + static_cast<int>(cross % kSections)) % kSections);
         sum += std::exp2(chance_log2(axes[is_x ? 0 : 1], odds)) +
-               std::exp2(rivals_log2(profile, score_lines(upright, axis, storage), read, odds));
+               std::exp2(rivals_log2(
+                   profile, Contest(profile, score_lines(upright, axis, storage), read, odds)));
     }
     return std::log2(sum);
 }

@@ -1,0 +1,104 @@
+#include "core/decode/similar_places.hpp"
+
+#include <algorithm>
+
+namespace dotpose::core {
+namespace {
+
+/// Losses of 32 rivals, one in each bit.
+class Losses {
+  public:
+    void add(std::uint32_t rivals, unsigned parts) {
+        if (parts >= kEnough) {
+            enough_ |= rivals;
+            return;
+        }
+        std::uint32_t carry = 0;
+        add_digit(ones_, (parts & 1) != 0, rivals, carry);
+        add_digit(twos_, (parts & 2) != 0, rivals, carry);
+        add_digit(fours_, (parts & 4) != 0, rivals, carry);
+        add_digit(eights_, (parts & 8) != 0, rivals, carry);
+        enough_ |= carry;
+    }
+    /// Which have lost enough.
+    std::uint32_t enough() const { return enough_; }
+
+  private:
+    static void add_digit(std::uint32_t& digit, bool adds, std::uint32_t rivals,
+                          std::uint32_t& carry) {
+        const std::uint32_t before = digit;
+        digit ^= carry;
+        carry &= before;
+        if (!adds) return;
+        carry |= digit & rivals;
+        digit ^= rivals;
+    }
+
+    std::uint32_t ones_ = 0;
+    std::uint32_t twos_ = 0;
+    std::uint32_t fours_ = 0;
+    std::uint32_t eights_ = 0;
+    std::uint32_t enough_ = 0;
+};
+
+}  // namespace
+
+Steps::Steps(const Contest& contest, int enough, Excused excused)
+    : count(std::min(contest.lines.count() - 1, kMostSteps)),
+      first_line((contest.lines.count() - 1 - count) / 2) {
+    const auto lost_at = [&](int step) {
+        const int line = first_line + step;
+        const int least = std::min(contest.least_loss(line), contest.least_loss(line + 1));
+        return std::clamp(least, 0, enough);
+    };
+    int needed = enough;
+    if (excused == Excused::any_one) {
+        // Who has lost that has lost enough, but for any one step.
+        for (int step = 0; step < count; ++step)
+            needed = std::max(needed, enough + lost_at(step));
+    }
+    constexpr int kParts = kEnough;
+    const int part = (needed + kParts - 1) / kParts;
+    for (int step = 0; step < count; ++step) {
+        std::uint8_t parts = 0;
+        for (int lost = lost_at(step); lost >= part; lost -= part)
+            ++parts;
+        losses[static_cast<std::size_t>(step)] = parts;
+    }
+}
+
+SimilarPlaces::SimilarPlaces(const code::Secondary& a, std::uint32_t own, const Steps& steps)
+    : sequence_(a), own_(own) {
+    for (int step = 0; step < steps.count; ++step) {
+        const std::uint8_t parts = steps.losses[static_cast<std::size_t>(step)];
+        // Less is not worth the work.
+        if (parts > 1) {
+            steps_[count_++] = {a.places_of[a.digits[own]], static_cast<std::uint8_t>(step), parts};
+        }
+        if (++own == a.length) own = 0;
+    }
+}
+
+// By itself, so that small processors can keep what it needs in registers.
+[[gnu::noinline]] std::uint32_t SimilarPlaces::operator[](std::uint32_t word) const {
+    Losses losses;
+    std::uint32_t counted = 0;
+    int before = -1;
+    for (const Step& step : std::span(steps_).first(count_)) {
+        const std::uint32_t* here = step.places + word;
+        const std::uint32_t equal = here[0] >> step.ahead | here[1] << 1 << (31 - step.ahead);
+        // No line is counted twice, as part of two steps.
+        if (step.ahead != before + 1) counted = 0;
+        before = step.ahead;
+        counted = ~(equal | counted);
+        losses.add(counted, step.parts);
+        if (losses.enough() == ~std::uint32_t{0}) return 0;
+    }
+    const std::uint32_t places = sequence_.length - 32 * word;
+    std::uint32_t similar = ~losses.enough();
+    if (places < 32) similar &= (std::uint32_t{1} << places) - 1;
+    if (own_ / 32 == word) similar &= ~(std::uint32_t{1} << own_ % 32);
+    return similar;
+}
+
+}  // namespace dotpose::core
