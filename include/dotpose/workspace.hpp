@@ -1,8 +1,5 @@
 /// Workspace: all memory of `locate`, and after a call every stage's output, for whoever wants to
 /// draw or judge it. Fixed capacities, owned by the caller, reusable from frame to frame.
-///
-/// Fixed point: a suffix _qN marks a value in units of 2^-N. Pixel frame: the centre of the first
-/// pixel is (0, 0), u to the right, v down.
 #pragma once
 
 #include <algorithm>
@@ -11,231 +8,10 @@
 #include <cstdint>
 #include <span>
 
-#include "dotpose/code.hpp"
 #include "dotpose/fix.hpp"
+#include "dotpose/stages.hpp"
 
 namespace dotpose {
-
-/// Side of the tiles in which light is measured, for images whose shorter side is at most
-/// `kLargestFinelyTiled_px`, and for larger ones. Three tiles must reach over a dot: an image that
-/// shows 8 dots along its shorter side has a spacing of at most 1/8 of it, and dots a third of
-/// that.
-inline constexpr int kSmallestTile_px = 8;
-inline constexpr int kLargestTile_px = 16;
-inline constexpr int kLargestFinelyTiled_px = 240;
-/// White pixels before each row that is kept.
-inline constexpr int kKeptMargin_px = 8;
-/// Dots nearest the image centre that give the first estimate of the grid.
-inline constexpr int kMaxSeeds = 256;
-/// Side of the decoding window of the paper (section II-B.5).
-inline constexpr int kWindowSide = 8;
-
-/// Most cells per axis of any workspace's grid.
-inline constexpr int kMaxGridSide = 256;
-/// Most columns and rows that are decoded: where more are in view, those read most clearly.
-inline constexpr int kMaxLines = 64;
-
-/// A vector or point in fixed point.
-struct Vec {
-    std::int32_t x = 0;
-    std::int32_t y = 0;
-    friend constexpr bool operator==(const Vec&, const Vec&) = default;
-};
-
-/// A detected dot.
-struct Dot {
-    Vec centre_q8;           ///< px; after `undistort`, where a camera without distortion sees it
-    std::uint16_t mass = 0;  ///< sum of its darkness, grey levels, saturated
-    std::uint16_t area_px = 0;
-};
-
-/// Light of one tile.
-struct Tile {
-    std::uint8_t mean = 0;
-    std::uint8_t darkest = 255;
-};
-
-/// What counts as dark in one tile, in grey levels.
-struct Levels {
-    std::uint8_t paper = 0;   ///< 0 where nothing is dark
-    std::uint8_t extent = 0;  ///< pixels darker than this, an even level, belong to a blob
-    std::uint8_t core = 0;    ///< some pixel of a blob must be darker than this
-};
-
-/// The newest rows of the image and the light in them. A *band* is a row of tiles.
-struct Light {
-    int width_px = 0;
-    int height_px = 0;
-    int tile_px = 0;  ///< 2^tile_shift
-    int tile_shift = 0;
-    int tiles_per_band = 0;
-    int rows_taken = 0;
-    bool has_contrast = false;  ///< anywhere so far
-    /// Pixels of the two newest bands; rows have a margin and are filled up to whole tiles.
-    std::span<std::uint8_t> rows;
-    std::span<Tile> tiles;     ///< of the four newest bands
-    std::span<Levels> levels;  ///< of the band being thresholded
-    /// Half of `Levels::extent` in each byte, for every eight columns.
-    std::span<std::size_t> half_levels;
-};
-
-/// The paper's grey level in the square blocks of an image.
-struct PaperMap {
-    int block_px = 0;
-    int columns = 0;
-    int rows = 0;
-    std::span<std::uint8_t> levels;     ///< row by row
-    std::span<std::uint8_t> brightest;  ///< of each block and the eight around it
-};
-
-/// Rows of an image that is being filtered for a second attempt.
-struct Smoothing {
-    std::span<std::uint16_t> lines;  ///< the five newest, weighted along the row
-    std::span<std::uint8_t> row;
-    int lines_ready = 0;
-    int rows_given = 0;
-    PaperMap paper;
-    std::span<std::uint32_t> column_sums;  ///< over the rows [sums_begin, sums_end)
-    int sums_begin = 0;
-    int sums_end = 0;
-};
-
-/// A blob that still grows: sums over its pixels, relative to its first one.
-struct OpenBlob {
-    std::int32_t sum_x = 0;  ///< weight times (u - first_u)
-    std::int32_t sum_y = 0;  ///< weight times (v - first_v)
-    std::int32_t mass = 0;
-    std::int32_t area_px = 0;
-    std::int32_t first_u = 0;
-    std::int32_t first_v = 0;
-    std::int32_t last_v = 0;
-    /// The blob that it was found to belong to; of one that is not in use, the next such.
-    OpenBlob* part_of = nullptr;
-    bool has_core = false;
-    bool is_dot = true;  ///< false once it touches the border or is larger than any dot
-    bool in_use = false;
-};
-
-/// Stretch of blob pixels in one row, end exclusive.
-struct Run {
-    std::int32_t begin = 0;
-    std::int32_t end = 0;
-    OpenBlob* blob = nullptr;  ///< none if there were too many
-};
-
-/// Blobs that reach into the newest thresholded row.
-struct OpenBlobs {
-    std::span<Run> runs;  ///< of the newest row and of the one above, in halves
-    int run_count = 0;
-    bool newest_in_second_half = false;
-    int most_runs = INT32_MAX;  ///< of one image: what exceeds them is not looked at
-    int runs_left = 0;
-    std::span<OpenBlob> blobs;
-    std::size_t blobs_begun = 0;       ///< those after them have not been used in this image
-    OpenBlob* first_unused = nullptr;  ///< of those before
-};
-
-/// A connection between two seeds that both count each other among their four nearest.
-struct Edge {
-    std::int16_t from = 0;  ///< index of a seed
-    std::int16_t to = 0;
-    Vec step_q8;  ///< px, pointing down (or right)
-};
-
-/// First estimate of the grid: intersection (i, j) lies at origin + i u + j v in the image.
-struct Lattice {
-    Vec u_q16;
-    Vec v_q16;
-    Vec origin_q16;
-};
-
-/// Maps image points to the plane of the paper, in spacings: with (x, y) in px from `centre`,
-///
-///     plane = at_centre + (du x + dv y) / (1 + perspective . (x, y) + lens (x^2 + y^2)),
-///
-/// which is exact for a tilted camera, for the lens of eq. 2, and for both.
-struct PlaneFromImage {
-    Vec centre_q8;              ///< px
-    Vec at_centre_q16;          ///< spacings
-    Vec du_q24;                 ///< spacings per px to the right
-    Vec dv_q24;                 ///< spacings per px down
-    Vec perspective_q30;        ///< per px
-    std::int32_t lens_q40 = 0;  ///< per px^2
-};
-
-/// One cell of the matrices P of the paper's Fig. 8.
-struct GridCell {
-    static constexpr std::uint16_t kNoDot = 65535;
-    /// Graphics cover some of the cell's four places: this and a bit for each, by Symbol.
-    static constexpr std::uint16_t kHidden = 65504;
-    bool has_dot() const { return dot < kHidden; }
-    bool is_hidden() const { return dot >= kHidden && dot != kNoDot; }
-    bool is_hidden(int symbol) const { return is_hidden() && (dot >> symbol & 1) != 0; }
-    std::int8_t x = 0;  ///< quasi-probability of the x bit, in 1/127: positive for 1
-    std::int8_t y = 0;
-    std::uint16_t dot = kNoDot;  ///< index of the dot read here
-};
-
-/// Quarter turns of the grid against the pattern: pattern_step = turn(grid_step).
-struct Turn {
-    int quarters = 0;  ///< 0 to 3, from +x towards +y
-
-    constexpr Vec operator()(Vec grid) const {
-        switch (quarters) {
-            case 1:
-                return {-grid.y, grid.x};
-            case 2:
-                return {-grid.x, -grid.y};
-            case 3:
-                return {grid.y, -grid.x};
-            default:
-                return grid;
-        }
-    }
-    constexpr Turn inverse() const { return {(4 - quarters) % 4}; }
-};
-
-/// The matrices P^(x), P^(y) over the cells [i0, i0 + columns) x [j0, j0 + rows).
-struct Grid {
-    std::span<GridCell> storage;
-    int side = 0;  ///< capacity: side * side cells
-    int i0 = 0;
-    int j0 = 0;
-    int columns = 0;
-    int rows = 0;
-
-    GridCell& at(int i, int j) const {
-        return storage[static_cast<std::size_t>((j - j0) * columns + (i - i0))];
-    }
-    bool contains(int i, int j) const {
-        return i >= i0 && j >= j0 && i < i0 + columns && j < j0 + rows;
-    }
-};
-
-/// Agreement of one column or row with the main sequence at each of its offsets.
-using LineScores = std::array<std::int16_t, kSections>;
-
-/// A rectangle of grid cells.
-struct Region {
-    int i0 = 0;
-    int j0 = 0;
-    int columns = 0;
-    int rows = 0;
-};
-
-/// What the grid was read as.
-struct Decoding {
-    Region window;  ///< the 8 x 8 cells read most clearly
-    Region region;  ///< all that is decoded: at most kMaxLines x kMaxLines cells
-    /// Of some lines of the region with the main sequence, at the likeliest turn.
-    std::int32_t agreement = 0;
-    Turn pattern_from_grid;
-    Place place;  ///< where grid cell (0, 0) stands in the code, seen or not
-    /// Whether `Workspace::line_scores` are those of the region, turned so.
-    bool lines_are_scored = false;
-    /// log2 of the probability that the position is wrong along x, along y, times 256.
-    std::array<int, 2> p_wrong_log2_q8{};
-};
 
 /// All stages' memory and results. Use one of the aliases below; the stages see spans only.
 struct Workspace {
@@ -338,20 +114,20 @@ class DeviceWorkspace : public Workspace {
     DeviceWorkspace() {
         max_width_px = kWidth_px;
         dots = dots_;
-        Shelf pixels{memory_};
-        pixels.take(light.rows, kRowBytes);
-        pixels.take(open.blobs, kBlobs);
-        pixels.take(open.runs, 2 * kRuns);
-        pixels.take(light.half_levels, kTiles);
-        pixels.take(light.tiles, 4 * kTiles);
-        pixels.take(light.levels, kTiles);
-        Shelf lattices{memory_};
-        lattices.take(edges, 2 * kSeeds);
-        lattices.take(neighbours, kSeeds);
-        lattices.take(seeds, kSeeds);
-        Shelf decoders{memory_};
-        decoders.take(grid.storage, kGridSide * kGridSide);
-        decoders.take(line_scores, 2 * kGridSide);
+        auto& pixels = memory_of<PixelStages>();
+        light.rows = pixels.rows;
+        light.half_levels = pixels.half_levels;
+        light.tiles = pixels.tiles;
+        light.levels = pixels.levels;
+        open.blobs = pixels.blobs;
+        open.runs = pixels.runs;
+        auto& lattices = memory_of<LatticeStages>();
+        seeds = lattices.seeds;
+        neighbours = lattices.neighbours;
+        edges = lattices.edges;
+        auto& decoders = memory_of<DecodeStages>();
+        grid.storage = decoders.cells;
+        line_scores = decoders.line_scores;
         grid.side = kGridSide;
         open.most_runs = kMostRuns;
     }
@@ -371,29 +147,33 @@ class DeviceWorkspace : public Workspace {
     // up to 2,600.
     static constexpr int kMostRuns = 2800;
 
-    /// Hands out memory from the beginning on; larger alignments first.
-    struct Shelf {
-        std::span<std::byte> free;
-        template <typename T>
-        void take(std::span<T>& room, std::size_t count) {
-            room = {static_cast<T*>(static_cast<void*>(free.data())), count};
-            free = free.subspan(count * sizeof(T));
-        }
+    struct PixelStages {
+        alignas(8) std::array<std::uint8_t, 2 * kSmallestTile_px*(kKeptMargin_px +
+                                                                  kTiles * kSmallestTile_px)> rows;
+        std::array<OpenBlob, kBlobs> blobs;
+        std::array<Run, 2 * kRuns> runs;
+        std::array<std::size_t, kTiles> half_levels;
+        std::array<Tile, 4 * kTiles> tiles;
+        std::array<Levels, kTiles> levels;
+    };
+    struct LatticeStages {
+        std::array<Edge, 2 * kSeeds> edges;
+        std::array<std::array<std::int16_t, 4>, kSeeds> neighbours;
+        std::array<std::uint16_t, kSeeds> seeds;
+    };
+    struct DecodeStages {
+        std::array<GridCell, kGridSide * kGridSide> cells;
+        std::array<LineScores, 2 * kGridSide> line_scores;
     };
 
-    static constexpr std::size_t kRowBytes =
-        2 * kSmallestTile_px * (kKeptMargin_px + kTiles * kSmallestTile_px);
-    static constexpr std::size_t kPixelBytes =
-        kRowBytes + kBlobs * sizeof(OpenBlob) + 2 * kRuns * sizeof(Run) +
-        kTiles * (sizeof(std::size_t) + 4 * sizeof(Tile) + sizeof(Levels));
-    static constexpr std::size_t kLatticeBytes =
-        kSeeds * (2 * sizeof(Edge) + 4 * sizeof(std::int16_t) + sizeof(std::uint16_t));
-    static constexpr std::size_t kDecoderBytes =
-        kGridSide * kGridSide * sizeof(GridCell) + 2 * kGridSide * sizeof(LineScores);
+    template <typename Stages>
+    Stages& memory_of() {
+        return *static_cast<Stages*>(static_cast<void*>(memory_.data()));
+    }
 
     std::array<Dot, kDots> dots_{};
-    alignas(
-        8) std::array<std::byte, std::max({kPixelBytes, kLatticeBytes, kDecoderBytes})> memory_{};
+    alignas(8) std::array<std::byte, std::max({sizeof(PixelStages), sizeof(LatticeStages),
+                                               sizeof(DecodeStages)})> memory_{};
 };
 
 /// For the paper's 188 x 120 px sensor.

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "dotpose/workspace.hpp"
+#include "dotpose/stages.hpp"
 
 namespace dotpose::core {
 

@@ -84,8 +84,11 @@ class Growths {
         }
     }
 
-  private:
+    std::size_t count() const { return length_ - 1; }
+
     static constexpr std::size_t kLongest = 241;
+
+  private:
     std::uint32_t own_;
     std::uint32_t length_;
     std::array<Growth, kLongest> growths_;
@@ -109,52 +112,82 @@ float odds_of_anchored(const Contest& contest, const Ranking& ranking, const Gro
     return contest.odds(lost);
 }
 
-/// What rivals with one growth in the first sequence lose in the first lines but the anchor.
-class FirstLosses {
+/// The first lines but an anchor.
+using FirstLines = std::array<std::size_t, kFirstLines - 1>;
+
+FirstLines first_lines_but(std::size_t anchor) {
+    FirstLines lines;
+    for (std::size_t n = 0, line = 0; n < lines.size(); ++n, ++line) {
+        if (line == anchor) ++line;
+        lines[n] = line;
+    }
+    return lines;
+}
+
+/// By how much a sequence grows from an anchor to each of them, plus 63; of all places but the
+/// reading's own.
+class FirstGrowths {
   public:
-    FirstLosses(const Ranking& ranking, const Growth& a, std::size_t anchor) : anchor_(anchor) {
-        std::size_t line = 0;
-        for (std::size_t n = 0; n < losses_.size(); ++n, ++line) {
-            if (line == anchor) ++line;
-            lines_[n] = line;
-            const auto& losses =
-                line < anchor ? ranking.first_losses_unshared[line] : ranking.first_losses[line];
-            losses_[n] = losses.data() + 2 * kSections + a[line] - a[anchor];
-        }
+    FirstGrowths(const Growths& growths, const FirstLines& lines, std::size_t anchor) {
+        growths.visit([&](const Growth& b) {
+            auto& grown = growths_[count_];
+            for (std::size_t n = 0; n < lines.size(); ++n) {
+                grown[n] = static_cast<std::uint8_t>(b[lines[n]] - b[anchor] + kSections);
+            }
+            places_[count_++] = &b;
+        });
     }
 
-    /// As far as no line before the anchor is shared.
-    std::int32_t operator()(const Growth& b) const {
-        std::int32_t lost = 0;
-        for (std::size_t n = 0; n < losses_.size(); ++n)
-            lost += losses_[n][b[lines_[n]] - b[anchor_]];
-        return lost;
+    /// Shows `use` those growths of every place and all of its growths.
+    template <typename Use>
+    void visit(Use use) const {
+        for (std::size_t i = 0; i < count_; ++i)
+            use(growths_[i], *places_[i]);
     }
+    std::size_t count() const { return count_; }
 
   private:
-    std::size_t anchor_;
-    std::array<std::size_t, kFirstLines - 1> lines_;
-    std::array<const std::int32_t*, kFirstLines - 1> losses_;
+    std::size_t count_ = 0;
+    std::array<std::array<std::uint8_t, kFirstLines - 1>, Growths::kLongest> growths_;
+    std::array<const Growth*, Growths::kLongest> places_;
 };
+
+float sum_of_anchored(const Contest& contest, const Ranking& ranking, const Growths& first,
+                      const Growths& second, std::size_t anchor) {
+    const FirstLines lines = first_lines_but(anchor);
+    const FirstGrowths growths(second, lines, anchor);
+    float sum = 0;
+    first.visit([&](const Growth& a) {
+        // What is lost in each of the lines, as far as none before the anchor is shared.
+        std::array<const std::int32_t*, kFirstLines - 1> losses;
+        for (std::size_t n = 0; n < lines.size(); ++n) {
+            const std::size_t line = lines[n];
+            const auto& all =
+                line < anchor ? ranking.first_losses_unshared[line] : ranking.first_losses[line];
+            losses[n] = all.data() + kSections + a[line] - a[anchor];
+        }
+        int hopeless = 0;
+        growths.visit([&](const auto& grown, const Growth& b) {
+            std::int32_t lost = 0;
+            for (std::size_t n = 0; n < lines.size(); ++n)
+                lost += losses[n][grown[n]];
+            if (contest.is_hopeless(lost)) {
+                ++hopeless;
+            } else {
+                sum += odds_of_anchored(contest, ranking, a, b, static_cast<int>(anchor));
+            }
+        });
+        sum += kNegligible * static_cast<float>(hopeless);
+    });
+    return sum;
+}
 
 float sum_of_pair(const Contest& contest, const Ranking& ranking, const Growths& first,
                   const Growths& second) {
-    float sum = 0;
-    first.visit([&](const Growth& a) {
-        std::array<std::optional<FirstLosses>, kMaxLines> first_losses;
-        for (int anchor = 0; anchor < ranking.anchors; ++anchor) {
-            const auto n = static_cast<std::size_t>(anchor);
-            first_losses[n].emplace(ranking, a, n);
-        }
-        second.visit([&](const Growth& b) {
-            for (int anchor = 0; anchor < ranking.anchors; ++anchor) {
-                const std::int32_t lost = (*first_losses[static_cast<std::size_t>(anchor)])(b);
-                sum += contest.is_hopeless(lost) ? kNegligible
-                                                 : odds_of_anchored(contest, ranking, a, b, anchor);
-            }
-            sum += kSections * ranking.odds_without_anchor;
-        });
-    });
+    float sum = static_cast<float>(first.count() * second.count()) * kSections *
+                ranking.odds_without_anchor;
+    for (std::size_t anchor = 0; anchor < static_cast<std::size_t>(ranking.anchors); ++anchor)
+        sum += sum_of_anchored(contest, ranking, first, second, anchor);
     return sum;
 }
 

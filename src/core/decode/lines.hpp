@@ -5,7 +5,7 @@
 #include <span>
 
 #include "core/decode/upright.hpp"
-#include "dotpose/workspace.hpp"
+#include "dotpose/stages.hpp"
 
 namespace dotpose::core {
 

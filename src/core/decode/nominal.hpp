@@ -5,7 +5,7 @@
 
 #include "core/fixed.hpp"
 #include "dotpose/code.hpp"
-#include "dotpose/workspace.hpp"
+#include "dotpose/stages.hpp"
 
 namespace dotpose::core {
 

@@ -4,8 +4,8 @@
 
 #include <array>
 
+#include "dotpose/stages.hpp"
 #include "dotpose/status.hpp"
-#include "dotpose/workspace.hpp"
 
 namespace dotpose::core {
 

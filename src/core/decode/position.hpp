@@ -2,8 +2,8 @@
 #pragma once
 
 #include "dotpose/options.hpp"
+#include "dotpose/stages.hpp"
 #include "dotpose/status.hpp"
-#include "dotpose/workspace.hpp"
 
 namespace dotpose::core {
 

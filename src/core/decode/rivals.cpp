@@ -13,8 +13,7 @@ namespace {
 
 /// Consecutive lines that distinct positions can share: one more, and five differences are equal.
 constexpr int kMostOfDistinct = code::kOrder;
-/// Odds at which a closer look at the rivals changes nothing any more, or cannot help.
-constexpr float kFarBelowDoubt = 1e-12F;
+/// Odds at which a closer look at the rivals cannot help.
 constexpr float kBeyondHelp = 1e-4F;
 
 /// Turns of the shortest sequence that are as long as all lines.
@@ -126,19 +125,23 @@ float sum_of_near_rivals(const Contest& contest, const code::Twins& twins, int s
 
 }  // namespace
 
-int rivals_log2(Profile profile, const Contest& contest) {
+int rivals_log2(Profile profile, const Contest& contest, int limit_log2) {
     if (contest.lines.count() <= kMostOfDistinct) return 0;
-    float known = sum_of_single_rivals(contest) + sum_of_other_sections(contest) +
-                  sum_of_near_rivals(contest, code::twins(profile), kMostOfDistinct);
-    float expected = sum_of_far_rivals(contest, kMostOfDistinct, 2);
+    const code::Twins& twins = code::twins(profile);
+    const float known = sum_of_single_rivals(contest) + sum_of_other_sections(contest) +
+                        sum_of_near_rivals(contest, twins, kMostOfDistinct);
+    const float expected = sum_of_far_rivals(contest, kMostOfDistinct, 2);
+    float sum = known + expected;
+    const float limit = std::ldexp(1.0F, limit_log2);
+    const float far_below_doubt = std::ldexp(1.0F, std::min(limit_log2, -30) - 4);
     // The more rivals are looked at one by one, the fewer remain to be feared for their number.
-    if (known + expected > kFarBelowDoubt && expected > known && expected < kBeyondHelp) {
-        known += sum_of_double_rivals(contest) +
-                 sum_of_near_rivals(contest, code::twins(profile), kMostOfDistinct - 1);
-        expected = sum_of_far_rivals(contest, kMostOfDistinct - 1, 3);
+    if (sum > far_below_doubt && expected > known && expected < kBeyondHelp) {
+        const float closer = known + sum_of_near_rivals(contest, twins, kMostOfDistinct - 1) +
+                             sum_of_far_rivals(contest, kMostOfDistinct - 1, 3);
+        if (closer < limit) sum = closer + sum_of_double_rivals(contest);
     }
     int exponent = 0;
-    std::frexp(known + expected, &exponent);  // sum < 2^exponent
+    std::frexp(sum, &exponent);  // sum < 2^exponent
     return std::min(exponent, 0);
 }
 

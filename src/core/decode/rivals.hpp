@@ -6,7 +6,8 @@
 
 namespace dotpose::core {
 
-/// Upper bound, as a power of two, of the summed odds of all rivals of a reading.
-int rivals_log2(Profile profile, const Contest& contest);
+/// Upper bound, as a power of two, of the summed odds of all rivals of a reading. No closer than it
+/// takes to tell on which side of 2^limit_log2 they are.
+int rivals_log2(Profile profile, const Contest& contest, int limit_log2 = 0);
 
 }  // namespace dotpose::core

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "core/fixed.hpp"
-#include "dotpose/workspace.hpp"
+#include "dotpose/stages.hpp"
 
 namespace dotpose::core {
 

@@ -76,8 +76,8 @@ Doubt compare_with_chance(const Grid& grid, Profile profile, const Decoding& dec
     return doubt;
 }
 
-/// Probability of each axis being wrong; `rivals_q8(contest)` gives the odds of its rivals, which
-/// only add to chance: where that is too much already they are not counted.
+/// Probability of each axis being wrong; `rivals_q8(axis, contest)` gives the odds of its rivals,
+/// which only add to chance: where that is too much already they are not counted.
 template <typename Rivals>
 std::array<int, 2> with_rivals(const Grid& grid, Profile profile, const Decoding& decoding,
                                std::span<LineScores> storage, const Doubt& doubt, int limit_q8,
@@ -93,7 +93,7 @@ std::array<int, 2> with_rivals(const Grid& grid, Profile profile, const Decoding
                                                       : score_lines(upright, axis, half);
         const Contest contest(profile, lines, reading_of(profile, place, axis),
                               doubt.odds_per_bit_q8);
-        int sum_q8 = add_log2(doubt.by_chance_q8[i], rivals_q8(contest));
+        int sum_q8 = add_log2(doubt.by_chance_q8[i], rivals_q8(i, contest));
         if (sum_q8 <= limit_q8) sum_q8 = add_log2(sum_q8, seam_rivals_log2_q8(contest));
         p_wrong_q8[i] = std::min(sum_q8, 0);
     }
@@ -121,9 +121,10 @@ Status judge(const Doubt& doubt, const IntegrityOptions& options, Decoding& deco
 std::array<int, 2> estimate_quickly(const Grid& grid, Profile profile, const Decoding& decoding,
                                     int limit_q8, std::span<LineScores> storage,
                                     const Doubt& doubt) {
-    return with_rivals(
-        grid, profile, decoding, storage, doubt, limit_q8,
-        [&](const Contest& contest) { return quick_rivals_log2_q8(contest, limit_q8); });
+    return with_rivals(grid, profile, decoding, storage, doubt, limit_q8,
+                       [&](std::size_t, const Contest& contest) {
+                           return quick_rivals_log2_q8(contest, limit_q8);
+                       });
 }
 
 }  // namespace
@@ -160,16 +161,20 @@ Status verify(const Grid& grid, Profile profile, Decoding& decoding,
     const int limit_q8 = 256 * options.max_p_wrong_log2;
     const Doubt doubt = compare_with_chance(grid, profile, decoding, options, fix);
     if (doubt.odds_per_bit_q8 == 0) return judge(doubt, options, decoding, fix);
-    decoding.p_wrong_log2_q8 = estimate_quickly(grid, profile, decoding, limit_q8, storage, doubt);
+    std::array<int, 2>& p_wrong_q8 = decoding.p_wrong_log2_q8;
+    p_wrong_q8 = estimate_quickly(grid, profile, decoding, limit_q8, storage, doubt);
     // Whoever accepts more doubt than usual wants to know how much there is.
-    constexpr int kUsual_q8 = -30 * 256;
-    if (sum(decoding.p_wrong_log2_q8) > std::min(limit_q8, kUsual_q8)) {
+    const int doubtful_q8 = std::min(limit_q8, -30 * 256);
+    if (sum(p_wrong_q8) > doubtful_q8) {
         const auto counted_q8 = with_rivals(
             grid, profile, decoding, storage, doubt, limit_q8,
-            [&](const Contest& contest) { return 256 * rivals_log2(profile, contest); });
-        for (std::size_t i = 0; i < counted_q8.size(); ++i) {
-            decoding.p_wrong_log2_q8[i] = std::min(decoding.p_wrong_log2_q8[i], counted_q8[i]);
-        }
+            [&](std::size_t axis, const Contest& contest) {
+                const bool is_in_doubt = p_wrong_q8[axis] > doubtful_q8 - 4 * 256;
+                return is_in_doubt ? 256 * rivals_log2(profile, contest, options.max_p_wrong_log2)
+                                   : 0;
+            });
+        for (std::size_t i = 0; i < counted_q8.size(); ++i)
+            p_wrong_q8[i] = std::min(p_wrong_q8[i], counted_q8[i]);
     }
     return judge(doubt, options, decoding, fix);
 }

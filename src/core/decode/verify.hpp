@@ -6,9 +6,10 @@
 #include <optional>
 
 #include "core/decode/lines.hpp"
+#include "dotpose/fix.hpp"
 #include "dotpose/options.hpp"
+#include "dotpose/stages.hpp"
 #include "dotpose/status.hpp"
-#include "dotpose/workspace.hpp"
 
 namespace dotpose::core {
 

@@ -2,8 +2,8 @@
 // II-B.2, Fig. 5 (constrained k-means).
 #pragma once
 
+#include "dotpose/stages.hpp"
 #include "dotpose/status.hpp"
-#include "dotpose/workspace.hpp"
 
 namespace dotpose::core {
 

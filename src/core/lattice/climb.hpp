@@ -3,7 +3,7 @@
 // direction. differs: the second attempt only; docs/differs-from-paper.md.
 #pragma once
 
-#include "dotpose/workspace.hpp"
+#include "dotpose/stages.hpp"
 
 namespace dotpose::core {
 

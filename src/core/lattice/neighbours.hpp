@@ -4,7 +4,7 @@
 // The time stays bounded in any image.
 #pragma once
 
-#include "dotpose/workspace.hpp"
+#include "dotpose/stages.hpp"
 
 namespace dotpose::core {
 

@@ -4,7 +4,7 @@
 // transform.
 #pragma once
 
-#include "dotpose/workspace.hpp"
+#include "dotpose/stages.hpp"
 
 namespace dotpose::core {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "dotpose/options.hpp"
-#include "dotpose/workspace.hpp"
+#include "dotpose/stages.hpp"
 
 namespace dotpose::core {
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "dotpose/image.hpp"
-#include "dotpose/workspace.hpp"
+#include "dotpose/stages.hpp"
 
 namespace dotpose::core {
 

@@ -7,7 +7,7 @@
 #include <cstddef>
 
 #include "dotpose/options.hpp"
-#include "dotpose/workspace.hpp"
+#include "dotpose/stages.hpp"
 
 namespace dotpose::core {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "dotpose/image.hpp"
-#include "dotpose/workspace.hpp"
+#include "dotpose/stages.hpp"
 
 namespace dotpose::core {
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "dotpose/image.hpp"
-#include "dotpose/workspace.hpp"
+#include "dotpose/stages.hpp"
 
 namespace dotpose::core {
 

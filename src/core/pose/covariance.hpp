@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/pose/refine.hpp"
+#include "dotpose/fix.hpp"
 
 namespace dotpose::core {
 

@@ -7,7 +7,7 @@
 #include "core/pose/belief.hpp"
 #include "core/pose/normal.hpp"
 #include "core/pose/observations.hpp"
-#include "dotpose/workspace.hpp"
+#include "dotpose/stages.hpp"
 
 namespace dotpose::core {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "core/pose/four.hpp"
-#include "dotpose/workspace.hpp"
+#include "dotpose/stages.hpp"
 
 namespace dotpose::core {
 

@@ -9,6 +9,7 @@
 #include "core/pixels/blobs.hpp"
 #include "core/pixels/light.hpp"
 #include "dotpose/grey_image.hpp"
+#include "dotpose/workspace.hpp"
 #include "geometry.hpp"
 
 namespace dotpose::core_test {

@@ -12,7 +12,7 @@
 #include "dotpose/code.hpp"
 #include "dotpose/random.hpp"
 #include "dotpose/simulate.hpp"
-#include "dotpose/workspace.hpp"
+#include "dotpose/stages.hpp"
 
 namespace dotpose::core_test {
 
