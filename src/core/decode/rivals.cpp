@@ -133,12 +133,12 @@ int rivals_log2(Profile profile, const Contest& contest, int limit_log2) {
     const float expected = sum_of_far_rivals(contest, kMostOfDistinct, 2);
     float sum = known + expected;
     const float limit = std::ldexp(1.0F, limit_log2);
-    const float far_below_doubt = std::ldexp(1.0F, std::min(limit_log2, -30) - 4);
+    const float far_below_doubt = std::ldexp(1.0F, std::min(limit_log2, -30) - 10);
     // The more rivals are looked at one by one, the fewer remain to be feared for their number.
     if (sum > far_below_doubt && expected > known && expected < kBeyondHelp) {
-        const float closer = known + sum_of_near_rivals(contest, twins, kMostOfDistinct - 1) +
-                             sum_of_far_rivals(contest, kMostOfDistinct - 1, 3);
-        if (closer < limit) sum = closer + sum_of_double_rivals(contest);
+        sum = known + sum_of_near_rivals(contest, twins, kMostOfDistinct - 1) +
+              sum_of_far_rivals(contest, kMostOfDistinct - 1, 3);
+        if (sum < limit) sum += sum_of_double_rivals(contest);
     }
     int exponent = 0;
     std::frexp(sum, &exponent);  // sum < 2^exponent
