@@ -22,6 +22,8 @@ inline constexpr int kLargestTile_px = 16;
 inline constexpr int kLargestFinelyTiled_px = 240;
 /// White pixels before each row that is kept.
 inline constexpr int kKeptMargin_px = 8;
+/// Bytes after the last row and the last level that may be read, and do not count.
+inline constexpr int kReadAhead_px = 8;
 /// Dots nearest the image centre that give the first estimate of the grid.
 inline constexpr int kMaxSeeds = 256;
 /// Side of the decoding window of the paper (section II-B.5).
@@ -49,14 +51,7 @@ struct Dot {
 /// Light of one tile.
 struct Tile {
     std::uint8_t mean = 0;
-    std::uint8_t darkest = 255;
-};
-
-/// What counts as dark in one tile, in grey levels.
-struct Levels {
-    std::uint8_t paper = 0;   ///< 0 where nothing is dark
-    std::uint8_t extent = 0;  ///< pixels darker than this, an even level, belong to a blob
-    std::uint8_t core = 0;    ///< some pixel of a blob must be darker than this
+    std::uint8_t darkness = 0;  ///< 255 less its darkest level
 };
 
 /// The newest rows of the image and the light in them. A *band* is a row of tiles.
@@ -70,10 +65,11 @@ struct Light {
     bool has_contrast = false;  ///< anywhere so far
     /// Pixels of the two newest bands; rows have a margin and are filled up to whole tiles.
     std::span<std::uint8_t> rows;
-    std::span<Tile> tiles;     ///< of the four newest bands
-    std::span<Levels> levels;  ///< of the band being thresholded
-    /// Half of `Levels::extent` in each byte, for every eight columns.
-    std::span<std::size_t> half_levels;
+    std::span<Tile> tiles;  ///< of the four newest bands
+    /// What counts as dark in each column of the band being thresholded: pixels darker than the
+    /// extent, an even grey level of which this is half, belong to a blob; 0 where nothing does.
+    std::span<std::uint8_t> half_extents;
+    std::span<std::uint8_t> cores;  ///< some pixel of a blob must be darker than this
 };
 
 /// The paper's grey level in the square blocks of an image.
@@ -97,32 +93,37 @@ struct Smoothing {
     int sums_end = 0;
 };
 
-/// A blob that still grows: sums over its pixels, relative to its first one.
+/// A blob that still grows: sums over its pixels, modulo 2^32, which is enough for all that are
+/// small enough to be dots.
 struct OpenBlob {
-    std::int32_t sum_x = 0;  ///< weight times (u - first_u)
-    std::int32_t sum_y = 0;  ///< weight times (v - first_v)
-    std::int32_t mass = 0;
-    std::int32_t area_px = 0;
-    std::int32_t first_u = 0;
-    std::int32_t first_v = 0;
-    std::int32_t last_v = 0;
+    std::uint32_t sum_x = 0;  ///< weight times u
+    std::uint32_t sum_y = 0;  ///< weight times v
+    std::uint32_t mass = 0;
+    std::uint32_t area_px = 0;
+    std::uint16_t left = 0;
+    std::uint16_t right = 0;  ///< exclusive
+    std::uint16_t first_v = 0;
+    std::uint16_t last_v = 0;
     /// The blob that it was found to belong to; of one that is not in use, the next such.
     OpenBlob* part_of = nullptr;
     bool has_core = false;
-    bool is_dot = true;  ///< false once it touches the border or is larger than any dot
     bool in_use = false;
 };
 
-/// Stretch of blob pixels in one row, end exclusive.
+/// Stretch of blob pixels in one row.
 struct Run {
-    std::int32_t begin = 0;
-    std::int32_t end = 0;
+    std::uint16_t begin = 0;
+    std::uint16_t end = 0;    ///< exclusive
+    std::uint32_t mass = 0;   ///< sum of weights: darkness below the extent, in grey levels
+    std::uint32_t sum_x = 0;  ///< weight times u, modulo 2^32
+    bool has_core = false;
     OpenBlob* blob = nullptr;  ///< none if there were too many
 };
 
 /// Blobs that reach into the newest thresholded row.
 struct OpenBlobs {
-    std::span<Run> runs;  ///< of the newest row and of the one above, in halves
+    /// Of the newest row and of the one above, in halves; in each, one that ends the row follows.
+    std::span<Run> runs;
     int run_count = 0;
     bool newest_in_second_half = false;
     int most_runs = INT32_MAX;  ///< of one image: what exceeds them is not looked at

@@ -62,8 +62,8 @@ class WorkspaceOf : public Workspace {
         smoothing.column_sums = smooth_sums_;
         light.rows = rows_;
         light.tiles = tiles_;
-        light.levels = levels_;
-        light.half_levels = half_levels_;
+        light.half_extents = half_extents_;
+        light.cores = cores_;
         open.runs = runs_;
         open.blobs = blobs_;
         dots = dots_;
@@ -82,8 +82,9 @@ class WorkspaceOf : public Workspace {
     static constexpr int kTile_px =
         MaxWidth <= kLargestFinelyTiled_px ? kSmallestTile_px : kLargestTile_px;
     static constexpr int kTiles = MaxWidth / kSmallestTile_px + 1;
+    static constexpr int kLevels = MaxWidth + kLargestTile_px + kReadAhead_px;
     // Every second pixel may begin a run, and every run a blob.
-    static constexpr int kRuns = MaxWidth / 2 + 1;
+    static constexpr int kRuns = MaxWidth / 2 + 2;
 
     std::array<std::uint16_t, 5 * MaxWidth> smooth_lines_{};
     std::array<std::uint8_t, MaxWidth> smooth_row_{};
@@ -91,11 +92,11 @@ class WorkspaceOf : public Workspace {
     std::array<std::uint8_t, 11 * 683> papers_{};
     std::array<std::uint8_t, 11 * 683> brightest_papers_{};
     std::array<std::uint32_t, MaxWidth> smooth_sums_{};
-    alignas(
-        8) std::array<std::uint8_t, 2 * kTile_px*(kKeptMargin_px + MaxWidth + kTile_px)> rows_{};
+    alignas(8) std::array<std::uint8_t, 2 * kTile_px*(kKeptMargin_px + MaxWidth + kTile_px) +
+                                            kReadAhead_px> rows_{};
     std::array<Tile, 4 * kTiles> tiles_{};
-    std::array<Levels, kTiles> levels_{};
-    std::array<std::size_t, kTiles + 1> half_levels_{};
+    alignas(8) std::array<std::uint8_t, kLevels> half_extents_{};
+    alignas(8) std::array<std::uint8_t, kLevels> cores_{};
     std::array<Run, 2 * kRuns> runs_{};
     std::array<OpenBlob, 2 * kRuns> blobs_{};
     std::array<Dot, MaxDots> dots_{};
@@ -116,9 +117,9 @@ class DeviceWorkspace : public Workspace {
         dots = dots_;
         auto& pixels = memory_of<PixelStages>();
         light.rows = pixels.rows;
-        light.half_levels = pixels.half_levels;
         light.tiles = pixels.tiles;
-        light.levels = pixels.levels;
+        light.half_extents = pixels.half_extents;
+        light.cores = pixels.cores;
         open.blobs = pixels.blobs;
         open.runs = pixels.runs;
         auto& lattices = memory_of<LatticeStages>();
@@ -137,6 +138,7 @@ class DeviceWorkspace : public Workspace {
   private:
     static constexpr int kWidth_px = 188;
     static constexpr int kTiles = kWidth_px / kSmallestTile_px + 1;
+    static constexpr int kLevels = kTiles * kSmallestTile_px + kReadAhead_px;
     static constexpr int kDots = 256;
     static constexpr int kSeeds = 80;
     static constexpr int kGridSide = 24;
@@ -148,13 +150,14 @@ class DeviceWorkspace : public Workspace {
     static constexpr int kMostRuns = 2800;
 
     struct PixelStages {
-        alignas(8) std::array<std::uint8_t, 2 * kSmallestTile_px*(kKeptMargin_px +
-                                                                  kTiles * kSmallestTile_px)> rows;
+        alignas(8) std::array<std::uint8_t,
+                              2 * kSmallestTile_px*(kKeptMargin_px + kTiles * kSmallestTile_px) +
+                                  kReadAhead_px> rows;
         std::array<OpenBlob, kBlobs> blobs;
         std::array<Run, 2 * kRuns> runs;
-        std::array<std::size_t, kTiles> half_levels;
+        alignas(8) std::array<std::uint8_t, kLevels> half_extents;
+        alignas(8) std::array<std::uint8_t, kLevels> cores;
         std::array<Tile, 4 * kTiles> tiles;
-        std::array<Levels, kTiles> levels;
     };
     struct LatticeStages {
         std::array<Edge, 2 * kSeeds> edges;
@@ -175,6 +178,8 @@ class DeviceWorkspace : public Workspace {
     alignas(8) std::array<std::byte, std::max({sizeof(PixelStages), sizeof(LatticeStages),
                                                sizeof(DecodeStages)})> memory_{};
 };
+
+static_assert(sizeof(void*) > 4 || sizeof(DeviceWorkspace) < 12 * 1024);
 
 /// For the paper's 188 x 120 px sensor.
 using SmallWorkspace = WorkspaceOf<188, 384, 32>;

@@ -39,9 +39,13 @@ Places find(const code::Secondary& a, int digit, std::span<const std::uint8_t> d
     const std::uint8_t first = a.first_place_of[key];
     Places places;
     if (first == code::kAbsent) return places;
-    // Only the misprinted sequence needs a look beyond the first place.
-    const std::uint32_t end = a.has_twins ? a.length : first + 1U;
-    for (std::uint32_t place = first; place < end; ++place) {
+    if (!a.has_twins) {
+        // The digits of the key stand there, and nowhere else.
+        std::uint32_t next = first + std::uint32_t{code::kOrder};
+        if (next >= a.length) next -= a.length;
+        return {first, stands_at(a, digit, deltas.subspan(code::kOrder), next) ? 1 : 0};
+    }
+    for (std::uint32_t place = first; place < a.length; ++place) {
         if (!stands_at(a, digit, deltas, place)) continue;
         if (places.count++ == 0) places.first = place;
     }
@@ -112,7 +116,7 @@ Status position_from_rolls(Profile profile, std::span<const std::uint8_t> rolls,
     if (rolls.size() < kSmallestWindow || rolls.size() > kLargestWindow) {
         return Status::bad_window;
     }
-    Deltas storage{};
+    Deltas storage;
     const auto deltas = std::span(storage).first(rolls.size() - 1);
     for (std::size_t i = 0; i < deltas.size(); ++i) {
         const int step = rolls[i + 1] - rolls[i];
@@ -120,7 +124,7 @@ Status position_from_rolls(Profile profile, std::span<const std::uint8_t> rolls,
         if (d < code::kSmallestDelta || d > code::kLargestDelta) return Status::not_in_code;
         deltas[i] = static_cast<std::uint8_t>(d);
     }
-    std::array<std::uint32_t, 4> remainders{};
+    std::array<std::uint32_t, 4> remainders;
     int ways = 1;
     const code::Basis& basis = code::basis(profile);
     for (std::size_t n = 0; n < remainders.size(); ++n) {

@@ -92,8 +92,10 @@ std::int32_t scaled_quotient(std::int64_t numerator, std::int64_t denominator, i
         denominator >>= shift;
         shift = 0;
     }
-    const std::int64_t quotient = divide_rounded(numerator, std::max<std::int64_t>(denominator, 1));
-    return shift < 0 ? shift_rounded(quotient, -shift) : static_cast<std::int32_t>(quotient);
+    denominator = std::max<std::int64_t>(denominator, 1);
+    if (shift < 0) return shift_rounded(divide_rounded(numerator, denominator), -shift);
+    const std::int64_t half = denominator / 2;
+    return short_quotient(numerator >= 0 ? numerator + half : numerator - half, denominator);
 }
 
 }  // namespace dotpose::core

@@ -12,16 +12,33 @@ int excess_bits(std::int64_t value, int bits) {
     return std::max(static_cast<int>(std::bit_width(static_cast<std::uint64_t>(value))) - bits, 0);
 }
 
+/// Small numbers are divided five times as fast.
+std::int64_t quotient(std::int64_t n, std::int32_t d) {
+    const auto small = static_cast<std::int32_t>(n);
+    return small == n ? small / d : n / d;
+}
+
 }  // namespace
+
+[[gnu::noinline]] void CellFit::carry_over() {
+    all_.xx += recent_.xx;
+    all_.xy += recent_.xy;
+    all_.yy += recent_.yy;
+    all_.ix += recent_.ix;
+    all_.iy += recent_.iy;
+    all_.jx += recent_.jx;
+    all_.jy += recent_.jy;
+    recent_ = {};
+}
 
 [[gnu::noinline]] std::int64_t CellFit::moment(std::int64_t products, std::int32_t a,
                                                std::int32_t b) const {
-    return n_ * products - std::int64_t{a} * b;
+    return count() * products - std::int64_t{a} * b;
 }
 
 bool CellFit::solve(int bits, PlaneFromImage& plane) {
     carry_over();
-    if (n_ < 3) return false;
+    if (count() < 3) return false;
     const std::int64_t mxx = moment(all_.xx, p_.x, p_.x);
     const std::int64_t myy = moment(all_.yy, p_.y, p_.y);
     const int shift = excess_bits(std::max(mxx, myy), 30);
@@ -43,7 +60,8 @@ bool CellFit::solve(int bits, PlaneFromImage& plane) {
         du_q24 = scaled_quotient(x * yy - y * xy, determinant, scale);
         dv_q24 = scaled_quotient(y * xx - x * xy, determinant, scale);
         const std::int64_t slope = std::int64_t{du_q24} * p_.x + std::int64_t{dv_q24} * p_.y;
-        return static_cast<std::int32_t>(((sum * 65536LL >> bits) - (slope >> 11)) / n_);
+        return static_cast<std::int32_t>(
+            quotient((sum * 65536LL >> bits) - (slope >> 11), count()));
     };
     plane.at_centre_q16.x = solve_one(target_.x, all_.ix, all_.iy, plane.du_q24.x, plane.dv_q24.x);
     plane.at_centre_q16.y = solve_one(target_.y, all_.jx, all_.jy, plane.du_q24.y, plane.dv_q24.y);

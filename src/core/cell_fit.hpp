@@ -10,15 +10,13 @@ namespace dotpose::core {
 class CellFit {
   public:
     /// Image points in 1/8 px from the plane's centre, within 2048 px; targets within 2^15.
-    [[gnu::always_inline]] void add(const Vec& p, const Vec& target) {
-        ++n_;
-        p_ = p_ + p;
-        target_ = target_ + target;
-        recent_.add(p, target);
-        const bool is_far = (offset(p.x) | offset(p.y)) >= 2 * kNear;
-        if (is_far || n_ % kMostRecent == 0) carry_over();
+    [[gnu::always_inline]] void add(const Vec& p, const Vec& target) { change(p, p, target); }
+    /// Adds it (weight 1), or takes it away again (-1).
+    [[gnu::always_inline]] void count(const Vec& p, const Vec& target, int weight) {
+        unused_ += 1 - weight;
+        change(p, Vec{weight * p.x, weight * p.y}, Vec{weight * target.x, weight * target.y});
     }
-    int count() const { return n_; }
+    int count() const { return changes_ - unused_; }
     /// Sets all of the plane but its centre, perspective and lens; targets were in 2^-bits cells.
     /// False where the points lie on one line.
     bool solve(int bits, PlaneFromImage& plane);
@@ -35,33 +33,37 @@ class CellFit {
         Int xx = 0, xy = 0, yy = 0;
         Int ix = 0, iy = 0, jx = 0, jy = 0;
 
-        [[gnu::always_inline]] void add(const Vec& p, const Vec& target) {
-            xx += p.x * p.x;
-            xy += p.x * p.y;
-            yy += p.y * p.y;
+        /// `weighted` is p, as often as it counts.
+        [[gnu::always_inline]] void add(const Vec& p, const Vec& weighted, const Vec& target) {
+            xx += weighted.x * p.x;
+            xy += weighted.x * p.y;
+            yy += weighted.y * p.y;
             ix += target.x * p.x;
             iy += target.x * p.y;
             jx += target.y * p.x;
             jy += target.y * p.y;
         }
     };
-    void carry_over() {
-        all_.xx += recent_.xx;
-        all_.xy += recent_.xy;
-        all_.yy += recent_.yy;
-        all_.ix += recent_.ix;
-        all_.iy += recent_.iy;
-        all_.jx += recent_.jx;
-        all_.jy += recent_.jy;
-        recent_ = {};
+    [[gnu::always_inline]] void change(const Vec& p, const Vec& weighted, const Vec& target) {
+        p_ = p_ + weighted;
+        target_ = target_ + target;
+        recent_.add(p, weighted, target);
+        ++changes_;
+        // Processors of 64 bits need not carry over before the end.
+        if constexpr (sizeof(std::intptr_t) < sizeof(std::int64_t)) {
+            const bool is_far = (offset(p.x) | offset(p.y)) / (2 * kNear) != 0;
+            if (is_far || changes_ % kMostRecent == 0) carry_over();
+        }
     }
+    void carry_over();
     /// n^2 times the covariance of what has this sum of products and these sums.
     std::int64_t moment(std::int64_t products, std::int32_t a, std::int32_t b) const;
 
-    std::int32_t n_ = 0;
+    std::int32_t changes_ = 0;
+    std::int32_t unused_ = 0;  ///< by so much there are fewer points than changes
     Vec p_;
     Vec target_;
-    Products<std::int32_t> recent_;
+    Products<std::intptr_t> recent_;
     Products<std::int64_t> all_;
 };
 

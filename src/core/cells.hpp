@@ -22,6 +22,11 @@ class Cells {
     Vec plane_point_q16(Vec from_centre_q3) const {
         return rounding_plane_point_q16(from_centre_q3) - Vec{kHalf_q16, kHalf_q16};
     }
+    /// Half a spacing more, so that the cell is what remains when the fraction is cut off.
+    Vec rounding_plane_point_q16(Vec p) const {
+        return {rounding_at_centre_q16_.x + ((du_q18_.x * p.x + dv_q18_.x * p.y) >> 5),
+                rounding_at_centre_q16_.y + ((du_q18_.y * p.x + dv_q18_.y * p.y) >> 5)};
+    }
     /// Eq. 3-5.
     GridPoint operator()(Vec from_centre_q3) const {
         const Vec c = rounding_plane_point_q16(from_centre_q3);
@@ -30,11 +35,6 @@ class Cells {
 
   private:
     static constexpr std::int32_t kHalf_q16 = 1 << 15;
-
-    Vec rounding_plane_point_q16(Vec p) const {
-        return {rounding_at_centre_q16_.x + ((du_q18_.x * p.x + dv_q18_.x * p.y) >> 5),
-                rounding_at_centre_q16_.y + ((du_q18_.y * p.x + dv_q18_.y * p.y) >> 5)};
-    }
 
     // Half a unit less, and half a cell more, so that cutting off rounds.
     Vec rounding_centre_q8_;

@@ -48,6 +48,23 @@ std::int32_t of_rank(std::size_t rank, std::span<std::int32_t> values) {
 
 }  // namespace
 
+std::int32_t short_quotient(std::int64_t n, std::int64_t d) {
+    auto rest = static_cast<std::uint64_t>(magnitude(n));
+    auto divisor = static_cast<std::uint64_t>(d);
+    int bit = std::countl_zero(divisor | 1) - std::countl_zero(rest | 1);
+    divisor <<= std::max(bit, 0);
+    std::uint32_t quotient = 0;
+    for (; bit >= 0; --bit) {
+        quotient *= 2;
+        if (rest >= divisor) {
+            rest -= divisor;
+            ++quotient;
+        }
+        rest *= 2;
+    }
+    return static_cast<std::int32_t>(n < 0 ? 0 - quotient : quotient);
+}
+
 std::int64_t log2_q16(std::uint32_t n) {
     // Bit by bit: squaring doubles the logarithm.
     int whole = 0;

@@ -39,11 +39,21 @@ constexpr T magnitude(T a) {
 constexpr std::int32_t larger_component(Vec a) {
     return std::max(magnitude(a.x), magnitude(a.y));
 }
+/// Whether |x|, |y| <= limit. |x|, |y|, limit < 2^30.
+constexpr bool is_within(Vec a, std::int32_t limit) {
+    const auto twice = static_cast<std::uint32_t>(2 * limit);
+    return static_cast<std::uint32_t>(a.x + limit) <= twice &&
+           static_cast<std::uint32_t>(a.y + limit) <= twice;
+}
 
 /// Quotient rounded to nearest, halves away from zero. The divisor is positive.
 constexpr std::int64_t divide_rounded(std::int64_t n, std::int64_t d) {
     return (n >= 0 ? n + d / 2 : n - d / 2) / d;
 }
+
+/// n / d for d > 0, of a quotient that fits 31 bits: where processors have no divider, that takes
+/// half as long as any quotient.
+std::int32_t short_quotient(std::int64_t n, std::int64_t d);
 
 inline constexpr std::int64_t kOne_q30 = std::int64_t{1} << 30;
 
@@ -58,10 +68,11 @@ constexpr std::int32_t shift_rounded(std::int64_t n, int bits) {
     return static_cast<std::int32_t>((n + (std::int64_t{1} << (bits - 1))) >> bits);
 }
 
-/// Largest r with r * r <= n.
-constexpr std::uint32_t square_root(std::uint64_t n) {
-    std::uint64_t root = 0;
-    for (std::uint64_t bit = std::uint64_t{1} << 62; bit != 0; bit >>= 2) {
+/// Largest r with r * r <= n, of 32 or 64 bits.
+template <typename Unsigned>
+constexpr std::uint32_t square_root(Unsigned n) {
+    Unsigned root = 0;
+    for (Unsigned bit = (static_cast<Unsigned>(-1) >> 2) + 1; bit != 0; bit >>= 2) {
         if (n >= root + bit) {
             n -= root + bit;
             root = (root >> 1) + bit;

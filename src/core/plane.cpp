@@ -17,7 +17,7 @@ PlaneFromImage plane_from_lattice(const Lattice& lattice, Vec centre_q8) {
     const std::int64_t area_q16 =
         std::max<std::int64_t>(cross(lattice.u_q16, lattice.v_q16) >> 16, 1);
     const auto entry = [&](std::int32_t a_q16) {
-        return static_cast<std::int32_t>((std::int64_t{a_q16} << 24) / area_q16);
+        return short_quotient(std::int64_t{a_q16} << 24, area_q16);
     };
     PlaneFromImage plane;
     plane.centre_q8 = centre_q8;

@@ -38,18 +38,20 @@ int odds_per_bit_q8(const Confidence& confidence) {
         allowed +=
             static_cast<std::uint32_t>(Confidence::weight_of(level) * confidence.wrong(level));
     }
+    const std::uint64_t allowed_q16 = std::uint64_t{allowed} << 16;
     int odds_q8 = 0;
     // Bisection: the larger the odds, the less is expected to be wrong.
     for (int step_q8 = 8 * 256; step_q8 >= 8; step_q8 /= 2) {
         std::uint64_t expected_q16 = 0;
-        for (int level = 0; level < Confidence::kLevels; ++level) {
+        // From where most is expected, so that it is soon too much.
+        for (int level = Confidence::kLevels; level-- > 0 && expected_q16 <= allowed_q16;) {
             const int bits = confidence.bits(level);
             if (bits == 0) continue;
             const auto weight = static_cast<std::uint32_t>(bits * Confidence::weight_of(level));
             expected_q16 +=
                 std::uint64_t{weight} * wrong_share_q16(log_odds_q8(odds_q8 + step_q8, level));
         }
-        if (expected_q16 > std::uint64_t{allowed} << 16) odds_q8 += step_q8;
+        if (expected_q16 > allowed_q16) odds_q8 += step_q8;
     }
     return odds_q8;
 }

@@ -1,6 +1,7 @@
 #include "core/decode/contest.hpp"
 
 #include "code/rolls.hpp"
+#include "core/decode/correlation.hpp"
 
 namespace dotpose::core {
 
@@ -15,15 +16,9 @@ Contest::Contest(Profile profile, const Lines& lines_, const AxisReading& readin
     code::follow_rolls(profile, reading.position, reading.roll, std::span(rolls_).first(count));
     for (int i = 0; i < lines.count(); ++i) {
         const LineScores& scores = lines[i];
-        const std::size_t own = rolls_[static_cast<std::size_t>(i)];
-        int best_other = INT16_MIN;
-        const auto look_at = [&](const std::int16_t* begin, const std::int16_t* end) {
-            for (; begin != end; ++begin)
-                best_other = std::max<int>(best_other, *begin);
-        };
-        look_at(scores.data(), &scores[own]);
-        look_at(&scores[own] + 1, scores.data() + scores.size());
-        const int least_loss = scores[own] - best_other;
+        const int own = scores[rolls_[static_cast<std::size_t>(i)]];
+        const Lead lead = lead_of(scores);
+        const int least_loss = own == lead.best ? lead.lead : own - lead.best;
         least_losses_[static_cast<std::size_t>(i)] = static_cast<std::int16_t>(least_loss);
         most_regained_ += std::max(-least_loss, 0);
     }

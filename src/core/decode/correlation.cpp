@@ -43,10 +43,10 @@ void gather(Line a, Line b, std::size_t first, Weights& weights) {
         line = line.subspan(std::min(first, line.size()));
         return line.first(std::min(line.size(), kAtOnce));
     };
-    weights.fill(0);
     std::int32_t* weight = weights.data();
     for (const std::int8_t of_a : rest(a))
         *weight++ = of_a;
+    std::fill(weight, weights.data() + weights.size(), 0);
     weight = weights.data();
     for (const std::int8_t of_b : rest(b))
         *weight++ += of_b * 65536;
@@ -74,13 +74,16 @@ template <std::size_t Groups, bool Adds>
 void take_sums(const std::array<Sums, kGroups>& sums, std::size_t phase, LineScores& scores_a,
                LineScores& scores_b) {
     const std::uint8_t* string = kStrings.data() + phase;
-    for (std::size_t o = 0; o < kSections; ++o, ++string) {
+    std::int16_t* a = scores_a.data();
+    std::int16_t* b = scores_b.data();
+    for (const std::uint8_t* end = string + kSections; string != end; ++string, ++a, ++b) {
         std::int32_t sum = sum_at(sums[0], string[0]);
         for (std::size_t group = 1; group < Groups; ++group)
             sum += sum_at(sums[group], string[group * kGroup]);
-        const std::int32_t of_b = (sum + 0x8000) >> 16;
-        scores_a[o] = static_cast<std::int16_t>(Adds ? scores_a[o] + sum : sum);
-        scores_b[o] = static_cast<std::int16_t>(Adds ? scores_b[o] + of_b : of_b);
+        // (sum + 0x8000) >> 16, without a number that takes a register.
+        const std::int32_t of_b = ((sum >> 15) + 1) >> 1;
+        *a = static_cast<std::int16_t>(Adds ? *a + sum : sum);
+        *b = static_cast<std::int16_t>(Adds ? *b + of_b : of_b);
     }
 }
 
@@ -120,21 +123,46 @@ void correlate(std::span<const std::int8_t> weights, LineScores& scores) {
     correlate_both(weights, {}, scores, none);
 }
 
-Match best_match(const LineScores& scores) {
-    Match best{scores[0], 0};
-    for (std::size_t o = 1; o < scores.size(); ++o) {
-        if (scores[o] > best.score) best = {scores[o], static_cast<std::uint8_t>(o)};
+// By itself: unrolled, it is long.
+[[gnu::noinline]] Match next_match(const LineScores& scores, Match last) {
+    std::int32_t best = INT32_MIN;
+    std::size_t roll = 0;
+#pragma GCC unroll 7
+    for (std::size_t o = 0; o < scores.size(); ++o) {
+        const std::int32_t score = scores[o];
+        if (score <= best || score > last.score) continue;
+        if (score == last.score && o <= last.roll) continue;
+        best = score;
+        roll = o;
     }
-    return best;
+    return {best, static_cast<std::uint8_t>(roll)};
+}
+
+Match best_match(const LineScores& scores) {
+    return next_match(scores, {INT32_MAX, 0});
+}
+
+Lead lead_of(const LineScores& scores) {
+    std::int32_t best = INT16_MIN;
+    std::int32_t second = INT16_MIN;
+#pragma GCC unroll 7
+    for (const std::int32_t score : scores) {
+        if (score <= second) continue;
+        second = std::min(best, score);
+        best = std::max(best, score);
+    }
+    return {static_cast<std::int16_t>(best), static_cast<std::int16_t>(best - second)};
 }
 
 Extremes extremes_of(const LineScores& scores) {
-    Extremes extremes{scores[0], scores[0]};
-    for (const std::int16_t score : scores) {
-        extremes.most = std::max<std::int32_t>(extremes.most, score);
-        extremes.least = std::min<std::int32_t>(extremes.least, score);
+    std::int32_t most = scores[0];
+    std::int32_t least = scores[0];
+#pragma GCC unroll 7
+    for (const std::int32_t score : scores) {
+        if (score > most) most = score;
+        if (score < least) least = score;
     }
-    return extremes;
+    return {most, least};
 }
 
 }  // namespace dotpose::core

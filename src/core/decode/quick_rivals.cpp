@@ -28,8 +28,8 @@ constexpr int kUnevenness_q8 = 11;
 
 /// What a rival that does not share a line may have in odds there.
 struct LineOdds {
-    int best_q8 = 0;  ///< at the roll that loses least
-    int sum_q8 = 0;   ///< over all rolls but the reading's
+    int best_q8;  ///< at the roll that loses least
+    int sum_q8;   ///< over all rolls but the reading's
 };
 using AllLineOdds = std::array<LineOdds, kMaxLines>;
 
@@ -44,13 +44,16 @@ int log2_of_others_q8(const Contest& contest, int line) {
     const std::int16_t* scores = contest.lines[line].data();
     const int own = contest.own_roll(line);
     const int best = scores[own] - contest.least_loss(line);
+    const auto power_q12 = [&](int score) -> std::uint32_t {
+        const auto half_bits = static_cast<std::size_t>(-contest.log2_odds_q8(best - score) >> 7);
+        return kPowers[std::min(half_bits, kPowers.size() - 1)];
+    };
+    // Most lose so much that they have the least power: 12 bits, and what rounding may take.
+    const int hardly_any = best - contest.loss_for(-12 * 256 - 8);
     std::uint32_t sum_q12 = 0;
-    for (int roll = 0; roll < kSections; ++roll) {
-        if (roll == own) continue;
-        const auto half_bits =
-            static_cast<std::size_t>(-contest.log2_odds_q8(best - scores[roll]) >> 7);
-        sum_q12 += kPowers[std::min(half_bits, kPowers.size() - 1)];
-    }
+    for (int roll = 0; roll < kSections; ++roll)
+        sum_q12 += scores[roll] <= hardly_any ? kPowers.back() : power_q12(scores[roll]);
+    sum_q12 -= power_q12(scores[own]);
     // log2(1 + f) is at most f + 0.087.
     const int whole = static_cast<int>(std::bit_width(sum_q12)) - 1;
     const auto fraction_q8 = static_cast<int>(sum_q12 * 256 >> whole) - 256;
@@ -103,75 +106,86 @@ class ByShift {
     ByShift(const Contest& contest, int enough);
 
     /// Adds the odds of the rival at a place to a sum.
-    int add(std::size_t sequence, std::uint32_t place, int sum) const {
-        return all_matter_ || may_matter(sequence, place) ? add_closely(sequence, place, sum) : sum;
+    int add(std::size_t sequence, std::uint32_t place, int sum) {
+        if (sequence != sequence_) begin(sequence);
+        return may_matter(rolls_ + place) ? add_closely(place, sum) : sum;
     }
 
   private:
     struct Loss {
         int line;
-        int least;  ///< of who does not share the line
+        std::uint32_t least;  ///< of who does not share the line
     };
 
-    bool may_matter(std::size_t sequence, std::uint32_t place) const;
-    int add_closely(std::size_t sequence, std::uint32_t place, int sum) const;
+    void begin(std::size_t sequence) {
+        sequence_ = sequence;
+        rolls_ = contest_.basis[sequence].rolls;
+        own_ = rolls_ + contest_.places[sequence];
+    }
+    bool may_matter(const std::uint8_t* rival);
+    int add_closely(std::uint32_t place, int sum) const;
 
     const Contest& contest_;
-    int enough_;
+    std::size_t sequence_;
+    const std::uint8_t* rolls_;
+    const std::uint8_t* own_;
+    std::uint32_t enough_;
     std::size_t count_ = 0;               ///< of lines at which something is lost
-    std::size_t anchors_ = 0;             ///< who shares none of the first ones has lost enough
-    bool all_matter_ = false;             ///< even who shares none at all
     std::array<Loss, kMaxLines> losses_;  ///< the greatest first
+    std::uint32_t in_all_ = 0;
+    /// What is not lost at each shift, plus `none_`; what is less is of rivals before.
+    std::array<std::uint32_t, kSections> kept_{};
+    std::uint32_t none_;
 };
 
-ByShift::ByShift(const Contest& contest, int enough) : contest_(contest), enough_(enough) {
+ByShift::ByShift(const Contest& contest, int enough)
+    : contest_(contest), enough_(static_cast<std::uint32_t>(enough)), none_(enough_) {
+    begin(0);
     for (int line = 0; line < contest.lines.count(); ++line) {
-        const int least = contest.least_loss(line);
-        if (least <= 0) continue;
+        if (contest.least_loss(line) <= 0) continue;
+        const auto least = static_cast<std::uint32_t>(contest.least_loss(line));
         std::size_t i = count_++;
         for (; i > 0 && losses_[i - 1].least < least; --i)
             losses_[i] = losses_[i - 1];
         losses_[i] = {line, least};
+        in_all_ += least;
     }
-    int lost = 0;
-    for (; anchors_ < count_ && lost < enough; ++anchors_)
-        lost += losses_[anchors_].least;
-    all_matter_ = lost < enough;
 }
 
 /// Whether at some shift not enough is lost.
 // By itself, so that small processors can keep all it needs in registers.
-[[gnu::noinline]] bool ByShift::may_matter(std::size_t sequence, std::uint32_t place) const {
-    const std::uint8_t* own = contest_.basis[sequence].rolls + contest_.places[sequence];
-    const std::uint8_t* rival = contest_.basis[sequence].rolls + place;
-    const auto shift_at = [&](int line) {
-        const int shift = rival[line] - own[line];
-        return shift < 0 ? shift + kSections : shift;
-    };
-    const Loss* end = losses_.data() + count_;
-    for (const Loss* anchor = losses_.data(); anchor != losses_.data() + anchors_; ++anchor) {
-        const int shift = shift_at(anchor->line);
-        int lost = 0;
-        for (const Loss* loss = losses_.data(); loss != end && lost < enough_; ++loss) {
-            if (shift_at(loss->line) != shift) lost += loss->least;
-        }
-        if (lost < enough_) return true;
+[[gnu::noinline]] bool ByShift::may_matter(const std::uint8_t* rival) {
+    const std::uint8_t* own = own_;
+    std::uint32_t* const kept = kept_.data();
+    const std::uint32_t none = none_ += in_all_;
+    std::uint32_t most = none;
+    std::uint32_t most_to_keep = none - enough_;  // so that enough is lost of the lines so far
+    const Loss* const end = losses_.data() + count_;
+    for (const Loss* loss = losses_.data(); loss != end; ++loss) {
+        const int difference = rival[loss->line] - own[loss->line];
+        const int shift = difference < 0 ? difference + kSections : difference;
+        const std::uint32_t least = loss->least;
+        const std::uint32_t now = std::max(kept[shift], none) + least;
+        kept[shift] = now;
+        most = std::max(most, now);
+        most_to_keep += least;
+        if (most <= most_to_keep) return false;
     }
-    return false;
+    return true;
 }
 
-int ByShift::add_closely(std::size_t sequence, std::uint32_t place, int sum) const {
+// Likewise.
+[[gnu::noinline]] int ByShift::add_closely(std::uint32_t place, int sum) const {
     Growth growth;
-    grow(contest_, sequence, place, growth);
-    std::array<int, kSections> kept{};  // by the shift at which lines are shared
-    int in_all = 0;
-    for (std::size_t i = 0; i < count_; ++i) {
-        in_all += losses_[i].least;
+    grow(contest_, sequence_, place, growth);
+    std::array<std::uint32_t, kSections> kept;  // by the shift at which lines are shared
+    for (int line = 0; line < contest_.lines.count(); ++line)
+        kept[growth[static_cast<std::size_t>(line)]] = 0;
+    for (std::size_t i = 0; i < count_; ++i)
         kept[growth[static_cast<std::size_t>(losses_[i].line)]] += losses_[i].least;
-    }
     for (int line = 0; line < contest_.lines.count(); ++line) {
-        int& here = kept[growth[static_cast<std::size_t>(line)]];
-        if (in_all - here < enough_) {
+        std::uint32_t& here = kept[growth[static_cast<std::size_t>(line)]];
+        if (in_all_ - here < enough_) {
             const std::optional<int> lost = loss_of_growth(contest_, growth, line);
             const int odds = lost ? contest_.log2_odds_q8(*lost) : kNever_q8;
             if (odds > kPassedOver_q8) sum = add_log2(sum, odds);

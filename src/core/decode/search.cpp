@@ -11,53 +11,40 @@ namespace {
 constexpr int kChoices = 8;  // offsets tried in one line
 constexpr int kMaxRunLength = 8;
 
+/// The smallest offset with a score that there is.
+std::uint8_t roll_of(int score, const LineScores& scores) {
+    const std::int16_t* found = scores.data();
+    while (*found != score)
+        ++found;
+    return static_cast<std::uint8_t>(found - scores.data());
+}
+
 /// The offsets of one line that agree best, best first and of equals the smallest: found as they
 /// are asked for, which is rarely beyond the first.
 class Choices {
   public:
     Choices() = default;
-    explicit Choices(const LineScores& scores) : scores_(&scores) {}
+    Choices(const LineScores& scores, const Lead& lead)
+        : scores_(&scores), lead_(lead.lead), last_(roll_of(lead.best, scores)), rolls_{last_} {}
 
-    /// `i` is less than kChoices, and at most one more than it was in any call before.
-    const Match& operator[](int i) {
-        if (i == known_) matches_[static_cast<std::size_t>(known_++)] = next();
-        return matches_[static_cast<std::size_t>(i)];
+    /// `i` is less than kChoices.
+    std::uint8_t roll(int i) {
+        for (; known_ <= i; ++known_) {
+            last_ = next_match(*scores_, {(*scores_)[last_], last_}).roll;
+            rolls_[static_cast<std::size_t>(known_)] = last_;
+        }
+        return rolls_[static_cast<std::size_t>(i)];
     }
+    /// By how much it agrees less than the best.
+    int loss(int i) { return i == 1 ? lead_ : (*scores_)[rolls_[0]] - (*scores_)[roll(i)]; }
 
   private:
-    Match next() const {
-        if (known_ == 0) return best_match(*scores_);
-        const Match last = matches_[static_cast<std::size_t>(known_ - 1)];
-        Match best{INT16_MIN, 0};
-        for (std::size_t o = 0; o < scores_->size(); ++o) {
-            const int score = (*scores_)[o];
-            if (score > last.score || score <= best.score) continue;
-            if (score < last.score || o > last.roll) best = {score, static_cast<std::uint8_t>(o)};
-        }
-        return best;
-    }
-
     const LineScores* scores_ = nullptr;
-    int known_ = 0;
-    std::array<Match, kChoices> matches_;
+    int lead_ = 0;
+    int known_ = 1;
+    std::uint8_t last_ = 0;
+    std::array<std::uint8_t, kChoices> rolls_;
 };
-
-/// By how much the best offset of a line leads the second best, and its score.
-struct Lead {
-    std::int16_t best = INT16_MIN;
-    std::int16_t lead = 0;
-};
-
-Lead lead_of(const LineScores& scores) {
-    std::int16_t best = INT16_MIN;
-    std::int16_t second = INT16_MIN;
-    for (const std::int16_t score : scores) {
-        if (score <= second) continue;
-        second = std::min(best, score);
-        best = std::max(best, score);
-    }
-    return {best, static_cast<std::int16_t>(best - second)};
-}
 
 /// Sum over all lines for the hypothesis that line `line` stands at `position` with `roll`.
 AxisReading evaluate(Profile profile, const Lines& lines, int line, std::uint32_t position,
@@ -79,6 +66,7 @@ AxisReading evaluate(Profile profile, const Lines& lines, int line, std::uint32_
 }
 
 using Run = std::array<Choices, kMaxRunLength>;
+using Leads = std::array<Lead, kMaxLines>;
 
 /// How many choices of each line of a run are combined: the next-cheapest choice of any line is
 /// added as long as the combinations stay few.
@@ -91,8 +79,8 @@ std::array<int, kMaxRunLength> widen(Run& run, int length, int most_readings) {
         for (int i = 0; i < length; ++i) {
             const auto n = static_cast<std::size_t>(i);
             const int width = widths[n];
-            if (width == kChoices || readings / width * (width + 1) > most_readings) continue;
-            const int loss = run[n][0].score - run[n][width].score;
+            if (width == kChoices || readings * (width + 1) > most_readings * width) continue;
+            const int loss = run[n].loss(width);
             if (loss < least_loss) {
                 least_loss = loss;
                 cheapest = i;
@@ -119,14 +107,15 @@ bool improve(Profile profile, const Lines& lines, int first, std::span<const std
 }
 
 /// Reads one run in all combinations of its lines' choices, until one is clear.
-void try_run(Profile profile, const Lines& lines, int first, int length, int most_readings,
-             AxisReading& best) {
+void try_run(Profile profile, const Lines& lines, const Leads& leads, int first, int length,
+             int most_readings, AxisReading& best) {
     Run run;
     std::array<std::uint8_t, kMaxRunLength> storage;
     const auto rolls = std::span(storage).first(static_cast<std::size_t>(length));
     for (std::size_t n = 0; n < rolls.size(); ++n) {
-        run[n] = Choices(lines[first + static_cast<int>(n)]);
-        rolls[n] = run[n][0].roll;
+        const std::size_t line = n + static_cast<std::size_t>(first);
+        run[n] = Choices(lines.scores[line], leads[line]);
+        rolls[n] = run[n].roll(0);
     }
     if (improve(profile, lines, first, rolls, best)) return;
     const auto widths = widen(run, length, most_readings);
@@ -136,16 +125,16 @@ void try_run(Profile profile, const Lines& lines, int first, int length, int mos
         std::size_t n = rolls.size();
         while (n > 0 && choice[n - 1] + 1 == widths[n - 1]) {
             choice[--n] = 0;
-            rolls[n] = run[n][0].roll;
+            rolls[n] = run[n].roll(0);
         }
         if (n-- == 0) return;
-        rolls[n] = run[n][++choice[n]].roll;
+        rolls[n] = run[n].roll(++choice[n]);
         if (improve(profile, lines, first, rolls, best)) return;
     }
 }
 
 /// Start of the clearest run not taken yet, or -1: that whose lines lead their runners-up by most.
-int clearest_run(const std::array<Lead, kMaxLines>& leads, int lines, int length,
+int clearest_run(const Leads& leads, int lines, int length,
                  const std::array<bool, kMaxLines>& taken) {
     int clearest = -1;
     int most = INT32_MIN;
@@ -167,7 +156,7 @@ int clearest_run(const std::array<Lead, kMaxLines>& leads, int lines, int length
 Status find_axis(Profile profile, const Lines& lines, AxisReading& best, SearchLimits limits) {
     // The misprinted sequence tells positions apart only by 7 differences.
     const int length = profile == Profile::published ? 8 : 6;
-    std::array<Lead, kMaxLines> leads;
+    Leads leads;
     std::int32_t most_possible = 0;
     for (int i = 0; i < lines.count(); ++i) {
         const Lead lead = lead_of(lines[i]);
@@ -180,7 +169,7 @@ Status find_axis(Profile profile, const Lines& lines, AxisReading& best, SearchL
         const int first = clearest_run(leads, lines.count(), length, taken);
         if (first < 0) break;
         taken[static_cast<std::size_t>(first)] = true;
-        try_run(profile, lines, first, length, limits.readings, best);
+        try_run(profile, lines, leads, first, length, limits.readings, best);
         if (best.is_clear()) break;
     }
     return best.score == INT32_MIN ? Status::not_in_code : Status::ok;

@@ -10,7 +10,7 @@ namespace dotpose::core {
 inline constexpr int kMostSteps = 18;
 
 /// Parts that make up what is enough.
-inline constexpr unsigned kEnough = 16;
+inline constexpr unsigned kEnough = 15;
 
 /// Steps at which a rival is excused: it loses nothing there, whatever its digit.
 enum class Excused : std::uint8_t { none, any_one };
@@ -23,6 +23,7 @@ struct Steps {
     int count;
     int first_line;
     std::array<std::uint8_t, kMostSteps> losses;
+    bool tell_apart = false;  ///< whether anyone can lose enough
 };
 
 /// The places at the first step at which, as far as the steps tell, not enough is lost.

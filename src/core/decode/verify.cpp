@@ -21,6 +21,15 @@ AxisReading reading_of(Profile profile, const Place& place, Axis axis) {
     return {position, static_cast<std::uint8_t>(here), 0, 0};
 }
 
+// By itself, so that small processors can keep all it needs in registers.
+[[gnu::noinline]] void compare_line(std::span<const std::int8_t> line, const std::uint8_t* bit,
+                                    Confidence& confidence) {
+    for (const std::int8_t weight : line) {
+        const int agreement = *bit++ != 0 ? weight : -weight;
+        if (agreement != 0) confidence.add(agreement, agreement < 0);
+    }
+}
+
 /// The bits of one axis, of all lines of an upright grid, against the code.
 Confidence compare(Profile profile, const Upright& upright, Axis axis, const AxisReading& reading) {
     Confidence confidence;
@@ -31,11 +40,8 @@ Confidence compare(Profile profile, const Upright& upright, Axis axis, const Axi
                        std::span(rolls).first(static_cast<std::size_t>(lines)));
     for (int i = 0; i < lines; ++i) {
         const auto line = axis == Axis::x ? upright.column(i, storage) : upright.row(i, storage);
-        const std::uint8_t* bit = code::kMainRepeated.data() + rolls[static_cast<std::size_t>(i)];
-        for (const std::int8_t weight : line) {
-            const bool is_one = *bit++ != 0;
-            if (weight != 0) confidence.add(weight, (weight > 0) != is_one);
-        }
+        compare_line(line, code::kMainRepeated.data() + rolls[static_cast<std::size_t>(i)],
+                     confidence);
     }
     return confidence;
 }

@@ -18,13 +18,13 @@ std::int32_t median_length(std::span<const Edge> edges, Values& scratch) {
     std::size_t n = 0;
     for (const Edge& edge : edges) {
         // Up to 128 px per axis, as neighbours are, half of the square fits.
-        if (larger_component(edge.step_q8) >= 1 << 15) continue;
+        if (!is_within(edge.step_q8, (1 << 15) - 1)) continue;
         const auto x = static_cast<std::uint32_t>(edge.step_q8.x * edge.step_q8.x);
         const auto y = static_cast<std::uint32_t>(edge.step_q8.y * edge.step_q8.y);
         scratch[n++] = static_cast<std::int32_t>((x + y) / 2);
     }
     const auto half_square = static_cast<std::uint32_t>(median(std::span(scratch).first(n)));
-    return static_cast<std::int32_t>(square_root(std::uint64_t{half_square} * 2));
+    return static_cast<std::int32_t>(square_root(half_square * 2));
 }
 
 /// Direction of the grid, modulo a quarter turn: the fourth powers of the edges as complex numbers
@@ -35,7 +35,7 @@ std::int32_t common_direction_bam(std::span<const Edge> edges, std::int32_t leng
     std::int32_t sum_im = 0;
     for (const Edge& edge : edges) {
         const Vec step = edge.step_q8;
-        if (larger_component(step) > 2 * length_q8) continue;
+        if (!is_within(step, 2 * length_q8)) continue;
         const std::int32_t x = (step.x * inverse_q16) >> 16;
         const std::int32_t y = (step.y * inverse_q16) >> 16;
         const std::int32_t squared_length = x * x + y * y;
@@ -51,7 +51,7 @@ std::int32_t common_direction_bam(std::span<const Edge> edges, std::int32_t leng
 }
 
 /// On which side of the origin, and in which cluster, an edge is.
-enum class Side : std::uint8_t { first, second, opposite_first, opposite_second };
+enum class Side : std::uint8_t { first, second, opposite_first, opposite_second, unknown };
 
 std::size_t cluster_of(Side side) {
     return static_cast<std::size_t>(side) & 1;
@@ -62,59 +62,80 @@ Vec turned(Vec edge, Side side) {
 }
 using Sides = std::array<Side, kMostEdges>;
 
+/// Of the edges on one side.
+struct Sum {
+    Vec total;
+    std::int32_t count = 0;
+
+    void add(Vec edge, int times) {
+        total = {total.x + times * edge.x, total.y + times * edge.y};
+        count += times;
+    }
+};
+using Sums = std::array<Sum, 5>;  ///< by Side
+
 /// The two clusters that are kept, of four: the others are their mirror images in the origin, which
 /// is the constraint of Fig. 5.
 class Clusters {
   public:
     explicit Clusters(const std::array<Vec, 2>& means_q8) : means_q8_(means_q8) {
+        std::array<std::int32_t, 2> half_squares;
         for (std::size_t k = 0; k < 2; ++k) {
             means_q6_[k] = {means_q8[k].x >> 2, means_q8[k].y >> 2};
             const Vec m = means_q6_[k];
-            half_squares_[k] = (m.x * m.x + m.y * m.y) / 2;
+            half_squares[k] = (m.x * m.x + m.y * m.y) / 2;
         }
+        farther_ = half_squares[1] - half_squares[0];
+    }
+
+    /// Puts each edge to the nearest one. `sums` are kept up to date.
+    // Not inlined, it keeps to the few registers of small processors.
+    [[gnu::noinline]] void assign(std::span<const Edge> edges, Side* side, Sums& sums) const {
+        for (const Edge& edge : edges) {
+            const Side now = nearest(edge.step_q8);
+            if (now != *side) move(edge.step_q8, *side, now, sums);
+            *side++ = now;
+        }
+    }
+    /// Where those sums have their means; unmoved where they are empty.
+    std::array<Vec, 2> means_q8(const Sums& sums) const {
+        std::array<Vec, 2> means = means_q8_;
+        for (std::size_t k = 0; k < 2; ++k) {
+            const Vec total = sums[k].total - sums[k + 2].total;
+            const std::int32_t count = sums[k].count + sums[k + 2].count;
+            if (count > 0) means[k] = {total.x / count, total.y / count};
+        }
+        return means;
     }
     const std::array<Vec, 2>& means_q8() const { return means_q8_; }
 
-    /// The nearest one.
+  private:
     Side nearest(Vec edge_q8) const {
         const Vec e{edge_q8.x >> 2, edge_q8.y >> 2};
         const std::int32_t along_0 = e.x * means_q6_[0].x + e.y * means_q6_[0].y;
         const std::int32_t along_1 = e.x * means_q6_[1].x + e.y * means_q6_[1].y;
         // |edge -+ mean|^2 / 2 without the common |edge|^2
-        const bool is_second =
-            half_squares_[1] - magnitude(along_1) < half_squares_[0] - magnitude(along_0);
+        const bool is_second = magnitude(along_1) - magnitude(along_0) > farther_;
         if (is_second) return along_1 < 0 ? Side::opposite_second : Side::second;
         return along_0 < 0 ? Side::opposite_first : Side::first;
     }
+    [[gnu::noinline]] static void move(Vec edge, Side from, Side to, Sums& sums) {
+        sums[static_cast<std::size_t>(from)].add(edge, -1);
+        sums[static_cast<std::size_t>(to)].add(edge, 1);
+    }
 
-  private:
     std::array<Vec, 2> means_q8_;
     std::array<Vec, 2> means_q6_;  ///< so that products fit 32 bits
-    std::array<std::int32_t, 2> half_squares_;
-};
-
-/// Of the edges of one cluster, turned towards it.
-struct Sum {
-    Vec total;
-    std::int32_t count = 0;
+    std::int32_t farther_;         ///< half the square of the second one over that of the first
 };
 
 /// Finds the side of each edge.
 void constrained_k_means(std::span<const Edge> edges, Clusters clusters, Sides& sides) {
+    std::fill_n(sides.begin(), edges.size(), Side::unknown);
+    Sums sums{};
     for (int iteration = 0;; ++iteration) {
-        std::array<Sum, 2> sums{};
-        for (std::size_t e = 0; e < edges.size(); ++e) {
-            const Side side = clusters.nearest(edges[e].step_q8);
-            sides[e] = side;
-            Sum& sum = sums[cluster_of(side)];
-            sum.total = sum.total + turned(edges[e].step_q8, side);
-            ++sum.count;
-        }
-        std::array<Vec, 2> means = clusters.means_q8();
-        for (std::size_t k = 0; k < 2; ++k) {
-            const auto& [total, count] = sums[k];
-            if (count > 0) means[k] = {total.x / count, total.y / count};
-        }
+        clusters.assign(edges, sides.data(), sums);
+        const std::array<Vec, 2> means = clusters.means_q8(sums);
         if (means == clusters.means_q8() || iteration == kMaxIterations) break;
         clusters = Clusters(means);
     }
@@ -171,7 +192,7 @@ bool is_nearly_square(Vec u, Vec v) {
     const std::int64_t squared_area = std::int64_t{area} * area;
     return area > 0 && std::int64_t{4} * uu <= std::int64_t{9} * vv &&
            std::int64_t{4} * vv <= std::int64_t{9} * uu &&
-           100 * (squared_area / 81) >= std::int64_t{uu} * vv;
+           25 * squared_area >= 81 * (std::int64_t{uu} * vv / 4);
 }
 
 bool is_nearly_square(const PlaneFromImage& plane) {

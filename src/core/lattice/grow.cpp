@@ -1,5 +1,7 @@
 #include "core/lattice/grow.hpp"
 
+#include <array>
+
 #include "core/cell_fit.hpp"
 #include "core/cells.hpp"
 #include "core/lattice/axes.hpp"
@@ -8,45 +10,145 @@
 namespace dotpose::core {
 namespace {
 
-/// Whether |a| <= limit, in both components.
-bool is_within(Vec a, std::int32_t limit) {
-    const auto twice = static_cast<std::uint32_t>(2 * limit);
-    return static_cast<std::uint32_t>(a.x + limit) <= twice &&
-           static_cast<std::uint32_t>(a.y + limit) <= twice;
+/// Vectors of which both components are between `least` and `least` + `extent`, modulo 2^32.
+struct Square {
+    std::uint32_t least;
+    std::uint32_t extent;
+
+    bool holds(std::uint32_t x, std::uint32_t y) const {
+        return x - least <= extent && y - least <= extent;
+    }
+    bool holds(Vec a) const {
+        return holds(static_cast<std::uint32_t>(a.x), static_cast<std::uint32_t>(a.y));
+    }
+};
+
+/// Of points, in spacings, that cutting off puts into cells up to `limit` from the middle one.
+Square cells_within(int limit) {
+    return {static_cast<std::uint32_t>(-limit * 65536),
+            static_cast<std::uint32_t>((2 * limit + 1) * 65536 - 1)};
 }
 
-/// Shows the dots within reach to `use(p, grid_point)`, which says whether they count as near an
-/// intersection.
+/// Of such points' fractions, times 2^16, where rounding moves neither by more than `limit`.
+Square offsets_within(std::int32_t limit_q16) {
+    return {static_cast<std::uint32_t>(32768 - limit_q16) << 16,
+            static_cast<std::uint32_t>(std::min(2 * limit_q16, 65535)) << 16};
+}
+bool is_near(Vec rounding_q16, const Square& offsets) {
+    return offsets.holds(static_cast<std::uint32_t>(rounding_q16.x) << 16,
+                         static_cast<std::uint32_t>(rounding_q16.y) << 16);
+}
+
+/// Shows each dot to `use(dot, c, is_within_reach)`: c is where it is in the plane, so that cutting
+/// off rounds to the cell. `near_intersections` are left to the caller.
 template <typename Use>
-Regularity look_at(std::span<const Dot> dots, int reach_cells, const PlaneFromImage& plane,
-                   Use use) {
+Regularity look_at(std::span<const Dot> dots, int reach_cells, const Cells& cells, Use use) {
     constexpr int kFarthest_cells = 500;
-    const Cells cells(plane);
-    Regularity found;
+    int farthest_cell = 0;
+    int beyond = 0;
+    const Square reach = cells_within(reach_cells);
+    // Most dots are within reach, and no farther than others.
+    Square common = cells_within(0);
     for (const Dot& dot : dots) {
-        const Vec p = cells.from_centre_q3(dot.centre_q8);
-        const GridPoint g = cells(p);
-        if (!is_within(g.cell, found.farthest_cell)) {
-            const int distance = larger_component(g.cell);
-            if (distance > kFarthest_cells) continue;
-            found.farthest_cell = distance;
+        const Vec c = cells.rounding_plane_point_q16(cells.from_centre_q3(dot.centre_q8));
+        bool is_within_reach = common.holds(c);
+        if (!is_within_reach) {
+            const int distance = larger_component({c.x >> 16, c.y >> 16});
+            if (distance <= kFarthest_cells && distance > farthest_cell) {
+                farthest_cell = distance;
+                common = cells_within(std::min(distance, reach_cells));
+            }
+            is_within_reach = distance <= kFarthest_cells && reach.holds(c);
+            if (!is_within_reach) ++beyond;
         }
-        if (!is_within(g.cell, reach_cells)) continue;
-        ++found.dots;
-        found.near_intersections += use(p, g);
+        use(dot, c, is_within_reach);
     }
+    Regularity found;
+    found.dots = static_cast<int>(dots.size()) - beyond;
+    found.farthest_cell = farthest_cell;
     return found;
 }
+
+/// Cells of dots that a fit uses, packed.
+enum class Used : std::uint32_t { no = 0x80808080 };
+
+Used used(Vec rounding_q16) {
+    return Used{(static_cast<std::uint32_t>(rounding_q16.x) & 0xFFFF0000) |
+                static_cast<std::uint32_t>(rounding_q16.y) >> 16};
+}
+Vec cell_of(Used used) {
+    const auto both = static_cast<std::uint32_t>(used);
+    return {static_cast<std::int16_t>(both >> 16), static_cast<std::int16_t>(both & 0xFFFF)};
+}
+
+/// Fits that follow each other: most dots count in each of them, and in the same cells.
+class Fits {
+  public:
+    Fits(std::span<const Dot> dots, std::int32_t max_offset_q16)
+        : dots_(dots), near_(offsets_within(max_offset_q16)) {
+        if (remembers()) std::fill_n(before_.begin(), dots.size(), Used::no);
+    }
+
+    /// Fits the plane to the dots within reach. False if they do not determine one.
+    bool operator()(int reach_cells, Regularity& found, PlaneFromImage& plane) {
+        const Cells cells(plane);
+        found = remembers() ? sum_up_changes(reach_cells, cells) : sum_up(reach_cells, cells);
+        found.near_intersections = sums_.count();
+        return sums_.solve(0, plane) && is_nearly_square(plane);
+    }
+
+  private:
+    bool remembers() const { return dots_.size() <= before_.size(); }
+
+    Regularity sum_up(int reach_cells, const Cells& cells) {
+        CellFit sums;
+        const Square near = near_;
+        const Regularity found =
+            look_at(dots_, reach_cells, cells, [&](const Dot& dot, Vec c, bool is_within) {
+                if (!is_within || !is_near(c, near)) return;
+                sums.add(cells.from_centre_q3(dot.centre_q8), {c.x >> 16, c.y >> 16});
+            });
+        sums_ = sums;
+        return found;
+    }
+    Regularity sum_up_changes(int reach_cells, const Cells& cells) {
+        Used* before = before_.data();
+        const Square near = near_;
+        return look_at(dots_, reach_cells, cells, [&](const Dot& dot, Vec c, bool is_within) {
+            const Used now = is_within && is_near(c, near) ? used(c) : Used::no;
+            if (now != *before) {
+                const Vec p = cells.from_centre_q3(dot.centre_q8);
+                if (*before != Used::no) count(p, *before, -1);
+                if (now != Used::no) count(p, now, 1);
+                *before = now;
+            }
+            ++before;
+        });
+    }
+    [[gnu::noinline]] void count(Vec p, Used used, int weight) {
+        sums_.count(p, cell_of(used), weight);
+    }
+
+    std::span<const Dot> dots_;
+    Square near_;
+    CellFit sums_;
+    std::array<Used, 384> before_;  ///< of each dot, unless there are too many
+};
 
 /// Whether the dots sit on a grid, and displaced.
 Status judge(std::span<const Dot> dots, int reach_cells, const LatticeOptions& options,
              const PlaneFromImage& plane) {
+    const Square near = offsets_within(options.max_offset_q16);
     std::int32_t squared_offsets_q14 = 0;
-    const Regularity found = look_at(dots, reach_cells, plane, [&](const Vec&, const GridPoint& g) {
-        const Vec offset_q8{g.offset_q16.x >> 8, g.offset_q16.y >> 8};
-        squared_offsets_q14 += (offset_q8.x * offset_q8.x + offset_q8.y * offset_q8.y) >> 2;
-        return is_within(g.offset_q16, options.max_offset_q16);
-    });
+    int near_intersections = 0;
+    Regularity found =
+        look_at(dots, reach_cells, Cells(plane), [&](const Dot&, Vec c, bool is_within) {
+            if (!is_within) return;
+            const Vec offset_q8{(c.x >> 8 & 255) - 128, (c.y >> 8 & 255) - 128};
+            squared_offsets_q14 += (offset_q8.x * offset_q8.x + offset_q8.y * offset_q8.y) >> 2;
+            near_intersections += is_near(c, near) ? 1 : 0;
+        });
+    found.near_intersections = near_intersections;
     return found.verdict(squared_offsets_q14 / std::max(found.dots, 1) * 64);
 }
 
@@ -56,17 +158,9 @@ Status grow_grid(std::span<const Dot> dots, const LatticeOptions& options, Vec i
                  const Lattice& first, PlaneFromImage& plane) {
     plane = plane_from_lattice(first, image_centre_q8);
     Regularity found;
-    const std::int32_t max_offset_q16 = options.max_offset_q16;
     constexpr int kMostRounds = 3;
-    const auto fit = [&](int reach_cells) {
-        CellFit sums;
-        found = look_at(dots, reach_cells, plane, [&](const Vec& p, const GridPoint& g) {
-            if (!is_within(g.offset_q16, max_offset_q16)) return false;
-            sums.add(p, g.cell);
-            return true;
-        });
-        return sums.solve(0, plane) && is_nearly_square(plane);
-    };
+    Fits fits(dots, options.max_offset_q16);
+    const auto fit = [&](int reach_cells) { return fits(reach_cells, found, plane); };
     if (!fit_outwards(kMostRounds, found, fit)) return Status::no_grid;
     return judge(dots, found.farthest_cell, options, plane);
 }

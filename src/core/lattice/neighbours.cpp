@@ -29,22 +29,19 @@ class Buckets {
     std::int16_t seed_at(const Point* p) const {
         return seeds_[static_cast<std::size_t>(p - sorted_.data())];
     }
-    /// Those in the columns from `first` to `last` of one row.
-    std::span<const Point> in_row(int row, int first, int last) const {
-        const std::uint16_t* const begins = &begin_[static_cast<std::size_t>(row * columns_)];
-        const std::size_t begin = begins[first];
-        const std::size_t end = begins[last + 1];
-        return all().subspan(begin, end - begin);
+    /// The first one in a column of a row, or the first after it.
+    const Point* in_row(int row, int column) const {
+        return &sorted_[begin_[static_cast<std::size_t>(row * columns_ + column)]];
     }
 
   private:
+    std::array<Point, kMaxSeeds> sorted_;
+    std::array<std::uint8_t, kMaxSeeds> seeds_;       ///< their indices
+    std::array<std::uint16_t, kMaxSeeds + 1> begin_;  ///< of each bucket, and where the last ends
+    std::size_t count_;
     int shift_ = 0;
     int columns_ = 1;
     int rows_ = 1;
-    std::size_t count_;
-    std::array<std::uint16_t, kMaxSeeds + 1> begin_;  ///< of each bucket, and where the last ends
-    std::array<Point, kMaxSeeds> sorted_;
-    std::array<std::uint8_t, kMaxSeeds> seeds_;  ///< their indices
     static_assert(kMaxSeeds <= 256);
 };
 
@@ -79,9 +76,9 @@ Buckets::Buckets(std::span<const Dot> dots, std::span<const std::uint16_t> seeds
     for (std::size_t k = 1; k <= static_cast<std::size_t>(buckets); ++k)
         begin_[k] = static_cast<std::uint16_t>(begin_[k] + begin_[k - 1]);
     for (std::size_t s = 0; s < seeds.size(); ++s) {
-        const Point p = point_of(s);
-        const std::size_t place = --begin_[bucket_of(p)];
-        sorted_[place] = p;
+        const auto [x_q8, y_q8] = point_of(s);
+        const std::size_t place = --begin_[bucket_of({x_q8, y_q8})];
+        sorted_[place] = {x_q8, y_q8};
         seeds_[place] = static_cast<std::uint8_t>(s);
     }
 }
@@ -96,44 +93,58 @@ class Nearest {
     /// more.
     Nearest(const Buckets::Point& self, std::uint32_t within_q16, bool may_be_far)
         : self_(self), may_be_far_(may_be_far) {
-        squared_q16_.fill(within_q16);
+        for (std::size_t k = 0; k < points_.size(); ++k) {
+            squared_q16_[k] = within_q16;
+            points_[k] = nullptr;
+        }
     }
 
-    void search(std::span<const Buckets::Point> points) {
-        for (const Buckets::Point& p : points) {
+    // Functions that are not inlined keep to the few registers of small processors.
+    [[gnu::noinline]] void search(const Buckets::Point* p, const Buckets::Point* end) {
+        const auto [x, y] = self_;
+        std::uint32_t farthest_q16 = squared_q16_[3];
+        for (; p != end; ++p) {
             // Too far off for 32 bits, it may be taken for near, but is not kept.
-            const Vec d{p.x_q8 - self_.x_q8, p.y_q8 - self_.y_q8};
-            const std::uint32_t distance = wrapped_square(d.x) + wrapped_square(d.y);
-            if (distance >= squared_q16_[3] || &p == &self_) continue;
-            if (may_be_far_ && larger_component(d) >= kFarthest_q8) continue;
-            insert<3>(&p, distance);
+            const std::uint32_t squared_q16 =
+                wrapped_square(p->x_q8 - x) + wrapped_square(p->y_q8 - y);
+            if (squared_q16 < farthest_q16) farthest_q16 = consider(p, squared_q16);
         }
     }
     bool are_four() const { return points_[3] != nullptr; }
-    /// Null where there are none.
-    const std::array<const Buckets::Point*, 4>& points() const { return points_; }
+    /// Their seeds; -1 where there are none.
+    void tell(const Buckets& buckets, std::array<std::int16_t, 4>& seeds) const {
+        for (std::size_t k = 0; k < seeds.size(); ++k)
+            seeds[k] = points_[k] == nullptr ? std::int16_t{-1} : buckets.seed_at(points_[k]);
+    }
 
   private:
     static std::uint32_t wrapped_square(std::int32_t a) {
         return static_cast<std::uint32_t>(a) * static_cast<std::uint32_t>(a);
     }
+    /// Keeps the point if it is another and not too far off; tells how near the next must be.
+    [[gnu::noinline]] std::uint32_t consider(const Buckets::Point* p, std::uint32_t squared_q16) {
+        const bool is_far = may_be_far_ && larger_component({p->x_q8 - self_.x_q8,
+                                                             p->y_q8 - self_.y_q8}) >= kFarthest_q8;
+        if (p != &self_ && !is_far) insert<3>(p, squared_q16);
+        return squared_q16_[3];
+    }
     template <std::size_t kPlace>
-    void insert(const Buckets::Point* p, std::uint32_t distance) {
+    void insert(const Buckets::Point* p, std::uint32_t squared_q16) {
         if constexpr (kPlace > 0) {
-            if (distance < squared_q16_[kPlace - 1]) {
+            if (squared_q16 < squared_q16_[kPlace - 1]) {
                 squared_q16_[kPlace] = squared_q16_[kPlace - 1];
                 points_[kPlace] = points_[kPlace - 1];
-                insert<kPlace - 1>(p, distance);
+                insert<kPlace - 1>(p, squared_q16);
                 return;
             }
         }
-        squared_q16_[kPlace] = distance;
+        squared_q16_[kPlace] = squared_q16;
         points_[kPlace] = p;
     }
 
     const Buckets::Point& self_;
     bool may_be_far_;
-    std::array<const Buckets::Point*, 4> points_{};
+    std::array<const Buckets::Point*, 4> points_;
     std::array<std::uint32_t, 4> squared_q16_;
 };
 
@@ -151,13 +162,11 @@ int choose_seeds(std::span<const Dot> dots, Vec centre_q8, std::span<std::uint16
     // Bins as narrow as they can be where the last one holds the farthest dot.
     std::array<std::uint16_t, kDistanceBins> histogram{};
     int shift = 0;
-    int counted = 0;
     for (const Dot& dot : dots) {
         const std::int32_t distance = larger_component(dot.centre_q8 - centre_q8);
         for (; distance >> shift >= kDistanceBins; ++shift) {
-            if (counted > 0) widen(histogram);
+            if (&dot != dots.data()) widen(histogram);
         }
-        ++counted;
         ++histogram[static_cast<std::size_t>(distance >> shift)];
     }
     std::size_t bins = 1;
@@ -168,7 +177,7 @@ int choose_seeds(std::span<const Dot> dots, Vec centre_q8, std::span<std::uint16
     const std::int32_t reach_q8 = static_cast<std::int32_t>(bins) << shift;
     std::size_t count = 0;
     for (std::size_t i = 0; i < dots.size() && count < seeds.size(); ++i) {
-        if (larger_component(dots[i].centre_q8 - centre_q8) < reach_q8)
+        if (is_within(dots[i].centre_q8 - centre_q8, reach_q8 - 1))
             seeds[count++] = static_cast<std::uint16_t>(i);
     }
     return static_cast<int>(count);
@@ -193,13 +202,9 @@ void find_neighbours(std::span<const Dot> dots, std::span<const std::uint16_t> s
             const int right = std::min(column + reach, buckets.columns() - 1);
             const int bottom = std::min(row + reach, buckets.rows() - 1);
             for (int r = std::max(row - reach, 0); r <= bottom; ++r)
-                nearest.search(buckets.in_row(r, left, right));
+                nearest.search(buckets.in_row(r, left), buckets.in_row(r, right + 1));
             if (!is_last && !nearest.are_four()) continue;
-            auto& found = neighbours[static_cast<std::size_t>(buckets.seed_at(&p))];
-            std::transform(nearest.points().begin(), nearest.points().end(), found.begin(),
-                           [&](const auto* q) {
-                               return q == nullptr ? std::int16_t{-1} : buckets.seed_at(q);
-                           });
+            nearest.tell(buckets, neighbours[static_cast<std::size_t>(buckets.seed_at(&p))]);
             break;
         }
     }

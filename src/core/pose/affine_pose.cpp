@@ -31,6 +31,11 @@ std::int32_t squared_q16(Vec a_q16) {
     return (a_q16.x >> 8) * (a_q16.x >> 8) + (a_q16.y >> 8) * (a_q16.y >> 8);
 }
 
+/// By itself, so that small processors need not move what else they keep in registers.
+[[gnu::noinline]] void add(CellFit& fit, Vec p, Vec target) {
+    fit.add(p, target);
+}
+
 }  // namespace
 
 int fit_affine_pose(const Observations& observations, PlaneFromImage& pose) {
@@ -69,15 +74,14 @@ int fit_affine_pose(const Observations& observations, PlaneFromImage& pose) {
     // Where dots were printed, in 1/64 cells: at most 2^15 of them.
     constexpr int kTargetBits = 6;
     const auto targets = displacements(shift_rounded(displacement_q16, 16 - kTargetBits));
-    CellFit sums;
+    CellFit fit;
     observations.visit([&](const Observation& o) {
         const Vec p = cells.from_centre_q3(o.image_point_q8);
         if (squared_residual_q16(offset_q16(o, p), o.symbol) > limit_q16) return;
         const Vec step{o.pattern_step.x * (1 << kTargetBits),
                        o.pattern_step.y * (1 << kTargetBits)};
-        sums.add(p, step + targets[static_cast<std::size_t>(o.symbol)]);
+        add(fit, p, step + targets[static_cast<std::size_t>(o.symbol)]);
     });
-    CellFit fit = sums;  // So that `sums` may stay in registers.
     return fit.solve(kTargetBits, pose) ? fit.count() : 0;
 }
 

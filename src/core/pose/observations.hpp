@@ -46,7 +46,8 @@ class Observations {
         int skipped = 0;
         for (int j = grid_.j0; j < grid_.j0 + grid_.rows; ++j) {
             Vec step = nominal_.pattern_step({grid_.i0, j});
-            for (int i = 0; i < grid_.columns; ++i, ++cell, step = step + along_row) {
+            for (const GridCell* end = cell + grid_.columns; cell != end;
+                 ++cell, step = step + along_row) {
                 if (!cell->has_dot() || ++skipped < every) continue;
                 skipped = 0;
                 use(Observation{dots_[cell->dot].centre_q8, step, nominal_.symbol(step)});

@@ -56,6 +56,19 @@ inline void darken(GreyImage& image, Vec2 centre, double sigma, double depth) {
     }
 }
 
+/// What counts as dark in a column of the band that was measured last.
+struct Levels {
+    int extent = 0;
+    int core = 0;
+};
+inline Levels levels_at(const Light& light, int u) {
+    const auto column = static_cast<std::size_t>(u);
+    return {2 * light.half_extents[column], light.cores[column]};
+}
+inline Levels levels_of_tile(const Light& light, int tile) {
+    return levels_at(light, tile * light.tile_px);
+}
+
 /// The blobs of an image that may be dots, before the size filter.
 inline std::vector<Dot> blobs_of(const GreyImage& image, Workspace& w,
                                  const ThresholdOptions& options = {}) {

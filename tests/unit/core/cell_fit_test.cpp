@@ -102,6 +102,30 @@ TEST(CellFit, IsTheLeastSquaresSolution) {
     }
 }
 
+TEST(CellFit, PointsTakenAwayAgainLeaveNoTrace) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 100; ++i) {
+        const double reach = i % 3 == 0 ? 2048 : rng.uniform(40, 300);
+        const auto kept = random_pairs(rng, reach, 8, 6 + static_cast<int>(rng.below(200)));
+        const auto others = random_pairs(rng, reach, 8, static_cast<int>(rng.below(200)));
+        CellFit changed;
+        for (const Pair& pair : others)
+            changed.count(pair.p_q3, pair.cell, 1);
+        for (const Pair& pair : kept)
+            changed.count(pair.p_q3, pair.cell, 1);
+        for (const Pair& pair : others)
+            changed.count(pair.p_q3, pair.cell, -1);
+        CellFit fit = fit_of(kept);
+        EXPECT_EQ(changed.count(), fit.count());
+        PlaneFromImage expected;
+        PlaneFromImage plane;
+        ASSERT_EQ(changed.solve(0, plane), fit.solve(0, expected));
+        EXPECT_EQ(plane.at_centre_q16, expected.at_centre_q16) << i << ", seed " << kSeed;
+        EXPECT_EQ(plane.du_q24, expected.du_q24);
+        EXPECT_EQ(plane.dv_q24, expected.dv_q24);
+    }
+}
+
 TEST(CellFit, AgreesWithTheFitInWideNumbers) {
     Rng rng(kSeed);
     for (int i = 0; i < 100; ++i) {

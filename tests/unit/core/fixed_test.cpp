@@ -64,6 +64,21 @@ TEST(Fixed, ShiftsAreRoundedToNearestHalvesUp) {
     }
 }
 
+TEST(Fixed, ShortQuotientsAreThoseOfTheProcessor) {
+    EXPECT_EQ(short_quotient(0, 1), 0);
+    EXPECT_EQ(short_quotient(1, INT64_MAX), 0);
+    EXPECT_EQ(short_quotient(INT64_MAX, INT64_MAX), 1);
+    EXPECT_EQ(short_quotient(INT32_MAX, 1), INT32_MAX);
+    EXPECT_EQ(short_quotient(-INT32_MAX, 1), -INT32_MAX);
+    Rng rng(kSeed);
+    for (int i = 0; i < 20000; ++i) {
+        const auto n = static_cast<std::int64_t>(rng.bits()) >> rng.below(63);
+        const auto d = static_cast<std::int64_t>(rng.bits() >> 1 >> rng.below(63)) + 1;
+        if (magnitude(n / d) > INT32_MAX) continue;
+        ASSERT_EQ(short_quotient(n, d), n / d) << n << " / " << d << ", seed " << kSeed;
+    }
+}
+
 TEST(Fixed, SquareRootIsTheLargestWhoseSquareFits) {
     std::vector<std::uint64_t> numbers{
         0, 1, 2, 3, 4, UINT64_MAX, UINT64_MAX - 1, std::uint64_t{1} << 62, std::uint64_t{1} << 63};
@@ -79,6 +94,8 @@ TEST(Fixed, SquareRootIsTheLargestWhoseSquareFits) {
         ASSERT_LE(root * root, n);
         // (root + 1)^2 > n, without overflow.
         ASSERT_GE(root * root + 2 * root, n) << "seed " << kSeed;
+        const auto narrow = static_cast<std::uint32_t>(n);
+        ASSERT_EQ(square_root(narrow), square_root(std::uint64_t{narrow})) << "seed " << kSeed;
     }
 }
 

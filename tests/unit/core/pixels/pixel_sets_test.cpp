@@ -38,7 +38,7 @@ Marked marked(const GreyImage& image, Light& light) {
             for (int v = band_begin(light, band); v < band_end(light, band); ++v) {
                 for (int u = 0; u < image.width_px; ++u) {
                     const auto p = static_cast<std::size_t>(v * image.width_px + u);
-                    const Levels level = light.levels[static_cast<std::size_t>(u / light.tile_px)];
+                    const Levels level = levels_at(light, u);
                     result.is_dark[p] = image.pixels[p] < level.extent;
                     result.is_core[p] = image.pixels[p] < level.core;
                 }

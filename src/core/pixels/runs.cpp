@@ -1,0 +1,98 @@
+#include "core/pixels/runs.hpp"
+
+#include <bit>
+#include <cstring>
+
+#include "core/pixels/light.hpp"
+#include "core/pixels/words.hpp"
+
+namespace dotpose::core {
+namespace {
+
+/// Pixels that are looked at together: all have the same levels.
+constexpr std::size_t kGroup_px = kSmallestTile_px;
+
+constexpr std::uint64_t kHighs = 0x8080808080808080;
+
+/// Eight bytes from anywhere.
+std::uint64_t eight_at(const std::uint8_t* bytes) {
+    std::uint64_t eight = 0;
+    std::memcpy(&eight, bytes, sizeof eight);
+    return eight;
+}
+
+/// A bit for each pixel of a group, the first the lowest, set where it is dark.
+std::uint64_t dark_bits(const std::uint8_t* pixels, const std::uint8_t* half_extents) {
+    const std::uint64_t light = (eight_at(pixels) >> 1 | kHighs) - eight_at(half_extents);
+    const std::uint64_t dark = ~light & kHighs;
+    return (dark >> 7) * 0x0102040810204080 >> 56;
+}
+
+/// Whether some byte of `a` is less than that of `b`.
+bool is_any_less(std::uint64_t a, std::uint64_t b) {
+    const std::uint64_t low_difference = (a | kHighs) - (b & ~kHighs);
+    return (((~a & b) | (~(a ^ b) & ~low_difference)) & kHighs) != 0;
+}
+
+/// Sets the sums of a run.
+void sum_up(const std::uint8_t* row, const Light& light, Run& run) {
+    constexpr std::uint64_t kHalves = 0x00FF00FF00FF00FF;
+    constexpr std::uint64_t kSum = 0x0001000100010001;     // of four halves, in the highest
+    constexpr std::uint64_t kMoment = 0x0000000100020003;  // each times its index
+    run.mass = run.sum_x = 0;
+    run.has_core = false;
+    for (std::size_t u = run.begin; u < run.end; u += 8) {
+        const std::size_t unused = run.end - u < 8 ? 8 - (run.end - u) : 0;
+        const std::uint64_t in_run = ~std::uint64_t{0} >> 8 * unused;
+        const std::uint64_t pixels = eight_at(row + u);
+        const std::uint64_t extents = eight_at(light.half_extents.data() + u) << 1;
+        const std::uint64_t depths = (extents & in_run) - (pixels & in_run);
+        const std::uint64_t odd = depths >> 8 & kHalves;
+        const std::uint64_t pairs = (depths & kHalves) + odd;
+        const auto mass = static_cast<std::uint32_t>(pairs * kSum >> 48);
+        const auto moment =
+            static_cast<std::uint32_t>(2 * (pairs * kMoment >> 48) + (odd * kSum >> 48));
+        run.mass += mass;
+        run.sum_x += mass * static_cast<std::uint32_t>(u) + moment;
+        run.has_core |= is_any_less(pixels | ~in_run, eight_at(light.cores.data() + u));
+    }
+}
+
+/// A run from each change of a row from light to dark and back: without a branch for each pixel.
+int find_runs_by_word(int v, const Light& light, std::span<Run> runs) {
+    const std::uint8_t* const row = kept_row(light, v);
+    const auto row_end = static_cast<std::size_t>(light.width_px);
+    Run* run = runs.data();
+    const Run* const end = run + runs.size();
+    bool is_dark = false;
+    for (std::size_t u = 0; u < row_end || is_dark; u += 64) {
+        std::uint64_t dark = 0;
+        for (std::size_t k = 0; k < 64 && u + k < row_end; k += kGroup_px)
+            dark |= dark_bits(row + u + k, light.half_extents.data() + u + k) << k;
+        std::uint64_t changes = dark ^ (dark << 1 | static_cast<std::uint64_t>(is_dark));
+        for (; changes != 0; changes &= changes - 1) {
+            if (run == end) return static_cast<int>(runs.size());
+            const std::size_t column = u + static_cast<std::size_t>(std::countr_zero(changes));
+            is_dark = !is_dark;
+            if (is_dark) {
+                run->begin = static_cast<std::uint16_t>(column);
+            } else {
+                run->end = static_cast<std::uint16_t>(column);
+                sum_up(row, light, *run++);
+            }
+        }
+    }
+    return static_cast<int>(run - runs.data());
+}
+
+}  // namespace
+
+int find_runs(int v, const Light& light, std::span<Run> runs) {
+    if constexpr (sizeof(Word) == 8) {
+        return find_runs_by_word(v, light, runs);
+    } else {
+        return find_runs_by_pixel(v, light, runs);
+    }
+}
+
+}  // namespace dotpose::core

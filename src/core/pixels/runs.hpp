@@ -1,0 +1,18 @@
+// Runs: the stretches of dark pixels in a row, and the sums over each. Second half of the
+// thresholding of paper section II-B.1.
+#pragma once
+
+#include <span>
+
+#include "dotpose/stages.hpp"
+
+namespace dotpose::core {
+
+/// Finds the runs of row `v`, as many as there is room for, from left to right; returns how many.
+/// One that reaches the image's right border may end beyond it.
+int find_runs(int v, const Light& light, std::span<Run> runs);
+
+/// The same, pixel by pixel, which is what processors do whose words hold fewer than eight.
+int find_runs_by_pixel(int v, const Light& light, std::span<Run> runs);
+
+}  // namespace dotpose::core

@@ -1,0 +1,122 @@
+// Runs against a search pixel by pixel in plain arithmetic, on rows of all kinds.
+#include "core/pixels/runs.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "../canvas.hpp"
+#include "dotpose/locate.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+using namespace core;
+
+constexpr std::uint64_t kSeed = 61;
+
+/// A row of an image and levels that change from one eight columns to the next.
+struct Row {
+    LargeWorkspace workspace;
+    Light& light = workspace.light;
+
+    void draw(Rng& rng, int width_px) {
+        std::vector<std::uint8_t> pixels(static_cast<std::size_t>(width_px));
+        // From rare specks to hardly any paper, and grey levels at and about the thresholds.
+        const double dark_share = rng.uniform(0, 1);
+        begin_light(width_px, kMinFrameSide_px, light);
+        for (int u = 0; u < light.tiles_per_band * light.tile_px; u += 8) {
+            const int half_extent = rng.below(6) == 0 ? 0 : static_cast<int>(rng.below(128));
+            const int core = static_cast<int>(rng.below(2 * half_extent + 1U));
+            for (int k = u; k < u + 8; ++k) {
+                light.half_extents[static_cast<std::size_t>(k)] =
+                    static_cast<std::uint8_t>(half_extent);
+                light.cores[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(core);
+            }
+            const bool is_close = rng.below(2) == 0;
+            for (int k = u; k < std::min(u + 8, width_px); ++k) {
+                const bool is_dark = rng.uniform(0, 1) < dark_share;
+                int level = static_cast<int>(is_dark ? rng.below(2 * half_extent + 1U)
+                                                     : 255 - rng.below(256 - 2 * half_extent));
+                if (is_close) level = (rng.below(2) == 0 ? 2 * half_extent : core) - is_dark;
+                pixels[static_cast<std::size_t>(k)] =
+                    static_cast<std::uint8_t>(std::clamp(level, 0, 255));
+            }
+        }
+        take_row(pixels.data(), light);
+    }
+};
+
+std::vector<dotpose::Run> expected_runs(const Light& light) {
+    const std::uint8_t* row = kept_row(light, 0);
+    std::vector<dotpose::Run> runs;
+    bool is_dark = false;
+    for (int u = 0; u < light.tiles_per_band * light.tile_px; ++u) {
+        const Levels level = levels_at(light, u);
+        const int weight = level.extent - row[u];
+        const bool was_dark = std::exchange(is_dark, weight > 0);
+        if (!is_dark) continue;
+        if (!was_dark) runs.push_back({.begin = static_cast<std::uint16_t>(u)});
+        dotpose::Run& run = runs.back();
+        run.end = static_cast<std::uint16_t>(u + 1);
+        run.mass += static_cast<std::uint32_t>(weight);
+        run.sum_x += static_cast<std::uint32_t>(weight * u);
+        run.has_core |= row[u] < level.core;
+    }
+    return runs;
+}
+
+void expect_runs(std::span<const dotpose::Run> found, std::span<const dotpose::Run> expected) {
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        SCOPED_TRACE(testing::Message() << "run " << i << " from " << expected[i].begin);
+        ASSERT_EQ(found[i].begin, expected[i].begin);
+        ASSERT_EQ(found[i].end, expected[i].end);
+        ASSERT_EQ(found[i].mass, expected[i].mass);
+        ASSERT_EQ(found[i].sum_x, expected[i].sum_x);
+        ASSERT_EQ(found[i].has_core, expected[i].has_core);
+    }
+}
+
+TEST(Runs, AreTheStretchesOfDarkPixelsWhateverTheWayOfCounting) {
+    Rng rng(kSeed);
+    Row row;
+    std::array<dotpose::Run, 4096> storage;
+    std::size_t most = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const int width = 64 + static_cast<int>(rng.below(i % 10 == 0 ? 4033 : 200));
+        SCOPED_TRACE(testing::Message() << "row " << i << ", seed " << kSeed << ", " << width);
+        row.draw(rng, width);
+        const auto expected = expected_runs(row.light);
+        most = std::max(most, expected.size());
+        for (const auto find : {find_runs, find_runs_by_pixel}) {
+            const auto count = static_cast<std::size_t>(find(0, row.light, storage));
+            expect_runs(std::span(storage).first(count), expected);
+            if (testing::Test::HasFatalFailure()) return;
+        }
+    }
+    EXPECT_GT(most, 500u);
+}
+
+TEST(Runs, AreTheFirstOnesWhereThereIsNoRoomForAll) {
+    Rng rng(kSeed + 1);
+    Row row;
+    std::array<dotpose::Run, 256> storage;
+    for (int i = 0; i < 500; ++i) {
+        SCOPED_TRACE(testing::Message() << "row " << i << ", seed " << kSeed + 1);
+        row.draw(rng, 64 + static_cast<int>(rng.below(200)));
+        const auto expected = expected_runs(row.light);
+        for (const std::size_t room : {std::size_t{0}, std::size_t{1}, expected.size() / 2}) {
+            const auto runs = std::span(storage).first(std::min(room, expected.size()));
+            for (const auto find : {find_runs, find_runs_by_pixel}) {
+                const auto count = static_cast<std::size_t>(find(0, row.light, runs));
+                expect_runs(runs.first(count), std::span(expected).first(runs.size()));
+                if (testing::Test::HasFatalFailure()) return;
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace dotpose::core_test
