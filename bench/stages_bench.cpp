@@ -121,9 +121,7 @@ bool choose_windows(Located& l) {
     const Region window = core::choose_window(l.w.grid, kWindowSide);
     const Region region =
         core::choose_window(l.w.grid, static_cast<int>(l.w.line_scores.size() / 2));
-    // Devices have no use for the smaller one.
-    const Region& found = l.w.decoding.window;
-    return (found.columns == 0 || window.i0 == found.i0) && region.i0 == l.w.decoding.region.i0;
+    return window.i0 == l.w.decoding.window.i0 && region.i0 == l.w.decoding.region.i0;
 }
 
 bool rank_turns(Located& l) {
@@ -141,36 +139,20 @@ bool correlate(Located& l) {
     return lines == l.w.decoding.region.columns + l.w.decoding.region.rows;
 }
 
-bool search_axes(Located& l, core::SearchLimits limits) {
+bool search(Located& l) {
     for (const core::Axis axis : {core::Axis::x, core::Axis::y}) {
         const auto storage = core::scores_of(axis, std::span(l.w.line_scores));
         const core::Lines lines = core::scored_lines(l.upright(), axis, storage);
         core::AxisReading reading;
-        if (core::find_axis(kProfile, lines, reading, limits) != Status::ok) return false;
+        if (core::find_axis(kProfile, lines, reading, core::kBrief) != Status::ok) return false;
     }
     return l.w.decoding.lines_are_scored;
 }
 
-bool search(Located& l) {
-    return search_axes(l, {});
-}
-
-bool search_briefly(Located& l) {
-    return search_axes(l, core::kBrief);
-}
-
-bool decode(Located& l, decltype(core::decode_all) decoder) {
+bool decode(Located& l) {
     const Cell before = l.w.decoding.place.cell;
-    const Status status = decoder(l.w.grid, kProfile, l.w.line_scores, l.w.decoding);
+    const Status status = core::decode_briefly(l.w.grid, kProfile, l.w.line_scores, l.w.decoding);
     return status == Status::ok && l.w.decoding.place.cell == before;
-}
-
-bool decode_all(Located& l) {
-    return decode(l, core::decode_all);
-}
-
-bool decode_briefly(Located& l) {
-    return decode(l, core::decode_briefly);
 }
 
 bool verify(Located& l) {
@@ -223,12 +205,10 @@ constexpr std::array kStages = {
     NamedStage{"grow", grow_grid},
     NamedStage{"likelihood", assign_likelihoods},
     NamedStage{"window", choose_windows},
-    NamedStage{"position", decode_all, Path::full},
-    NamedStage{"position, briefly", decode_briefly, Path::device},
+    NamedStage{"position", decode},
     NamedStage{"orientation", rank_turns, Path::both, true},
     NamedStage{"correlation", correlate, Path::both, true},
-    NamedStage{"search", search, Path::full, true},
-    NamedStage{"search, briefly", search_briefly, Path::device, true},
+    NamedStage{"search", search, Path::both, true},
     NamedStage{"verify", verify, Path::full},
     NamedStage{"verify, quickly", verify_quickly, Path::device},
     NamedStage{"refined pose and covariance", refine_pose, Path::full},

@@ -95,8 +95,11 @@ Status read_bits(decltype(core::assign_likelihoods) assign, Workspace& w) {
     return assign(w.found_dots(), w.grid_from_image, w.grid);  // II-B.4, eq. 7-9
 }
 
-auto* decoder(const Options& options) {
-    return options.decoder == Decoder::window ? core::decode_window : core::decode_all;
+using Decode = decltype(core::decode_all);
+
+/// The decoder asked for, or else `decode`.
+Decode* decoder(const Options& options, Decode* decode) {
+    return options.decoder == Decoder::window ? core::decode_window : decode;
 }
 
 /// The reason for which bits are refused, or a better one.
@@ -106,13 +109,15 @@ Status refused(Status reason, const Workspace& w) {
                                                                           : reason;
 }
 
+/// Devices have no room for a second attempt, and no time for what is only shown.
+bool is_of_device(const Workspace& w) {
+    return w.smoothing.row.empty();
+}
+
 /// Bits -> position in the code.
-Status read_position(const Options& options, decltype(core::decode_all) decode, Workspace& w) {
+Status read_position(const Options& options, Decode* decode, Workspace& w) {
     Decoding& decoding = w.decoding;
-    // Devices have no time for what is only shown.
-    if (decode != core::decode_briefly) {
-        decoding.window = core::choose_window(w.grid, kWindowSide);  // II-B.5
-    }
+    if (!is_of_device(w)) decoding.window = core::choose_window(w.grid, kWindowSide);  // II-B.5
     decoding.region = core::choose_window(w.grid, static_cast<int>(w.line_scores.size() / 2));
     const Status status = decode(w.grid, options.profile, w.line_scores, decoding);  // II-B.6-7
     return status == Status::ok ? status : refused(status, w);
@@ -126,8 +131,8 @@ Status verify_position(const Options& options, decltype(core::verify) verify, Wo
 }
 
 /// Blobs -> position in the code.
-Status find_position(const Options& options, decltype(core::decode_all) decode,
-                     decltype(core::verify) verify, Workspace& w) {
+Status find_position(const Options& options, Decode* decode, decltype(core::verify) verify,
+                     Workspace& w) {
     Status status = find_dots(options, w);
     if (status == Status::ok) status = find_grid(options, w);
     if (status == Status::ok) status = read_bits(core::assign_affine_likelihoods, w);
@@ -223,7 +228,7 @@ Status look_again(const ImageView& image, const Options& options, Workspace& w) 
     w.decoding.pattern_from_grid = {};
     core::look_at_cells_knowing(*known, options.profile, w.decoding, image, w.smoothing.paper,
                                 options.lens, w.grid_from_image, w.grid);
-    Status status = read_position(options, decoder(options), w);
+    Status status = read_position(options, decoder(options, core::decode_all), w);
     if (status == Status::ok) status = verify_position(options, core::verify, w);
     // What was read presumes the axis that was known.
     const bool is_as_known = w.decoding.pattern_from_grid.quarters == 0 &&
@@ -246,8 +251,8 @@ Fix locate_filtered(const ImageView& image, const Options& options, Workspace& w
     if (status == Status::ok) {
         const bool is_one_pattern =
             core::look_at_cells(image, w.smoothing.paper, options.lens, w.grid_from_image, w.grid);
-        status =
-            is_one_pattern ? read_position(filtered, decoder(options), w) : Status::not_certain;
+        status = is_one_pattern ? read_position(filtered, decoder(options, core::decode_all), w)
+                                : Status::not_certain;
     }
     if (status == Status::ok) status = verify_position(filtered, core::verify, w);
     if (status == Status::not_certain) status = look_again(image, filtered, w);
@@ -270,7 +275,7 @@ Fix locate(const ImageView& image, const Options& options, Workspace& workspace)
     if (options.effort == Effort::device) return finish_device(options, workspace);
     const Fix fix = finish(options, workspace);
     const bool is_good = fix.status == Status::ok && !is_rough(fix);
-    if (is_good || options.effort == Effort::once || workspace.smoothing.row.empty()) return fix;
+    if (is_good || options.effort == Effort::once || is_of_device(workspace)) return fix;
     const Fix second = locate_filtered(image, options, workspace);
     if (second.status == Status::ok || fix.status != Status::ok) return second;
     // The workspace must show what is returned.
@@ -310,7 +315,7 @@ void push_row(const std::uint8_t* pixels, const Options& options, Workspace& w) 
 }
 
 Fix finish(const Options& options, Workspace& w) {
-    Status status = find_position(options, decoder(options), core::verify, w);
+    Status status = find_position(options, decoder(options, core::decode_briefly), core::verify, w);
     if (status == Status::ok) status = measure_pose(options, nullptr, w);
     w.fix.status = status;
     return w.fix;

@@ -18,7 +18,7 @@ Status decode_window(const Grid& grid, Profile profile, std::span<LineScores> st
 Status decode_all(const Grid& grid, Profile profile, std::span<LineScores> storage,
                   Decoding& decoding);
 
-/// The same in bounded time, for devices.
+/// The same in bounded time, for first attempts: what is not found soon is rarely certain.
 Status decode_briefly(const Grid& grid, Profile profile, std::span<LineScores> storage,
                       Decoding& decoding);
 

@@ -12,7 +12,7 @@ struct SearchLimits {
     int runs = 24;
     int readings = 64;  ///< of each run
 };
-/// For devices: what is not found so soon is rarely certain.
+/// For first attempts: what is not found so soon is rarely certain.
 inline constexpr SearchLimits kBrief{3, 8};
 
 /// Takes runs of consecutive lines, the clearest first, reads each of them in the likeliest ways,

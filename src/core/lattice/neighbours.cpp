@@ -31,7 +31,7 @@ class Buckets {
     }
     /// The first one in a column of a row, or the first after it.
     const Point* in_row(int row, int column) const {
-        return &sorted_[begin_[static_cast<std::size_t>(row * columns_ + column)]];
+        return sorted_.data() + begin_[static_cast<std::size_t>(row * columns_ + column)];
     }
 
   private:
