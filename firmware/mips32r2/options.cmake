@@ -9,8 +9,6 @@ endfunction()
 compile_core(-Os code/decode.cpp code/encode.cpp core/locate.cpp core/plane.cpp
              core/decode/contest.cpp core/decode/orientation.cpp core/decode/position.cpp
              core/decode/window.cpp core/pixels/undistort.cpp)
-compile_core(-O3 core/pixels/runs_by_pixel.cpp)
-# What a loop has read is kept for its next rounds.
-compile_core(-fpredictive-commoning core/decode/correlation.cpp)
+compile_core(-O3 core/decode/correlation.cpp core/pixels/blobs.cpp core/pixels/runs_by_pixel.cpp)
 # Constants stay in registers.
 compile_core(-fno-tree-pre core/pixels/tiles.cpp)
