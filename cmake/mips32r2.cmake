@@ -7,15 +7,16 @@ set(CMAKE_CXX_COMPILER mipsel-linux-gnu-g++)
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
 set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE NEVER)
 
-set(machine "-march=m14k -msoft-float -mno-abicalls -fno-pic -fno-pie -G0")
+set(firmware ${CMAKE_CURRENT_LIST_DIR}/../firmware/mips32r2)
+# microMIPS: the core's shorter instructions, with which the code is a fifth smaller.
+set(machine "-march=m14k -mmicromips -msoft-float -mno-abicalls -fno-pic -fno-pie -G0")
 set(CMAKE_ASM_FLAGS_INIT "${machine}")
-# The core runs instructions in order, one a cycle: moved about, they only need more registers and
-# jumps.
-set(order "-fno-schedule-insns -fno-reorder-blocks")
-set(CMAKE_CXX_FLAGS_INIT "${machine} ${order} -isystem ${CMAKE_CURRENT_LIST_DIR}/../firmware/mips32r2/include")
-# libgcc is built for an FPU, which its integer functions do not notice.
-set(CMAKE_EXE_LINKER_FLAGS_INIT "-static -no-pie -Wl,--no-warn-mismatch")
+# The core runs instructions in order, one a cycle: moved about, they only need more registers. To
+# GCC the costs of a 4Kc are nearer to that than those of a M14K. Divisors are known not to be zero.
+set(code "-mtune=4kc -fno-schedule-insns -mno-check-zero-division")
+set(CMAKE_CXX_FLAGS_INIT "${machine} ${code} -isystem ${firmware}/include -Wa,${firmware}/swm.s")
+set(CMAKE_EXE_LINKER_FLAGS_INIT "-static -no-pie")
 
 set(DOTPOSE_FIRMWARE mips32r2)
-# No C library: Debian's wants an FPU. What would need one does not link, or ends in SIGILL.
-set(DOTPOSE_FIRMWARE_LIBRARIES -lgcc)
+# No library: Debian's are plain MIPS32, for an FPU. What would need one does not link.
+set(DOTPOSE_FIRMWARE_LIBRARIES)

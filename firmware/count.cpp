@@ -120,9 +120,9 @@ using Markers = std::array<Marker, 3>;
 // mov r10, r10; mov r11, r11; mov r12, r12
 constexpr Markers kThumbMarkers = {
     {{0x46D2, 2, on_resume}, {0x46DB, 2, on_pause}, {0x46E4, 2, on_end_frame}}};
-// sltiu $0, $0, 0x1b1 to 0x1b3
+// sltiu $0, $0, 0x1b1 to 0x1b3, in microMIPS
 constexpr Markers kMipsMarkers = {
-    {{0x2C0001B1, 4, on_resume}, {0x2C0001B2, 4, on_pause}, {0x2C0001B3, 4, on_end_frame}}};
+    {{0x01B1B000, 4, on_resume}, {0x01B2B000, 4, on_pause}, {0x01B3B000, 4, on_end_frame}}};
 const Markers* markers = &kThumbMarkers;
 
 const Marker* marker_at(const qemu_plugin_insn* instruction) {

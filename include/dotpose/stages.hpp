@@ -107,7 +107,6 @@ struct OpenBlob {
     /// The blob that it was found to belong to; of one that is not in use, the next such.
     OpenBlob* part_of = nullptr;
     bool has_core = false;
-    bool in_use = false;
 };
 
 /// Stretch of blob pixels in one row.

@@ -1,8 +1,10 @@
 // The one table of status names and messages.
 #include "dotpose/status.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <string_view>
 
 namespace dotpose {
 namespace {
@@ -43,19 +45,25 @@ constexpr bool in_order() {
 }
 static_assert(in_order(), "one row for each Status, in its order");
 
-const Text& text(Status status) {
-    static constexpr Text kUnknown{Status::bad_argument, "unknown", "not a status of this version"};
-    const auto i = static_cast<std::size_t>(status);
-    return i < kTexts.size() ? kTexts[i] : kUnknown;
-}
+/// The names alone, so that a device that prints no message does not keep them.
+constexpr auto kNames = [] {
+    std::array<std::array<char, 20>, kStatusCount> names{};
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const std::string_view name = kTexts[i].name;
+        std::copy_n(name.data(), name.size() + 1, names[i].begin());  // with its end
+    }
+    return names;
+}();
 
 }  // namespace
 
 const char* name(Status status) noexcept {
-    return text(status).name;
+    const auto i = static_cast<std::size_t>(status);
+    return i < kNames.size() ? kNames[i].data() : "unknown";
 }
 const char* message(Status status) noexcept {
-    return text(status).message;
+    const auto i = static_cast<std::size_t>(status);
+    return i < kTexts.size() ? kTexts[i].message : "not a status of this version";
 }
 
 }  // namespace dotpose

@@ -3,6 +3,7 @@
 #include <array>
 #include <bit>
 
+#include "core/by_itself.hpp"
 #include "core/fixed.hpp"
 
 namespace dotpose::core {
@@ -89,8 +90,7 @@ class Clusters {
     }
 
     /// Puts each edge to the nearest one. `sums` are kept up to date.
-    // Not inlined, it keeps to the few registers of small processors.
-    [[gnu::noinline]] void assign(std::span<const Edge> edges, Side* side, Sums& sums) const {
+    DOTPOSE_BY_ITSELF void assign(std::span<const Edge> edges, Side* side, Sums& sums) const {
         for (const Edge& edge : edges) {
             const Side now = nearest(edge.step_q8);
             if (now != *side) move(edge.step_q8, *side, now, sums);
@@ -119,7 +119,7 @@ class Clusters {
         if (is_second) return along_1 < 0 ? Side::opposite_second : Side::second;
         return along_0 < 0 ? Side::opposite_first : Side::first;
     }
-    [[gnu::noinline]] static void move(Vec edge, Side from, Side to, Sums& sums) {
+    DOTPOSE_BY_ITSELF static void move(Vec edge, Side from, Side to, Sums& sums) {
         sums[static_cast<std::size_t>(from)].add(edge, -1);
         sums[static_cast<std::size_t>(to)].add(edge, 1);
     }

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "core/by_itself.hpp"
 #include "core/cell_fit.hpp"
 #include "core/cells.hpp"
 #include "core/lattice/axes.hpp"
@@ -125,7 +126,7 @@ class Fits {
             ++before;
         });
     }
-    [[gnu::noinline]] void count(Vec p, Used used, int weight) {
+    DOTPOSE_BY_ITSELF void count(Vec p, Used used, int weight) {
         sums_.count(p, cell_of(used), weight);
     }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/by_itself.hpp"
 #include "core/fixed.hpp"
 
 namespace dotpose::core {
@@ -99,8 +100,7 @@ class Nearest {
         }
     }
 
-    // Functions that are not inlined keep to the few registers of small processors.
-    [[gnu::noinline]] void search(const Buckets::Point* p, const Buckets::Point* end) {
+    DOTPOSE_BY_ITSELF void search(const Buckets::Point* p, const Buckets::Point* end) {
         const auto [x, y] = self_;
         std::uint32_t farthest_q16 = squared_q16_[3];
         for (; p != end; ++p) {
@@ -122,7 +122,7 @@ class Nearest {
         return static_cast<std::uint32_t>(a) * static_cast<std::uint32_t>(a);
     }
     /// Keeps the point if it is another and not too far off; tells how near the next must be.
-    [[gnu::noinline]] std::uint32_t consider(const Buckets::Point* p, std::uint32_t squared_q16) {
+    DOTPOSE_BY_ITSELF std::uint32_t consider(const Buckets::Point* p, std::uint32_t squared_q16) {
         const bool is_far = may_be_far_ && larger_component({p->x_q8 - self_.x_q8,
                                                              p->y_q8 - self_.y_q8}) >= kFarthest_q8;
         if (p != &self_ && !is_far) insert<3>(p, squared_q16);

@@ -15,20 +15,43 @@ namespace {
 constexpr int kMaxDotArea_px = 1024;
 constexpr int kMaxDotSide_px = 48;
 constexpr std::uint32_t kMaxMass = 65535;
+/// The last row of a blob that became part of another.
+constexpr std::uint16_t kNoRow = UINT16_MAX;
 
-bool is_kept(Vec dot_q8, const Light& light, const DotList& list) {
-    const Vec image_centre_q8{(light.width_px - 1) * 128, (light.height_px - 1) * 128};
-    return larger_component(dot_q8 - image_centre_q8) <= list.kept_within_px * 256;
+/// Whether a dot is as close to the image's centre as those that are kept.
+struct IsKept {
+    Vec image_centre_q8;
+    std::int32_t within_q8;
+
+    IsKept(const Light& light, const DotList& list)
+        : image_centre_q8{(light.width_px - 1) * 128, (light.height_px - 1) * 128},
+          within_q8(list.kept_within_px * 256) {}
+    bool operator()(const Dot& dot) const {
+        return is_within(dot.centre_q8 - image_centre_q8, within_q8);
+    }
+};
+
+/// Drops all dots but those that are to be kept, in their order.
+// Libraries unroll std::remove_if: to a kilobyte, on small devices.
+template <typename Predicate>
+void keep_dots(DotList list, Predicate is_to_keep) {
+    Dot* kept = list.dots.data();
+    for (const Dot& dot : list.dots.first(static_cast<std::size_t>(list.count))) {
+        if (!is_to_keep(dot)) continue;
+        if (kept != &dot) *kept = dot;
+        ++kept;
+    }
+    list.count = static_cast<int>(kept - list.dots.data());
 }
 
-/// Gives up the outer dots, and all that will follow there, so that the inner ones find room.
-void make_room(const Light& light, DotList list) {
+/// Gives up the outer dots, and all that will follow there, so that the inner ones find room. False
+/// if there are no outer ones any more.
+// Not inlined: small devices have registers for what happens often.
+[[gnu::noinline]] bool make_room(const Light& light, DotList list) {
+    if (list.kept_within_px == 0) return false;
     list.kept_within_px -= list.kept_within_px / 8 + 1;
-    const auto found = list.dots.first(static_cast<std::size_t>(list.count));
-    const auto end = std::remove_if(found.begin(), found.end(), [&](const Dot& dot) {
-        return !is_kept(dot.centre_q8, light, list);
-    });
-    list.count = static_cast<int>(end - found.begin());
+    keep_dots(list, IsKept(light, list));
+    return true;
 }
 
 /// sum / mass in 1/256, rounded: 32 bits are enough for all but the largest blobs, which are cut by
@@ -49,17 +72,16 @@ bool may_be_dot(const OpenBlob& blob, const Light& light) {
 void close_blob(const OpenBlob& blob, const Light& light, DotList list) {
     if (!may_be_dot(blob, light)) return;
     // Relative to the blob's corner: sums were modulo 2^32, these are small.
-    const Vec centre_q8{
-        blob.left * 256 + mean_q8(blob.sum_x - blob.mass * blob.left, blob.mass),
-        blob.first_v * 256 + mean_q8(blob.sum_y - blob.mass * blob.first_v, blob.mass)};
-    while (is_kept(centre_q8, light, list)) {
+    const Dot dot{{blob.left * 256 + mean_q8(blob.sum_x - blob.mass * blob.left, blob.mass),
+                   blob.first_v * 256 + mean_q8(blob.sum_y - blob.mass * blob.first_v, blob.mass)},
+                  static_cast<std::uint16_t>(std::min(blob.mass, kMaxMass)),
+                  static_cast<std::uint16_t>(blob.area_px)};
+    while (IsKept(light, list)(dot)) {
         if (list.count < static_cast<int>(list.dots.size())) {
-            list.dots[static_cast<std::size_t>(list.count++)] = {
-                centre_q8, static_cast<std::uint16_t>(std::min(blob.mass, kMaxMass)),
-                static_cast<std::uint16_t>(blob.area_px)};
+            list.dots[static_cast<std::size_t>(list.count++)] = dot;
             return;
         }
-        make_room(light, list);
+        if (!make_room(light, list)) return;
     }
 }
 
@@ -86,7 +108,6 @@ OpenBlob* open_blob(const Run& run, int v, OpenBlobs& open) {
     blob->first_v = blob->last_v = static_cast<std::uint16_t>(v);
     blob->part_of = nullptr;
     blob->has_core = run.has_core;
-    blob->in_use = true;
     return blob;
 }
 
@@ -113,6 +134,7 @@ void unite(OpenBlob& blob, OpenBlob& other) {
     blob.first_v = std::min(blob.first_v, other.first_v);
     blob.has_core |= other.has_core;
     other.part_of = &blob;
+    other.last_v = kNoRow;
 }
 
 /// The blob that a run belongs to.
@@ -161,12 +183,9 @@ void close_blobs(std::span<const Run> above, int v, const Light& light, OpenBlob
                  DotList list) {
     for (const Run& run : above) {
         OpenBlob* const blob = run.blob;
-        if (blob == nullptr || !blob->in_use) continue;
-        if (blob->part_of == nullptr) {
-            if (blob->last_v == v) continue;
-            close_blob(*blob, light, list);
-        }
-        blob->in_use = false;
+        if (blob == nullptr || blob->last_v == v) continue;
+        if (blob->part_of == nullptr) close_blob(*blob, light, list);
+        blob->last_v = static_cast<std::uint16_t>(v);  // Other runs pass over it.
         blob->part_of = open.first_unused;
         open.first_unused = blob;
     }
@@ -216,10 +235,10 @@ void sift_dots(const BlobOptions& options, DotList list) {
     const auto found = list.dots.first(static_cast<std::size_t>(list.count));
     const std::int32_t min_mass = typical(found, &Dot::mass) * options.min_mass_q8 / 256;
     const std::int32_t max_area = typical(found, &Dot::area_px) * options.max_area_ratio;
-    const auto end = std::remove_if(found.begin(), found.end(), [&](const Dot& dot) {
-        return dot.area_px < options.min_area_px || dot.mass < min_mass || dot.area_px > max_area;
+    keep_dots(list, [&](const Dot& dot) {
+        return dot.area_px >= options.min_area_px && dot.mass >= min_mass &&
+               dot.area_px <= max_area;
     });
-    list.count = static_cast<int>(end - found.begin());
 }
 
 }  // namespace dotpose::core

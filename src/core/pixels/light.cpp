@@ -32,7 +32,8 @@ void keep_row(const std::uint8_t* pixels, const Light& light, std::uint8_t* row)
     std::uint8_t* const whole = row + (light.tiles_per_band << light.tile_shift);
     if (reinterpret_cast<std::uintptr_t>(pixels) % 4 == 0) {
         // The libraries of small devices copy byte by byte.
-        copy_blocks<24>(pixels, end, row);
+        copy_blocks<28>(pixels, end, row);
+        copy_blocks<12>(pixels, end, row);
         copy_blocks<4>(pixels, end, row);
     }
     while (pixels != end)

@@ -1,0 +1,14 @@
+# Sources that are not compiled with -O2 alone. What runs once a frame is made small, which leaves room in
+# flash for what runs all the time.
+function(compile_core options)
+    list(TRANSFORM ARGN PREPEND ${PROJECT_SOURCE_DIR}/src/)
+    set_source_files_properties(${ARGN} TARGET_DIRECTORY dotpose_code dotpose_core
+                                PROPERTIES COMPILE_OPTIONS ${options})
+endfunction()
+
+compile_core(-Os code/decode.cpp code/encode.cpp core/locate.cpp core/plane.cpp
+             core/decode/contest.cpp core/decode/orientation.cpp core/decode/position.cpp
+             core/decode/window.cpp core/pixels/undistort.cpp)
+compile_core(-O3 core/decode/correlation.cpp core/pixels/blobs.cpp core/pixels/runs_by_pixel.cpp)
+# Constants stay in registers.
+compile_core(-fno-tree-pre core/pixels/tiles.cpp)
