@@ -117,10 +117,10 @@ void add_run(const Run& run, int v, OpenBlob& blob) {
     blob.sum_y += run.mass * static_cast<std::uint32_t>(v);
     blob.mass += run.mass;
     blob.area_px += static_cast<std::uint32_t>(run.end - run.begin);
-    if (run.begin < blob.left) blob.left = run.begin;
-    if (run.end > blob.right) blob.right = run.end;
+    blob.left = std::min(blob.left, run.begin);
+    blob.right = std::max(blob.right, run.end);
     blob.last_v = static_cast<std::uint16_t>(v);
-    if (run.has_core) blob.has_core = true;
+    blob.has_core |= run.has_core;
 }
 
 /// Adds `other` to `blob`; both belong to the same dark spot after all.
@@ -156,8 +156,12 @@ void connect(const Run* above, std::span<Run> below, int v, OpenBlobs& open) {
     for (Run& run : below) {
         while (above->end < run.begin)
             ++above;
-        OpenBlob* blob = nullptr;
-        for (const Run* touching = above; touching->begin <= run.end; ++touching) {
+        if (above->begin > run.end) {
+            run.blob = open_blob(run, v, open);
+            continue;
+        }
+        OpenBlob* blob = whole(above->blob);
+        for (const Run* touching = above + 1; touching->begin <= run.end; ++touching) {
             OpenBlob* const other = whole(touching->blob);
             if (blob == nullptr) {
                 blob = other;
@@ -179,11 +183,17 @@ void connect(const Run* above, std::span<Run> below, int v, OpenBlobs& open) {
 }
 
 /// Ends the blobs of the row above that row `v` does not go on with.
-void close_blobs(std::span<const Run> above, int v, const Light& light, OpenBlobs& open,
-                 DotList list) {
+void close_blobs(std::span<Run> above, int v, const Light& light, OpenBlobs& open, DotList list) {
+    // Gathered first: no processor can foresee which ones end.
+    Run* ended = above.data();
     for (const Run& run : above) {
         OpenBlob* const blob = run.blob;
-        if (blob == nullptr || blob->last_v == v) continue;
+        ended->blob = blob;
+        if (blob != nullptr) ended += blob->last_v != v;
+    }
+    for (const Run* run = above.data(); run != ended; ++run) {
+        OpenBlob* const blob = run->blob;
+        if (blob->last_v == v) continue;
         if (blob->part_of == nullptr) close_blob(*blob, light, list);
         blob->last_v = static_cast<std::uint16_t>(v);  // Other runs pass over it.
         blob->part_of = open.first_unused;
@@ -217,9 +227,10 @@ void begin_blobs(const Light& light, OpenBlobs& open, DotList list) {
 
 void grow_blobs(int v, const Light& light, OpenBlobs& open, DotList list) {
     const std::size_t half = open.runs.size() / 2;
-    const auto older = open.runs.subspan(open.newest_in_second_half ? half : 0, half);
+    const auto newest = [&] { return open.runs.subspan(half * open.newest_in_second_half, half); };
+    const auto older = newest();
     open.newest_in_second_half = !open.newest_in_second_half;
-    const auto newer = open.runs.subspan(open.newest_in_second_half ? half : 0, half);
+    const auto newer = newest();
 
     const auto above = older.first(static_cast<std::size_t>(open.run_count));
     const auto room = newer.first(std::min(half - 1, static_cast<std::size_t>(open.runs_left)));

@@ -30,7 +30,10 @@ void copy_blocks(const std::uint8_t*& from, const std::uint8_t* end, std::uint8_
 void keep_row(const std::uint8_t* pixels, const Light& light, std::uint8_t* row) {
     const std::uint8_t* const end = pixels + light.width_px;
     std::uint8_t* const whole = row + (light.tiles_per_band << light.tile_shift);
-    if (reinterpret_cast<std::uintptr_t>(pixels) % 4 == 0) {
+    if constexpr (sizeof(Word) == 8) {
+        row = std::copy(pixels, end, row);
+        pixels = end;
+    } else if (reinterpret_cast<std::uintptr_t>(pixels) % 4 == 0) {
         // The libraries of small devices copy byte by byte.
         copy_blocks<28>(pixels, end, row);
         copy_blocks<12>(pixels, end, row);
@@ -38,8 +41,7 @@ void keep_row(const std::uint8_t* pixels, const Light& light, std::uint8_t* row)
     }
     while (pixels != end)
         *row++ = *pixels++;
-    while (row != whole)
-        *row++ = end[-1];
+    std::fill(row, whole, end[-1]);
 }
 
 /// The tiles of a band and of those above and below; at the image's rims, the band itself instead.

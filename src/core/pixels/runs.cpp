@@ -12,6 +12,10 @@ namespace {
 /// Pixels that are looked at together: all have the same levels.
 constexpr std::size_t kGroup_px = kSmallestTile_px;
 
+constexpr std::size_t whole_groups(std::size_t pixels) {
+    return (pixels + kGroup_px - 1) / kGroup_px * kGroup_px;
+}
+
 constexpr std::uint64_t kHighs = 0x8080808080808080;
 
 /// Eight bytes from anywhere.
@@ -21,11 +25,52 @@ std::uint64_t eight_at(const std::uint8_t* bytes) {
     return eight;
 }
 
-/// A bit for each pixel of a group, the first the lowest, set where it is dark.
+using Bytes = std::uint8_t __attribute__((vector_size(16)));
+
+Bytes bytes_at(const std::uint8_t* first) {
+    Bytes bytes;
+    std::memcpy(&bytes, first, sizeof bytes);
+    return bytes;
+}
+
+/// Bit k of byte j goes to bit j of byte k (Warren, Hacker's Delight, 7-3).
+std::uint64_t transposed(std::uint64_t bits) {
+    const auto swap = [&](int distance, std::uint64_t mask) {
+        const std::uint64_t different = (bits ^ bits >> distance) & mask;
+        bits ^= different ^ different << distance;
+    };
+    swap(7, 0x00AA00AA00AA00AA);
+    swap(14, 0x0000CCCC0000CCCC);
+    swap(28, 0x00000000F0F0F0F0);
+    return bits;
+}
+
+/// A bit for each of 64 pixels, the first the lowest, set where it is dark.
 std::uint64_t dark_bits(const std::uint8_t* pixels, const std::uint8_t* half_extents) {
-    const std::uint64_t light = (eight_at(pixels) >> 1 | kHighs) - eight_at(half_extents);
-    const std::uint64_t dark = ~light & kHighs;
-    return (dark >> 7) * 0x0102040810204080 >> 56;
+    // Group k gives bit k of eight bytes.
+    Bytes bits{1, 1, 1, 1, 1, 1, 1, 1, 2, 2, 2, 2, 2, 2, 2, 2};
+    Bytes dark{};
+    for (std::size_t k = 0; k < 64; k += sizeof bits) {
+        const Bytes extents = bytes_at(half_extents + k) << 1;
+        dark |= (bytes_at(pixels + k) < extents) & bits;
+        bits <<= 2;
+    }
+    std::uint64_t halves[2];
+    std::memcpy(halves, &dark, sizeof halves);
+    return transposed(halves[0] | halves[1]);
+}
+
+/// The same of up to 64.
+std::uint64_t dark_bits(const std::uint8_t* pixels, const std::uint8_t* half_extents,
+                        std::size_t count) {
+    if (count >= 64) return dark_bits(pixels, half_extents);
+    std::uint64_t dark = 0;
+    for (std::size_t k = 0; k < count; k += kGroup_px) {
+        const std::uint64_t light =
+            (eight_at(pixels + k) >> 1 | kHighs) - eight_at(half_extents + k);
+        dark |= ((~light & kHighs) >> 7) * 0x0102040810204080 >> 56 << k;
+    }
+    return dark;
 }
 
 /// Whether some byte of `a` is less than that of `b`.
@@ -61,14 +106,13 @@ void sum_up(const std::uint8_t* row, const Light& light, Run& run) {
 /// A run from each change of a row from light to dark and back: without a branch for each pixel.
 int find_runs_by_word(int v, const Light& light, std::span<Run> runs) {
     const std::uint8_t* const row = kept_row(light, v);
-    const auto row_end = static_cast<std::size_t>(light.width_px);
+    const auto row_end = whole_groups(static_cast<std::size_t>(light.width_px));
     Run* run = runs.data();
     const Run* const end = run + runs.size();
     bool is_dark = false;
     for (std::size_t u = 0; u < row_end || is_dark; u += 64) {
-        std::uint64_t dark = 0;
-        for (std::size_t k = 0; k < 64 && u + k < row_end; k += kGroup_px)
-            dark |= dark_bits(row + u + k, light.half_extents.data() + u + k) << k;
+        const std::size_t left = row_end > u ? row_end - u : 0;
+        const std::uint64_t dark = dark_bits(row + u, light.half_extents.data() + u, left);
         std::uint64_t changes = dark ^ (dark << 1 | static_cast<std::uint64_t>(is_dark));
         for (; changes != 0; changes &= changes - 1) {
             if (run == end) return static_cast<int>(runs.size());

@@ -99,32 +99,66 @@ class Means {
     std::uint32_t inverse_q20_;
 };
 
+/// A number for each column, and some that are read with the last.
+template <typename Number>
+using Columns = std::array<Number, kMaxFrameSide_px + kLargestTile_px + kSmallestTile_px>;
+
+/// Joins to each column the next seven.
+template <typename Number, typename Join>
+void join_groups(std::size_t columns, Columns<Number>& numbers, Join join) {
+    for (std::size_t distance = 1; distance < kSmallestTile_px; distance *= 2) {
+        const Number* const right = numbers.data() + distance;
+        for (std::size_t u = 0; u < columns; ++u)
+            numbers[u] = static_cast<Number>(join(numbers[u], right[u]));
+    }
+}
+
+/// Into each column the darkest, as above, from there to the seventh after it.
+void find_darkest(const Rows& rows, std::size_t columns, Columns<std::uint8_t>& darkest) {
+    const auto darker = [](std::uint8_t a, std::uint8_t b) { return a < b ? a : b; };
+    const auto lighter = [](std::uint8_t a, std::uint8_t b) { return a > b ? a : b; };
+    std::fill_n(darkest.begin(), columns + kSmallestTile_px, std::uint8_t{255});
+    const std::uint8_t* const end = rows.begin + rows.size;
+    for (const std::uint8_t* row = rows.begin; row < end; row += kDotsEvery * rows.stride) {
+        const std::uint8_t* const left = row - 1;
+        for (std::size_t u = 0; u < columns; ++u)
+            darkest[u] = darker(darkest[u], lighter(row[u], left[u]));
+    }
+    join_groups(columns, darkest, darker);
+}
+
+/// Into each column the sum of paper from there to the seventh after it.
+void sum_paper(const Rows& rows, std::size_t columns, Columns<std::uint16_t>& sums) {
+    std::fill_n(sums.begin(), columns + kSmallestTile_px, std::uint16_t{0});
+    const std::uint8_t* const end = rows.begin + rows.size;
+    for (const std::uint8_t* row = rows.begin + rows.paper_begin; row < end;
+         row += kPaperEvery * rows.stride) {
+        for (std::size_t u = 0; u < columns; ++u)
+            sums[u] = static_cast<std::uint16_t>(sums[u] + row[u]);
+    }
+    join_groups(columns, sums, [](std::uint16_t a, std::uint16_t b) { return a + b; });
+}
+
 /// Row by row: compilers make vectors of this.
 void measure_tiles_by_row(int band, const Light& light, std::span<Tile> tiles) {
     const Rows rows(band, light);
     const Means means(rows, light);
     const std::size_t columns = tiles.size() << light.tile_shift;
-    alignas(sizeof(Word)) std::array<std::uint8_t, kMaxFrameSide_px + kLargestTile_px> darkest;
-    std::fill_n(darkest.begin(), columns, std::uint8_t{255});
-    const std::uint8_t* const end = rows.begin + rows.size;
-    for (const std::uint8_t* row = rows.begin; row < end; row += kDotsEvery * rows.stride) {
-        const std::uint8_t* const left = row - 1;
-        for (std::size_t u = 0; u < columns; ++u) {
-            const std::uint8_t lighter = row[u] > left[u] ? row[u] : left[u];
-            darkest[u] = lighter < darkest[u] ? lighter : darkest[u];
-        }
-    }
-    const auto tile_px = static_cast<std::size_t>(light.tile_px);
-    for (std::size_t t = 0; t < tiles.size(); ++t) {
+    Columns<std::uint8_t> darkest;
+    find_darkest(rows, columns, darkest);
+    Columns<std::uint16_t> sums;
+    sum_paper(rows, columns, sums);
+    std::size_t u = 0;
+    for (Tile& tile : tiles) {
         std::uint32_t sum = 0;
-        unsigned least = 0x7F;
-        for (std::size_t u = t * tile_px; u < (t + 1) * tile_px; u += kSmallestTile_px) {
-            sum += sum_of_column(rows.begin + rows.paper_begin + u, kPaperEvery * rows.stride,
-                                 rows.paper_size);
-            least = std::min(least, least_byte(word_at(&darkest[u]) >> 1 | kTops));
+        unsigned least = 255;
+        for (const std::size_t end = u + static_cast<std::size_t>(light.tile_px); u < end;
+             u += kSmallestTile_px) {
+            sum += sums[u];
+            least = std::min<unsigned>(least, darkest[u]);
         }
-        tiles[t].mean = means(sum);
-        tiles[t].darkness = static_cast<std::uint8_t>(255 - 2 * least);
+        tile.mean = means(sum);
+        tile.darkness = static_cast<std::uint8_t>(255 - least / 2 * 2);
     }
 }
 

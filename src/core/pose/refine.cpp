@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/pose/quick_median.hpp"
+#include "core/fixed.hpp"
 #include "core/pose/survey.hpp"
 
 namespace dotpose::core {
@@ -75,14 +75,14 @@ class Round {
             values[i] = offset.x * sample.dx[i] + offset.y * sample.dy[i];
         }
         // As printed and seen: ink spreads and lenses blur differently each time.
-        displacement_q16_ = quick_median(std::span(values).first(sample.count));
+        displacement_q16_ = median(std::span(values).first(sample.count));
         for (std::size_t i = 0; i < sample.count; ++i) {
             values[i] = squared_q30({x_q16[i] - sample.dx[i] * displacement_q16_,
                                      y_q16[i] - sample.dy[i] * displacement_q16_});
         }
         // Squared distances of a plane Gaussian have their median at 1.39 sigma^2; 12 medians lie
         // 4 sigma out, where 1 dot in 3,000 is lost by chance.
-        const std::int64_t typical_q30 = quick_median(std::span(values).first(sample.count));
+        const std::int64_t typical_q30 = median(std::span(values).first(sample.count));
         limit_ = static_cast<float>(12 * typical_q30 + 64) / kPower30;
     }
 
