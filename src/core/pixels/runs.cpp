@@ -83,24 +83,30 @@ bool is_any_less(std::uint64_t a, std::uint64_t b) {
 void sum_up(const std::uint8_t* row, const Light& light, Run& run) {
     constexpr std::uint64_t kHalves = 0x00FF00FF00FF00FF;
     constexpr std::uint64_t kSum = 0x0001000100010001;     // of four halves, in the highest
-    constexpr std::uint64_t kMoment = 0x0000000100020003;  // each times its index
-    run.mass = run.sum_x = 0;
-    run.has_core = false;
-    for (std::size_t u = run.begin; u < run.end; u += 8) {
-        const std::size_t unused = run.end - u < 8 ? 8 - (run.end - u) : 0;
+    constexpr std::uint64_t kMoment = 0x0000000200040006;  // each times twice its index
+    const std::size_t end = run.end;
+    std::size_t u = run.begin;
+    std::uint32_t mass = 0;
+    std::uint32_t sum_x = 0;
+    bool has_core = false;
+    do {
+        const std::size_t unused = end - u < 8 ? 8 - (end - u) : 0;
         const std::uint64_t in_run = ~std::uint64_t{0} >> 8 * unused;
         const std::uint64_t pixels = eight_at(row + u);
         const std::uint64_t extents = eight_at(light.half_extents.data() + u) << 1;
         const std::uint64_t depths = (extents & in_run) - (pixels & in_run);
         const std::uint64_t odd = depths >> 8 & kHalves;
         const std::uint64_t pairs = (depths & kHalves) + odd;
-        const auto mass = static_cast<std::uint32_t>(pairs * kSum >> 48);
-        const auto moment =
-            static_cast<std::uint32_t>(2 * (pairs * kMoment >> 48) + (odd * kSum >> 48));
-        run.mass += mass;
-        run.sum_x += mass * static_cast<std::uint32_t>(u) + moment;
-        run.has_core |= is_any_less(pixels | ~in_run, eight_at(light.cores.data() + u));
-    }
+        const auto part = static_cast<std::uint32_t>(pairs * kSum >> 48);
+        const auto moment = static_cast<std::uint32_t>((pairs * kMoment + odd * kSum) >> 48);
+        mass += part;
+        sum_x += part * static_cast<std::uint32_t>(u) + moment;
+        has_core |= is_any_less(pixels | ~in_run, eight_at(light.cores.data() + u));
+        u += 8;
+    } while (u < end);
+    run.mass = mass;
+    run.sum_x = sum_x;
+    run.has_core = has_core;
 }
 
 /// A run from each change of a row from light to dark and back: without a branch for each pixel.
