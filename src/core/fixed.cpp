@@ -32,8 +32,8 @@ std::int32_t least_from(std::int32_t bound, std::span<const std::int32_t> values
     return least;
 }
 
-/// The value that stands at `rank` when sorted, by bisection: without a branch for each value, which
-/// would be guessed wrong every other time.
+/// The value that stands at `rank` when sorted, by bisection: without a branch for each value,
+/// which would be guessed wrong every other time.
 std::int32_t of_rank_by_counting(std::size_t rank, std::span<const std::int32_t> values) {
     std::int32_t low = values[0];
     std::int32_t high = values[0];

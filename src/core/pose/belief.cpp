@@ -24,7 +24,7 @@ struct Symmetric {
 };
 
 /// Of the whitened terms, in units of the noise's variance, if the terms' own were 1.
-Symmetric spread_of(const Terms& terms, const Normal& normal, float variance) {
+Symmetric spread_of(const FurtherTerms& terms, const Normal& normal, float variance) {
     const std::size_t i = terms.first;
     const float scale = 1 / variance;
     const float a = normal.factor(i, i);
@@ -42,8 +42,8 @@ struct Posterior {
     float share;     ///< probability of the kind; before `weigh`, that before the frame is seen
 
     Posterior() = default;
-    Posterior(const Terms::Kind& kind, const Symmetric& spread, const Pair& seen, float variance,
-              float unit) {
+    Posterior(const FurtherTerms::Kind& kind, const Symmetric& spread, const Pair& seen,
+              float variance, float unit) {
         const float own = kind.deviation * unit * kind.deviation * unit;
         precision = Symmetric{1 + own * spread.xx, own * spread.xy, 1 + own * spread.yy}.inverse();
         const Pair lost = precision * seen;
@@ -52,7 +52,7 @@ struct Posterior {
         share = kind.probability;
     }
 };
-using Posteriors = std::array<Posterior, std::tuple_size_v<decltype(Terms::kinds)>>;
+using Posteriors = std::array<Posterior, std::tuple_size_v<decltype(FurtherTerms::kinds)>>;
 
 /// The kinds by how well each explains what is seen.
 void weigh(Posteriors& kinds) {
@@ -91,7 +91,7 @@ Belief mixed(const Posteriors& kinds, float variance) {
 
 }  // namespace
 
-Belief belief_in(const Terms& terms, const Normal& normal, const Parameters& whitened,
+Belief belief_in(const FurtherTerms& terms, const Normal& normal, const Parameters& whitened,
                  float variance, float unit) {
     const Pair seen{whitened[terms.first], terms.count > 1 ? whitened[terms.first + 1] : 0.0F};
     const Symmetric spread = spread_of(terms, normal, variance);

@@ -12,7 +12,7 @@ namespace dotpose::core {
 
 /// Terms that come and go together, and what is thought of them before a frame is seen: that they
 /// are of one of three kinds, each drawn from a Gaussian.
-struct Terms {
+struct FurtherTerms {
     struct Kind {
         float probability;
         float deviation;  ///< of each term
@@ -30,7 +30,7 @@ struct Belief {
 
 /// By the rule of Bayes. `whitened`: the terms as fitted, from normal.times_transposed; `variance`
 /// is that of each element of it; `unit` that in which the deviations are given.
-Belief belief_in(const Terms& terms, const Normal& normal, const Parameters& whitened,
+Belief belief_in(const FurtherTerms& terms, const Normal& normal, const Parameters& whitened,
                  float variance, float unit);
 
 }  // namespace dotpose::core

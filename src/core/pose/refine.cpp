@@ -17,7 +17,7 @@ constexpr float kSettled = 0.01F;
 /// What cameras and prints are like, with deviations of a tilt: the change of scale from the middle
 /// to the outermost dot, of which 2 degrees make about 0.01; of a shear, relative to the scale; of
 /// a bend, the outermost dot's displacement relative to its distance. A bend must be beyond doubt.
-constexpr std::array<Terms, 3> kTerms{{
+constexpr std::array<FurtherTerms, 3> kTerms{{
     {kTilt, 2, {{{0.1F, 0}, {0.8F, 0.01F}, {0.1F, 0.1F}}}},
     {kShear, 2, {{{0.5F, 0}, {0.4F, 0.002F}, {0.1F, 0.03F}}}},
     {kBend, 1, {{{0.99F, 0}, {0.005F, 0.01F}, {0.005F, 0.1F}}}},
@@ -170,7 +170,7 @@ class Round {
         fit.covariance = {};
         for (std::size_t i = 0; i < kTilt; ++i)
             fit.covariance[i][i] = fit.variance;
-        for (const Terms& terms : kTerms) {
+        for (const FurtherTerms& terms : kTerms) {
             const float unit = terms.first == kShear ? plane_.scale() : 1;
             const Belief belief = belief_in(terms, fit.normal, whole, fit.variance, unit);
             for (std::size_t i = 0; i < terms.count; ++i) {

@@ -13,8 +13,8 @@ namespace {
 using namespace core;
 
 constexpr std::uint64_t kSeed = 62;
-constexpr Terms kTwo{kTilt, 2, {{{0.3F, 0}, {0.5F, 0.02F}, {0.2F, 0.2F}}}};
-constexpr Terms kOne{kBend, 1, {{{0.6F, 0}, {0.3F, 0.02F}, {0.1F, 0.2F}}}};
+constexpr FurtherTerms kTwo{kTilt, 2, {{{0.3F, 0}, {0.5F, 0.02F}, {0.2F, 0.2F}}}};
+constexpr FurtherTerms kOne{kBend, 1, {{{0.6F, 0}, {0.3F, 0.02F}, {0.1F, 0.2F}}}};
 
 /// Equations of points that tell all parameters, some of them together only.
 Normal random_normal(Rng& rng) {
@@ -47,8 +47,8 @@ struct Integral {
     double mean[2] = {};
     double covariance[2][2] = {};
 
-    Integral(const Terms& terms, const Normal& normal, const double (&seen)[2], double variance,
-             double unit) {
+    Integral(const FurtherTerms& terms, const Normal& normal, const double (&seen)[2],
+             double variance, double unit) {
         const std::size_t i = terms.first;
         const double a = normal.factor(i, i);
         const double b = terms.count > 1 ? normal.factor(i + 1, i) : 0;
@@ -67,7 +67,7 @@ struct Integral {
                     squares[r][s] += weight * white[r] * white[s];
             }
         };
-        for (const Terms::Kind& kind : terms.kinds) {
+        for (const FurtherTerms::Kind& kind : terms.kinds) {
             const double deviation = static_cast<double>(kind.deviation) * unit;
             const auto probability = static_cast<double>(kind.probability);
             if (deviation == 0) {
@@ -99,7 +99,7 @@ struct Integral {
     }
 };
 
-void expect_integral(const Terms& terms, Rng& rng) {
+void expect_integral(const FurtherTerms& terms, Rng& rng) {
     for (int i = 0; i < 30; ++i) {
         SCOPED_TRACE(testing::Message() << "case " << i << ", seed " << kSeed);
         const Normal normal = random_normal(rng);
