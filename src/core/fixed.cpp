@@ -28,7 +28,7 @@ std::int32_t middle(std::int32_t a, std::int32_t b, std::int32_t c) {
 std::int32_t least_from(std::int32_t bound, std::span<const std::int32_t> values) {
     std::int32_t least = INT32_MAX;
     for (const std::int32_t value : values)
-        least = std::min(least, value < bound ? INT32_MAX : value);
+        least = std::min<std::int32_t>(least, value < bound ? INT32_MAX : value);
     return least;
 }
 

@@ -6,6 +6,7 @@
 #include "core/fixed.hpp"
 #include "core/pixels/light.hpp"
 #include "core/pixels/runs.hpp"
+#include "core/pixels/words.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -182,18 +183,25 @@ void connect(const Run* above, std::span<Run> below, int v, OpenBlobs& open) {
         run.blob = whole(run.blob);
 }
 
-/// Ends the blobs of the row above that row `v` does not go on with.
-void close_blobs(std::span<Run> above, int v, const Light& light, OpenBlobs& open, DotList list) {
-    // Gathered first: no processor can foresee which ones end.
+/// Moves the runs whose blobs row `v` does not go on with to the front; returns at least them.
+// Without a branch for each run: large processors cannot foresee which blobs end, and small ones
+// need not.
+std::span<Run> gather_ended(std::span<Run> above, int v) {
+    if constexpr (sizeof(Word) < 8) return above;
     Run* ended = above.data();
     for (const Run& run : above) {
         OpenBlob* const blob = run.blob;
         ended->blob = blob;
         if (blob != nullptr) ended += blob->last_v != v;
     }
-    for (const Run* run = above.data(); run != ended; ++run) {
-        OpenBlob* const blob = run->blob;
-        if (blob->last_v == v) continue;
+    return {above.data(), ended};
+}
+
+/// Ends the blobs of the row above that row `v` does not go on with.
+void close_blobs(std::span<Run> above, int v, const Light& light, OpenBlobs& open, DotList list) {
+    for (const Run& run : gather_ended(above, v)) {
+        OpenBlob* const blob = run.blob;
+        if (blob == nullptr || blob->last_v == v) continue;
         if (blob->part_of == nullptr) close_blob(*blob, light, list);
         blob->last_v = static_cast<std::uint16_t>(v);  // Other runs pass over it.
         blob->part_of = open.first_unused;
