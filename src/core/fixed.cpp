@@ -3,6 +3,8 @@
 #include <array>
 #include <bit>
 
+#include "core/pixels/words.hpp"
+
 namespace dotpose::core {
 namespace {
 
@@ -22,8 +24,41 @@ std::int32_t middle(std::int32_t a, std::int32_t b, std::int32_t c) {
     return std::max(std::min(a, b), std::min(std::max(a, b), c));
 }
 
+/// Moves the values that are to be kept to the front, without branches.
+template <typename IsKept>
+std::span<std::int32_t> kept(std::span<std::int32_t> values, IsKept is_kept) {
+    std::size_t count = 0;
+    for (const std::int32_t value : values) {
+        values[count] = value;
+        count += is_kept(value) ? 1 : 0;
+    }
+    return values.first(count);
+}
+
+/// The same for processors that count many at a time, and had better not branch on each value.
+std::int32_t of_rank_by_counting(std::size_t rank, std::span<std::int32_t> values) {
+    for (;;) {
+        const std::int32_t pivot = middle(values.front(), values[values.size() / 2], values.back());
+        std::uint32_t below = 0;
+        std::uint32_t not_above = 0;
+        for (const std::int32_t value : values) {
+            below += value < pivot ? 1 : 0;
+            not_above += value <= pivot ? 1 : 0;
+        }
+        if (rank < below) {
+            values = kept(values, [=](std::int32_t value) { return value < pivot; });
+        } else if (rank >= not_above) {
+            values = kept(values, [=](std::int32_t value) { return value > pivot; });
+            rank -= not_above;
+        } else {
+            return pivot;
+        }
+    }
+}
+
 /// The value that stands at `rank` when sorted (Hoare's FIND, 1961).
 std::int32_t of_rank(std::size_t rank, std::span<std::int32_t> values) {
+    if constexpr (sizeof(Word) == 8) return of_rank_by_counting(rank, values);
     std::int32_t* const wanted = &values[rank];
     std::int32_t* first = values.data();
     std::int32_t* last = first + values.size() - 1;
@@ -49,6 +84,7 @@ std::int32_t of_rank(std::size_t rank, std::span<std::int32_t> values) {
 }  // namespace
 
 std::int32_t short_quotient(std::int64_t n, std::int64_t d) {
+    if constexpr (sizeof(Word) == 8) return static_cast<std::int32_t>(n / d);
     auto rest = static_cast<std::uint64_t>(magnitude(n));
     auto divisor = static_cast<std::uint64_t>(d);
     int bit = std::countl_zero(divisor | 1) - std::countl_zero(rest | 1);

@@ -59,7 +59,8 @@ std::size_t cluster_of(Side side) {
 }
 /// The edge turned towards the cluster.
 Vec turned(Vec edge, Side side) {
-    return side >= Side::opposite_first ? -edge : edge;
+    const std::int32_t sign = 1 - (static_cast<std::int32_t>(side) & 2);
+    return {sign * edge.x, sign * edge.y};
 }
 using Sides = std::array<Side, kMostEdges>;
 
@@ -116,8 +117,8 @@ class Clusters {
         const std::int32_t along_1 = e.x * means_q6_[1].x + e.y * means_q6_[1].y;
         // |edge -+ mean|^2 / 2 without the common |edge|^2
         const bool is_second = magnitude(along_1) - magnitude(along_0) > farther_;
-        if (is_second) return along_1 < 0 ? Side::opposite_second : Side::second;
-        return along_0 < 0 ? Side::opposite_first : Side::first;
+        const std::int32_t along = is_second ? along_1 : along_0;
+        return static_cast<Side>(int{is_second} + 2 * int{along < 0});
     }
     DOTPOSE_BY_ITSELF static void move(Vec edge, Side from, Side to, Sums& sums) {
         sums[static_cast<std::size_t>(from)].add(edge, -1);
@@ -147,11 +148,12 @@ Vec cluster_median(std::span<const Edge> edges, const Sides& sides, std::size_t 
     const auto x = std::span(scratch).first(scratch.size() / 2);
     const auto y = std::span(scratch).last(scratch.size() / 2);
     std::size_t n = 0;
-    for (std::size_t e = 0; e < edges.size(); ++e) {
-        if (cluster_of(sides[e]) != cluster || n == x.size()) continue;
+    // Each edge is written, and the next one over it if it is of the other cluster.
+    for (std::size_t e = 0; e < edges.size() && n < x.size(); ++e) {
         const Vec step = turned(edges[e].step_q8, sides[e]);
         x[n] = step.x;
-        y[n++] = step.y;
+        y[n] = step.y;
+        n += cluster_of(sides[e]) == cluster ? 1 : 0;
     }
     return {median(x.first(n)), median(y.first(n))};
 }
