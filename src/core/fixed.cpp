@@ -35,9 +35,27 @@ std::span<std::int32_t> kept(std::span<std::int32_t> values, IsKept is_kept) {
     return values.first(count);
 }
 
+constexpr std::size_t kFew = 16;
+
+/// The largest value that no more than `rank` others are below.
+std::int32_t of_rank_of_few(std::int32_t rank, std::span<const std::int32_t> values) {
+    std::array<std::int32_t, kFew> padded;
+    padded.fill(INT32_MAX);
+    std::copy(values.begin(), values.end(), padded.begin());
+    std::array<std::int32_t, kFew> below{};
+    for (const std::int32_t value : padded) {
+        for (std::size_t k = 0; k < kFew; ++k)
+            below[k] += value < padded[k] ? 1 : 0;
+    }
+    std::int32_t largest = INT32_MIN;
+    for (std::size_t k = 0; k < kFew; ++k)
+        largest = std::max(largest, below[k] <= rank ? padded[k] : INT32_MIN);
+    return largest;
+}
+
 /// The same for processors that count many at a time, and had better not branch on each value.
 std::int32_t of_rank_by_counting(std::size_t rank, std::span<std::int32_t> values) {
-    for (;;) {
+    while (values.size() > kFew) {
         const std::int32_t pivot = middle(values.front(), values[values.size() / 2], values.back());
         std::uint32_t below = 0;
         std::uint32_t not_above = 0;
@@ -54,6 +72,7 @@ std::int32_t of_rank_by_counting(std::size_t rank, std::span<std::int32_t> value
             return pivot;
         }
     }
+    return of_rank_of_few(static_cast<std::int32_t>(rank), values);
 }
 
 /// The value that stands at `rank` when sorted (Hoare's FIND, 1961).

@@ -251,8 +251,14 @@ int choose_seeds(std::span<const Dot> dots, Vec centre_q8, std::span<std::uint16
     const std::int32_t reach_q8 = static_cast<std::int32_t>(bins) << shift;
     std::size_t count = 0;
     for (std::size_t i = 0; i < dots.size() && count < seeds.size(); ++i) {
-        if (is_within(dots[i].centre_q8 - centre_q8, reach_q8 - 1))
+        const Vec step = dots[i].centre_q8 - centre_q8;
+        if constexpr (sizeof(Word) == 8) {
+            // Written anyway: large processors could not predict for which dots.
+            seeds[count] = static_cast<std::uint16_t>(i);
+            count += larger_component(step) < reach_q8 ? 1 : 0;
+        } else if (is_within(step, reach_q8 - 1)) {
             seeds[count++] = static_cast<std::uint16_t>(i);
+        }
     }
     return static_cast<int>(count);
 }
@@ -292,10 +298,8 @@ struct Pair {
     std::int16_t to;
 };
 
-Edge edge_between(Pair pair, std::span<const Dot> dots, std::span<const std::uint16_t> seeds) {
+Edge edge_along(Pair pair, Vec step) {
     const auto [from, to] = pair;
-    const Vec step = dots[seeds[static_cast<std::size_t>(to)]].centre_q8 -
-                     dots[seeds[static_cast<std::size_t>(from)]].centre_q8;
     const bool is_up = step.y < 0 || (step.y == 0 && step.x < 0);
     return is_up ? Edge{to, from, -step} : Edge{from, to, step};
 }
@@ -318,8 +322,11 @@ int connect_all(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
             count += static_cast<std::size_t>(is_mutual & int{to > from});
         }
     }
+    const auto at = [&](std::int16_t seed) {
+        return dots[seeds[static_cast<std::size_t>(seed)]].centre_q8;
+    };
     for (std::size_t k = 0; k < count; ++k)
-        edges[k] = edge_between(pairs[k], dots, seeds);
+        edges[k] = edge_along(pairs[k], at(pairs[k].to) - at(pairs[k].from));
     return static_cast<int>(count);
 }
 
@@ -333,7 +340,9 @@ int connect_symmetric(std::span<const Dot> dots, std::span<const std::uint16_t> 
         const auto from = static_cast<std::int16_t>(s);
         for (const std::int16_t to : neighbours[s]) {
             if (to <= from || !counts(neighbours, to, from)) continue;
-            edges[count++] = edge_between({from, to}, dots, seeds);
+            const Vec step =
+                dots[seeds[static_cast<std::size_t>(to)]].centre_q8 - dots[seeds[s]].centre_q8;
+            edges[count++] = edge_along({from, to}, step);
         }
     }
     return static_cast<int>(count);
