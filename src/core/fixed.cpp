@@ -24,58 +24,28 @@ std::int32_t middle(std::int32_t a, std::int32_t b, std::int32_t c) {
     return std::max(std::min(a, b), std::min(std::max(a, b), c));
 }
 
-/// Moves the values that are to be kept to the front, without branches.
-template <typename IsKept>
-std::span<std::int32_t> kept(std::span<std::int32_t> values, IsKept is_kept) {
-    std::size_t count = 0;
+/// The value that stands at `rank` when sorted, by halving the range where it can be: processors
+/// that count several at a time had better not branch on each value.
+std::int32_t of_rank_by_counting(std::size_t rank, std::span<const std::int32_t> values) {
+    std::int32_t least = values[0];
+    std::int32_t most = values[0];
     for (const std::int32_t value : values) {
-        values[count] = value;
-        count += is_kept(value) ? 1 : 0;
+        least = std::min(least, value);
+        most = std::max(most, value);
     }
-    return values.first(count);
+    while (least < most) {
+        const std::int32_t half = (least & most) + ((least ^ most) >> 1);
+        std::uint32_t up_to_half = 0;
+        for (const std::int32_t value : values)
+            up_to_half += value <= half ? 1 : 0;
+        const bool is_lower = rank < up_to_half;
+        most = is_lower ? half : most;
+        least = is_lower ? least : half + 1;
+    }
+    return least;
 }
 
-constexpr std::size_t kFew = 16;
-
-/// The largest value that no more than `rank` others are below.
-std::int32_t of_rank_of_few(std::int32_t rank, std::span<const std::int32_t> values) {
-    std::array<std::int32_t, kFew> padded;
-    padded.fill(INT32_MAX);
-    std::copy(values.begin(), values.end(), padded.begin());
-    std::array<std::int32_t, kFew> below{};
-    for (const std::int32_t value : padded) {
-        for (std::size_t k = 0; k < kFew; ++k)
-            below[k] += value < padded[k] ? 1 : 0;
-    }
-    std::int32_t largest = INT32_MIN;
-    for (std::size_t k = 0; k < kFew; ++k)
-        largest = std::max(largest, below[k] <= rank ? padded[k] : INT32_MIN);
-    return largest;
-}
-
-/// The same for processors that count many at a time, and had better not branch on each value.
-std::int32_t of_rank_by_counting(std::size_t rank, std::span<std::int32_t> values) {
-    while (values.size() > kFew) {
-        const std::int32_t pivot = middle(values.front(), values[values.size() / 2], values.back());
-        std::uint32_t below = 0;
-        std::uint32_t not_above = 0;
-        for (const std::int32_t value : values) {
-            below += value < pivot ? 1 : 0;
-            not_above += value <= pivot ? 1 : 0;
-        }
-        if (rank < below) {
-            values = kept(values, [=](std::int32_t value) { return value < pivot; });
-        } else if (rank >= not_above) {
-            values = kept(values, [=](std::int32_t value) { return value > pivot; });
-            rank -= not_above;
-        } else {
-            return pivot;
-        }
-    }
-    return of_rank_of_few(static_cast<std::int32_t>(rank), values);
-}
-
-/// The value that stands at `rank` when sorted (Hoare's FIND, 1961).
+/// The same (Hoare's FIND, 1961).
 std::int32_t of_rank(std::size_t rank, std::span<std::int32_t> values) {
     if constexpr (sizeof(Word) == 8) return of_rank_by_counting(rank, values);
     std::int32_t* const wanted = &values[rank];

@@ -190,7 +190,7 @@ struct Sight {
 /// loops are such that compilers see it.
 class SeveralFits {
   public:
-    static constexpr std::size_t kMostDots = 2048;
+    static constexpr std::size_t kMostDots = 4096;
 
     SeveralFits(std::span<const Dot> dots, std::int32_t max_offset_q16, const PlaneFromImage& plane)
         : count_(dots.size()), max_offset_q16_(max_offset_q16) {
