@@ -97,6 +97,10 @@ Buckets::Buckets(std::span<const Dot> dots, std::span<const std::uint16_t> seeds
 /// Distances squared, in 2^-16 px^2, up to 128 px per axis: no grid is coarser.
 constexpr std::int32_t kFarthest_q8 = 1 << 15;
 
+std::uint32_t wrapped_square(std::int32_t a) {
+    return static_cast<std::uint32_t>(a) * static_cast<std::uint32_t>(a);
+}
+
 /// The four nearest of one seed found so far, nearest first.
 class NearestByStep {
   public:
@@ -129,9 +133,6 @@ class NearestByStep {
     }
 
   private:
-    static std::uint32_t wrapped_square(std::int32_t a) {
-        return static_cast<std::uint32_t>(a) * static_cast<std::uint32_t>(a);
-    }
     /// Keeps the point if it is another and not too far off; tells how near the next must be.
     DOTPOSE_BY_ITSELF std::uint32_t consider(const Buckets::Point* p, std::uint32_t squared_q16) {
         const bool is_far = may_be_far_ && larger_component({p->x_q8 - self_.x_q8,
@@ -166,7 +167,7 @@ class NearestByKey {
     NearestByKey(const Buckets& buckets, const Buckets::Point& self, std::uint32_t within_q16,
                  bool may_be_far)
         : buckets_(buckets), self_(self), may_be_far_(may_be_far) {
-        keys_.fill((Key{within_q16} << kIndexBits) - 1);
+        keys_.fill((Key{std::min(within_q16, kOutOfSight_q16)} << kIndexBits) - 1);
     }
 
     void search(const Buckets::Point* p, const Buckets::Point* end) {
@@ -174,7 +175,7 @@ class NearestByKey {
         const auto self = static_cast<std::size_t>(&self_ - p);
         for (std::size_t k = 0; k < count; k += kBlock)
             buckets_.copy_block(p + k, &points_[count_ + k], &seeds_[count_ + k]);
-        if (self < count) points_[count_ + self].x_q8 += kOutOfSight_q8;
+        if (self < count) points_[count_ + self].x_q8 += kBeyondSight_q8;
         count_ += count;
     }
     bool are_four() {
@@ -201,14 +202,17 @@ class NearestByKey {
     using Key = std::int64_t;
     static constexpr int kIndexBits = 16;
     static constexpr Key kNone = (1 << kIndexBits) - 1;
-    static constexpr std::int32_t kOutOfSight_q8 = 1 << 22;
+    /// The square of the distance to the farthest neighbours, and where a point is not among them.
+    static constexpr std::uint32_t kOutOfSight_q16 = std::uint32_t{1} << 31;
+    static constexpr std::int32_t kBeyondSight_q8 = (1 << 16) - 1;
     static constexpr std::size_t kBlock = Buckets::kBlock;
 
     Key key_of(std::size_t index) const {
-        const Buckets::Point p = points_[index];
-        const Vec step{p.x_q8 - self_.x_q8, p.y_q8 - self_.y_q8};
-        const bool is_far = may_be_far_ && larger_component(step) >= kFarthest_q8;
-        return (is_far ? INT32_MAX : squared(step)) << kIndexBits | static_cast<Key>(index);
+        const std::int32_t x = points_[index].x_q8 - self_.x_q8;
+        const std::int32_t y = points_[index].y_q8 - self_.y_q8;
+        const std::uint32_t squared_q16 = wrapped_square(x) + wrapped_square(y);
+        const bool is_far = may_be_far_ && larger_component({x, y}) >= kFarthest_q8;
+        return Key{is_far ? UINT32_MAX : squared_q16} << kIndexBits | static_cast<Key>(index);
     }
 
     const Buckets& buckets_;
