@@ -85,6 +85,7 @@ std::int32_t of_rank(std::size_t rank, std::span<std::int32_t> values) {
 }  // namespace
 
 std::int32_t short_quotient(std::int64_t n, std::int64_t d) {
+    if constexpr (sizeof(Word) == 8) return static_cast<std::int32_t>(n / d);
     auto rest = static_cast<std::uint64_t>(magnitude(n));
     auto divisor = static_cast<std::uint64_t>(d);
     int bit = std::countl_zero(divisor | 1) - std::countl_zero(rest | 1);

@@ -7,6 +7,7 @@
 #include "core/cells.hpp"
 #include "core/lattice/axes.hpp"
 #include "core/lattice/regularity.hpp"
+#include "core/pixels/words.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -40,11 +41,13 @@ bool is_near(Vec rounding_q16, const Square& offsets) {
                          static_cast<std::uint32_t>(rounding_q16.y) << 16);
 }
 
+/// Dots farther off are on no grid.
+constexpr int kFarthest_cells = 500;
+
 /// Shows each dot to `use(dot, c, is_within_reach)`: c is where it is in the plane, so that cutting
 /// off rounds to the cell. `near_intersections` are left to the caller.
 template <typename Use>
 Regularity look_at(std::span<const Dot> dots, int reach_cells, const Cells& cells, Use use) {
-    constexpr int kFarthest_cells = 500;
     int farthest_cell = 0;
     int beyond = 0;
     const Square reach = cells_within(reach_cells);
@@ -82,6 +85,16 @@ Vec cell_of(Used used) {
     return {static_cast<std::int16_t>(both >> 16), static_cast<std::int16_t>(both & 0xFFFF)};
 }
 
+/// The mean square of the offsets of dots, from its parts.
+std::int64_t mean_square_q20(std::int32_t squared_offsets_q14, int dots) {
+    return squared_offsets_q14 / std::max(dots, 1) * 64;
+}
+/// The part of a dot.
+std::int32_t squared_offset_q14(Vec rounding_q16) {
+    const Vec offset_q8{(rounding_q16.x >> 8 & 255) - 128, (rounding_q16.y >> 8 & 255) - 128};
+    return (offset_q8.x * offset_q8.x + offset_q8.y * offset_q8.y) >> 2;
+}
+
 /// Fits that follow each other: most dots count in each of them, and in the same cells.
 class Fits {
   public:
@@ -96,6 +109,21 @@ class Fits {
         found = remembers() ? sum_up_changes(reach_cells, cells) : sum_up(reach_cells, cells);
         found.near_intersections = sums_.count();
         return sums_.solve(0, plane) && is_nearly_square(plane);
+    }
+
+    /// Whether the dots sit on a grid, and displaced.
+    Status judge(int reach_cells, const PlaneFromImage& plane) const {
+        const Square near = near_;
+        std::int32_t squared_offsets_q14 = 0;
+        int near_intersections = 0;
+        Regularity found =
+            look_at(dots_, reach_cells, Cells(plane), [&](const Dot&, Vec c, bool is_within) {
+                if (!is_within) return;
+                squared_offsets_q14 += squared_offset_q14(c);
+                near_intersections += is_near(c, near) ? 1 : 0;
+            });
+        found.near_intersections = near_intersections;
+        return found.verdict(mean_square_q20(squared_offsets_q14, found.dots));
     }
 
   private:
@@ -136,21 +164,115 @@ class Fits {
     std::array<Used, 384> before_;  ///< of each dot, unless there are too many
 };
 
-/// Whether the dots sit on a grid, and displaced.
-Status judge(std::span<const Dot> dots, int reach_cells, const LatticeOptions& options,
-             const PlaneFromImage& plane) {
-    const Square near = offsets_within(options.max_offset_q16);
-    std::int32_t squared_offsets_q14 = 0;
-    int near_intersections = 0;
-    Regularity found =
-        look_at(dots, reach_cells, Cells(plane), [&](const Dot&, Vec c, bool is_within) {
-            if (!is_within) return;
-            const Vec offset_q8{(c.x >> 8 & 255) - 128, (c.y >> 8 & 255) - 128};
-            squared_offsets_q14 += (offset_q8.x * offset_q8.x + offset_q8.y * offset_q8.y) >> 2;
-            near_intersections += is_near(c, near) ? 1 : 0;
-        });
-    found.near_intersections = near_intersections;
-    return found.verdict(squared_offsets_q14 / std::max(found.dots, 1) * 64);
+/// A condition as a mask.
+constexpr std::int32_t mask(bool condition) {
+    return -std::int32_t{condition};
+}
+
+/// What `look_at` tells of a dot; conditions are masks.
+struct Sight {
+    Vec c;
+    std::int32_t distance;  ///< 0 where it does not count
+    std::int32_t is_within;
+    std::int32_t is_near;
+
+    Sight(const Cells& cells, Vec p, int reach_cells, std::int32_t max_offset_q16)
+        : c(cells.rounding_plane_point_q16(p)) {
+        const std::int32_t cells_away = larger_component({c.x >> 16, c.y >> 16});
+        distance = cells_away & mask(cells_away <= kFarthest_cells);
+        is_within = mask(cells_away <= std::min(reach_cells, kFarthest_cells));
+        const Vec offset_q16{(c.x & 0xFFFF) - 32768, (c.y & 0xFFFF) - 32768};
+        is_near = mask(larger_component(offset_q16) <= max_offset_q16);
+    }
+};
+
+/// The same for processors that look at several dots at a time, and had better not branch on each:
+/// loops are such that compilers see it.
+class SeveralFits {
+  public:
+    static constexpr std::size_t kMostDots = 4096;
+
+    SeveralFits(std::span<const Dot> dots, std::int32_t max_offset_q16, const PlaneFromImage& plane)
+        : count_(dots.size()), max_offset_q16_(max_offset_q16) {
+        const Cells cells(plane);
+        for (std::size_t i = 0; i < count_; ++i) {
+            const Vec p = cells.from_centre_q3(dots[i].centre_q8);
+            x_q3_[i] = p.x;
+            y_q3_[i] = p.y;
+            before_[i] = kUnused;
+        }
+    }
+
+    bool operator()(int reach_cells, Regularity& found, PlaneFromImage& plane) {
+        found = find_used(reach_cells, Cells(plane));
+        sum_up_changes();
+        found.near_intersections = sums_.count();
+        return sums_.solve(0, plane) && is_nearly_square(plane);
+    }
+
+    Status judge(int reach_cells, const PlaneFromImage& plane) const {
+        const Cells cells(plane);
+        const std::int32_t max_offset_q16 = max_offset_q16_;
+        std::int32_t squared_offsets_q14 = 0;
+        Regularity found;
+        for (std::size_t i = 0; i < count_; ++i) {
+            const Sight dot(cells, {x_q3_[i], y_q3_[i]}, reach_cells, max_offset_q16);
+            squared_offsets_q14 += squared_offset_q14(dot.c) & dot.is_within;
+            found.dots -= dot.is_within;
+            found.near_intersections -= dot.is_near & dot.is_within;
+        }
+        return found.verdict(mean_square_q20(squared_offsets_q14, found.dots));
+    }
+
+  private:
+    static constexpr auto kUnused = static_cast<std::int32_t>(Used::no);
+
+    /// Sets `now_`.
+    Regularity find_used(int reach_cells, const Cells cells) {
+        const std::int32_t max_offset_q16 = max_offset_q16_;
+        Regularity found;
+        for (std::size_t i = 0; i < count_; ++i) {
+            const Sight dot(cells, {x_q3_[i], y_q3_[i]}, reach_cells, max_offset_q16);
+            found.dots -= dot.is_within;
+            found.farthest_cell = std::max(found.farthest_cell, dot.distance);
+            const std::int32_t is_used = dot.is_within & dot.is_near;
+            now_[i] = (static_cast<std::int32_t>(used(dot.c)) & is_used) | (kUnused & ~is_used);
+        }
+        return found;
+    }
+    void sum_up_changes() {
+        // Each index is written, and the next one over it if nothing has changed there.
+        std::array<std::uint16_t, kMostDots> changed;
+        std::size_t changes = 0;
+        for (std::size_t i = 0; i < count_; ++i) {
+            changed[changes] = static_cast<std::uint16_t>(i);
+            changes += now_[i] != before_[i] ? 1 : 0;
+        }
+        for (const std::size_t i : std::span(changed).first(changes)) {
+            const Vec p{x_q3_[i], y_q3_[i]};
+            if (before_[i] != kUnused) sums_.count(p, cell_of(Used(before_[i])), -1);
+            if (now_[i] != kUnused) sums_.count(p, cell_of(Used(now_[i])), 1);
+            before_[i] = now_[i];
+        }
+    }
+
+    std::size_t count_;
+    std::int32_t max_offset_q16_;
+    CellFit sums_;
+    std::array<std::int32_t, kMostDots> x_q3_;  ///< from the centre
+    std::array<std::int32_t, kMostDots> y_q3_;
+    std::array<std::int32_t, kMostDots> now_;  ///< as Used
+    std::array<std::int32_t, kMostDots> before_;
+};
+
+/// From where the plane is.
+template <typename AnyFits>
+Status grow(AnyFits& fits, PlaneFromImage& plane) {
+    Regularity found;
+    constexpr int kMostRounds = 3;
+    const auto fit = [&](int reach_cells) { return fits(reach_cells, found, plane); };
+    if (!fit_outwards(kMostRounds, found, fit)) return Status::no_grid;
+    return fits.judge(found.farthest_cell, plane);
 }
 
 }  // namespace
@@ -158,12 +280,14 @@ Status judge(std::span<const Dot> dots, int reach_cells, const LatticeOptions& o
 Status grow_grid(std::span<const Dot> dots, const LatticeOptions& options, Vec image_centre_q8,
                  const Lattice& first, PlaneFromImage& plane) {
     plane = plane_from_lattice(first, image_centre_q8);
-    Regularity found;
-    constexpr int kMostRounds = 3;
+    if constexpr (sizeof(Word) == 8) {
+        if (dots.size() <= SeveralFits::kMostDots) {
+            SeveralFits fits(dots, options.max_offset_q16, plane);
+            return grow(fits, plane);
+        }
+    }
     Fits fits(dots, options.max_offset_q16);
-    const auto fit = [&](int reach_cells) { return fits(reach_cells, found, plane); };
-    if (!fit_outwards(kMostRounds, found, fit)) return Status::no_grid;
-    return judge(dots, found.farthest_cell, options, plane);
+    return grow(fits, plane);
 }
 
 }  // namespace dotpose::core
