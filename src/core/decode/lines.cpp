@@ -1,8 +1,35 @@
 #include "core/decode/lines.hpp"
 
 #include "core/decode/correlation.hpp"
+#include "core/decode/eight_lines.hpp"
+#include "core/pixels/words.hpp"
 
 namespace dotpose::core {
+namespace {
+
+/// Scores eight lines at a time as long as there are more than two. Returns how many.
+template <typename Weights>
+std::size_t score_eights(Weights weights, std::span<LineScores> lines) {
+    EightWeights eight;
+    std::size_t scored = 0;
+    while (scored + 2 < lines.size()) {
+        const auto some = lines.subspan(scored, std::min<std::size_t>(lines.size() - scored, 8));
+        Line storage;
+        std::size_t length = 0;
+        for (std::size_t i = 0; i < some.size(); ++i) {
+            const auto line = weights(scored + i, storage);
+            put_line(line, i, eight);
+            length = line.size();
+        }
+        EightScores scores;
+        correlate_eight(std::span(eight).first(length), scores);
+        write_scores(scores, some);
+        scored += some.size();
+    }
+    return scored;
+}
+
+}  // namespace
 
 Lines scored_lines(const Upright& upright, Axis axis, std::span<LineScores> storage) {
     const int count = axis == Axis::x ? upright.columns() : upright.rows();
@@ -18,6 +45,7 @@ Lines score_lines(const Upright& upright, Axis axis, std::span<LineScores> stora
     Line one;
     Line other;
     std::size_t i = 0;
+    if constexpr (sizeof(Word) == 8) i = score_eights(weights, storage.first(lines.scores.size()));
     for (; i + 1 < lines.scores.size(); i += 2) {
         correlate_both(weights(i, one), weights(i + 1, other), storage[i], storage[i + 1]);
     }

@@ -1,0 +1,31 @@
+// Eight lines: correlated at once, one in each number of a vector. For processors that have them:
+// it takes them hardly longer than one line.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "core/decode/vectors.hpp"
+#include "dotpose/stages.hpp"
+
+namespace dotpose::core {
+
+/// Weights of eight lines, by their place in the line.
+using EightWeights = std::array<Eight, kMaxGridSide>;
+
+/// Puts a line, as long as the others or shorter, among the eight.
+inline void put_line(std::span<const std::int8_t> line, std::size_t which, EightWeights& weights) {
+    for (std::size_t i = 0; i < line.size(); ++i)
+        weights[i][which] = line[i];
+}
+
+/// Scores of eight lines, by the offset.
+using EightScores = std::array<Eight, kSections>;
+
+/// As `correlate`. There is at least one weight.
+void correlate_eight(std::span<const Eight> weights, EightScores& scores);
+
+/// Sorts the scores by line, of as many lines as there are in `lines`; at most eight.
+void write_scores(const EightScores& scores, std::span<LineScores> lines);
+
+}  // namespace dotpose::core
