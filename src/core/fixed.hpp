@@ -103,13 +103,31 @@ inline constexpr int kNever_q8 = -(1 << 20);
 inline constexpr std::array<std::uint8_t, 12> kGain{255, 150, 83, 44, 23, 12, 6, 3, 2, 1, 1, 1};
 
 /// log2(2^a + 2^b) in 2^-8, rounded up.
-constexpr int add_log2(int a_q8, int b_q8) {
+constexpr int add_log2_by_chords(int a_q8, int b_q8) {
     const int larger = std::max(a_q8, b_q8);
     const int d = larger - std::min(a_q8, b_q8);
     const auto whole = static_cast<std::size_t>(d >> 8);
     if (whole + 1 >= kGain.size()) return larger + 1;
     const int fall = (kGain[whole] - kGain[whole + 1]) * (d & 255);
     return larger + kGain[whole] + 1 - (fall >> 8);
+}
+
+/// The gain less 1, by the difference: where memory is plenty, there is no branch to mispredict.
+inline constexpr auto kGains = [] {
+    std::array<std::uint8_t, 256 * (kGain.size() - 1) + 1> gains{};
+    for (std::size_t d = 0; d < gains.size(); ++d)
+        gains[d] = static_cast<std::uint8_t>(add_log2_by_chords(0, -static_cast<int>(d)) - 1);
+    return gains;
+}();
+
+/// The same, as the processor does it best.
+constexpr int add_log2(int a_q8, int b_q8) {
+    if constexpr (sizeof(std::size_t) == 8) {
+        const auto d = static_cast<std::size_t>(magnitude(a_q8 - b_q8));
+        return std::max(a_q8, b_q8) + 1 + kGains[std::min(d, kGains.size() - 1)];
+    } else {
+        return add_log2_by_chords(a_q8, b_q8);
+    }
 }
 
 /// Median (the lower one of two); the order of the values is lost. Empty gives 0.
