@@ -105,8 +105,12 @@ Steps::Steps(const Contest& contest, int enough, Excused excused)
     int most_before = 0;
     for (int step = 0; step < count; ++step) {
         std::uint8_t parts = 0;
-        for (int lost = lost_at(step); lost >= part; lost -= part)
-            ++parts;
+        if constexpr (sizeof(Word) == 8) {
+            parts = static_cast<std::uint8_t>(lost_at(step) / part);
+        } else {
+            for (int lost = lost_at(step); lost >= part; lost -= part)
+                ++parts;
+        }
         // Less is not worth the work.
         if (parts == 1) parts = 0;
         losses[static_cast<std::size_t>(step)] = parts;
