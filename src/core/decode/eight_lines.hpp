@@ -13,12 +13,6 @@ namespace dotpose::core {
 /// Weights of eight lines, by their place in the line.
 using EightWeights = std::array<Eight, kMaxGridSide>;
 
-/// Puts a line, as long as the others or shorter, among the eight.
-inline void put_line(std::span<const std::int8_t> line, std::size_t which, EightWeights& weights) {
-    for (std::size_t i = 0; i < line.size(); ++i)
-        weights[i][which] = line[i];
-}
-
 /// Scores of eight lines, by the offset.
 using EightScores = std::array<Eight, kSections>;
 

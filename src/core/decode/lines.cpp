@@ -8,23 +8,20 @@ namespace dotpose::core {
 namespace {
 
 /// Scores eight lines at a time as long as there are more than two. Returns how many.
-template <typename Weights>
-std::size_t score_eights(Weights weights, std::span<LineScores> lines) {
-    EightWeights eight;
+std::size_t score_eights(const Upright& upright, Axis axis, std::span<LineScores> lines) {
+    const bool is_x = axis == Axis::x;
+    const auto length = static_cast<std::size_t>(is_x ? upright.rows() : upright.columns());
+    EightWeights weights;
     std::size_t scored = 0;
     while (scored + 2 < lines.size()) {
         const auto some = lines.subspan(scored, std::min<std::size_t>(lines.size() - scored, 8));
-        Line storage;
-        std::size_t length = 0;
-        for (std::size_t i = 0; i < some.size(); ++i) {
-            const auto line = weights(scored + i, storage);
-            put_line(line, i, eight);
-            length = line.size();
+        for (std::size_t i = 0; i < some.size(); ++i, ++scored) {
+            const auto line = static_cast<int>(scored);
+            is_x ? upright.column(line, i, weights) : upright.row(line, i, weights);
         }
         EightScores scores;
-        correlate_eight(std::span(eight).first(length), scores);
+        correlate_eight(std::span(weights).first(length), scores);
         write_scores(scores, some);
-        scored += some.size();
     }
     return scored;
 }
@@ -45,7 +42,8 @@ Lines score_lines(const Upright& upright, Axis axis, std::span<LineScores> stora
     Line one;
     Line other;
     std::size_t i = 0;
-    if constexpr (sizeof(Word) == 8) i = score_eights(weights, storage.first(lines.scores.size()));
+    if constexpr (sizeof(Word) == 8)
+        i = score_eights(upright, axis, storage.first(lines.scores.size()));
     for (; i + 1 < lines.scores.size(); i += 2) {
         correlate_both(weights(i, one), weights(i + 1, other), storage[i], storage[i + 1]);
     }

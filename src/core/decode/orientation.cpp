@@ -34,6 +34,20 @@ class Voters {
         return std::span(line).first(static_cast<std::size_t>(length_));
     }
 
+    /// All of them, and after them all backwards.
+    std::span<const Eight> read_both_ways(EightWeights& weights) const {
+        static_assert(2 * kVoters == 8);
+        const auto length = static_cast<std::size_t>(length_);
+        for (std::size_t i = 0; i < kVoters; ++i) {
+            const GridCell* cell = first_ + static_cast<int>(i) * step_ * across_;
+            for (std::size_t n = 0; n < length; ++n, cell += along_) {
+                weights[n][i] = cell->*bit_;
+                weights[length - 1 - n][kVoters + i] = cell->*bit_;
+            }
+        }
+        return std::span(weights).first(length);
+    }
+
   private:
     const GridCell* first_;
     int across_;  ///< cells from one line to the next
@@ -73,17 +87,9 @@ struct BothWays {
 
 /// All at once: four lines both ways are eight.
 BothWays agreement_of_eight(const Voters& voters) {
-    static_assert(2 * kVoters == 8);
     EightWeights weights;
-    std::size_t length = 0;
-    for (int i = 0; i < 2 * kVoters; ++i) {
-        Line storage;
-        const auto line = voters.read(i % kVoters, i >= kVoters, storage);
-        put_line(line, static_cast<std::size_t>(i), weights);
-        length = line.size();
-    }
     EightScores scores;
-    correlate_eight(std::span(weights).first(length), scores);
+    correlate_eight(voters.read_both_ways(weights), scores);
     Eight most = scores[0];
     Eight least = scores[0];
     for (const Eight& score : scores) {
