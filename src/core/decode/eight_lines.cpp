@@ -77,20 +77,18 @@ void transpose(std::array<Eight, 8>& rows) {
 
 }  // namespace
 
-void correlate_eight(std::span<const Eight> weights, EightScores& scores) {
-    const std::size_t groups = weights.size() <= 3 * kGroup ? 3 : kGroups;
+void correlate_eight(const EightWeights& weights, std::size_t length, EightScores& scores) {
+    const std::size_t groups = length <= 3 * kGroup ? 3 : kGroups;
     auto take = groups == 3 ? take_sums<3, false> : take_sums<kGroups, false>;
     std::size_t phase = 0;
-    while (!weights.empty()) {
+    for (std::size_t first = 0; first < length; first += kAtOnce) {
         std::array<Eight, kAtOnce> some{};
-        const auto now = weights.first(std::min(weights.size(), kAtOnce));
-        std::copy(now.begin(), now.end(), some.begin());
+        std::copy_n(&weights[first], std::min(length - first, kAtOnce), some.begin());
         std::array<Sums, kGroups> sums;
         for (std::size_t group = 0; group < groups; ++group)
             sum_signed(&some[group * kGroup], sums[group]);
         take(sums, phase, scores);
         take = take_sums<kGroups, true>;
-        weights = weights.subspan(now.size());
         phase = (phase + kAtOnce) % kSections;
     }
 }

@@ -16,8 +16,8 @@ using EightWeights = std::array<Eight, kMaxGridSide>;
 /// Scores of eight lines, by the offset.
 using EightScores = std::array<Eight, kSections>;
 
-/// As `correlate`. There is at least one weight.
-void correlate_eight(std::span<const Eight> weights, EightScores& scores);
+/// As `correlate`, of lines of so many weights: at least one.
+void correlate_eight(const EightWeights& weights, std::size_t length, EightScores& scores);
 
 /// Sorts the scores by line, of as many lines as there are in `lines`; at most eight.
 void write_scores(const EightScores& scores, std::span<LineScores> lines);

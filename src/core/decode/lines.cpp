@@ -20,7 +20,7 @@ std::size_t score_eights(const Upright& upright, Axis axis, std::span<LineScores
             is_x ? upright.column(line, i, weights) : upright.row(line, i, weights);
         }
         EightScores scores;
-        correlate_eight(std::span(weights).first(length), scores);
+        correlate_eight(weights, length, scores);
         write_scores(scores, some);
     }
     return scored;

@@ -34,8 +34,8 @@ class Voters {
         return std::span(line).first(static_cast<std::size_t>(length_));
     }
 
-    /// All of them, and after them all backwards.
-    std::span<const Eight> read_both_ways(EightWeights& weights) const {
+    /// All of them, and after them all backwards. Returns their length.
+    std::size_t read_both_ways(EightWeights& weights) const {
         static_assert(2 * kVoters == 8);
         const auto length = static_cast<std::size_t>(length_);
         for (std::size_t i = 0; i < kVoters; ++i) {
@@ -45,7 +45,7 @@ class Voters {
                 weights[length - 1 - n][kVoters + i] = cell->*bit_;
             }
         }
-        return std::span(weights).first(length);
+        return length;
     }
 
   private:
@@ -89,7 +89,8 @@ struct BothWays {
 BothWays agreement_of_eight(const Voters& voters) {
     EightWeights weights;
     EightScores scores;
-    correlate_eight(voters.read_both_ways(weights), scores);
+    const std::size_t length = voters.read_both_ways(weights);
+    correlate_eight(weights, length, scores);
     Eight most = scores[0];
     Eight least = scores[0];
     for (const Eight& score : scores) {
