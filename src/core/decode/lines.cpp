@@ -15,6 +15,7 @@ std::size_t score_eights(const Upright& upright, Axis axis, std::span<LineScores
     std::size_t scored = 0;
     while (scored + 2 < lines.size()) {
         const auto some = lines.subspan(scored, std::min<std::size_t>(lines.size() - scored, 8));
+        if (some.size() < 8) std::fill_n(weights.begin(), length, Eight{});
         for (std::size_t i = 0; i < some.size(); ++i, ++scored) {
             const auto line = static_cast<int>(scored);
             is_x ? upright.column(line, i, weights) : upright.row(line, i, weights);
