@@ -17,9 +17,9 @@ class Confidence {
     static constexpr int weight_of(int level) { return 8 * level + 4; }
 
     /// weight: -127 to 127.
-    void add(int weight, bool is_wrong) {
+    void add(int weight, bool is_wrong, int bits = 1) {
         const int level = (weight < 0 ? -weight : weight) >> 3;
-        ++counts_[static_cast<std::size_t>(2 * level + (is_wrong ? 1 : 0))];
+        counts_[static_cast<std::size_t>(2 * level + (is_wrong ? 1 : 0))] += bits;
     }
     void add(const Confidence& other) {
         for (std::size_t i = 0; i < counts_.size(); ++i)

@@ -88,7 +88,25 @@ inline void grow(const Contest& contest, std::size_t sequence, std::uint32_t riv
 }
 
 /// What a rival that shares the line `shared`, and none before, has lost when that gets hopeless,
-/// or in all; nothing if it shares one before.
+/// or in all; nothing if it shares one before. `loss` is as Contest::loss.
+template <typename Loss>
+std::optional<int> loss_of_growth(const Contest& contest, const Growth& growth, int shared,
+                                  const Loss& loss) {
+    const int base = growth[static_cast<std::size_t>(shared)];
+    const int count = contest.lines.count();
+    int lost = 0;
+    // Outwards from the shared line, where most is lost soonest; its predecessors last.
+    for (int i = 1, line = shared + 1; i < count; ++i, ++line) {
+        if (line == count) line = 0;
+        const int shift = growth[static_cast<std::size_t>(line)] - base;
+        if (shift == 0 && line < shared) return std::nullopt;
+        lost += loss(line, shift);
+        if (contest.is_hopeless(lost)) break;
+    }
+    return lost;
+}
+
+/// The same, with its own losses.
 std::optional<int> loss_of_growth(const Contest& contest, const Growth& growth, int shared);
 
 }  // namespace dotpose::core

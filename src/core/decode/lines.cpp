@@ -1,8 +1,33 @@
 #include "core/decode/lines.hpp"
 
 #include "core/decode/correlation.hpp"
+#include "core/decode/eight_lines.hpp"
+#include "core/pixels/words.hpp"
 
 namespace dotpose::core {
+namespace {
+
+/// Scores eight lines at a time as long as there are more than two. Returns how many.
+std::size_t score_eights(const Upright& upright, Axis axis, std::span<LineScores> lines) {
+    const bool is_x = axis == Axis::x;
+    const auto length = static_cast<std::size_t>(is_x ? upright.rows() : upright.columns());
+    EightWeights weights;
+    std::size_t scored = 0;
+    while (scored + 2 < lines.size()) {
+        const auto some = lines.subspan(scored, std::min<std::size_t>(lines.size() - scored, 8));
+        if (some.size() < 8) std::fill_n(weights.begin(), length, Eight{});
+        for (std::size_t i = 0; i < some.size(); ++i, ++scored) {
+            const auto line = static_cast<int>(scored);
+            is_x ? upright.column(line, i, weights) : upright.row(line, i, weights);
+        }
+        EightScores scores;
+        correlate_eight(weights, length, scores);
+        write_scores(scores, some);
+    }
+    return scored;
+}
+
+}  // namespace
 
 Lines scored_lines(const Upright& upright, Axis axis, std::span<LineScores> storage) {
     const int count = axis == Axis::x ? upright.columns() : upright.rows();
@@ -18,6 +43,8 @@ Lines score_lines(const Upright& upright, Axis axis, std::span<LineScores> stora
     Line one;
     Line other;
     std::size_t i = 0;
+    if constexpr (sizeof(Word) == 8)
+        i = score_eights(upright, axis, storage.first(lines.scores.size()));
     for (; i + 1 < lines.scores.size(); i += 2) {
         correlate_both(weights(i, one), weights(i + 1, other), storage[i], storage[i + 1]);
     }

@@ -1,7 +1,9 @@
 #include "core/decode/orientation.hpp"
 
 #include "core/decode/correlation.hpp"
+#include "core/decode/eight_lines.hpp"
 #include "core/decode/upright.hpp"
+#include "core/pixels/words.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -32,6 +34,20 @@ class Voters {
         return std::span(line).first(static_cast<std::size_t>(length_));
     }
 
+    /// All of them, and after them all backwards. Returns their length.
+    std::size_t read_both_ways(EightWeights& weights) const {
+        static_assert(2 * kVoters == 8);
+        const auto length = static_cast<std::size_t>(length_);
+        for (std::size_t i = 0; i < kVoters; ++i) {
+            const GridCell* cell = first_ + static_cast<int>(i) * step_ * across_;
+            for (std::size_t n = 0; n < length; ++n, cell += along_) {
+                weights[n][i] = cell->*bit_;
+                weights[length - 1 - n][kVoters + i] = cell->*bit_;
+            }
+        }
+        return length;
+    }
+
   private:
     const GridCell* first_;
     int across_;  ///< cells from one line to the next
@@ -47,7 +63,7 @@ struct Agreement {
     std::int32_t flipped = 0;
 };
 
-Agreement agreement(const Voters& voters, bool reversed) {
+Agreement agreement_by_pairs(const Voters& voters, bool reversed) {
     std::array<Line, 2> lines;
     std::array<LineScores, 2> scores;
     Agreement sum;
@@ -63,6 +79,38 @@ Agreement agreement(const Voters& voters, bool reversed) {
     return sum;
 }
 
+/// Of lines as they run, and backwards.
+struct BothWays {
+    Agreement forwards;
+    Agreement backwards;
+};
+
+/// All at once: four lines both ways are eight.
+BothWays agreement_of_eight(const Voters& voters) {
+    EightWeights weights;
+    EightScores scores;
+    const std::size_t length = voters.read_both_ways(weights);
+    correlate_eight(weights, length, scores);
+    Eight most = scores[0];
+    Eight least = scores[0];
+    for (const Eight& score : scores) {
+        most = larger(most, score);
+        least = smaller(least, score);
+    }
+    BothWays sum;
+    for (std::size_t i = 0; i < 2 * kVoters; ++i) {
+        Agreement& way = i < kVoters ? sum.forwards : sum.backwards;
+        way.as_is += most[i];
+        way.flipped -= least[i];
+    }
+    return sum;
+}
+
+BothWays agreement(const Voters& voters) {
+    if constexpr (sizeof(Word) == 8) return agreement_of_eight(voters);
+    return {agreement_by_pairs(voters, false), agreement_by_pairs(voters, true)};
+}
+
 /// The best that any sequence could do.
 std::int32_t most_possible(const Voters& voters) {
     std::int32_t sum = 0;
@@ -76,8 +124,7 @@ std::int32_t most_possible(const Voters& voters) {
 
 /// Agreement of the best way to read lines.
 std::int32_t best_agreement(const Voters& voters) {
-    const Agreement forwards = agreement(voters, false);
-    const Agreement backwards = agreement(voters, true);
+    const auto [forwards, backwards] = agreement(voters);
     return std::max(std::max(forwards.as_is, forwards.flipped),
                     std::max(backwards.as_is, backwards.flipped));
 }
@@ -89,11 +136,13 @@ Orientation rank_turns(const Grid& grid, const Region& region) {
     // correlations is the same vote, but lines with a misread bit keep their say.
     const Voters x_columns(grid, region, true, &GridCell::x);
     const Voters y_rows(grid, region, false, &GridCell::y);
-    const std::int32_t columns = agreement(x_columns, false).as_is;
-    const std::int32_t rows = agreement(y_rows, false).as_is;
+    const BothWays of_columns = agreement(x_columns);
+    const BothWays of_rows = agreement(y_rows);
+    const std::int32_t columns = of_columns.forwards.as_is;
+    const std::int32_t rows = of_rows.forwards.as_is;
     // Half a turn flips and reverses.
-    const std::int32_t turned_columns = agreement(x_columns, true).flipped;
-    const std::int32_t turned_rows = agreement(y_rows, true).flipped;
+    const std::int32_t turned_columns = of_columns.backwards.flipped;
+    const std::int32_t turned_rows = of_rows.backwards.flipped;
     // A quarter turn lays rows into columns and flips only one of the two: see `turned`.
     const std::array<std::int32_t, 4> scores{columns + rows, turned_columns + rows,
                                              turned_columns + turned_rows, columns + turned_rows};

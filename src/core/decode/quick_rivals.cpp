@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "core/decode/similar_places.hpp"
+#include "core/pixels/words.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -60,30 +61,45 @@ int log2_of_others_q8(const Contest& contest, int line) {
     return (whole - 12) * 256 + fraction_q8 + 23;
 }
 
+/// Sets that are looked at together, so that none has to wait for its sums.
+constexpr std::size_t kSetsAtOnce = sizeof(Word) == 8 ? kSets.size() : 1;
+using OfSets = std::array<int, kSetsAtOnce>;
+
 /// ExpectedRivals with all that share no line lumped together. A step leads to each roll with at
 /// most the probability of the one that stays shared, so a line has at most that share of the sum
 /// of its odds, and at most the best of them.
-int far_log2_q8(const Contest& contest, const Set& set, const AllLineOdds& odds) {
+OfSets far_log2_q8(const Contest& contest, const Set* sets, const AllLineOdds& odds) {
     const int most = contest.most_shared();
-    const int equal = set.equal_q8 + kUnevenness_q8;
     // All sums are divided by the probability that every line so far is shared: then those that
     // share the lines from one on, and none before it, stay as they are.
-    std::array<int, kMostShared + kMaxLines> sharing;
-    std::fill_n(sharing.begin(), kMostShared, kNever_q8);
-    int* newest = &sharing[kMostShared];
-    *newest = 0;
-    int apart = odds[0].sum_q8;
-    int sum = 0;
+    std::array<OfSets, kMostShared + kMaxLines> sharing;
+    for (std::size_t i = 0; i < kMostShared; ++i)
+        sharing[i].fill(kNever_q8);
+    OfSets* newest = &sharing[kMostShared];
+    newest->fill(0);
+    OfSets apart;
+    apart.fill(odds[0].sum_q8);
+    OfSets sum;
     for (int line = 0;;) {
         sum = apart;
-        for (int n = 0; n < most; ++n)
-            sum = add_log2(sum, newest[-n]);
+        for (int n = 0; n < most; ++n) {
+            for (std::size_t i = 0; i < kSetsAtOnce; ++i)
+                sum[i] = add_log2(sum[i], newest[-n][i]);
+        }
         if (++line == contest.lines.count()) break;
         const LineOdds& here = odds[static_cast<std::size_t>(line)];
         *++newest = apart;
-        apart = sum - equal + std::min(here.best_q8 + kUnevenness_q8, here.sum_q8 + equal);
+        for (std::size_t i = 0; i < kSetsAtOnce; ++i) {
+            const int equal = sets[i].equal_q8 + kUnevenness_q8;
+            apart[i] =
+                sum[i] - equal + std::min(here.best_q8 + kUnevenness_q8, here.sum_q8 + equal);
+        }
     }
-    return sum + (contest.lines.count() - 1) * equal + set.rivals_q8;
+    for (std::size_t i = 0; i < kSetsAtOnce; ++i) {
+        const int equal = sets[i].equal_q8 + kUnevenness_q8;
+        sum[i] += (contest.lines.count() - 1) * equal + sets[i].rivals_q8;
+    }
+    return sum;
 }
 
 /// All sets together: roughly, with the number of rolls times the best for the sum, or exactly.
@@ -95,8 +111,10 @@ int far_log2_q8(const Contest& contest, bool roughly) {
             best, best + (roughly ? kShifts_q8 : log2_of_others_q8(contest, line))};
     }
     int sum = kNever_q8;
-    for (const Set& set : kSets)
-        sum = add_log2(sum, far_log2_q8(contest, set, odds));
+    for (std::size_t i = 0; i < kSets.size(); i += kSetsAtOnce) {
+        for (const int of_set : far_log2_q8(contest, &kSets[i], odds))
+            sum = add_log2(sum, of_set);
+    }
     return sum;
 }
 

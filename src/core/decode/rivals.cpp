@@ -21,6 +21,27 @@ constexpr std::uint32_t kTurns = kMaxLines / code::kA3.size() + 1;
 
 using Places = std::array<std::uint32_t, 4>;
 
+/// Contest::loss, looked up: rivals that are looked at one by one ask for it a million times.
+class Losses {
+  public:
+    explicit Losses(const Contest& contest) {
+        for (int line = 0; line < contest.lines.count(); ++line) {
+            auto& losses = losses_[static_cast<std::size_t>(line)];
+            for (int shift = 0; shift < kSections; ++shift) {
+                const auto i = static_cast<std::size_t>(shift);
+                losses[i] = losses[i + kSections] =
+                    static_cast<std::int16_t>(contest.loss(line, shift));
+            }
+        }
+    }
+    int operator()(int line, int shift) const {
+        return losses_[static_cast<std::size_t>(line)][static_cast<std::size_t>(shift + kSections)];
+    }
+
+  private:
+    std::array<std::array<std::int16_t, 2 * kSections>, kMaxLines> losses_;
+};
+
 /// Rivals whose place differs in several sequences and that share fewer lines in a row.
 float sum_of_far_rivals(const Contest& contest, int shared_lines, int fewest_different) {
     ExpectedRivals expected(contest.basis, contest.position, shared_lines - 1, fewest_different);
@@ -36,7 +57,7 @@ float sum_of_far_rivals(const Contest& contest, int shared_lines, int fewest_dif
 
 /// Rivals whose place differs in one sequence only: one by one, with every shift at which they
 /// share some line with the reading.
-float sum_of_single_rivals(const Contest& contest) {
+float sum_of_single_rivals(const Contest& contest, const Losses& losses) {
     float sum = 0;
     Growth growth;
     for (std::size_t k = 0; k < contest.basis.size(); ++k) {
@@ -44,7 +65,7 @@ float sum_of_single_rivals(const Contest& contest) {
             if (rival == contest.places[k]) continue;
             grow(contest, k, rival, growth);
             for (int shared = 0; shared < contest.lines.count(); ++shared) {
-                const std::optional<int> lost = loss_of_growth(contest, growth, shared);
+                const std::optional<int> lost = loss_of_growth(contest, growth, shared, losses);
                 if (lost) sum += contest.odds(*lost);
             }
         }
@@ -72,11 +93,21 @@ int roll_at(const Contest& contest, const Places& places, int line) {
     return sum;
 }
 
+/// Those of the reading.
+using OwnRolls = std::array<int, kMaxLines>;
+OwnRolls own_rolls(const Contest& contest) {
+    OwnRolls rolls;
+    for (int line = 0; line < contest.lines.count(); ++line)
+        rolls[static_cast<std::size_t>(line)] = roll_at(contest, contest.places, line);
+    return rolls;
+}
+
 /// Odds of a rival that shares `shared_lines` lines from `run` on; places are those at the first
 /// line.
-float odds_of_twin(const Contest& contest, const Places& rival, int run, int shared_lines) {
+float odds_of_twin(const Contest& contest, const Losses& losses, const OwnRolls& own,
+                   const Places& rival, int run, int shared_lines) {
     const auto growth = [&](int line) {
-        return roll_at(contest, rival, line) - roll_at(contest, contest.places, line);
+        return roll_at(contest, rival, line) - own[static_cast<std::size_t>(line)];
     };
     // Positive.
     const int base = growth(run) - 8 * kSections;
@@ -84,7 +115,7 @@ float odds_of_twin(const Contest& contest, const Places& rival, int run, int sha
     const auto is_hopeless_with = [&](int line) {
         const auto shift =
             code::few_modulo_sections(static_cast<std::uint32_t>(growth(line) - base));
-        lost += contest.loss(line, static_cast<int>(shift));
+        lost += losses(line, static_cast<int>(shift));
         return contest.is_hopeless(lost);
     };
     for (int line = run + shared_lines; line < contest.lines.count(); ++line) {
@@ -99,8 +130,10 @@ float odds_of_twin(const Contest& contest, const Places& rival, int run, int sha
 /// Rivals that share that many consecutive lines, four or five, or more: one by one, from the
 /// places in the secondary sequences at which the digits of the three or four differences stand
 /// again.
-float sum_of_near_rivals(const Contest& contest, const code::Twins& twins, int shared_lines) {
+float sum_of_near_rivals(const Contest& contest, const Losses& losses, const code::Twins& twins,
+                         int shared_lines) {
     const auto order = static_cast<std::size_t>(shared_lines - 4);
+    const OwnRolls own_by_line = own_rolls(contest);
     float sum = 0;
     for (int run = 0; run + shared_lines <= contest.lines.count(); ++run) {
         Places own;  // at the run
@@ -117,7 +150,8 @@ float sum_of_near_rivals(const Contest& contest, const code::Twins& twins, int s
                 first[k] = (rival[k] + kTurns * length - static_cast<std::uint32_t>(run)) % length;
                 if (rival[k] != own[k]) break;
             }
-            if (k < own.size()) sum += odds_of_twin(contest, first, run, shared_lines);
+            if (k < own.size())
+                sum += odds_of_twin(contest, losses, own_by_line, first, run, shared_lines);
         }
     }
     return sum;
@@ -128,15 +162,16 @@ float sum_of_near_rivals(const Contest& contest, const code::Twins& twins, int s
 int rivals_log2(Profile profile, const Contest& contest, int limit_log2) {
     if (contest.lines.count() <= kMostOfDistinct) return 0;
     const code::Twins& twins = code::twins(profile);
-    const float known = sum_of_single_rivals(contest) + sum_of_other_sections(contest) +
-                        sum_of_near_rivals(contest, twins, kMostOfDistinct);
+    const Losses losses(contest);
+    const float known = sum_of_single_rivals(contest, losses) + sum_of_other_sections(contest) +
+                        sum_of_near_rivals(contest, losses, twins, kMostOfDistinct);
     const float expected = sum_of_far_rivals(contest, kMostOfDistinct, 2);
     float sum = known + expected;
     const float limit = std::ldexp(1.0F, limit_log2);
     const float far_below_doubt = std::ldexp(1.0F, std::min(limit_log2, -30) - 10);
     // The more rivals are looked at one by one, the fewer remain to be feared for their number.
     if (sum > far_below_doubt && expected > known && expected < kBeyondHelp) {
-        sum = known + sum_of_near_rivals(contest, twins, kMostOfDistinct - 1) +
+        sum = known + sum_of_near_rivals(contest, losses, twins, kMostOfDistinct - 1) +
               sum_of_far_rivals(contest, kMostOfDistinct - 1, 3);
         if (sum < limit) sum += sum_of_double_rivals(contest);
     }

@@ -5,6 +5,7 @@
 
 #include "../../code/reference.hpp"
 #include "../geometry.hpp"
+#include "core/decode/eight_lines.hpp"
 
 namespace dotpose::core_test {
 namespace {
@@ -75,6 +76,53 @@ TEST(Correlation, OfEqualsTheFirstIsTaken) {
     correlate({}, scores);
     EXPECT_EQ(best_match(scores).roll, 0);
     EXPECT_EQ(best_match(scores).score, 0);
+}
+
+TEST(Correlation, TheLeadIsThatOverTheSecondBest) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 2000; ++i) {
+        LineScores scores;
+        const std::uint32_t range = i % 2 == 0 ? 20 : 60000;
+        for (std::int16_t& score : scores) {
+            score = static_cast<std::int16_t>(static_cast<int>(rng.below(range)) - 30000);
+        }
+        const Lead lead = lead_of(scores);
+        std::sort(scores.begin(), scores.end());
+        ASSERT_EQ(lead.best, scores[62]) << i << ", seed " << kSeed;
+        if (scores[62] - scores[61] <= INT16_MAX) {
+            ASSERT_EQ(lead.lead, scores[62] - scores[61]) << i << ", seed " << kSeed;
+        }
+    }
+}
+
+TEST(Correlation, EightLinesScoreAsEachByItself) {
+    Rng rng(kSeed);
+    for (std::size_t length = 1; length <= 256; ++length) {
+        EightWeights weights;
+        std::array<std::vector<std::int8_t>, 8> lines;
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            for (std::size_t n = 0; n < length; ++n) {
+                lines[i].push_back(
+                    static_cast<std::int8_t>(static_cast<int>(rng.below(255)) - 127));
+                weights[n][i] = lines[i].back();
+            }
+        }
+        EightScores of_eight;
+        correlate_eight(weights, length, of_eight);
+        // Of fewer than eight, those after them stay as they are.
+        std::array<LineScores, 9> scores;
+        for (std::size_t count = 1; count <= 8; ++count) {
+            scores[count].fill(12345);
+            const LineScores after = scores[count];
+            write_scores(of_eight, std::span(scores).first(count));
+            ASSERT_EQ(scores[count], after) << length << " weights, " << count << " lines";
+            LineScores alone;
+            for (std::size_t i = 0; i < count; ++i) {
+                correlate(lines[i], alone);
+                ASSERT_EQ(scores[i], alone) << length << " weights, line " << i;
+            }
+        }
+    }
 }
 
 }  // namespace
