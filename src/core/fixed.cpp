@@ -116,6 +116,13 @@ std::int32_t upper_quartile(std::span<std::int32_t> values) {
     return values.empty() ? 0 : of_rank((values.size() - 1) * 3 / 4, values);
 }
 
+/// The value, or where `sign` is -1 instead of 0, its opposite: without a branch, which large
+/// processors could not predict.
+template <typename T>
+constexpr T with_sign(T value, std::int32_t sign) {
+    return (value ^ sign) - sign;
+}
+
 std::int32_t angle_bam(Vec direction) {
     std::int64_t x = direction.x;
     std::int64_t y = direction.y;
@@ -131,7 +138,12 @@ std::int32_t angle_bam(Vec direction) {
     x <<= 41 - static_cast<int>(bits);
     y *= std::int64_t{1} << (41 - bits);
     const auto turn = [&](auto& along, auto& across, auto shifted_along, std::size_t i) {
-        if (across > 0) {
+        if constexpr (sizeof(Word) == 8) {
+            const std::int32_t sign = across > 0 ? 0 : -1;
+            along += with_sign(across >> i, sign);
+            across -= with_sign(shifted_along, sign);
+            angle += static_cast<std::uint32_t>(with_sign(kAtan[i], sign));
+        } else if (across > 0) {
             along += across >> i;
             across -= shifted_along;
             angle += static_cast<std::uint32_t>(kAtan[i]);
@@ -164,7 +176,12 @@ Vec unit_q30(std::int32_t angle) {
     std::int32_t y = 0;
     for (std::size_t i = 0; i < kAtan.size(); ++i) {
         const std::int32_t x_before = x;
-        if (angle >= 0) {
+        if constexpr (sizeof(Word) == 8) {
+            const std::int32_t sign = angle >> 31;
+            x -= with_sign(y >> i, sign);
+            y += with_sign(x_before >> i, sign);
+            angle -= with_sign(kAtan[i], sign);
+        } else if (angle >= 0) {
             x -= y >> i;
             y += x_before >> i;
             angle -= kAtan[i];
