@@ -3,7 +3,7 @@
 #include <array>
 #include <bit>
 
-#include "core/pixels/words.hpp"
+#include "core/wide.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -47,7 +47,7 @@ std::int32_t of_rank_by_counting(std::size_t rank, std::span<const std::int32_t>
 
 /// The same (Hoare's FIND, 1961).
 std::int32_t of_rank(std::size_t rank, std::span<std::int32_t> values) {
-    if constexpr (sizeof(Word) == 8) return of_rank_by_counting(rank, values);
+    if constexpr (kIsWide) return of_rank_by_counting(rank, values);
     std::int32_t* const wanted = &values[rank];
     std::int32_t* first = values.data();
     std::int32_t* last = first + values.size() - 1;
@@ -73,7 +73,7 @@ std::int32_t of_rank(std::size_t rank, std::span<std::int32_t> values) {
 }  // namespace
 
 std::int32_t short_quotient(std::int64_t n, std::int64_t d) {
-    if constexpr (sizeof(Word) == 8) return static_cast<std::int32_t>(n / d);
+    if constexpr (kIsWide) return static_cast<std::int32_t>(n / d);
     auto rest = static_cast<std::uint64_t>(magnitude(n));
     auto divisor = static_cast<std::uint64_t>(d);
     int bit = std::countl_zero(divisor | 1) - std::countl_zero(rest | 1);
@@ -138,7 +138,7 @@ std::int32_t angle_bam(Vec direction) {
     x <<= 41 - static_cast<int>(bits);
     y *= std::int64_t{1} << (41 - bits);
     const auto turn = [&](auto& along, auto& across, auto shifted_along, std::size_t i) {
-        if constexpr (sizeof(Word) == 8) {
+        if constexpr (kIsWide) {
             const std::int32_t sign = across > 0 ? 0 : -1;
             along += with_sign(across >> i, sign);
             across -= with_sign(shifted_along, sign);
@@ -176,7 +176,7 @@ Vec unit_q30(std::int32_t angle) {
     std::int32_t y = 0;
     for (std::size_t i = 0; i < kAtan.size(); ++i) {
         const std::int32_t x_before = x;
-        if constexpr (sizeof(Word) == 8) {
+        if constexpr (kIsWide) {
             const std::int32_t sign = angle >> 31;
             x -= with_sign(y >> i, sign);
             y += with_sign(x_before >> i, sign);
