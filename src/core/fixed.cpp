@@ -3,7 +3,7 @@
 #include <array>
 #include <bit>
 
-#include "core/pixels/words.hpp"
+#include "core/wide.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -59,7 +59,7 @@ std::int32_t of_rank_by_counting(std::size_t rank, std::span<const std::int32_t>
 
 /// The value that stands at `rank` when sorted (Hoare's FIND, 1961).
 std::int32_t of_rank(std::size_t rank, std::span<std::int32_t> values) {
-    if constexpr (sizeof(Word) == 8) return of_rank_by_counting(rank, values);
+    if constexpr (kIsWide) return of_rank_by_counting(rank, values);
     std::int32_t* const wanted = &values[rank];
     std::int32_t* first = values.data();
     std::int32_t* last = first + values.size() - 1;
@@ -85,7 +85,7 @@ std::int32_t of_rank(std::size_t rank, std::span<std::int32_t> values) {
 }  // namespace
 
 std::int32_t short_quotient(std::int64_t n, std::int64_t d) {
-    if constexpr (sizeof(Word) == 8) return static_cast<std::int32_t>(n / d);
+    if constexpr (kIsWide) return static_cast<std::int32_t>(n / d);
     auto rest = static_cast<std::uint64_t>(magnitude(n));
     auto divisor = static_cast<std::uint64_t>(d);
     int bit = std::countl_zero(divisor | 1) - std::countl_zero(rest | 1);
@@ -128,6 +128,13 @@ std::int32_t upper_quartile(std::span<std::int32_t> values) {
     return values.empty() ? 0 : of_rank((values.size() - 1) * 3 / 4, values);
 }
 
+/// The value, or where `sign` is -1 instead of 0, its opposite: without a branch, which large
+/// processors could not predict.
+template <typename T>
+constexpr T with_sign(T value, std::int32_t sign) {
+    return (value ^ sign) - sign;
+}
+
 std::int32_t angle_bam(Vec direction) {
     std::int64_t x = direction.x;
     std::int64_t y = direction.y;
@@ -143,7 +150,12 @@ std::int32_t angle_bam(Vec direction) {
     x <<= 41 - static_cast<int>(bits);
     y *= std::int64_t{1} << (41 - bits);
     const auto turn = [&](auto& along, auto& across, auto shifted_along, std::size_t i) {
-        if (across > 0) {
+        if constexpr (kIsWide) {
+            const std::int32_t sign = across > 0 ? 0 : -1;
+            along += with_sign(across >> i, sign);
+            across -= with_sign(shifted_along, sign);
+            angle += static_cast<std::uint32_t>(with_sign(kAtan[i], sign));
+        } else if (across > 0) {
             along += across >> i;
             across -= shifted_along;
             angle += static_cast<std::uint32_t>(kAtan[i]);
@@ -176,7 +188,12 @@ Vec unit_q30(std::int32_t angle) {
     std::int32_t y = 0;
     for (std::size_t i = 0; i < kAtan.size(); ++i) {
         const std::int32_t x_before = x;
-        if (angle >= 0) {
+        if constexpr (kIsWide) {
+            const std::int32_t sign = angle >> 31;
+            x -= with_sign(y >> i, sign);
+            y += with_sign(x_before >> i, sign);
+            angle -= with_sign(kAtan[i], sign);
+        } else if (angle >= 0) {
             x -= y >> i;
             y += x_before >> i;
             angle -= kAtan[i];

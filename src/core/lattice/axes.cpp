@@ -5,7 +5,7 @@
 
 #include "core/by_itself.hpp"
 #include "core/fixed.hpp"
-#include "core/pixels/words.hpp"
+#include "core/wide.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -259,7 +259,7 @@ Status estimate_axes(std::span<const Edge> edges, Lattice& lattice) {
                     shift_rounded(std::int64_t{unit.y} * length_q8, 30)};
     const Clusters clusters({along, Vec{-along.y, along.x}});
     const auto [u, v] =
-        sizeof(Word) == 8 ? medians_by_several(edges, clusters) : medians(edges, clusters, scratch);
+        kIsWide ? medians_by_several(edges, clusters) : medians(edges, clusters, scratch);
     // Symmetric edges are 4 % too short on average, because each dot chose its nearest: the
     // displacements along an edge that shorten it favour it. Measured in docs/pipeline.md.
     constexpr std::int32_t kLengthening_q8 = 267;

@@ -7,7 +7,7 @@
 #include "core/cells.hpp"
 #include "core/lattice/axes.hpp"
 #include "core/lattice/regularity.hpp"
-#include "core/pixels/words.hpp"
+#include "core/wide.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -280,7 +280,7 @@ Status grow(AnyFits& fits, PlaneFromImage& plane) {
 Status grow_grid(std::span<const Dot> dots, const LatticeOptions& options, Vec image_centre_q8,
                  const Lattice& first, PlaneFromImage& plane) {
     plane = plane_from_lattice(first, image_centre_q8);
-    if constexpr (sizeof(Word) == 8) {
+    if constexpr (kIsWide) {
         if (dots.size() <= SeveralFits::kMostDots) {
             SeveralFits fits(dots, options.max_offset_q16, plane);
             return grow(fits, plane);

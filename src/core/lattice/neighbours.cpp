@@ -5,7 +5,7 @@
 
 #include "core/by_itself.hpp"
 #include "core/fixed.hpp"
-#include "core/pixels/words.hpp"
+#include "core/wide.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -16,7 +16,7 @@ constexpr int kDistanceBins = 64;
 class Buckets {
   public:
     /// So many are copied at once.
-    static constexpr std::size_t kBlock = sizeof(Word) == 8 ? 8 : 0;
+    static constexpr std::size_t kBlock = kIsWide ? 8 : 0;
 
     /// Of a seed, from the corner of the first bucket.
     struct Point {
@@ -224,7 +224,7 @@ class NearestByKey {
     std::array<std::uint8_t, kMaxSeeds + kBlock> seeds_;
 };
 
-using Nearest = std::conditional_t<sizeof(Word) == 8, NearestByKey, NearestByStep>;
+using Nearest = std::conditional_t<kIsWide, NearestByKey, NearestByStep>;
 
 /// Makes one bin of every two.
 void widen(std::array<std::uint16_t, kDistanceBins>& histogram) {
@@ -256,7 +256,7 @@ int choose_seeds(std::span<const Dot> dots, Vec centre_q8, std::span<std::uint16
     std::size_t count = 0;
     for (std::size_t i = 0; i < dots.size() && count < seeds.size(); ++i) {
         const Vec step = dots[i].centre_q8 - centre_q8;
-        if constexpr (sizeof(Word) == 8) {
+        if constexpr (kIsWide) {
             // Written anyway: large processors could not predict for which dots.
             seeds[count] = static_cast<std::uint16_t>(i);
             count += larger_component(step) < reach_q8 ? 1 : 0;
@@ -338,7 +338,7 @@ int connect_all(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
 
 int connect_symmetric(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
                       Neighbours neighbours, std::span<Edge> edges) {
-    if constexpr (sizeof(Word) == 8) return connect_all(dots, seeds, neighbours, edges);
+    if constexpr (kIsWide) return connect_all(dots, seeds, neighbours, edges);
     std::size_t count = 0;
     for (std::size_t s = 0; s < seeds.size(); ++s) {
         const auto from = static_cast<std::int16_t>(s);

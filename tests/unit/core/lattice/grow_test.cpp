@@ -38,6 +38,28 @@ TEST(GrowGrid, ReachesOverTheLargestImage) {
     }
 }
 
+/// Many dots are summed up in another way than few.
+TEST(GrowGrid, IsTheSameWithManyMoreDotsFarOff) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 50; ++i) {
+        SCOPED_TRACE(testing::Message() << "grid " << i << ", seed " << kSeed);
+        const Mesh mesh = small_mesh(rng);
+        auto dots = dots_of(displaced_dots(mesh, 20, kImage_px, rng));
+        dots.push_back(dot_at({rng.uniform(2, 185), rng.uniform(2, 117)}));
+        const Lattice first = lattice_of(spoilt(mesh, rng));
+        PlaneFromImage plane;
+        ASSERT_EQ(grow_grid(dots, {}, centre_q8(kImage_px), first, plane), Status::ok);
+        // Beyond 500 cells they do not count.
+        const Vec2 far = mesh.at(504, 0);
+        dots.resize(dots.size() + 5000, dot_at(far));
+        PlaneFromImage same;
+        ASSERT_EQ(grow_grid(dots, {}, centre_q8(kImage_px), first, same), Status::ok);
+        EXPECT_EQ(same.at_centre_q16, plane.at_centre_q16);
+        EXPECT_EQ(same.du_q24, plane.du_q24);
+        EXPECT_EQ(same.dv_q24, plane.dv_q24);
+    }
+}
+
 TEST(GrowGrid, BearsGapsAndDotsWhereNoneShouldBe) {
     Rng rng(kSeed);
     for (int i = 0; i < 200; ++i) {
