@@ -3,8 +3,6 @@
 #include <array>
 #include <bit>
 
-#include "core/wide.hpp"
-
 namespace dotpose::core {
 namespace {
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/wide.hpp"
 #include "dotpose/stages.hpp"
 
 namespace dotpose::core {
@@ -125,7 +126,7 @@ inline constexpr auto kGains = [] {
 
 /// The same, as the processor does it best.
 constexpr int add_log2(int a_q8, int b_q8) {
-    if constexpr (sizeof(std::size_t) == 8) {
+    if constexpr (kIsWide) {
         const int d = magnitude(a_q8 - b_q8);
         const int or_all = (kNoGain_q8 - d) >> 31;  // -1 where there is no gain
         const auto i = static_cast<std::size_t>(d | or_all) % kGains.size();

@@ -4,7 +4,7 @@
 
 #include "code/sequences.hpp"
 #include "core/decode/vectors.hpp"
-#include "core/pixels/words.hpp"
+#include "core/wide.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -176,7 +176,7 @@ Lead lead_of_eights(const LineScores& scores) {
 }  // namespace
 
 Lead lead_of(const LineScores& scores) {
-    if constexpr (sizeof(Word) == 8) return lead_of_eights(scores);
+    if constexpr (kIsWide) return lead_of_eights(scores);
     std::int32_t best = INT16_MIN;
     std::int32_t second = INT16_MIN;
 #pragma GCC unroll 7

@@ -2,7 +2,7 @@
 
 #include "core/decode/correlation.hpp"
 #include "core/decode/eight_lines.hpp"
-#include "core/pixels/words.hpp"
+#include "core/wide.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -43,8 +43,7 @@ Lines score_lines(const Upright& upright, Axis axis, std::span<LineScores> stora
     Line one;
     Line other;
     std::size_t i = 0;
-    if constexpr (sizeof(Word) == 8)
-        i = score_eights(upright, axis, storage.first(lines.scores.size()));
+    if constexpr (kIsWide) i = score_eights(upright, axis, storage.first(lines.scores.size()));
     for (; i + 1 < lines.scores.size(); i += 2) {
         correlate_both(weights(i, one), weights(i + 1, other), storage[i], storage[i + 1]);
     }

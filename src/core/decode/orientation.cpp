@@ -3,7 +3,7 @@
 #include "core/decode/correlation.hpp"
 #include "core/decode/eight_lines.hpp"
 #include "core/decode/upright.hpp"
-#include "core/pixels/words.hpp"
+#include "core/wide.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -107,7 +107,7 @@ BothWays agreement_of_eight(const Voters& voters) {
 }
 
 BothWays agreement(const Voters& voters) {
-    if constexpr (sizeof(Word) == 8) return agreement_of_eight(voters);
+    if constexpr (kIsWide) return agreement_of_eight(voters);
     return {agreement_by_pairs(voters, false), agreement_by_pairs(voters, true)};
 }
 

@@ -4,7 +4,7 @@
 #include <bit>
 
 #include "core/decode/similar_places.hpp"
-#include "core/pixels/words.hpp"
+#include "core/wide.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -62,7 +62,7 @@ int log2_of_others_q8(const Contest& contest, int line) {
 }
 
 /// Sets that are looked at together, so that none has to wait for its sums.
-constexpr std::size_t kSetsAtOnce = sizeof(Word) == 8 ? kSets.size() : 1;
+constexpr std::size_t kSetsAtOnce = kIsWide ? kSets.size() : 1;
 using OfSets = std::array<int, kSetsAtOnce>;
 
 /// ExpectedRivals with all that share no line lumped together. A step leads to each roll with at

@@ -105,7 +105,7 @@ Steps::Steps(const Contest& contest, int enough, Excused excused)
     int most_before = 0;
     for (int step = 0; step < count; ++step) {
         std::uint8_t parts = 0;
-        if constexpr (sizeof(Word) == 8) {
+        if constexpr (kIsWide) {
             parts = static_cast<std::uint8_t>(lost_at(step) / part);
         } else {
             for (int lost = lost_at(step); lost >= part; lost -= part)

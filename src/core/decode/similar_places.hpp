@@ -6,7 +6,7 @@
 #include <bit>
 
 #include "core/decode/contest.hpp"
-#include "core/pixels/words.hpp"
+#include "core/wide.hpp"
 
 namespace dotpose::core {
 
@@ -60,7 +60,7 @@ class SimilarPlaces {
 /// Shows `use` the places of the word at 32 * `word`.
 template <typename Use>
 void visit_places(std::uint32_t places, std::uint32_t word, Use use) {
-    if constexpr (sizeof(Word) == 8) {
+    if constexpr (kIsWide) {
         for (; places != 0; places &= places - 1)
             use(32 * word + static_cast<std::uint32_t>(std::countr_zero(places)));
     } else {

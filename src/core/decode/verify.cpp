@@ -8,7 +8,7 @@
 #include "core/decode/rivals.hpp"
 #include "core/decode/seam_rivals.hpp"
 #include "core/decode/upright.hpp"
-#include "core/pixels/words.hpp"
+#include "core/wide.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -38,7 +38,7 @@ void compare_evenly(std::span<const std::int8_t> line, const std::uint8_t* bit,
 // By itself, so that small processors can keep all it needs in registers.
 [[gnu::noinline]] void compare_line(std::span<const std::int8_t> line, const std::uint8_t* bit,
                                     Confidence& confidence) {
-    if constexpr (sizeof(Word) == 8) return compare_evenly(line, bit, confidence);
+    if constexpr (kIsWide) return compare_evenly(line, bit, confidence);
     for (const std::int8_t weight : line) {
         const int agreement = *bit++ != 0 ? weight : -weight;
         if (agreement != 0) confidence.add(agreement, agreement < 0);

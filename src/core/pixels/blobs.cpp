@@ -6,7 +6,7 @@
 #include "core/fixed.hpp"
 #include "core/pixels/light.hpp"
 #include "core/pixels/runs.hpp"
-#include "core/pixels/words.hpp"
+#include "core/wide.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -187,7 +187,7 @@ void connect(const Run* above, std::span<Run> below, int v, OpenBlobs& open) {
 // Without a branch for each run: large processors cannot foresee which blobs end, and small ones
 // need not.
 std::span<Run> gather_ended(std::span<Run> above, int v) {
-    if constexpr (sizeof(Word) < 8) return above;
+    if constexpr (!kIsWide) return above;
     Run* ended = above.data();
     for (const Run& run : above) {
         OpenBlob* const blob = run.blob;

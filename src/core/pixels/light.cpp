@@ -7,6 +7,7 @@
 
 #include "core/pixels/tiles.hpp"
 #include "core/pixels/words.hpp"
+#include "core/wide.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -30,7 +31,7 @@ void copy_blocks(const std::uint8_t*& from, const std::uint8_t* end, std::uint8_
 void keep_row(const std::uint8_t* pixels, const Light& light, std::uint8_t* row) {
     const std::uint8_t* const end = pixels + light.width_px;
     std::uint8_t* const whole = row + (light.tiles_per_band << light.tile_shift);
-    if constexpr (sizeof(Word) == 8) {
+    if constexpr (kIsWide) {
         row = std::copy(pixels, end, row);
         pixels = end;
     } else if (reinterpret_cast<std::uintptr_t>(pixels) % 4 == 0) {

@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "core/pixels/light.hpp"
-#include "core/pixels/words.hpp"
+#include "core/wide.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -138,7 +138,7 @@ int find_runs_by_word(int v, const Light& light, std::span<Run> runs) {
 }  // namespace
 
 int find_runs(int v, const Light& light, std::span<Run> runs) {
-    if constexpr (sizeof(Word) == 8) {
+    if constexpr (kIsWide) {
         return find_runs_by_word(v, light, runs);
     } else {
         return find_runs_by_pixel(v, light, runs);

@@ -5,6 +5,7 @@
 
 #include "core/pixels/light.hpp"
 #include "core/pixels/words.hpp"
+#include "core/wide.hpp"
 #include "dotpose/locate.hpp"
 
 namespace dotpose::core {
@@ -184,7 +185,7 @@ void measure_tiles_by_word(int band, const Light& light, std::span<Tile> tiles) 
 }
 
 void measure_tiles(int band, const Light& light, std::span<Tile> tiles) {
-    if constexpr (sizeof(Word) == 8) {
+    if constexpr (kIsWide) {
         measure_tiles_by_row(band, light, tiles);
     } else {
         measure_tiles_by_word(band, light, tiles);
