@@ -42,7 +42,8 @@ void keep_row(const std::uint8_t* pixels, const Light& light, std::uint8_t* row)
     }
     while (pixels != end)
         *row++ = *pixels++;
-    std::fill(row, whole, end[-1]);
+    while (row != whole)
+        *row++ = end[-1];
 }
 
 /// The tiles of a band and of those above and below; at the image's rims, the band itself instead.
