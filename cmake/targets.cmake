@@ -45,10 +45,10 @@ function(dotpose_library name)
     set_target_properties(${name} PROPERTIES LINKER_LANGUAGE CXX)
 endfunction()
 
-# dotpose_program(NAME [SOURCES file...] [EXCEPT file...] [USES target...]): one program from the
-# sources named, or from all of the directory but some.
+# dotpose_program(NAME [LIGHT] [SOURCES file...] [EXCEPT file...] [USES target...]): one program from
+# the sources named, or from all of the directory but some. LIGHT: see dotpose_compile_light.
 function(dotpose_program name)
-    cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;EXCEPT;USES")
+    cmake_parse_arguments(PARSE_ARGV 1 arg "LIGHT" "" "SOURCES;EXCEPT;USES")
     set(sources ${arg_SOURCES})
     if(NOT sources)
         file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp)
@@ -60,11 +60,20 @@ function(dotpose_program name)
     endif()
     add_executable(${name} ${sources})
     dotpose_use_internals(${name})
-    if(DOTPOSE_SANITIZE AND NOT name MATCHES "_tests$")
-        # What takes a program's time is in the libraries: half the time to compile.
-        target_compile_options(${name} PRIVATE -O0)
+    if(arg_LIGHT OR (DOTPOSE_SANITIZE AND NOT name MATCHES "_tests$"))
+        dotpose_compile_light(${name})
     endif()
     target_link_libraries(${name} PRIVATE ${arg_USES})
+endfunction()
+
+# What takes the time of most programs is in the libraries: their own sources are compiled in half
+# the time with less care.
+function(dotpose_compile_light target)
+    if(NOT DOTPOSE_SANITIZE)
+        target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+    elseif(NOT target MATCHES "_tests$")
+        target_compile_options(${target} PRIVATE -O0)
+    endif()
 endfunction()
 
 # Tests, benchmarks and the tool may look inside: they see src/ as well as include/.

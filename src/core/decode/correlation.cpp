@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "code/sequences.hpp"
-#include "core/decode/vectors.hpp"
+#include "core/vectors.hpp"
 #include "core/wide.hpp"
 
 namespace dotpose::core {

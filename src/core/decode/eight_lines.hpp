@@ -5,7 +5,7 @@
 #include <array>
 #include <span>
 
-#include "core/decode/vectors.hpp"
+#include "core/vectors.hpp"
 #include "dotpose/stages.hpp"
 
 namespace dotpose::core {

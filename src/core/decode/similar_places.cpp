@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/decode/vectors.hpp"
+#include "core/vectors.hpp"
 
 namespace dotpose::core {
 namespace {

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "core/pixels/light.hpp"
+#include "core/vectors.hpp"
 #include "core/wide.hpp"
 
 namespace dotpose::core {
@@ -25,14 +26,6 @@ std::uint64_t eight_at(const std::uint8_t* bytes) {
     return eight;
 }
 
-using Bytes = std::uint8_t __attribute__((vector_size(16)));
-
-Bytes bytes_at(const std::uint8_t* first) {
-    Bytes bytes;
-    std::memcpy(&bytes, first, sizeof bytes);
-    return bytes;
-}
-
 /// Bit k of byte j goes to bit j of byte k (Warren, Hacker's Delight, 7-3).
 std::uint64_t transposed(std::uint64_t bits) {
     const auto swap = [&](int distance, std::uint64_t mask) {
@@ -48,11 +41,11 @@ std::uint64_t transposed(std::uint64_t bits) {
 /// A bit for each of 64 pixels, the first the lowest, set where it is dark.
 std::uint64_t dark_bits(const std::uint8_t* pixels, const std::uint8_t* half_extents) {
     // Group k gives bit k of eight bytes.
-    Bytes bits{1, 1, 1, 1, 1, 1, 1, 1, 2, 2, 2, 2, 2, 2, 2, 2};
-    Bytes dark{};
+    Sixteen bits{1, 1, 1, 1, 1, 1, 1, 1, 2, 2, 2, 2, 2, 2, 2, 2};
+    Sixteen dark{};
     for (std::size_t k = 0; k < 64; k += sizeof bits) {
-        const Bytes extents = bytes_at(half_extents + k) << 1;
-        dark |= (bytes_at(pixels + k) < extents) & bits;
+        const Sixteen extents = sixteen_at(half_extents + k) << 1;
+        dark |= (sixteen_at(pixels + k) < extents) & bits;
         bits <<= 2;
     }
     std::uint64_t halves[2];

@@ -7,7 +7,7 @@
 #include "core/pixels/surroundings.hpp"
 #include "core/pixels/undistort.hpp"
 #include "core/plane.hpp"
-#include "core/pose/four.hpp"
+#include "core/vectors.hpp"
 
 namespace dotpose::core {
 namespace {

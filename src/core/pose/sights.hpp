@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "core/pose/four.hpp"
+#include "core/vectors.hpp"
 #include "dotpose/stages.hpp"
 
 namespace dotpose::core {

@@ -1,0 +1,58 @@
+// Vectors: arithmetic on several numbers at once, in vector instructions where there are any.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+
+namespace dotpose::core {
+
+using Four = float __attribute__((vector_size(16)));
+using FourInts = std::int32_t __attribute__((vector_size(16)));
+using FourWords = std::uint32_t __attribute__((vector_size(16)));
+using Eight = std::int16_t __attribute__((vector_size(16)));
+using Sixteen = std::uint8_t __attribute__((vector_size(16)));
+
+/// As many numbers in a row in memory, from anywhere.
+template <typename Vector, typename Number>
+Vector vector_at(const Number* first) {
+    static_assert(sizeof(Vector{}[0]) == sizeof(Number));
+    Vector vector;
+    std::memcpy(&vector, first, sizeof vector);
+    return vector;
+}
+inline Four four_at(const float* first) {
+    return vector_at<Four>(first);
+}
+inline FourInts four_at(const std::int32_t* first) {
+    return vector_at<FourInts>(first);
+}
+inline FourWords four_at(const std::uint32_t* first) {
+    return vector_at<FourWords>(first);
+}
+inline Eight eight_at(const std::int16_t* first) {
+    return vector_at<Eight>(first);
+}
+inline Sixteen sixteen_at(const std::uint8_t* first) {
+    return vector_at<Sixteen>(first);
+}
+
+inline Eight larger(Eight a, Eight b) {
+    return a > b ? a : b;
+}
+inline Eight smaller(Eight a, Eight b) {
+    return a < b ? a : b;
+}
+
+/// Adds to each of four sums its four values, one after the other.
+inline void add_each(Four& sums, Four a, Four b, Four c, Four d) {
+    const Four ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
+    const Four cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5);
+    const Four ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+    const Four cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+    sums += __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5);
+    sums += __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
+    sums += __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
+    sums += __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
+}
+
+}  // namespace dotpose::core
