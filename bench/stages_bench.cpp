@@ -144,7 +144,7 @@ bool search(Located& l) {
         const auto storage = core::scores_of(axis, std::span(l.w.line_scores));
         const core::Lines lines = core::scored_lines(l.upright(), axis, storage);
         core::AxisReading reading;
-        if (core::find_axis(kProfile, lines, reading, core::kBrief) != Status::ok) return false;
+        if (core::find_axis_briefly(kProfile, lines, reading) != Status::ok) return false;
     }
     return l.w.decoding.lines_are_scored;
 }

@@ -6,7 +6,7 @@ function(compile_core options)
                                 PROPERTIES COMPILE_OPTIONS ${options})
 endfunction()
 
-compile_core(-Os code/decode.cpp code/encode.cpp core/locate.cpp core/plane.cpp
+compile_core(-Os code/basis.cpp code/decode.cpp code/encode.cpp core/locate.cpp core/plane.cpp
              core/decode/contest.cpp core/decode/orientation.cpp core/decode/position.cpp
              core/decode/window.cpp core/pixels/undistort.cpp)
 compile_core(-O3 core/decode/correlation.cpp core/pixels/blobs.cpp core/pixels/runs_by_pixel.cpp)

@@ -1,6 +1,9 @@
 // The four secondary number sequences of a profile.
 #pragma once
 
+#include <array>
+#include <cstdint>
+
 #include "code/tables.hpp"
 #include "dotpose/code.hpp"
 
@@ -29,5 +32,9 @@ constexpr const Twins& twins(Profile profile) {
     }
     return kTwins<kA4Restored>;
 }
+
+/// The position that stands at these places of the sequences: that which leaves these remainders
+/// modulo 236, 233, 31 and 241.
+std::uint32_t position_at(const Basis& basis, const std::array<std::uint32_t, 4>& places);
 
 }  // namespace dotpose::code

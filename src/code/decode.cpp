@@ -52,29 +52,6 @@ Places find(const code::Secondary& a, int digit, std::span<const std::uint8_t> d
     return places;
 }
 
-/// Inverse of a modulo the prime m.
-consteval std::uint32_t inverse(std::uint32_t a, std::uint32_t m) {
-    std::uint32_t x = 1;
-    while (a % m * x % m != 1)
-        ++x;
-    return x;
-}
-
-/// The position that leaves these remainders modulo 236, 233, 31 and 241: Garner's mixed-radix form
-/// of the Chinese remainder theorem, which stays within 32 bits.
-std::uint32_t from_remainders(const code::Basis& basis, const std::array<std::uint32_t, 4>& r) {
-    constexpr std::uint32_t kM1 = 236, kM2 = 233, kM3 = 31, kM4 = 241;
-    static_assert(kM1 * kM2 * kM3 * kM4 == kPositionsPerAxis);
-    // The next digit of the form: what is left of the remainder, divided by the product so far.
-    const auto digit = [&](std::size_t n, std::uint32_t so_far, std::uint32_t inverse) {
-        const code::Secondary& a = basis[n];
-        return a.place_of((r[n] + a.length - a.place_of(so_far)) * inverse);
-    };
-    const std::uint32_t p2 = r[0] + kM1 * digit(1, r[0], inverse(kM1, kM2));
-    const std::uint32_t p3 = p2 + kM1 * kM2 * digit(2, p2, inverse(kM1 * kM2, kM3));
-    return p3 + kM1 * kM2 * kM3 * digit(3, p3, inverse(kM1 * kM2 * kM3, kM4));
-}
-
 /// Place in the main sequence of a whole column or row of bits; kAbsent if there is none.
 std::uint8_t place_in_main(const Window& window, bool columns, int line) {
     const int length = columns ? window.rows : window.columns;
@@ -124,17 +101,17 @@ Status position_from_rolls(Profile profile, std::span<const std::uint8_t> rolls,
         if (d < code::kSmallestDelta || d > code::kLargestDelta) return Status::not_in_code;
         deltas[i] = static_cast<std::uint8_t>(d);
     }
-    std::array<std::uint32_t, 4> remainders;
+    std::array<std::uint32_t, 4> first_places;
     int ways = 1;
     const code::Basis& basis = code::basis(profile);
-    for (std::size_t n = 0; n < remainders.size(); ++n) {
+    for (std::size_t n = 0; n < first_places.size(); ++n) {
         const Places places = find(basis[n], static_cast<int>(n), deltas);
         if (places.count == 0) return Status::not_in_code;
-        remainders[n] = places.first;
+        first_places[n] = places.first;
         ways *= places.count;
     }
     if (ways > 1) return Status::ambiguous;
-    position = from_remainders(basis, remainders);
+    position = code::position_at(basis, first_places);
     return Status::ok;
 }
 

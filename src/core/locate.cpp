@@ -170,6 +170,7 @@ bool fit_pattern(const Options& options, const ImageView* image, Workspace& w, c
         w.dot_count =
             core::measure_dots(*image, options.lens, w.pattern_from_image, nominal, w.grid, w.dots);
         core::undistort(options.lens, image_centre_q8(w.light), first(w.dots, w.dot_count));
+        w.seed_count = 0;  // They were of the dots before.
     }
     const core::Observations observations(w.found_dots(), w.grid, nominal,
                                           image != nullptr ? &w.smoothing.paper : nullptr);
@@ -217,23 +218,49 @@ bool are_valid(const Options& options) {
            is_within(options.lens.centre_dy_q8, -kFarthestLens_q8, kFarthestLens_q8);
 }
 
-/// One axis of the position is beyond doubt, the other is not: looks once more for its bits,
-/// through a grid fitted to all dots.
-Status look_again(const ImageView& image, const Options& options, Workspace& w) {
-    const auto known = core::sure_axis(w.decoding, options.integrity);
-    core::PoseFit fit;
-    if (!known || !fit_pattern(options, &image, w, fit)) return Status::not_certain;
+/// Grid -> bits, from the image itself. False if it shows two patterns, one on the other.
+bool shows_one_pattern(const ImageView& image, const Options& options, Workspace& w) {
+    return core::look_at_cells(image, w.smoothing.paper, options.lens, w.grid_from_image, w.grid);
+}
+
+/// Bits -> position, and whether it is certain.
+Status read_thoroughly(const Options& options, Workspace& w) {
+    const Status status = read_position(options, decoder(options, core::decode_all), w);
+    return status == Status::ok ? verify_position(options, core::verify, w) : status;
+}
+
+/// One axis of the position is beyond doubt: each bit of the other has only two places left.
+Status look_knowing(core::Axis known, const ImageView& image, const Options& options,
+                    Workspace& w) {
     const Place place = w.decoding.place;
-    w.grid_from_image = w.pattern_from_image;
-    w.decoding.pattern_from_grid = {};
-    core::look_at_cells_knowing(*known, options.profile, w.decoding, image, w.smoothing.paper,
+    core::look_at_cells_knowing(known, options.profile, w.decoding, image, w.smoothing.paper,
                                 options.lens, w.grid_from_image, w.grid);
-    Status status = read_position(options, decoder(options, core::decode_all), w);
-    if (status == Status::ok) status = verify_position(options, core::verify, w);
+    const Status status = read_thoroughly(options, w);
     // What was read presumes the axis that was known.
     const bool is_as_known = w.decoding.pattern_from_grid.quarters == 0 &&
-                             core::share_line(*known, options.profile, place, w.decoding.place);
-    return status == Status::ok && is_as_known ? Status::ok : Status::not_certain;
+                             core::share_line(known, options.profile, place, w.decoding.place);
+    return is_as_known ? status : Status::not_certain;
+}
+
+/// Where the position in doubt is right, a grid fitted to all dots that it has there shows their
+/// bits more clearly. The code has to confirm them like any others.
+Status look_again(const ImageView& image, const Options& options, bool may_presume, Workspace& w) {
+    const auto known = core::sure_axis(w.decoding, options.integrity);
+    core::PoseFit fit;
+    if (!fit_pattern(options, &image, w, fit)) return Status::not_certain;
+    w.grid_from_image = w.pattern_from_image;
+    w.decoding.pattern_from_grid = {};
+    if (known && may_presume) return look_knowing(*known, image, options, w);
+    return shows_one_pattern(image, options, w) ? read_thoroughly(options, w) : Status::not_certain;
+}
+
+/// Looks through one grid after the other. What presumed an axis is no ground to presume the other:
+/// every second look presumes none.
+Status look_until_certain(const ImageView& image, const Options& options, Workspace& w) {
+    for (const bool may_presume : {true, false, true}) {
+        if (look_again(image, options, may_presume, w) == Status::ok) return Status::ok;
+    }
+    return Status::not_certain;
 }
 
 /// The second attempt, on the image filtered; bits are read from it rather than from blobs.
@@ -248,14 +275,12 @@ Fix locate_filtered(const ImageView& image, const Options& options, Workspace& w
     if (status == Status::ok) status = find_dots(filtered, w);
     if (status == Status::ok) status = find_grid_thoroughly(filtered, w);
     if (status == Status::ok) status = read_bits(core::assign_likelihoods, w);
-    if (status == Status::ok) {
-        const bool is_one_pattern =
-            core::look_at_cells(image, w.smoothing.paper, options.lens, w.grid_from_image, w.grid);
-        status = is_one_pattern ? read_position(filtered, decoder(options, core::decode_all), w)
-                                : Status::not_certain;
+    if (status == Status::ok && !shows_one_pattern(image, filtered, w)) {
+        w.fix.status = Status::not_certain;
+        return w.fix;
     }
-    if (status == Status::ok) status = verify_position(filtered, core::verify, w);
-    if (status == Status::not_certain) status = look_again(image, filtered, w);
+    if (status == Status::ok) status = read_thoroughly(filtered, w);
+    if (status == Status::not_certain) status = look_until_certain(image, filtered, w);
     if (status == Status::ok) status = measure_pose(filtered, &image, w);
     w.fix.status = status;
     return w.fix;

@@ -16,6 +16,13 @@ std::span<const Edge> edges_of(const Workspace& workspace) {
     return std::span(workspace.edges).first(static_cast<std::size_t>(workspace.edge_count));
 }
 
+/// On the drawing. A dot that was measured once more has no pixels of its own; blurred dots look
+/// about a third of the spacing wide.
+double radius_of(const Dot& dot, const FrameView& view) {
+    return dot.area_px == 0 ? view.spacing() / 6
+                            : std::sqrt(dot.area_px / std::numbers::pi) * view.scale();
+}
+
 /// An axis with its name at the end.
 void draw_axis(Point from, Point to, std::string_view name, Svg& svg) {
     svg.arrow(from, to, 4.5, colour::kInk);
@@ -31,9 +38,11 @@ void draw_axis(Point from, Point to, std::string_view name, Svg& svg) {
 void draw_detection(const FrameView& view, Svg& svg) {
     const Workspace& workspace = view.workspace();
     const double stroke = view.stroke();
-    svg.add(R"(<g stroke="{}" stroke-width="{:.2f}" stroke-linecap="round" stroke-opacity="0.85">)",
+    svg.add(R"(<g class="connections" stroke="{}" stroke-width="{:.2f}" )"
+            R"(stroke-linecap="round" stroke-opacity="0.85">)",
             colour::kEdge, 3.5 * stroke);
-    if (view.reached().edges) {
+    // Dots that were measured once more are others than those that were connected.
+    if (view.reached().edges && workspace.seed_count > 0) {
         for (const Edge& edge : edges_of(workspace)) {
             svg.line(view.at_dot(dot_of_seed(workspace, edge.from)),
                      view.at_dot(dot_of_seed(workspace, edge.to)), {});
@@ -43,8 +52,7 @@ void draw_detection(const FrameView& view, Svg& svg) {
     svg.add(R"(<g class="dots" fill="none" stroke="{}" stroke-width="{:.2f}">)", colour::kDot,
             3.5 * stroke);
     for (const Dot& dot : workspace.found_dots()) {
-        const double radius_px = std::sqrt(dot.area_px / std::numbers::pi);
-        svg.circle(view.at_dot(dot), radius_px * view.scale() + 2 * stroke, {});
+        svg.circle(view.at_dot(dot), radius_of(dot, view) + 2 * stroke, {});
     }
     svg.add("</g>");
     if (view.reached().axes) {

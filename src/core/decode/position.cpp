@@ -39,7 +39,7 @@ void set_place(Profile profile, const Upright& upright, Turn turn, const AxisRea
 }
 
 Status decode_lines(const Grid& grid, Profile profile, std::span<LineScores> storage,
-                    SearchLimits limits, Decoding& decoding) {
+                    decltype(find_axis) find, Decoding& decoding) {
     const auto [turns, agreement] = rank_turns(grid, decoding.region);
     decoding.agreement = agreement;
     if (decoding.region.columns < kFewestLines || decoding.region.rows < kFewestLines) {
@@ -54,8 +54,8 @@ Status decode_lines(const Grid& grid, Profile profile, std::span<LineScores> sto
         decoding.lines_are_scored = false;
         AxisReading x;
         AxisReading y;
-        if (find_axis(profile, columns, x, limits) != Status::ok ||
-            find_axis(profile, rows, y, limits) != Status::ok || x.score + y.score <= best) {
+        if (find(profile, columns, x) != Status::ok || find(profile, rows, y) != Status::ok ||
+            x.score + y.score <= best) {
             continue;
         }
         best = x.score + y.score;
@@ -93,12 +93,12 @@ Status decode_window(const Grid& grid, Profile profile, std::span<LineScores> st
 
 Status decode_all(const Grid& grid, Profile profile, std::span<LineScores> storage,
                   Decoding& decoding) {
-    return decode_lines(grid, profile, storage, {}, decoding);
+    return decode_lines(grid, profile, storage, find_axis, decoding);
 }
 
 Status decode_briefly(const Grid& grid, Profile profile, std::span<LineScores> storage,
                       Decoding& decoding) {
-    return decode_lines(grid, profile, storage, kBrief, decoding);
+    return decode_lines(grid, profile, storage, find_axis_briefly, decoding);
 }
 
 }  // namespace dotpose::core

@@ -4,6 +4,7 @@
 
 #include "code/rolls.hpp"
 #include "core/decode/correlation.hpp"
+#include "core/decode/steps.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -151,11 +152,21 @@ int clearest_run(const Leads& leads, int lines, int length,
     return clearest;
 }
 
-}  // namespace
+/// Lines that carry a position: the misprinted sequence tells positions apart only by 7
+/// differences.
+int run_length(Profile profile) {
+    return profile == Profile::published ? 8 : 6;
+}
 
-Status find_axis(Profile profile, const Lines& lines, AxisReading& best, SearchLimits limits) {
-    // The misprinted sequence tells positions apart only by 7 differences.
-    const int length = profile == Profile::published ? 8 : 6;
+/// How many readings are tried before the best of them is taken.
+struct Limits {
+    int runs;
+    int readings;  ///< of each run
+};
+
+/// Reads runs of lines, until one is clear.
+void search_by_runs(Profile profile, const Lines& lines, const Limits& limits, AxisReading& best) {
+    const int length = run_length(profile);
     Leads leads;
     std::int32_t most_possible = 0;
     for (int i = 0; i < lines.count(); ++i) {
@@ -172,7 +183,25 @@ Status find_axis(Profile profile, const Lines& lines, AxisReading& best, SearchL
         try_run(profile, lines, leads, first, length, limits.readings, best);
         if (best.is_clear()) break;
     }
+}
+
+Status status_of(const AxisReading& best) {
     return best.score == INT32_MIN ? Status::not_in_code : Status::ok;
+}
+
+}  // namespace
+
+Status find_axis(Profile profile, const Lines& lines, AxisReading& best) {
+    search_by_runs(profile, lines, {24, 64}, best);
+    if (best.score < best.most_possible && lines.count() >= run_length(profile)) {
+        search_by_steps(profile, lines, best);
+    }
+    return status_of(best);
+}
+
+Status find_axis_briefly(Profile profile, const Lines& lines, AxisReading& best) {
+    search_by_runs(profile, lines, {3, 8}, best);
+    return status_of(best);
 }
 
 }  // namespace dotpose::core

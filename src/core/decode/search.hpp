@@ -7,17 +7,12 @@
 
 namespace dotpose::core {
 
-/// How many readings are tried before the best of them is taken.
-struct SearchLimits {
-    int runs = 24;
-    int readings = 64;  ///< of each run
-};
-/// For first attempts: what is not found so soon is rarely certain.
-inline constexpr SearchLimits kBrief{3, 8};
-
 /// Takes runs of consecutive lines, the clearest first, reads each of them in the likeliest ways,
-/// and keeps the position that the sum over all lines speaks for. Errors: not_in_code, when no
-/// reading of any run stands in the code.
-Status find_axis(Profile profile, const Lines& lines, AxisReading& best, SearchLimits limits = {});
+/// and keeps the position that the sum over all lines speaks for. If that is not clear, all steps
+/// between lines are asked as well. Errors: not_in_code, when no reading stands in the code.
+Status find_axis(Profile profile, const Lines& lines, AxisReading& best);
+
+/// Only a few runs in a few ways, for first attempts: what is not found so soon is rarely certain.
+Status find_axis_briefly(Profile profile, const Lines& lines, AxisReading& best);
 
 }  // namespace dotpose::core

@@ -126,6 +126,28 @@ TEST(DrawFrame, shows_every_dot_where_it_is) {
     }
 }
 
+TEST(DrawFrame, connects_only_the_dots_that_were_connected) {
+    const Located at_once(render(clean_shot()));
+    EXPECT_GT(count(group(at_once.drawn(), "connections"), "<line "), 100u);
+    // A second attempt measures all dots once more, in another order.
+    dotpose::Setup setup;
+    setup.preset = Preset::hard;
+    for (std::uint64_t i = 0;; ++i) {
+        ASSERT_LT(i, 50u) << "all frames were located at once";
+        const GreyImage frame = render(draw_shot(setup, i));
+        Options once;
+        once.effort = Effort::once;
+        if (Located(frame, once).fix.status == Status::ok) continue;
+        const Located located(frame);
+        ASSERT_EQ(located.fix.status, Status::ok) << i;
+        const std::string svg = located.drawn();
+        EXPECT_EQ(count(group(svg, "connections"), "<line "), 0u) << i;
+        EXPECT_EQ(circles(group(svg, "dots"), frame).size(),
+                  static_cast<std::size_t>(located.workspace->dot_count));
+        break;
+    }
+}
+
 TEST(DrawFrame, draws_dots_where_the_lens_shows_them) {
     Shot shot = clean_shot();
     shot.camera.width_px = 376;

@@ -1,0 +1,24 @@
+// Positions from places in the four sequences, against division.
+#include "code/basis.hpp"
+
+#include <gtest/gtest.h>
+
+#include "reference.hpp"
+
+namespace dotpose::code_test {
+namespace {
+
+TEST(PositionAt, IsThePositionThatLeavesTheseRemainders) {
+    std::mt19937 rng(53);
+    std::vector<std::uint32_t> positions{0, 1, 235, 236, kPositionsPerAxis - 1};
+    for (int i = 0; i < 1000; ++i)
+        positions.push_back(rng() % kPositionsPerAxis);
+    for (const Profile profile : kProfiles) {
+        for (const std::uint32_t p : positions)
+            ASSERT_EQ(code::position_at(code::basis(profile), {p % 236, p % 233, p % 31, p % 241}),
+                      p);
+    }
+}
+
+}  // namespace
+}  // namespace dotpose::code_test
