@@ -250,6 +250,7 @@ Status look_again(const ImageView& image, const Options& options, bool may_presu
     if (!fit_pattern(options, &image, w, fit)) return Status::not_certain;
     w.grid_from_image = w.pattern_from_image;
     w.decoding.pattern_from_grid = {};
+    w.decoding.p_wrong_log2_q8 = {};  // Of the bits before.
     if (known && may_presume) return look_knowing(*known, image, options, w);
     return shows_one_pattern(image, options, w) ? read_thoroughly(options, w) : Status::not_certain;
 }
