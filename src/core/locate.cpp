@@ -82,12 +82,20 @@ Status find_grid(const Options& options, Workspace& w) {
 
 /// The same with more patience, and for tilted cameras and lenses that bend.
 Status find_grid_thoroughly(const Options& options, Workspace& w) {
-    const Status status = find_axes(kMaxSeeds, w);
+    Status status = find_axes(kMaxSeeds, w);
     if (status != Status::ok) return status;
     const Vec centre_q8 = image_centre_q8(w.light);
-    core::climb_periodogram(w.found_dots(), found_seeds(w), centre_q8, w.lattice);
-    return core::refine_grid(w.found_dots(), options.lattice, centre_q8, w.lattice,
-                             w.grid_from_image);
+    const Lattice estimate = w.lattice;
+    // Between graphics, the connections of what is left of the dots may point anywhere.
+    for (const int most_turn_deg : {12, 45}) {
+        w.lattice = estimate;
+        core::climb_periodogram(w.found_dots(), found_seeds(w), centre_q8, most_turn_deg,
+                                w.lattice);
+        status = core::refine_grid(w.found_dots(), options.lattice, centre_q8, w.lattice,
+                                   w.grid_from_image);
+        if (status != Status::no_grid) break;
+    }
+    return status;
 }
 
 /// Dots and grid -> bits.

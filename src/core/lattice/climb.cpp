@@ -127,7 +127,7 @@ Lattice lattice_of(const Periodogram& periodogram, const Wave& first, const Wave
 }  // namespace
 
 void climb_periodogram(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
-                       Vec centre_q8, Lattice& lattice) {
+                       Vec centre_q8, int most_turn_deg, Lattice& lattice) {
     const std::uint32_t length_q16 = square_root(
         static_cast<std::uint64_t>(squared(lattice.u_q16) / 2 + squared(lattice.v_q16) / 2));
     Wave wave{angle_bam({lattice.u_q16.x / 2 + lattice.v_q16.y / 2,
@@ -135,7 +135,7 @@ void climb_periodogram(std::span<const Dot> dots, std::span<const std::uint16_t>
               static_cast<std::int32_t>(length_q16)};
     // A few cells wide, the peak is broad enough for a coarse raster to meet it.
     const Periodogram near(dots, seeds, centre_q8, wave.spacing_q16 / 256 * 5);
-    wave = best_around(wave, {2 * kDegree_bam, wave.spacing_q16 / 40, 6, 4},
+    wave = best_around(wave, {2 * kDegree_bam, wave.spacing_q16 / 40, most_turn_deg / 2, 4},
                        [&](const Wave& w) { return near.power_of_square(w); });
     // A tilted camera sees the two at their own spacings and angles.
     const Raster tilt{3 * kDegree_bam, wave.spacing_q16 / 25, 3, 3};

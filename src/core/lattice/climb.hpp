@@ -8,9 +8,10 @@
 namespace dotpose::core {
 
 /// Improves u and v, taken as a square grid, by climbing |F(k)|^2 + |F(k')|^2 of the seeds'
-/// centres, with k and k' the wave vectors of the grid's two directions, from the first estimate;
-/// the origin follows from the phases of F. (Periodograms: Press et al., Numerical Recipes, 13.4.)
+/// centres, with k and k' the wave vectors of the grid's two directions, from the first estimate,
+/// which may be turned by up to `most_turn_deg` to either side; the origin follows from the phases
+/// of F. (Periodograms: Press et al., Numerical Recipes, 13.4.)
 void climb_periodogram(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
-                       Vec centre_q8, Lattice& lattice);
+                       Vec centre_q8, int most_turn_deg, Lattice& lattice);
 
 }  // namespace dotpose::core
