@@ -29,22 +29,19 @@ int best_agreement(const LineScores& line, const LineScores& next, std::size_t s
 }
 
 StepLosses losses_of(const LineScores& line, const LineScores& next) {
-    StepLosses agreements;
-    agreements.fill({INT16_MIN, INT16_MIN, INT16_MIN});
-    int most = INT16_MIN;
+    std::array<std::int32_t, kStepSizes> agreements;
+    for (std::size_t i = 0; i < kStepSizes; ++i)
+        agreements[i] = best_agreement(line, next, i + code::kSmallestDelta);
+    const std::int32_t most = *std::max_element(agreements.begin(), agreements.end());
+    StepLosses losses;
+    losses.fill({INT32_MAX, INT32_MAX, INT32_MAX});
     for (std::size_t i = 0; i < kStepSizes; ++i) {
-        const int agreement = best_agreement(line, next, i + code::kSmallestDelta);
-        most = std::max(most, agreement);
         for (std::size_t n = 0; n < kSequences; ++n) {
-            std::int32_t& best = agreements[n][code::kDigitsOfDelta[i][n]];
-            best = std::max(best, agreement);
+            std::int32_t& least = losses[n][code::kDigitsOfDelta[i][n]];
+            least = std::min(least, most - agreements[i]);
         }
     }
-    for (auto& of_sequence : agreements) {
-        for (std::int32_t& agreement : of_sequence)
-            agreement = most - agreement;
-    }
-    return agreements;
+    return losses;
 }
 
 /// Places of the first line in a secondary sequence, the likeliest first.
