@@ -176,18 +176,6 @@ struct Repetition {
     int roll = 0;      ///< by how much those further on are rolled, 0 to 62
 };
 
-/// The position at these places in the four secondary sequences, which are coprime.
-std::uint32_t position_at(const code::Basis& basis, const std::array<std::uint32_t, 4>& places) {
-    std::uint64_t position = places[0];
-    std::uint64_t step = basis[0].length;
-    for (std::size_t k = 1; k < 4; ++k) {
-        while (position % basis[k].length != places[k])
-            position += step;
-        step *= basis[k].length;
-    }
-    return static_cast<std::uint32_t>(position);
-}
-
 /// All that there are within reach: where the same four digits stand again in all four sequences.
 std::vector<Repetition> repetitions(Profile profile) {
     const code::Basis& basis = code::basis(profile);
