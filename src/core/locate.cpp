@@ -185,6 +185,18 @@ bool fit_pattern(const Options& options, const ImageView* image, Workspace& w, c
     return core::refine_pose(observations, w.pattern_from_image, fit);
 }
 
+float spacing_px(const Fix& fix) {
+    return static_cast<float>(fix.spacing_px_q16) / 65536.0F;
+}
+
+/// Whether dots lie too far from where the position has them, in spacings: up to 0.07 where it is
+/// right, in hard frames. Two patterns that lie on one another, nearly in line, pass for a third
+/// one otherwise, which has the columns of the one and the rows of the other.
+bool is_scattered(const Fix& fix) {
+    constexpr float kMostScatter = 0.08F;
+    return fix.residual_px > kMostScatter * spacing_px(fix);
+}
+
 /// Position -> pose.
 Status measure_pose(const Options& options, const ImageView* image, Workspace& w) {
     core::PoseFit fit;
@@ -192,7 +204,7 @@ Status measure_pose(const Options& options, const ImageView* image, Workspace& w
     const Vec reference = reference_q8(options, w);
     core::write_pose(w.pattern_from_image, reference, options.profile, w.decoding.place, w.fix);
     core::estimate_covariance(fit, w.pattern_from_image, reference, w.fix);
-    return Status::ok;
+    return is_scattered(w.fix) ? Status::not_certain : Status::ok;
 }
 
 /// Dots this far from where the pose has them are worth a second attempt: in px, for those that
@@ -201,8 +213,7 @@ constexpr float kRough_px = 0.30F;
 constexpr float kRough = 0.027F;
 
 bool is_rough(const Fix& fix) {
-    const float spacing_px = static_cast<float>(fix.spacing_px_q16) / 65536.0F;
-    return fix.residual_px >= std::max(kRough_px, kRough * spacing_px);
+    return fix.residual_px >= std::max(kRough_px, kRough * spacing_px(fix));
 }
 
 constexpr bool is_within(int value, int low, int high) {
