@@ -28,13 +28,21 @@ TEST_P(AdversarialClass, FramesGiveNoWrongFix) {
     }
 }
 
-// Two patterns in the same direction, 0.22 spacings apart: the columns of one and the rows of the
-// other were once taken for a position.
+// Two patterns in the same direction, about a fifth of the spacing apart: the columns of one and
+// the rows of the other were once taken for a position.
 TEST(Adversarial, ColumnsAndRowsAreOfOnePattern) {
     const auto workspace = std::make_unique<LargeWorkspace>();
-    const test::AdversarialFrame frame = test::make_adversarial(Adversary::overlay, 7001, 3375);
-    const Fix fix = locate(frame.image.view(), frame.options, *workspace);
-    EXPECT_NE(test::judge(fix, frame), test::Verdict::wrong);
+    struct Overlay {
+        std::uint64_t seed;
+        std::uint64_t index;
+    };
+    for (const Overlay& overlay : {Overlay{7001, 3375}, {31018, 255}}) {
+        const test::AdversarialFrame frame =
+            test::make_adversarial(Adversary::overlay, overlay.seed, overlay.index);
+        const Fix fix = locate(frame.image.view(), frame.options, *workspace);
+        EXPECT_NE(test::judge(fix, frame), test::Verdict::wrong)
+            << "index " << overlay.index << ", seed " << overlay.seed;
+    }
 }
 
 // A seam between two sections makes one step of one sequence another one, and elsewhere in that
