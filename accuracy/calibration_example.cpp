@@ -1,7 +1,7 @@
 #include <filesystem>
 #include <string>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "../tests/unit/calibrate/frames.hpp"
 #include "calibration_measures.hpp"

@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <string>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "../tests/unit/calibrate/frames.hpp"
 #include "calibration_measures.hpp"

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <iterator>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <dotpose/error.hpp>
 

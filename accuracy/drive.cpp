@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "../tests/drive_errors.hpp"
 #include "../tests/temporary_directory.hpp"

@@ -1,5 +1,5 @@
 // The position code by itself.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <dotpose/code.hpp>
 

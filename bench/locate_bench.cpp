@@ -3,7 +3,7 @@
 #include <map>
 #include <memory>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <dotpose/locate.hpp>
 

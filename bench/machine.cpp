@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include <benchmark/benchmark.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace dotpose::bench {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <memory>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <dotpose/locate.hpp>
 

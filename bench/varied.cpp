@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <benchmark/benchmark.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <dotpose/locate.hpp>
 
@@ -142,7 +142,7 @@ std::string varied_table(const Varied& varied) {
         const FrameSpread& s = varied.spreads[i];
         const bool finds = i != static_cast<std::size_t>(Way::floor);
         table += fmt::format("| {} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} |\n", kNames[i],
-                             s.frames, finds ? fmt::to_string(s.found) : "-", s.median_us, s.p99_us,
+                             s.frames, finds ? std::to_string(s.found) : "-", s.median_us, s.p99_us,
                              s.longest_us, s.longest_over_median());
     }
     return table;

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <dotpose/draw.hpp>
 #include <dotpose/image_file.hpp>

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include <fcntl.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include "dotpose/error.hpp"

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "dotpose/locate.hpp"
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <string>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "commands.hpp"
 #include "common.hpp"

@@ -1,6 +1,6 @@
 #include "picture_folder.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "dotpose/draw.hpp"
 #include "dotpose/error.hpp"

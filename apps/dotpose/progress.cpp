@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstdio>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <unistd.h>
 
 namespace dotpose::cli {

@@ -1,6 +1,6 @@
 #include "sheet_entries.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "common.hpp"
 

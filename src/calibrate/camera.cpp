@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "dotpose/camera_file.hpp"
 #include "dotpose/locate.hpp"

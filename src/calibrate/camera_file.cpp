@@ -1,6 +1,6 @@
 #include "dotpose/camera_file.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "calibrate/ros_camera.hpp"
 #include "calibrate/yaml_reader.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "calibrate/print_anchors.hpp"
 #include "calibrate/print_cells.hpp"

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include <Eigen/Cholesky>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "calibrate/all_dots.hpp"
 #include "calibrate/lens_fit.hpp"

@@ -7,7 +7,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "dotpose/calibrate.hpp"
 #include "dotpose/locate.hpp"

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <string_view>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace dotpose {
 namespace {

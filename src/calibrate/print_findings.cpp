@@ -5,7 +5,7 @@
 #include <map>
 #include <numbers>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "dotpose/test_page.hpp"
 

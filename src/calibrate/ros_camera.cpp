@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include <ceres/ceres.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace dotpose::calibrate {
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <ostream>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "draw/svg.hpp"
 #include "evaluate/protocol.hpp"

@@ -4,7 +4,7 @@
 #include <limits>
 #include <numbers>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "dotpose/evaluate.hpp"
 

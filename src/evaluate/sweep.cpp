@@ -6,7 +6,7 @@
 #include <numbers>
 #include <ostream>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "draw/svg.hpp"
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <numbers>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "dotpose/evaluate.hpp"
 #include "evaluate/csv.hpp"

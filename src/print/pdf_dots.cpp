@@ -7,7 +7,7 @@
 #include <limits>
 #include <string>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <qpdf/Pipeline.hh>
 
 #include "geometry.hpp"

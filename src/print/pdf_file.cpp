@@ -1,6 +1,6 @@
 #include "pdf_file.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <qpdf/QPDFWriter.hh>
 
 namespace dotpose::print {

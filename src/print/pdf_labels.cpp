@@ -6,7 +6,7 @@
 #include <iterator>
 #include <vector>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <qpdf/QPDFObjectHandle.hh>
 #include <qpdf/QUtil.hh>
 

@@ -2,7 +2,7 @@
 #include <csetjmp>
 #include <string>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <png.h>
 
 #include "geometry.hpp"

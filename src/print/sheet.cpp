@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "dotpose/print.hpp"
 #include "geometry.hpp"

@@ -3,7 +3,7 @@
 #include <iterator>
 #include <string>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "geometry.hpp"
 #include "symbol_rows.hpp"

@@ -2,7 +2,7 @@
 #include <cctype>
 #include <string>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "dotpose/print.hpp"
 #include "output_file.hpp"

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cstring>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <mosquitto.h>
 
 namespace dotpose::publish {

@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -142,8 +142,12 @@ std::vector<int> header_ids(const std::string& lines) {
 }
 
 TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
-    constexpr int kFrames = 700;  // at 50 frames/s
+    // At 50 frames/s, or as fast as this machine can; by frames the broker comes and goes.
+    constexpr int kFrames = 700;
     constexpr auto kFrame = 20ms;
+    constexpr int kGone = 100;
+    constexpr int kBack = 600;
+    std::atomic<int> taken = 0;
     Broker broker(directory_);
     const std::string reader = fmt::format("mosquitto_sub -p {} -c -i reader -q 1 -t '{}' ",
                                            broker.port(), "uagv/v2/dotpose/anna/state");
@@ -157,14 +161,15 @@ TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
         for (int i = 1; i <= kFrames; ++i) {
             std::fwrite(image.pixels.data(), 1, image.pixels.size(), pipe);
             std::fflush(pipe);
+            taken = i;
             std::this_thread::sleep_until(begun + i * kFrame);
         }
         std::fclose(pipe);
     });
     std::thread trouble([&] {
-        std::this_thread::sleep_for(2s);
+        wait_until([&] { return taken >= kGone; }, 60s);
         broker.stop();
-        std::this_thread::sleep_for(10s);
+        wait_until([&] { return taken >= kBack; }, 120s);
         broker.start();
     });
     EXPECT_EQ(
@@ -184,8 +189,8 @@ TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
         << errors_;
     std::printf("%d states sent, %d dropped\n", sent, dropped);
     EXPECT_EQ(sent + dropped, kFrames + 1);  // the last one says that the robot is lost
-    // 500 frames, less the 50 states that are kept; far fewer if this machine was held up.
-    EXPECT_GT(dropped, 300);
+    // Less the 50 states that are kept, and some until it is seen that the broker is gone.
+    EXPECT_GT(dropped, kBack - kGone - 100);
 
     // One that was under way when the broker went may come twice.
     const std::vector<int> ids = header_ids(shell(reader + "-W 2 || true"));
@@ -193,7 +198,7 @@ TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
     // After the gap the newest come first.
     const auto before = std::ranges::adjacent_find(ids, [](int a, int b) { return b > a + 1; });
     ASSERT_NE(before, ids.end());
-    EXPECT_GT(*(before + 1) - *before, 300);
+    EXPECT_GT(*(before + 1) - *before, kBack - kGone - 100);
     EXPECT_TRUE(std::is_sorted(before + 1, before + 21, std::greater<>()));
 }
 
@@ -307,8 +312,8 @@ TEST_F(Mqtt, TwoHundredRobots) {
     constexpr int kStates = 50;
     const Broker broker(directory_);
     std::thread fleet([&] {
-        shell("'" DOTPOSE_TOOL "' fleet --qos 1 --mqtt " + broker.url() +
-              " --map fleet.svg --seconds 6 --every 0.2");
+        shell("echo $$ > fleet.pid; exec '" DOTPOSE_TOOL "' fleet --qos 1 --mqtt " + broker.url() +
+              " --map fleet.svg --every 0.2");
     });
     wait_until([&] { return fs::exists(directory_ / "fleet.svg"); });
     std::vector<std::unique_ptr<MqttPublisher>> robots;
@@ -331,7 +336,7 @@ TEST_F(Mqtt, TwoHundredRobots) {
                                           {"serialNumber", name},
                                           {"state", "moving"},
                                           {"agvPosition",
-                                           {{"localized", true},
+                                           {{"localized", n + 1 < kStates},
                                             {"mapId", "table"},
                                             {"x", 0.1 * i},
                                             {"y", 0.01 * n},
@@ -344,7 +349,17 @@ TEST_F(Mqtt, TwoHundredRobots) {
         std::this_thread::sleep_until(begun + (n + 1) * 20ms);
     }
     for (const auto& robot : robots)
-        EXPECT_TRUE(robot->flush(5s));
+        EXPECT_TRUE(robot->flush(20s));
+    // Their last states say that they are lost.
+    const auto are_all_lost = [&] {
+        const std::string map = file("fleet.svg");
+        int lost = 0;
+        for (std::size_t at = 0; (at = map.find("(lost)", at)) != std::string::npos; ++at)
+            ++lost;
+        return lost == kRobots;
+    };
+    wait_until(are_all_lost, 60s);
+    kill(std::stoi(file("fleet.pid")), SIGINT);
     fleet.join();
     const std::string table = file("out");
     EXPECT_THAT(table, HasSubstr("200 robots, 10000 states, 0 bad, latency median "));
