@@ -230,6 +230,7 @@ struct Decoding {
     Place place;  ///< where grid cell (0, 0) stands in the code, seen or not
     /// Whether `Workspace::line_scores` are those of the region, turned so.
     bool lines_are_scored = false;
+    int bits = 0;  ///< compared with those of the code at `place`, two for each dot read
     /// log2 of the probability that the position is wrong along x, along y, times 256.
     std::array<int, 2> p_wrong_log2_q8{};
 };

@@ -1,6 +1,8 @@
 // The pipeline of the paper's Fig. 1: image -> dots -> grid -> bits -> position -> pose.
 #include "dotpose/locate.hpp"
 
+#include <cmath>
+
 #include "core/decode/likelihood.hpp"
 #include "core/decode/look.hpp"
 #include "core/decode/nominal.hpp"
@@ -189,12 +191,18 @@ float spacing_px(const Fix& fix) {
     return static_cast<float>(fix.spacing_px_q16) / 65536.0F;
 }
 
-/// Whether dots lie too far from where the position has them, in spacings: up to 0.07 where it is
-/// right, in hard frames. Two patterns that lie on one another, nearly in line, pass for a third
-/// one otherwise, which has the columns of the one and the rows of the other.
-bool is_scattered(const Fix& fix) {
-    constexpr float kMostScatter = 0.08F;
-    return fix.residual_px > kMostScatter * spacing_px(fix);
+/// Whether the position explains badly what is seen: dots that are not where it has them, bits that
+/// are others. Two patterns that lie on one another, nearly in line, can pass for a third one,
+/// which has the columns of the one and the rows of the other: a quarter of its cells show no dot
+/// at its place, half of the dots are beside theirs, and so the typical displacement comes out too
+/// small. docs/integrity.md has the numbers.
+bool is_far_fetched(const core::PoseFit& fit, const Decoding& decoding, const Fix& fix) {
+    constexpr float kMost = 0.57F;
+    if (fit.displacement <= 0) return true;
+    const float scatter = std::sqrt(fit.variance) / fit.displacement;
+    const float contradicted =
+        static_cast<float>(fix.bit_errors) / static_cast<float>(decoding.bits);
+    return scatter + contradicted > kMost;
 }
 
 /// Position -> pose.
@@ -204,7 +212,7 @@ Status measure_pose(const Options& options, const ImageView* image, Workspace& w
     const Vec reference = reference_q8(options, w);
     core::write_pose(w.pattern_from_image, reference, options.profile, w.decoding.place, w.fix);
     core::estimate_covariance(fit, w.pattern_from_image, reference, w.fix);
-    return is_scattered(w.fix) ? Status::not_certain : Status::ok;
+    return is_far_fetched(fit, w.decoding, w.fix) ? Status::not_certain : Status::ok;
 }
 
 /// Dots this far from where the pose has them are worth a second attempt: in px, for those that

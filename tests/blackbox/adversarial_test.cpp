@@ -29,14 +29,15 @@ TEST_P(AdversarialClass, FramesGiveNoWrongFix) {
 }
 
 // Two patterns in the same direction, about a fifth of the spacing apart: the columns of one and
-// the rows of the other were once taken for a position.
+// the rows of the other were once taken for a position in each of these.
 TEST(Adversarial, ColumnsAndRowsAreOfOnePattern) {
     const auto workspace = std::make_unique<LargeWorkspace>();
     struct Overlay {
         std::uint64_t seed;
         std::uint64_t index;
     };
-    for (const Overlay& overlay : {Overlay{7001, 3375}, {31018, 255}}) {
+    for (const Overlay& overlay :
+         {Overlay{7001, 3375}, {31018, 255}, {33112, 148}, {33112, 1705}}) {
         const test::AdversarialFrame frame =
             test::make_adversarial(Adversary::overlay, overlay.seed, overlay.index);
         const Fix fix = locate(frame.image.view(), frame.options, *workspace);

@@ -74,14 +74,15 @@ struct Doubt {
     std::array<int, 2> by_chance_q8{};
 };
 
-Doubt compare_with_chance(const Grid& grid, Profile profile, const Decoding& decoding,
-                          const IntegrityOptions& options, Fix& fix) {
+Doubt compare_with_chance(const Grid& grid, Profile profile, const IntegrityOptions& options,
+                          Decoding& decoding, Fix& fix) {
     const Upright upright(grid, {grid.i0, grid.j0, grid.columns, grid.rows},
                           decoding.pattern_from_grid);
     const Place place = corner_place(profile, decoding, upright);
     const std::array agreements{
         compare(profile, upright, Axis::x, reading_of(profile, place, Axis::x)),
         compare(profile, upright, Axis::y, reading_of(profile, place, Axis::y))};
+    decoding.bits = agreements[0].bits() + agreements[1].bits();
     fix.bit_errors = agreements[0].wrong() + agreements[1].wrong();
     for (const Confidence& agreement : agreements) {
         // Two patterns in view.
@@ -168,7 +169,7 @@ Status verify_quickly(const Grid& grid, Profile profile, Decoding& decoding,
                       const IntegrityOptions& options, std::span<LineScores> storage, Fix& fix) {
     decoding.p_wrong_log2_q8 = {};
     const int limit_q8 = 256 * options.max_p_wrong_log2;
-    const Doubt doubt = compare_with_chance(grid, profile, decoding, options, fix);
+    const Doubt doubt = compare_with_chance(grid, profile, options, decoding, fix);
     if (!is_hopeless(doubt, limit_q8)) {
         decoding.p_wrong_log2_q8 =
             estimate_quickly(grid, profile, decoding, limit_q8, storage, doubt);
@@ -180,7 +181,7 @@ Status verify(const Grid& grid, Profile profile, Decoding& decoding,
               const IntegrityOptions& options, std::span<LineScores> storage, Fix& fix) {
     decoding.p_wrong_log2_q8 = {};
     const int limit_q8 = 256 * options.max_p_wrong_log2;
-    const Doubt doubt = compare_with_chance(grid, profile, decoding, options, fix);
+    const Doubt doubt = compare_with_chance(grid, profile, options, decoding, fix);
     if (doubt.odds_per_bit_q8 == 0) return judge(doubt, options, decoding, fix);
     std::array<int, 2>& p_wrong_q8 = decoding.p_wrong_log2_q8;
     p_wrong_q8 = estimate_quickly(grid, profile, decoding, limit_q8, storage, doubt);

@@ -107,6 +107,7 @@ class Round {
         for (const float part : step)
             left -= part * part;
         fit.dots = normal.points();
+        fit.displacement = static_cast<float>(displacement_q16_) / 65536.0F;
         const int freedom = std::max(2 * fit.dots - static_cast<int>(kPoseParameters), 1);
         constexpr float kExact = 1e-12F;
         fit.variance = std::max(left / static_cast<float>(freedom), kExact);

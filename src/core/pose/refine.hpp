@@ -13,10 +13,11 @@ namespace dotpose::core {
 
 /// How the dots determine the pose.
 struct PoseFit {
-    int reach_px = 1;    ///< the unit of length in the image
-    int dots = 0;        ///< used; others lay too far off
-    float variance = 0;  ///< of one coordinate of one dot, spacings^2
-    Normal normal;       ///< of the parameters of `jacobian`, decomposed
+    int reach_px = 1;        ///< the unit of length in the image
+    int dots = 0;            ///< used; others lay too far off
+    float variance = 0;      ///< of one coordinate of one dot, spacings^2
+    float displacement = 0;  ///< of the typical dot from its intersection, spacings
+    Normal normal;           ///< of the parameters of `jacobian`, decomposed
     std::array<Parameters, kPoseParameters> covariance;  ///< of the parameters whitened
 };
 
