@@ -71,6 +71,24 @@ TEST(Undistort, TheLensMayBeCentredElsewhere) {
     }
 }
 
+// As a plane has them that is seen from the side; the fuzzer found one.
+TEST(Undistort, PointsFarOutsideTheImageKeepTheirDirection) {
+    for (const std::int32_t k_q40 : {-385875968, INT32_MIN, INT32_MAX}) {
+        const Lens lens{k_q40};
+        for (const int far_px : {4096, 11'500, 1'000'000}) {
+            const Vec r{far_px * 256, -far_px * 128};
+            // In whole fifths: 2 / (1 + 4), and 2 where no point of the image shows it.
+            const int fifths = k_q40 < 0 ? 2 : 10;
+            const Vec seen = core::distorted(lens, {}, r);
+            EXPECT_NEAR(seen.x, r.x / 5 * fifths, far_px) << k_q40;
+            EXPECT_NEAR(seen.y, r.y / 5 * fifths, far_px) << k_q40;
+            const Vec unseen = core::undistorted(lens, {}, r);
+            EXPECT_GE(unseen.x, 0) << k_q40;
+            EXPECT_LE(unseen.y, 0) << k_q40;
+        }
+    }
+}
+
 TEST(Undistort, NoLensMovesNothing) {
     std::vector<Dot> dots{dot_at({1.25, 3.5}), dot_at({4000.75, 12})};
     core::undistort({}, {2048 * 256, 2048 * 256}, dots);
