@@ -319,7 +319,7 @@ bool read_cells(const Eye& eye, Grid& grid, SetBits set_bits) {
         ++cells;
         crowded += ink.is_crowded(look);
     });
-    // Up to 0.22 in hard frames.
+    // Up to 0.25 in hard frames.
     return 8 * crowded <= 3 * cells;
 }
 
