@@ -3,12 +3,23 @@
 namespace dotpose::core {
 namespace {
 
+/// More spacings than any image shows, and than there are in a pixel: planes that fit nothing may
+/// have more, far outside of the image. Four times as much has 32 bits.
+std::int64_t within_reason(std::int64_t value) {
+    constexpr std::int64_t kMost = 1 << 28;
+    return std::clamp(value, -kMost, kMost);
+}
+
 /// du x + dv y
 Vec linear_q16(const PlaneFromImage& plane, Vec from_centre_q8) {
     const std::int64_t x = from_centre_q8.x;
     const std::int64_t y = from_centre_q8.y;
-    return {shift_rounded(plane.du_q24.x * x + plane.dv_q24.x * y, 16),
-            shift_rounded(plane.du_q24.y * x + plane.dv_q24.y * y, 16)};
+    const auto component = [&](std::int64_t du_q24, std::int64_t dv_q24) {
+        constexpr std::int64_t kHalf_q32 = 1 << 15;
+        return static_cast<std::int32_t>(
+            within_reason((du_q24 * x + dv_q24 * y + kHalf_q32) >> 16));
+    };
+    return {component(plane.du_q24.x, plane.dv_q24.x), component(plane.du_q24.y, plane.dv_q24.y)};
 }
 
 }  // namespace
@@ -100,7 +111,7 @@ PlaneFromImage tangent(const PlaneFromImage& plane, Vec image_point_q8) {
         const std::int64_t d_q30 =
             std::clamp(perspective_q30 + bend_q30, -kSteepest_q30, kSteepest_q30);
         const auto component = [&](std::int32_t a_q24, std::int32_t value_q16) {
-            return static_cast<std::int32_t>(a_q24 - ((value_q16 * d_q30) >> 22));
+            return static_cast<std::int32_t>(within_reason(a_q24 - ((value_q16 * d_q30) >> 22)));
         };
         return divided_q30({component(linear_q24.x, from_centre_q16.x),
                             component(linear_q24.y, from_centre_q16.y)},

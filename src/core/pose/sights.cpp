@@ -1,5 +1,6 @@
 #include "core/pose/sights.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/fixed.hpp"
@@ -12,8 +13,12 @@ constexpr float kPower24 = 16777216.0F;
 constexpr float kPower30 = 1073741824.0F;
 constexpr float kPower40 = kPower24 * kPower16;
 
+/// Of a fit that makes no sense, as much as leaves room for sums in 32 bits.
 std::int32_t rounded(float value) {
-    return static_cast<std::int32_t>(value + (value < 0 ? -0.5F : 0.5F));
+    constexpr float kMost = 1 << 28;
+    const float whole = value + (value < 0 ? -0.5F : 0.5F);
+    // In this order, as it may be no number.
+    return static_cast<std::int32_t>(std::min(std::max(-kMost, whole), kMost));
 }
 
 }  // namespace

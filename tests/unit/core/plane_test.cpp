@@ -93,7 +93,14 @@ TEST(Plane, TheSearchForImagePointsEndsWhereTheMapFolds) {
     for (int i = 0; i < 2000; ++i) {
         SCOPED_TRACE(testing::Message() << "plane " << i << ", seed " << kSeed);
         PlaneFromImage plane = random_plane(rng, 188, true);
-        plane.lens_q40 = static_cast<std::int32_t>(rng.bits()) >> rng.below(13);
+        const auto any = [&] { return static_cast<std::int32_t>(rng.bits()) >> rng.below(13); };
+        plane.lens_q40 = any();
+        if (i % 2 == 1) {
+            // Dots that are none may be fitted by anything.
+            plane.du_q24 = {any(), any()};
+            plane.dv_q24 = {any(), any()};
+            plane.perspective_q30 = {any(), any()};
+        }
         const Vec far = fixed({rng.uniform(-250, 250), rng.uniform(-250, 250)}, 16);
         const Vec found = image_point_q8(plane, far);
         EXPECT_LE(larger_component(found), 1 << 21);
