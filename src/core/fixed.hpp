@@ -64,6 +64,11 @@ constexpr Vec divided_q30(Vec n, std::int64_t d_q30) {
             static_cast<std::int32_t>(divide_rounded(n.y * kOne_q30, d_q30))};
 }
 
+/// The value, or the limit of its sign where it goes beyond that.
+constexpr std::int32_t limited(std::int64_t value, std::int32_t limit) {
+    return static_cast<std::int32_t>(std::clamp<std::int64_t>(value, -limit, limit));
+}
+
 /// n / 2^bits, rounded to nearest, halves up.
 constexpr std::int32_t shift_rounded(std::int64_t n, int bits) {
     return static_cast<std::int32_t>((n + (std::int64_t{1} << (bits - 1))) >> bits);

@@ -3,21 +3,13 @@
 namespace dotpose::core {
 namespace {
 
-/// More spacings than any image shows, and than there are in a pixel: planes that fit nothing may
-/// have more, far outside of the image. Four times as much has 32 bits.
-std::int64_t within_reason(std::int64_t value) {
-    constexpr std::int64_t kMost = 1 << 28;
-    return std::clamp(value, -kMost, kMost);
-}
-
 /// du x + dv y
 Vec linear_q16(const PlaneFromImage& plane, Vec from_centre_q8) {
     const std::int64_t x = from_centre_q8.x;
     const std::int64_t y = from_centre_q8.y;
     const auto component = [&](std::int64_t du_q24, std::int64_t dv_q24) {
-        constexpr std::int64_t kHalf_q32 = 1 << 15;
-        return static_cast<std::int32_t>(
-            within_reason((du_q24 * x + dv_q24 * y + kHalf_q32) >> 16));
+        constexpr std::int64_t kMost_q32 = std::int64_t{kBeyondReason} << 16;
+        return shift_rounded(std::clamp(du_q24 * x + dv_q24 * y, -kMost_q32, kMost_q32), 16);
     };
     return {component(plane.du_q24.x, plane.dv_q24.x), component(plane.du_q24.y, plane.dv_q24.y)};
 }
@@ -42,10 +34,7 @@ PlaneFromImage plane_from_lattice(const Lattice& lattice, Vec centre_q8) {
 
 std::int64_t divisor_q30(const PlaneFromImage& plane, Vec from_centre_q8) {
     const std::int64_t tilt_q30 = dot(plane.perspective_q30, from_centre_q8) >> 8;
-    // Farther from the centre than any pixel, bending no more keeps within 64 bits.
-    constexpr std::int64_t kFarthest_q8 = (std::int64_t{1} << 32) - 1;
-    const std::int64_t distance_q8 = std::min(squared(from_centre_q8) >> 8, kFarthest_q8);
-    const std::int64_t bend_q30 = (plane.lens_q40 * distance_q8) >> 18;
+    const std::int64_t bend_q30 = bend_q48(plane.lens_q40, from_centre_q8) >> 18;
     return std::max(kOne_q30 + tilt_q30 + bend_q30, kOne_q30 / 4);
 }
 
@@ -68,10 +57,6 @@ Vec image_point_q8(const PlaneFromImage& plane, Vec plane_point) {
     constexpr int kMostRounds = 12;
     // Where the map folds, the search may leave all images behind.
     constexpr std::int32_t kFarthest_q8 = 1 << 21;
-    const auto within_reach = [](std::int64_t a_q8) {
-        return static_cast<std::int32_t>(
-            std::clamp<std::int64_t>(a_q8, -kFarthest_q8, kFarthest_q8));
-    };
     Vec point_q8 = plane.centre_q8;
     for (int round = 0; round < kMostRounds; ++round) {
         const PlaneFromImage here = is_affine(plane) ? plane : tangent(plane, point_q8);
@@ -79,11 +64,12 @@ Vec image_point_q8(const PlaneFromImage& plane, Vec plane_point) {
             std::max<std::int64_t>(cross(here.du_q24, here.dv_q24) >> 16, 1);
         const Vec missing_q16 = plane_point - plane_point_q16(plane, point_q8);
         const auto quotient = [&](std::int64_t numerator_q40) {
-            return within_reach(divide_rounded(numerator_q40, area_q32));
+            return limited(divide_rounded(numerator_q40, area_q32), kFarthest_q8);
         };
         const Vec step_q8{quotient(cross(missing_q16, here.dv_q24)),
                           quotient(cross(here.du_q24, missing_q16))};
-        point_q8 = {within_reach(point_q8.x + step_q8.x), within_reach(point_q8.y + step_q8.y)};
+        point_q8 = {limited(point_q8.x + step_q8.x, kFarthest_q8),
+                    limited(point_q8.y + step_q8.y, kFarthest_q8)};
         if (step_q8 == Vec{}) break;
     }
     return point_q8;
@@ -111,7 +97,7 @@ PlaneFromImage tangent(const PlaneFromImage& plane, Vec image_point_q8) {
         const std::int64_t d_q30 =
             std::clamp(perspective_q30 + bend_q30, -kSteepest_q30, kSteepest_q30);
         const auto component = [&](std::int32_t a_q24, std::int32_t value_q16) {
-            return static_cast<std::int32_t>(within_reason(a_q24 - ((value_q16 * d_q30) >> 22)));
+            return limited(a_q24 - ((value_q16 * d_q30) >> 22), kBeyondReason);
         };
         return divided_q30({component(linear_q24.x, from_centre_q16.x),
                             component(linear_q24.y, from_centre_q16.y)},

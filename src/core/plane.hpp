@@ -15,6 +15,17 @@ struct GridPoint {
     Vec offset_q16;  ///< eq. 5, in spacings, each in [-1/2, 1/2)
 };
 
+/// More spacings, in 2^-16, than any image shows, and more of them, in 2^-24, than there are in a
+/// pixel. Planes fitted to dots that are none may have more; four times as much has 32 bits.
+inline constexpr std::int32_t kBeyondReason = 1 << 28;
+
+/// k r^2. Beyond 4096 px, where hardly an image reaches but a plane seen from the side does, as
+/// much as there: with any k this has 64 bits.
+inline std::int64_t bend_q48(std::int32_t k_q40, Vec r_q8) {
+    constexpr std::int64_t kFarthest_q8 = 0xFFFFFFFF;
+    return k_q40 * std::min(squared(r_q8) >> 8, kFarthest_q8);
+}
+
 /// Whether a plane is without perspective and lens.
 inline bool is_affine(const PlaneFromImage& plane) {
     return plane.perspective_q30 == Vec{} && plane.lens_q40 == 0;

@@ -107,10 +107,9 @@ Lattice lattice_of(const Periodogram& periodogram, const Wave& first, const Wave
     const std::int64_t area_q44 = std::max<std::int64_t>(cross(a, b) >> 16, 1);
     // Two waves in the same direction span no grid: what comes out then is refused, but must not
     // overflow.
-    constexpr std::int64_t kLongest_q16 = std::int64_t{4096} << 16;
+    constexpr std::int32_t kLongest_q16 = 4096 << 16;
     const auto entry = [&](std::int32_t part_q30) {
-        const std::int64_t entry_q16 = (std::int64_t{part_q30} << 30) / area_q44;
-        return static_cast<std::int32_t>(std::clamp(entry_q16, -kLongest_q16, kLongest_q16));
+        return limited((std::int64_t{part_q30} << 30) / area_q44, kLongest_q16);
     };
     Lattice lattice;
     lattice.u_q16 = {entry(b.y), entry(-b.x)};

@@ -9,19 +9,12 @@ Vec centre_of(const Lens& lens, Vec image_centre_q8) {
     return image_centre_q8 + Vec{lens.centre_dx_q8, lens.centre_dy_q8};
 }
 
-/// k r^2. Beyond 4096 px, where hardly an image reaches but a plane seen from the side does, as
-/// much as there: with any k this has 64 bits.
-std::int64_t bend_q48(const Lens& lens, Vec r_q8) {
-    constexpr std::int64_t kFarthest_q8 = 0xFFFFFFFF;
-    return lens.k_q40 * std::min(squared(r_q8) >> 8, kFarthest_q8);
-}
-
 }  // namespace
 
 Vec undistorted(const Lens& lens, Vec image_centre_q8, Vec point_q8) {
     const Vec centre_q8 = centre_of(lens, image_centre_q8);
     const Vec r_d = point_q8 - centre_q8;  // eq. 1
-    const std::int64_t stretch_q30 = kOne_q30 + (bend_q48(lens, r_d) >> 18);
+    const std::int64_t stretch_q30 = kOne_q30 + (bend_q48(lens.k_q40, r_d) >> 18);
     return centre_q8 + divided_q30(r_d, std::max(stretch_q30, kOne_q30 / 4));  // eq. 2
 }
 
@@ -36,8 +29,8 @@ Vec distorted(const Lens& lens, Vec image_centre_q8, Vec point_q8) {
     const Vec centre_q8 = centre_of(lens, image_centre_q8);
     const Vec r_u = point_q8 - centre_q8;
     // Where it is less than 0, no point of the image shows this one; 16 leaves room for the shift.
-    const std::int64_t radicand_q30 =
-        std::clamp<std::int64_t>(kOne_q30 - (bend_q48(lens, r_u) >> 16), 0, 16 * kOne_q30 - 1);
+    const std::int64_t radicand_q30 = std::clamp<std::int64_t>(
+        kOne_q30 - (bend_q48(lens.k_q40, r_u) >> 16), 0, 16 * kOne_q30 - 1);
     const std::int64_t root_q30 = square_root(static_cast<std::uint64_t>(radicand_q30) << 30);
     return centre_q8 + divided_q30(r_u, (kOne_q30 + root_q30) / 2);
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/fixed.hpp"
+#include "core/plane.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -13,9 +13,8 @@ constexpr float kPower24 = 16777216.0F;
 constexpr float kPower30 = 1073741824.0F;
 constexpr float kPower40 = kPower24 * kPower16;
 
-/// Of a fit that makes no sense, as much as leaves room for sums in 32 bits.
 std::int32_t rounded(float value) {
-    constexpr float kMost = 1 << 28;
+    constexpr float kMost = kBeyondReason;
     const float whole = value + (value < 0 ? -0.5F : 0.5F);
     // In this order, as it may be no number.
     return static_cast<std::int32_t>(std::min(std::max(-kMost, whole), kMost));

@@ -1,6 +1,9 @@
 // The fit's equations against derivatives and solutions computed in double precision.
 #include "core/pose/normal.hpp"
 
+#include <cmath>
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "../geometry.hpp"
@@ -74,6 +77,25 @@ TEST(ScaledPlane, ChangesAsItsDerivativesTell) {
             // Points are rounded to 2^-16 spacings.
             ASSERT_NEAR(jacobian[0][k], change.x, 0.02);
             ASSERT_NEAR(jacobian[1][k], change.y, 0.02);
+        }
+    }
+}
+
+TEST(ScaledPlane, ChangesThatMakeNoSenseAreLimited) {
+    using core::operator-;
+    Rng rng(kSeed);
+    const PlaneFromImage plane = random_plane(rng);
+    const ScaledPlane scaled(plane, kReach_px);
+    constexpr float kInfinite = std::numeric_limits<float>::infinity();
+    for (const float change : {1e12F, -1e12F, kInfinite, -kInfinite, std::nanf("")}) {
+        SCOPED_TRACE(testing::Message() << "change " << change);
+        Parameters all;
+        all.fill(change);
+        const PlaneFromImage changed = scaled.changed(all);
+        for (const Vec part :
+             {changed.at_centre_q16 - plane.at_centre_q16, changed.du_q24 - plane.du_q24,
+              changed.dv_q24 - plane.dv_q24, changed.perspective_q30, Vec{changed.lens_q40, 0}}) {
+            EXPECT_LE(larger_component(part), 1 << 28);
         }
     }
 }
