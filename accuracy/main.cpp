@@ -2,7 +2,8 @@
 //
 //   dotpose_accuracy [--quick] [--update docs/accuracy.md] [FOLDER]
 //
-// Writes tables.md, sweep-*.{csv,svg}, table-3.md and figure-*.svg to FOLDER (accuracy-out).
+// Writes tables.md, sweep-*.{csv,svg,png}, table-3.md and figure-*.{svg,png} to FOLDER
+// (accuracy-out).
 // --update also replaces the generated parts of the document and the pictures beside it.
 // --quick: a tenth of the frames, to see that it works; its numbers are for nobody.
 #include <array>

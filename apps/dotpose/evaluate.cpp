@@ -24,7 +24,8 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  dotpose evaluate frames                  frames against the poses in frames/truth.csv\n"
     "  dotpose evaluate --preset hard           simulated frames; nothing is written\n"
-    "  dotpose evaluate --sweep noise -o out    success and error over the noise: CSV and SVG\n"
+    "  dotpose evaluate --sweep noise -o out    success and error over the noise: CSV and "
+    "pictures\n"
     "  dotpose evaluate --protocol paper -o out the paper's own experiment, simulated\n\n"
     "A fix that is off by more than half a grid spacing or 2 degrees, or in another section, is\n"
     "wrong; errors are those of the others. Exit status 1 if truth.csv or an image cannot be\n"
@@ -184,7 +185,7 @@ int evaluate_sweep(const EvaluateArguments& arguments) {
     options.threads = arguments.threads;
     options.progress = progress_on(line);
     write_sweep(arguments.out, run_sweep(*arguments.sweep, options));
-    fmt::print("{0}/sweep-{1}.csv, {0}/sweep-{1}.svg\n", arguments.out, kind);
+    fmt::print("{0}/sweep-{1}.csv, {0}/sweep-{1}.svg and .png\n", arguments.out, kind);
     return 0;
 }
 
@@ -200,8 +201,8 @@ int evaluate_protocol(const EvaluateArguments& arguments) {
     const Protocol protocol = run_protocol(options);
     write_protocol(arguments.out, protocol);
     fmt::print(
-        "{}\n{}: table-3.md, figure-13.svg, figure-14.svg, figure-15.svg, positions.csv, "
-        "angles.csv\n",
+        "{}\n{}: table-3.md, positions.csv, angles.csv, figure-13, figure-14 and figure-15, each "
+        ".svg and .png\n",
         table_3(protocol), arguments.out);
     return 0;
 }

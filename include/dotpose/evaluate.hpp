@@ -271,9 +271,10 @@ void draw_figure_13(std::ostream& out, const Protocol& protocol);
 void draw_figure_14(std::ostream& out, const Protocol& protocol);
 void draw_figure_15(std::ostream& out, const Protocol& protocol);
 
-/// Writes table-3.md, positions.csv, angles.csv (the printed page) and figure-13, -14, -15.svg.
+/// Writes table-3.md, positions.csv, angles.csv (the printed page) and figure-13, -14, -15, each as
+/// .svg and .png.
 void write_protocol(const std::filesystem::path& folder, const Protocol& protocol);
-/// Writes sweep-KIND.csv and sweep-KIND.svg.
+/// Writes sweep-KIND.csv, .svg and .png.
 void write_sweep(const std::filesystem::path& folder, const Sweep& sweep);
 
 }  // namespace dotpose

@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include "draw/raster.hpp"
 #include "draw/svg.hpp"
 #include "evaluate/protocol.hpp"
 
@@ -95,12 +96,16 @@ void write_protocol(const std::filesystem::path& folder, const Protocol& protoco
          [&](std::ostream& out) { write_stations_csv(out, protocol.printed.positions); }},
         {"angles.csv",
          [&](std::ostream& out) { write_stations_csv(out, protocol.printed.angles); }},
-        {"figure-13.svg", [&](std::ostream& out) { draw_figure_13(out, protocol); }},
-        {"figure-14.svg", [&](std::ostream& out) { draw_figure_14(out, protocol); }},
-        {"figure-15.svg", [&](std::ostream& out) { draw_figure_15(out, protocol); }},
     };
     for (const auto& [name, write] : files)
         draw::write_file(folder / name, write);
+    const std::pair<const char*, Write> figures[] = {
+        {"figure-13", [&](std::ostream& out) { draw_figure_13(out, protocol); }},
+        {"figure-14", [&](std::ostream& out) { draw_figure_14(out, protocol); }},
+        {"figure-15", [&](std::ostream& out) { draw_figure_15(out, protocol); }},
+    };
+    for (const auto& [name, write] : figures)
+        draw::write_figure(folder, name, write);
 }
 
 }  // namespace dotpose

@@ -8,6 +8,7 @@
 
 #include <fmt/core.h>
 
+#include "draw/raster.hpp"
 #include "draw/svg.hpp"
 
 namespace dotpose {
@@ -162,7 +163,7 @@ void write_sweep(const std::filesystem::path& folder, const Sweep& sweep) {
     const std::string stem = fmt::format("sweep-{}", name(sweep.kind));
     draw::write_file(folder / (stem + ".csv"),
                      [&](std::ostream& out) { write_sweep_csv(out, sweep); });
-    draw::write_file(folder / (stem + ".svg"), [&](std::ostream& out) { draw_sweep(out, sweep); });
+    draw::write_figure(folder, stem, [&](std::ostream& out) { draw_sweep(out, sweep); });
 }
 
 }  // namespace dotpose

@@ -1,5 +1,7 @@
 // `dotpose evaluate` as its user sees it.
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
@@ -11,6 +13,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "dotpose/image_file.hpp"
 #include "tool_command.hpp"
 
 namespace dotpose::test {
@@ -51,6 +54,14 @@ class EvaluateCommand : public ToolCommand {
         return result;
     }
 };
+
+/// A picture of some size, mostly of light paper, and on it some ink.
+bool shows_something(const GreyImage& image) {
+    const auto pixels = static_cast<std::ptrdiff_t>(image.pixels.size());
+    const auto light = std::count_if(image.pixels.begin(), image.pixels.end(),
+                                     [](std::uint8_t level) { return level >= 240; });
+    return image.width_px > 1000 && 2 * light > pixels && 100 * light < 99 * pixels;
+}
 
 constexpr std::size_t kXGrid = 4;
 constexpr std::size_t kSectionU = 6;
@@ -161,12 +172,16 @@ TEST_F(EvaluateCommand, TheProtocolWritesItsTableAndFigures) {
                              "figure-14.svg", "figure-15.svg"}) {
         EXPECT_NE(file(std::string("out/deep/") + name), "") << name;
     }
+    for (const char* name : {"figure-13.png", "figure-14.png", "figure-15.png"}) {
+        EXPECT_TRUE(shows_something(read_image(directory_ / "out/deep" / name))) << name;
+    }
 }
 
 TEST_F(EvaluateCommand, ASweepWritesItsTableAndPicture) {
     ASSERT_EQ(run("evaluate --sweep tilt --frames 1 -o out"), 0) << errors_;
     EXPECT_THAT(file("out/sweep-tilt.csv"), testing::StartsWith("tilt,decoder,frames,located"));
     EXPECT_THAT(file("out/sweep-tilt.svg"), HasSubstr("</svg>"));
+    EXPECT_TRUE(shows_something(read_image(directory_ / "out/sweep-tilt.png")));
 }
 
 TEST_F(EvaluateCommand, WrongUsageIsNamed) {
