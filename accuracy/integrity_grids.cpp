@@ -213,7 +213,7 @@ void try_grid(GridKind kind, std::uint64_t seed, std::uint64_t index, Tally& tal
     Decoding decoding;
     decoding.window = core::choose_window(reading.grid, kWindowSide);
     decoding.region = core::choose_window(reading.grid, kMaxSide);
-    std::array<LineScores, 2 * kMaxSide> storage;
+    std::array<ScoredLine, 2 * kMaxSide> storage;
     if (core::decode_all(reading.grid, reading.profile, storage, decoding) != Status::ok) {
         ++tally.unread;
         return;

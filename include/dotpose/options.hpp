@@ -26,9 +26,9 @@ struct Lens {
 struct ThresholdOptions {
     /// A pixel belongs to a blob when it is darker than the paper by this share (in 1/256) of the
     /// local contrast. Smaller joins neighbouring dots, larger loses blurred ones.
-    int extent_q8 = 90;
+    int extent_q8 = 120;
     /// Some pixel of a blob must be darker by this share (in 1/256). Larger drops more noise.
-    int core_q8 = 140;
+    int core_q8 = 155;
     /// Contrast, in grey levels, below which an area counts as blank. Raise it for noisy cameras.
     int min_contrast = 8;
 };

@@ -13,17 +13,20 @@
 
 namespace dotpose {
 
-/// Side of the tiles in which light is measured, for images whose shorter side is at most
-/// `kLargestFinelyTiled_px`, and for larger ones. Three tiles must reach over a dot: an image that
-/// shows 8 dots along its shorter side has a spacing of at most 1/8 of it, and dots a third of
+/// Width of the tiles in which light is measured; their height, for images whose shorter side is at
+/// most `kLargestWithLowTiles_px`, and for larger ones. Three tiles must reach over a dot: an image
+/// that shows 8 dots along its shorter side has a spacing of at most 1/8 of it, and dots a third of
 /// that.
-inline constexpr int kSmallestTile_px = 8;
-inline constexpr int kLargestTile_px = 16;
-inline constexpr int kLargestFinelyTiled_px = 240;
+inline constexpr int kTileWidth_px = 16;
+inline constexpr int kLowTile_px = 8;
+inline constexpr int kHighTile_px = 16;
+inline constexpr int kLargestWithLowTiles_px = 240;
 /// White pixels before each row that is kept.
 inline constexpr int kKeptMargin_px = 8;
 /// Bytes after the last row and the last level that may be read, and do not count.
 inline constexpr int kReadAhead_px = 8;
+/// Half an extent by which every pixel is dark: who looks for dark pixels stops after the last one.
+inline constexpr std::uint8_t kAlwaysDark = 128;
 /// Dots nearest the image centre that give the first estimate of the grid.
 inline constexpr int kMaxSeeds = 256;
 /// Side of the decoding window of the paper (section II-B.5).
@@ -51,15 +54,15 @@ struct Dot {
 /// Light of one tile.
 struct Tile {
     std::uint8_t mean = 0;
-    std::uint8_t darkness = 0;  ///< 255 less its darkest level
+    std::uint8_t darkness = 0;  ///< 255 less the level of its darkest pair of pixels
 };
 
 /// The newest rows of the image and the light in them. A *band* is a row of tiles.
 struct Light {
     int width_px = 0;
     int height_px = 0;
-    int tile_px = 0;  ///< 2^tile_shift
-    int tile_shift = 0;
+    int band_px = 0;  ///< height of the tiles, 2^band_shift
+    int band_shift = 0;
     int tiles_per_band = 0;
     int rows_taken = 0;
     bool has_contrast = false;  ///< anywhere so far
@@ -211,6 +214,17 @@ struct Grid {
 
 /// Agreement of one column or row with the main sequence at each of its offsets.
 using LineScores = std::array<std::int16_t, kSections>;
+
+/// The score of the best offset, and by how much it leads the second best.
+struct Lead {
+    std::int16_t best = 0;
+    std::int16_t lead = 0;
+};
+
+struct ScoredLine {
+    LineScores scores{};
+    Lead lead;
+};
 
 /// A rectangle of grid cells.
 struct Region {

@@ -33,7 +33,7 @@ struct Workspace {
     PlaneFromImage grid_from_image;
     // decode
     Grid grid;
-    std::span<LineScores> line_scores;  ///< of the columns, and in the second half of the rows
+    std::span<ScoredLine> line_scores;  ///< of the columns, and in the second half of the rows
     Decoding decoding;
     // pose
     PlaneFromImage pattern_from_image;  ///< relative to `Decoding::place`
@@ -78,11 +78,11 @@ class WorkspaceOf : public Workspace {
     WorkspaceOf& operator=(const WorkspaceOf&) = delete;
 
   private:
-    // Small images have small tiles, larger ones large tiles: see `begin_light`.
-    static constexpr int kTile_px =
-        MaxWidth <= kLargestFinelyTiled_px ? kSmallestTile_px : kLargestTile_px;
-    static constexpr int kTiles = MaxWidth / kSmallestTile_px + 1;
-    static constexpr int kLevels = MaxWidth + kLargestTile_px + kReadAhead_px;
+    // Small images have low tiles, larger ones high tiles: see `begin_light`.
+    static constexpr int kBand_px =
+        MaxWidth <= kLargestWithLowTiles_px ? kLowTile_px : kHighTile_px;
+    static constexpr int kTiles = MaxWidth / kTileWidth_px + 1;
+    static constexpr int kLevels = kTiles * kTileWidth_px + kReadAhead_px;
     // Every second pixel may begin a run, and every run a blob.
     static constexpr int kRuns = MaxWidth / 2 + 2;
 
@@ -92,7 +92,7 @@ class WorkspaceOf : public Workspace {
     std::array<std::uint8_t, 11 * 683> papers_{};
     std::array<std::uint8_t, 11 * 683> brightest_papers_{};
     std::array<std::uint32_t, MaxWidth> smooth_sums_{};
-    alignas(8) std::array<std::uint8_t, 2 * kTile_px*(kKeptMargin_px + MaxWidth + kTile_px) +
+    alignas(8) std::array<std::uint8_t, 2 * kBand_px*(kKeptMargin_px + kTiles * kTileWidth_px) +
                                             kReadAhead_px> rows_{};
     std::array<Tile, 4 * kTiles> tiles_{};
     alignas(8) std::array<std::uint8_t, kLevels> half_extents_{};
@@ -104,7 +104,7 @@ class WorkspaceOf : public Workspace {
     std::array<std::array<std::int16_t, 4>, kMaxSeeds> neighbours_{};
     std::array<Edge, 2 * kMaxSeeds> edges_{};
     std::array<GridCell, GridSide * GridSide> cells_{};
-    std::array<LineScores, 2 * std::min(GridSide, kMaxLines)> line_scores_{};
+    std::array<ScoredLine, 2 * std::min(GridSide, kMaxLines)> line_scores_{};
 };
 
 /// For `finish_device` on a small microcontroller and a 188 x 120 px sensor: less than 12 KB.
@@ -137,22 +137,22 @@ class DeviceWorkspace : public Workspace {
 
   private:
     static constexpr int kWidth_px = 188;
-    static constexpr int kTiles = kWidth_px / kSmallestTile_px + 1;
-    static constexpr int kLevels = kTiles * kSmallestTile_px + kReadAhead_px;
+    static constexpr int kTiles = kWidth_px / kTileWidth_px + 1;
+    static constexpr int kLevels = kTiles * kTileWidth_px + kReadAhead_px;
     static constexpr int kDots = 256;
-    static constexpr int kSeeds = 80;
+    static constexpr int kSeeds = 64;
     static constexpr int kGridSide = 24;
     // Runs and blobs of one row: many more than dots; what exceeds them is noise or graphics.
     static constexpr int kRuns = 64;
     static constexpr int kBlobs = 56;
     // Of a whole frame, to bound the time: dots have 500, and noisy frames that were ever located
-    // up to 2,600.
-    static constexpr int kMostRuns = 2800;
+    // up to 1,900.
+    static constexpr int kMostRuns = 2000;
 
     struct PixelStages {
-        alignas(8) std::array<std::uint8_t,
-                              2 * kSmallestTile_px*(kKeptMargin_px + kTiles * kSmallestTile_px) +
-                                  kReadAhead_px> rows;
+        alignas(
+            8) std::array<std::uint8_t, 2 * kLowTile_px*(kKeptMargin_px + kTiles * kTileWidth_px) +
+                                            kReadAhead_px> rows;
         std::array<OpenBlob, kBlobs> blobs;
         std::array<Run, 2 * kRuns> runs;
         alignas(8) std::array<std::uint8_t, kLevels> half_extents;
@@ -166,7 +166,7 @@ class DeviceWorkspace : public Workspace {
     };
     struct DecodeStages {
         std::array<GridCell, kGridSide * kGridSide> cells;
-        std::array<LineScores, 2 * kGridSide> line_scores;
+        std::array<ScoredLine, 2 * kGridSide> line_scores;
     };
 
     template <typename Stages>

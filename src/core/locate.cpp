@@ -48,9 +48,22 @@ std::span<const std::uint16_t> found_seeds(const Workspace& w) {
     return first(w.seeds, w.seed_count);
 }
 
+/// Bands of rows that are ready -> blobs.
+// By itself, as most rows complete none.
+[[gnu::noinline]] void threshold_bands(int ready, const Options& options, Workspace& w) {
+    const int newest = (w.light.rows_taken - 1) >> w.light.band_shift;
+    const bool is_last = w.light.rows_taken == w.light.height_px;
+    for (int band = newest - ready + (is_last ? 1 : 0); ready > 0; --ready, ++band) {
+        core::measure_levels(band, options.threshold, w.light);
+        for (int v = core::band_begin(w.light, band); v < core::band_end(w.light, band); ++v) {
+            core::grow_blobs(v, w.light, w.open, dot_list(w));  // II-B.1
+        }
+    }
+}
+
 /// Blobs -> dots where a lens without distortion would see them.
 Status find_dots(const Options& options, Workspace& w) {
-    core::sift_dots(options.blobs, dot_list(w));  // II-B.1
+    core::sift_dots(options.blobs, dot_list(w));
     w.fix.dots_seen = w.dot_count;
     if (!w.light.has_contrast) return Status::no_contrast;
     if (w.dot_count < options.lattice.min_dots) return Status::too_few_dots;
@@ -59,7 +72,7 @@ Status find_dots(const Options& options, Workspace& w) {
 }
 
 /// Dots that give the first grid of a first attempt.
-constexpr int kFirstSeeds = 80;
+constexpr int kFirstSeeds = 64;
 
 /// Dots -> their connections -> directions and spacings of the grid.
 Status find_axes(int most_seeds, Workspace& w) {
@@ -356,15 +369,8 @@ Status begin(int width_px, int height_px, const Options& options, Workspace& w) 
 }
 
 void push_row(const std::uint8_t* pixels, const Options& options, Workspace& w) {
-    int ready = core::take_row(pixels, w.light);
-    const int newest = (w.light.rows_taken - 1) >> w.light.tile_shift;
-    const bool is_last = w.light.rows_taken == w.light.height_px;
-    for (int band = newest - ready + (is_last ? 1 : 0); ready > 0; --ready, ++band) {
-        core::measure_levels(band, options.threshold, w.light);
-        for (int v = core::band_begin(w.light, band); v < core::band_end(w.light, band); ++v) {
-            core::grow_blobs(v, w.light, w.open, dot_list(w));
-        }
-    }
+    const int ready = core::take_row(pixels, w.light);
+    if (ready > 0) threshold_bands(ready, options, w);
 }
 
 Fix finish(const Options& options, Workspace& w) {

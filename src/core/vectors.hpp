@@ -10,6 +10,7 @@ using Four = float __attribute__((vector_size(16)));
 using FourInts = std::int32_t __attribute__((vector_size(16)));
 using FourWords = std::uint32_t __attribute__((vector_size(16)));
 using Eight = std::int16_t __attribute__((vector_size(16)));
+using EightWords = std::uint16_t __attribute__((vector_size(16)));
 using Sixteen = std::uint8_t __attribute__((vector_size(16)));
 
 /// As many numbers in a row in memory, from anywhere.

@@ -31,8 +31,8 @@ struct LocateHeader {
     std::uint8_t padding_px = 0;  ///< between rows
     std::int8_t max_p_wrong_log2 = -30;
     std::int16_t max_bit_error_q8 = 46;
-    std::int16_t extent_q8 = 90;
-    std::int16_t core_q8 = 140;
+    std::int16_t extent_q8 = 120;
+    std::int16_t core_q8 = 155;
     std::int16_t min_contrast = 8;
     std::int16_t min_area_px = 2;
     std::int16_t min_mass_q8 = 72;

@@ -73,7 +73,7 @@ int claim(View& view) {
     Decoding decoding;
     decoding.window = core::choose_window(grid, kWindowSide);
     decoding.region = core::choose_window(grid, kMaxSide);
-    std::array<LineScores, 2 * kMaxSide> storage;
+    std::array<ScoredLine, 2 * kMaxSide> storage;
     Fix fix;
     if (core::decode_all(grid, view.profile, storage, decoding) != Status::ok) return 1;
     const IntegrityOptions all{0, 256};

@@ -1,7 +1,6 @@
 #include "core/decode/contest.hpp"
 
 #include "code/rolls.hpp"
-#include "core/decode/correlation.hpp"
 
 namespace dotpose::core {
 
@@ -17,7 +16,7 @@ Contest::Contest(Profile profile, const Lines& lines_, const AxisReading& readin
     for (int i = 0; i < lines.count(); ++i) {
         const LineScores& scores = lines[i];
         const int own = scores[rolls_[static_cast<std::size_t>(i)]];
-        const Lead lead = lead_of(scores);
+        const Lead lead = lines.lead(i);
         const int least_loss = own == lead.best ? lead.lead : own - lead.best;
         least_losses_[static_cast<std::size_t>(i)] = static_cast<std::int16_t>(least_loss);
         most_regained_ += std::max(-least_loss, 0);

@@ -29,12 +29,6 @@ Match best_match(const LineScores& scores);
 /// The best of those that are less good than `last`, or as good and larger.
 Match next_match(const LineScores& scores, Match last);
 
-/// The score of the best offset, and by how much it leads the second best.
-struct Lead {
-    std::int16_t best = INT16_MIN;
-    std::int16_t lead = 0;
-};
-
 Lead lead_of(const LineScores& scores);
 
 struct Extremes {

@@ -93,7 +93,7 @@ void correlate_eight(const EightWeights& weights, std::size_t length, EightScore
     }
 }
 
-void write_scores(const EightScores& scores, std::span<LineScores> lines) {
+void write_scores(const EightScores& scores, std::span<ScoredLine> lines) {
     constexpr std::size_t kLast = kSections - 8;
     for (std::size_t first = 0; first < kSections; first += 8) {
         // The last eight overlap those before them.
@@ -102,7 +102,7 @@ void write_scores(const EightScores& scores, std::span<LineScores> lines) {
         std::copy_n(scores.begin() + offset, by_line.size(), by_line.begin());
         transpose(by_line);
         for (std::size_t i = 0; i < lines.size(); ++i)
-            std::memcpy(&lines[i][offset], &by_line[i], sizeof(Eight));
+            std::memcpy(&lines[i].scores[offset], &by_line[i], sizeof(Eight));
     }
 }
 

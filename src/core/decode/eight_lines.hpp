@@ -20,6 +20,6 @@ using EightScores = std::array<Eight, kSections>;
 void correlate_eight(const EightWeights& weights, std::size_t length, EightScores& scores);
 
 /// Sorts the scores by line, of as many lines as there are in `lines`; at most eight.
-void write_scores(const EightScores& scores, std::span<LineScores> lines);
+void write_scores(const EightScores& scores, std::span<ScoredLine> lines);
 
 }  // namespace dotpose::core

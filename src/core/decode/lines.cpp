@@ -8,7 +8,7 @@ namespace dotpose::core {
 namespace {
 
 /// Scores eight lines at a time as long as there are more than two. Returns how many.
-std::size_t score_eights(const Upright& upright, Axis axis, std::span<LineScores> lines) {
+std::size_t score_eights(const Upright& upright, Axis axis, std::span<ScoredLine> lines) {
     const bool is_x = axis == Axis::x;
     const auto length = static_cast<std::size_t>(is_x ? upright.rows() : upright.columns());
     EightWeights weights;
@@ -29,12 +29,12 @@ std::size_t score_eights(const Upright& upright, Axis axis, std::span<LineScores
 
 }  // namespace
 
-Lines scored_lines(const Upright& upright, Axis axis, std::span<LineScores> storage) {
+Lines scored_lines(const Upright& upright, Axis axis, std::span<ScoredLine> storage) {
     const int count = axis == Axis::x ? upright.columns() : upright.rows();
     return {storage.first(static_cast<std::size_t>(count))};
 }
 
-Lines score_lines(const Upright& upright, Axis axis, std::span<LineScores> storage) {
+Lines score_lines(const Upright& upright, Axis axis, std::span<ScoredLine> storage) {
     const Lines lines = scored_lines(upright, axis, storage);
     const auto weights = [&](std::size_t i, Line& line) {
         const int n = static_cast<int>(i);
@@ -43,11 +43,14 @@ Lines score_lines(const Upright& upright, Axis axis, std::span<LineScores> stora
     Line one;
     Line other;
     std::size_t i = 0;
-    if constexpr (kIsWide) i = score_eights(upright, axis, storage.first(lines.scores.size()));
-    for (; i + 1 < lines.scores.size(); i += 2) {
-        correlate_both(weights(i, one), weights(i + 1, other), storage[i], storage[i + 1]);
+    if constexpr (kIsWide) i = score_eights(upright, axis, storage.first(lines.all.size()));
+    for (; i + 1 < lines.all.size(); i += 2) {
+        correlate_both(weights(i, one), weights(i + 1, other), storage[i].scores,
+                       storage[i + 1].scores);
     }
-    if (i < lines.scores.size()) correlate(weights(i, one), storage[i]);
+    if (i < lines.all.size()) correlate(weights(i, one), storage[i].scores);
+    for (ScoredLine& line : storage.first(lines.all.size()))
+        line.lead = lead_of(line.scores);
     return lines;
 }
 

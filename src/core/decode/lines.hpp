@@ -15,22 +15,25 @@ enum class Axis : std::uint8_t {
 };
 
 struct Lines {
-    std::span<const LineScores> scores;
-    int count() const { return static_cast<int>(scores.size()); }
-    const LineScores& operator[](int line) const { return scores[static_cast<std::size_t>(line)]; }
+    std::span<const ScoredLine> all;
+    int count() const { return static_cast<int>(all.size()); }
+    const LineScores& operator[](int line) const {
+        return all[static_cast<std::size_t>(line)].scores;
+    }
+    const Lead& lead(int line) const { return all[static_cast<std::size_t>(line)].lead; }
 };
 
 /// The half of the storage that is for one axis.
-inline std::span<LineScores> scores_of(Axis axis, std::span<LineScores> storage) {
+inline std::span<ScoredLine> scores_of(Axis axis, std::span<ScoredLine> storage) {
     const std::size_t half = storage.size() / 2;
     return axis == Axis::x ? storage.first(half) : storage.last(half);
 }
 
 /// The region may have at most as many lines as `storage` holds.
-Lines score_lines(const Upright& upright, Axis axis, std::span<LineScores> storage);
+Lines score_lines(const Upright& upright, Axis axis, std::span<ScoredLine> storage);
 
 /// The same, of what is in the storage since `score_lines`.
-Lines scored_lines(const Upright& upright, Axis axis, std::span<LineScores> storage);
+Lines scored_lines(const Upright& upright, Axis axis, std::span<ScoredLine> storage);
 
 /// What one axis was read as.
 struct AxisReading {

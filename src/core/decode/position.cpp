@@ -21,7 +21,7 @@ Status read_axis(Profile profile, const Lines& lines, AxisReading& reading) {
         reading.score += match.score;
     }
     reading.roll = rolls[0];
-    const auto used = std::span<const std::uint8_t>(rolls).first(lines.scores.size());
+    const auto used = std::span<const std::uint8_t>(rolls).first(lines.all.size());
     return position_from_rolls(profile, used, reading.position);
 }
 
@@ -38,7 +38,7 @@ void set_place(Profile profile, const Upright& upright, Turn turn, const AxisRea
     decoding.place = moved(profile, corner, step.x, step.y);
 }
 
-Status decode_lines(const Grid& grid, Profile profile, std::span<LineScores> storage,
+Status decode_lines(const Grid& grid, Profile profile, std::span<ScoredLine> storage,
                     decltype(find_axis) find, Decoding& decoding) {
     const auto [turns, agreement] = rank_turns(grid, decoding.region);
     decoding.agreement = agreement;
@@ -69,7 +69,7 @@ Status decode_lines(const Grid& grid, Profile profile, std::span<LineScores> sto
 
 }  // namespace
 
-Status decode_window(const Grid& grid, Profile profile, std::span<LineScores> storage,
+Status decode_window(const Grid& grid, Profile profile, std::span<ScoredLine> storage,
                      Decoding& decoding) {
     const Region& window = decoding.window;
     decoding.agreement = rank_turns(grid, decoding.region).agreement;
@@ -91,12 +91,12 @@ Status decode_window(const Grid& grid, Profile profile, std::span<LineScores> st
     return Status::ok;
 }
 
-Status decode_all(const Grid& grid, Profile profile, std::span<LineScores> storage,
+Status decode_all(const Grid& grid, Profile profile, std::span<ScoredLine> storage,
                   Decoding& decoding) {
     return decode_lines(grid, profile, storage, find_axis, decoding);
 }
 
-Status decode_briefly(const Grid& grid, Profile profile, std::span<LineScores> storage,
+Status decode_briefly(const Grid& grid, Profile profile, std::span<ScoredLine> storage,
                       Decoding& decoding) {
     return decode_lines(grid, profile, storage, find_axis_briefly, decoding);
 }

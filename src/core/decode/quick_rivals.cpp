@@ -103,7 +103,8 @@ OfSets far_log2_q8(const Contest& contest, const Set* sets, const AllLineOdds& o
 }
 
 /// All sets together: roughly, with the number of rolls times the best for the sum, or exactly.
-int far_log2_q8(const Contest& contest, bool roughly) {
+/// Once it is more than `enough`, sets need not be added.
+int far_log2_q8(const Contest& contest, bool roughly, int enough) {
     AllLineOdds odds;
     for (int line = 0; line < contest.lines.count(); ++line) {
         const int best = contest.log2_odds_q8(contest.least_loss(line));
@@ -111,7 +112,7 @@ int far_log2_q8(const Contest& contest, bool roughly) {
             best, best + (roughly ? kShifts_q8 : log2_of_others_q8(contest, line))};
     }
     int sum = kNever_q8;
-    for (std::size_t i = 0; i < kSets.size(); i += kSetsAtOnce) {
+    for (std::size_t i = 0; i < kSets.size() && sum <= enough; i += kSetsAtOnce) {
         for (const int of_set : far_log2_q8(contest, &kSets[i], odds))
             sum = add_log2(sum, of_set);
     }
@@ -131,26 +132,31 @@ class ByShift {
 
   private:
     struct Loss {
-        int line;
-        std::uint32_t least;  ///< of who does not share the line
+        std::uint16_t least;  ///< of who does not share the line
+        std::uint8_t line;
+        std::uint8_t own = 0;  ///< what the reading's place adds to the roll there
     };
 
     void begin(std::size_t sequence) {
         sequence_ = sequence;
         rolls_ = contest_.basis[sequence].rolls;
-        own_ = rolls_ + contest_.places[sequence];
+        const std::uint8_t* own = rolls_ + contest_.places[sequence];
+        for (Loss& loss : std::span(losses_).first(count_))
+            loss.own = own[loss.line];
     }
     bool may_matter(const std::uint8_t* rival);
     int add_closely(std::uint32_t place, int sum) const;
 
     const Contest& contest_;
-    std::size_t sequence_;
-    const std::uint8_t* rolls_;
-    const std::uint8_t* own_;
+    std::size_t sequence_ = SIZE_MAX;
+    const std::uint8_t* rolls_ = nullptr;
     std::uint32_t enough_;
     std::size_t count_ = 0;               ///< of lines at which something is lost
     std::array<Loss, kMaxLines> losses_;  ///< the greatest first
     std::uint32_t in_all_ = 0;
+    /// Of the first ones, and their sum: not enough without the greatest, which is kept at a shift.
+    std::size_t first_count_ = 0;
+    std::uint32_t first_losses_ = 0;
     /// What is not lost at each shift, plus `none_`; what is less is of rivals before.
     std::array<std::uint32_t, kSections> kept_{};
     std::uint32_t none_;
@@ -158,35 +164,44 @@ class ByShift {
 
 ByShift::ByShift(const Contest& contest, int enough)
     : contest_(contest), enough_(static_cast<std::uint32_t>(enough)), none_(enough_) {
-    begin(0);
     for (int line = 0; line < contest.lines.count(); ++line) {
         if (contest.least_loss(line) <= 0) continue;
-        const auto least = static_cast<std::uint32_t>(contest.least_loss(line));
+        const auto least = static_cast<std::uint16_t>(contest.least_loss(line));
         std::size_t i = count_++;
         for (; i > 0 && losses_[i - 1].least < least; --i)
             losses_[i] = losses_[i - 1];
-        losses_[i] = {line, least};
+        losses_[i] = {least, static_cast<std::uint8_t>(line)};
         in_all_ += least;
+    }
+    while (first_count_ < count_) {
+        const std::uint32_t with_next = first_losses_ + losses_[first_count_].least;
+        if (with_next >= enough_ + losses_[0].least) break;
+        first_losses_ = with_next;
+        ++first_count_;
     }
 }
 
 /// Whether at some shift not enough is lost.
 // By itself, so that small processors can keep all it needs in registers.
 [[gnu::noinline]] bool ByShift::may_matter(const std::uint8_t* rival) {
-    const std::uint8_t* own = own_;
     std::uint32_t* const kept = kept_.data();
     const std::uint32_t none = none_ += in_all_;
     std::uint32_t most = none;
-    std::uint32_t most_to_keep = none - enough_;  // so that enough is lost of the lines so far
-    const Loss* const end = losses_.data() + count_;
-    for (const Loss* loss = losses_.data(); loss != end; ++loss) {
-        const int difference = rival[loss->line] - own[loss->line];
+    const auto keep = [&](const Loss& loss) {
+        const int difference = rival[loss.line] - loss.own;
         const int shift = difference < 0 ? difference + kSections : difference;
-        const std::uint32_t least = loss->least;
-        const std::uint32_t now = std::max(kept[shift], none) + least;
+        const std::uint32_t now = std::max(kept[shift], none) + loss.least;
         kept[shift] = now;
         most = std::max(most, now);
-        most_to_keep += least;
+    };
+    const Loss* loss = losses_.data();
+    for (const Loss* const end = loss + first_count_; loss != end; ++loss)
+        keep(*loss);
+    // So that enough is lost of the lines so far.
+    std::uint32_t most_to_keep = none - enough_ + first_losses_;
+    for (const Loss* const end = losses_.data() + count_; loss != end; ++loss) {
+        keep(*loss);
+        most_to_keep += loss->least;
         if (most <= most_to_keep) return false;
     }
     return true;
@@ -241,8 +256,8 @@ int other_sections_log2_q8(const Contest& contest) {
 int quick_rivals_log2_q8(const Contest& contest, int limit_q8) {
     // Nobody wants to know odds like these more exactly.
     constexpr int kSmall_q8 = -36 * 256;
-    int far = far_log2_q8(contest, true);
-    if (far > kSmall_q8) far = far_log2_q8(contest, false);
+    int far = far_log2_q8(contest, true, kSmall_q8);
+    if (far > kSmall_q8) far = far_log2_q8(contest, false, limit_q8);
     const int sum = add_log2(other_sections_log2_q8(contest), far);
     if (sum >= limit_q8) return 0;
     return std::min(add_log2(sum, singles_log2_q8(contest)), 0);

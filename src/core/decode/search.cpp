@@ -25,8 +25,11 @@ std::uint8_t roll_of(int score, const LineScores& scores) {
 class Choices {
   public:
     Choices() = default;
-    Choices(const LineScores& scores, const Lead& lead)
-        : scores_(&scores), lead_(lead.lead), last_(roll_of(lead.best, scores)), rolls_{last_} {}
+    explicit Choices(const ScoredLine& line)
+        : scores_(&line.scores),
+          lead_(line.lead.lead),
+          last_(roll_of(line.lead.best, line.scores)),
+          rolls_{last_} {}
 
     /// `i` is less than kChoices.
     std::uint8_t roll(int i) {
@@ -55,7 +58,7 @@ AxisReading evaluate(Profile profile, const Lines& lines, int line, std::uint32_
     reading.position =
         position >= before ? position - before : position + kPositionsPerAxis - before;
     std::array<std::uint8_t, kMaxLines> rolls;
-    code::follow_rolls(profile, reading.position, 0, std::span(rolls).first(lines.scores.size()));
+    code::follow_rolls(profile, reading.position, 0, std::span(rolls).first(lines.all.size()));
     const int first_roll = roll - rolls[before] + (roll < rolls[before] ? kSections : 0);
     reading.roll = static_cast<std::uint8_t>(first_roll);
     for (int i = 0; i < lines.count(); ++i) {
@@ -67,7 +70,6 @@ AxisReading evaluate(Profile profile, const Lines& lines, int line, std::uint32_
 }
 
 using Run = std::array<Choices, kMaxRunLength>;
-using Leads = std::array<Lead, kMaxLines>;
 
 /// How many choices of each line of a run are combined: the next-cheapest choice of any line is
 /// added as long as the combinations stay few.
@@ -108,14 +110,13 @@ bool improve(Profile profile, const Lines& lines, int first, std::span<const std
 }
 
 /// Reads one run in all combinations of its lines' choices, until one is clear.
-void try_run(Profile profile, const Lines& lines, const Leads& leads, int first, int length,
-             int most_readings, AxisReading& best) {
+void try_run(Profile profile, const Lines& lines, int first, int length, int most_readings,
+             AxisReading& best) {
     Run run;
     std::array<std::uint8_t, kMaxRunLength> storage;
     const auto rolls = std::span(storage).first(static_cast<std::size_t>(length));
     for (std::size_t n = 0; n < rolls.size(); ++n) {
-        const std::size_t line = n + static_cast<std::size_t>(first);
-        run[n] = Choices(lines.scores[line], leads[line]);
+        run[n] = Choices(lines.all[n + static_cast<std::size_t>(first)]);
         rolls[n] = run[n].roll(0);
     }
     if (improve(profile, lines, first, rolls, best)) return;
@@ -135,15 +136,14 @@ void try_run(Profile profile, const Lines& lines, const Leads& leads, int first,
 }
 
 /// Start of the clearest run not taken yet, or -1: that whose lines lead their runners-up by most.
-int clearest_run(const Leads& leads, int lines, int length,
-                 const std::array<bool, kMaxLines>& taken) {
+int clearest_run(const Lines& lines, int length, const std::array<bool, kMaxLines>& taken) {
     int clearest = -1;
     int most = INT32_MIN;
-    for (int first = 0; first + length <= lines; ++first) {
+    for (int first = 0; first + length <= lines.count(); ++first) {
         if (taken[static_cast<std::size_t>(first)]) continue;
         int lead = 0;
         for (int i = first; i < first + length; ++i)
-            lead += leads[static_cast<std::size_t>(i)].lead;
+            lead += lines.lead(i).lead;
         if (lead > most) {
             most = lead;
             clearest = first;
@@ -167,20 +167,16 @@ struct Limits {
 /// Reads runs of lines, until one is clear.
 void search_by_runs(Profile profile, const Lines& lines, const Limits& limits, AxisReading& best) {
     const int length = run_length(profile);
-    Leads leads;
     std::int32_t most_possible = 0;
-    for (int i = 0; i < lines.count(); ++i) {
-        const Lead lead = lead_of(lines[i]);
-        leads[static_cast<std::size_t>(i)] = lead;
-        most_possible += lead.best;
-    }
+    for (int i = 0; i < lines.count(); ++i)
+        most_possible += lines.lead(i).best;
     best = {0, 0, INT32_MIN, most_possible};
     std::array<bool, kMaxLines> taken{};
     for (int run = 0; run < limits.runs; ++run) {
-        const int first = clearest_run(leads, lines.count(), length, taken);
+        const int first = clearest_run(lines, length, taken);
         if (first < 0) break;
         taken[static_cast<std::size_t>(first)] = true;
-        try_run(profile, lines, leads, first, length, limits.readings, best);
+        try_run(profile, lines, first, length, limits.readings, best);
         if (best.is_clear()) break;
     }
 }

@@ -75,7 +75,7 @@ Choices likeliest_places(const code::Secondary& sequence, std::size_t n,
 /// Sum over all lines for the hypothesis that the first stands at `position`, at the best roll.
 AxisReading evaluate(Profile profile, const Lines& lines, std::uint32_t position) {
     std::array<std::uint8_t, kMaxLines> rolls;
-    code::follow_rolls(profile, position, 0, std::span(rolls).first(lines.scores.size()));
+    code::follow_rolls(profile, position, 0, std::span(rolls).first(lines.all.size()));
     std::array<std::int32_t, kSections> sums{};
     for (int i = 0; i < lines.count(); ++i) {
         const std::size_t ahead = rolls[static_cast<std::size_t>(i)];
@@ -93,9 +93,9 @@ AxisReading evaluate(Profile profile, const Lines& lines, std::uint32_t position
 
 void search_by_steps(Profile profile, const Lines& lines, AxisReading& best) {
     std::array<StepLosses, kMaxLines - 1> storage;
-    const auto steps = std::span(storage).first(lines.scores.size() - 1);
+    const auto steps = std::span(storage).first(lines.all.size() - 1);
     for (std::size_t i = 0; i < steps.size(); ++i)
-        steps[i] = losses_of(lines.scores[i], lines.scores[i + 1]);
+        steps[i] = losses_of(lines.all[i].scores, lines.all[i + 1].scores);
     const code::Basis& basis = code::basis(profile);
     std::array<Choices, kSequences> choices;
     for (std::size_t n = 0; n < kSequences; ++n)

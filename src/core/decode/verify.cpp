@@ -102,7 +102,7 @@ Doubt compare_with_chance(const Grid& grid, Profile profile, const IntegrityOpti
 /// which only add to chance: where that is too much already they are not counted.
 template <typename Rivals>
 std::array<int, 2> with_rivals(const Grid& grid, Profile profile, const Decoding& decoding,
-                               std::span<LineScores> storage, const Doubt& doubt, int limit_q8,
+                               std::span<ScoredLine> storage, const Doubt& doubt, int limit_q8,
                                Rivals rivals_q8) {
     const Upright upright(grid, decoding.region, decoding.pattern_from_grid);
     const Place place = corner_place(profile, decoding, upright);
@@ -141,7 +141,7 @@ Status judge(const Doubt& doubt, const IntegrityOptions& options, Decoding& deco
 
 /// By quick_rivals.
 std::array<int, 2> estimate_quickly(const Grid& grid, Profile profile, const Decoding& decoding,
-                                    int limit_q8, std::span<LineScores> storage,
+                                    int limit_q8, std::span<ScoredLine> storage,
                                     const Doubt& doubt) {
     return with_rivals(grid, profile, decoding, storage, doubt, limit_q8,
                        [&](std::size_t, const Contest& contest) {
@@ -166,7 +166,7 @@ std::optional<Axis> sure_axis(const Decoding& decoding, const IntegrityOptions& 
 }
 
 Status verify_quickly(const Grid& grid, Profile profile, Decoding& decoding,
-                      const IntegrityOptions& options, std::span<LineScores> storage, Fix& fix) {
+                      const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix) {
     decoding.p_wrong_log2_q8 = {};
     const int limit_q8 = 256 * options.max_p_wrong_log2;
     const Doubt doubt = compare_with_chance(grid, profile, options, decoding, fix);
@@ -178,7 +178,7 @@ Status verify_quickly(const Grid& grid, Profile profile, Decoding& decoding,
 }
 
 Status verify(const Grid& grid, Profile profile, Decoding& decoding,
-              const IntegrityOptions& options, std::span<LineScores> storage, Fix& fix) {
+              const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix) {
     decoding.p_wrong_log2_q8 = {};
     const int limit_q8 = 256 * options.max_p_wrong_log2;
     const Doubt doubt = compare_with_chance(grid, profile, options, decoding, fix);

@@ -16,11 +16,11 @@ namespace dotpose::core {
 /// Sets bit_errors and p_wrong_log2 of the fix, and p_wrong_log2_q8 of the decoding: from chance,
 /// and from rivals (quick_rivals.hpp, and rivals.hpp where they leave doubts). Errors: not_certain.
 Status verify(const Grid& grid, Profile profile, Decoding& decoding,
-              const IntegrityOptions& options, std::span<LineScores> storage, Fix& fix);
+              const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix);
 
 /// The same in integers only, and in bounded time: what quick_rivals leaves in doubt is refused.
 Status verify_quickly(const Grid& grid, Profile profile, Decoding& decoding,
-                      const IntegrityOptions& options, std::span<LineScores> storage, Fix& fix);
+                      const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix);
 
 /// Whether two places show the same bits of this axis around them.
 bool share_line(Axis axis, Profile profile, const Place& a, const Place& b);

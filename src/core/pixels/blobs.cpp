@@ -77,7 +77,8 @@ void close_blob(const OpenBlob& blob, const Light& light, DotList list) {
                    blob.first_v * 256 + mean_q8(blob.sum_y - blob.mass * blob.first_v, blob.mass)},
                   static_cast<std::uint16_t>(std::min(blob.mass, kMaxMass)),
                   static_cast<std::uint16_t>(blob.area_px)};
-    while (IsKept(light, list)(dot)) {
+    const int all_px = std::max(light.width_px, light.height_px);
+    while (list.kept_within_px == all_px || IsKept(light, list)(dot)) {
         if (list.count < static_cast<int>(list.dots.size())) {
             list.dots[static_cast<std::size_t>(list.count++)] = dot;
             return;
@@ -211,7 +212,7 @@ void close_blobs(std::span<Run> above, int v, const Light& light, OpenBlobs& ope
 
 /// Of some of the dots. Blobs of noise may be as many as dots; hardly anything is larger.
 std::int32_t typical(std::span<const Dot> dots, std::uint16_t Dot::*member) {
-    constexpr std::size_t kSample = 256;
+    constexpr std::size_t kSample = 128;
     const std::size_t step = dots.size() / kSample + 1;
     std::array<std::int32_t, kSample> values;
     std::size_t n = 0;

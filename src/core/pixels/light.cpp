@@ -30,7 +30,7 @@ void copy_blocks(const std::uint8_t*& from, const std::uint8_t* end, std::uint8_
 /// Keeps a row, and repeats its last pixel to the end of its tile.
 void keep_row(const std::uint8_t* pixels, const Light& light, std::uint8_t* row) {
     const std::uint8_t* const end = pixels + light.width_px;
-    std::uint8_t* const whole = row + (light.tiles_per_band << light.tile_shift);
+    std::uint8_t* const whole = row + whole_width(light);
     if constexpr (kIsWide) {
         row = std::copy(pixels, end, row);
         pixels = end;
@@ -42,8 +42,12 @@ void keep_row(const std::uint8_t* pixels, const Light& light, std::uint8_t* row)
     }
     while (pixels != end)
         *row++ = *pixels++;
-    while (row != whole)
-        *row++ = end[-1];
+    const std::uint8_t last = end[-1];
+    while (reinterpret_cast<std::uintptr_t>(row) % sizeof(Word) != 0)
+        *row++ = last;
+    const Word words = in_all_bytes(last);
+    for (; row != whole; row += sizeof words)
+        std::memcpy(__builtin_assume_aligned(row, sizeof words), &words, sizeof words);
 }
 
 /// The tiles of a band and of those above and below; at the image's rims, the band itself instead.
@@ -92,16 +96,12 @@ constexpr auto kInverses_q16 = [] {
     return inverses;
 }();
 
-/// Sets whole groups of columns to a level; returns where the next one is.
-inline std::uint8_t* fill(std::uint8_t* column, unsigned level, std::size_t columns) {
+/// Sets the columns of a tile to a level; returns where those of the next one are.
+inline std::uint8_t* fill(std::uint8_t* column, unsigned level) {
     const Word word = in_all_bytes(1) * level;
-    const std::uint8_t* const end = column + columns;
-    do {
-        for (std::size_t k = 0; k < kSmallestTile_px; k += sizeof word)
-            std::memcpy(__builtin_assume_aligned(column + k, sizeof word), &word, sizeof word);
-        column += kSmallestTile_px;
-    } while (column != end);
-    return column;
+    for (std::size_t k = 0; k < kTileWidth_px; k += sizeof word)
+        std::memcpy(__builtin_assume_aligned(column + k, sizeof word), &word, sizeof word);
+    return column + kTileWidth_px;
 }
 
 /// Contrasts of tiles relative to their paper, counted in `kContrastBins`-ths.
@@ -148,14 +148,13 @@ void set_levels(const std::uint8_t* papers, std::size_t tiles, unsigned to_exten
                 unsigned to_core_q16, Light& light) {
     std::uint8_t* half_extents = light.half_extents.data();
     std::uint8_t* cores = light.cores.data();
-    const std::size_t tile_px = static_cast<std::size_t>(light.tile_px);
     for (const std::uint8_t* const end = papers + tiles; papers != end; ++papers) {
         const unsigned paper = *papers;
         // Even, so that runs may compare seven bits.
         const unsigned half_extent = (paper - (paper * to_extent_q16 >> 16)) >> 1;
         const unsigned core = std::min(paper - (paper * to_core_q16 >> 16), 2 * half_extent);
-        half_extents = fill(half_extents, half_extent, tile_px);
-        cores = fill(cores, core, tile_px);
+        half_extents = fill(half_extents, half_extent);
+        cores = fill(cores, core);
     }
 }
 
@@ -164,23 +163,24 @@ void set_levels(const std::uint8_t* papers, std::size_t tiles, unsigned to_exten
 void begin_light(int width_px, int height_px, Light& light) {
     light.width_px = width_px;
     light.height_px = height_px;
-    light.tile_px = std::min(width_px, height_px) <= kLargestFinelyTiled_px ? kSmallestTile_px
-                                                                            : kLargestTile_px;
-    light.tile_shift = std::countr_zero(static_cast<unsigned>(light.tile_px));
-    light.tiles_per_band = (width_px + light.tile_px - 1) / light.tile_px;
+    light.band_px =
+        std::min(width_px, height_px) <= kLargestWithLowTiles_px ? kLowTile_px : kHighTile_px;
+    light.band_shift = std::countr_zero(static_cast<unsigned>(light.band_px));
+    light.tiles_per_band = (width_px + kTileWidth_px - 1) / kTileWidth_px;
     light.rows_taken = 0;
     light.has_contrast = false;
-    for (int v = 0; v < 2 * light.tile_px; ++v)
+    for (int v = 0; v < 2 * light.band_px; ++v)
         std::fill_n(kept_row(light, v) - kKeptMargin_px, kKeptMargin_px, std::uint8_t{255});
+    std::fill_n(light.half_extents.begin() + whole_width(light), kReadAhead_px, kAlwaysDark);
 }
 
 int take_row(const std::uint8_t* pixels, Light& light) {
     const int v = light.rows_taken++;
     keep_row(pixels, light, kept_row(light, v));
     const bool is_last = v + 1 == light.height_px;
-    const bool ends_band = ((v + 1) & (light.tile_px - 1)) == 0;
+    const bool ends_band = ((v + 1) & (light.band_px - 1)) == 0;
     if (!ends_band && !is_last) return 0;
-    const int band = v >> light.tile_shift;
+    const int band = v >> light.band_shift;
     measure_tiles(band, light, tiles_of(light, band));
     return (band > 0 ? 1 : 0) + (is_last ? 1 : 0);
 }
@@ -189,11 +189,15 @@ void measure_levels(int band, const ThresholdOptions& options, Light& light) {
     const auto tiles = static_cast<std::size_t>(light.tiles_per_band);
     // Before the levels of all columns, their memory holds what is known of the tiles: of paper at
     // its end, which is overwritten last.
-    std::uint8_t* const papers = light.half_extents.data() + (tiles << light.tile_shift) - tiles;
+    std::uint8_t* const papers = light.half_extents.data() + whole_width(light) - tiles;
     std::uint8_t* const darknesses = light.cores.data();
     join_bands(three_bands(light, band), tiles, papers, darknesses);
-    join_neighbours(papers, tiles);
+    // Ink is sought in the tiles to both sides, too: dots may be farther apart than a tile is wide.
+    // Paper is not: there is some in each, and the brightest of more of them is too bright.
     join_neighbours(darknesses, tiles);
+    // Less than half of a tile is little but the row's last pixel, repeated.
+    if (whole_width(light) - light.width_px > kTileWidth_px / 2)
+        papers[tiles - 1] = std::max(papers[tiles - 2], papers[tiles - 1]);
     const unsigned depth_q8 = typical_depth_q8(papers, darknesses, tiles, options.min_contrast);
     if (depth_q8 > 0) light.has_contrast = true;
     set_levels(papers, tiles, depth_q8 * static_cast<unsigned>(options.extent_q8),

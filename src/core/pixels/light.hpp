@@ -22,23 +22,27 @@ int take_row(const std::uint8_t* pixels, Light& light);
 void measure_levels(int band, const ThresholdOptions& options, Light& light);
 
 inline int band_count(const Light& light) {
-    return (light.height_px + light.tile_px - 1) >> light.tile_shift;
+    return (light.height_px + light.band_px - 1) >> light.band_shift;
 }
 /// First row of a band, and one past its last.
 inline int band_begin(const Light& light, int band) {
-    return band * light.tile_px;
+    return band * light.band_px;
 }
 inline int band_end(const Light& light, int band) {
-    return std::min((band + 1) * light.tile_px, light.height_px);
+    return std::min((band + 1) * light.band_px, light.height_px);
+}
+/// The width of all tiles, which is that of a kept row.
+inline int whole_width(const Light& light) {
+    return light.tiles_per_band * kTileWidth_px;
 }
 /// From one kept row to the next.
 inline std::ptrdiff_t kept_stride(const Light& light) {
-    return (static_cast<std::ptrdiff_t>(light.tiles_per_band) << light.tile_shift) + kKeptMargin_px;
+    return whole_width(light) + kKeptMargin_px;
 }
 /// A row of one of the two newest bands: whole tiles, past `width_px` filled with the last pixel,
 /// and white in the margin before the first. Begins at a multiple of 8 bytes.
 inline std::uint8_t* kept_row(const Light& light, int v) {
-    const int slot = v & (2 * light.tile_px - 1);
+    const int slot = v & (2 * light.band_px - 1);
     return light.rows.data() + slot * kept_stride(light) + kKeptMargin_px;
 }
 

@@ -10,13 +10,6 @@
 namespace dotpose::core {
 namespace {
 
-/// Pixels that are looked at together: all have the same levels.
-constexpr std::size_t kGroup_px = kSmallestTile_px;
-
-constexpr std::size_t whole_groups(std::size_t pixels) {
-    return (pixels + kGroup_px - 1) / kGroup_px * kGroup_px;
-}
-
 constexpr std::uint64_t kHighs = 0x8080808080808080;
 
 /// Eight bytes from anywhere.
@@ -105,7 +98,7 @@ void sum_up(const std::uint8_t* row, const Light& light, Run& run) {
 /// A run from each change of a row from light to dark and back: without a branch for each pixel.
 int find_runs_by_word(int v, const Light& light, std::span<Run> runs) {
     const std::uint8_t* const row = kept_row(light, v);
-    const auto row_end = whole_groups(static_cast<std::size_t>(light.width_px));
+    const auto row_end = static_cast<std::size_t>(whole_width(light));
     Run* run = runs.data();
     const Run* const end = run + runs.size();
     bool is_dark = false;

@@ -8,6 +8,10 @@
 
 namespace dotpose::core {
 
+/// Pixels that are looked at together: all have the same levels.
+inline constexpr std::size_t kGroup_px = 8;
+static_assert(kTileWidth_px % kGroup_px == 0);
+
 /// Finds the runs of row `v`, as many as there is room for, from left to right; returns how many.
 /// One that reaches the image's right border may end beyond it.
 int find_runs(int v, const Light& light, std::span<Run> runs);

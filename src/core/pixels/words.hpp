@@ -26,11 +26,4 @@ inline Word word_at(const std::uint8_t* pixels) {
     return word;
 }
 
-/// a - b in each byte, or 0 where that is negative; tops of `a` are set, of `b` clear.
-constexpr Word excess(Word a, Word b) {
-    const Word difference = a - b;
-    const Word is_positive = difference & kTops;
-    return difference & (is_positive - (is_positive >> 7));
-}
-
 }  // namespace dotpose::core

@@ -66,7 +66,7 @@ inline Levels levels_at(const Light& light, int u) {
     return {2 * light.half_extents[column], light.cores[column]};
 }
 inline Levels levels_of_tile(const Light& light, int tile) {
-    return levels_at(light, tile * light.tile_px);
+    return levels_at(light, tile * kTileWidth_px);
 }
 
 /// The blobs of an image that may be dots, before the size filter.

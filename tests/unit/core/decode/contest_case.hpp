@@ -17,7 +17,7 @@ struct ContestCase {
     Profile profile;
     std::uint32_t position;
     std::vector<int> rolls;
-    std::vector<LineScores> storage;
+    std::vector<ScoredLine> storage;
     int odds_q8;
 
     Lines lines() const { return {storage}; }
@@ -27,7 +27,7 @@ struct ContestCase {
 
 /// A line of `bits` bits of the main sequence, `wrong` of which are flipped, with weights up to
 /// `most`.
-inline LineScores line_scores(int roll, int bits, double wrong, int most, Rng& rng) {
+inline ScoredLine scored_line(int roll, int bits, double wrong, int most, Rng& rng) {
     std::vector<std::int8_t> weights;
     for (int i = 0; i < bits; ++i) {
         const int weight = most - static_cast<int>(rng.below(static_cast<std::uint32_t>(most) / 2));
@@ -36,9 +36,10 @@ inline LineScores line_scores(int roll, int bits, double wrong, int most, Rng& r
              1) != (rng.uniform() < wrong);
         weights.push_back(static_cast<std::int8_t>(is_one ? weight : -weight));
     }
-    LineScores scores;
-    correlate(weights, scores);
-    return scores;
+    ScoredLine line;
+    correlate(weights, line.scores);
+    line.lead = lead_of(line.scores);
+    return line;
 }
 
 /// Without its lines.

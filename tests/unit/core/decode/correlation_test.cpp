@@ -110,16 +110,16 @@ TEST(Correlation, EightLinesScoreAsEachByItself) {
         EightScores of_eight;
         correlate_eight(weights, length, of_eight);
         // Of fewer than eight, those after them stay as they are.
-        std::array<LineScores, 9> scores;
+        std::array<ScoredLine, 9> written;
         for (std::size_t count = 1; count <= 8; ++count) {
-            scores[count].fill(12345);
-            const LineScores after = scores[count];
-            write_scores(of_eight, std::span(scores).first(count));
-            ASSERT_EQ(scores[count], after) << length << " weights, " << count << " lines";
+            written[count].scores.fill(12345);
+            const LineScores after = written[count].scores;
+            write_scores(of_eight, std::span(written).first(count));
+            ASSERT_EQ(written[count].scores, after) << length << " weights, " << count << " lines";
             LineScores alone;
             for (std::size_t i = 0; i < count; ++i) {
                 correlate(lines[i], alone);
-                ASSERT_EQ(scores[i], alone) << length << " weights, line " << i;
+                ASSERT_EQ(written[i].scores, alone) << length << " weights, line " << i;
             }
         }
     }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "../../code/reference.hpp"
+#include "core/decode/correlation.hpp"
 #include "dotpose/random.hpp"
 
 namespace dotpose::core_test {
@@ -18,21 +19,22 @@ constexpr int kOdds_q8 = 3 * 256;
 /// Lines that fit a position, with scores of other rolls at random from `least` to `least` + 600.
 struct Case {
     Case(Rng& rng, int least) : position(rng.below(kPositionsPerAxis)) {
-        lines.scores = storage;
+        lines.all = storage;
         std::uint32_t p = position;
         int here = roll(Profile::anoto, p);
         for (int line = 0; line < kLines; ++line) {
             const auto n = static_cast<std::size_t>(line);
-            for (std::int16_t& score : storage[n])
+            for (std::int16_t& score : storage[n].scores)
                 score = static_cast<std::int16_t>(least + static_cast<int>(rng.below(600)));
-            storage[n][static_cast<std::size_t>(here)] = 1000;
+            storage[n].scores[static_cast<std::size_t>(here)] = 1000;
+            storage[n].lead = lead_of(storage[n].scores);
             here = (here + delta(Profile::anoto, p)) % kSections;
             p = p + 1 == kPositionsPerAxis ? 0 : p + 1;
         }
         reading = {position, static_cast<std::uint8_t>(roll(Profile::anoto, position)), 0, 0};
     }
     std::uint32_t position;
-    std::array<LineScores, kLines> storage{};
+    std::array<ScoredLine, kLines> storage{};
     Lines lines;
     AxisReading reading;
 };
@@ -70,7 +72,7 @@ double exact_sum(const Case& c) {
                             const int further = rolls[k][i][line] + rolls[l][j][line] + shift;
                             const int other = ((own + further) % 63 + 63) % 63;
                             shares = shares || other == own;
-                            lost += 1000 - c.storage[line][static_cast<std::size_t>(other)];
+                            lost += 1000 - c.storage[line].scores[static_cast<std::size_t>(other)];
                             own = (own + delta(Profile::anoto, p)) % 63;
                             ++p;
                         }

@@ -13,11 +13,11 @@ namespace {
 using namespace core;
 
 constexpr std::uint64_t kSeed = 29;
-using Decode = Status (*)(const Grid&, Profile, std::span<LineScores>, Decoding&);
+using Decode = Status (*)(const Grid&, Profile, std::span<ScoredLine>, Decoding&);
 
 /// Decodes and compares with geometry.
 void expect_truth(Decode decode, const Reading& reading) {
-    std::array<LineScores, 2 * kMaxLines> storage;
+    std::array<ScoredLine, 2 * kMaxLines> storage;
     Decoding found = reading.decoding;
     ASSERT_EQ(decode(reading.grid(), reading.view.profile, storage, found), Status::ok);
     const Decoding truth = reading.truth();
@@ -116,7 +116,7 @@ TEST(Position, TheMirrorImageIsKnown) {
 TEST(Position, TooFewLinesAreRefused) {
     Rng rng(kSeed);
     const Reading reading(random_view(rng), {});
-    std::array<LineScores, 2 * kMaxLines> storage;
+    std::array<ScoredLine, 2 * kMaxLines> storage;
     Decoding narrow = reading.decoding;
     narrow.region.columns = narrow.window.columns = 5;
     EXPECT_EQ(decode_all(reading.grid(), Profile::anoto, storage, narrow), Status::grid_too_small);
@@ -136,7 +136,7 @@ TEST(Position, TheWindowNeedsItsDots) {
         if (rng.below(5) == 0) dots.push_back(dot_at(d.centre_px));
     }
     const Reading sparse(view, {}, dots);
-    std::array<LineScores, 2 * kMaxLines> storage;
+    std::array<ScoredLine, 2 * kMaxLines> storage;
     Decoding decoding = sparse.decoding;
     EXPECT_EQ(decode_window(sparse.grid(), Profile::anoto, storage, decoding),
               Status::grid_too_small);

@@ -20,7 +20,7 @@ ContestCase random_case(Rng& rng) {
     for (const int own : c.rolls) {
         const int seen = static_cast<int>(rng.uniform(0.6, 1) * bits);
         c.storage.push_back(
-            line_scores(own, seen, wrong, 60 + static_cast<int>(rng.below(68)), rng));
+            scored_line(own, seen, wrong, 60 + static_cast<int>(rng.below(68)), rng));
     }
     c.odds_q8 = static_cast<int>(256 * rng.uniform(2, 8));
     return c;
@@ -49,8 +49,8 @@ double sum_of_singles(const ContestCase& c) {
                 for (std::size_t line = 0; line < count; ++line) {
                     const int other = ((rolls[line] + shift) % 63 + 63) % 63;
                     shares = shares || other == c.rolls[line];
-                    lost += c.storage[line][static_cast<std::size_t>(c.rolls[line])] -
-                            c.storage[line][static_cast<std::size_t>(other)];
+                    lost += c.storage[line].scores[static_cast<std::size_t>(c.rolls[line])] -
+                            c.storage[line].scores[static_cast<std::size_t>(other)];
                 }
                 // A score is twice the weight that changes sides.
                 if (shares) sum += std::exp2(-lost / 2 / 127 * c.odds_q8 / 256);
@@ -92,8 +92,8 @@ TEST(QuickRivals, CountWhatSharesTheOnlyLinesThatSayMuch) {
         const std::uint32_t clear_lines = 4 + rng.below(6);
         for (std::uint32_t line = 0; line < c.rolls.size(); ++line) {
             const bool is_clear = line >= clear && line < clear + clear_lines;
-            c.storage.push_back(is_clear ? line_scores(c.rolls[line], 64, 0, 127, rng)
-                                         : line_scores(c.rolls[line], 10, 0.05, 20, rng));
+            c.storage.push_back(is_clear ? scored_line(c.rolls[line], 64, 0, 127, rng)
+                                         : scored_line(c.rolls[line], 10, 0.05, 20, rng));
         }
         c.odds_q8 = static_cast<int>(256 * rng.uniform(0.5, 8));
         told += checked(c) < 0;
@@ -110,7 +110,7 @@ TEST(QuickRivals, CountOthersThatLinesFitBetter) {
         ContestCase c = at_random_place(rng, 15 + static_cast<int>(rng.below(30)));
         for (const int own : c.rolls) {
             const int shown = rng.below(15) == 0 ? static_cast<int>(rng.below(63)) : own;
-            c.storage.push_back(line_scores(shown, 40, 0.05, 127, rng));
+            c.storage.push_back(scored_line(shown, 40, 0.05, 127, rng));
         }
         c.odds_q8 = static_cast<int>(256 * rng.uniform(1, 4));
         told += checked(c) < 0;
@@ -138,13 +138,13 @@ TEST(QuickRivals, FewLinesOrWeakOddsDoNotTell) {
     for (int lines = 1; lines <= 5; ++lines) {
         ContestCase c = at_random_place(rng, lines);
         for (const int own : c.rolls)
-            c.storage.push_back(line_scores(own, 20, 0, 127, rng));
+            c.storage.push_back(scored_line(own, 20, 0, 127, rng));
         c.odds_q8 = 8 * 256;
         EXPECT_EQ(quick_rivals_log2_q8(c.contest()), 0) << lines;
     }
     ContestCase c = at_random_place(rng, 17);
     for (const int own : c.rolls)
-        c.storage.push_back(line_scores(own, 12, 0, 127, rng));
+        c.storage.push_back(scored_line(own, 12, 0, 127, rng));
     c.odds_q8 = 8;
     EXPECT_EQ(quick_rivals_log2_q8(c.contest()), 0);
     // The same lines with odds of 2^8 for a full bit leave next to none.

@@ -29,7 +29,7 @@ int rivals_of_window(Profile profile, const Place& place, int columns, int odds_
             cell.y = y_bit(symbol) == 1 ? 127 : -127;
         }
     }
-    std::array<LineScores, kMaxLines> storage;
+    std::array<ScoredLine, kMaxLines> storage;
     const Upright upright(owned.grid, {0, 0, columns, kRows}, {});
     const Lines lines = score_lines(upright, Axis::x, storage);
     AxisReading reading;

@@ -55,8 +55,8 @@ double least_loss(const ContestCase& c, const Rival& rival, std::size_t first, s
         for (std::size_t line = first; line < end; ++line) {
             const int own = c.rolls[line];
             const int other = modulo_63(own + rival.growth[line] - shared);
-            lost += c.storage[line][static_cast<std::size_t>(own)] -
-                    c.storage[line][static_cast<std::size_t>(other)];
+            lost += c.storage[line].scores[static_cast<std::size_t>(own)] -
+                    c.storage[line].scores[static_cast<std::size_t>(other)];
         }
         least = std::min(least, lost);
     }
@@ -89,7 +89,7 @@ Sum sum_of_all(const ContestCase& c) {
 ContestCase clear_lines(Rng& rng, int lines) {
     ContestCase c = at_random_place(rng, lines);
     for (const int own : c.rolls)
-        c.storage.push_back(line_scores(own, 10 + static_cast<int>(rng.below(7)), 0, 127, rng));
+        c.storage.push_back(scored_line(own, 10 + static_cast<int>(rng.below(7)), 0, 127, rng));
     c.odds_q8 = 7 * 256;
     return c;
 }
@@ -106,7 +106,7 @@ TEST(SeamRivals, AreAllThatExplainTheLinesAboutAsWell) {
             // Some lines show little, or the roll of no line nearby.
             const int shown = rng.below(15) == 0 ? static_cast<int>(rng.below(63)) : own;
             const int bits = rng.below(3) == 0 ? 3 : 6 + static_cast<int>(rng.below(10));
-            c.storage.push_back(line_scores(shown, bits, wrong, 127, rng));
+            c.storage.push_back(scored_line(shown, bits, wrong, 127, rng));
         }
         c.odds_q8 = static_cast<int>(256 * rng.uniform(2, 8));
         // Odds at the limit are counted or not, as they are rounded.
@@ -172,7 +172,7 @@ TEST(SeamRivals, WhatTheLinesShowBetterIsDoubt) {
             if (!shares(1) || !shares(6)) continue;
             for (std::size_t line = 0; line < c.rolls.size(); ++line) {
                 const int shift = rival.growth[line] - rival.growth[line < 6 ? 1 : 6];
-                c.storage.push_back(line_scores(modulo_63(c.rolls[line] + shift), 12, 0, 127, rng));
+                c.storage.push_back(scored_line(modulo_63(c.rolls[line] + shift), 12, 0, 127, rng));
             }
             const double gained =
                 -(least_loss(c, rival, 0, 6) + least_loss(c, rival, 6, 12)) / 2 / 127 * 5;

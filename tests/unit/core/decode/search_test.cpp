@@ -27,7 +27,7 @@ struct ScoredLines {
     }
 
     OwnedGrid owned;
-    std::array<LineScores, kMaxLines> storage;
+    std::array<ScoredLine, kMaxLines> storage;
 };
 
 /// The window of the code at a place, with a share of its bits flipped.

@@ -18,7 +18,7 @@ ContestCase random_case(Rng& rng) {
     const int most = 60 + static_cast<int>(rng.below(68));
     for (const int own : c.rolls) {
         const int bits = static_cast<int>(rng.uniform(3, 14));
-        c.storage.push_back(line_scores(own, bits, rng.uniform(0, 0.1), most, rng));
+        c.storage.push_back(scored_line(own, bits, rng.uniform(0, 0.1), most, rng));
     }
     c.odds_q8 = static_cast<int>(256 * rng.uniform(2, 8));
     return c;

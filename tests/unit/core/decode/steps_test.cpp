@@ -16,8 +16,8 @@ constexpr std::uint64_t kSeed = 71;
 template <typename IsHidden>
 void read_lines(ContestCase& c, int bits, double wrong, Rng& rng, IsHidden is_hidden) {
     for (std::size_t i = 0; i < c.rolls.size(); ++i) {
-        c.storage.push_back(is_hidden(i) ? LineScores{}
-                                         : line_scores(c.rolls[i], bits, wrong, 127, rng));
+        c.storage.push_back(is_hidden(i) ? ScoredLine{}
+                                         : scored_line(c.rolls[i], bits, wrong, 127, rng));
     }
 }
 

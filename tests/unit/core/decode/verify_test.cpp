@@ -21,7 +21,7 @@ struct Verdict {
     Fix fix;
 };
 
-using Storage = std::array<LineScores, 2 * kMaxLines>;
+using Storage = std::array<ScoredLine, 2 * kMaxLines>;
 
 Verdict judge(const Reading& reading, const IntegrityOptions& options = {},
               decltype(verify) how = verify) {
@@ -141,8 +141,7 @@ TEST(Verify, LinesThatAreScoredAreNotScoredAgain) {
         EXPECT_EQ(verify(reading.grid(), Profile::anoto, found, {}, storage, fix), Status::ok);
         EXPECT_EQ(fix.p_wrong_log2, fresh.fix.p_wrong_log2);
         // It is the storage that speaks: lines that agree with every roll exclude none.
-        for (LineScores& scores : storage)
-            scores.fill(0);
+        storage.fill({});
         EXPECT_EQ(verify(reading.grid(), Profile::anoto, found, {}, storage, fix),
                   Status::not_certain);
     }

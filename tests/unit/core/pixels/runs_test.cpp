@@ -16,7 +16,7 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 61;
 
-/// A row of an image and levels that change from one eight columns to the next.
+/// A row of an image and levels that change from tile to tile.
 struct Row {
     LargeWorkspace workspace;
     Light& light = workspace.light;
@@ -26,16 +26,16 @@ struct Row {
         // From rare specks to hardly any paper, and grey levels at and about the thresholds.
         const double dark_share = rng.uniform(0, 1);
         begin_light(width_px, kMinFrameSide_px, light);
-        for (int u = 0; u < light.tiles_per_band * light.tile_px; u += 8) {
+        for (int u = 0; u < whole_width(light); u += kTileWidth_px) {
             const int half_extent = rng.below(6) == 0 ? 0 : static_cast<int>(rng.below(128));
             const int core = static_cast<int>(rng.below(2 * half_extent + 1U));
-            for (int k = u; k < u + 8; ++k) {
+            for (int k = u; k < u + kTileWidth_px; ++k) {
                 light.half_extents[static_cast<std::size_t>(k)] =
                     static_cast<std::uint8_t>(half_extent);
                 light.cores[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(core);
             }
             const bool is_close = rng.below(2) == 0;
-            for (int k = u; k < std::min(u + 8, width_px); ++k) {
+            for (int k = u; k < std::min(u + kTileWidth_px, width_px); ++k) {
                 const bool is_dark = rng.uniform(0, 1) < dark_share;
                 int level = static_cast<int>(is_dark ? rng.below(2 * half_extent + 1U)
                                                      : 255 - rng.below(256 - 2 * half_extent));
@@ -52,7 +52,7 @@ std::vector<dotpose::Run> expected_runs(const Light& light) {
     const std::uint8_t* row = kept_row(light, 0);
     std::vector<dotpose::Run> runs;
     bool is_dark = false;
-    for (int u = 0; u < light.tiles_per_band * light.tile_px; ++u) {
+    for (int u = 0; u < whole_width(light); ++u) {
         const Levels level = levels_at(light, u);
         const int weight = level.extent - row[u];
         const bool was_dark = std::exchange(is_dark, weight > 0);
