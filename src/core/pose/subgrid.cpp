@@ -26,10 +26,11 @@ void write_pose(const PlaneFromImage& there, Profile profile, const Place& place
     fix.fraction_y_q16 = static_cast<std::uint16_t>(t.y & 0xFFFF);
     const Vec du = there.du_q24;
     fix.theta_bam = angle_bam(du);
-    // px per spacing: the inverse of the length of du.
+    // px per spacing: the inverse of the length of du. Far outside of the image, where the map may
+    // fold, that is next to nothing.
     const auto du_length_q24 = square_root(static_cast<std::uint64_t>(squared(du)));
-    fix.spacing_px_q16 =
-        static_cast<std::int32_t>((std::int64_t{1} << 40) / std::max(du_length_q24, 1U));
+    const std::int64_t spacing_q16 = (std::int64_t{1} << 40) / std::max(du_length_q24, 1U);
+    fix.spacing_px_q16 = static_cast<std::int32_t>(std::min<std::int64_t>(spacing_q16, INT32_MAX));
 }
 
 }  // namespace

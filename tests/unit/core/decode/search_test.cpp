@@ -1,6 +1,9 @@
 // The position of an axis from lines with wrong bits.
 #include "core/decode/search.hpp"
 
+#include <algorithm>
+#include <functional>
+
 #include <gtest/gtest.h>
 
 #include "../../code/reference.hpp"
@@ -14,8 +17,8 @@ using namespace core;
 constexpr std::uint64_t kSeed = 43;
 
 /// The x bits of a window, as weights, scored.
-struct ScoredLines {
-    ScoredLines(int columns, int rows) : owned(std::max(columns, rows)) {
+struct ScoredWindow {
+    ScoredWindow(int columns, int rows) : owned(std::max(columns, rows)) {
         owned.grid.columns = columns;
         owned.grid.rows = rows;
     }
@@ -31,9 +34,9 @@ struct ScoredLines {
 };
 
 /// The window of the code at a place, with a share of its bits flipped.
-ScoredLines window(Profile profile, const Place& place, int columns, int rows, double flipped,
-                   Rng& rng) {
-    ScoredLines result(columns, rows);
+ScoredWindow window(Profile profile, const Place& place, int columns, int rows, double flipped,
+                    Rng& rng) {
+    ScoredWindow result(columns, rows);
     for (int j = 0; j < rows; ++j) {
         for (int i = 0; i < columns; ++i) {
             const Place at = moved(profile, place, i, j);
@@ -56,12 +59,28 @@ int found_of_200(Profile profile, int rows, double flipped) {
     int found = 0;
     for (int i = 0; i < 200; ++i) {
         const Place place = random_place(rng);
-        ScoredLines lines = window(profile, place, 20, rows, flipped, rng);
+        ScoredWindow lines = window(profile, place, 20, rows, flipped, rng);
         AxisReading reading;
         if (lines.find(profile, reading) != Status::ok) continue;
         found += reading.position == place.cell.x && reading.roll == roll_at(profile, place);
     }
     return found;
+}
+
+TEST(ScoreLines, TellsByHowMuchTheBestOfEachLineLeads) {
+    Rng rng(kSeed);
+    for (const int columns : {1, 2, 7, 8, 9, 20}) {
+        ScoredWindow lines = window(Profile::anoto, random_place(rng), columns, 12, 0.1, rng);
+        const Region all{0, 0, columns, 12};
+        score_lines(Upright(lines.owned.grid, all, {}), Axis::x, lines.storage);
+        for (int i = 0; i < columns; ++i) {
+            const ScoredLine& line = lines.storage[static_cast<std::size_t>(i)];
+            LineScores sorted = line.scores;
+            std::sort(sorted.begin(), sorted.end(), std::greater<>());
+            EXPECT_EQ(line.lead.best, sorted[0]) << "line " << i << " of " << columns;
+            EXPECT_EQ(line.lead.lead, sorted[0] - sorted[1]) << "line " << i << " of " << columns;
+        }
+    }
 }
 
 TEST(FindAxis, FindsThePositionAmongWrongBits) {
@@ -89,7 +108,7 @@ TEST(FindAxis, CleanLinesGiveAllThatThereIsToBeHad) {
         // Across the end of the code, too.
         Place place = random_place(rng);
         if (columns == 20) place.cell.x = kPositionsPerAxis - 10;
-        ScoredLines lines = window(Profile::anoto, place, columns, 12, 0, rng);
+        ScoredWindow lines = window(Profile::anoto, place, columns, 12, 0, rng);
         AxisReading reading;
         ASSERT_EQ(lines.find(Profile::anoto, reading), Status::ok) << columns;
         EXPECT_EQ(reading.position, place.cell.x) << columns;
@@ -104,7 +123,7 @@ TEST(FindAxis, ThePositionIsThatOfTheFirstLineWhereverTheClearRunLies) {
     Rng rng(kSeed);
     for (int clear = 0; clear <= 10; ++clear) {
         const Place place = random_place(rng);
-        ScoredLines lines = window(Profile::anoto, place, 16, 12, 0, rng);
+        ScoredWindow lines = window(Profile::anoto, place, 16, 12, 0, rng);
         for (int j = 0; j < 12; ++j) {
             for (int i = 0; i < 16; ++i) {
                 if (i < clear || i >= clear + 6) lines.owned.grid.at(i, j).x = 0;
@@ -122,7 +141,7 @@ TEST(FindAxis, GraphicsMayHideLinesSoThatNoSixAreInARow) {
     int right = 0;
     for (int i = 0; i < 100; ++i) {
         const Place place = random_place(rng);
-        ScoredLines lines = window(Profile::anoto, place, 12, 12, 0.02, rng);
+        ScoredWindow lines = window(Profile::anoto, place, 12, 12, 0.02, rng);
         for (int j = 0; j < 12; ++j)
             lines.owned.grid.at(5, j).x = lines.owned.grid.at(6, j).x = 0;
         AxisReading reading;
@@ -135,7 +154,7 @@ TEST(FindAxis, GraphicsMayHideLinesSoThatNoSixAreInARow) {
 TEST(FindAxis, RandomBitsAreNotInTheCodeOrScoreLow) {
     Rng rng(kSeed);
     for (int i = 0; i < 200; ++i) {
-        ScoredLines lines = window(Profile::anoto, random_place(rng), 20, 12, 0.5, rng);
+        ScoredWindow lines = window(Profile::anoto, random_place(rng), 20, 12, 0.5, rng);
         AxisReading reading;
         if (lines.find(Profile::anoto, reading) == Status::not_in_code) continue;
         // A line of random bits agrees with its best roll in 9 or 10 of 12; the run that is read

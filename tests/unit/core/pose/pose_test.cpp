@@ -129,6 +129,21 @@ TEST(Pose, IsWrittenAsCellFractionAngleAndSpacing) {
     }
 }
 
+TEST(Pose, WhereTheMapHardlyMovesTheSpacingSaturates) {
+    for (const std::int32_t du_q24 : {0, 1, 511, 512, 513}) {
+        const PlaneFromImage plane{{}, {}, {du_q24, 0}, {0, du_q24}, {}, 0};
+        for (auto* const write : {write_pose, write_affine_pose}) {
+            Fix fix;
+            write(plane, {}, Profile::anoto, {}, fix);
+            if (du_q24 > 512) {
+                EXPECT_NEAR(fix.spacing_px(), 16777216.0 / du_q24, 0.01);
+            } else {
+                EXPECT_EQ(fix.spacing_px_q16, INT32_MAX) << du_q24;
+            }
+        }
+    }
+}
+
 TEST(Pose, PastTheEndOfTheCodeItContinuesInAnotherSection) {
     // docs/position-code.md: (x + L, y) in section (u, v) is (x, y) in section (u + 52, v + 34).
     const Place place{{kPositionsPerAxis - 2, 5}, {60, 40}};
