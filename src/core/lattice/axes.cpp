@@ -263,9 +263,13 @@ Status estimate_axes(std::span<const Edge> edges, Lattice& lattice) {
     // Symmetric edges are 4 % too short on average, because each dot chose its nearest: the
     // displacements along an edge that shorten it favour it. Measured in docs/pipeline.md.
     constexpr std::int32_t kLengthening_q8 = 267;
-    lattice.u_q16 = {u.x * kLengthening_q8, u.y * kLengthening_q8};
-    lattice.v_q16 = {v.x * kLengthening_q8, v.y * kLengthening_q8};
-    return is_nearly_square(lattice.u_q16, lattice.v_q16) ? Status::ok : Status::no_grid;
+    if (!is_nearly_square(u, v)) return Status::no_grid;
+    // differs: the paper keeps both. Between them, what is not square is the scatter of the medians
+    // rather than a tilt, and each halves the other's variance.
+    const Vec twice_u{u.x + v.y, u.y - v.x};
+    lattice.u_q16 = {twice_u.x * kLengthening_q8 / 2, twice_u.y * kLengthening_q8 / 2};
+    lattice.v_q16 = {-lattice.u_q16.y, lattice.u_q16.x};
+    return Status::ok;
 }
 
 bool is_nearly_square(Vec u, Vec v) {
