@@ -307,8 +307,11 @@ Status look_until_certain(const ImageView& image, const Options& options, Worksp
 /// The second attempt, on the image filtered; bits are read from it rather than from blobs.
 Fix locate_filtered(const ImageView& image, const Options& options, Workspace& w) {
     Options filtered = options;
-    // Filtered, noise is a third of what it was, and dots are paler.
-    filtered.threshold.min_contrast = options.threshold.min_contrast / 2 + 1;
+    // Filtered, noise is a third of what it was, and dots are paler and wider.
+    ThresholdOptions& threshold = filtered.threshold;
+    threshold.min_contrast = threshold.min_contrast / 2 + 1;
+    threshold.extent_q8 = (2 * threshold.extent_q8 + 2) / 3;
+    threshold.core_q8 = (9 * threshold.core_q8 + 9) / 10;
     Status status = begin(image.width_px, image.height_px, filtered, w);
     core::begin_smoothing(image, w.smoothing);
     for (int v = 0; v < image.height_px; ++v)
