@@ -12,7 +12,7 @@ namespace dotpose::bench {
 /// Of no test and no tuning: these frames are seen here only.
 inline constexpr std::uint64_t kSeed = 606;
 
-/// Nominal frames of a camera; more of small ones. Rendered once.
+/// Nominal frames of a camera that the first attempt locates; more of small ones. Rendered once.
 const std::vector<KnownFrame>& nominal_frames(const CameraModel& camera);
 
 /// Whether the pose is there, and right.
