@@ -21,8 +21,6 @@ inline constexpr int kTileWidth_px = 16;
 inline constexpr int kLowTile_px = 8;
 inline constexpr int kHighTile_px = 16;
 inline constexpr int kLargestWithLowTiles_px = 240;
-/// White pixels before each row that is kept.
-inline constexpr int kKeptMargin_px = 8;
 /// Bytes after the last row and the last level that may be read, and do not count.
 inline constexpr int kReadAhead_px = 8;
 /// Half an extent by which every pixel is dark: who looks for dark pixels stops after the last one.
@@ -66,7 +64,7 @@ struct Light {
     int tiles_per_band = 0;
     int rows_taken = 0;
     bool has_contrast = false;  ///< anywhere so far
-    /// Pixels of the two newest bands; rows have a margin and are filled up to whole tiles.
+    /// Pixels of the two newest bands; rows are filled up to whole tiles.
     std::span<std::uint8_t> rows;
     std::span<Tile> tiles;  ///< of the four newest bands
     /// What counts as dark in each column of the band being thresholded: pixels darker than the

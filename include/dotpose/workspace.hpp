@@ -92,8 +92,8 @@ class WorkspaceOf : public Workspace {
     std::array<std::uint8_t, 11 * 683> papers_{};
     std::array<std::uint8_t, 11 * 683> brightest_papers_{};
     std::array<std::uint32_t, MaxWidth> smooth_sums_{};
-    alignas(8) std::array<std::uint8_t, 2 * kBand_px*(kKeptMargin_px + kTiles * kTileWidth_px) +
-                                            kReadAhead_px> rows_{};
+    alignas(
+        8) std::array<std::uint8_t, 2 * kBand_px * kTiles * kTileWidth_px + kReadAhead_px> rows_{};
     std::array<Tile, 4 * kTiles> tiles_{};
     alignas(8) std::array<std::uint8_t, kLevels> half_extents_{};
     alignas(8) std::array<std::uint8_t, kLevels> cores_{};
@@ -150,9 +150,8 @@ class DeviceWorkspace : public Workspace {
     static constexpr int kMostRuns = 2000;
 
     struct PixelStages {
-        alignas(
-            8) std::array<std::uint8_t, 2 * kLowTile_px*(kKeptMargin_px + kTiles * kTileWidth_px) +
-                                            kReadAhead_px> rows;
+        alignas(8)
+            std::array<std::uint8_t, 2 * kLowTile_px * kTiles * kTileWidth_px + kReadAhead_px> rows;
         std::array<OpenBlob, kBlobs> blobs;
         std::array<Run, 2 * kRuns> runs;
         alignas(8) std::array<std::uint8_t, kLevels> half_extents;

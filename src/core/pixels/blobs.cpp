@@ -19,6 +19,11 @@ constexpr std::uint32_t kMaxMass = 65535;
 /// The last row of a blob that became part of another.
 constexpr std::uint16_t kNoRow = UINT16_MAX;
 
+/// Within which all dots of an image are.
+int all_within_px(const Light& light) {
+    return std::max(light.width_px, light.height_px);
+}
+
 /// Whether a dot is as close to the image's centre as those that are kept.
 struct IsKept {
     Vec image_centre_q8;
@@ -77,8 +82,8 @@ void close_blob(const OpenBlob& blob, const Light& light, DotList list) {
                    blob.first_v * 256 + mean_q8(blob.sum_y - blob.mass * blob.first_v, blob.mass)},
                   static_cast<std::uint16_t>(std::min(blob.mass, kMaxMass)),
                   static_cast<std::uint16_t>(blob.area_px)};
-    const int all_px = std::max(light.width_px, light.height_px);
-    while (list.kept_within_px == all_px || IsKept(light, list)(dot)) {
+    // As long as there was room for all, none needs a closer look.
+    while (list.kept_within_px == all_within_px(light) || IsKept(light, list)(dot)) {
         if (list.count < static_cast<int>(list.dots.size())) {
             list.dots[static_cast<std::size_t>(list.count++)] = dot;
             return;
@@ -231,7 +236,7 @@ void begin_blobs(const Light& light, OpenBlobs& open, DotList list) {
     open.blobs_begun = 0;
     open.first_unused = nullptr;
     list.count = 0;
-    list.kept_within_px = std::max(light.width_px, light.height_px);
+    list.kept_within_px = all_within_px(light);
 }
 
 void grow_blobs(int v, const Light& light, OpenBlobs& open, DotList list) {

@@ -169,8 +169,6 @@ void begin_light(int width_px, int height_px, Light& light) {
     light.tiles_per_band = (width_px + kTileWidth_px - 1) / kTileWidth_px;
     light.rows_taken = 0;
     light.has_contrast = false;
-    for (int v = 0; v < 2 * light.band_px; ++v)
-        std::fill_n(kept_row(light, v) - kKeptMargin_px, kKeptMargin_px, std::uint8_t{255});
     std::fill_n(light.half_extents.begin() + whole_width(light), kReadAhead_px, kAlwaysDark);
 }
 

@@ -31,19 +31,15 @@ inline int band_begin(const Light& light, int band) {
 inline int band_end(const Light& light, int band) {
     return std::min((band + 1) * light.band_px, light.height_px);
 }
-/// The width of all tiles, which is that of a kept row.
+/// The width of all tiles: from one kept row to the next.
 inline int whole_width(const Light& light) {
     return light.tiles_per_band * kTileWidth_px;
 }
-/// From one kept row to the next.
-inline std::ptrdiff_t kept_stride(const Light& light) {
-    return whole_width(light) + kKeptMargin_px;
-}
-/// A row of one of the two newest bands: whole tiles, past `width_px` filled with the last pixel,
-/// and white in the margin before the first. Begins at a multiple of 8 bytes.
+/// A row of one of the two newest bands: whole tiles, past `width_px` filled with the last pixel.
+/// Begins at a multiple of 8 bytes.
 inline std::uint8_t* kept_row(const Light& light, int v) {
     const int slot = v & (2 * light.band_px - 1);
-    return light.rows.data() + slot * kept_stride(light) + kKeptMargin_px;
+    return light.rows.data() + slot * whole_width(light);
 }
 
 }  // namespace dotpose::core

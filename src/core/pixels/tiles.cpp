@@ -24,7 +24,7 @@ struct Rows {
         // Evenly about the middle; of a narrow last band, its first.
         const int first = rows > kRowsEvery / 2 ? kRowsEvery / 2 : 0;
         begin = kept_row(light, band_begin(light, band) + first);
-        stride = kRowsEvery * kept_stride(light);
+        stride = kRowsEvery * whole_width(light);
         count = (rows - first + kRowsEvery - 1) / kRowsEvery;
     }
 };
