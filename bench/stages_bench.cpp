@@ -169,7 +169,8 @@ bool fit_affine_pose(Located& l) {
     const core::Nominal nominal(l.w.grid, kProfile, l.w.decoding);
     PlaneFromImage plane = core::upright_plane(l.w.grid_from_image, l.w.decoding.pattern_from_grid);
     const core::Observations observations(l.w.found_dots(), l.w.grid, nominal);
-    const int used = core::fit_affine_pose(observations, plane);
+    std::int32_t displacement_q16 = 0;
+    const int used = core::fit_affine_pose(observations, plane, displacement_q16);
     core::write_pose(plane, l.centre_q8(), kProfile, l.w.decoding.place, l.w.fix);
     return used > 0;
 }

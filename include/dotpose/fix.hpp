@@ -6,9 +6,20 @@
 #include <numbers>
 
 #include "dotpose/code.hpp"
+#include "dotpose/stages.hpp"
 #include "dotpose/status.hpp"
 
 namespace dotpose {
+
+/// The attempt of `locate` that made a fix: src/core/attempts has one file for each.
+enum class Attempt : std::uint8_t {
+    tracked,  ///< dots were measured where a prediction had them
+    first,    ///< from nothing
+    second,   ///< on the filtered image
+    device,   ///< in integers
+};
+/// The identifier, such as "tracked".
+const char* name(Attempt attempt) noexcept;
 
 /// Result of `locate`. Unless `status` is ok only `status`, `dots_seen` and, as far as the frame
 /// got, the counts below it mean anything.
@@ -18,6 +29,7 @@ namespace dotpose {
 /// pattern frame, from +x towards +y (clockwise as seen on the paper, since y is down).
 struct Fix {
     Status status = Status::no_contrast;
+    Attempt attempt = Attempt::first;
 
     Cell cell;                         ///< intersection to the upper left of the reference point
     std::uint16_t fraction_x_q16 = 0;  ///< from there to the right, in 1/65536 spacing
@@ -32,6 +44,12 @@ struct Fix {
     int p_wrong_log2 = 0;  ///< the position is wrong with probability at most 2^p_wrong_log2
     float residual_px =
         0;  ///< root mean square distance of the dots from their fitted places, per axis
+
+    /// The whole map from the image to the pattern, counted in spacings from `place`: the pose is
+    /// its value and direction at the reference point. From it comes the next frame's Prediction.
+    PlaneFromImage pattern_from_image;
+    Place place;
+    std::int32_t displacement_q16 = 0;  ///< of the typical dot from its intersection, spacings
 
     /// Covariance of (x, y, theta) in (spacing, spacing, radian) squared.
     float covariance[3][3] = {};

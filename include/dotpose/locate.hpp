@@ -16,6 +16,7 @@
 #include "dotpose/fix.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/options.hpp"
+#include "dotpose/prediction.hpp"
 #include "dotpose/workspace.hpp"
 
 namespace dotpose {
@@ -28,8 +29,19 @@ inline constexpr int kMaxFrameSide_px = 4096;
 /// but for the covariance and the residual.
 Fix locate(const ImageView& image, const Options& options, Workspace& workspace);
 
+/// The same, beginning where the prediction has the pattern. What the frame does not confirm is
+/// located afresh; `Fix::attempt` tells.
+Fix locate(const ImageView& image, const Options& options, const Prediction& prediction,
+           Workspace& workspace);
+
 /// Starts a frame. Errors: bad_argument, image_too_small, image_too_large (for the workspace).
 Status begin(int width_px, int height_px, const Options& options, Workspace& workspace);
+
+/// Starts a frame of which dots are measured where the prediction has them, as their rows come in;
+/// `finish_device` ends it. A prediction that the frame does not confirm gives `not_tracked`: who
+/// can push the rows again then locates it afresh.
+Status begin(int width_px, int height_px, const Options& options, const Prediction& prediction,
+             Workspace& workspace);
 
 /// Takes the next row of `width_px` pixels; the pixels are not needed afterwards.
 void push_row(const std::uint8_t* pixels, const Options& options, Workspace& workspace);

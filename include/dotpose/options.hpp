@@ -81,6 +81,11 @@ struct Options {
     LatticeOptions lattice;
     IntegrityOptions integrity;
 
+    /// Most dots that the pose is fitted to, spread evenly over the frame: accuracy grows with the
+    /// square root of their number, time with the number. Default: all of a VGA frame at 8 px per
+    /// spacing.
+    int most_dots = 4096;
+
     /// The point whose pose is wanted, in pixels from the image centre, times 256. Default: the
     /// image centre itself.
     std::int32_t reference_dx_q8 = 0;

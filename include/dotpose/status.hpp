@@ -27,10 +27,12 @@ enum class [[nodiscard]] Status : std::uint8_t{
     ambiguous,
     // src/core/pose
     not_certain,
+    // src/core/attempts
+    not_tracked,
 };
 
 /// Number of values of Status, for tables.
-inline constexpr int kStatusCount = 15;
+inline constexpr int kStatusCount = 16;
 
 /// The identifier of a status as written in output lines, for example "too_few_dots".
 const char* name(Status status) noexcept;

@@ -35,6 +35,7 @@ constexpr std::array<Text, kStatusCount> kTexts{{
     {Status::ambiguous, "ambiguous", "the symbols stand at several places of the position code"},
     {Status::not_certain, "not_certain",
      "a position was found, but it may be wrong with more than the allowed probability"},
+    {Status::not_tracked, "not_tracked", "the pattern is not where it was predicted"},
 }};
 
 constexpr bool in_order() {

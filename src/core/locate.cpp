@@ -176,10 +176,12 @@ Status measure_affine_pose(const Options& options, Workspace& w) {
     w.pattern_from_image =
         core::upright_plane(w.grid_from_image, w.decoding.pattern_from_grid);  // II-B.8
     const core::Observations observations(w.found_dots(), w.grid, nominal);
-    w.fix.dots_used = core::fit_affine_pose(observations, w.pattern_from_image);
+    w.fix.dots_used =
+        core::fit_affine_pose(observations, w.pattern_from_image, w.fix.displacement_q16);
     if (w.fix.dots_used == 0) return Status::no_grid;
     core::write_affine_pose(w.pattern_from_image, reference_q8(options, w), options.profile,
                             w.decoding.place, w.fix);
+    w.fix.attempt = Attempt::device;
     return Status::ok;
 }
 
@@ -223,6 +225,7 @@ Status measure_pose(const Options& options, const ImageView* image, Workspace& w
     core::PoseFit fit;
     if (!fit_pattern(options, image, w, fit)) return Status::no_grid;
     const Vec reference = reference_q8(options, w);
+    w.fix.displacement_q16 = static_cast<std::int32_t>(fit.displacement * 65536.0F);
     core::write_pose(w.pattern_from_image, reference, options.profile, w.decoding.place, w.fix);
     core::estimate_covariance(fit, w.pattern_from_image, reference, w.fix);
     return is_far_fetched(fit, w.decoding, w.fix) ? Status::not_certain : Status::ok;
@@ -327,6 +330,7 @@ Fix locate_filtered(const ImageView& image, const Options& options, Workspace& w
     if (status == Status::not_certain) status = look_until_certain(image, filtered, w);
     if (status == Status::ok) status = measure_pose(filtered, &image, w);
     w.fix.status = status;
+    w.fix.attempt = Attempt::second;
     return w.fix;
 }
 
@@ -351,6 +355,16 @@ Fix locate(const ImageView& image, const Options& options, Workspace& workspace)
     Options once = options;
     once.effort = Effort::once;
     return locate(image, once, workspace);
+}
+
+Fix locate(const ImageView& image, const Options& options, const Prediction&,
+           Workspace& workspace) {
+    return locate(image, options, workspace);
+}
+
+Status begin(int width_px, int height_px, const Options& options, const Prediction&,
+             Workspace& workspace) {
+    return begin(width_px, height_px, options, workspace);
 }
 
 Status begin(int width_px, int height_px, const Options& options, Workspace& w) {

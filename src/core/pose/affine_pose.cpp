@@ -38,7 +38,8 @@ std::int32_t squared_q16(Vec a_q16) {
 
 }  // namespace
 
-int fit_affine_pose(const Observations& observations, PlaneFromImage& pose) {
+int fit_affine_pose(const Observations& observations, PlaneFromImage& pose,
+                    std::int32_t& displacement_q16) {
     const Cells cells(pose);
     const auto offset_q16 = [&](const Observation& o, Vec p) {
         return cells.plane_point_q16(p) - Vec{o.pattern_step.x * 65536, o.pattern_step.y * 65536};
@@ -57,7 +58,7 @@ int fit_affine_pose(const Observations& observations, PlaneFromImage& pose) {
         return median(std::span(values).first(count));
     };
     // As printed and seen: ink spreads and lenses blur differently each time.
-    const std::int32_t displacement_q16 = sampled_median([](const Offset& offset) {
+    displacement_q16 = sampled_median([](const Offset& offset) {
         return offset.q16.x * dx(offset.symbol) + offset.q16.y * dy(offset.symbol);
     });
     const auto displaced_q16 = displacements(displacement_q16);

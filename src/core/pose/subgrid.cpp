@@ -37,11 +37,15 @@ void write_pose(const PlaneFromImage& there, Profile profile, const Place& place
 
 void write_pose(const PlaneFromImage& pattern_from_image, Vec reference_q8, Profile profile,
                 const Place& place, Fix& fix) {
+    fix.pattern_from_image = pattern_from_image;
+    fix.place = place;
     write_pose(tangent(pattern_from_image, reference_q8), profile, place, fix);
 }
 
 void write_affine_pose(const PlaneFromImage& pattern_from_image, Vec reference_q8, Profile profile,
                        const Place& place, Fix& fix) {
+    fix.pattern_from_image = pattern_from_image;
+    fix.place = place;
     write_pose(affine_tangent(pattern_from_image, reference_q8), profile, place, fix);
 }
 

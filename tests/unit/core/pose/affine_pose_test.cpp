@@ -23,7 +23,8 @@ Fitted fitted(const Reading& reading) {
     const Observations observations(reading.dots, reading.grid(), nominal);
     Fitted result;
     result.pose = upright_plane(reading.plane, reading.turn);
-    result.dots_used = fit_affine_pose(observations, result.pose);
+    std::int32_t displacement_q16 = 0;
+    result.dots_used = fit_affine_pose(observations, result.pose, displacement_q16);
     return result;
 }
 
