@@ -8,7 +8,7 @@ endfunction()
 
 compile_core(-Os code/basis.cpp code/decode.cpp code/encode.cpp core/locate.cpp core/plane.cpp
              core/decode/contest.cpp core/decode/orientation.cpp core/decode/position.cpp
-             core/decode/window.cpp core/pixels/undistort.cpp)
-compile_core(-O3 core/decode/correlation.cpp core/pixels/blobs.cpp core/pixels/runs_by_pixel.cpp)
+             core/decode/window.cpp core/detect/undistort.cpp)
+compile_core(-O3 core/decode/correlation.cpp core/detect/blobs.cpp core/detect/runs_by_pixel.cpp)
 # Constants stay in registers.
-compile_core(-fno-tree-pre core/pixels/tiles.cpp)
+compile_core(-fno-tree-pre core/detect/tiles.cpp)

@@ -11,7 +11,7 @@ enum class [[nodiscard]] Status : std::uint8_t{
     bad_argument,
     image_too_small,
     image_too_large,
-    // src/core/pixels
+    // src/core/detect
     no_contrast,
     too_few_dots,
     // src/core/lattice

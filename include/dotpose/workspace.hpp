@@ -16,7 +16,7 @@ namespace dotpose {
 /// All stages' memory and results. Use one of the aliases below; the stages see spans only.
 struct Workspace {
     int max_width_px = 0;
-    // pixels
+    // detect
     Smoothing smoothing;
     Light light;
     OpenBlobs open;

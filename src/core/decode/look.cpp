@@ -5,10 +5,10 @@
 
 #include "core/decode/likelihood.hpp"
 #include "core/decode/nominal.hpp"
-#include "core/pixels/level_at.hpp"
-#include "core/pixels/level_sums.hpp"
-#include "core/pixels/paper.hpp"
-#include "core/pixels/undistort.hpp"
+#include "core/detect/level_at.hpp"
+#include "core/detect/level_sums.hpp"
+#include "core/detect/paper.hpp"
+#include "core/detect/undistort.hpp"
 #include "core/plane.hpp"
 
 namespace dotpose::core {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "core/pixels/surroundings.hpp"
-#include "core/pixels/undistort.hpp"
+#include "core/detect/surroundings.hpp"
+#include "core/detect/undistort.hpp"
 #include "core/plane.hpp"
 #include "core/vectors.hpp"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/decode/nominal.hpp"
-#include "core/pixels/paper.hpp"
+#include "core/detect/paper.hpp"
 #include "core/plane.hpp"
 
 namespace dotpose::core {

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/pixels/blobs.hpp"
-#include "core/pixels/light.hpp"
+#include "core/detect/blobs.hpp"
+#include "core/detect/light.hpp"
 #include "dotpose/grey_image.hpp"
 #include "dotpose/workspace.hpp"
 #include "geometry.hpp"

@@ -6,7 +6,7 @@
 #include "../canvas.hpp"
 #include "../reading.hpp"
 #include "core/decode/upright.hpp"
-#include "core/pixels/paper.hpp"
+#include "core/detect/paper.hpp"
 
 namespace dotpose::core_test {
 namespace {

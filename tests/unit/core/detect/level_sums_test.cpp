@@ -1,5 +1,5 @@
 // Sums over boxes against adding up their pixels.
-#include "core/pixels/level_sums.hpp"
+#include "core/detect/level_sums.hpp"
 
 #include <gtest/gtest.h>
 

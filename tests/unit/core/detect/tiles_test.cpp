@@ -1,5 +1,5 @@
 // Tiles against plain arithmetic, on noise.
-#include "core/pixels/tiles.hpp"
+#include "core/detect/tiles.hpp"
 
 #include <algorithm>
 

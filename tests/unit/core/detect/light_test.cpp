@@ -1,5 +1,5 @@
 // Paper level and thresholds of the tiles.
-#include "core/pixels/light.hpp"
+#include "core/detect/light.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
-#include "core/pixels/light.hpp"
+#include "core/detect/light.hpp"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
 
-#include "core/pixels/tiles.hpp"
-#include "core/pixels/words.hpp"
+#include "core/detect/tiles.hpp"
+#include "core/detect/words.hpp"
 #include "core/wide.hpp"
 
 namespace dotpose::core {

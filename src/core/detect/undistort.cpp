@@ -1,4 +1,4 @@
-#include "core/pixels/undistort.hpp"
+#include "core/detect/undistort.hpp"
 
 #include "core/plane.hpp"
 

@@ -1,5 +1,5 @@
 // Blobs and their centres, on images drawn by hand.
-#include "core/pixels/blobs.hpp"
+#include "core/detect/blobs.hpp"
 
 #include <string>
 #include <string_view>

@@ -1,10 +1,10 @@
-#include "core/pixels/smooth.hpp"
+#include "core/detect/smooth.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 
-#include "core/pixels/paper.hpp"
+#include "core/detect/paper.hpp"
 
 namespace dotpose::core {
 namespace {

@@ -1,5 +1,5 @@
 // The paper's level from drawn images whose paper is known.
-#include "core/pixels/paper.hpp"
+#include "core/detect/paper.hpp"
 
 #include <array>
 

@@ -1,5 +1,5 @@
 // What the filter of the second attempt leaves of drawn images.
-#include "core/pixels/smooth.hpp"
+#include "core/detect/smooth.hpp"
 
 #include <gtest/gtest.h>
 

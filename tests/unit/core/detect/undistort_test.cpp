@@ -1,5 +1,5 @@
 // Paper eq. 1-2 in double precision.
-#include "core/pixels/undistort.hpp"
+#include "core/detect/undistort.hpp"
 
 #include <gtest/gtest.h>
 

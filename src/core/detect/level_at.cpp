@@ -1,10 +1,10 @@
-#include "core/pixels/level_at.hpp"
+#include "core/detect/level_at.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 
-#include "core/pixels/surroundings.hpp"
+#include "core/detect/surroundings.hpp"
 
 namespace dotpose::core {
 namespace {

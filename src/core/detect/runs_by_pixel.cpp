@@ -1,6 +1,6 @@
-#include "core/pixels/light.hpp"
-#include "core/pixels/runs.hpp"
-#include "core/pixels/words.hpp"
+#include "core/detect/light.hpp"
+#include "core/detect/runs.hpp"
+#include "core/detect/words.hpp"
 
 namespace dotpose::core {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/pixels/paper.hpp"
+#include "core/detect/paper.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // Runs against a search pixel by pixel in plain arithmetic, on rows of all kinds.
-#include "core/pixels/runs.hpp"
+#include "core/detect/runs.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,9 +1,9 @@
-#include "core/pixels/runs.hpp"
+#include "core/detect/runs.hpp"
 
 #include <bit>
 #include <cstring>
 
-#include "core/pixels/light.hpp"
+#include "core/detect/light.hpp"
 #include "core/vectors.hpp"
 #include "core/wide.hpp"
 

@@ -1,9 +1,9 @@
-#include "core/pixels/tiles.hpp"
+#include "core/detect/tiles.hpp"
 
 #include <algorithm>
 
-#include "core/pixels/light.hpp"
-#include "core/pixels/words.hpp"
+#include "core/detect/light.hpp"
+#include "core/detect/words.hpp"
 #include "core/vectors.hpp"
 #include "core/wide.hpp"
 

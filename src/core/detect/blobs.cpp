@@ -1,11 +1,11 @@
-#include "core/pixels/blobs.hpp"
+#include "core/detect/blobs.hpp"
 
 #include <algorithm>
 #include <array>
 
+#include "core/detect/light.hpp"
+#include "core/detect/runs.hpp"
 #include "core/fixed.hpp"
-#include "core/pixels/light.hpp"
-#include "core/pixels/runs.hpp"
 #include "core/wide.hpp"
 
 namespace dotpose::core {
