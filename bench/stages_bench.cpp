@@ -1,5 +1,5 @@
 // Each stage of the pipeline by itself, from what the stages before it left of a nominal frame of
-// 188 x 120 px. docs/pipeline.md has the stages, src/core/locate.cpp the calls.
+// 188 x 120 px. docs/pipeline.md has the stages, src/core/attempts the calls.
 #include <algorithm>
 #include <array>
 #include <memory>

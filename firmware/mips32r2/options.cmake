@@ -7,6 +7,7 @@ function(compile_core options)
 endfunction()
 
 compile_core(-Os code/basis.cpp code/decode.cpp code/encode.cpp core/locate.cpp core/plane.cpp
+             core/attempts/device.cpp core/attempts/steps.cpp
              core/decode/contest.cpp core/decode/orientation.cpp core/decode/position.cpp
              core/decode/window.cpp core/detect/undistort.cpp)
 compile_core(-O3 core/decode/correlation.cpp core/detect/blobs.cpp core/detect/runs_by_pixel.cpp)

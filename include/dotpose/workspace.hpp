@@ -16,6 +16,8 @@ namespace dotpose {
 /// All stages' memory and results. Use one of the aliases below; the stages see spans only.
 struct Workspace {
     int max_width_px = 0;
+    bool has_second_attempt = false;  ///< has the memory that it takes
+    bool keeps_every_stage = false;   ///< each has memory of its own, so all of them can be shown
     // detect
     Smoothing smoothing;
     Light light;
@@ -55,6 +57,7 @@ class WorkspaceOf : public Workspace {
 
     WorkspaceOf() {
         max_width_px = MaxWidth;
+        has_second_attempt = keeps_every_stage = true;
         smoothing.lines = smooth_lines_;
         smoothing.row = smooth_row_;
         smoothing.paper.levels = papers_;

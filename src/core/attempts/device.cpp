@@ -1,0 +1,61 @@
+#include "core/attempts/device.hpp"
+
+#include "core/attempts/steps.hpp"
+#include "core/decode/likelihood.hpp"
+#include "core/decode/nominal.hpp"
+#include "core/decode/position.hpp"
+#include "core/decode/verify.hpp"
+#include "core/decode/window.hpp"
+#include "core/pose/affine_pose.hpp"
+#include "core/pose/subgrid.hpp"
+
+namespace dotpose::core {
+namespace {
+
+/// Bits -> position in the code.
+Status read_position(const Options& options, Workspace& w) {
+    // The decoder is not the paper's, so its window is only shown: devices have no time for that.
+    if (w.keeps_every_stage) w.decoding.window = choose_window(w.grid, kWindowSide);  // II-B.5
+    choose_region(w);
+    const Status status =
+        decode_briefly(w.grid, options.profile, w.line_scores, w.decoding);  // II-B.6-7
+    return status == Status::ok ? status : refused(status, w);
+}
+
+/// Whether all dots in view agree with the position.
+Status verify_position(const Options& options, Workspace& w) {
+    const Status status = verify_quickly(w.grid, options.profile, w.decoding, options.integrity,
+                                         w.line_scores, w.fix);
+    return status == Status::ok ? status : refused(status, w);
+}
+
+/// Position -> pose.
+Status measure_pose(const Options& options, Workspace& w) {
+    const Nominal nominal(w.grid, options.profile, w.decoding);
+    w.pattern_from_image =
+        upright_plane(w.grid_from_image, w.decoding.pattern_from_grid);  // II-B.8
+    const Observations observations(w.found_dots(), w.grid, nominal);
+    w.fix.dots_used = fit_affine_pose(observations, w.pattern_from_image, w.fix.displacement_q16);
+    if (w.fix.dots_used == 0) return Status::no_grid;
+    write_affine_pose(w.pattern_from_image, reference_q8(options, w), options.profile,
+                      w.decoding.place, w.fix);
+    w.fix.attempt = Attempt::device;
+    return Status::ok;
+}
+
+}  // namespace
+
+Fix finish_device_attempt(const Options& options, Workspace& w) {
+    Status status = find_dots(options, w);                     // II-B.1
+    if (status == Status::ok) status = find_grid(options, w);  // II-B.2-3
+    if (status == Status::ok) {
+        status = assign_affine_likelihoods(w.found_dots(), w.grid_from_image, w.grid);  // II-B.4
+    }
+    if (status == Status::ok) status = read_position(options, w);  // II-B.5-7
+    if (status == Status::ok) status = verify_position(options, w);
+    if (status == Status::ok) status = measure_pose(options, w);  // II-B.8
+    w.fix.status = status;
+    return w.fix;
+}
+
+}  // namespace dotpose::core

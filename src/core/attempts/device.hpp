@@ -1,0 +1,12 @@
+// The attempt of devices: rows come in one by one, everything is integers, and the time is bounded.
+#pragma once
+
+#include "dotpose/options.hpp"
+#include "dotpose/workspace.hpp"
+
+namespace dotpose::core {
+
+/// Locates from the blobs of a frame.
+Fix finish_device_attempt(const Options& options, Workspace& w);
+
+}  // namespace dotpose::core

@@ -1,0 +1,56 @@
+#include "core/attempts/fitted_pose.hpp"
+
+#include <cmath>
+
+#include "core/attempts/steps.hpp"
+#include "core/decode/nominal.hpp"
+#include "core/detect/undistort.hpp"
+#include "core/pose/covariance.hpp"
+#include "core/pose/measure.hpp"
+#include "core/pose/subgrid.hpp"
+
+namespace dotpose::core {
+namespace {
+
+/// Whether the position explains badly what is seen: dots that are not where it has them, bits that
+/// are others. Two patterns that lie on one another, nearly in line, can pass for a third one,
+/// which has the columns of the one and the rows of the other: a quarter of its cells show no dot
+/// at its place, half of the dots are beside theirs, and so the typical displacement comes out too
+/// small. docs/integrity.md has the numbers.
+bool is_far_fetched(const PoseFit& fit, const Decoding& decoding, const Fix& fix) {
+    constexpr float kMost = 0.57F;
+    if (fit.displacement <= 0) return true;
+    const float scatter = std::sqrt(fit.variance) / fit.displacement;
+    const float contradicted =
+        static_cast<float>(fix.bit_errors) / static_cast<float>(decoding.bits);
+    return scatter + contradicted > kMost;
+}
+
+}  // namespace
+
+bool fit_pattern(const Options& options, const ImageView* image, Workspace& w, PoseFit& fit) {
+    const Nominal nominal(w.grid, options.profile, w.decoding);
+    w.pattern_from_image =
+        upright_plane(w.grid_from_image, w.decoding.pattern_from_grid);  // II-B.8
+    if (image != nullptr) {
+        w.dot_count =
+            measure_dots(*image, options.lens, w.pattern_from_image, nominal, w.grid, w.dots);
+        undistort(options.lens, image_centre_q8(w.light), first(w.dots, w.dot_count));
+        w.seed_count = 0;  // They were of the dots before.
+    }
+    const Observations observations(w.found_dots(), w.grid, nominal,
+                                    image != nullptr ? &w.smoothing.paper : nullptr);
+    return refine_pose(observations, w.pattern_from_image, fit);
+}
+
+Status measure_pose(const Options& options, const ImageView* image, Workspace& w) {
+    PoseFit fit;
+    if (!fit_pattern(options, image, w, fit)) return Status::no_grid;
+    const Vec reference = reference_q8(options, w);
+    w.fix.displacement_q16 = static_cast<std::int32_t>(fit.displacement * 65536.0F);
+    write_pose(w.pattern_from_image, reference, options.profile, w.decoding.place, w.fix);
+    estimate_covariance(fit, w.pattern_from_image, reference, w.fix);
+    return is_far_fetched(fit, w.decoding, w.fix) ? Status::not_certain : Status::ok;
+}
+
+}  // namespace dotpose::core

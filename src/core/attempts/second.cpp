@@ -1,0 +1,136 @@
+#include "core/attempts/second.hpp"
+
+#include "core/attempts/fitted_pose.hpp"
+#include "core/attempts/steps.hpp"
+#include "core/decode/likelihood.hpp"
+#include "core/decode/look.hpp"
+#include "core/decode/position.hpp"
+#include "core/decode/verify.hpp"
+#include "core/decode/window.hpp"
+#include "core/detect/smooth.hpp"
+#include "core/lattice/climb.hpp"
+#include "core/lattice/refine.hpp"
+
+namespace dotpose::core {
+namespace {
+
+/// Filtered, noise is a third of what it was, and dots are paler and wider.
+Options for_filtered(Options options) {
+    ThresholdOptions& threshold = options.threshold;
+    threshold.min_contrast = threshold.min_contrast / 2 + 1;
+    threshold.extent_q8 = (2 * threshold.extent_q8 + 2) / 3;
+    threshold.core_q8 = (9 * threshold.core_q8 + 9) / 10;
+    return options;
+}
+
+/// The image, filtered -> blobs.
+void detect_filtered(const ImageView& image, const Options& filtered, Workspace& w) {
+    begin_frame(image.width_px, image.height_px, w);
+    begin_smoothing(image, w.smoothing);
+    for (int v = 0; v < image.height_px; ++v)
+        detect_row(next_smooth_row(image, w.smoothing), filtered, w);
+}
+
+/// Dots -> the grid they lie on, with more patience than `find_grid`, and for tilted cameras and
+/// lenses that bend.
+Status find_grid_thoroughly(const Options& options, Workspace& w) {
+    Status status = find_axes(kMaxSeeds, w);
+    if (status != Status::ok) return status;
+    const Vec centre_q8 = image_centre_q8(w.light);
+    const Lattice estimate = w.lattice;
+    // Between graphics, the connections of what is left of the dots may point anywhere.
+    for (const int most_turn_deg : {12, 45}) {
+        w.lattice = estimate;
+        climb_periodogram(w.found_dots(), first(w.seeds, w.seed_count), centre_q8, most_turn_deg,
+                          w.lattice);
+        status =
+            refine_grid(w.found_dots(), options.lattice, centre_q8, w.lattice, w.grid_from_image);
+        if (status != Status::no_grid) break;
+    }
+    return status;
+}
+
+/// Grid -> bits, from the image itself. False if it shows two patterns, one on the other.
+bool shows_one_pattern(const ImageView& image, const Options& options, Workspace& w) {
+    return look_at_cells(image, w.smoothing.paper, options.lens, w.grid_from_image, w.grid);
+}
+
+/// The decoder asked for.
+Status decode(const Options& options, Workspace& w) {
+    if (options.decoder == Decoder::window) {
+        return decode_window(w.grid, options.profile, w.line_scores, w.decoding);
+    }
+    return decode_all(w.grid, options.profile, w.line_scores, w.decoding);
+}
+
+/// Bits -> position in the code, and whether it is certain.
+Status read_position(const Options& options, Workspace& w) {
+    w.decoding.window = choose_window(w.grid, kWindowSide);  // II-B.5
+    choose_region(w);
+    Status status = decode(options, w);  // II-B.6-7
+    if (status == Status::ok) {
+        status =
+            verify(w.grid, options.profile, w.decoding, options.integrity, w.line_scores, w.fix);
+    }
+    return status == Status::ok ? status : refused(status, w);
+}
+
+/// One axis of the position is beyond doubt: each bit of the other has only two places left.
+Status look_knowing(Axis known, const ImageView& image, const Options& options, Workspace& w) {
+    const Place place = w.decoding.place;
+    look_at_cells_knowing(known, options.profile, w.decoding, image, w.smoothing.paper,
+                          options.lens, w.grid_from_image, w.grid);
+    const Status status = read_position(options, w);
+    // What was read presumes the axis that was known.
+    const bool is_as_known = w.decoding.pattern_from_grid.quarters == 0 &&
+                             share_line(known, options.profile, place, w.decoding.place);
+    return is_as_known ? status : Status::not_certain;
+}
+
+/// Where the position in doubt is right, a grid fitted to all dots that it has there shows their
+/// bits more clearly. The code has to confirm them like any others.
+Status look_again(const ImageView& image, const Options& options, bool may_presume, Workspace& w) {
+    const auto known = sure_axis(w.decoding, options.integrity);
+    PoseFit fit;
+    if (!fit_pattern(options, &image, w, fit)) return Status::not_certain;
+    w.grid_from_image = w.pattern_from_image;
+    w.decoding.pattern_from_grid = {};
+    w.decoding.p_wrong_log2_q8 = {};  // Of the bits before.
+    if (known && may_presume) return look_knowing(*known, image, options, w);
+    return shows_one_pattern(image, options, w) ? read_position(options, w) : Status::not_certain;
+}
+
+/// Looks through one grid after the other. What presumed an axis is no ground to presume the other:
+/// every second look presumes none.
+Status look_until_certain(const ImageView& image, const Options& options, Workspace& w) {
+    for (const bool may_presume : {true, false, true}) {
+        if (look_again(image, options, may_presume, w) == Status::ok) return Status::ok;
+    }
+    return Status::not_certain;
+}
+
+/// The steps of the attempt.
+Status locate_filtered(const ImageView& image, const Options& options, Workspace& w) {
+    detect_filtered(image, options, w);
+    Status status = find_dots(options, w);                                // II-B.1
+    if (status == Status::ok) status = find_grid_thoroughly(options, w);  // II-B.2-3
+    if (status == Status::ok) {
+        status = assign_likelihoods(w.found_dots(), w.grid_from_image, w.grid);  // II-B.4
+    }
+    if (status != Status::ok) return status;
+    if (!shows_one_pattern(image, options, w)) return Status::not_certain;
+    status = read_position(options, w);  // II-B.5-7
+    if (status == Status::not_certain) status = look_until_certain(image, options, w);
+    if (status == Status::ok) status = measure_pose(options, &image, w);  // II-B.8
+    return status;
+}
+
+}  // namespace
+
+Fix make_second_attempt(const ImageView& image, const Options& options, Workspace& w) {
+    w.fix.status = locate_filtered(image, for_filtered(options), w);
+    w.fix.attempt = Attempt::second;
+    return w.fix;
+}
+
+}  // namespace dotpose::core

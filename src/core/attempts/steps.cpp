@@ -1,0 +1,98 @@
+#include "core/attempts/steps.hpp"
+
+#include "core/decode/orientation.hpp"
+#include "core/decode/window.hpp"
+#include "core/detect/undistort.hpp"
+#include "core/lattice/axes.hpp"
+#include "core/lattice/grow.hpp"
+#include "core/lattice/neighbours.hpp"
+#include "core/lattice/origin.hpp"
+
+namespace dotpose::core {
+namespace {
+
+DotList dot_list(Workspace& w) {
+    return {w.dots, w.dot_count, w.dots_kept_within_px};
+}
+
+}  // namespace
+
+Vec image_centre_q8(const Light& light) {
+    return {(light.width_px - 1) * 128, (light.height_px - 1) * 128};
+}
+
+Vec reference_q8(const Options& options, const Workspace& w) {
+    const Vec centre_q8 = image_centre_q8(w.light);
+    return {centre_q8.x + options.reference_dx_q8, centre_q8.y + options.reference_dy_q8};
+}
+
+void forget_frame(Workspace& w) {
+    w.fix = Fix{};
+    w.dot_count = w.seed_count = w.edge_count = 0;
+    w.lattice = {};
+    w.decoding = {};
+    w.grid.columns = w.grid.rows = 0;
+}
+
+void begin_frame(int width_px, int height_px, Workspace& w) {
+    forget_frame(w);
+    begin_light(width_px, height_px, w.light);
+    begin_blobs(w.light, w.open, dot_list(w));
+}
+
+void threshold_bands(int ready, const Options& options, Workspace& w) {
+    const int newest = (w.light.rows_taken - 1) >> w.light.band_shift;
+    const bool is_last = w.light.rows_taken == w.light.height_px;
+    for (int band = newest - ready + (is_last ? 1 : 0); ready > 0; --ready, ++band) {
+        measure_levels(band, options.threshold, w.light);
+        for (int v = band_begin(w.light, band); v < band_end(w.light, band); ++v) {
+            grow_blobs(v, w.light, w.open, dot_list(w));
+        }
+    }
+}
+
+void detect_image(const ImageView& image, const Options& options, Workspace& w) {
+    begin_frame(image.width_px, image.height_px, w);
+    for (int v = 0; v < image.height_px; ++v)
+        detect_row(image.row(v), options, w);
+}
+
+Status find_dots(const Options& options, Workspace& w) {
+    sift_dots(options.blobs, dot_list(w));
+    w.fix.dots_seen = w.dot_count;
+    if (!w.light.has_contrast) return Status::no_contrast;
+    if (w.dot_count < options.lattice.min_dots) return Status::too_few_dots;
+    undistort(options.lens, image_centre_q8(w.light), first(w.dots, w.dot_count));  // eq. 1-2
+    return Status::ok;
+}
+
+Status find_axes(int most_seeds, Workspace& w) {
+    const auto dots = w.found_dots();
+    const int room = std::min(most_seeds, static_cast<int>(w.seeds.size()));
+    w.seed_count = choose_seeds(dots, image_centre_q8(w.light), first(w.seeds, room));
+    const std::span<const std::uint16_t> seeds = first(w.seeds, w.seed_count);
+    find_neighbours(dots, seeds, w.neighbours);  // II-B.2, Fig. 3
+    w.edge_count = connect_symmetric(dots, seeds, w.neighbours, w.edges);
+    return estimate_axes(first(w.edges, w.edge_count), w.lattice);  // Fig. 4-5
+}
+
+Status find_grid(const Options& options, Workspace& w) {
+    constexpr int kSeeds = 64;
+    const Status status = find_axes(kSeeds, w);
+    if (status != Status::ok) return status;
+    const Vec centre_q8 = image_centre_q8(w.light);
+    find_origin(w.found_dots(), first(w.seeds, w.seed_count), centre_q8, w.lattice);
+    return grow_grid(w.found_dots(), options.lattice, centre_q8, w.lattice,
+                     w.grid_from_image);  // II-B.3
+}
+
+void choose_region(Workspace& w) {
+    w.decoding.region = choose_window(w.grid, static_cast<int>(w.line_scores.size() / 2));
+}
+
+Status refused(Status reason, const Workspace& w) {
+    const Decoding& decoding = w.decoding;
+    return is_mirrored(w.grid, decoding.region, decoding.agreement) ? Status::mirrored : reason;
+}
+
+}  // namespace dotpose::core
