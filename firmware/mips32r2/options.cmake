@@ -10,6 +10,6 @@ compile_core(-Os code/basis.cpp code/decode.cpp code/encode.cpp core/locate.cpp 
              core/attempts/device.cpp core/attempts/steps.cpp
              core/decode/contest.cpp core/decode/orientation.cpp core/decode/position.cpp
              core/decode/window.cpp core/detect/undistort.cpp)
-compile_core(-O3 core/decode/correlation.cpp core/detect/blobs.cpp core/detect/runs_by_pixel.cpp)
+compile_core(-O3 core/decode/correlation.cpp core/detect/blobs.cpp core/detect/runs.cpp)
 # Constants stay in registers.
 compile_core(-fno-tree-pre core/detect/tiles.cpp)

@@ -40,7 +40,7 @@ struct Secondary {
     const std::uint8_t* rolls;
     const std::uint8_t* first_place_of;  ///< by the key of 5 digits; kAbsent where there is none
     /// By digit: a bit for each place, whether it stands there, from the lowest bit on. Beyond the
-    /// end of the sequence it goes on: up to a multiple of `kWordsAtOnce`, and for another word.
+    /// end of the sequence it goes on, for another word.
     const std::uint32_t* const* places_of;
     std::uint32_t reciprocal;     ///< 2^20 / length
     std::uint16_t rest_of_65536;  ///< modulo length
@@ -72,14 +72,10 @@ consteval Digits<Length + kLinesAhead> rolls(const Digits<Length>& sequence, int
     return result;
 }
 
-/// Words of places that are read at a time: as many as a vector has, on processors of 64 bits.
-inline constexpr std::size_t kWordsAtOnce = sizeof(std::size_t) == 8 ? 4 : 1;
-
 /// See Secondary::places_of.
 template <std::size_t Length>
 consteval auto places_of(const Digits<Length>& sequence, int digit) {
-    constexpr std::size_t kReadAtOnce = 32 * kWordsAtOnce;
-    std::array<std::uint32_t, (Length + kReadAtOnce - 1) / kReadAtOnce * kWordsAtOnce + 1> words{};
+    std::array<std::uint32_t, (Length + 31) / 32 + 1> words{};
     for (std::size_t i = 0; i < 32 * words.size(); ++i) {
         if (sequence[i % Length] == digit) words[i / 32] |= std::uint32_t{1} << i % 32;
     }

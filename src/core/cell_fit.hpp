@@ -49,11 +49,8 @@ class CellFit {
         target_ = target_ + target;
         recent_.add(p, weighted, target);
         ++changes_;
-        // Processors of 64 bits need not carry over before the end.
-        if constexpr (sizeof(std::intptr_t) < sizeof(std::int64_t)) {
-            const bool is_far = (offset(p.x) | offset(p.y)) / (2 * kNear) != 0;
-            if (is_far || changes_ % kMostRecent == 0) carry_over();
-        }
+        const bool is_far = (offset(p.x) | offset(p.y)) / (2 * kNear) != 0;
+        if (is_far || changes_ % kMostRecent == 0) carry_over();
     }
     void carry_over();
     /// n^2 times the covariance of what has this sum of products and these sums.
@@ -63,7 +60,7 @@ class CellFit {
     std::int32_t unused_ = 0;  ///< by so much there are fewer points than changes
     Vec p_;
     Vec target_;
-    Products<std::intptr_t> recent_;
+    Products<std::int32_t> recent_;
     Products<std::int64_t> all_;
 };
 

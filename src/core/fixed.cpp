@@ -22,42 +22,8 @@ std::int32_t middle(std::int32_t a, std::int32_t b, std::int32_t c) {
     return std::max(std::min(a, b), std::min(std::max(a, b), c));
 }
 
-/// The least of those values that are no less than `bound`.
-std::int32_t least_from(std::int32_t bound, std::span<const std::int32_t> values) {
-    std::int32_t least = INT32_MAX;
-    for (const std::int32_t value : values)
-        least = std::min<std::int32_t>(least, value < bound ? INT32_MAX : value);
-    return least;
-}
-
-/// The value that stands at `rank` when sorted, by bisection: without a branch for each value,
-/// which would be guessed wrong every other time.
-std::int32_t of_rank_by_counting(std::size_t rank, std::span<const std::int32_t> values) {
-    std::int32_t low = values[0];
-    std::int32_t high = values[0];
-    for (const std::int32_t value : values) {
-        low = std::min(low, value);
-        high = std::max(high, value);
-    }
-    while (low < high) {
-        const auto half = (static_cast<std::uint32_t>(high) - static_cast<std::uint32_t>(low)) / 2;
-        const std::int32_t middle = high - static_cast<std::int32_t>(half);
-        std::int32_t below = 0;
-        for (const std::int32_t value : values)
-            below += value < middle ? 1 : 0;
-        if (static_cast<std::size_t>(below) == rank) return least_from(middle, values);
-        if (static_cast<std::size_t>(below) < rank) {
-            low = middle;
-        } else {
-            high = middle - 1;
-        }
-    }
-    return low;
-}
-
 /// The value that stands at `rank` when sorted (Hoare's FIND, 1961).
 std::int32_t of_rank(std::size_t rank, std::span<std::int32_t> values) {
-    if constexpr (kIsWide) return of_rank_by_counting(rank, values);
     std::int32_t* const wanted = &values[rank];
     std::int32_t* first = values.data();
     std::int32_t* last = first + values.size() - 1;
@@ -83,7 +49,6 @@ std::int32_t of_rank(std::size_t rank, std::span<std::int32_t> values) {
 }  // namespace
 
 std::int32_t short_quotient(std::int64_t n, std::int64_t d) {
-    if constexpr (kIsWide) return static_cast<std::int32_t>(n / d);
     auto rest = static_cast<std::uint64_t>(magnitude(n));
     auto divisor = static_cast<std::uint64_t>(d);
     int bit = std::countl_zero(divisor | 1) - std::countl_zero(rest | 1);
@@ -126,13 +91,6 @@ std::int32_t upper_quartile(std::span<std::int32_t> values) {
     return values.empty() ? 0 : of_rank((values.size() - 1) * 3 / 4, values);
 }
 
-/// The value, or where `sign` is -1 instead of 0, its opposite: without a branch, which large
-/// processors could not predict.
-template <typename T>
-constexpr T with_sign(T value, std::int32_t sign) {
-    return (value ^ sign) - sign;
-}
-
 std::int32_t angle_bam(Vec direction) {
     std::int64_t x = direction.x;
     std::int64_t y = direction.y;
@@ -148,12 +106,7 @@ std::int32_t angle_bam(Vec direction) {
     x <<= 41 - static_cast<int>(bits);
     y *= std::int64_t{1} << (41 - bits);
     const auto turn = [&](auto& along, auto& across, auto shifted_along, std::size_t i) {
-        if constexpr (kIsWide) {
-            const std::int32_t sign = across > 0 ? 0 : -1;
-            along += with_sign(across >> i, sign);
-            across -= with_sign(shifted_along, sign);
-            angle += static_cast<std::uint32_t>(with_sign(kAtan[i], sign));
-        } else if (across > 0) {
+        if (across > 0) {
             along += across >> i;
             across -= shifted_along;
             angle += static_cast<std::uint32_t>(kAtan[i]);
@@ -186,12 +139,7 @@ Vec unit_q30(std::int32_t angle) {
     std::int32_t y = 0;
     for (std::size_t i = 0; i < kAtan.size(); ++i) {
         const std::int32_t x_before = x;
-        if constexpr (kIsWide) {
-            const std::int32_t sign = angle >> 31;
-            x -= with_sign(y >> i, sign);
-            y += with_sign(x_before >> i, sign);
-            angle -= with_sign(kAtan[i], sign);
-        } else if (angle >= 0) {
+        if (angle >= 0) {
             x -= y >> i;
             y += x_before >> i;
             angle -= kAtan[i];

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <span>
 
-#include "core/wide.hpp"
 #include "dotpose/stages.hpp"
 
 namespace dotpose::core {
@@ -109,36 +108,13 @@ inline constexpr int kNever_q8 = -(1 << 20);
 inline constexpr std::array<std::uint8_t, 12> kGain{255, 150, 83, 44, 23, 12, 6, 3, 2, 1, 1, 1};
 
 /// log2(2^a + 2^b) in 2^-8, rounded up.
-constexpr int add_log2_by_chords(int a_q8, int b_q8) {
+constexpr int add_log2(int a_q8, int b_q8) {
     const int larger = std::max(a_q8, b_q8);
     const int d = larger - std::min(a_q8, b_q8);
     const auto whole = static_cast<std::size_t>(d >> 8);
     if (whole + 1 >= kGain.size()) return larger + 1;
     const int fall = (kGain[whole] - kGain[whole + 1]) * (d & 255);
     return larger + kGain[whole] + 1 - (fall >> 8);
-}
-
-/// The gain less 1, by the difference; none from so much on. Where memory is plenty, that saves
-/// branches to mispredict.
-inline constexpr int kNoGain_q8 = 256 * (static_cast<int>(kGain.size()) - 1);
-inline constexpr auto kGains = [] {
-    std::array<std::uint8_t, 4096> gains{};
-    for (int d = 0; d < kNoGain_q8; ++d)
-        gains[static_cast<std::size_t>(d)] =
-            static_cast<std::uint8_t>(add_log2_by_chords(0, -d) - 1);
-    return gains;
-}();
-
-/// The same, as the processor does it best.
-constexpr int add_log2(int a_q8, int b_q8) {
-    if constexpr (kIsWide) {
-        const int d = magnitude(a_q8 - b_q8);
-        const int or_all = (kNoGain_q8 - d) >> 31;  // -1 where there is no gain
-        const auto i = static_cast<std::size_t>(d | or_all) % kGains.size();
-        return std::max(a_q8, b_q8) + 1 + kGains[i];
-    } else {
-        return add_log2_by_chords(a_q8, b_q8);
-    }
 }
 
 /// Median (the lower one of two); the order of the values is lost. Empty gives 0.

@@ -1,4 +1,4 @@
-// Vectors: arithmetic on several numbers at once, in vector instructions where there are any.
+// Vectors: arithmetic on four numbers at once, in vector instructions where there are any.
 #pragma once
 
 #include <cstdint>
@@ -8,12 +8,8 @@ namespace dotpose::core {
 
 using Four = float __attribute__((vector_size(16)));
 using FourInts = std::int32_t __attribute__((vector_size(16)));
-using FourWords = std::uint32_t __attribute__((vector_size(16)));
-using Eight = std::int16_t __attribute__((vector_size(16)));
-using EightWords = std::uint16_t __attribute__((vector_size(16)));
-using Sixteen = std::uint8_t __attribute__((vector_size(16)));
 
-/// As many numbers in a row in memory, from anywhere.
+/// Four numbers in a row in memory, from anywhere.
 template <typename Vector, typename Number>
 Vector vector_at(const Number* first) {
     static_assert(sizeof(Vector{}[0]) == sizeof(Number));
@@ -26,22 +22,6 @@ inline Four four_at(const float* first) {
 }
 inline FourInts four_at(const std::int32_t* first) {
     return vector_at<FourInts>(first);
-}
-inline FourWords four_at(const std::uint32_t* first) {
-    return vector_at<FourWords>(first);
-}
-inline Eight eight_at(const std::int16_t* first) {
-    return vector_at<Eight>(first);
-}
-inline Sixteen sixteen_at(const std::uint8_t* first) {
-    return vector_at<Sixteen>(first);
-}
-
-inline Eight larger(Eight a, Eight b) {
-    return a > b ? a : b;
-}
-inline Eight smaller(Eight a, Eight b) {
-    return a < b ? a : b;
 }
 
 /// Adds to each of four sums its four values, one after the other.

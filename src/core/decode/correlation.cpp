@@ -3,8 +3,6 @@
 #include <utility>
 
 #include "code/sequences.hpp"
-#include "core/vectors.hpp"
-#include "core/wide.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -144,39 +142,7 @@ Match best_match(const LineScores& scores) {
     return next_match(scores, {INT32_MAX, 0});
 }
 
-namespace {
-
-/// Without a branch for each score: eight at a time.
-Lead lead_of_eights(const LineScores& scores) {
-    constexpr std::int16_t kNone = INT16_MIN;
-    Eight best{kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone};
-    Eight second = best;
-    const auto add = [&](Eight some) {
-        second = larger(second, smaller(best, some));
-        best = larger(best, some);
-    };
-    constexpr std::size_t kLast = kSections - 8;
-    for (std::size_t i = 0; i < kLast; i += 8)
-        add(eight_at(&scores[i]));
-    // One of the last eight has been seen.
-    Eight last = eight_at(&scores[kLast]);
-    last[0] = kNone;
-    add(last);
-    // The lower half of the numbers takes in the upper one.
-    const auto fold = [&](auto upper) {
-        second = larger(larger(second, upper(second)), smaller(best, upper(best)));
-        best = larger(best, upper(best));
-    };
-    fold([](Eight v) { return __builtin_shufflevector(v, v, 4, 5, 6, 7, 4, 5, 6, 7); });
-    fold([](Eight v) { return __builtin_shufflevector(v, v, 2, 3, 2, 3, 2, 3, 2, 3); });
-    fold([](Eight v) { return __builtin_shufflevector(v, v, 1, 1, 1, 1, 1, 1, 1, 1); });
-    return {best[0], static_cast<std::int16_t>(best[0] - second[0])};
-}
-
-}  // namespace
-
 Lead lead_of(const LineScores& scores) {
-    if constexpr (kIsWide) return lead_of_eights(scores);
     std::int32_t best = INT16_MIN;
     std::int32_t second = INT16_MIN;
 #pragma GCC unroll 7

@@ -1,9 +1,7 @@
 #include "core/decode/orientation.hpp"
 
 #include "core/decode/correlation.hpp"
-#include "core/decode/eight_lines.hpp"
 #include "core/decode/upright.hpp"
-#include "core/wide.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -32,20 +30,6 @@ class Voters {
         for (int n = 0; n < length_; ++n)
             line[static_cast<std::size_t>(n)] = cell[n * step].*bit_;
         return std::span(line).first(static_cast<std::size_t>(length_));
-    }
-
-    /// All of them, and after them all backwards. Returns their length.
-    std::size_t read_both_ways(EightWeights& weights) const {
-        static_assert(2 * kVoters == 8);
-        const auto length = static_cast<std::size_t>(length_);
-        for (std::size_t i = 0; i < kVoters; ++i) {
-            const GridCell* cell = first_ + static_cast<int>(i) * step_ * across_;
-            for (std::size_t n = 0; n < length; ++n, cell += along_) {
-                weights[n][i] = cell->*bit_;
-                weights[length - 1 - n][kVoters + i] = cell->*bit_;
-            }
-        }
-        return length;
     }
 
   private:
@@ -85,29 +69,7 @@ struct BothWays {
     Agreement backwards;
 };
 
-/// All at once: four lines both ways are eight.
-BothWays agreement_of_eight(const Voters& voters) {
-    EightWeights weights;
-    EightScores scores;
-    const std::size_t length = voters.read_both_ways(weights);
-    correlate_eight(weights, length, scores);
-    Eight most = scores[0];
-    Eight least = scores[0];
-    for (const Eight& score : scores) {
-        most = larger(most, score);
-        least = smaller(least, score);
-    }
-    BothWays sum;
-    for (std::size_t i = 0; i < 2 * kVoters; ++i) {
-        Agreement& way = i < kVoters ? sum.forwards : sum.backwards;
-        way.as_is += most[i];
-        way.flipped -= least[i];
-    }
-    return sum;
-}
-
 BothWays agreement(const Voters& voters) {
-    if constexpr (kIsWide) return agreement_of_eight(voters);
     return {agreement_by_pairs(voters, false), agreement_by_pairs(voters, true)};
 }
 

@@ -4,7 +4,6 @@
 #include <bit>
 
 #include "core/decode/similar_places.hpp"
-#include "core/wide.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -61,45 +60,30 @@ int log2_of_others_q8(const Contest& contest, int line) {
     return (whole - 12) * 256 + fraction_q8 + 23;
 }
 
-/// Sets that are looked at together, so that none has to wait for its sums.
-constexpr std::size_t kSetsAtOnce = kIsWide ? kSets.size() : 1;
-using OfSets = std::array<int, kSetsAtOnce>;
-
 /// ExpectedRivals with all that share no line lumped together. A step leads to each roll with at
 /// most the probability of the one that stays shared, so a line has at most that share of the sum
 /// of its odds, and at most the best of them.
-OfSets far_log2_q8(const Contest& contest, const Set* sets, const AllLineOdds& odds) {
+int far_log2_q8(const Contest& contest, const Set& set, const AllLineOdds& odds) {
     const int most = contest.most_shared();
+    const int equal = set.equal_q8 + kUnevenness_q8;
     // All sums are divided by the probability that every line so far is shared: then those that
     // share the lines from one on, and none before it, stay as they are.
-    std::array<OfSets, kMostShared + kMaxLines> sharing;
-    for (std::size_t i = 0; i < kMostShared; ++i)
-        sharing[i].fill(kNever_q8);
-    OfSets* newest = &sharing[kMostShared];
-    newest->fill(0);
-    OfSets apart;
-    apart.fill(odds[0].sum_q8);
-    OfSets sum;
+    std::array<int, kMostShared + kMaxLines> sharing;
+    std::fill_n(sharing.begin(), kMostShared, kNever_q8);
+    int* newest = &sharing[kMostShared];
+    *newest = 0;
+    int apart = odds[0].sum_q8;
+    int sum = 0;
     for (int line = 0;;) {
         sum = apart;
-        for (int n = 0; n < most; ++n) {
-            for (std::size_t i = 0; i < kSetsAtOnce; ++i)
-                sum[i] = add_log2(sum[i], newest[-n][i]);
-        }
+        for (int n = 0; n < most; ++n)
+            sum = add_log2(sum, newest[-n]);
         if (++line == contest.lines.count()) break;
         const LineOdds& here = odds[static_cast<std::size_t>(line)];
         *++newest = apart;
-        for (std::size_t i = 0; i < kSetsAtOnce; ++i) {
-            const int equal = sets[i].equal_q8 + kUnevenness_q8;
-            apart[i] =
-                sum[i] - equal + std::min(here.best_q8 + kUnevenness_q8, here.sum_q8 + equal);
-        }
+        apart = sum - equal + std::min(here.best_q8 + kUnevenness_q8, here.sum_q8 + equal);
     }
-    for (std::size_t i = 0; i < kSetsAtOnce; ++i) {
-        const int equal = sets[i].equal_q8 + kUnevenness_q8;
-        sum[i] += (contest.lines.count() - 1) * equal + sets[i].rivals_q8;
-    }
-    return sum;
+    return sum + (contest.lines.count() - 1) * equal + set.rivals_q8;
 }
 
 /// All sets together: roughly, with the number of rolls times the best for the sum, or exactly.
@@ -112,9 +96,9 @@ int far_log2_q8(const Contest& contest, bool roughly, int enough) {
             best, best + (roughly ? kShifts_q8 : log2_of_others_q8(contest, line))};
     }
     int sum = kNever_q8;
-    for (std::size_t i = 0; i < kSets.size() && sum <= enough; i += kSetsAtOnce) {
-        for (const int of_set : far_log2_q8(contest, &kSets[i], odds))
-            sum = add_log2(sum, of_set);
+    for (const Set& set : kSets) {
+        if (sum > enough) break;
+        sum = add_log2(sum, far_log2_q8(contest, set, odds));
     }
     return sum;
 }

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "core/vectors.hpp"
-
 namespace dotpose::core {
 namespace {
 
@@ -46,42 +44,6 @@ class Losses {
     std::uint32_t enough_;
 };
 
-/// A number of parts as four binary digits, each for 128 rivals.
-using FourDigits = std::array<FourWords, 4>;
-constexpr auto kDigitsOfParts = [] {
-    std::array<FourDigits, kEnough + 1> digits{};
-    for (std::size_t parts = 0; parts < digits.size(); ++parts) {
-        for (std::size_t k = 0; k < 4; ++k) {
-            const std::uint32_t digit = (parts >> k & 1) != 0 ? ~std::uint32_t{0} : 0;
-            digits[parts][k] = FourWords{digit, digit, digit, digit};
-        }
-    }
-    return digits;
-}();
-
-/// Losses of 128 rivals, one in each bit: without branches, which would often be mispredicted.
-class LossesOf128 {
-  public:
-    explicit LossesOf128(FourWords enough) : enough_(enough) {}
-    void add(const FourDigits& lost) {
-        FourWords carry{};
-        for (std::size_t k = 0; k < lost.size(); ++k) {
-            const FourWords before = digits_[k];
-            const FourWords sum = before ^ lost[k];
-            digits_[k] = sum ^ carry;
-            carry = (before & lost[k]) | (sum & carry);
-        }
-        enough_ |= carry;
-    }
-    /// Which have lost enough.
-    FourWords enough() const { return enough_; }
-
-  private:
-    // One more than was lost: what is enough carries.
-    FourDigits digits_{~FourWords{}};
-    FourWords enough_;
-};
-
 }  // namespace
 
 Steps::Steps(const Contest& contest, int enough, Excused excused)
@@ -105,12 +67,8 @@ Steps::Steps(const Contest& contest, int enough, Excused excused)
     int most_before = 0;
     for (int step = 0; step < count; ++step) {
         std::uint8_t parts = 0;
-        if constexpr (kIsWide) {
-            parts = static_cast<std::uint8_t>(lost_at(step) / part);
-        } else {
-            for (int lost = lost_at(step); lost >= part; lost -= part)
-                ++parts;
-        }
+        for (int lost = lost_at(step); lost >= part; lost -= part)
+            ++parts;
         // Less is not worth the work.
         if (parts == 1) parts = 0;
         losses[static_cast<std::size_t>(step)] = parts;
@@ -133,17 +91,6 @@ SimilarPlaces::SimilarPlaces(const code::Secondary& a, std::uint32_t own, const 
     }
 }
 
-std::uint32_t SimilarPlaces::unwanted(std::uint32_t word) const {
-    const std::uint32_t first = 32 * word;
-    std::uint32_t unwanted = 0;
-    if (first + 32 > sequence_.length) {
-        unwanted = first < sequence_.length ? ~std::uint32_t{0} << (sequence_.length - first)
-                                            : ~std::uint32_t{0};
-    }
-    if (own_ / 32 == word) unwanted |= std::uint32_t{1} << own_ % 32;
-    return unwanted;
-}
-
 // By itself, so that small processors can keep what it needs in registers.
 [[gnu::noinline]] std::uint32_t SimilarPlaces::operator[](std::uint32_t word) const {
     // Whom nobody asks for need not be told apart.
@@ -164,34 +111,6 @@ std::uint32_t SimilarPlaces::unwanted(std::uint32_t word) const {
         if (losses.enough() == ~std::uint32_t{0}) return 0;
     }
     return ~losses.enough();
-}
-
-std::array<std::uint32_t, 4> SimilarPlaces::four_from(std::uint32_t word) const {
-    LossesOf128 losses(
-        FourWords{unwanted(word), unwanted(word + 1), unwanted(word + 2), unwanted(word + 3)});
-    FourWords counted{};
-    const auto count = [&](const Step& step, FourDigits& lost) {
-        const std::uint32_t* here = step.places + word;
-        const FourWords equal = four_at(here) >> step.ahead | four_at(here + 1)
-                                                                  << 1 << (31 - step.ahead);
-        counted = ~(equal | counted);
-        for (std::size_t k = 0; k < lost.size(); ++k)
-            lost[k] |= counted & kDigitsOfParts[step.parts][k];
-    };
-    int before = -1;
-    for (std::size_t i = 0; i < count_; ++i) {
-        // No line is counted twice, as part of two steps: of two in a row, one is added at most.
-        if (steps_[i].ahead != before + 1) counted = FourWords{};
-        FourDigits lost{};
-        count(steps_[i], lost);
-        if (i + 1 < count_ && steps_[i + 1].ahead == steps_[i].ahead + 1) count(steps_[++i], lost);
-        before = steps_[i].ahead;
-        losses.add(lost);
-    }
-    std::array<std::uint32_t, 4> similar;
-    const FourWords are_similar = ~losses.enough();
-    std::memcpy(similar.data(), &are_similar, sizeof similar);
-    return similar;
 }
 
 }  // namespace dotpose::core

@@ -1,12 +1,8 @@
 // Similar places: of the rivals that differ from the reading in one sequence, those whose digits
-// there are so like the reading's that they cannot be passed over; 32 or 128 at a time, one in each
-// bit.
+// there are so like the reading's that they cannot be passed over; 32 at a time, one in each bit.
 #pragma once
 
-#include <bit>
-
 #include "core/decode/contest.hpp"
-#include "core/wide.hpp"
 
 namespace dotpose::core {
 
@@ -39,13 +35,7 @@ class SimilarPlaces {
     /// Of the places from 32 * word on, but the reading's own.
     std::uint32_t operator[](std::uint32_t word) const;
 
-    /// The same of four words, for processors with vectors.
-    std::array<std::uint32_t, 4> four_from(std::uint32_t word) const;
-
   private:
-    /// Places that nobody asks for.
-    std::uint32_t unwanted(std::uint32_t word) const;
-
     struct Step {
         const std::uint32_t* places;  ///< where the reading's digit stands
         std::uint8_t ahead;
@@ -60,13 +50,8 @@ class SimilarPlaces {
 /// Shows `use` the places of the word at 32 * `word`.
 template <typename Use>
 void visit_places(std::uint32_t places, std::uint32_t word, Use use) {
-    if constexpr (kIsWide) {
-        for (; places != 0; places &= places - 1)
-            use(32 * word + static_cast<std::uint32_t>(std::countr_zero(places)));
-    } else {
-        for (std::uint32_t place = 32 * word; places != 0; ++place, places >>= 1) {
-            if ((places & 1) != 0) use(place);
-        }
+    for (std::uint32_t place = 32 * word; places != 0; ++place, places >>= 1) {
+        if ((places & 1) != 0) use(place);
     }
 }
 
@@ -81,15 +66,8 @@ void visit_similar_places(const Contest& contest, const Steps& steps, Use use) {
         const auto use_at_first_line = [&](std::uint32_t place) {
             use(k, place < ahead ? place + a.length - ahead : place - ahead);
         };
-        for (std::uint32_t word = 0; 32 * word < a.length; word += code::kWordsAtOnce) {
-            if constexpr (code::kWordsAtOnce == 4) {
-                const auto four = similar.four_from(word);
-                for (std::uint32_t i = 0; i < four.size(); ++i)
-                    visit_places(four[i], word + i, use_at_first_line);
-            } else {
-                visit_places(similar[word], word, use_at_first_line);
-            }
-        }
+        for (std::uint32_t word = 0; 32 * word < a.length; ++word)
+            visit_places(similar[word], word, use_at_first_line);
     }
 }
 

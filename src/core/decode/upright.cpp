@@ -12,12 +12,4 @@ std::span<const std::int8_t> Upright::weights(const GridCell* cell, int stride, 
     return std::span(line).first(static_cast<std::size_t>(count));
 }
 
-void Upright::weights(const GridCell* cell, int stride, int count, std::int8_t GridCell::*bit,
-                      int sign, std::size_t which, EightWeights& eight) {
-    Eight* weight = eight.data();
-#pragma GCC unroll 4
-    for (int i = 0, at = 0; i < count; ++i, at += stride)
-        (*weight++)[which] = static_cast<std::int16_t>(cell[at].*bit * sign);
-}
-
 }  // namespace dotpose::core

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <span>
 
-#include "core/decode/eight_lines.hpp"
 #include "core/fixed.hpp"
 #include "dotpose/stages.hpp"
 
@@ -74,20 +73,10 @@ class Upright {
         return weights(first_ + b * downwards_, to_right_, columns(), y_bit_, y_sign_, line);
     }
 
-    /// The same as one of eight lines.
-    void column(int a, std::size_t which, EightWeights& eight) const {
-        weights(first_ + a * to_right_, downwards_, rows(), x_bit_, x_sign_, which, eight);
-    }
-    void row(int b, std::size_t which, EightWeights& eight) const {
-        weights(first_ + b * downwards_, to_right_, columns(), y_bit_, y_sign_, which, eight);
-    }
-
   private:
     bool is_sideways() const { return turn_.quarters % 2 == 1; }
     static std::span<const std::int8_t> weights(const GridCell* cell, int stride, int count,
                                                 std::int8_t GridCell::*bit, int sign, Line& line);
-    static void weights(const GridCell* cell, int stride, int count, std::int8_t GridCell::*bit,
-                        int sign, std::size_t which, EightWeights& eight);
 
     Region region_;
     Turn turn_;

@@ -8,7 +8,6 @@
 #include "core/decode/rivals.hpp"
 #include "core/decode/seam_rivals.hpp"
 #include "core/decode/upright.hpp"
-#include "core/wide.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -22,23 +21,9 @@ AxisReading reading_of(Profile profile, const Place& place, Axis axis) {
     return {position, static_cast<std::uint8_t>(here), 0, 0};
 }
 
-/// Without branches, which would often be mispredicted: what says nothing is counted, too, and
-/// taken off again.
-void compare_evenly(std::span<const std::int8_t> line, const std::uint8_t* bit,
-                    Confidence& confidence) {
-    int nothing = 0;
-    for (const std::int8_t weight : line) {
-        const int agreement = weight * (2 * *bit++ - 1);
-        nothing += agreement == 0 ? 1 : 0;
-        confidence.add(agreement, agreement < 0);
-    }
-    confidence.add(0, false, -nothing);
-}
-
 // By itself, so that small processors can keep all it needs in registers.
 [[gnu::noinline]] void compare_line(std::span<const std::int8_t> line, const std::uint8_t* bit,
                                     Confidence& confidence) {
-    if constexpr (kIsWide) return compare_evenly(line, bit, confidence);
     for (const std::int8_t weight : line) {
         const int agreement = *bit++ != 0 ? weight : -weight;
         if (agreement != 0) confidence.add(agreement, agreement < 0);

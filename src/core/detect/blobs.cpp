@@ -6,7 +6,6 @@
 #include "core/detect/light.hpp"
 #include "core/detect/runs.hpp"
 #include "core/fixed.hpp"
-#include "core/wide.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -189,23 +188,10 @@ void connect(const Run* above, std::span<Run> below, int v, OpenBlobs& open) {
         run.blob = whole(run.blob);
 }
 
-/// Moves the runs whose blobs row `v` does not go on with to the front; returns at least them.
-// Without a branch for each run: large processors cannot foresee which blobs end, and small ones
-// need not.
-std::span<Run> gather_ended(std::span<Run> above, int v) {
-    if constexpr (!kIsWide) return above;
-    Run* ended = above.data();
-    for (const Run& run : above) {
-        OpenBlob* const blob = run.blob;
-        ended->blob = blob;
-        if (blob != nullptr) ended += blob->last_v != v;
-    }
-    return {above.data(), ended};
-}
-
 /// Ends the blobs of the row above that row `v` does not go on with.
-void close_blobs(std::span<Run> above, int v, const Light& light, OpenBlobs& open, DotList list) {
-    for (const Run& run : gather_ended(above, v)) {
+void close_blobs(std::span<const Run> above, int v, const Light& light, OpenBlobs& open,
+                 DotList list) {
+    for (const Run& run : above) {
         OpenBlob* const blob = run.blob;
         if (blob == nullptr || blob->last_v == v) continue;
         if (blob->part_of == nullptr) close_blob(*blob, light, list);

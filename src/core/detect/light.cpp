@@ -7,7 +7,6 @@
 
 #include "core/detect/tiles.hpp"
 #include "core/detect/words.hpp"
-#include "core/wide.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -31,10 +30,7 @@ void copy_blocks(const std::uint8_t*& from, const std::uint8_t* end, std::uint8_
 void keep_row(const std::uint8_t* pixels, const Light& light, std::uint8_t* row) {
     const std::uint8_t* const end = pixels + light.width_px;
     std::uint8_t* const whole = row + whole_width(light);
-    if constexpr (kIsWide) {
-        row = std::copy(pixels, end, row);
-        pixels = end;
-    } else if (reinterpret_cast<std::uintptr_t>(pixels) % 4 == 0) {
+    if (reinterpret_cast<std::uintptr_t>(pixels) % 4 == 0) {
         // The libraries of small devices copy byte by byte.
         copy_blocks<28>(pixels, end, row);
         copy_blocks<12>(pixels, end, row);

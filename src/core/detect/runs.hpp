@@ -16,7 +16,4 @@ static_assert(kTileWidth_px % kGroup_px == 0);
 /// One that reaches the image's right border may end beyond it.
 int find_runs(int v, const Light& light, std::span<Run> runs);
 
-/// The same, pixel by pixel, which is what processors do whose words hold fewer than eight.
-int find_runs_by_pixel(int v, const Light& light, std::span<Run> runs);
-
 }  // namespace dotpose::core

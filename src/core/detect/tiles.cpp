@@ -4,8 +4,6 @@
 
 #include "core/detect/light.hpp"
 #include "core/detect/words.hpp"
-#include "core/vectors.hpp"
-#include "core/wide.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -73,35 +71,9 @@ constexpr std::uint32_t sum_of_pairs(Word pairs) {
     return static_cast<std::uint32_t>(pairs) & 0xFFFF;
 }
 
-/// A tile at a time in one vector, which holds the pairs of one row of it.
-void measure_tiles_by_vector(int band, const Light& light, std::span<Tile> tiles) {
-    const Rows rows(band, light);
-    const Means means(rows.count);
-    const std::uint8_t* column = rows.begin;
-    for (Tile& tile : tiles) {
-        Eight sums{};
-        Eight least = Eight{} + 511;
-        const std::uint8_t* pixels = column;
-        for (int n = 0; n < rows.count; ++n, pixels += rows.stride) {
-            const auto both = reinterpret_cast<EightWords>(sixteen_at(pixels));
-            const auto pairs = reinterpret_cast<Eight>((both & 255) + (both >> 8));
-            sums += pairs;
-            least = smaller(least, pairs);
-        }
-        std::uint32_t sum = 0;
-        std::int16_t darkest = 511;
-        for (int k = 0; k < 8; ++k) {
-            sum += static_cast<std::uint32_t>(sums[k]);
-            darkest = std::min<std::int16_t>(darkest, least[k]);
-        }
-        tile = {means(sum), darkness_of_pair(static_cast<std::uint32_t>(darkest))};
-        column += kTileWidth_px;
-    }
-}
-
 }  // namespace
 
-void measure_tiles_by_word(int band, const Light& light, std::span<Tile> tiles) {
+void measure_tiles(int band, const Light& light, std::span<Tile> tiles) {
     const Rows rows(band, light);
     const Means means(rows.count);
     const std::uint8_t* column = rows.begin;
@@ -120,14 +92,6 @@ void measure_tiles_by_word(int band, const Light& light, std::span<Tile> tiles) 
         }
         tile = {means(sum_of_pairs(sums)), darkness_of_pair(least_of_pairs(least))};
         column += kTileWidth_px;
-    }
-}
-
-void measure_tiles(int band, const Light& light, std::span<Tile> tiles) {
-    if constexpr (kIsWide) {
-        measure_tiles_by_vector(band, light, tiles);
-    } else {
-        measure_tiles_by_word(band, light, tiles);
     }
 }
 

@@ -10,7 +10,4 @@ namespace dotpose::core {
 /// Measures the tiles of a band whose rows are kept.
 void measure_tiles(int band, const Light& light, std::span<Tile> tiles);
 
-/// The same, tile by tile and a word at a time, which is what processors without vectors do.
-void measure_tiles_by_word(int band, const Light& light, std::span<Tile> tiles);
-
 }  // namespace dotpose::core

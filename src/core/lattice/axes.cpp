@@ -5,7 +5,6 @@
 
 #include "core/by_itself.hpp"
 #include "core/fixed.hpp"
-#include "core/wide.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -110,31 +109,13 @@ class Clusters {
     }
     const std::array<Vec, 2>& means_q8() const { return means_q8_; }
 
-    /// Whether the second cluster is nearer, and on which side of the origin: masks, without
-    /// branches.
-    struct Place {
-        std::int32_t is_second;
-        std::int32_t is_opposite;
-    };
-    Place place_of(Vec edge_q8) const {
-        const auto [along_0, along_1] = along(edge_q8);
-        const std::int32_t second = -std::int32_t{is_second_nearer(along_0, along_1)};
-        return {second, ((along_1 & second) | (along_0 & ~second)) >> 31};
-    }
-
   private:
-    std::array<std::int32_t, 2> along(Vec edge_q8) const {
-        const Vec e{edge_q8.x >> 2, edge_q8.y >> 2};
-        return {e.x * means_q6_[0].x + e.y * means_q6_[0].y,
-                e.x * means_q6_[1].x + e.y * means_q6_[1].y};
-    }
-    bool is_second_nearer(std::int32_t along_0, std::int32_t along_1) const {
-        // |edge -+ mean|^2 / 2 without the common |edge|^2
-        return magnitude(along_1) - magnitude(along_0) > farther_;
-    }
     Side nearest(Vec edge_q8) const {
-        const auto [along_0, along_1] = along(edge_q8);
-        if (is_second_nearer(along_0, along_1))
+        const Vec e{edge_q8.x >> 2, edge_q8.y >> 2};
+        const std::int32_t along_0 = e.x * means_q6_[0].x + e.y * means_q6_[0].y;
+        const std::int32_t along_1 = e.x * means_q6_[1].x + e.y * means_q6_[1].y;
+        // |edge -+ mean|^2 / 2 without the common |edge|^2
+        if (magnitude(along_1) - magnitude(along_0) > farther_)
             return along_1 < 0 ? Side::opposite_second : Side::second;
         return along_0 < 0 ? Side::opposite_first : Side::first;
     }
@@ -181,72 +162,6 @@ std::array<Vec, 2> medians(std::span<const Edge> edges, const Clusters& clusters
     return {cluster_median(edges, sides, 0, scratch), cluster_median(edges, sides, 1, scratch)};
 }
 
-/// Edges as processors like them that look at several at a time.
-struct Steps {
-    Values x_q8;
-    Values y_q8;
-    std::size_t count = 0;
-
-    void add(Vec step_q8, std::int32_t is_counted) {
-        x_q8[count] = step_q8.x;
-        y_q8[count] = step_q8.y;
-        count += static_cast<std::size_t>(is_counted & 1);
-    }
-    /// Of no more than `cluster_median` takes.
-    Vec median() {
-        const std::size_t n = std::min(count, kMostEdges / 2);
-        return {core::median(std::span(x_q8).first(n)), core::median(std::span(y_q8).first(n))};
-    }
-};
-
-/// The edges turned towards their clusters.
-struct Clustered {
-    Steps steps;
-    Values is_second;  ///< masks
-
-    /// Sums as `Clusters::assign` would have them, but for what the means do not depend on.
-    Sums assign(const Steps& edges, const Clusters clusters) {
-        Sum all{{}, static_cast<std::int32_t>(edges.count)};
-        Sum second;
-        for (std::size_t e = 0; e < edges.count; ++e) {
-            const Vec step{edges.x_q8[e], edges.y_q8[e]};
-            const Clusters::Place place = clusters.place_of(step);
-            const Vec turned{(step.x ^ place.is_opposite) - place.is_opposite,
-                             (step.y ^ place.is_opposite) - place.is_opposite};
-            all.total.x += turned.x;
-            all.total.y += turned.y;
-            second.total.x += turned.x & place.is_second;
-            second.total.y += turned.y & place.is_second;
-            second.count -= place.is_second;
-            steps.x_q8[e] = turned.x;
-            steps.y_q8[e] = turned.y;
-            is_second[e] = place.is_second;
-        }
-        return {Sum{all.total - second.total, all.count - second.count}, second};
-    }
-};
-
-/// The same with few branches, which large processors could not predict.
-std::array<Vec, 2> medians_by_several(std::span<const Edge> edges, Clusters clusters) {
-    Steps steps;
-    for (const Edge& edge : edges)
-        steps.add(edge.step_q8, 1);
-    Clustered clustered;
-    for (int iteration = 0;; ++iteration) {
-        const std::array<Vec, 2> means = clusters.means_q8(clustered.assign(steps, clusters));
-        if (means == clusters.means_q8() || iteration == kMaxIterations) break;
-        clusters = Clusters(means);
-    }
-    // Each edge is written to both, and the next one over it where it does not belong.
-    std::array<Steps, 2> of_cluster;
-    for (std::size_t e = 0; e < steps.count; ++e) {
-        const Vec step{clustered.steps.x_q8[e], clustered.steps.y_q8[e]};
-        of_cluster[0].add(step, ~clustered.is_second[e]);
-        of_cluster[1].add(step, clustered.is_second[e]);
-    }
-    return {of_cluster[0].median(), of_cluster[1].median()};
-}
-
 }  // namespace
 
 Status estimate_axes(std::span<const Edge> edges, Lattice& lattice) {
@@ -258,8 +173,7 @@ Status estimate_axes(std::span<const Edge> edges, Lattice& lattice) {
     const Vec along{shift_rounded(std::int64_t{unit.x} * length_q8, 30),
                     shift_rounded(std::int64_t{unit.y} * length_q8, 30)};
     const Clusters clusters({along, Vec{-along.y, along.x}});
-    const auto [u, v] =
-        kIsWide ? medians_by_several(edges, clusters) : medians(edges, clusters, scratch);
+    const auto [u, v] = medians(edges, clusters, scratch);
     // Symmetric edges are 4 % too short on average, because each dot chose its nearest: the
     // displacements along an edge that shorten it favour it. Measured in docs/pipeline.md.
     constexpr std::int32_t kLengthening_q8 = 267;

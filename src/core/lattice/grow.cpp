@@ -7,7 +7,6 @@
 #include "core/cells.hpp"
 #include "core/lattice/axes.hpp"
 #include "core/lattice/regularity.hpp"
-#include "core/wide.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -164,130 +163,17 @@ class Fits {
     std::array<Used, 384> before_;  ///< of each dot, unless there are too many
 };
 
-/// A condition as a mask.
-constexpr std::int32_t mask(bool condition) {
-    return -std::int32_t{condition};
-}
-
-/// What `look_at` tells of a dot; conditions are masks.
-struct Sight {
-    Vec c;
-    std::int32_t distance;  ///< 0 where it does not count
-    std::int32_t is_within;
-    std::int32_t is_near;
-
-    Sight(const Cells& cells, Vec p, int reach_cells, std::int32_t max_offset_q16)
-        : c(cells.rounding_plane_point_q16(p)) {
-        const std::int32_t cells_away = larger_component({c.x >> 16, c.y >> 16});
-        distance = cells_away & mask(cells_away <= kFarthest_cells);
-        is_within = mask(cells_away <= std::min(reach_cells, kFarthest_cells));
-        const Vec offset_q16{(c.x & 0xFFFF) - 32768, (c.y & 0xFFFF) - 32768};
-        is_near = mask(larger_component(offset_q16) <= max_offset_q16);
-    }
-};
-
-/// The same for processors that look at several dots at a time, and had better not branch on each:
-/// loops are such that compilers see it.
-class SeveralFits {
-  public:
-    static constexpr std::size_t kMostDots = 4096;
-
-    SeveralFits(std::span<const Dot> dots, std::int32_t max_offset_q16, const PlaneFromImage& plane)
-        : count_(dots.size()), max_offset_q16_(max_offset_q16) {
-        const Cells cells(plane);
-        for (std::size_t i = 0; i < count_; ++i) {
-            const Vec p = cells.from_centre_q3(dots[i].centre_q8);
-            x_q3_[i] = p.x;
-            y_q3_[i] = p.y;
-            before_[i] = kUnused;
-        }
-    }
-
-    bool operator()(int reach_cells, Regularity& found, PlaneFromImage& plane) {
-        found = find_used(reach_cells, Cells(plane));
-        sum_up_changes();
-        found.near_intersections = sums_.count();
-        return sums_.solve(0, plane) && is_nearly_square(plane);
-    }
-
-    Status judge(int reach_cells, const PlaneFromImage& plane) const {
-        const Cells cells(plane);
-        const std::int32_t max_offset_q16 = max_offset_q16_;
-        std::int32_t squared_offsets_q14 = 0;
-        Regularity found;
-        for (std::size_t i = 0; i < count_; ++i) {
-            const Sight dot(cells, {x_q3_[i], y_q3_[i]}, reach_cells, max_offset_q16);
-            squared_offsets_q14 += squared_offset_q14(dot.c) & dot.is_within;
-            found.dots -= dot.is_within;
-            found.near_intersections -= dot.is_near & dot.is_within;
-        }
-        return found.verdict(mean_square_q20(squared_offsets_q14, found.dots));
-    }
-
-  private:
-    static constexpr auto kUnused = static_cast<std::int32_t>(Used::no);
-
-    /// Sets `now_`.
-    Regularity find_used(int reach_cells, const Cells cells) {
-        const std::int32_t max_offset_q16 = max_offset_q16_;
-        Regularity found;
-        for (std::size_t i = 0; i < count_; ++i) {
-            const Sight dot(cells, {x_q3_[i], y_q3_[i]}, reach_cells, max_offset_q16);
-            found.dots -= dot.is_within;
-            found.farthest_cell = std::max(found.farthest_cell, dot.distance);
-            const std::int32_t is_used = dot.is_within & dot.is_near;
-            now_[i] = (static_cast<std::int32_t>(used(dot.c)) & is_used) | (kUnused & ~is_used);
-        }
-        return found;
-    }
-    void sum_up_changes() {
-        // Each index is written, and the next one over it if nothing has changed there.
-        std::array<std::uint16_t, kMostDots> changed;
-        std::size_t changes = 0;
-        for (std::size_t i = 0; i < count_; ++i) {
-            changed[changes] = static_cast<std::uint16_t>(i);
-            changes += now_[i] != before_[i] ? 1 : 0;
-        }
-        for (const std::size_t i : std::span(changed).first(changes)) {
-            const Vec p{x_q3_[i], y_q3_[i]};
-            if (before_[i] != kUnused) sums_.count(p, cell_of(Used(before_[i])), -1);
-            if (now_[i] != kUnused) sums_.count(p, cell_of(Used(now_[i])), 1);
-            before_[i] = now_[i];
-        }
-    }
-
-    std::size_t count_;
-    std::int32_t max_offset_q16_;
-    CellFit sums_;
-    std::array<std::int32_t, kMostDots> x_q3_;  ///< from the centre
-    std::array<std::int32_t, kMostDots> y_q3_;
-    std::array<std::int32_t, kMostDots> now_;  ///< as Used
-    std::array<std::int32_t, kMostDots> before_;
-};
-
-/// From where the plane is.
-template <typename AnyFits>
-Status grow(AnyFits& fits, PlaneFromImage& plane) {
-    Regularity found;
-    constexpr int kMostRounds = 3;
-    const auto fit = [&](int reach_cells) { return fits(reach_cells, found, plane); };
-    if (!fit_outwards(kMostRounds, found, fit)) return Status::no_grid;
-    return fits.judge(found.farthest_cell, plane);
-}
-
 }  // namespace
 
 Status grow_grid(std::span<const Dot> dots, const LatticeOptions& options, Vec image_centre_q8,
                  const Lattice& first, PlaneFromImage& plane) {
     plane = plane_from_lattice(first, image_centre_q8);
-    if constexpr (kIsWide) {
-        if (dots.size() <= SeveralFits::kMostDots) {
-            SeveralFits fits(dots, options.max_offset_q16, plane);
-            return grow(fits, plane);
-        }
-    }
     Fits fits(dots, options.max_offset_q16);
-    return grow(fits, plane);
+    Regularity found;
+    constexpr int kMostRounds = 3;
+    const auto fit = [&](int reach_cells) { return fits(reach_cells, found, plane); };
+    if (!fit_outwards(kMostRounds, found, fit)) return Status::no_grid;
+    return fits.judge(found.farthest_cell, plane);
 }
 
 }  // namespace dotpose::core

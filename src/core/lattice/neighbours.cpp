@@ -1,11 +1,9 @@
 #include "core/lattice/neighbours.hpp"
 
 #include <algorithm>
-#include <type_traits>
 
 #include "core/by_itself.hpp"
 #include "core/fixed.hpp"
-#include "core/wide.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -15,9 +13,6 @@ constexpr int kDistanceBins = 64;
 /// The seeds sorted into square buckets, row by row, so that near ones lie together.
 class Buckets {
   public:
-    /// So many are copied at once.
-    static constexpr std::size_t kBlock = kIsWide ? 8 : 0;
-
     /// Of a seed, from the corner of the first bucket.
     struct Point {
         std::int32_t x_q8;
@@ -35,19 +30,14 @@ class Buckets {
     std::int16_t seed_at(const Point* p) const {
         return seeds_[static_cast<std::size_t>(p - sorted_.data())];
     }
-    /// From `p` on; what lies beyond the last one does not matter.
-    void copy_block(const Point* p, Point* points, std::uint8_t* seeds) const {
-        std::copy_n(p, kBlock, points);
-        std::copy_n(&seeds_[static_cast<std::size_t>(p - sorted_.data())], kBlock, seeds);
-    }
     /// The first one in a column of a row, or the first after it.
     const Point* in_row(int row, int column) const {
         return sorted_.data() + begin_[static_cast<std::size_t>(row * columns_ + column)];
     }
 
   private:
-    std::array<Point, kMaxSeeds + kBlock> sorted_;
-    std::array<std::uint8_t, kMaxSeeds + kBlock> seeds_;  ///< their indices
+    std::array<Point, kMaxSeeds> sorted_;
+    std::array<std::uint8_t, kMaxSeeds> seeds_;       ///< their indices
     std::array<std::uint16_t, kMaxSeeds + 1> begin_;  ///< of each bucket, and where the last ends
     std::size_t count_;
     int shift_ = 0;
@@ -102,12 +92,11 @@ std::uint32_t wrapped_square(std::int32_t a) {
 }
 
 /// The four nearest of one seed found so far, nearest first.
-class NearestByStep {
+class Nearest {
   public:
     /// Nearer than the square root of `within_q16`. `may_be_far`: others may be 128 px away or
     /// more.
-    NearestByStep(const Buckets&, const Buckets::Point& self, std::uint32_t within_q16,
-                  bool may_be_far)
+    Nearest(const Buckets::Point& self, std::uint32_t within_q16, bool may_be_far)
         : self_(self), may_be_far_(may_be_far) {
         for (std::size_t k = 0; k < points_.size(); ++k) {
             squared_q16_[k] = within_q16;
@@ -160,72 +149,6 @@ class NearestByStep {
     std::array<std::uint32_t, 4> squared_q16_;
 };
 
-/// The same with few branches, which large processors could not predict: what is shown to it is
-/// copied together, and then each point passes all four.
-class NearestByKey {
-  public:
-    NearestByKey(const Buckets& buckets, const Buckets::Point& self, std::uint32_t within_q16,
-                 bool may_be_far)
-        : buckets_(buckets), self_(self), may_be_far_(may_be_far) {
-        keys_.fill((Key{std::min(within_q16, kOutOfSight_q16)} << kIndexBits) - 1);
-    }
-
-    void search(const Buckets::Point* p, const Buckets::Point* end) {
-        const auto count = static_cast<std::size_t>(end - p);
-        const auto self = static_cast<std::size_t>(&self_ - p);
-        for (std::size_t k = 0; k < count; k += kBlock)
-            buckets_.copy_block(p + k, &points_[count_ + k], &seeds_[count_ + k]);
-        if (self < count) points_[count_ + self].x_q8 += kBeyondSight_q8;
-        count_ += count;
-    }
-    bool are_four() {
-        auto [a, b, c, d] = keys_;
-        for (std::size_t k = 0; k < count_; ++k) {
-            const Key key = key_of(k);
-            d = std::max(c, std::min(d, key));
-            c = std::max(b, std::min(c, key));
-            b = std::max(a, std::min(b, key));
-            a = std::min(a, key);
-        }
-        keys_ = {a, b, c, d};
-        return (d & kNone) != kNone;
-    }
-    void tell(const Buckets&, std::array<std::int16_t, 4>& seeds) const {
-        for (std::size_t k = 0; k < seeds.size(); ++k) {
-            const Key index = keys_[k] & kNone;
-            seeds[k] = index == kNone ? std::int16_t{-1} : seeds_[static_cast<std::size_t>(index)];
-        }
-    }
-
-  private:
-    /// The squared distance, and then the index: of two that are equally far, the first counts.
-    using Key = std::int64_t;
-    static constexpr int kIndexBits = 16;
-    static constexpr Key kNone = (1 << kIndexBits) - 1;
-    /// The square of the distance to the farthest neighbours, and where a point is not among them.
-    static constexpr std::uint32_t kOutOfSight_q16 = std::uint32_t{1} << 31;
-    static constexpr std::int32_t kBeyondSight_q8 = (1 << 16) - 1;
-    static constexpr std::size_t kBlock = Buckets::kBlock;
-
-    Key key_of(std::size_t index) const {
-        const std::int32_t x = points_[index].x_q8 - self_.x_q8;
-        const std::int32_t y = points_[index].y_q8 - self_.y_q8;
-        const std::uint32_t squared_q16 = wrapped_square(x) + wrapped_square(y);
-        const bool is_far = may_be_far_ && larger_component({x, y}) >= kFarthest_q8;
-        return Key{is_far ? UINT32_MAX : squared_q16} << kIndexBits | static_cast<Key>(index);
-    }
-
-    const Buckets& buckets_;
-    const Buckets::Point& self_;
-    bool may_be_far_;
-    std::array<Key, 4> keys_;
-    std::size_t count_ = 0;
-    std::array<Buckets::Point, kMaxSeeds + kBlock> points_;
-    std::array<std::uint8_t, kMaxSeeds + kBlock> seeds_;
-};
-
-using Nearest = std::conditional_t<kIsWide, NearestByKey, NearestByStep>;
-
 /// Makes one bin of every two.
 void widen(std::array<std::uint16_t, kDistanceBins>& histogram) {
     for (std::size_t k = 0; k < kDistanceBins / 2; ++k) {
@@ -256,11 +179,7 @@ int choose_seeds(std::span<const Dot> dots, Vec centre_q8, std::span<std::uint16
     std::size_t count = 0;
     for (std::size_t i = 0; i < dots.size() && count < seeds.size(); ++i) {
         const Vec step = dots[i].centre_q8 - centre_q8;
-        if constexpr (kIsWide) {
-            // Written anyway: large processors could not predict for which dots.
-            seeds[count] = static_cast<std::uint16_t>(i);
-            count += larger_component(step) < reach_q8 ? 1 : 0;
-        } else if (is_within(step, reach_q8 - 1)) {
+        if (is_within(step, reach_q8 - 1)) {
             seeds[count++] = static_cast<std::uint16_t>(i);
         }
     }
@@ -281,7 +200,7 @@ void find_neighbours(std::span<const Dot> dots, std::span<const std::uint16_t> s
             const auto within_q16 =
                 is_last ? UINT32_MAX : static_cast<std::uint32_t>(sure_q8 * sure_q8);
             // One bucket more than `reach` away, and so at most twice as far.
-            Nearest nearest(buckets, p, within_q16, 2 * sure_q8 > kFarthest_q8);
+            Nearest nearest(p, within_q16, 2 * sure_q8 > kFarthest_q8);
             const int left = std::max(column - reach, 0);
             const int right = std::min(column + reach, buckets.columns() - 1);
             const int bottom = std::min(row + reach, buckets.rows() - 1);
@@ -310,35 +229,10 @@ Edge edge_along(Pair pair, Vec step) {
 
 using Neighbours = std::span<const std::array<std::int16_t, 4>>;
 
-/// Without branches, which large processors could not predict.
-int connect_all(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
-                Neighbours neighbours, std::span<Edge> edges) {
-    // Each pair is written, and the next one over it if it is not connected.
-    std::array<Pair, 2 * std::size_t{kMaxSeeds} + 1> pairs;
-    std::size_t count = 0;
-    for (std::size_t s = 0; s < seeds.size(); ++s) {
-        const auto from = static_cast<std::int16_t>(s);
-        for (const std::int16_t to : neighbours[s]) {
-            const auto& back = neighbours[static_cast<std::size_t>(std::max<int>(to, 0))];
-            const int is_mutual = int{back[0] == from} | int{back[1] == from} |
-                                  int{back[2] == from} | int{back[3] == from};
-            pairs[count] = {from, to};
-            count += static_cast<std::size_t>(is_mutual & int{to > from});
-        }
-    }
-    const auto at = [&](std::int16_t seed) {
-        return dots[seeds[static_cast<std::size_t>(seed)]].centre_q8;
-    };
-    for (std::size_t k = 0; k < count; ++k)
-        edges[k] = edge_along(pairs[k], at(pairs[k].to) - at(pairs[k].from));
-    return static_cast<int>(count);
-}
-
 }  // namespace
 
 int connect_symmetric(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
                       Neighbours neighbours, std::span<Edge> edges) {
-    if constexpr (kIsWide) return connect_all(dots, seeds, neighbours, edges);
     std::size_t count = 0;
     for (std::size_t s = 0; s < seeds.size(); ++s) {
         const auto from = static_cast<std::int16_t>(s);

@@ -5,7 +5,6 @@
 
 #include "../../code/reference.hpp"
 #include "../geometry.hpp"
-#include "core/decode/eight_lines.hpp"
 
 namespace dotpose::core_test {
 namespace {
@@ -91,36 +90,6 @@ TEST(Correlation, TheLeadIsThatOverTheSecondBest) {
         ASSERT_EQ(lead.best, scores[62]) << i << ", seed " << kSeed;
         if (scores[62] - scores[61] <= INT16_MAX) {
             ASSERT_EQ(lead.lead, scores[62] - scores[61]) << i << ", seed " << kSeed;
-        }
-    }
-}
-
-TEST(Correlation, EightLinesScoreAsEachByItself) {
-    Rng rng(kSeed);
-    for (std::size_t length = 1; length <= 256; ++length) {
-        EightWeights weights;
-        std::array<std::vector<std::int8_t>, 8> lines;
-        for (std::size_t i = 0; i < lines.size(); ++i) {
-            for (std::size_t n = 0; n < length; ++n) {
-                lines[i].push_back(
-                    static_cast<std::int8_t>(static_cast<int>(rng.below(255)) - 127));
-                weights[n][i] = lines[i].back();
-            }
-        }
-        EightScores of_eight;
-        correlate_eight(weights, length, of_eight);
-        // Of fewer than eight, those after them stay as they are.
-        std::array<ScoredLine, 9> written;
-        for (std::size_t count = 1; count <= 8; ++count) {
-            written[count].scores.fill(12345);
-            const LineScores after = written[count].scores;
-            write_scores(of_eight, std::span(written).first(count));
-            ASSERT_EQ(written[count].scores, after) << length << " weights, " << count << " lines";
-            LineScores alone;
-            for (std::size_t i = 0; i < count; ++i) {
-                correlate(lines[i], alone);
-                ASSERT_EQ(written[i].scores, alone) << length << " weights, line " << i;
-            }
         }
     }
 }

@@ -79,7 +79,7 @@ void expect_runs(std::span<const dotpose::Run> found, std::span<const dotpose::R
     }
 }
 
-TEST(Runs, AreTheStretchesOfDarkPixelsWhateverTheWayOfCounting) {
+TEST(Runs, AreTheStretchesOfDarkPixels) {
     Rng rng(kSeed);
     Row row;
     std::array<dotpose::Run, 4096> storage;
@@ -90,11 +90,9 @@ TEST(Runs, AreTheStretchesOfDarkPixelsWhateverTheWayOfCounting) {
         row.draw(rng, width);
         const auto expected = expected_runs(row.light);
         most = std::max(most, expected.size());
-        for (const auto find : {find_runs, find_runs_by_pixel}) {
-            const auto count = static_cast<std::size_t>(find(0, row.light, storage));
-            expect_runs(std::span(storage).first(count), expected);
-            if (testing::Test::HasFatalFailure()) return;
-        }
+        const auto count = static_cast<std::size_t>(find_runs(0, row.light, storage));
+        expect_runs(std::span(storage).first(count), expected);
+        if (testing::Test::HasFatalFailure()) return;
     }
     EXPECT_GT(most, 500u);
 }
@@ -109,11 +107,9 @@ TEST(Runs, AreTheFirstOnesWhereThereIsNoRoomForAll) {
         const auto expected = expected_runs(row.light);
         for (const std::size_t room : {std::size_t{0}, std::size_t{1}, expected.size() / 2}) {
             const auto runs = std::span(storage).first(std::min(room, expected.size()));
-            for (const auto find : {find_runs, find_runs_by_pixel}) {
-                const auto count = static_cast<std::size_t>(find(0, row.light, runs));
-                expect_runs(runs.first(count), std::span(expected).first(runs.size()));
-                if (testing::Test::HasFatalFailure()) return;
-            }
+            const auto count = static_cast<std::size_t>(find_runs(0, row.light, runs));
+            expect_runs(runs.first(count), std::span(expected).first(runs.size()));
+            if (testing::Test::HasFatalFailure()) return;
         }
     }
 }
