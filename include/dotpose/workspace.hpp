@@ -9,6 +9,7 @@
 #include <span>
 
 #include "dotpose/fix.hpp"
+#include "dotpose/patch.hpp"
 #include "dotpose/stages.hpp"
 
 namespace dotpose {
@@ -16,6 +17,11 @@ namespace dotpose {
 /// All stages' memory and results. Use one of the aliases below; the stages see spans only.
 struct Workspace {
     int max_width_px = 0;
+    // attempts of desktops; devices have no room for them
+    Patch* patch = nullptr;
+    MeasuredDots measured;
+    std::span<std::uint8_t> column_rolls;
+    std::span<std::uint8_t> row_rolls;
     bool has_second_attempt = false;  ///< has the memory that it takes
     bool keeps_every_stage = false;   ///< each has memory of its own, so all of them can be shown
     // detect
@@ -58,6 +64,20 @@ class WorkspaceOf : public Workspace {
     WorkspaceOf() {
         max_width_px = MaxWidth;
         has_second_attempt = keeps_every_stage = true;
+        patch = &patch_;
+        measured.column = floats_[0];
+        measured.row = floats_[1];
+        measured.x = floats_[2];
+        measured.y = floats_[3];
+        measured.bits = ints_[0];
+        measured.window_u = ints_[1];
+        measured.window_v = ints_[2];
+        measured.mass = ints_[3];
+        measured.sum_u = ints_[4];
+        measured.sum_v = ints_[5];
+        measured.paper = ints_[6];
+        column_rolls = rolls_[0];
+        row_rolls = rolls_[1];
         smoothing.lines = smooth_lines_;
         smoothing.row = smooth_row_;
         smoothing.paper.levels = papers_;
@@ -89,6 +109,13 @@ class WorkspaceOf : public Workspace {
     // Every second pixel may begin a run, and every run a blob.
     static constexpr int kRuns = MaxWidth / 2 + 2;
 
+    // Lines that cross an image, turned by any angle.
+    static constexpr std::size_t kRolls = 1024;
+
+    Patch patch_;
+    std::array<std::array<float, MaxDots + 40>, 4> floats_;
+    std::array<std::array<std::int32_t, MaxDots + 40>, 7> ints_;
+    std::array<std::array<std::uint8_t, kRolls>, 2> rolls_;
     std::array<std::uint16_t, 5 * MaxWidth> smooth_lines_{};
     std::array<std::uint8_t, MaxWidth> smooth_row_{};
     // Blocks are a tenth of the shorter side, so at least 6 px: at most 11 x 683 of them.

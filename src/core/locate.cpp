@@ -3,8 +3,10 @@
 
 #include "core/attempts/device.hpp"
 #include "core/attempts/first.hpp"
+#include "core/attempts/rows.hpp"
 #include "core/attempts/second.hpp"
 #include "core/attempts/steps.hpp"
+#include "core/attempts/tracked.hpp"
 
 namespace dotpose {
 namespace {
@@ -46,11 +48,6 @@ Fix refused(Status status, Workspace& w) {
     return w.fix;
 }
 
-Fix attempt_first(const ImageView& image, const Options& options, Workspace& w) {
-    core::detect_image(image, options, w);
-    return core::finish_first_attempt(options, w);
-}
-
 Fix attempt_as_device(const ImageView& image, const Options& options, Workspace& w) {
     core::detect_image(image, options, w);
     return core::finish_device_attempt(options, w);
@@ -63,15 +60,23 @@ Fix locate(const ImageView& image, const Options& options, Workspace& w) {
     if (status != Status::ok) return refused(status, w);
     if (image.pixels == nullptr) return refused(Status::bad_argument, w);
     if (options.effort == Effort::device) return attempt_as_device(image, options, w);
-    const Fix fix = attempt_first(image, options, w);
+    const Fix fix = core::make_first_attempt(image, options, w);
     const bool is_good = fix.status == Status::ok && !core::is_rough(fix);
     if (is_good || options.effort == Effort::once || !w.has_second_attempt) return fix;
     const Fix second = core::make_second_attempt(image, options, w);
     if (second.status == Status::ok || fix.status != Status::ok) return second;
-    return attempt_first(image, options, w);  // The workspace must show what is returned.
+    return core::make_first_attempt(image, options,
+                                    w);  // The workspace must show what is returned.
 }
 
-Fix locate(const ImageView& image, const Options& options, const Prediction&, Workspace& w) {
+Fix locate(const ImageView& image, const Options& options, const Prediction& prediction,
+           Workspace& w) {
+    const Status status = check(image.width_px, image.height_px, options, w);
+    if (status != Status::ok) return refused(status, w);
+    if (image.pixels == nullptr) return refused(Status::bad_argument, w);
+    const bool can_track = options.effort != Effort::device && w.patch != nullptr;
+    if (can_track && core::locate_tracked(core::kernels(), image, options, prediction, w))
+        return w.fix;
     return locate(image, options, w);
 }
 
@@ -91,7 +96,7 @@ void push_row(const std::uint8_t* pixels, const Options& options, Workspace& w) 
 }
 
 Fix finish(const Options& options, Workspace& w) {
-    return core::finish_first_attempt(options, w);
+    return core::finish_rows(options, w);
 }
 
 Fix finish_device(const Options& options, Workspace& w) {

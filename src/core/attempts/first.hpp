@@ -1,16 +1,18 @@
-// The first attempt: for a camera that looks rather straight at clean paper. It sees every row only
-// once, so rows may come in one by one.
+// The first attempt of a desktop: image -> pose, outwards from a patch.
 #pragma once
 
+#include "core/kernels/select.hpp"
+#include "dotpose/image.hpp"
 #include "dotpose/options.hpp"
 #include "dotpose/workspace.hpp"
 
 namespace dotpose::core {
 
-/// Locates from the blobs of a frame.
-Fix finish_first_attempt(const Options& options, Workspace& w);
+/// Locates from a patch of the image, then outwards. False if that does not settle it.
+bool locate_outwards(const Kernels& kernels, const ImageView& image, const Options& options,
+                     Workspace& w);
 
-/// Whether the dots lie so far from where the fix has them that a second attempt is worth while.
-bool is_rough(const Fix& fix);
+/// The same; what it does not settle is located from the blobs of all rows.
+Fix make_first_attempt(const ImageView& image, const Options& options, Workspace& w);
 
 }  // namespace dotpose::core

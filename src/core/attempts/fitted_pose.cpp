@@ -10,23 +10,14 @@
 #include "core/pose/subgrid.hpp"
 
 namespace dotpose::core {
-namespace {
 
-/// Whether the position explains badly what is seen: dots that are not where it has them, bits that
-/// are others. Two patterns that lie on one another, nearly in line, can pass for a third one,
-/// which has the columns of the one and the rows of the other: a quarter of its cells show no dot
-/// at its place, half of the dots are beside theirs, and so the typical displacement comes out too
-/// small. docs/integrity.md has the numbers.
-bool is_far_fetched(const PoseFit& fit, const Decoding& decoding, const Fix& fix) {
+bool is_far_fetched(const PoseFit& fit, int bits, int bit_errors) {
     constexpr float kMost = 0.57F;
     if (fit.displacement <= 0) return true;
     const float scatter = std::sqrt(fit.variance) / fit.displacement;
-    const float contradicted =
-        static_cast<float>(fix.bit_errors) / static_cast<float>(decoding.bits);
+    const float contradicted = static_cast<float>(bit_errors) / static_cast<float>(bits);
     return scatter + contradicted > kMost;
 }
-
-}  // namespace
 
 bool fit_pattern(const Options& options, const ImageView* image, Workspace& w, PoseFit& fit) {
     const Nominal nominal(w.grid, options.profile, w.decoding);
@@ -50,7 +41,8 @@ Status measure_pose(const Options& options, const ImageView* image, Workspace& w
     w.fix.displacement_q16 = static_cast<std::int32_t>(fit.displacement * 65536.0F);
     write_pose(w.pattern_from_image, reference, options.profile, w.decoding.place, w.fix);
     estimate_covariance(fit, w.pattern_from_image, reference, w.fix);
-    return is_far_fetched(fit, w.decoding, w.fix) ? Status::not_certain : Status::ok;
+    return is_far_fetched(fit, w.decoding.bits, w.fix.bit_errors) ? Status::not_certain
+                                                                  : Status::ok;
 }
 
 }  // namespace dotpose::core

@@ -66,6 +66,12 @@ Normal::Normal(const NormalSums& sum) : squared_residuals_(sum.one_scale_square_
     right_ = {c[2], c[3], rz[0], rz[1], ra[0], ra[1], rz[2], rz[3], ra[2]};
 }
 
+Normal::Normal(const FitSums& sums)
+    : m_(sums.matrix),
+      right_(sums.right),
+      squared_residuals_(sums.squared_residuals),
+      points_(static_cast<int>(sums.points)) {}
+
 bool Normal::decompose() {
     // What is left of a diagonal element after the others have had their share, at least.
     constexpr float kDetermined = 1e-4F;

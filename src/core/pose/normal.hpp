@@ -1,6 +1,7 @@
 // Normal equations of the pose's least-squares fit, in single precision.
 #pragma once
 
+#include "core/kernels/kernels.hpp"
 #include "core/pose/sights.hpp"
 
 namespace dotpose::core {
@@ -41,6 +42,7 @@ class Normal {
   public:
     Normal() = default;
     explicit Normal(const NormalSums& sums);
+    explicit Normal(const FitSums& sums);
 
     /// The parameters that the points determine; the first four must be. Then L L^T is the matrix.
     bool decompose();

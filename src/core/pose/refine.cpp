@@ -97,32 +97,11 @@ class Round {
         return Normal(sums);
     }
 
-    /// The plane of least squares, with as much of the further terms as is to be believed. `moved`:
-    /// by how much it differs, in squared deviations.
     bool solve(PoseFit& fit, PlaneFromImage& pose, float& moved) const {
-        Normal& normal = fit.normal;
-        if (normal.points() < 3 || !normal.decompose()) return false;
-        Parameters step = normal.whitened(normal.right());
-        float left = normal.squared_residuals();
-        for (const float part : step)
-            left -= part * part;
-        fit.dots = normal.points();
         fit.displacement = static_cast<float>(displacement_q16_) / 65536.0F;
-        const int freedom = std::max(2 * fit.dots - static_cast<int>(kPoseParameters), 1);
-        constexpr float kExact = 1e-12F;
-        fit.variance = std::max(left / static_cast<float>(freedom), kExact);
-        // Whitened, what each of the further terms explains is independent of those after it.
-        Parameters all = normal.unwhitened(step);
-        const Parameters now = plane_.distortions();
-        for (std::size_t i = kTilt; i < kPoseParameters; ++i)
-            all[i] += now[i];
-        const Parameters whole = normal.times_transposed(all);
-        believe(whole, fit, step);
-        pose = plane_.changed(normal.unwhitened(step));
-        moved = 0;
-        for (const float part : step)
-            moved += part * part;
-        moved /= fit.variance;
+        Parameters step;
+        if (!core::solve(plane_.distortions(), plane_.scale(), fit, step, moved)) return false;
+        pose = plane_.changed(step);
         return true;
     }
 
@@ -165,23 +144,6 @@ class Round {
         sums.add(sights, {{x, y}, weight * (x * x + y * y) <= limit_ ? weight : Four{}});
     }
 
-    /// Takes back from a step what is not to be believed of the further terms. `whole`: these as
-    /// fitted, whitened.
-    void believe(const Parameters& whole, PoseFit& fit, Parameters& step) const {
-        fit.covariance = {};
-        for (std::size_t i = 0; i < kTilt; ++i)
-            fit.covariance[i][i] = fit.variance;
-        for (const FurtherTerms& terms : kTerms) {
-            const float unit = terms.first == kShear ? plane_.scale() : 1;
-            const Belief belief = belief_in(terms, fit.normal, whole, fit.variance, unit);
-            for (std::size_t i = 0; i < terms.count; ++i) {
-                step[terms.first + i] += belief.mean[i] - whole[terms.first + i];
-                for (std::size_t j = 0; j < terms.count; ++j)
-                    fit.covariance[terms.first + i][terms.first + j] = belief.covariance[i][j];
-            }
-        }
-    }
-
     const Survey& survey_;
     const PlaneFromImage& pose_;
     ScaledPlane plane_;
@@ -189,7 +151,49 @@ class Round {
     float limit_ = 0;  ///< of squared residuals
 };
 
+/// Takes back from a step what is not to be believed of the further terms. `whole`: these as
+/// fitted, whitened.
+void believe(const Parameters& whole, float unit, PoseFit& fit, Parameters& step) {
+    fit.covariance = {};
+    for (std::size_t i = 0; i < kTilt; ++i)
+        fit.covariance[i][i] = fit.variance;
+    for (const FurtherTerms& terms : kTerms) {
+        const Belief belief =
+            belief_in(terms, fit.normal, whole, fit.variance, terms.first == kShear ? unit : 1);
+        for (std::size_t i = 0; i < terms.count; ++i) {
+            step[terms.first + i] += belief.mean[i] - whole[terms.first + i];
+            for (std::size_t j = 0; j < terms.count; ++j)
+                fit.covariance[terms.first + i][terms.first + j] = belief.covariance[i][j];
+        }
+    }
+}
+
 }  // namespace
+
+bool solve(const Parameters& distortions, float unit, PoseFit& fit, Parameters& step,
+           float& moved) {
+    Normal& normal = fit.normal;
+    if (normal.points() < 3 || !normal.decompose()) return false;
+    step = normal.whitened(normal.right());
+    float left = normal.squared_residuals();
+    for (const float part : step)
+        left -= part * part;
+    fit.dots = normal.points();
+    const int freedom = std::max(2 * fit.dots - static_cast<int>(kPoseParameters), 1);
+    constexpr float kExact = 1e-12F;
+    fit.variance = std::max(left / static_cast<float>(freedom), kExact);
+    // Whitened, what each of the further terms explains is independent of those after it.
+    Parameters all = normal.unwhitened(step);
+    for (std::size_t i = kTilt; i < kPoseParameters; ++i)
+        all[i] += distortions[i];
+    believe(normal.times_transposed(all), unit, fit, step);
+    moved = 0;
+    for (const float part : step)
+        moved += part * part;
+    moved /= fit.variance;
+    step = normal.unwhitened(step);
+    return true;
+}
 
 bool refine_pose(const Observations& observations, PlaneFromImage& pose, PoseFit& fit) {
     constexpr int kMostRounds = 4;

@@ -21,6 +21,12 @@ struct PoseFit {
     std::array<Parameters, kPoseParameters> covariance;  ///< of the parameters whitened
 };
 
+/// The step to the plane of least squares, by the normal equations of `fit`, with as much of the
+/// further terms as is to be believed. `distortions`: what the plane has of them; `unit`: its
+/// scale. `moved`: by how much it differs, in squared deviations. Sets the rest of `fit` but the
+/// displacement.
+bool solve(const Parameters& distortions, float unit, PoseFit& fit, Parameters& step, float& moved);
+
 /// Improves the pose; dots farther off than most are left out, and terms that a plain camera would
 /// not need are kept as far as they are to be believed (pose/belief): each costs accuracy. Returns
 /// false, with the pose as it was, when the dots do not determine it.

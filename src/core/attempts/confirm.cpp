@@ -1,0 +1,260 @@
+#include "core/attempts/confirm.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "code/rolls.hpp"
+#include "core/attempts/fitted_pose.hpp"
+#include "core/decode/bit_lines.hpp"
+#include "core/decode/certainty.hpp"
+#include "core/pose/covariance.hpp"
+#include "core/pose/float_fit.hpp"
+#include "core/pose/subgrid.hpp"
+
+namespace dotpose::core {
+namespace {
+
+/// Around the image centre, so many spacings, all dots are measured, and must make the position
+/// certain.
+constexpr float kDense = 10;
+/// Where the image ends within so many, it is measured at once.
+constexpr float kDenseAtMost = 17;
+/// How much farther a plane can be trusted than the dots reach that it was fitted to.
+constexpr float kFarther = 3.5F;
+
+FloatVec centre_px(const ImageView& image) {
+    return {static_cast<float>(image.width_px - 1) / 2,
+            static_cast<float>(image.height_px - 1) / 2};
+}
+
+float half_diagonal_px(const ImageView& image) {
+    return std::max(static_cast<float>(image.width_px), static_cast<float>(image.height_px)) / 2;
+}
+
+struct Extent {
+    int first = 0;
+    int count = 0;
+};
+
+/// Whole numbers from `least` to `most`, at most `room` of them, those around 0.
+Extent extent(float least, float most, int room) {
+    const int half = room / 2;
+    const int first = std::max(static_cast<int>(std::floor(std::max(least, -4096.0F))) - 1, -half);
+    const int last =
+        std::min(static_cast<int>(std::ceil(std::min(most, 4096.0F))) + 1, room - half - 1);
+    return {first, std::max(last - first + 1, 0)};
+}
+
+/// What the code has along the lines of a view.
+void follow_code(Profile profile, const Place& place, const CellsInView& view, Workspace& w) {
+    const Place corner = moved(profile, place, view.first_column, view.first_row);
+    const auto follow = [&](std::uint32_t position, int section, std::uint32_t cross, int count,
+                            std::span<std::uint8_t> rolls) {
+        code::follow_rolls(profile, position, code::roll_from(profile, position, section, cross),
+                           rolls.first(static_cast<std::size_t>(count)));
+    };
+    follow(corner.cell.x, corner.section.u, corner.cell.y, view.columns, w.column_rolls);
+    follow(corner.cell.y, corner.section.v, corner.cell.x, view.rows, w.row_rolls);
+}
+
+/// Whether what was measured bears out the bits expected, by and large.
+bool is_plausible(const BitsRead& bits, const MeasuredDots& dots, const Options& options) {
+    const auto share_is_wrong = [&](int wrong) {
+        return 256 * wrong > bits.read * options.integrity.max_bit_error_q8;
+    };
+    return bits.read >= options.lattice.min_dots && 2 * bits.seen >= dots.count &&
+           4 * bits.read >= 3 * bits.seen && !share_is_wrong(bits.wrong_x) &&
+           !share_is_wrong(bits.wrong_y);
+}
+
+/// Whether the bits of all dots near the centre leave no doubt.
+bool is_certain(const Kernels& kernels, const Options& options, const Sight& sight,
+                const BitBlock& block, const BitsRead& bits, Workspace& w) {
+    const BlockLines lines = score_block(kernels, block, w.line_scores);
+    Evidence evidence;
+    evidence.corner = moved(options.profile, sight.place, lines.first_column - BitBlock::kMiddle,
+                            lines.first_row - BitBlock::kMiddle);
+    evidence.columns = lines.columns;
+    evidence.rows = lines.rows;
+    const std::array wrong{bits.wrong_x, bits.wrong_y};
+    for (std::size_t i = 0; i < wrong.size(); ++i) {
+        constexpr int kWeight = 127;
+        evidence.bits[i].add(kWeight, false, bits.read - wrong[i]);
+        evidence.bits[i].add(kWeight, true, wrong[i]);
+    }
+    w.decoding.bits = 2 * bits.read;
+    return core::is_certain(evidence, options.profile, options.integrity, w.fix);
+}
+
+/// What is to be seen of the fix: dots and the bits read from them.
+void show(const Options& options, const Sight& sight, Workspace& w) {
+    const MeasuredDots& dots = w.measured;
+    const auto side = std::min(w.grid.side, kMaxGridSide);
+    Vec least{INT32_MAX, INT32_MAX};
+    Vec most{INT32_MIN, INT32_MIN};
+    w.dot_count = 0;
+    const auto cell_of = [&](std::size_t k) {
+        return Vec{static_cast<std::int32_t>(dots.column[k]),
+                   static_cast<std::int32_t>(dots.row[k])};
+    };
+    const auto is_near = [&](Vec cell) { return is_within(cell, (side - 1) / 2); };
+    for (std::size_t k = 0; k < static_cast<std::size_t>(dots.count); ++k) {
+        const Vec cell = cell_of(k);
+        if (!is_near(cell) || dots.x[k] >= kNoDot_px) continue;
+        least = {std::min(least.x, cell.x), std::min(least.y, cell.y)};
+        most = {std::max(most.x, cell.x), std::max(most.y, cell.y)};
+    }
+    Grid& grid = w.grid;
+    grid.i0 = least.x;
+    grid.j0 = least.y;
+    grid.columns = most.x - least.x + 1;
+    grid.rows = most.y - least.y + 1;
+    std::fill_n(grid.storage.begin(), grid.columns * grid.rows, GridCell{});
+    const float area = 1;
+    const Vec centre_q8 = w.pattern_from_image.centre_q8;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(dots.count); ++k) {
+        const Vec cell = cell_of(k);
+        if (!is_near(cell) || dots.x[k] >= kNoDot_px ||
+            w.dot_count >= static_cast<int>(w.dots.size()))
+            continue;
+        Dot& dot = w.dots[static_cast<std::size_t>(w.dot_count)];
+        dot.centre_q8 =
+            centre_q8 + Vec{static_cast<std::int32_t>(std::floor(dots.x[k] * 256 + 0.5F)),
+                            static_cast<std::int32_t>(std::floor(dots.y[k] * 256 + 0.5F))};
+        dot.mass = static_cast<std::uint16_t>(std::min(dots.mass[k], 65535));
+        dot.area_px = static_cast<std::uint16_t>(area);
+        const FloatVec at = plane_point(sight.pattern_from_image, {dots.x[k], dots.y[k]});
+        const float off_x = at.x - dots.column[k];
+        const float off_y = at.y - dots.row[k];
+        const auto weight = [&](float clear) {
+            return static_cast<std::int8_t>(
+                std::clamp(127 * clear / sight.displacement, -127.0F, 127.0F));
+        };
+        GridCell& here = grid.at(cell.x, cell.y);
+        here = {weight(off_y - off_x), weight(off_y + off_x),
+                static_cast<std::uint16_t>(w.dot_count)};
+        ++w.dot_count;
+    }
+    Decoding& decoding = w.decoding;
+    decoding.place = sight.place;
+    decoding.pattern_from_grid = {};
+    decoding.region = {grid.i0, grid.j0, grid.columns, grid.rows};
+    w.grid_from_image = w.pattern_from_image;
+    static_cast<void>(options);
+}
+
+Vec reference_q8(const ImageView& image, const Options& options) {
+    return {(image.width_px - 1) * 128 + options.reference_dx_q8,
+            (image.height_px - 1) * 128 + options.reference_dy_q8};
+}
+
+}  // namespace
+
+FloatLens float_lens(const Lens& lens) {
+    constexpr float kQ40 = 1099511627776.0F;
+    return {static_cast<float>(lens.k_q40) / kQ40, static_cast<float>(lens.centre_dx_q8) / 256,
+            static_cast<float>(lens.centre_dy_q8) / 256};
+}
+
+int half_window_px(float spacing_px, float reach) {
+    return std::clamp(static_cast<int>(reach * spacing_px + 0.5F), 2, kMostHalfWindow_px);
+}
+
+CellsInView cells_in_view(const ImageView& image, const Options& options, const Sight& sight,
+                          float reach_px, int most_cells, Workspace& w) {
+    const FloatVec centre = centre_px(image);
+    CellsInView view;
+    view.plane = sight.pattern_from_image;
+    view.lens = float_lens(options.lens);
+    view.centre_x = centre.x;
+    view.centre_y = centre.y;
+    view.width_px = static_cast<float>(image.width_px);
+    view.height_px = static_cast<float>(image.height_px);
+    view.reach_px = reach_px;
+    view.displacement = sight.displacement;
+    // A dot that touches the border is not seen whole.
+    view.margin_px = std::max(1.7F, 0.15F * spacing_px(sight.pattern_from_image));
+    const float half_width = std::min(centre.x + 1, reach_px);
+    const float half_height = std::min(centre.y + 1, reach_px);
+    float least_x = 0, least_y = 0, most_x = 0, most_y = 0;
+    for (const FloatVec corner :
+         {FloatVec{-half_width, -half_height}, FloatVec{half_width, -half_height},
+          FloatVec{-half_width, half_height}, FloatVec{half_width, half_height}}) {
+        const FloatVec at = plane_point(view.plane, corner);
+        least_x = std::min(least_x, at.x);
+        least_y = std::min(least_y, at.y);
+        most_x = std::max(most_x, at.x);
+        most_y = std::max(most_y, at.y);
+    }
+    const Extent columns = extent(least_x, most_x, static_cast<int>(w.column_rolls.size()));
+    const Extent rows = extent(least_y, most_y, static_cast<int>(w.row_rolls.size()));
+    view.first_column = columns.first;
+    view.columns = columns.count;
+    view.first_row = rows.first;
+    view.rows = rows.count;
+    const float spacing = spacing_px(view.plane);
+    const float cells = 4 * half_width * half_height / (spacing * spacing);
+    view.step = 1 + static_cast<int>(std::min(cells / static_cast<float>(most_cells), 65535.0F));
+    follow_code(options.profile, sight.place, view, w);
+    view.column_rolls = w.column_rolls.data();
+    view.row_rolls = w.row_rolls.data();
+    return view;
+}
+
+void count_from_centre(Profile profile, Sight& sight) {
+    FloatPlane& plane = sight.pattern_from_image;
+    const float column = std::floor(plane.at_x + 0.5F);
+    const float row = std::floor(plane.at_y + 0.5F);
+    plane.at_x -= column;
+    plane.at_y -= row;
+    sight.place = moved(profile, sight.place, static_cast<std::int32_t>(column),
+                        static_cast<std::int32_t>(row));
+}
+
+bool confirm(const Kernels& kernels, const ImageView& image, const Options& options, Sight sight,
+             Workspace& w) {
+    FloatPlane& plane = sight.pattern_from_image;
+    MeasuredDots& dots = w.measured;
+    const float full = half_diagonal_px(image) + 1;
+    const float spacing = spacing_px(plane);
+    const int reach_px = static_cast<int>(full);
+    constexpr int kCutOfDepth_q8 = 200;
+    const WindowLook look{half_window_px(spacing, 0.36F), sight.depth_q8 * kCutOfDepth_q8 >> 8};
+    float reach = full <= kDenseAtMost * spacing ? full : kDense * spacing;
+    const int most_dots = std::min(std::max(options.most_dots, 64), dots.capacity());
+    PoseFit fit;
+    BitsRead bits;
+    for (bool is_first = true;; is_first = false) {
+        count_from_centre(options.profile, sight);
+        const CellsInView view =
+            cells_in_view(image, options, sight, reach, is_first ? dots.capacity() : most_dots, w);
+        kernels.list_cells(view, dots);
+        kernels.measure_windows(image, view, look, dots);
+        BitBlock block;
+        bits = kernels.read_bits(dots, plane, sight.displacement, block.columns, block.rows,
+                                 -BitBlock::kMiddle, -BitBlock::kMiddle);
+        if (!is_plausible(bits, dots, options)) return false;
+        if (is_first && !is_certain(kernels, options, sight, block, bits, w)) return false;
+        const auto right = static_cast<float>(bits.right);
+        sight.displacement = bits.projected / right;
+        const float limit = 8.3F * bits.squares / right + 1e-6F;
+        if (!fit_plane(kernels, dots, reach_px, limit, sight.displacement, plane, fit))
+            return false;
+        if (reach >= full) break;
+        reach = std::min(reach * kFarther, full);
+    }
+    w.fix.dots_seen = bits.seen;
+    w.fix.bit_errors = bits.wrong_x + bits.wrong_y;
+    w.fix.displacement_q16 = static_cast<std::int32_t>(fit.displacement * 65536);
+    const Vec centre_q8{(image.width_px - 1) * 128, (image.height_px - 1) * 128};
+    w.pattern_from_image = fixed_plane(plane, centre_q8);
+    const Vec reference = reference_q8(image, options);
+    write_pose(w.pattern_from_image, reference, options.profile, sight.place, w.fix);
+    estimate_covariance(fit, w.pattern_from_image, reference, w.fix);
+    if (is_far_fetched(fit, 2 * bits.read, bits.wrong_x + bits.wrong_y)) return false;
+    show(options, sight, w);
+    w.fix.status = Status::ok;
+    return true;
+}
+
+}  // namespace dotpose::core

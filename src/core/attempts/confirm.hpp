@@ -1,0 +1,39 @@
+// Confirm: what the attempts of desktops share once they think they know where the pattern is:
+// measure the dots where it has them, compare their bits, fit the pose.
+#pragma once
+
+#include "core/float_plane.hpp"
+#include "core/kernels/select.hpp"
+#include "dotpose/image.hpp"
+#include "dotpose/options.hpp"
+#include "dotpose/workspace.hpp"
+
+namespace dotpose::core {
+
+/// Where the pattern is thought to be in the image.
+struct Sight {
+    FloatPlane pattern_from_image;  ///< upright, counted from the image centre
+    Place place;                    ///< of the plane's cell (0, 0)
+    float displacement = 0;         ///< of the typical dot, spacings
+    int depth_q8 = 0;  ///< how much darker than paper a typical dot is, smoothed, in 1/256
+};
+
+FloatLens float_lens(const Lens& lens);
+
+/// Half a window that holds a dot wherever it stands around the middle, and none of its neighbours.
+int half_window_px(float spacing_px, float reach);
+
+/// What `list_cells` is asked for: the cells in view within `reach_px` of the image centre, at most
+/// about so many. Fills in the workspace's rolls.
+CellsInView cells_in_view(const ImageView& image, const Options& options, const Sight& sight,
+                          float reach_px, int most_cells, Workspace& w);
+
+/// Counts cells from the one at the image centre.
+void count_from_centre(Profile profile, Sight& sight);
+
+/// Measures, compares, fits. Sets the workspace's fix and what there is to see of it. False if the
+/// image does not bear out where the pattern was thought to be, or not clearly.
+bool confirm(const Kernels& kernels, const ImageView& image, const Options& options, Sight sight,
+             Workspace& w);
+
+}  // namespace dotpose::core

@@ -1,0 +1,59 @@
+#include "core/attempts/rows.hpp"
+
+#include "core/attempts/fitted_pose.hpp"
+#include "core/attempts/steps.hpp"
+#include "core/decode/likelihood.hpp"
+#include "core/decode/position.hpp"
+#include "core/decode/verify.hpp"
+#include "core/decode/window.hpp"
+
+namespace dotpose::core {
+namespace {
+
+/// The decoder asked for.
+Status decode(const Options& options, Workspace& w) {
+    if (options.decoder == Decoder::window) {
+        return decode_window(w.grid, options.profile, w.line_scores, w.decoding);
+    }
+    return decode_briefly(w.grid, options.profile, w.line_scores, w.decoding);
+}
+
+/// Bits -> position in the code.
+Status read_position(const Options& options, Workspace& w) {
+    w.decoding.window = choose_window(w.grid, kWindowSide);  // II-B.5
+    choose_region(w);
+    const Status status = decode(options, w);  // II-B.6-7
+    return status == Status::ok ? status : refused(status, w);
+}
+
+/// Whether all dots in view agree with the position.
+Status verify_position(const Options& options, Workspace& w) {
+    const Status status =
+        verify(w.grid, options.profile, w.decoding, options.integrity, w.line_scores, w.fix);
+    return status == Status::ok ? status : refused(status, w);
+}
+
+}  // namespace
+
+Fix finish_rows(const Options& options, Workspace& w) {
+    Status status = find_dots(options, w);                     // II-B.1
+    if (status == Status::ok) status = find_grid(options, w);  // II-B.2-3
+    if (status == Status::ok) {
+        status = assign_affine_likelihoods(w.found_dots(), w.grid_from_image, w.grid);  // II-B.4
+    }
+    if (status == Status::ok) status = read_position(options, w);  // II-B.5-7
+    if (status == Status::ok) status = verify_position(options, w);
+    if (status == Status::ok) status = measure_pose(options, nullptr, w);  // II-B.8
+    w.fix.status = status;
+    return w.fix;
+}
+
+bool is_rough(const Fix& fix) {
+    // In px for dots that noise has moved, and in spacings for those that were printed badly.
+    constexpr float kRough_px = 0.30F;
+    constexpr float kRough = 0.027F;
+    const float spacing_px = static_cast<float>(fix.spacing_px_q16) / 65536.0F;
+    return fix.residual_px >= std::max(kRough_px, kRough * spacing_px);
+}
+
+}  // namespace dotpose::core

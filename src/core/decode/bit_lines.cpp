@@ -1,0 +1,156 @@
+#include "core/decode/bit_lines.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "core/decode/search.hpp"
+
+namespace dotpose::core {
+namespace {
+
+std::uint64_t reversed(std::uint64_t word) {
+    const auto swap = [&](std::uint64_t mask, int by) {
+        word = (word >> by & mask) | (word & mask) << by;
+    };
+    swap(0x5555555555555555U, 1);
+    swap(0x3333333333333333U, 2);
+    swap(0x0F0F0F0F0F0F0F0FU, 4);
+    return __builtin_bswap64(word);
+}
+
+/// The lines in the opposite order, each as it was.
+BitLines in_opposite_order(const BitLines& lines) {
+    BitLines result = lines;
+    std::reverse(result.bits.begin(), result.bits.end());
+    std::reverse(result.valid.begin(), result.valid.end());
+    return result;
+}
+
+/// Each line read backwards, and its bits flipped, as half a turn does; in their order.
+BitLines backwards(const BitLines& lines) {
+    BitLines result;
+    for (std::size_t i = 0; i < lines.bits.size(); ++i) {
+        if (lines.valid[i] == 0) continue;
+        result.bits[i] = reversed(~lines.bits[i]);
+        result.valid[i] = reversed(lines.valid[i]);
+    }
+    return result;
+}
+
+struct Range {
+    int first = 0;
+    int count = 0;
+};
+
+/// The lines that have bits, at most so many.
+Range lines_with_bits(const BitLines& lines, int most) {
+    int first = 0;
+    int last = BitBlock::kSide - 1;
+    while (first < BitBlock::kSide && lines.valid[static_cast<std::size_t>(first)] == 0)
+        ++first;
+    while (last > first && lines.valid[static_cast<std::size_t>(last)] == 0)
+        --last;
+    const int count = std::max(last - first + 1, 0);
+    if (count <= most) return {first, count};
+    return {std::clamp(BitBlock::kMiddle - most / 2, first, last + 1 - most), most};
+}
+
+/// How much better some lines of the middle can be read backwards than forwards.
+int backwardness(const Kernels& kernels, const BitLines& lines) {
+    constexpr int kVoters = 5;
+    const Range range = lines_with_bits(lines, BitBlock::kSide);
+    int sum = 0;
+    for (int voter = 0; voter < kVoters; ++voter) {
+        // Of the middle half, which has the longest ones.
+        const auto i = static_cast<std::size_t>(range.first + range.count / 4 +
+                                                range.count * voter / (2 * kVoters));
+        if (i >= lines.bits.size()) break;
+        ScoredLine scored;
+        kernels.score_line(lines.bits[i], lines.valid[i], scored);
+        sum -= scored.lead.best;
+        kernels.score_line(reversed(~lines.bits[i]), reversed(lines.valid[i]), scored);
+        sum += scored.lead.best;
+    }
+    return sum;
+}
+
+Lines score_lines(const Kernels& kernels, const BitLines& lines, const Range& which, int first_cell,
+                  std::span<ScoredLine> storage) {
+    const auto count = static_cast<std::size_t>(which.count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t line = static_cast<std::size_t>(which.first) + i;
+        kernels.score_line(lines.bits[line] >> first_cell, lines.valid[line] >> first_cell,
+                           storage[i]);
+    }
+    return {storage.first(count)};
+}
+
+}  // namespace
+
+int likeliest_turn(const Kernels& kernels, const BitBlock& block) {
+    const bool columns_backwards = backwardness(kernels, block.columns) > 0;
+    const bool rows_backwards = backwardness(kernels, block.rows) > 0;
+    if (columns_backwards) return rows_backwards ? 2 : 1;
+    return rows_backwards ? 3 : 0;
+}
+
+BitBlock turned(int quarters, const BitBlock& block) {
+    switch (quarters) {
+        case 1:
+            return {in_opposite_order(block.rows), backwards(block.columns)};
+        case 2:
+            return {in_opposite_order(backwards(block.columns)),
+                    in_opposite_order(backwards(block.rows))};
+        case 3:
+            return {backwards(block.rows), in_opposite_order(block.columns)};
+        default:
+            return block;
+    }
+}
+
+FloatPlane turned(int quarters, const FloatPlane& p) {
+    switch (quarters) {
+        case 1:
+            return {-1 - p.at_y, p.at_x,   -p.du_y,  p.du_x, -p.dv_y,
+                    p.dv_x,      p.tilt_x, p.tilt_y, p.bend};
+        case 2:
+            return {-1 - p.at_x, -1 - p.at_y, -p.du_x,  -p.du_y, -p.dv_x,
+                    -p.dv_y,     p.tilt_x,    p.tilt_y, p.bend};
+        case 3:
+            return {p.at_y,  -1 - p.at_x, p.du_y,   -p.du_x, p.dv_y,
+                    -p.dv_x, p.tilt_x,    p.tilt_y, p.bend};
+        default:
+            return p;
+    }
+}
+
+BlockLines score_block(const Kernels& kernels, const BitBlock& block,
+                       std::span<ScoredLine> storage) {
+    const int most = static_cast<int>(storage.size() / 2);
+    const Range columns = lines_with_bits(block.columns, most);
+    const Range rows = lines_with_bits(block.rows, most);
+    return {columns.first, rows.first,
+            score_lines(kernels, block.columns, columns, rows.first, scores_of(Axis::x, storage)),
+            score_lines(kernels, block.rows, rows, columns.first, scores_of(Axis::y, storage))};
+}
+
+bool find_place(Profile profile, const BlockLines& lines, Place& place) {
+    constexpr int kFewestLines = 6;
+    if (lines.columns.count() < kFewestLines || lines.rows.count() < kFewestLines) return false;
+    AxisReading x;
+    AxisReading y;
+    if (find_axis_briefly(profile, lines.columns, x) != Status::ok ||
+        find_axis_briefly(profile, lines.rows, y) != Status::ok) {
+        return false;
+    }
+    const auto section = [&](const AxisReading& own, const AxisReading& other) {
+        return static_cast<std::uint8_t>(
+            section_of(profile, own.roll, own.position, other.position));
+    };
+    const Place corner{{x.position, y.position}, {section(x, y), section(y, x)}};
+    place = moved(profile, corner, BitBlock::kMiddle - lines.first_column,
+                  BitBlock::kMiddle - lines.first_row);
+    return true;
+}
+
+}  // namespace dotpose::core

@@ -1,0 +1,65 @@
+#include "core/float_plane.hpp"
+
+#include <algorithm>
+
+namespace dotpose::core {
+namespace {
+
+constexpr float kPower16 = 65536.0F;
+constexpr float kPower24 = 16777216.0F;
+constexpr float kPower30 = 1073741824.0F;
+constexpr float kPower40 = kPower24 * kPower16;
+
+std::int32_t rounded(float value) {
+    constexpr float kMost = kBeyondReason;
+    const float whole = value + (value < 0 ? -0.5F : 0.5F);
+    // In this order, as it may be no number.
+    return static_cast<std::int32_t>(std::min(std::max(-kMost, whole), kMost));
+}
+
+}  // namespace
+
+FloatVec plane_point(const FloatPlane& plane, FloatVec px) {
+    const float divisor = std::max(
+        1 + plane.tilt_x * px.x + plane.tilt_y * px.y + plane.bend * (px.x * px.x + px.y * px.y),
+        0.25F);
+    return {plane.at_x + (plane.du_x * px.x + plane.dv_x * px.y) / divisor,
+            plane.at_y + (plane.du_y * px.x + plane.dv_y * px.y) / divisor};
+}
+
+FloatPlane recentred(const FloatPlane& plane, FloatVec to_px) {
+    const float divisor = std::max(1 + plane.tilt_x * to_px.x + plane.tilt_y * to_px.y, 0.25F);
+    const FloatVec way{(plane.du_x * to_px.x + plane.dv_x * to_px.y) / divisor,
+                       (plane.du_y * to_px.x + plane.dv_y * to_px.y) / divisor};
+    return {plane.at_x + way.x,
+            plane.at_y + way.y,
+            (plane.du_x - way.x * plane.tilt_x) / divisor,
+            (plane.du_y - way.y * plane.tilt_x) / divisor,
+            (plane.dv_x - way.x * plane.tilt_y) / divisor,
+            (plane.dv_y - way.y * plane.tilt_y) / divisor,
+            plane.tilt_x / divisor,
+            plane.tilt_y / divisor,
+            0};
+}
+
+PlaneFromImage fixed_plane(const FloatPlane& plane, Vec centre_q8) {
+    return {centre_q8,
+            {rounded(plane.at_x * kPower16), rounded(plane.at_y * kPower16)},
+            {rounded(plane.du_x * kPower24), rounded(plane.du_y * kPower24)},
+            {rounded(plane.dv_x * kPower24), rounded(plane.dv_y * kPower24)},
+            {rounded(plane.tilt_x * kPower30), rounded(plane.tilt_y * kPower30)},
+            rounded(plane.bend * kPower40)};
+}
+
+FloatPlane float_plane(const PlaneFromImage& plane) {
+    const auto from = [](std::int32_t value, float unit) {
+        return static_cast<float>(value) / unit;
+    };
+    return {from(plane.at_centre_q16.x, kPower16),   from(plane.at_centre_q16.y, kPower16),
+            from(plane.du_q24.x, kPower24),          from(plane.du_q24.y, kPower24),
+            from(plane.dv_q24.x, kPower24),          from(plane.dv_q24.y, kPower24),
+            from(plane.perspective_q30.x, kPower30), from(plane.perspective_q30.y, kPower30),
+            from(plane.lens_q40, kPower40)};
+}
+
+}  // namespace dotpose::core

@@ -1,0 +1,30 @@
+// Planes in single precision, as the desktop's attempts use them.
+#pragma once
+
+#include <cmath>
+
+#include "core/kernels/kernels.hpp"
+
+namespace dotpose::core {
+
+struct FloatVec {
+    float x = 0;
+    float y = 0;
+};
+
+/// In spacings, from px; at least a quarter of the divisor at the centre, as farther away planes
+/// fold.
+FloatVec plane_point(const FloatPlane& plane, FloatVec px);
+
+/// The same plane, without its bend, counted from another point of the image.
+FloatPlane recentred(const FloatPlane& plane, FloatVec to_px);
+
+/// px per spacing at the centre.
+inline float spacing_px(const FloatPlane& plane) {
+    return 1 / std::sqrt(std::abs(plane.du_x * plane.dv_y - plane.dv_x * plane.du_y));
+}
+
+PlaneFromImage fixed_plane(const FloatPlane& plane, Vec centre_q8);
+FloatPlane float_plane(const PlaneFromImage& plane);
+
+}  // namespace dotpose::core

@@ -1,0 +1,155 @@
+// Kernels: the loops over pixels, dots and cells that take the time of the desktop's attempts. Each
+// exists in several forms, one for each kind of processor, with the same results to the bit;
+// `select.hpp` chooses. The desktop's attempts are in single precision; lengths in the image are
+// px.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/plane.hpp"
+#include "dotpose/image.hpp"
+#include "dotpose/patch.hpp"
+
+namespace dotpose::core {
+
+/// PlaneFromImage in single precision: in spacings, from px,
+/// pattern = at + (du x + dv y) / (1 + tilt . (x, y) + bend (x^2 + y^2)).
+struct FloatPlane {
+    float at_x = 0;
+    float at_y = 0;
+    float du_x = 0;
+    float du_y = 0;
+    float dv_x = 0;
+    float dv_y = 0;
+    float tilt_x = 0;
+    float tilt_y = 0;
+    float bend = 0;
+};
+
+/// A plane wave, in turns: cos(2 pi (kx x + ky y) - phase).
+struct Waves {
+    float kx = 0;  ///< turns per px of the first; the second stands at right angles to it
+    float ky = 0;
+    float power = 0;  ///< of both together, at most 2 for a grid without displacements
+    std::array<float, 2> phase_cos{};
+    std::array<float, 2> phase_sin{};
+};
+
+/// How dots are assigned to cells in one pass over them.
+struct CellPass {
+    float reach_px = 0;      ///< dots farther from the centre, along either axis, are left out
+    float most_off = 0;      ///< so far from where they are looked for, spacings
+    float displacement = 0;  ///< of the four places of a cell; 0: the cell's middle counts
+};
+
+/// Sums over the dots of one pass, for the least squares of a plane with perspective:
+/// i (1 + g x + h y) = a x + b y + c, and likewise j with d, e, f.
+struct CellSums {
+    float seen = 0;                 ///< dots within reach
+    float used = 0;                 ///< of those, near enough to a place
+    float squares = 0;              ///< of the distances from there
+    std::array<float, 6> one{};     ///< 1, x, y, xx, xy, yy
+    std::array<float, 6> i{};       ///< the same times i
+    std::array<float, 6> j{};       ///< the same times j
+    std::array<float, 6> square{};  ///< the same times i^2 + j^2
+};
+
+/// A lens of eq. 1-2, for points counted from the plane's centre.
+struct FloatLens {
+    float k = 0;  ///< per px^2
+    float centre_x = 0;
+    float centre_y = 0;
+};
+
+/// What cells are asked for: those of which the dot is in view.
+struct CellsInView {
+    FloatPlane plane;  ///< of the pattern, upright; (x, y) are counted from `centre`
+    FloatLens lens;
+    float centre_x = 0;  ///< px of the image
+    float centre_y = 0;
+    float width_px = 0;
+    float height_px = 0;
+    float margin_px = 0;         ///< a dot nearer to the border is none
+    float reach_px = 0;          ///< nor is one so far from the centre, along either axis
+    float displacement = 0;      ///< spacings
+    bool window_on_dot = false;  ///< instead of the intersection
+    int step = 1;                ///< of each row of cells, every so many-th
+    /// Index in the main sequence of row 0 of each column, and of column 0 of each row.
+    const std::uint8_t* column_rolls = nullptr;
+    const std::uint8_t* row_rolls = nullptr;
+    int first_column = 0;  ///< cells of the pattern, the first of the rolls
+    int first_row = 0;
+    int columns = 0;
+    int rows = 0;
+};
+
+/// How windows are looked at.
+struct WindowLook {
+    int half_px = 4;   ///< 2 half_px + 1 pixels across; at most kMostHalfWindow_px
+    int cut_q8 = 128;  ///< what is darker than the paper by this share, in 1/256, counts
+};
+inline constexpr int kMostHalfWindow_px = 24;
+
+/// Sums for the nine-parameter fit; see Normal.
+struct FitSums {
+    float points = 0;
+    float squared_residuals = 0;
+    float projected =
+        0;  ///< of the offsets from the intersections on the displacements' directions
+    std::array<std::array<float, 9>, 9> matrix{};  ///< the lower triangle
+    std::array<float, 9> right{};
+};
+
+/// What dots say of the bits.
+struct BitsRead {
+    int seen = 0;  ///< dots of a dot's darkness
+    int read = 0;  ///< of those, dots near one of the four places
+    int wrong_x = 0;
+    int wrong_y = 0;
+    int right = 0;        ///< dots of which neither bit is wrong
+    float projected = 0;  ///< of the right ones, their distances from the intersections
+    float squares = 0;    ///< of the right ones, from their places
+};
+
+/// Words of bits, one for each of 64 lines of 64 cells.
+struct BitLines {
+    std::array<std::uint64_t, 64> bits{};
+    std::array<std::uint64_t, 64> valid{};
+};
+
+struct Kernels {
+    const char* name;
+    /// Copies a part of the image, reduced by whole numbers, with a white margin.
+    void (*fill_patch)(const ImageView& image, Patch& patch);
+    /// Smooths it by 1-2-1 both ways, and finds the brightest and darkest pixel of each tile.
+    void (*smooth_patch)(Patch& patch);
+    /// Dots where the smoothed patch has minima darker than its thresholds, with parabolas through
+    /// their neighbours; from the middle of the patch.
+    void (*find_minima)(Patch& patch);
+    /// The strongest of waves of about `per_px` turns per px, in 12 directions.
+    Waves (*strongest_waves)(const float* x, const float* y, int count, float per_px);
+    CellSums (*sum_cells)(const PatchDots& dots, const FloatPlane& plane, const CellPass& pass);
+    /// Bits of the dots by the cell of the grid, counted from (-32, -32).
+    void (*read_cells)(const PatchDots& dots, const FloatPlane& plane, float displacement,
+                       BitLines& columns, BitLines& rows);
+    /// Scores of 64 cells in a line against the main sequence from each of its offsets.
+    void (*score_line)(std::uint64_t bits, std::uint64_t valid, ScoredLine& line);
+    /// Cells in view, with where their windows lie and where the dots are printed.
+    void (*list_cells)(const CellsInView& view, MeasuredDots& dots);
+    /// Mean of the surroundings of places in the image: where it is darkest, all dots are shifted
+    /// to.
+    bool (*find_shift)(const ImageView& image, const MeasuredDots& dots, int most_px, int step_px,
+                       Vec& shift_px, int& cut_q8);
+    /// Centres of what is dark in the dots' windows; none where that is much more or less than in
+    /// most.
+    void (*measure_windows)(const ImageView& image, const CellsInView& view, const WindowLook& look,
+                            MeasuredDots& dots);
+    /// Bits of the dots as measured, against those that the code has there.
+    BitsRead (*read_bits)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
+                          BitLines& columns, BitLines& rows, int first_column, int first_row);
+    FitSums (*sum_fit)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
+                       float reach_px, float limit);
+};
+
+}  // namespace dotpose::core

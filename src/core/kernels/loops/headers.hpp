@@ -1,0 +1,16 @@
+// What the loops include, before their own namespace begins.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+#include "code/tables.hpp"
+#include "core/kernels/select.hpp"

@@ -1,0 +1,43 @@
+// The loops in vectors of 32 bytes, for processors with AVX2. Only what stands between the pragmas
+// is compiled for them: functions of headers, of which the linker keeps one for all, run
+// everywhere.
+#include "core/kernels/loops/headers.hpp"
+
+#if defined(__x86_64__)
+
+#define DOTPOSE_LANE_BYTES 32
+#define DOTPOSE_KERNELS_NAME "avx2"
+
+#if defined(__clang__)
+#pragma clang attribute push(__attribute__((target("avx2,bmi,bmi2,lzcnt,popcnt"))), \
+                             apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("avx2,bmi,bmi2,lzcnt,popcnt")
+#endif
+namespace dotpose::core {
+namespace {
+#include "core/kernels/loops/all.inc"
+}  // namespace
+}  // namespace dotpose::core
+#if defined(__clang__)
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
+
+namespace dotpose::core {
+const Kernels* avx2_kernels() {
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2") ? &kKernels : nullptr;
+}
+}  // namespace dotpose::core
+
+#else
+
+namespace dotpose::core {
+const Kernels* avx2_kernels() {
+    return nullptr;
+}
+}  // namespace dotpose::core
+
+#endif

@@ -1,0 +1,16 @@
+// The loops in vectors of 16 bytes.
+#include "core/kernels/loops/headers.hpp"
+
+#define DOTPOSE_LANE_BYTES 16
+#define DOTPOSE_KERNELS_NAME "16 bytes"
+
+namespace dotpose::core {
+namespace {
+#include "core/kernels/loops/all.inc"
+}  // namespace
+
+const Kernels& wide_kernels() {
+    return kKernels;
+}
+
+}  // namespace dotpose::core

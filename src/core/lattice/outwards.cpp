@@ -1,0 +1,203 @@
+#include "core/lattice/outwards.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/fixed.hpp"
+#include "core/float_plane.hpp"
+
+namespace dotpose::core {
+namespace {
+
+constexpr int kFewestDots = 40;
+/// Dots near the middle whose waves are looked at: about so many, and at most.
+constexpr float kCentralDots = 30;
+constexpr int kFewestCentralDots = 14;
+constexpr int kMostCentralDots = 64;
+/// Of the power that a grid without displacements would have: enough to stop, and enough to go on.
+constexpr float kClearWaves = 0.2F;
+constexpr float kFaintWaves = 0.12F;
+
+/// Of the smoothed patch, in its own px: finer grids melt together, and in coarser ones dots are
+/// not minima but areas.
+constexpr float kFinest_px = 5.2F;
+constexpr float kCoarsest_px = 40;
+
+/// Half of the patch's longer side, px of the image.
+float full_reach_px(const Patch& patch) {
+    return static_cast<float>(std::max(patch.width_px, patch.height_px) * patch.scale) / 2 + 1;
+}
+
+std::optional<Waves> find_waves(const Kernels& kernels, const Patch& patch) {
+    const PatchDots& dots = patch.dots;
+    const auto scale = static_cast<float>(patch.scale);
+    const float area =
+        static_cast<float>((patch.width_px - 4) * (patch.height_px - 4)) * scale * scale;
+    const float spacing = std::sqrt(area / static_cast<float>(dots.count));
+    if (spacing < kFinest_px * scale || spacing > kCoarsest_px * scale) return {};
+    // A disc that holds as many.
+    const float radius_2 = kCentralDots * spacing * spacing / 3.14159265F;
+    alignas(64) std::array<float, kMostCentralDots + 8> x;
+    alignas(64) std::array<float, kMostCentralDots + 8> y;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(dots.count) && count < kMostCentralDots;
+         ++i) {
+        x[count] = dots.x[i];
+        y[count] = dots.y[i];
+        count += dots.x[i] * dots.x[i] + dots.y[i] * dots.y[i] < radius_2 ? 1 : 0;
+    }
+    if (count < kFewestCentralDots) return {};
+    std::fill_n(x.begin() + count, 8, kNoDot_px);
+    std::fill_n(y.begin() + count, 8, 0.0F);
+    const float unit = static_cast<float>(count) * static_cast<float>(count);
+    Waves best;
+    // Dots that are missing, or are none, make the spacing look larger or smaller.
+    for (const float by : {1.0F, 0.93F, 1.07F, 0.87F, 1.14F, 0.81F}) {
+        const Waves waves =
+            kernels.strongest_waves(x.data(), y.data(), static_cast<int>(count), by / spacing);
+        if (waves.power > best.power) best = waves;
+        if (best.power > kClearWaves * unit) break;
+    }
+    if (best.power < kFaintWaves * unit) return {};
+    return best;
+}
+
+/// Turns from 0 to 1.
+float phase_in_turns(const Waves& waves, std::size_t i) {
+    constexpr float kUnit = 65536.0F;
+    constexpr float kTurn = 4294967296.0F;
+    const Vec direction{static_cast<std::int32_t>(waves.phase_cos[i] * kUnit),
+                        static_cast<std::int32_t>(waves.phase_sin[i] * kUnit)};
+    return static_cast<float>(angle_bam(direction)) / kTurn;
+}
+
+FloatPlane plane_from_waves(const Waves& waves) {
+    FloatPlane plane;
+    plane.at_x = -phase_in_turns(waves, 0);
+    plane.at_y = -phase_in_turns(waves, 1);
+    plane.du_x = waves.kx;
+    plane.dv_x = waves.ky;
+    plane.du_y = -waves.ky;
+    plane.dv_y = waves.kx;
+    return plane;
+}
+
+/// Of the matrix of (x, y, 1).
+struct Inverse {
+    std::array<std::array<float, 3>, 3> m;
+    bool is_regular = false;
+
+    explicit Inverse(const std::array<float, 6>& one) {
+        const auto& [n, x, y, xx, xy, yy] = one;
+        const float a = yy * n - y * y;
+        const float b = x * y - xy * n;
+        const float c = xy * y - x * yy;
+        const float determinant = xx * a + xy * b + x * c;
+        is_regular = determinant > 1e-4F * xx * yy * n;
+        if (!is_regular) return;
+        const float over = 1 / determinant;
+        m = {{{a * over, b * over, c * over},
+              {b * over, (xx * n - x * x) * over, (xy * x - xx * y) * over},
+              {c * over, (xy * x - xx * y) * over, (xx * yy - xy * xy) * over}}};
+    }
+    std::array<float, 3> operator()(const std::array<float, 3>& v) const {
+        std::array<float, 3> r;
+        for (std::size_t i = 0; i < 3; ++i)
+            r[i] = m[i][0] * v[0] + m[i][1] * v[1] + m[i][2] * v[2];
+        return r;
+    }
+};
+
+float inner(const std::array<float, 3>& a, const std::array<float, 3>& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// Least squares of i (1 + g x + h y) = a x + b y + c and of j: a, b, c and d, e, f are eliminated,
+/// and two equations for g, h are left. Without perspective g = h = 0.
+bool solve_plane(const CellSums& sums, bool with_perspective, FloatPlane& plane) {
+    const Inverse inverse(sums.one);
+    if (!inverse.is_regular) return false;
+    const auto right_of = [](const std::array<float, 6>& s) {
+        return std::array{s[1], s[2], s[0]};
+    };
+    // How (x, y, 1) goes with x and with y times the cell.
+    const auto with_x = [](const std::array<float, 6>& s) { return std::array{s[3], s[4], s[1]}; };
+    const auto with_y = [](const std::array<float, 6>& s) { return std::array{s[4], s[5], s[2]}; };
+    std::array<float, 3> i = inverse(right_of(sums.i));
+    std::array<float, 3> j = inverse(right_of(sums.j));
+    float g = 0;
+    float h = 0;
+    if (with_perspective) {
+        const auto ix = inverse(with_x(sums.i));
+        const auto iy = inverse(with_y(sums.i));
+        const auto jx = inverse(with_x(sums.j));
+        const auto jy = inverse(with_y(sums.j));
+        const float xx = sums.square[3] - inner(ix, with_x(sums.i)) - inner(jx, with_x(sums.j));
+        const float xy = sums.square[4] - inner(ix, with_y(sums.i)) - inner(jx, with_y(sums.j));
+        const float yy = sums.square[5] - inner(iy, with_y(sums.i)) - inner(jy, with_y(sums.j));
+        const float right_x =
+            inner(ix, right_of(sums.i)) + inner(jx, right_of(sums.j)) - sums.square[1];
+        const float right_y =
+            inner(iy, right_of(sums.i)) + inner(jy, right_of(sums.j)) - sums.square[2];
+        const float determinant = xx * yy - xy * xy;
+        if (!(determinant > 1e-4F * xx * yy)) return false;
+        g = (yy * right_x - xy * right_y) / determinant;
+        h = (xx * right_y - xy * right_x) / determinant;
+        for (std::size_t k = 0; k < 3; ++k) {
+            i[k] += g * ix[k] + h * iy[k];
+            j[k] += g * jx[k] + h * jy[k];
+        }
+    }
+    plane = {i[2], j[2], i[0] - i[2] * g, j[0] - j[2] * g, i[1] - i[2] * h, j[1] - j[2] * h, g,
+             h,    0};
+    return true;
+}
+
+/// Half of the spacing, or twice, and the fit went astray.
+bool is_plausible(const FloatPlane& plane, float first_spacing, float reach) {
+    const float spacing = spacing_px(plane);
+    const float fold = (std::abs(plane.tilt_x) + std::abs(plane.tilt_y)) * reach;
+    return spacing > 0.7F * first_spacing && spacing < 1.4F * first_spacing && fold < 0.7F;
+}
+
+}  // namespace
+
+bool find_grid(const Kernels& kernels, const Patch& patch, PatchGrid& grid) {
+    if (patch.dots.count < kFewestDots) return false;
+    const std::optional<Waves> waves = find_waves(kernels, patch);
+    if (!waves) return false;
+    FloatPlane& plane = grid.grid_from_image;
+    plane = plane_from_waves(*waves);
+    const float spacing = spacing_px(plane);
+    const float full = full_reach_px(patch);
+    // Cells only: displacements are noise as yet.
+    CellPass pass{3 * spacing, 0.42F, 0};
+    CellSums sums;
+    for (int round = 0; round < 2; ++round) {
+        sums = kernels.sum_cells(patch.dots, plane, pass);
+        if (sums.used < 12 || !solve_plane(sums, false, plane)) return false;
+    }
+    constexpr float kUndisplaced = 1.0F / 256;
+    const float mean_square = sums.squares / sums.used;
+    if (mean_square < kUndisplaced) return false;
+    grid.displacement = std::clamp(std::sqrt(mean_square), 0.11F, 0.24F);
+    // Then the nearest of four places counts, which leaves a fifth of that noise.
+    pass.displacement = grid.displacement;
+    pass.most_off = 0.75F * grid.displacement;
+    constexpr int kMostRounds = 16;
+    for (int round = 0; round < kMostRounds; ++round) {
+        sums = kernels.sum_cells(patch.dots, plane, pass);
+        const float share = sums.used / std::max(sums.seen, 1.0F);
+        const bool may_tilt = pass.reach_px > 4 * spacing;
+        if (sums.used < 12 || share < 0.4F || !solve_plane(sums, may_tilt, plane)) return false;
+        if (!is_plausible(plane, spacing, full)) return false;
+        if (pass.reach_px >= full && (share > 0.9F || round + 1 == kMostRounds)) break;
+        if (share > 0.8F) pass.reach_px = std::min(pass.reach_px * 1.5F, full);
+    }
+    if (pass.reach_px < full || sums.used < 0.7F * sums.seen) return false;
+    grid.variance = sums.squares / (2 * sums.used);
+    return true;
+}
+
+}  // namespace dotpose::core

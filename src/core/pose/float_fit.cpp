@@ -1,0 +1,79 @@
+#include "core/pose/float_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dotpose::core {
+namespace {
+
+/// A plane's parameters in units of the reach; see ScaledPlane.
+Parameters distortions(const FloatPlane& p, float reach) {
+    return {0,
+            0,
+            0,
+            0,
+            p.tilt_x * reach,
+            p.tilt_y * reach,
+            (p.du_x - p.dv_y) * reach / 2,
+            (p.dv_x + p.du_y) * reach / 2,
+            p.bend * reach * reach};
+}
+
+float scale_of(const FloatPlane& p, float reach) {
+    return reach *
+           std::sqrt((p.du_x * p.du_x + p.du_y * p.du_y + p.dv_x * p.dv_x + p.dv_y * p.dv_y) / 2);
+}
+
+FloatPlane changed(const FloatPlane& p, const Parameters& by, float reach) {
+    const float unit = 1 / reach;
+    return {p.at_x + by[0],
+            p.at_y + by[1],
+            p.du_x + (by[2] + by[6]) * unit,
+            p.du_y + (by[3] + by[7]) * unit,
+            p.dv_x + (by[7] - by[3]) * unit,
+            p.dv_y + (by[2] - by[6]) * unit,
+            p.tilt_x + by[4] * unit,
+            p.tilt_y + by[5] * unit,
+            p.bend + by[8] * unit * unit};
+}
+
+/// Squared deviations of a step after which no other is needed: where a plane hardly bends, the
+/// first one leads to the end.
+float settled(const FloatPlane& p, float reach) {
+    const float bent =
+        (std::abs(p.tilt_x) + std::abs(p.tilt_y)) * reach + std::abs(p.bend) * reach * reach;
+    return bent < 0.02F ? 40.0F : 0.2F;
+}
+
+}  // namespace
+
+bool fit_plane(const Kernels& kernels, const MeasuredDots& dots, int reach_px, float limit,
+               float displacement, FloatPlane& plane, PoseFit& fit) {
+    constexpr int kMostRounds = 5;
+    constexpr int kFewestDots = 20;
+    // Of a plane Gaussian 1 in 4,000 lies 4.1 sigma out.
+    constexpr float kOutlier = 16.6F;
+    constexpr float kExact = 6e-8F;
+    const auto reach = static_cast<float>(reach_px);
+    fit.reach_px = reach_px;
+    for (int round = 0; round < kMostRounds; ++round) {
+        const FitSums sums = kernels.sum_fit(dots, plane, displacement, reach, limit);
+        if (sums.points < kFewestDots) return false;
+        fit.normal = Normal(sums);
+        Parameters step;
+        float moved = 0;
+        if (!solve(distortions(plane, reach), scale_of(plane, reach), fit, step, moved))
+            return false;
+        fit.displacement = sums.projected / sums.points;
+        const float bent_before = settled(plane, reach);
+        plane = changed(plane, step, reach);
+        const float next_limit = kOutlier * fit.variance + kExact;
+        const bool is_settled = moved < std::min(bent_before, settled(plane, reach));
+        const bool same_dots = next_limit > 0.3F * limit;
+        limit = next_limit;
+        if (is_settled && (same_dots || round > 0)) return true;
+    }
+    return true;
+}
+
+}  // namespace dotpose::core
