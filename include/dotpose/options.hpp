@@ -86,6 +86,10 @@ struct Options {
     /// spacing.
     int most_dots = 4096;
 
+    /// Leaves dots, grid and bits of the first and the tracked attempt in the workspace, for
+    /// whoever draws or calibrates; that takes time. Other attempts always do.
+    bool show_stages = false;
+
     /// The point whose pose is wanted, in pixels from the image centre, times 256. Default: the
     /// image centre itself.
     std::int32_t reference_dx_q8 = 0;

@@ -41,7 +41,7 @@ struct Patch {
     alignas(64) std::array<std::uint8_t, kMostPixels> pixels;
     alignas(64) std::array<std::uint8_t, kMostPixels> smoothed;
     alignas(64) std::array<std::uint8_t, kTiles> brightest;
-    alignas(64) std::array<std::uint8_t, kTiles> darkest;
+    alignas(64) std::array<std::uint8_t, kTiles> darkness;  ///< 255 less the darkest level
     alignas(64) std::array<std::uint8_t, kTiles> thresholds;
     PatchDots dots;
 

@@ -18,6 +18,7 @@ inline constexpr int kOrder = 5;
 
 /// Lines beyond its end to which a sequence's rolls are continued.
 inline constexpr std::size_t kLinesAhead = 64;
+inline constexpr std::size_t kVectorAhead = 32;
 
 /// n modulo 63 without a division, which small processors lack: 64 leaves 1. For n < 4095.
 constexpr std::uint32_t few_modulo_sections(std::uint32_t n) {
@@ -36,7 +37,7 @@ constexpr std::uint32_t modulo_sections(std::uint32_t n) {
 struct Secondary {
     const std::uint8_t* digits;  ///< `length` of them
     /// By line, from place 0 on: what the digits before it add to the roll, modulo 63. Beyond the
-    /// end of the sequence it goes on for `kLinesAhead` lines.
+    /// end of the sequence it goes on for `kLinesAhead` lines, and for a vector that begins within.
     const std::uint8_t* rolls;
     const std::uint8_t* first_place_of;  ///< by the key of 5 digits; kAbsent where there is none
     /// By digit: a bit for each place, whether it stands there, from the lowest bit on. Beyond the
@@ -63,8 +64,9 @@ struct Secondary {
 
 /// See Secondary::rolls.
 template <std::size_t Length>
-consteval Digits<Length + kLinesAhead> rolls(const Digits<Length>& sequence, int weight) {
-    Digits<Length + kLinesAhead> result{};
+consteval Digits<Length + kLinesAhead + kVectorAhead> rolls(const Digits<Length>& sequence,
+                                                            int weight) {
+    Digits<Length + kLinesAhead + kVectorAhead> result{};
     for (std::size_t i = 1; i < result.size(); ++i) {
         result[i] = static_cast<std::uint8_t>(
             (result[i - 1] + weight * sequence[(i - 1) % Length]) % kSections);

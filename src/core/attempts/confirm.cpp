@@ -83,11 +83,11 @@ bool is_certain(const Kernels& kernels, const Options& options, const Sight& sig
         evidence.bits[i].add(kWeight, true, wrong[i]);
     }
     w.decoding.bits = 2 * bits.read;
-    return core::is_certain(evidence, options.profile, options.integrity, w.fix);
+    return core::is_certain(kernels, evidence, options.profile, options.integrity, w.fix);
 }
 
 /// What is to be seen of the fix: dots and the bits read from them.
-void show(const Options& options, const Sight& sight, Workspace& w) {
+void show(const Sight& sight, Workspace& w) {
     const MeasuredDots& dots = w.measured;
     const auto side = std::min(w.grid.side, kMaxGridSide);
     Vec least{INT32_MAX, INT32_MAX};
@@ -110,7 +110,6 @@ void show(const Options& options, const Sight& sight, Workspace& w) {
     grid.columns = most.x - least.x + 1;
     grid.rows = most.y - least.y + 1;
     std::fill_n(grid.storage.begin(), grid.columns * grid.rows, GridCell{});
-    const float area = 1;
     const Vec centre_q8 = w.pattern_from_image.centre_q8;
     for (std::size_t k = 0; k < static_cast<std::size_t>(dots.count); ++k) {
         const Vec cell = cell_of(k);
@@ -122,7 +121,7 @@ void show(const Options& options, const Sight& sight, Workspace& w) {
             centre_q8 + Vec{static_cast<std::int32_t>(std::floor(dots.x[k] * 256 + 0.5F)),
                             static_cast<std::int32_t>(std::floor(dots.y[k] * 256 + 0.5F))};
         dot.mass = static_cast<std::uint16_t>(std::min(dots.mass[k], 65535));
-        dot.area_px = static_cast<std::uint16_t>(area);
+        dot.area_px = 0;
         const FloatVec at = plane_point(sight.pattern_from_image, {dots.x[k], dots.y[k]});
         const float off_x = at.x - dots.column[k];
         const float off_y = at.y - dots.row[k];
@@ -140,7 +139,6 @@ void show(const Options& options, const Sight& sight, Workspace& w) {
     decoding.pattern_from_grid = {};
     decoding.region = {grid.i0, grid.j0, grid.columns, grid.rows};
     w.grid_from_image = w.pattern_from_image;
-    static_cast<void>(options);
 }
 
 Vec reference_q8(const ImageView& image, const Options& options) {
@@ -252,7 +250,7 @@ bool confirm(const Kernels& kernels, const ImageView& image, const Options& opti
     write_pose(w.pattern_from_image, reference, options.profile, sight.place, w.fix);
     estimate_covariance(fit, w.pattern_from_image, reference, w.fix);
     if (is_far_fetched(fit, 2 * bits.read, bits.wrong_x + bits.wrong_y)) return false;
-    show(options, sight, w);
+    if (options.show_stages) show(sight, w);
     w.fix.status = Status::ok;
     return true;
 }

@@ -52,7 +52,7 @@ bool find_centre(const Kernels& kernels, const ImageView& image, const Options& 
     const float off =
         std::min(3 * static_cast<float>(prediction.sigma_q16) / 65536 + 0.1F, kMostOff);
     const int most_px = static_cast<int>(std::ceil(off * spacing));
-    const int step_px = (most_px + 5) / 6;
+    const int step_px = std::max((most_px + 3) / 6, 1);
     Vec shift;
     if (!kernels.find_shift(image, dots, most_px, step_px, shift, sight.depth_q8)) return false;
     for (std::size_t i = 0; i < static_cast<std::size_t>(dots.count); ++i) {

@@ -1,30 +1,154 @@
 #include "core/decode/certainty.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "code/rolls.hpp"
+#include "core/decode/least_losses.hpp"
 #include "core/decode/quick_rivals.hpp"
+#include "core/decode/rival_sets.hpp"
 #include "core/decode/seam_rivals.hpp"
 #include "core/fixed.hpp"
 
 namespace dotpose::core {
 namespace {
 
-/// log2 of the probability that one axis is wrong, in 2^-8; above the limit, no more than that.
-int axis_wrong_log2_q8(const Confidence& bits, const Lines& lines, Profile profile,
-                       const AxisReading& reading, int odds_per_bit, int limit_q8) {
-    int sum_q8 = 256 * chance_log2(bits, odds_per_bit);
-    if (sum_q8 > limit_q8) return 0;
-    const Contest contest(profile, lines, reading, odds_per_bit);
-    sum_q8 = add_log2(sum_q8, quick_rivals_log2_q8(contest, limit_q8));
-    if (sum_q8 > limit_q8) return 0;
-    return std::min(add_log2(sum_q8, seam_rivals_log2_q8(contest)), 0);
+/// Shifts at which a rival shares no line.
+constexpr float kShifts = kSections - 1;
+/// Odds at which single rivals are counted that have less; and how many there are, with all their
+/// shifts.
+constexpr int kPassedOver_q8 = -52 * 256;
+constexpr float kPassedOver = 2.3e-16F;
+constexpr float kSingles = 741;
+
+/// 2^(n / 256), rounded up by a little.
+float power_of_two(int n_q8) {
+    const int whole = n_q8 >> 8;
+    return std::ldexp(static_cast<float>(exp2_q16(n_q8 - whole * 256)) * 1.02F, whole - 16);
+}
+
+/// What adds up to less is as good as nothing, and slow to reckon with.
+constexpr float kNothing = 1e-30F;
+
+/// The expectation of `quick_rivals.cpp` in floating point, for all sets at once: rivals that share
+/// no line are lumped together, those that share the last ones counted by how many.
+float far_rivals(const Contest& contest) {
+    constexpr std::size_t kSets = kRivalSets.size();
+    using OfSets = std::array<float, 8>;  // whole vectors
+    OfSets equal{};
+    OfSets rivals{};
+    for (std::size_t i = 0; i < kSets; ++i) {
+        equal[i] = power_of_two(kRivalSets[i].equal_q8 + kUnevenness_q8);
+        rivals[i] = power_of_two(kRivalSets[i].rivals_q8);
+    }
+    constexpr float kUnevenness = 1.03F;
+    const auto most = static_cast<std::size_t>(contest.most_shared());
+    std::array<OfSets, kMostShared> sharing{};
+    sharing[0].fill(1);
+    OfSets apart;
+    apart.fill(kShifts * contest.odds(contest.least_loss(0)));
+    OfSets sum{};
+    for (int line = 0;; ++line) {
+        sum = apart;
+        for (std::size_t n = 0; n < most; ++n) {
+            for (std::size_t i = 0; i < sum.size(); ++i)
+                sum[i] += sharing[n][i];
+        }
+        if (line + 1 == contest.lines.count()) break;
+        const float best = contest.odds(contest.least_loss(line + 1));
+        for (std::size_t n = most - 1; n > 0; --n) {
+            for (std::size_t i = 0; i < sum.size(); ++i)
+                sharing[n][i] = sharing[n - 1][i] * equal[i];
+        }
+        for (std::size_t i = 0; i < sum.size(); ++i) {
+            sharing[0][i] = apart[i] * equal[i];
+            apart[i] = std::max(sum[i] * std::min(best * kUnevenness, kShifts * best * equal[i]),
+                                kNothing);
+        }
+    }
+    float all = 0;
+    for (std::size_t i = 0; i < kSets; ++i)
+        all += sum[i] * rivals[i];
+    return all;
+}
+
+/// The same position in other sections.
+float other_sections(const Contest& contest) {
+    int lost = 0;
+    for (int line = 0; line < contest.lines.count(); ++line)
+        lost += contest.least_loss(line);
+    return kShifts * contest.odds(lost);
+}
+
+/// What every line costs at least who does not share it, the dearest first. Bits count alike here,
+/// so losses are whole bits.
+constexpr int kBit = 2 * 127;  // of score
+std::size_t sort_losses(const Contest& contest, std::span<LineLoss> losses) {
+    const auto count = static_cast<std::size_t>(contest.lines.count());
+    for (std::size_t line = 0; line < count; ++line) {
+        const int bits = std::max(contest.least_loss(static_cast<int>(line)), 0) / kBit;
+        std::size_t i = line;
+        for (; i > 0 && losses[i - 1].loss < bits; --i)
+            losses[i] = losses[i - 1];
+        losses[i] = {static_cast<std::uint8_t>(line), static_cast<std::uint8_t>(bits)};
+    }
+    return count;
+}
+
+/// What a position loses whose place differs in one sequence, and that shares a line.
+int loss_of(const Contest& contest, std::size_t sequence, std::uint32_t place, int shared) {
+    const std::uint8_t* own = contest.basis[sequence].rolls + contest.places[sequence];
+    const std::uint8_t* rival = contest.basis[sequence].rolls + place;
+    const int base = rival[shared] - own[shared];
+    int lost = 0;
+    for (int line = 0; line < contest.lines.count(); ++line) {
+        int shift = rival[line] - own[line] - base;
+        shift += shift < 0 ? kSections : 0;
+        shift -= shift >= kSections ? kSections : 0;
+        lost += contest.loss(line, shift < 0 ? shift + kSections : shift);
+    }
+    return lost;
+}
+
+/// Rivals that differ in one sequence: all that lose so little that they may count, one by one. 1
+/// if there are too many.
+float single_rivals(const Kernels& kernels, const Contest& contest) {
+    std::array<LineLoss, kMaxLines> storage;
+    const std::size_t lines = sort_losses(contest, storage);
+    const int enough = (contest.loss_for(kPassedOver_q8) + contest.most_regained()) / kBit + 1;
+    float sum = kSingles * kPassedOver * static_cast<float>(lines);
+    for (std::size_t k = 0; k < contest.places.size(); ++k) {
+        const code::Secondary& a = contest.basis[k];
+        SimilarPlaceList list;
+        if (!kernels.list_similar_places(a.rolls, a.length, static_cast<int>(contest.places[k]),
+                                         std::span(storage).first(lines), enough, list)) {
+            return 1;
+        }
+        for (const auto& [place, line] :
+             std::span(list.places).first(static_cast<std::size_t>(list.count)))
+            sum += contest.odds(loss_of(contest, k, place, line));
+    }
+    return sum;
+}
+
+/// Probability that one axis is wrong; where it is above the limit, no more than that.
+float axis_wrong(const Kernels& kernels, const Confidence& bits, const Lines& lines,
+                 Profile profile, const AxisReading& reading, int odds_per_bit_q8, int limit_log2) {
+    const float limit = std::ldexp(1.0F, limit_log2);
+    const float chance = std::ldexp(1.0F, chance_log2(bits, odds_per_bit_q8));
+    if (chance > limit || lines.count() <= kMostShared) return 1;
+    const Contest contest(profile, lines, reading, odds_per_bit_q8);
+    float sum =
+        chance + far_rivals(contest) + other_sections(contest) + single_rivals(kernels, contest);
+    if (sum > limit) sum = chance + power_of_two(quick_rivals_log2_q8(contest, 256 * limit_log2));
+    if (sum > limit) return 1;
+    return sum + power_of_two(std::max(seam_rivals_log2_q8(contest), -100 * 256));
 }
 
 }  // namespace
 
-bool is_certain(const Evidence& evidence, Profile profile, const IntegrityOptions& options,
-                Fix& fix) {
+bool is_certain(const Kernels& kernels, const Evidence& evidence, Profile profile,
+                const IntegrityOptions& options, Fix& fix) {
     const auto& [x_bits, y_bits] = evidence.bits;
     fix.bit_errors = x_bits.wrong() + y_bits.wrong();
     for (const Confidence& bits : evidence.bits) {
@@ -34,20 +158,23 @@ bool is_certain(const Evidence& evidence, Profile profile, const IntegrityOption
     // Both axes are read from the same dots, and so are misread alike.
     Confidence both = x_bits;
     both.add(y_bits);
-    const int odds = odds_per_bit_q8(both);
-    if (odds == 0) return false;
-    const int limit_q8 = 256 * options.max_p_wrong_log2;
+    const int odds_q8 = odds_per_bit_q8(both);
+    if (odds_q8 == 0) return false;
     const auto& [cell, section] = evidence.corner;
     const auto roll = [&](std::uint32_t position, int own_section, std::uint32_t cross) {
         return static_cast<std::uint8_t>(code::roll_from(profile, position, own_section, cross));
     };
     const AxisReading x{cell.x, roll(cell.x, section.u, cell.y), 0, 0};
     const AxisReading y{cell.y, roll(cell.y, section.v, cell.x), 0, 0};
-    const int x_q8 = axis_wrong_log2_q8(x_bits, evidence.columns, profile, x, odds, limit_q8);
-    if (x_q8 > limit_q8) return false;
-    const int y_q8 = axis_wrong_log2_q8(y_bits, evidence.rows, profile, y, odds, limit_q8);
-    fix.p_wrong_log2 = std::min((add_log2(x_q8, y_q8) + 255) >> 8, 0);
-    return fix.p_wrong_log2 <= options.max_p_wrong_log2;
+    const int limit = options.max_p_wrong_log2;
+    const float x_wrong = axis_wrong(kernels, x_bits, evidence.columns, profile, x, odds_q8, limit);
+    if (x_wrong >= 1) return false;
+    const float wrong =
+        x_wrong + axis_wrong(kernels, y_bits, evidence.rows, profile, y, odds_q8, limit);
+    int exponent = 0;
+    std::frexp(wrong, &exponent);  // wrong < 2^exponent
+    fix.p_wrong_log2 = std::min(exponent, 0);
+    return fix.p_wrong_log2 <= limit;
 }
 
 }  // namespace dotpose::core

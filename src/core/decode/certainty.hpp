@@ -4,6 +4,7 @@
 
 #include "core/decode/confidence.hpp"
 #include "core/decode/lines.hpp"
+#include "core/kernels/kernels.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/options.hpp"
 
@@ -19,7 +20,7 @@ struct Evidence {
 
 /// Sets bit_errors and p_wrong_log2 of the fix: an upper estimate, in integers (quick_rivals.hpp).
 /// False if the position is not certain enough, or too many bits contradict it.
-bool is_certain(const Evidence& evidence, Profile profile, const IntegrityOptions& options,
-                Fix& fix);
+bool is_certain(const Kernels& kernels, const Evidence& evidence, Profile profile,
+                const IntegrityOptions& options, Fix& fix);
 
 }  // namespace dotpose::core

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "core/decode/least_losses.hpp"
+#include "core/decode/rival_sets.hpp"
 #include "core/decode/similar_places.hpp"
 
 namespace dotpose::core {
@@ -13,18 +15,6 @@ constexpr int kShifts_q8 = 1525;   // 62
 constexpr int kSingles_q8 = 2441;  // 741
 /// Odds, as a power of two, at which single rivals are counted that have less, known or not.
 constexpr int kPassedOver_q8 = -52 * 256;
-
-/// Rivals that differ in the places of a set of sequences: how many, and how probable it is that
-/// they all show the reading's digits in a step.
-struct Set {
-    int rivals_q8 = 0;
-    int equal_q8 = 0;
-};
-/// Two with a3, two others, three with a3, the three others, all four.
-constexpr std::array<Set, 5> kSets{
-    {{3694, -661}, {4444, -811}, {5712, -1067}, {6057, -1217}, {7326, -1473}}};
-/// log2(1.03): see ExpectedRivals.
-constexpr int kUnevenness_q8 = 11;
 
 /// What a rival that does not share a line may have in odds there.
 struct LineOdds {
@@ -63,7 +53,7 @@ int log2_of_others_q8(const Contest& contest, int line) {
 /// ExpectedRivals with all that share no line lumped together. A step leads to each roll with at
 /// most the probability of the one that stays shared, so a line has at most that share of the sum
 /// of its odds, and at most the best of them.
-int far_log2_q8(const Contest& contest, const Set& set, const AllLineOdds& odds) {
+int far_log2_q8(const Contest& contest, const RivalSet& set, const AllLineOdds& odds) {
     const int most = contest.most_shared();
     const int equal = set.equal_q8 + kUnevenness_q8;
     // All sums are divided by the probability that every line so far is shared: then those that
@@ -96,7 +86,7 @@ int far_log2_q8(const Contest& contest, bool roughly, int enough) {
             best, best + (roughly ? kShifts_q8 : log2_of_others_q8(contest, line))};
     }
     int sum = kNever_q8;
-    for (const Set& set : kSets) {
+    for (const RivalSet& set : kRivalSets) {
         if (sum > enough) break;
         sum = add_log2(sum, far_log2_q8(contest, set, odds));
     }
@@ -218,9 +208,10 @@ ByShift::ByShift(const Contest& contest, int enough)
 int singles_log2_q8(const Contest& contest) {
     const int lines = contest.lines.count();
     const int enough = contest.loss_for(kPassedOver_q8) + contest.most_regained();
-    ByShift by_shift(contest, enough);
     int sum = kSingles_q8 + kPassedOver_q8 +
               256 * static_cast<int>(std::bit_width(static_cast<unsigned>(lines)));
+    if (least_losses(contest, false)[static_cast<std::size_t>(lines)] >= enough) return sum;
+    ByShift by_shift(contest, enough);
     visit_similar_places(contest, Steps(contest, enough, Excused::none),
                          [&](std::size_t sequence, std::uint32_t place) {
                              sum = by_shift.add(sequence, place, sum);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <span>
 
+#include "core/decode/least_losses.hpp"
 #include "core/decode/similar_places.hpp"
 
 namespace dotpose::core {
@@ -14,38 +15,6 @@ namespace {
 constexpr int kSeam_q8 = -32 * 256;
 /// Odds below that, against the position found, are not counted.
 constexpr int kLeast_q8 = -8 * 256;
-
-/// What a rival loses at least on one side of a border: in the first n lines from one end of the
-/// view, for every n. Nobody shares more lines in a row than `most_shared`.
-using OneSide = std::array<int, kMaxLines + 1>;
-OneSide least_losses(const Contest& contest, bool from_last) {
-    const int count = contest.lines.count();
-    OneSide least;
-    OneSide with_last;  // of who does not share the last of the n lines
-    with_last[0] = 0;
-    for (int n = 0;; ++n) {
-        const int* last = &with_last[static_cast<std::size_t>(n)];
-        least[static_cast<std::size_t>(n)] =
-            *std::min_element(last - std::min(n, contest.most_shared()), last + 1);
-        if (n == count) return least;
-        const int line = from_last ? count - 1 - n : n;
-        with_last[static_cast<std::size_t>(n + 1)] =
-            least[static_cast<std::size_t>(n)] + std::max(contest.least_loss(line), 0);
-    }
-}
-
-/// What every rival loses at least, wherever the border is.
-int least_loss(const Contest& contest) {
-    const int count = contest.lines.count();
-    const OneSide before = least_losses(contest, false);
-    const OneSide beyond = least_losses(contest, true);
-    int least = before[0] + beyond[static_cast<std::size_t>(count)];
-    for (int n = 1; n < count; ++n) {
-        least = std::min(least, before[static_cast<std::size_t>(n)] +
-                                    beyond[static_cast<std::size_t>(count - n)]);
-    }
-    return least;
-}
 
 /// What a rival loses before each line, and from it on, at the best of its shifts; those are left
 /// out with which it has lost enough whatever the other one.
@@ -106,7 +75,7 @@ class LossesOfSides {
 int seam_rivals_log2_q8(const Contest& contest) {
     const int enough = contest.loss_for(kLeast_q8) + contest.most_regained();
     int sum = kNever_q8;
-    if (least_loss(contest) >= enough) return sum;
+    if (least_loss_with_border(contest) >= enough) return sum;
     const int lines = contest.lines.count();
     const auto add = [&](std::size_t sequence, std::uint32_t place) {
         Growth growth;

@@ -42,7 +42,7 @@ bool measure_contrast(Patch& patch) {
     for (int row = 0; row < rows; ++row) {
         for (int column = 0; column < columns; ++column) {
             const int paper = patch.brightest[tile(column, row)];
-            const int darkness = paper - patch.darkest[tile(column, row)];
+            const int darkness = paper + patch.darkness[tile(column, row)] - 255;
             if (darkness < kLeastDarkness) continue;
             ++counts[static_cast<std::size_t>(64 * darkness / (paper + 1))];
             ++dark_tiles;

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "core/plane.hpp"
 #include "dotpose/image.hpp"
@@ -62,6 +63,9 @@ struct FloatLens {
     float centre_y = 0;
 };
 
+/// Columns and rows of cells that an image may show, turned by any angle.
+inline constexpr int kMostLinesInView = 1024;
+
 /// What cells are asked for: those of which the dot is in view.
 struct CellsInView {
     FloatPlane plane;  ///< of the pattern, upright; (x, y) are counted from `centre`
@@ -112,6 +116,24 @@ struct BitsRead {
     float squares = 0;    ///< of the right ones, from their places
 };
 
+/// What a rival that does not share a line loses there at least, in bits.
+struct LineLoss {
+    std::uint8_t line = 0;
+    std::uint8_t loss = 0;
+};
+
+/// Places of a sequence, each with a line that it shares with the reading. `list_similar_places`
+/// looks at 32 from every 32nd on: `rolls` go on for as many beyond the end.
+struct SimilarPlaceList {
+    static constexpr int kMost = 96;
+    struct Entry {
+        std::uint8_t place;
+        std::uint8_t line;
+    };
+    int count = 0;
+    std::array<Entry, kMost> places;
+};
+
 /// Words of bits, one for each of 64 lines of 64 cells.
 struct BitLines {
     std::array<std::uint64_t, 64> bits{};
@@ -148,8 +170,15 @@ struct Kernels {
     /// Bits of the dots as measured, against those that the code has there.
     BitsRead (*read_bits)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                           BitLines& columns, BitLines& rows, int first_column, int first_row);
+    /// Sums over the dots that are at most `limit` (spacings^2) off.
     FitSums (*sum_fit)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                        float reach_px, float limit);
+    /// The other places of a sequence that may lose less than `enough` over these lines, the
+    /// dearest first. False, if there are too many, or places that share none of the first lines
+    /// may, too.
+    bool (*list_similar_places)(const std::uint8_t* rolls, int length, int own,
+                                std::span<const LineLoss> lines, int enough,
+                                SimilarPlaceList& list);
 };
 
 }  // namespace dotpose::core

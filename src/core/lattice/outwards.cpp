@@ -193,7 +193,7 @@ bool find_grid(const Kernels& kernels, const Patch& patch, PatchGrid& grid) {
         if (sums.used < 12 || share < 0.4F || !solve_plane(sums, may_tilt, plane)) return false;
         if (!is_plausible(plane, spacing, full)) return false;
         if (pass.reach_px >= full && (share > 0.9F || round + 1 == kMostRounds)) break;
-        if (share > 0.8F) pass.reach_px = std::min(pass.reach_px * 1.5F, full);
+        if (share > 0.8F) pass.reach_px = std::min(pass.reach_px * 1.8F, full);
     }
     if (pass.reach_px < full || sums.used < 0.7F * sums.seen) return false;
     grid.variance = sums.squares / (2 * sums.used);

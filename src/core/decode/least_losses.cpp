@@ -1,0 +1,34 @@
+#include "core/decode/least_losses.hpp"
+
+#include <algorithm>
+
+namespace dotpose::core {
+
+OneSide least_losses(const Contest& contest, bool from_last) {
+    const int count = contest.lines.count();
+    const int most_shared = contest.most_shared();
+    OneSide least;
+    OneSide with_last;  // of who does not share the last of the n lines
+    with_last[0] = 0;
+    for (int n = 0;; ++n) {
+        const int* last = &with_last[static_cast<std::size_t>(n)];
+        least[static_cast<std::size_t>(n)] =
+            *std::min_element(last - std::min(n, most_shared), last + 1);
+        if (n == count) return least;
+        const int line = from_last ? count - 1 - n : n;
+        with_last[static_cast<std::size_t>(n + 1)] =
+            least[static_cast<std::size_t>(n)] + std::max(contest.least_loss(line), 0);
+    }
+}
+
+int least_loss_with_border(const Contest& contest) {
+    const auto count = static_cast<std::size_t>(contest.lines.count());
+    const OneSide before = least_losses(contest, false);
+    const OneSide beyond = least_losses(contest, true);
+    int least = before[0] + beyond[count];
+    for (std::size_t n = 1; n < count; ++n)
+        least = std::min(least, before[n] + beyond[count - n]);
+    return least;
+}
+
+}  // namespace dotpose::core
