@@ -65,14 +65,25 @@ void FrameLocator::use_sheets() {
     }
 }
 
+/// Where the pattern will be seen.
+std::optional<Prediction> FrameLocator::predict(std::int64_t time_us) const {
+    if (!seen_) return std::nullopt;
+    if (!seen_->sighting) return Prediction::like(seen_->fix);
+    Options options = options_.locate;
+    options.profile = seen_->profile;
+    return tracker_.predict(time_us, seen_->fix, *seen_->sighting, options);
+}
+
 /// The first fix that lies on a sheet of its profile; otherwise the first fix, or what the last
 /// profile told.
-FrameLocator::Found FrameLocator::find(ImageView image, int max_p_wrong_log2) {
+FrameLocator::Found FrameLocator::find(ImageView image, int max_p_wrong_log2,
+                                       const std::optional<Prediction>& expected) {
     Found best;
     used_.integrity.max_p_wrong_log2 = max_p_wrong_log2;
     for (const Profile profile : profiles_) {
         used_.profile = profile;
-        Found found = look(image, used_);
+        const bool is_expected = expected && seen_ && seen_->profile == profile;
+        Found found = look(image, used_, is_expected ? expected : std::nullopt);
         if (sheets_.size() > 1) found = without_neighbours(found, image);
         if (found.place) return found;
         if (best.fix.status != Status::ok) best = found;
@@ -80,9 +91,17 @@ FrameLocator::Found FrameLocator::find(ImageView image, int max_p_wrong_log2) {
     return best;
 }
 
-FrameLocator::Found FrameLocator::look(ImageView image, const Options& options) {
-    const Fix fix = locate(image, options, *workspace_);
-    return {fix, find_sheet(sheets_, options.profile, fix)};
+FrameLocator::Found FrameLocator::look(ImageView image, const Options& options,
+                                       const std::optional<Prediction>& expected) {
+    Fix fix = expected ? locate(image, options, *expected, *workspace_)
+                       : locate(image, options, *workspace_);
+    auto place = find_sheet(sheets_, options.profile, fix);
+    // The centre has left the page that was followed: another one may be seen there.
+    if (fix.status == Status::ok && fix.attempt == Attempt::tracked && !place && !sheets_.empty()) {
+        fix = locate(image, options, *workspace_);
+        place = find_sheet(sheets_, options.profile, fix);
+    }
+    return {fix, place, options.profile};
 }
 
 /// A frame across the edge of a page: once more without what lies beside it, if that leaves enough.
@@ -114,6 +133,7 @@ std::optional<Sighting> FrameLocator::sighting_of(const Found& found, std::int64
     const auto world = found.place ? world_pose(*found.place) : std::nullopt;
     if (!world) return std::nullopt;
     sighting.plane = 0;
+    sighting.is_y_up = true;
     sighting.x_nm = std::llround(world->x_m * 1e9);
     sighting.y_nm = std::llround(world->y_m * 1e9);
     sighting.theta_bam = bam(world->yaw_rad);
@@ -127,10 +147,11 @@ Reading FrameLocator::operator()(video::Frame& frame) {
             grey = static_cast<std::uint8_t>(255 - grey);
     }
     const ImageView image = frame.image.view();
-    Found found = find(image, options_.track.max_p_wrong_log2);
+    Found found = find(image, options_.track.max_p_wrong_log2, predict(frame.time_us));
     const Fix strict = found.fix;
     if (strict.status == Status::not_certain && tracker_.has_prior()) {
-        found = find(image, options_.track.max_weak_p_wrong_log2);
+        // From nothing: what is only confirmed where it was expected would count the prior twice.
+        found = find(image, options_.track.max_weak_p_wrong_log2, {});
     }
     const auto sighting = sighting_of(found, frame.time_us);
     Reading reading;
@@ -140,6 +161,12 @@ Reading FrameLocator::operator()(video::Frame& frame) {
     reading.track = tracker_.update(frame.time_us, sighting ? &*sighting : nullptr);
     // A weak fix counts only if the prior made it one.
     const bool is_fix = strict.status == Status::ok || reading.track.verdict == Verdict::with_prior;
+    if (is_fix) {
+        seen_ = Seen{found.fix, found.profile, sighting};
+        std::ranges::iter_swap(profiles_.begin(), std::ranges::find(profiles_, found.profile));
+    } else if (!tracker_.has_prior()) {
+        seen_.reset();
+    }
     Record& record = reading.record;
     record.fix = is_fix ? found.fix : strict;
     if (reading.track.verdict == Verdict::with_prior) {

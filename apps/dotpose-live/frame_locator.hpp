@@ -1,5 +1,5 @@
 /// Locates the frames of `dotpose watch`, on sheets or on the bare pattern, with the tracker's
-/// prior.
+/// prior. Dots are looked for where the frames before lead to expect them.
 #pragma once
 
 #include <memory>
@@ -54,21 +54,31 @@ class FrameLocator {
     struct Found {
         Fix fix;
         std::optional<SheetPlace> place;
+        Profile profile = Profile::anoto;
+    };
+    /// The newest frame with a fix.
+    struct Seen {
+        Fix fix;
+        Profile profile;
+        std::optional<Sighting> sighting;
     };
     void use_sheets();
-    Found find(ImageView image, int max_p_wrong_log2);
-    Found look(ImageView image, const Options& options);
+    std::optional<Prediction> predict(std::int64_t time_us) const;
+    Found find(ImageView image, int max_p_wrong_log2, const std::optional<Prediction>& expected);
+    Found look(ImageView image, const Options& options,
+               const std::optional<Prediction>& expected = {});
     Found without_neighbours(const Found& found, ImageView image);
     std::optional<Sighting> sighting_of(const Found& found, std::int64_t time_us) const;
     double spacing_mm(const Found& found) const;
 
     LocatorOptions options_;
     std::vector<SheetEntry> sheets_;
-    std::vector<Profile> profiles_;  ///< to try, in this order
+    std::vector<Profile> profiles_;  ///< to try, in this order; first the one seen last
     Plane plane_ = Plane::pattern;
     Options used_;  ///< for the newest frame
     std::unique_ptr<LargeWorkspace> workspace_;
     Tracker tracker_;
+    std::optional<Seen> seen_;  ///< none if that is too long ago to expect anything
 };
 
 }  // namespace dotpose::cli

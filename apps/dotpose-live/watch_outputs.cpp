@@ -139,8 +139,9 @@ bool WatchOutputs::show(const video::Frame& frame, const Reading& reading, std::
     scene.y_up = locator_.plane() == Plane::sheet_world;
     scene.path = path_.marks();
     scene.sheets = sheets_;
-    scene.lines.push_back(fmt::format("frame {}   {:.3f} s", reading.index,
-                                      static_cast<double>(reading.time_us) * 1e-6));
+    scene.lines.push_back(fmt::format("frame {}   {:.3f} s   {}", reading.index,
+                                      static_cast<double>(reading.time_us) * 1e-6,
+                                      ok ? name(fix.attempt) : ""));
     scene.lines.push_back(ok ? fmt::format("{} dots, {} bits wrong, p {:.0e}", fix.dots_used,
                                            fix.bit_errors, fix.p_wrong())
                              : std::string(name(fix.status)));

@@ -11,6 +11,8 @@
 ///         const Track& track = tracker.update(time_us, ok ? &sighting : nullptr);
 ///     }
 ///
+/// `predict` tells where the next frame will show the pattern; examples/follow.cpp has such a loop.
+///
 /// Frames: any plane in mm, as long as the sightings agree on it: the pattern frame, or the world
 /// of a sheet file, where a robot may drive from sheet to sheet. Positions are whole nanometres,
 /// which reach over the whole pattern plane (2.1e14 nm). Angles are binary, 2^31 is half a turn,
@@ -24,6 +26,8 @@
 #include <numbers>
 
 #include "dotpose/fix.hpp"
+#include "dotpose/options.hpp"
+#include "dotpose/prediction.hpp"
 
 namespace dotpose {
 
@@ -41,6 +45,9 @@ struct Sighting {
     std::array<std::array<float, 3>, 3> covariance{};  ///< of x, y, theta, in mm and rad
     /// As in Fix. Above TrackOptions::max_p_wrong_log2 the sighting is *weak*.
     int p_wrong_log2 = 0;
+    std::int32_t spacing_nm = 508'000;  ///< of the pattern that was seen
+    /// The plane's y axis points up the paper: angles turn the other way than the pattern's.
+    bool is_y_up = false;
 };
 
 /// A fix in the pattern frame, the plane being its section. `spacing_nm`: 508000 for 0.508 mm;
@@ -169,6 +176,13 @@ class Tracker {
     const Track& update(std::int64_t time_us, const Sighting* sighting);
 
     const Track& track() const { return track_; }
+
+    /// Where the frame at `time_us` will show the pattern: as the newest ok fix, of which `seen` is
+    /// the sighting, but with the pose that the filter expects then, and its uncertainty. While the
+    /// filter expects nothing (it is lost, or will be by then, or does not believe `seen`) as the
+    /// fix has it. `options` are those of `locate`.
+    Prediction predict(std::int64_t time_us, const Fix& newest, const Sighting& seen,
+                       const Options& options) const;
 
     /// Whether a weak sighting of the next frame could be believed: worth locating with a relaxed
     /// IntegrityOptions::max_p_wrong_log2.

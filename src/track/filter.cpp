@@ -41,16 +41,6 @@ std::int32_t turned(std::int32_t theta_bam, float angle_rad) {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(std::int64_t{theta_bam} + turn));
 }
 
-TrackedPose pose_of(const Sighting& sighting) {
-    TrackedPose pose;
-    pose.time_us = sighting.time_us;
-    pose.x_nm = sighting.x_nm;
-    pose.y_nm = sighting.y_nm;
-    pose.theta_bam = sighting.theta_bam;
-    pose.plane = sighting.plane;
-    return pose;
-}
-
 /// Adds to the state.
 void move(Motion& motion, const Vector9& step) {
     constexpr float kNm_per_mm = 1e6F;
@@ -172,6 +162,16 @@ void subtract_known(Covariance9& p, const std::array<Vector9, 3>& weighted, cons
 }
 
 }  // namespace
+
+TrackedPose pose_of(const Sighting& sighting) {
+    TrackedPose pose;
+    pose.time_us = sighting.time_us;
+    pose.x_nm = sighting.x_nm;
+    pose.y_nm = sighting.y_nm;
+    pose.theta_bam = sighting.theta_bam;
+    pose.plane = sighting.plane;
+    return pose;
+}
 
 Motion started_at(const Sighting& sighting, const TrackOptions& options) {
     Motion motion;

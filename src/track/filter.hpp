@@ -12,6 +12,9 @@ namespace dotpose::track {
 
 inline constexpr float kRad_per_bam = 1.46291808e-9F;  // pi / 2^31
 
+/// Without velocities and covariance.
+TrackedPose pose_of(const Sighting& sighting);
+
 /// What is known from one sighting: the velocities are not.
 Motion started_at(const Sighting& sighting, const TrackOptions& options);
 

@@ -88,6 +88,7 @@ Sighting sighting_of(const Fix& fix, std::int32_t spacing_nm, std::int64_t time_
     sighting.theta_bam = fix.theta_bam;
     sighting.plane = std::uint32_t{fix.section.u} * kSections + fix.section.v;
     sighting.p_wrong_log2 = fix.p_wrong_log2;
+    sighting.spacing_nm = spacing_nm;
     const float spacing_mm = static_cast<float>(spacing_nm) * 1e-6F;
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 3; ++j) {

@@ -48,6 +48,7 @@ TEST_F(LocateCommand, finds_the_true_poses) {
         EXPECT_LE(record["theta_deg"], 180);
         const Section section = truth.page.pattern.section;
         EXPECT_EQ(record["section"], json({section.u, section.v}));
+        EXPECT_EQ(record["attempt"], "first");
         EXPECT_GT(record["dots_seen"], 100);
         EXPECT_LE(record["dots_used"], record["dots_seen"]);
         EXPECT_LE(record["p_wrong"], 1e-9);

@@ -1,0 +1,208 @@
+#include "tracked_frames.hpp"
+
+#include <array>
+#include <memory>
+
+#include <fmt/core.h>
+
+#include "../tests/adversarial_textures.hpp"
+
+namespace dotpose {
+namespace {
+
+constexpr double kBam_per_degree = 4294967296.0 / 360;
+
+Workspace& workspace() {
+    thread_local const auto kWorkspace = std::make_unique<LargeWorkspace>();
+    return *kWorkspace;
+}
+
+/// By how much a prediction is off.
+struct Offset {
+    double spacings;
+    double degrees;
+};
+constexpr std::array kOffsets{Offset{0, 0},   Offset{0.1, 0}, Offset{0.2, 0}, Offset{0.3, 0},
+                              Offset{0.4, 0}, Offset{0.5, 0}, Offset{0.6, 0}, Offset{0.7, 0},
+                              Offset{0.9, 0}, Offset{0, 1},   Offset{0, 2},   Offset{0, 3},
+                              Offset{0, 4},   Offset{0, 5},   Offset{0, 6},   Offset{0.3, 2},
+                              Offset{0.5, 3}, Offset{0.6, 4}, Offset{0.9, 6}};
+
+/// In any direction, to either side.
+Prediction displaced(const Fix& fix, const Offset& offset, Rng& rng) {
+    const double direction = rng.uniform(-std::numbers::pi, std::numbers::pi);
+    const double sign = rng.below(2) == 0 ? 1 : -1;
+    const auto q16 = [](double v) { return static_cast<std::int32_t>(std::lround(v * 65536)); };
+    return moved(
+        Prediction::like(fix), Profile::anoto,
+        {q16(offset.spacings * std::cos(direction)), q16(offset.spacings * std::sin(direction))},
+        static_cast<std::int32_t>(std::lround(sign * offset.degrees * kBam_per_degree)),
+        fix.pattern_from_image.centre_q8);
+}
+
+Setup nominal(const Counting& counting) {
+    Setup setup;
+    setup.seed = counting.seed;
+    return setup;
+}
+
+/// The first row is that of frames without a prediction.
+void try_offsets(const Shot& shot, TrackedTallies& tallies) {
+    const GreyImage image = render(shot);
+    const Fix fresh = locate(image.view(), {}, workspace());
+    if (fresh.status != Status::ok) return;
+    const Truth truth = Truth::of(shot);
+    ++tallies[0].afresh;
+    tallies[0].errors_um.push_back(truth.error_um(fresh));
+    Rng rng(shot.seed, 77);
+    for (std::size_t i = 0; i < kOffsets.size(); ++i) {
+        const Prediction prediction = displaced(fresh, kOffsets[i], rng);
+        tallies[i + 1].count(locate(image.view(), {}, prediction, workspace()), truth);
+    }
+}
+
+/// How the second frame differs from the first.
+enum class Change : std::uint8_t {
+    nothing,
+    driven,
+    light,
+    covered,
+    shaded,
+    lifted,
+    turned,
+    elsewhere,
+};
+constexpr std::array kChanges{Change::nothing, Change::driven, Change::light,  Change::covered,
+                              Change::shaded,  Change::lifted, Change::turned, Change::elsewhere};
+
+const char* text_of(Change change) {
+    constexpr std::array<const char*, kChanges.size()> kTexts = {
+        "nothing but noise",
+        "driven on by up to 0.5 spacing, turned by up to 2 degrees",
+        "light of 0.5 to 1.5 times as much",
+        "graphics and dirt came into view",
+        "a light that falls off to one side",
+        "lifted: nothing in focus",
+        "turned by 10 to 180 degrees",
+        "put on another sheet"};
+    return kTexts[static_cast<std::size_t>(change)];
+}
+
+void drive_on(Shot& shot, Rng& rng) {
+    const double direction = rng.uniform(-std::numbers::pi, std::numbers::pi);
+    const double way = rng.uniform(0, 0.5);
+    constexpr double kMost_rad = 2 * std::numbers::pi / 180;
+    shot.pose.fraction_x += way * std::cos(direction);
+    shot.pose.fraction_y += way * std::sin(direction);
+    shot.pose.theta_rad += rng.uniform(-kMost_rad, kMost_rad);
+}
+
+/// The second frame. Its noise is another; its page shows each dot as before.
+Shot changed(Change change, const Shot& first, const Shot& other, Rng& rng) {
+    Shot shot = first;
+    shot.seed = rng.bits();
+    Imperfections& seen = shot.imperfections;
+    constexpr double kBrightest = 255;
+    switch (change) {
+        case Change::nothing:
+        case Change::lifted:
+            break;
+        case Change::driven:
+            drive_on(shot, rng);
+            break;
+        case Change::light:
+            seen.paper_level = std::min(seen.paper_level * rng.uniform(0.5, 1.5), kBrightest);
+            break;
+        case Change::covered:
+            seen.graphics = 1 + static_cast<int>(rng.below(3));
+            seen.dirt_blobs = static_cast<int>(rng.below(12));
+            break;
+        case Change::shaded:
+            seen.fall = rng.uniform(0.3, 1);
+            seen.fall_direction_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
+            break;
+        case Change::turned:
+            shot.pose.theta_rad +=
+                rng.uniform(std::numbers::pi / 18, std::numbers::pi) * (rng.below(2) == 0 ? 1 : -1);
+            break;
+        case Change::elsewhere:
+            return other;
+    }
+    return shot;
+}
+
+/// What a lifted camera sees.
+GreyImage nothing_in_focus(const Shot& shot, Rng& rng) {
+    return test::detail::painted(
+        shot, [&](int, int) { return 120 + shot.imperfections.noise_sigma * rng.normal(); });
+}
+
+void try_changes(const Counting& counting, std::uint64_t index, TrackedTallies& tallies) {
+    const Setup setup = nominal(counting);
+    const Shot first = draw_shot(setup, 2 * index);
+    const Shot other = draw_shot(setup, 2 * index + 1);
+    const GreyImage image = render(first);
+    const Fix seen = locate(image.view(), {}, workspace());
+    if (seen.status != Status::ok) return;
+    Rng rng(first.seed, 78);
+    for (const Change change : kChanges) {
+        const Shot shot = changed(change, first, other, rng);
+        const bool is_lifted = change == Change::lifted;
+        const GreyImage next = is_lifted ? nothing_in_focus(shot, rng) : render(shot);
+        tallies[static_cast<std::size_t>(change)].count(
+            locate(next.view(), {}, Prediction::like(seen), workspace()),
+            is_lifted ? std::nullopt : std::optional(Truth::of(shot)));
+    }
+}
+
+}  // namespace
+
+TrackedTable offsets_table(const Counting& counting, std::uint64_t frames) {
+    const auto count =
+        count_on_threads<TrackedTallies>("predictions that are off", frames, counting.threads,
+                                         [&](std::uint64_t i, TrackedTallies& mine) {
+                                             try_offsets(draw_shot(nominal(counting), i), mine);
+                                         });
+    TrackedTable table;
+    table.text =
+        "| prediction off by, spacings | degrees | frames | tracked, % | afresh, % | no fix | "
+        "wrong | error of the tracked, µm: median | 95 % |\n"
+        "|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
+    TrackedTallies tallies = count.tally;
+    for (std::size_t i = 0; i <= kOffsets.size(); ++i) {
+        const TrackedTally& tally = tallies[i];
+        const std::string what =
+            i == 0 ? "no prediction | "
+                   : fmt::format("{:g} | {:g}", kOffsets[i - 1].spacings, kOffsets[i - 1].degrees);
+        table.text +=
+            fmt::format("| {} | {} | {:.1f} | {:.1f} | {} | {} | {} |\n", what, tally.all(),
+                        tally.percent(tally.tracked), tally.percent(tally.afresh), tally.none,
+                        tally.wrong(), tally.errors());
+    }
+    table.wrong = tallies.wrong();
+    table.is_complete = count.done == count.asked;
+    return table;
+}
+
+TrackedTable changes_table(const Counting& counting, std::uint64_t frames) {
+    const auto count = count_on_threads<TrackedTallies>(
+        "frames that change", frames, counting.threads,
+        [&](std::uint64_t i, TrackedTallies& mine) { try_changes(counting, i, mine); });
+    TrackedTable table;
+    table.text =
+        "| since the frame before | frames | tracked, % | afresh, % | no fix, % | wrong |\n"
+        "|---|--:|--:|--:|--:|--:|\n";
+    TrackedTallies tallies = count.tally;
+    for (const Change change : kChanges) {
+        const TrackedTally& tally = tallies[static_cast<std::size_t>(change)];
+        table.text +=
+            fmt::format("| {} | {} | {:.1f} | {:.1f} | {:.1f} | {} |\n", text_of(change),
+                        tally.all(), tally.percent(tally.tracked), tally.percent(tally.afresh),
+                        tally.percent(tally.none), tally.wrong());
+    }
+    table.wrong = tallies.wrong();
+    table.is_complete = count.done == count.asked;
+    return table;
+}
+
+}  // namespace dotpose

@@ -1,0 +1,123 @@
+/// What became of predictions: shared by the parts of `dotpose_tracked`.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "dotpose/fix.hpp"
+#include "dotpose/locate.hpp"
+#include "dotpose/simulate.hpp"
+
+namespace dotpose {
+
+/// What an image shows at its centre.
+struct Truth {
+    CameraPose pose;
+    Section section;
+
+    static Truth of(const Shot& shot) { return {shot.pose, shot.page.pattern.section}; }
+
+    double error_um(const Fix& fix) const {
+        return 1000 * kDefaultSpacing_mm *
+               std::hypot(fix.x_grid() - x_grid(pose), fix.y_grid() - y_grid(pose));
+    }
+    bool agrees(const Fix& fix) const {
+        constexpr double kFarthest_um = 500 * kDefaultSpacing_mm;  // half a spacing
+        constexpr double kFarthest_rad = 0.1;
+        const double theta = std::remainder(fix.theta_rad() - pose.theta_rad, 2 * std::numbers::pi);
+        return fix.section == section && error_um(fix) < kFarthest_um &&
+               std::abs(theta) < kFarthest_rad;
+    }
+};
+
+/// The `share` quantile; 0 of none.
+inline double quantile(std::vector<double> values, double share) {
+    if (values.empty()) return 0;
+    const auto n = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
+    const auto at = values.begin() + std::min(n, std::ssize(values) - 1);
+    std::ranges::nth_element(values, at);
+    return *at;
+}
+
+/// Predictions of one kind.
+struct TrackedTally {
+    std::uint64_t tracked = 0;        ///< right, where the prediction had it
+    std::uint64_t afresh = 0;         ///< the prediction was refused, the frame located afresh
+    std::uint64_t none = 0;           ///< no fix
+    std::uint64_t tracked_wrong = 0;  ///< a wrong position was taken for confirmed
+    std::uint64_t afresh_wrong = 0;
+    std::vector<double> errors_um;  ///< of the tracked ones
+
+    /// Without a truth every fix is wrong.
+    void count(const Fix& fix, const std::optional<Truth>& truth) {
+        if (fix.status != Status::ok) {
+            ++none;
+            return;
+        }
+        const bool is_tracked = fix.attempt == Attempt::tracked;
+        if (!truth || !truth->agrees(fix)) {
+            ++(is_tracked ? tracked_wrong : afresh_wrong);
+        } else {
+            ++(is_tracked ? tracked : afresh);
+            if (is_tracked) errors_um.push_back(truth->error_um(fix));
+        }
+    }
+
+    /// Two cells of a table: median and 95 %; empty if nothing was tracked.
+    std::string errors() const {
+        if (errors_um.empty()) return " | ";
+        return fmt::format("{:.2f} | {:.2f}", quantile(errors_um, 0.5), quantile(errors_um, 0.95));
+    }
+    std::uint64_t wrong() const { return tracked_wrong + afresh_wrong; }
+    std::uint64_t all() const { return tracked + afresh + none + wrong(); }
+    double percent(std::uint64_t part) const {
+        return all() == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(all());
+    }
+
+    TrackedTally& operator+=(const TrackedTally& other) {
+        tracked += other.tracked;
+        afresh += other.afresh;
+        none += other.none;
+        tracked_wrong += other.tracked_wrong;
+        afresh_wrong += other.afresh_wrong;
+        errors_um.insert(errors_um.end(), other.errors_um.begin(), other.errors_um.end());
+        return *this;
+    }
+};
+
+/// One for each kind, by its number.
+struct TrackedTallies {
+    std::vector<TrackedTally> kinds;
+
+    TrackedTally& operator[](std::size_t kind) {
+        if (kinds.size() <= kind) kinds.resize(kind + 1);
+        return kinds[kind];
+    }
+    TrackedTallies& operator+=(const TrackedTallies& other) {
+        for (std::size_t i = 0; i < other.kinds.size(); ++i)
+            (*this)[i] += other.kinds[i];
+        return *this;
+    }
+    std::uint64_t wrong() const {
+        std::uint64_t sum = 0;
+        for (const TrackedTally& tally : kinds)
+            sum += tally.wrong();
+        return sum;
+    }
+};
+
+/// A table of a document, and how many fixes in it are wrong.
+struct TrackedTable {
+    std::string text;
+    std::uint64_t wrong = 0;
+    bool is_complete = true;  ///< not interrupted
+};
+
+}  // namespace dotpose

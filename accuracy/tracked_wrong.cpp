@@ -1,0 +1,207 @@
+#include "tracked_wrong.hpp"
+
+#include <array>
+#include <memory>
+
+#include <fmt/core.h>
+
+#include "../tests/adversarial_textures.hpp"
+#include "worst_rival.hpp"
+
+namespace dotpose {
+namespace {
+
+/// A prediction that is wrong, or an image for which any is.
+struct WrongClass {
+    const char* name;
+    /// Cells off; where one or two are given.
+    int dx = 0;
+    int dy = 0;
+};
+
+enum Kind : std::size_t {
+    another_frame,
+    elsewhere,
+    far_on_one_axis,
+    one_x,
+    one_y,
+    one_both,
+    two_x,
+    two_y,
+    two_both,
+    section,
+    rival_x,
+    rival_y,
+    blank,
+    noise,
+    text,
+    halftone,
+    texture,
+    plain_grid,
+    random_symbols,
+    scattered,
+    mirrored,
+    kind_count,
+};
+constexpr std::array<WrongClass, kind_count> kClasses{{
+    {"another frame's"},
+    {"the same lattice, elsewhere in the code"},
+    {"the same, elsewhere on one axis"},
+    {"one cell off in x", 1, 0},
+    {"one cell off in y", 0, 1},
+    {"one cell off in both", 1, 1},
+    {"two cells off in x", 2, 0},
+    {"two cells off in y", 0, 2},
+    {"two cells off in both", 2, 2},
+    {"another section"},
+    {"the worst rival in x"},
+    {"the worst rival in y"},
+    {"right, but the paper is blank"},
+    {"right, but there is noise"},
+    {"right, but there is text"},
+    {"right, but there is a printed screen"},
+    {"right, but there is texture"},
+    {"right, but all dots are on their intersections"},
+    {"right, but the symbols are random"},
+    {"right, but the dots are scattered"},
+    {"right, but the pattern is seen from behind"},
+}};
+
+Workspace& workspace() {
+    thread_local const auto kWorkspace = std::make_unique<LargeWorkspace>();
+    return *kWorkspace;
+}
+
+/// Of a frame whose fix is right, and of another one.
+struct Views {
+    Shot shot;
+    GreyImage image;
+    Fix fix;
+    Fix other_fix;
+};
+
+std::int32_t between(std::uint32_t from, std::uint32_t to) {
+    return static_cast<std::int32_t>(static_cast<std::int64_t>(to) - from);
+}
+
+/// The prediction with the worst rival of the 10 to 16 lines in the middle of the view, which shows
+/// 11 to 18.
+Prediction rival_of(const Fix& fix, bool is_along_x, Rng& rng) {
+    const std::int32_t before = 5 + static_cast<std::int32_t>(rng.below(4));
+    Prediction prediction = Prediction::like(fix);
+    const Place middle{fix.cell, fix.section};
+    const Place first =
+        moved(Profile::anoto, middle, is_along_x ? -before : 0, is_along_x ? 0 : -before);
+    const Place rival = worst_rival(Profile::anoto, first, is_along_x, 2 * before);
+    prediction.place = moved(Profile::anoto, rival, between(first.cell.x, fix.place.cell.x),
+                             between(first.cell.y, fix.place.cell.y));
+    return prediction;
+}
+
+Prediction predicted(std::size_t kind, const Views& views, Rng& rng) {
+    Prediction prediction = Prediction::like(kind == another_frame ? views.other_fix : views.fix);
+    Place& place = prediction.place;
+    const auto anywhere = [&rng] { return 100 + rng.below(kPositionsPerAxis - 200); };
+    const auto any_section = [&rng] { return static_cast<std::uint8_t>(rng.below(kSections)); };
+    switch (kind) {
+        case elsewhere:
+            place = {{anywhere(), anywhere()}, {any_section(), any_section()}};
+            break;
+        case far_on_one_axis:
+            (rng.below(2) == 0 ? place.cell.x : place.cell.y) = anywhere();
+            break;
+        case section: {
+            std::uint8_t& one = rng.below(2) == 0 ? place.section.u : place.section.v;
+            one = static_cast<std::uint8_t>((one + 1 + rng.below(kSections - 1)) % kSections);
+            break;
+        }
+        case rival_x:
+        case rival_y:
+            return rival_of(views.fix, kind == rival_x, rng);
+        default: {
+            const auto either = [&rng](int step) { return rng.below(2) == 0 ? step : -step; };
+            place =
+                moved(Profile::anoto, place, either(kClasses[kind].dx), either(kClasses[kind].dy));
+        }
+    }
+    return prediction;
+}
+
+/// An image that shows nothing of the code, with the same camera and lattice.
+GreyImage without_code(std::size_t kind, const Shot& shot, Rng& rng) {
+    switch (kind) {
+        case noise:
+            return test::detail::noise(shot, rng);
+        case text:
+            return render_scene(Scene::text, shot);
+        case halftone:
+            return test::detail::halftone(shot, rng);
+        case texture:
+            return test::detail::texture(shot, rng);
+        case plain_grid:
+            return render_scene(Scene::plain_grid, shot);
+        case random_symbols:
+            return render_scene(Scene::random_symbols, shot);
+        case scattered:
+            return render_scene(Scene::scattered_dots, shot, rng.uniform(0.1, 1));
+        case mirrored:
+            return render_scene(Scene::mirrored, shot);
+        default:
+            return render_scene(Scene::white, shot);
+    }
+}
+
+void try_all(const Counting& counting, std::uint64_t index, TrackedTallies& tallies) {
+    Setup setup;
+    setup.seed = counting.seed;
+    Views views;
+    views.shot = draw_shot(setup, 2 * index);
+    const Shot other = draw_shot(setup, 2 * index + 1);
+    views.image = render(views.shot);
+    const GreyImage other_image = render(other);
+    views.fix = locate(views.image.view(), {}, workspace());
+    views.other_fix = locate(other_image.view(), {}, workspace());
+    if (views.fix.status != Status::ok || views.other_fix.status != Status::ok) return;
+    Rng rng(views.shot.seed, 79);
+    for (std::size_t kind = 0; kind < kind_count; ++kind) {
+        const Prediction prediction = predicted(kind, views, rng);
+        if (kind < blank) {
+            tallies[kind].count(locate(views.image.view(), {}, prediction, workspace()),
+                                Truth::of(views.shot));
+        } else {
+            const GreyImage image = without_code(kind, views.shot, rng);
+            tallies[kind].count(locate(image.view(), {}, prediction, workspace()), std::nullopt);
+        }
+    }
+}
+
+}  // namespace
+
+TrackedTable wrong_predictions_table(const Counting& counting, std::uint64_t predictions) {
+    const auto count = count_on_threads<TrackedTallies>(
+        "frames with wrong predictions", (predictions + kind_count - 1) / kind_count,
+        counting.threads,
+        [&](std::uint64_t i, TrackedTallies& mine) { try_all(counting, i, mine); });
+    TrackedTable table;
+    table.text =
+        "| the prediction is | predictions | wrong position, tracked | the right one, tracked | "
+        "the right one, afresh | no fix | wrong, afresh |\n"
+        "|---|--:|--:|--:|--:|--:|--:|\n";
+    TrackedTallies tallies = count.tally;
+    TrackedTally all;
+    const auto row = [&table](const char* name, const TrackedTally& tally) {
+        table.text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", name, tally.all(),
+                                  tally.tracked_wrong, tally.tracked, tally.afresh, tally.none,
+                                  tally.afresh_wrong);
+    };
+    for (std::size_t kind = 0; kind < kind_count; ++kind) {
+        row(kClasses[kind].name, tallies[kind]);
+        all += tallies[kind];
+    }
+    row("all", all);
+    table.wrong = tallies.wrong();
+    table.is_complete = count.done == count.asked;
+    return table;
+}
+
+}  // namespace dotpose

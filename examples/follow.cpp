@@ -1,0 +1,37 @@
+// Follows a robot through the frames of its camera: dotpose_follow FRAMES_PER_SECOND IMAGE...
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+
+#include <dotpose/image_file.hpp>
+#include <dotpose/locate.hpp>
+#include <dotpose/track.hpp>
+
+int main(int argc, char** argv) {
+    using namespace dotpose;
+    if (argc < 3) return 2;
+    const auto workspace = std::make_unique<LargeWorkspace>();
+    const Options options;
+    Tracker tracker;
+    Fix seen;  // The newest fix, and what the tracker was told of it.
+    Sighting sighting;
+    for (int i = 2; i < argc; ++i) {
+        const GreyImage image = read_image(argv[i]);
+        const std::int64_t time_us = std::llround((i - 2) * 1e6 / std::atof(argv[1]));
+        const Fix fix = tracker.has_prior()
+                            ? locate(image.view(), options,
+                                     tracker.predict(time_us, seen, sighting, options), *workspace)
+                            : locate(image.view(), options, *workspace);
+        const bool ok = fix.status == Status::ok;
+        if (ok) sighting = sighting_of(seen = fix, 508'000, time_us);
+        const Track& track = tracker.update(time_us, ok ? &sighting : nullptr);
+        const TrackedPose& pose = track.pose;
+        if (track.is_lost) std::puts("lost");
+        if (track.is_lost) continue;
+        std::printf("x %.3f mm, y %.3f mm, %.1f and %.1f mm/s, %s\n", pose.x_mm(), pose.y_mm(),
+                    double{pose.vx_mm_s}, double{pose.vy_mm_s},
+                    ok ? name(fix.attempt) : message(fix.status));
+    }
+}

@@ -1,0 +1,89 @@
+#include <algorithm>
+#include <cmath>
+
+#include "dotpose/track.hpp"
+#include "track/filter.hpp"
+
+namespace dotpose {
+namespace {
+
+using namespace dotpose::track;
+
+/// Dots are looked for within three deviations: in a tenth of a spacing and half a degree at the
+/// least, since a filter that has followed a resting robot for long trusts itself too much.
+constexpr std::int32_t kLeast_sigma_q16 = 65536 / 32;
+constexpr std::int32_t kLeast_sigma_theta_bam = 1 << 21;
+constexpr float kDeviations = 3;
+
+/// Predicted motions beyond this, in spacings, are none: no robot moves so far in one frame, and
+/// sums of whole numbers must not overflow.
+constexpr float kFarthest = 2048;
+
+/// A vector of the sighting's plane in the pattern frame, by the angle of the image x axis, which
+/// is known in both.
+std::array<float, 2> in_pattern(float x, float y, const Fix& fix, const Sighting& seen) {
+    const auto pattern_bam = static_cast<std::uint32_t>(fix.theta_bam);
+    const auto plane_bam = static_cast<std::uint32_t>(seen.theta_bam);
+    const std::uint32_t turn_bam = seen.is_y_up ? pattern_bam + plane_bam : pattern_bam - plane_bam;
+    if (seen.is_y_up) y = -y;
+    const float turn_rad = static_cast<float>(static_cast<std::int32_t>(turn_bam)) * kRad_per_bam;
+    const float c = std::cos(turn_rad);
+    const float s = std::sin(turn_rad);
+    return {c * x - s * y, s * x + c * y};
+}
+
+/// A deviation as an integer of the given unit, within limits; not a number counts as too large.
+std::int32_t bounded(float sigma, float unit, std::int32_t least, std::int32_t most) {
+    const float value = sigma / unit;
+    if (!(value < static_cast<float>(most))) return most;
+    return std::max(static_cast<std::int32_t>(value), least);
+}
+
+/// Of the pose, so that three of them reach over the filter's deviation, that of the fix, whose map
+/// is taken, and what the robot may do that no filter foresees.
+float sigma(const Covariance6& predicted, const Sighting& seen, std::size_t axis,
+            float unforeseen) {
+    return std::sqrt(predicted[axis][axis] + seen.covariance[axis][axis]) +
+           unforeseen / kDeviations;
+}
+
+}  // namespace
+
+Prediction Tracker::predict(std::int64_t time_us, const Fix& newest, const Sighting& seen,
+                            const Options& options) const {
+    const Prediction as_seen = Prediction::like(newest);
+    const std::int64_t last_us = last_.pose.time_us;
+    const bool is_believed = !track_.is_lost && seen.time_us == last_us &&
+                             seen.plane == last_.pose.plane && seen.spacing_nm > 0;
+    if (!is_believed || time_us <= last_us) return as_seen;
+    const auto gap_us = static_cast<std::uint64_t>(time_us) - static_cast<std::uint64_t>(last_us);
+    if (gap_us >= static_cast<std::uint64_t>(options_.lost_after_us)) return as_seen;
+
+    const TrackedPose expected = predicted(last_, time_us, options_).pose;
+    const Vector3 step = difference(pose_of(seen), expected);
+    const float spacing_mm = static_cast<float>(seen.spacing_nm) * 1e-6F;
+    const auto by = in_pattern(step[0] / spacing_mm, step[1] / spacing_mm, newest, seen);
+    if (!(std::fabs(by[0]) < kFarthest && std::fabs(by[1]) < kFarthest)) return as_seen;
+
+    const auto q16 = [](float spacings) { return static_cast<std::int32_t>(spacings * 65536); };
+    const auto turn_bam =
+        static_cast<std::uint32_t>(expected.theta_bam) - static_cast<std::uint32_t>(seen.theta_bam);
+    const Vec centre_q8 = newest.pattern_from_image.centre_q8;
+    Prediction next =
+        moved(as_seen, options.profile, {q16(by[0]), q16(by[1])},
+              static_cast<std::int32_t>(seen.is_y_up ? 0U - turn_bam : turn_bam),
+              {centre_q8.x + options.reference_dx_q8, centre_q8.y + options.reference_dy_q8});
+    const float gap_s = static_cast<float>(gap_us) * 1e-6F;
+    const float half_square = gap_s * gap_s / 2;
+    const auto deviation = [&](std::size_t axis, float largest_acceleration) {
+        return sigma(expected.covariance, seen, axis, largest_acceleration * half_square);
+    };
+    const float sigma_mm = std::max(deviation(0, options_.max_acceleration_mm_s2),
+                                    deviation(1, options_.max_acceleration_mm_s2));
+    next.sigma_q16 = bounded(sigma_mm, spacing_mm / 65536, kLeast_sigma_q16, as_seen.sigma_q16);
+    next.sigma_theta_bam = bounded(deviation(2, options_.max_angular_acceleration_rad_s2),
+                                   kRad_per_bam, kLeast_sigma_theta_bam, as_seen.sigma_theta_bam);
+    return next;
+}
+
+}  // namespace dotpose
