@@ -27,7 +27,7 @@ FloatVec centre_px(const ImageView& image) {
             static_cast<float>(image.height_px - 1) / 2};
 }
 
-float half_diagonal_px(const ImageView& image) {
+float half_side_px(const ImageView& image) {
     return std::max(static_cast<float>(image.width_px), static_cast<float>(image.height_px)) / 2;
 }
 
@@ -62,9 +62,20 @@ bool is_plausible(const BitsRead& bits, const MeasuredDots& dots, const Options&
     const auto share_is_wrong = [&](int wrong) {
         return 256 * wrong > bits.read * options.integrity.max_bit_error_q8;
     };
-    return bits.read >= options.lattice.min_dots && 2 * bits.seen >= dots.count &&
-           4 * bits.read >= 3 * bits.seen && !share_is_wrong(bits.wrong_x) &&
+    return bits.read >= options.lattice.min_dots && 4 * bits.seen >= dots.count &&
+           5 * bits.read >= 3 * bits.seen && !share_is_wrong(bits.wrong_x) &&
            !share_is_wrong(bits.wrong_y);
+}
+
+BitsRead read(const Kernels& kernels, const Sight& sight, const MeasuredDots& dots,
+              BitBlock& block) {
+    return kernels.read_bits(dots, sight.pattern_from_image, sight.displacement, block.columns,
+                             block.rows, -BitBlock::kMiddle, -BitBlock::kMiddle);
+}
+
+/// Nearly all dots are clear, and hardly a bit is wrong.
+bool is_clean(const BitsRead& bits) {
+    return 100 * bits.read >= 97 * bits.seen && bits.wrong_x + bits.wrong_y <= 1;
 }
 
 /// Whether the bits of all dots near the centre leave no doubt.
@@ -146,16 +157,37 @@ Vec reference_q8(const ImageView& image, const Options& options) {
             (image.height_px - 1) * 128 + options.reference_dy_q8};
 }
 
+/// Fits the plane, and the displacement that it goes with.
+bool fit_to_dots(const Kernels& kernels, const MeasuredDots& dots, const BitsRead& bits,
+                 const ImageView& image, Sight& sight, PoseFit& fit) {
+    if (bits.right == 0) return false;
+    const auto right = static_cast<float>(bits.right);
+    sight.displacement = bits.projected / right;
+    // Four deviations of those that are right.
+    const float limit = 8.3F * bits.squares / right + 1e-6F;
+    return fit_plane(kernels, dots, static_cast<int>(half_side_px(image)) + 1, limit,
+                     sight.displacement, sight.pattern_from_image, fit);
+}
+
+void write_fix(const ImageView& image, const Options& options, const Sight& sight,
+               const BitsRead& bits, const PoseFit& fit, Workspace& w) {
+    w.fix.dots_seen = bits.seen;
+    w.fix.bit_errors = bits.wrong_x + bits.wrong_y;
+    w.fix.displacement_q16 = static_cast<std::int32_t>(fit.displacement * 65536);
+    const Vec centre_q8{(image.width_px - 1) * 128, (image.height_px - 1) * 128};
+    w.pattern_from_image = fixed_plane(sight.pattern_from_image, centre_q8);
+    const Vec reference = reference_q8(image, options);
+    write_pose(w.pattern_from_image, reference, options.profile, sight.place, w.fix);
+    estimate_covariance(fit, w.pattern_from_image, reference, w.fix);
+    w.fix.status = Status::ok;
+}
+
 }  // namespace
 
 FloatLens float_lens(const Lens& lens) {
     constexpr float kQ40 = 1099511627776.0F;
     return {static_cast<float>(lens.k_q40) / kQ40, static_cast<float>(lens.centre_dx_q8) / 256,
             static_cast<float>(lens.centre_dy_q8) / 256};
-}
-
-int half_window_px(float spacing_px, float reach) {
-    return std::clamp(static_cast<int>(reach * spacing_px + 0.5F), 2, kMostHalfWindow_px);
 }
 
 CellsInView cells_in_view(const ImageView& image, const Options& options, const Sight& sight,
@@ -209,15 +241,13 @@ void count_from_centre(Profile profile, Sight& sight) {
                         static_cast<std::int32_t>(row));
 }
 
-bool confirm(const Kernels& kernels, const ImageView& image, const Options& options, Sight sight,
-             Workspace& w) {
+Confirmation confirm(const Kernels& kernels, const ImageView& image, const Options& options,
+                     Sight sight, Workspace& w) {
     FloatPlane& plane = sight.pattern_from_image;
     MeasuredDots& dots = w.measured;
-    const float full = half_diagonal_px(image) + 1;
+    const float full = half_side_px(image) + 1;
     const float spacing = spacing_px(plane);
-    const int reach_px = static_cast<int>(full);
-    constexpr int kCutOfDepth_q8 = 200;
-    const WindowLook look{half_window_px(spacing, 0.36F), sight.depth_q8 * kCutOfDepth_q8 >> 8};
+    const WindowLook look{spacing, 0.36F, sight.depth_q8 * kCutOfDepth_q8 >> 8};
     float reach = full <= kDenseAtMost * spacing ? full : kDense * spacing;
     const int most_dots = std::min(std::max(options.most_dots, 64), dots.capacity());
     PoseFit fit;
@@ -229,30 +259,27 @@ bool confirm(const Kernels& kernels, const ImageView& image, const Options& opti
         kernels.list_cells(view, dots);
         kernels.measure_windows(image, view, look, dots);
         BitBlock block;
-        bits = kernels.read_bits(dots, plane, sight.displacement, block.columns, block.rows,
-                                 -BitBlock::kMiddle, -BitBlock::kMiddle);
-        if (!is_plausible(bits, dots, options)) return false;
-        if (is_first && !is_certain(kernels, options, sight, block, bits, w)) return false;
-        const auto right = static_cast<float>(bits.right);
-        sight.displacement = bits.projected / right;
-        const float limit = 8.3F * bits.squares / right + 1e-6F;
-        if (!fit_plane(kernels, dots, reach_px, limit, sight.displacement, plane, fit))
-            return false;
+        bits = read(kernels, sight, dots, block);
+        if (!is_plausible(bits, dots, options)) return Confirmation::implausible;
+        if (is_first && !is_clean(bits)) {
+            // Through a plane that is fitted to all dots, fewer bits are misread.
+            if (!fit_to_dots(kernels, dots, bits, image, sight, fit))
+                return Confirmation::implausible;
+            block = {};
+            bits = read(kernels, sight, dots, block);
+        }
+        if (is_first && !is_certain(kernels, options, sight, block, bits, w)) {
+            return Confirmation::uncertain;
+        }
+        if (!fit_to_dots(kernels, dots, bits, image, sight, fit)) return Confirmation::implausible;
         if (reach >= full) break;
         reach = std::min(reach * kFarther, full);
     }
-    w.fix.dots_seen = bits.seen;
-    w.fix.bit_errors = bits.wrong_x + bits.wrong_y;
-    w.fix.displacement_q16 = static_cast<std::int32_t>(fit.displacement * 65536);
-    const Vec centre_q8{(image.width_px - 1) * 128, (image.height_px - 1) * 128};
-    w.pattern_from_image = fixed_plane(plane, centre_q8);
-    const Vec reference = reference_q8(image, options);
-    write_pose(w.pattern_from_image, reference, options.profile, sight.place, w.fix);
-    estimate_covariance(fit, w.pattern_from_image, reference, w.fix);
-    if (is_far_fetched(fit, 2 * bits.read, bits.wrong_x + bits.wrong_y)) return false;
+    if (is_far_fetched(fit, 2 * bits.read, bits.wrong_x + bits.wrong_y))
+        return Confirmation::uncertain;
+    write_fix(image, options, sight, bits, fit, w);
     if (options.show_stages) show(sight, w);
-    w.fix.status = Status::ok;
-    return true;
+    return Confirmation::ok;
 }
 
 }  // namespace dotpose::core

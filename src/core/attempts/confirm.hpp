@@ -18,10 +18,11 @@ struct Sight {
     int depth_q8 = 0;  ///< how much darker than paper a typical dot is, smoothed, in 1/256
 };
 
-FloatLens float_lens(const Lens& lens);
+/// Windows count what is darker than the paper by this share, in 1/256, of a typical dot's
+/// darkness.
+inline constexpr int kCutOfDepth_q8 = 200;
 
-/// Half a window that holds a dot wherever it stands around the middle, and none of its neighbours.
-int half_window_px(float spacing_px, float reach);
+FloatLens float_lens(const Lens& lens);
 
 /// What `list_cells` is asked for: the cells in view within `reach_px` of the image centre, at most
 /// about so many. Fills in the workspace's rolls.
@@ -31,9 +32,14 @@ CellsInView cells_in_view(const ImageView& image, const Options& options, const 
 /// Counts cells from the one at the image centre.
 void count_from_centre(Profile profile, Sight& sight);
 
-/// Measures, compares, fits. Sets the workspace's fix and what there is to see of it. False if the
-/// image does not bear out where the pattern was thought to be, or not clearly.
-bool confirm(const Kernels& kernels, const ImageView& image, const Options& options, Sight sight,
-             Workspace& w);
+enum class Confirmation : std::uint8_t {
+    ok,
+    implausible,  ///< the dots are not where they were expected
+    uncertain,    ///< they are, but their bits leave doubts
+};
+
+/// Measures, compares, fits. Sets the workspace's fix and what there is to see of it.
+Confirmation confirm(const Kernels& kernels, const ImageView& image, const Options& options,
+                     Sight sight, Workspace& w);
 
 }  // namespace dotpose::core

@@ -60,9 +60,8 @@ bool find_centre(const Kernels& kernels, const ImageView& image, const Options& 
         dots.window_v[i] += shift.y;
     }
     plane = recentred(plane, {static_cast<float>(-shift.x), static_cast<float>(-shift.y)});
-    constexpr int kCutOfDepth_q8 = 200;
-    kernels.measure_windows(
-        image, view, {half_window_px(spacing, 0.3F), sight.depth_q8 * kCutOfDepth_q8 >> 8}, dots);
+    kernels.measure_windows(image, view, {spacing, 0.3F, sight.depth_q8 * kCutOfDepth_q8 >> 8},
+                            dots);
     return fit_similarity(kernels, dots, reach, sight.displacement, 0.30F, 10, plane) &&
            fit_similarity(kernels, dots, reach, sight.displacement, 0.15F, 10, plane);
 }
@@ -86,7 +85,7 @@ bool locate_tracked(const Kernels& kernels, const ImageView& image, const Option
         return false;
     count_from_centre(options.profile, sight);
     if (!find_centre(kernels, image, options, prediction, sight, w)) return false;
-    if (!confirm(kernels, image, options, sight, w)) return false;
+    if (confirm(kernels, image, options, sight, w) != Confirmation::ok) return false;
     w.fix.attempt = Attempt::tracked;
     return true;
 }

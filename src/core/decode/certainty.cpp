@@ -7,6 +7,7 @@
 #include "core/decode/least_losses.hpp"
 #include "core/decode/quick_rivals.hpp"
 #include "core/decode/rival_sets.hpp"
+#include "core/decode/rivals.hpp"
 #include "core/decode/seam_rivals.hpp"
 #include "core/fixed.hpp"
 
@@ -141,6 +142,7 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const Lines& li
     float sum =
         chance + far_rivals(contest) + other_sections(contest) + single_rivals(kernels, contest);
     if (sum > limit) sum = chance + power_of_two(quick_rivals_log2_q8(contest, 256 * limit_log2));
+    if (sum > limit) sum = chance + std::ldexp(1.0F, rivals_log2(profile, contest, limit_log2));
     if (sum > limit) return 1;
     return sum + power_of_two(std::max(seam_rivals_log2_q8(contest), -100 * 256));
 }

@@ -90,8 +90,9 @@ struct CellsInView {
 
 /// How windows are looked at.
 struct WindowLook {
-    int half_px = 4;   ///< 2 half_px + 1 pixels across; at most kMostHalfWindow_px
-    int cut_q8 = 128;  ///< what is darker than the paper by this share, in 1/256, counts
+    float spacing_px = 11;  ///< at the image centre
+    float reach = 0.36F;  ///< of a window from its middle, in spacings; at most kMostHalfWindow_px
+    int cut_q8 = 128;     ///< what is darker than the paper by this share, in 1/256, counts
 };
 inline constexpr int kMostHalfWindow_px = 24;
 
