@@ -7,6 +7,7 @@
 #include "core/attempts/fitted_pose.hpp"
 #include "core/decode/bit_lines.hpp"
 #include "core/decode/certainty.hpp"
+#include "core/decode/window.hpp"
 #include "core/pose/covariance.hpp"
 #include "core/pose/float_fit.hpp"
 #include "core/pose/subgrid.hpp"
@@ -146,9 +147,8 @@ void show(const Sight& sight, Workspace& w) {
         ++w.dot_count;
     }
     Decoding& decoding = w.decoding;
-    decoding.place = sight.place;
-    decoding.pattern_from_grid = {};
     decoding.region = {grid.i0, grid.j0, grid.columns, grid.rows};
+    decoding.window = choose_window(grid, kWindowSide);
     w.grid_from_image = w.pattern_from_image;
 }
 
@@ -176,6 +176,8 @@ void write_fix(const ImageView& image, const Options& options, const Sight& sigh
     w.fix.displacement_q16 = static_cast<std::int32_t>(fit.displacement * 65536);
     const Vec centre_q8{(image.width_px - 1) * 128, (image.height_px - 1) * 128};
     w.pattern_from_image = fixed_plane(sight.pattern_from_image, centre_q8);
+    w.decoding.place = sight.place;
+    w.decoding.pattern_from_grid = {};
     const Vec reference = reference_q8(image, options);
     write_pose(w.pattern_from_image, reference, options.profile, sight.place, w.fix);
     estimate_covariance(fit, w.pattern_from_image, reference, w.fix);

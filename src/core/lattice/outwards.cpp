@@ -161,6 +161,13 @@ bool is_plausible(const FloatPlane& plane, float first_spacing, float reach) {
     return spacing > 0.7F * first_spacing && spacing < 1.4F * first_spacing && fold < 0.7F;
 }
 
+/// How much farther the next round reaches, by the share of dots that sit well: a plane that is not
+/// right yet is made better where it is best.
+float growth(float share) {
+    if (share > 0.9F) return 1.8F;
+    return share > 0.8F ? 1.25F : 0.8F;
+}
+
 }  // namespace
 
 bool find_grid(const Kernels& kernels, const Patch& patch, PatchGrid& grid) {
@@ -185,7 +192,7 @@ bool find_grid(const Kernels& kernels, const Patch& patch, PatchGrid& grid) {
     // Then the nearest of four places counts, which leaves a fifth of that noise.
     pass.displacement = grid.displacement;
     pass.most_off = 0.75F * grid.displacement;
-    constexpr int kMostRounds = 16;
+    constexpr int kMostRounds = 20;
     for (int round = 0; round < kMostRounds; ++round) {
         sums = kernels.sum_cells(patch.dots, plane, pass);
         const float share = sums.used / std::max(sums.seen, 1.0F);
@@ -193,7 +200,7 @@ bool find_grid(const Kernels& kernels, const Patch& patch, PatchGrid& grid) {
         if (sums.used < 12 || share < 0.4F || !solve_plane(sums, may_tilt, plane)) return false;
         if (!is_plausible(plane, spacing, full)) return false;
         if (pass.reach_px >= full && (share > 0.9F || round + 1 == kMostRounds)) break;
-        if (share > 0.8F) pass.reach_px = std::min(pass.reach_px * 1.8F, full);
+        pass.reach_px = std::clamp(pass.reach_px * growth(share), 3 * spacing, full);
     }
     if (pass.reach_px < full || sums.used < 0.7F * sums.seen) return false;
     grid.variance = sums.squares / (2 * sums.used);
