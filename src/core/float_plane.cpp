@@ -28,18 +28,21 @@ FloatVec plane_point(const FloatPlane& plane, FloatVec px) {
 }
 
 FloatPlane recentred(const FloatPlane& plane, FloatVec to_px) {
-    const float divisor = std::max(1 + plane.tilt_x * to_px.x + plane.tilt_y * to_px.y, 0.25F);
-    const FloatVec way{(plane.du_x * to_px.x + plane.dv_x * to_px.y) / divisor,
-                       (plane.du_y * to_px.x + plane.dv_y * to_px.y) / divisor};
+    const auto& [x, y] = to_px;
+    const float divisor =
+        std::max(1 + plane.tilt_x * x + plane.tilt_y * y + plane.bend * (x * x + y * y), 0.25F);
+    const FloatVec way{(plane.du_x * x + plane.dv_x * y) / divisor,
+                       (plane.du_y * x + plane.dv_y * y) / divisor};
+    const FloatVec tilt{plane.tilt_x + 2 * plane.bend * x, plane.tilt_y + 2 * plane.bend * y};
     return {plane.at_x + way.x,
             plane.at_y + way.y,
-            (plane.du_x - way.x * plane.tilt_x) / divisor,
-            (plane.du_y - way.y * plane.tilt_x) / divisor,
-            (plane.dv_x - way.x * plane.tilt_y) / divisor,
-            (plane.dv_y - way.y * plane.tilt_y) / divisor,
-            plane.tilt_x / divisor,
-            plane.tilt_y / divisor,
-            0};
+            (plane.du_x - way.x * tilt.x) / divisor,
+            (plane.du_y - way.y * tilt.x) / divisor,
+            (plane.dv_x - way.x * tilt.y) / divisor,
+            (plane.dv_y - way.y * tilt.y) / divisor,
+            tilt.x / divisor,
+            tilt.y / divisor,
+            plane.bend / divisor};
 }
 
 PlaneFromImage fixed_plane(const FloatPlane& plane, Vec centre_q8) {

@@ -16,7 +16,7 @@ struct FloatVec {
 /// fold.
 FloatVec plane_point(const FloatPlane& plane, FloatVec px);
 
-/// The same plane, without its bend, counted from another point of the image.
+/// The same plane counted from another point of the image; with a bend, near enough only.
 FloatPlane recentred(const FloatPlane& plane, FloatVec to_px);
 
 /// px per spacing at the centre.

@@ -64,7 +64,7 @@ bool is_plausible(const BitsRead& bits, const MeasuredDots& dots, const Options&
         return 256 * wrong > bits.read * options.integrity.max_bit_error_q8;
     };
     return bits.read >= options.lattice.min_dots && 4 * bits.seen >= dots.count &&
-           5 * bits.read >= 3 * bits.seen && !share_is_wrong(bits.wrong_x) &&
+           2 * bits.read >= bits.seen && !share_is_wrong(bits.wrong_x) &&
            !share_is_wrong(bits.wrong_y);
 }
 
@@ -198,16 +198,18 @@ CellsInView cells_in_view(const ImageView& image, const Options& options, const 
     CellsInView view;
     view.plane = sight.pattern_from_image;
     view.lens = float_lens(options.lens);
-    view.centre_x = centre.x;
-    view.centre_y = centre.y;
+    view.lens.centre_x -= sight.from_centre.x;
+    view.lens.centre_y -= sight.from_centre.y;
+    view.centre_x = centre.x + sight.from_centre.x;
+    view.centre_y = centre.y + sight.from_centre.y;
     view.width_px = static_cast<float>(image.width_px);
     view.height_px = static_cast<float>(image.height_px);
     view.reach_px = reach_px;
     view.displacement = sight.displacement;
     // A dot that touches the border is not seen whole.
     view.margin_px = std::max(1.7F, 0.15F * spacing_px(sight.pattern_from_image));
-    const float half_width = std::min(centre.x + 1, reach_px);
-    const float half_height = std::min(centre.y + 1, reach_px);
+    const float half_width = std::min(centre.x + std::abs(sight.from_centre.x) + 1, reach_px);
+    const float half_height = std::min(centre.y + std::abs(sight.from_centre.y) + 1, reach_px);
     float least_x = 0, least_y = 0, most_x = 0, most_y = 0;
     for (const FloatVec corner :
          {FloatVec{-half_width, -half_height}, FloatVec{half_width, -half_height},

@@ -12,7 +12,8 @@ namespace dotpose::core {
 
 /// Where the pattern is thought to be in the image.
 struct Sight {
-    FloatPlane pattern_from_image;  ///< upright, counted from the image centre
+    FloatPlane pattern_from_image;  ///< upright, counted from `from_centre`
+    FloatVec from_centre;           ///< px, from the image centre
     Place place;                    ///< of the plane's cell (0, 0)
     float displacement = 0;         ///< of the typical dot, spacings
     int depth_q8 = 0;  ///< how much darker than paper a typical dot is, smoothed, in 1/256
@@ -24,8 +25,8 @@ inline constexpr int kCutOfDepth_q8 = 200;
 
 FloatLens float_lens(const Lens& lens);
 
-/// What `list_cells` is asked for: the cells in view within `reach_px` of the image centre, at most
-/// about so many. Fills in the workspace's rolls.
+/// What `list_cells` is asked for: the cells in view within `reach_px` of the sight's point, at
+/// most about so many. Fills in the workspace's rolls.
 CellsInView cells_in_view(const ImageView& image, const Options& options, const Sight& sight,
                           float reach_px, int most_cells, Workspace& w);
 

@@ -192,7 +192,7 @@ bool find_grid(const Kernels& kernels, const Patch& patch, PatchGrid& grid) {
     // Then the nearest of four places counts, which leaves a fifth of that noise.
     pass.displacement = grid.displacement;
     pass.most_off = 0.75F * grid.displacement;
-    constexpr int kMostRounds = 20;
+    constexpr int kMostRounds = 16;
     for (int round = 0; round < kMostRounds; ++round) {
         sums = kernels.sum_cells(patch.dots, plane, pass);
         const float share = sums.used / std::max(sums.seen, 1.0F);
@@ -200,9 +200,10 @@ bool find_grid(const Kernels& kernels, const Patch& patch, PatchGrid& grid) {
         if (sums.used < 12 || share < 0.4F || !solve_plane(sums, may_tilt, plane)) return false;
         if (!is_plausible(plane, spacing, full)) return false;
         if (pass.reach_px >= full && (share > 0.9F || round + 1 == kMostRounds)) break;
-        pass.reach_px = std::clamp(pass.reach_px * growth(share), 3 * spacing, full);
+        pass.reach_px = std::clamp(pass.reach_px * growth(share), 4 * spacing, full);
     }
-    if (pass.reach_px < full || sums.used < 0.7F * sums.seen) return false;
+    // Graphics may keep it from getting farther; what the grid has is enough to look at the bits.
+    if (pass.reach_px < std::min(full, 5 * spacing) || sums.used < 0.5F * sums.seen) return false;
     grid.variance = sums.squares / (2 * sums.used);
     return true;
 }
