@@ -23,12 +23,9 @@ constexpr float kCoarsest_px = 80;
 /// Position, scale and turn of least squares; perspective and shear stay as predicted.
 bool fit_similarity(const Kernels& kernels, const MeasuredDots& dots, float reach_px,
                     float displacement, float most_off, FloatPlane& plane) {
-    FitSums sums = kernels.sum_fit(dots, plane, displacement, reach_px, most_off * most_off);
+    const FitSums sums =
+        kernels.sum_similarity(dots, plane, displacement, reach_px, most_off * most_off);
     if (sums.points < static_cast<float>(kFewestNear)) return false;
-    for (std::size_t i = kTilt; i < kPoseParameters; ++i) {
-        sums.matrix[i].fill(0);
-        sums.right[i] = 0;
-    }
     Normal normal(sums);
     if (!normal.decompose()) return false;
     const Parameters step = normal.unwhitened(normal.whitened(normal.right()));

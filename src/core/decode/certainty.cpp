@@ -1,6 +1,7 @@
 #include "core/decode/certainty.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "code/rolls.hpp"
@@ -10,6 +11,7 @@
 #include "core/decode/rivals.hpp"
 #include "core/decode/seam_rivals.hpp"
 #include "core/fixed.hpp"
+#include "core/vectors.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -22,54 +24,86 @@ constexpr int kPassedOver_q8 = -52 * 256;
 constexpr float kPassedOver = 2.3e-16F;
 constexpr float kSingles = 741;
 
-/// 2^(n / 256), rounded up by a little.
-float power_of_two(int n_q8) {
-    const int whole = n_q8 >> 8;
-    return std::ldexp(static_cast<float>(exp2_q16(n_q8 - whole * 256)) * 1.02F, whole - 16);
+/// 2^n as it is, -126 <= n < 128.
+constexpr float power_of_two_exactly(int n) {
+    return std::bit_cast<float>(static_cast<std::uint32_t>(n + 127) << 23);
+}
+
+/// 2^(n / 256), rounded up by a little; 2^-100 for less.
+constexpr float power_of_two(int n_q8) {
+    const int n = std::max(n_q8, -100 * 256);
+    const int whole = n >> 8;
+    return static_cast<float>(exp2_q16(n - whole * 256)) * 1.02F * power_of_two_exactly(whole - 16);
+}
+
+/// Contest::odds without a library's call.
+float odds_of(const Contest& contest, int lost) {
+    const int log2_q8 = std::max(contest.log2_odds_q8(lost), kNegligible_q8);
+    const int whole = log2_q8 >> 8;
+    return static_cast<float>(static_cast<std::int32_t>(exp2_q16(log2_q8 - whole * 256))) *
+           power_of_two_exactly(whole - 16);
 }
 
 /// What adds up to less is as good as nothing, and slow to reckon with.
 constexpr float kNothing = 1e-30F;
 
+/// Something of every set of rivals, in whole vectors.
+struct OfSets {
+    std::array<Four, 2> part{};
+
+    static OfSets of(float value) { return {{Four{} + value, Four{} + value}}; }
+};
+
+/// The same in numbers.
+using NumbersOfSets = std::array<float, 8>;
+template <typename Number>
+constexpr NumbersOfSets of_each_set(Number number) {
+    NumbersOfSets numbers{};
+    for (std::size_t i = 0; i < kRivalSets.size(); ++i)
+        numbers[i] = number(kRivalSets[i]);
+    return numbers;
+}
+constexpr NumbersOfSets kEqual =
+    of_each_set([](const RivalSet& set) { return power_of_two(set.equal_q8 + kUnevenness_q8); });
+constexpr NumbersOfSets kRivals =
+    of_each_set([](const RivalSet& set) { return power_of_two(set.rivals_q8); });
+
 /// The expectation of `quick_rivals.cpp` in floating point, for all sets at once: rivals that share
 /// no line are lumped together, those that share the last ones counted by how many.
 float far_rivals(const Contest& contest) {
-    constexpr std::size_t kSets = kRivalSets.size();
-    using OfSets = std::array<float, 8>;  // whole vectors
-    OfSets equal{};
-    OfSets rivals{};
-    for (std::size_t i = 0; i < kSets; ++i) {
-        equal[i] = power_of_two(kRivalSets[i].equal_q8 + kUnevenness_q8);
-        rivals[i] = power_of_two(kRivalSets[i].rivals_q8);
-    }
     constexpr float kUnevenness = 1.03F;
-    const auto most = static_cast<std::size_t>(contest.most_shared());
-    std::array<OfSets, kMostShared> sharing{};
-    sharing[0].fill(1);
-    OfSets apart;
-    apart.fill(kShifts * contest.odds(contest.least_loss(0)));
-    OfSets sum{};
-    for (int line = 0;; ++line) {
-        sum = apart;
-        for (std::size_t n = 0; n < most; ++n) {
-            for (std::size_t i = 0; i < sum.size(); ++i)
-                sum[i] += sharing[n][i];
-        }
-        if (line + 1 == contest.lines.count()) break;
-        const float best = contest.odds(contest.least_loss(line + 1));
-        for (std::size_t n = most - 1; n > 0; --n) {
-            for (std::size_t i = 0; i < sum.size(); ++i)
-                sharing[n][i] = sharing[n - 1][i] * equal[i];
-        }
-        for (std::size_t i = 0; i < sum.size(); ++i) {
-            sharing[0][i] = apart[i] * equal[i];
-            apart[i] = std::max(sum[i] * std::min(best * kUnevenness, kShifts * best * equal[i]),
-                                kNothing);
+    const int most = contest.most_shared();
+    // Those that share the lines from one on, and none before it; nobody has before the first one.
+    std::array<OfSets, kMostShared + kMaxLines> sharing;
+    std::fill_n(sharing.begin(), kMostShared, OfSets{});
+    OfSets* newest = &sharing[kMostShared - 1];
+    *newest = OfSets::of(1);
+    OfSets apart = OfSets::of(kShifts * odds_of(contest, contest.least_loss(0)));
+    OfSets sum;
+    for (std::size_t i = 0; i < 2; ++i)
+        sum.part[i] = apart.part[i] + newest->part[i];
+    for (int line = 1; line < contest.lines.count(); ++line) {
+        const float best = odds_of(contest, contest.least_loss(line));
+        ++newest;
+        for (std::size_t i = 0; i < 2; ++i) {
+            const Four equally = four_at(&kEqual[4 * i]);
+            newest->part[i] = apart.part[i] * equally;
+            const Four by_one = (Four{} + best) * kUnevenness;
+            const Four by_all = kShifts * best * equally;
+            const Four now = sum.part[i] * (by_one < by_all ? by_one : by_all);
+            apart.part[i] = now > kNothing ? now : Four{} + kNothing;
+            Four all = apart.part[i] + newest->part[i];
+            for (int n = 1; n < most; ++n) {
+                Four& before = (newest - n)->part[i];
+                before *= equally;
+                all += before;
+            }
+            sum.part[i] = all;
         }
     }
     float all = 0;
-    for (std::size_t i = 0; i < kSets; ++i)
-        all += sum[i] * rivals[i];
+    for (std::size_t i = 0; i < kRivalSets.size(); ++i)
+        all += sum.part[i / 4][i % 4] * kRivals[i];
     return all;
 }
 
@@ -78,7 +112,7 @@ float other_sections(const Contest& contest) {
     int lost = 0;
     for (int line = 0; line < contest.lines.count(); ++line)
         lost += contest.least_loss(line);
-    return kShifts * contest.odds(lost);
+    return kShifts * odds_of(contest, lost);
 }
 
 /// What every line costs at least who does not share it, the dearest first. Bits count alike here,
@@ -127,7 +161,7 @@ float single_rivals(const Kernels& kernels, const Contest& contest) {
         }
         for (const auto& [place, line] :
              std::span(list.places).first(static_cast<std::size_t>(list.count)))
-            sum += contest.odds(loss_of(contest, k, place, line));
+            sum += odds_of(contest, loss_of(contest, k, place, line));
     }
     return sum;
 }

@@ -10,14 +10,20 @@ OneSide least_losses(const Contest& contest, bool from_last) {
     OneSide least;
     OneSide with_last;  // of who does not share the last of the n lines
     with_last[0] = 0;
+    int lowest = 0;  // where the least of these is that shares no more lines than one can
     for (int n = 0;; ++n) {
-        const int* last = &with_last[static_cast<std::size_t>(n)];
-        least[static_cast<std::size_t>(n)] =
-            *std::min_element(last - std::min(n, most_shared), last + 1);
+        const int last = with_last[static_cast<std::size_t>(n)];
+        if (last <= with_last[static_cast<std::size_t>(lowest)]) {
+            lowest = n;
+        } else if (lowest < n - most_shared) {
+            const int* at = with_last.data();
+            lowest = static_cast<int>(std::min_element(at + n - most_shared, at + n + 1) - at);
+        }
+        const int here = with_last[static_cast<std::size_t>(lowest)];
+        least[static_cast<std::size_t>(n)] = here;
         if (n == count) return least;
         const int line = from_last ? count - 1 - n : n;
-        with_last[static_cast<std::size_t>(n + 1)] =
-            least[static_cast<std::size_t>(n)] + std::max(contest.least_loss(line), 0);
+        with_last[static_cast<std::size_t>(n + 1)] = here + std::max(contest.least_loss(line), 0);
     }
 }
 

@@ -42,10 +42,12 @@ struct CellPass {
     float reach_px = 0;      ///< dots farther from the centre, along either axis, are left out
     float most_off = 0;      ///< so far from where they are looked for, spacings
     float displacement = 0;  ///< of the four places of a cell; 0: the cell's middle counts
+    bool with_perspective = false;
 };
 
 /// Sums over the dots of one pass, for the least squares of a plane with perspective:
-/// i (1 + g x + h y) = a x + b y + c, and likewise j with d, e, f.
+/// i (1 + g x + h y) = a x + b y + c, and likewise j with d, e, f. Without perspective `i` and `j`
+/// have the first three only, and `square` none.
 struct CellSums {
     float seen = 0;                 ///< dots within reach
     float used = 0;                 ///< of those, near enough to a place
@@ -174,6 +176,9 @@ struct Kernels {
     /// Sums over the dots that are at most `limit` (spacings^2) off.
     FitSums (*sum_fit)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                        float reach_px, float limit);
+    /// The same of at, scale and turn only; all else is 0.
+    FitSums (*sum_similarity)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
+                              float reach_px, float limit);
     /// The other places of a sequence that may lose less than `enough` over these lines, the
     /// dearest first. False, if there are too many, or places that share none of the first lines
     /// may, too.

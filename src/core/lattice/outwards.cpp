@@ -194,10 +194,11 @@ bool find_grid(const Kernels& kernels, const Patch& patch, PatchGrid& grid) {
     pass.most_off = 0.75F * grid.displacement;
     constexpr int kMostRounds = 16;
     for (int round = 0; round < kMostRounds; ++round) {
+        pass.with_perspective = pass.reach_px > 4 * spacing;
         sums = kernels.sum_cells(patch.dots, plane, pass);
         const float share = sums.used / std::max(sums.seen, 1.0F);
-        const bool may_tilt = pass.reach_px > 4 * spacing;
-        if (sums.used < 12 || share < 0.4F || !solve_plane(sums, may_tilt, plane)) return false;
+        if (sums.used < 12 || share < 0.4F || !solve_plane(sums, pass.with_perspective, plane))
+            return false;
         if (!is_plausible(plane, spacing, full)) return false;
         if (pass.reach_px >= full && (share > 0.9F || round + 1 == kMostRounds)) break;
         pass.reach_px = std::clamp(pass.reach_px * growth(share), 4 * spacing, full);

@@ -76,6 +76,10 @@ bool Normal::decompose() {
     // What is left of a diagonal element after the others have had their share, at least.
     constexpr float kDetermined = 1e-4F;
     for (std::size_t i = 0; i < kPoseParameters; ++i) {
+        if (i >= 4 && m_[i][i] <= 0) {  // Nobody has asked for it.
+            m_[i].fill(0);
+            continue;
+        }
         const float least = kDetermined * m_[i][i];
         for (std::size_t j = 0; j <= i; ++j) {
             float sum = m_[i][j];
@@ -97,18 +101,26 @@ bool Normal::decompose() {
 
 Parameters Normal::whitened(Parameters column) const {
     for (std::size_t i = 0; i < kPoseParameters; ++i) {
+        if (!determines(i)) {
+            column[i] = 0;
+            continue;
+        }
         for (std::size_t k = 0; k < i; ++k)
             column[i] -= m_[i][k] * column[k];
-        column[i] = determines(i) ? column[i] / m_[i][i] : 0;
+        column[i] /= m_[i][i];
     }
     return column;
 }
 
 Parameters Normal::unwhitened(Parameters column) const {
     for (std::size_t i = kPoseParameters; i-- > 0;) {
+        if (!determines(i)) {
+            column[i] = 0;
+            continue;
+        }
         for (std::size_t k = i + 1; k < kPoseParameters; ++k)
             column[i] -= m_[k][i] * column[k];
-        column[i] = determines(i) ? column[i] / m_[i][i] : 0;
+        column[i] /= m_[i][i];
     }
     return column;
 }
