@@ -21,6 +21,12 @@ void* memcpy(void* __restrict to, const void* __restrict from, std::size_t size)
     auto* target_word = static_cast<Word*>(to);
     const auto* source_word = static_cast<const Word*>(from);
     if (are_aligned(to, from)) {
+        for (; size >= 4 * sizeof(Word); size -= 4 * sizeof(Word)) {
+            *target_word++ = *source_word++;
+            *target_word++ = *source_word++;
+            *target_word++ = *source_word++;
+            *target_word++ = *source_word++;
+        }
         for (; size >= sizeof(Word); size -= sizeof(Word))
             *target_word++ = *source_word++;
     }

@@ -2,6 +2,7 @@
 #include "dotpose/locate.hpp"
 
 #include "core/attempts/device.hpp"
+#include "core/attempts/device_tracked.hpp"
 #include "core/attempts/first.hpp"
 #include "core/attempts/second.hpp"
 #include "core/attempts/steps.hpp"
@@ -71,8 +72,15 @@ Fix locate(const ImageView& image, const Options& options, Workspace& w) {
     return attempt_first(image, options, w);  // The workspace must show what is returned.
 }
 
-Fix locate(const ImageView& image, const Options& options, const Prediction&, Workspace& w) {
-    return locate(image, options, w);
+Fix locate(const ImageView& image, const Options& options, const Prediction& prediction,
+           Workspace& w) {
+    const bool is_of_device = options.effort == Effort::device || !w.has_second_attempt;
+    if (!is_of_device || image.pixels == nullptr) return locate(image, options, w);
+    Status status = begin(image.width_px, image.height_px, options, prediction, w);
+    for (int v = 0; v < image.height_px && status == Status::ok; ++v)
+        status = core::push_tracked_row(image.row(v), w);
+    if (status == Status::ok) status = core::finish_device_tracked(options, w).status;
+    return status == Status::ok ? w.fix : locate(image, options, w);
 }
 
 Status begin(int width_px, int height_px, const Options& options, Workspace& w) {
@@ -82,20 +90,29 @@ Status begin(int width_px, int height_px, const Options& options, Workspace& w) 
     return Status::ok;
 }
 
-Status begin(int width_px, int height_px, const Options& options, const Prediction&, Workspace& w) {
-    return begin(width_px, height_px, options, w);
+Status begin(int width_px, int height_px, const Options& options, const Prediction& prediction,
+             Workspace& w) {
+    const Status status = check(width_px, height_px, options, w);
+    if (status != Status::ok) return refused(status, w).status;
+    return core::begin_device_tracked(width_px, height_px, options, prediction, w);
 }
 
 void push_row(const std::uint8_t* pixels, const Options& options, Workspace& w) {
-    core::detect_row(pixels, options, w);
+    if (w.tracking.is_on) {
+        static_cast<void>(core::push_tracked_row(pixels, w));
+    } else {
+        core::detect_row(pixels, options, w);
+    }
 }
 
 Fix finish(const Options& options, Workspace& w) {
-    return core::finish_first_attempt(options, w);
+    return w.tracking.is_on ? core::finish_device_tracked(options, w)
+                            : core::finish_first_attempt(options, w);
 }
 
 Fix finish_device(const Options& options, Workspace& w) {
-    return core::finish_device_attempt(options, w);
+    return w.tracking.is_on ? core::finish_device_tracked(options, w)
+                            : core::finish_device_attempt(options, w);
 }
 
 }  // namespace dotpose

@@ -21,6 +21,14 @@ class Contest {
   public:
     /// Odds are above 0.
     Contest(Profile profile, const Lines& lines_, const AxisReading& reading, int odds_per_bit_q8);
+    /// Of bits that are all as sure as a weight of 127, or were not read.
+    Contest(Profile profile, std::span<const TrackedLine> lines_, const AxisReading& reading,
+            int odds_per_bit_q8);
+
+    int count() const { return count_; }
+    /// Whether scores of single rolls are known only through `loss`, and what is lost at least is an
+    /// estimate from below.
+    bool is_of_bits() const { return !bits_.empty(); }
 
     /// Score that a rival gives up in a line whose roll it puts `shift` further; |shift| < 63.
     int loss(int line, int shift) const {
@@ -28,6 +36,7 @@ class Contest {
         const int moved = own + shift;
         const int other =
             moved < 0 ? moved + kSections : (moved < kSections ? moved : moved - kSections);
+        if (is_of_bits()) return loss_of_bits(line, other);
         return lines[line][static_cast<std::size_t>(own)] -
                lines[line][static_cast<std::size_t>(other)];
     }
@@ -62,6 +71,12 @@ class Contest {
     std::array<std::uint32_t, 4> places;
 
   private:
+    void follow_rolls(Profile profile, const AxisReading& reading);
+    void set_least_loss(int line, int least_loss);
+    int loss_of_bits(int line, int roll) const;
+
+    const std::span<const TrackedLine> bits_;
+    int count_;
     int odds_per_bit_q8_;
     int most_regained_ = 0;
     int hopeless_score_ = 0;
@@ -80,7 +95,7 @@ inline void grow(const Contest& contest, std::size_t sequence, std::uint32_t riv
     const std::uint8_t* rolls = contest.basis[sequence].rolls;
     const std::uint8_t* own = rolls + contest.places[sequence];
     const std::uint8_t* rival = rolls + rival_place;
-    for (int line = 0; line < contest.lines.count(); ++line) {
+    for (int line = 0; line < contest.count(); ++line) {
         const int grown = rival[line] - own[line];
         growth[static_cast<std::size_t>(line)] =
             static_cast<std::uint8_t>(grown < 0 ? grown + kSections : grown);
@@ -93,7 +108,7 @@ template <typename Loss>
 std::optional<int> loss_of_growth(const Contest& contest, const Growth& growth, int shared,
                                   const Loss& loss) {
     const int base = growth[static_cast<std::size_t>(shared)];
-    const int count = contest.lines.count();
+    const int count = contest.count();
     int lost = 0;
     // Outwards from the shared line, where most is lost soonest; its predecessors last.
     for (int i = 1, line = shared + 1; i < count; ++i, ++line) {

@@ -35,7 +35,7 @@ float mean_odds(const Contest& contest, int line) {
 }
 
 Ranking::Ranking(const Contest& contest) {
-    const int count = contest.lines.count();
+    const int count = contest.count();
     std::array<float, kMaxLines> odds;
     for (int line = 0; line < count; ++line) {
         odds[static_cast<std::size_t>(line)] = mean_odds(contest, line);
@@ -71,7 +71,7 @@ class Growths {
         Growth by_line;
         for (std::uint32_t rival = 0; rival < length_; ++rival) {
             grow(contest, sequence, rival, by_line);
-            for (std::size_t i = 0; i < static_cast<std::size_t>(contest.lines.count()); ++i)
+            for (std::size_t i = 0; i < static_cast<std::size_t>(contest.count()); ++i)
                 growths_[rival][i] = by_line[ranking.lines[i]];
         }
     }
@@ -103,7 +103,7 @@ float odds_of_anchored(const Contest& contest, const Ranking& ranking, const Gro
     };
     const int base = growth(anchor) - 2 * kSections;
     int lost = 0;
-    for (int i = 0; i < contest.lines.count(); ++i) {
+    for (int i = 0; i < contest.count(); ++i) {
         const int shift = growth(i) - base;
         if (i < anchor && shift % kSections == 0) return 0;
         lost += ranking.losses[static_cast<std::size_t>(i)][static_cast<std::size_t>(shift)];

@@ -25,7 +25,7 @@ using Places = std::array<std::uint32_t, 4>;
 class Losses {
   public:
     explicit Losses(const Contest& contest) {
-        for (int line = 0; line < contest.lines.count(); ++line) {
+        for (int line = 0; line < contest.count(); ++line) {
             auto& losses = losses_[static_cast<std::size_t>(line)];
             for (int shift = 0; shift < kSections; ++shift) {
                 const auto i = static_cast<std::size_t>(shift);
@@ -46,7 +46,7 @@ class Losses {
 float sum_of_far_rivals(const Contest& contest, int shared_lines, int fewest_different) {
     ExpectedRivals expected(contest.basis, contest.position, shared_lines - 1, fewest_different);
     std::array<float, kSections> line_odds;
-    for (int line = 0; line < contest.lines.count(); ++line) {
+    for (int line = 0; line < contest.count(); ++line) {
         for (int shift = 0; shift < kSections; ++shift) {
             line_odds[static_cast<std::size_t>(shift)] = contest.odds(contest.loss(line, shift));
         }
@@ -64,7 +64,7 @@ float sum_of_single_rivals(const Contest& contest, const Losses& losses) {
         for (std::uint32_t rival = 0; rival < contest.basis[k].length; ++rival) {
             if (rival == contest.places[k]) continue;
             grow(contest, k, rival, growth);
-            for (int shared = 0; shared < contest.lines.count(); ++shared) {
+            for (int shared = 0; shared < contest.count(); ++shared) {
                 const std::optional<int> lost = loss_of_growth(contest, growth, shared, losses);
                 if (lost) sum += contest.odds(*lost);
             }
@@ -78,7 +78,7 @@ float sum_of_other_sections(const Contest& contest) {
     float sum = 0;
     for (int shift = 1; shift < kSections; ++shift) {
         int lost = 0;
-        for (int line = 0; line < contest.lines.count(); ++line)
+        for (int line = 0; line < contest.count(); ++line)
             lost += contest.loss(line, shift);
         sum += contest.odds(lost);
     }
@@ -97,7 +97,7 @@ int roll_at(const Contest& contest, const Places& places, int line) {
 using OwnRolls = std::array<int, kMaxLines>;
 OwnRolls own_rolls(const Contest& contest) {
     OwnRolls rolls;
-    for (int line = 0; line < contest.lines.count(); ++line)
+    for (int line = 0; line < contest.count(); ++line)
         rolls[static_cast<std::size_t>(line)] = roll_at(contest, contest.places, line);
     return rolls;
 }
@@ -118,7 +118,7 @@ float odds_of_twin(const Contest& contest, const Losses& losses, const OwnRolls&
         lost += losses(line, static_cast<int>(shift));
         return contest.is_hopeless(lost);
     };
-    for (int line = run + shared_lines; line < contest.lines.count(); ++line) {
+    for (int line = run + shared_lines; line < contest.count(); ++line) {
         if (is_hopeless_with(line)) return kNegligible;
     }
     for (int line = run - 1; line >= 0; --line) {
@@ -135,7 +135,7 @@ float sum_of_near_rivals(const Contest& contest, const Losses& losses, const cod
     const auto order = static_cast<std::size_t>(shared_lines - 4);
     const OwnRolls own_by_line = own_rolls(contest);
     float sum = 0;
-    for (int run = 0; run + shared_lines <= contest.lines.count(); ++run) {
+    for (int run = 0; run + shared_lines <= contest.count(); ++run) {
         Places own;  // at the run
         for (std::size_t k = 0; k < own.size(); ++k) {
             own[k] =
@@ -160,7 +160,7 @@ float sum_of_near_rivals(const Contest& contest, const Losses& losses, const cod
 }  // namespace
 
 int rivals_log2(Profile profile, const Contest& contest, int limit_log2) {
-    if (contest.lines.count() <= kMostOfDistinct) return 0;
+    if (contest.count() <= kMostOfDistinct) return 0;
     const code::Twins& twins = code::twins(profile);
     const Losses losses(contest);
     const float known = sum_of_single_rivals(contest, losses) + sum_of_other_sections(contest) +

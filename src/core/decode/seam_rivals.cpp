@@ -19,7 +19,7 @@ constexpr int kLeast_q8 = -8 * 256;
 /// view, for every n. Nobody shares more lines in a row than `most_shared`.
 using OneSide = std::array<int, kMaxLines + 1>;
 OneSide least_losses(const Contest& contest, bool from_last) {
-    const int count = contest.lines.count();
+    const int count = contest.count();
     OneSide least;
     OneSide with_last;  // of who does not share the last of the n lines
     with_last[0] = 0;
@@ -36,7 +36,7 @@ OneSide least_losses(const Contest& contest, bool from_last) {
 
 /// What every rival loses at least, wherever the border is.
 int least_loss(const Contest& contest) {
-    const int count = contest.lines.count();
+    const int count = contest.count();
     const OneSide before = least_losses(contest, false);
     const OneSide beyond = least_losses(contest, true);
     int least = before[0] + beyond[static_cast<std::size_t>(count)];
@@ -54,7 +54,7 @@ class LossesOfSides {
     LossesOfSides(const Contest& contest, const Growth& growth, int enough) : contest_(contest) {
         before_.fill(kNone);
         from_.fill(kNone);
-        const auto grown = std::span(growth).first(static_cast<std::size_t>(contest.lines.count()));
+        const auto grown = std::span(growth).first(static_cast<std::size_t>(contest.count()));
         // What who does not share the lines of a shift loses at least.
         std::array<int, kSections> kept{};
         int in_all = 0;
@@ -79,7 +79,7 @@ class LossesOfSides {
     static constexpr int kNone = 1 << 24;
 
     void add(const Growth& growth, int shift) {
-        const int count = contest_.lines.count();
+        const int count = contest_.count();
         const auto keep_less = [](int& least, int lost) { least = std::min(least, lost); };
         const auto loss_in = [&](int line) {
             return contest_.loss(line, growth[static_cast<std::size_t>(line)] - shift);
@@ -107,7 +107,7 @@ int seam_rivals_log2_q8(const Contest& contest) {
     const int enough = contest.loss_for(kLeast_q8) + contest.most_regained();
     int sum = kNever_q8;
     if (least_loss(contest) >= enough) return sum;
-    const int lines = contest.lines.count();
+    const int lines = contest.count();
     const auto add = [&](std::size_t sequence, std::uint32_t place) {
         Growth growth;
         grow(contest, sequence, place, growth);
