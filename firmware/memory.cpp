@@ -22,10 +22,12 @@ void* memcpy(void* __restrict to, const void* __restrict from, std::size_t size)
     const auto* source_word = static_cast<const Word*>(from);
     if (are_aligned(to, from)) {
         for (; size >= 4 * sizeof(Word); size -= 4 * sizeof(Word)) {
-            *target_word++ = *source_word++;
-            *target_word++ = *source_word++;
-            *target_word++ = *source_word++;
-            *target_word++ = *source_word++;
+            target_word[0] = source_word[0];
+            target_word[1] = source_word[1];
+            target_word[2] = source_word[2];
+            target_word[3] = source_word[3];
+            target_word += 4;
+            source_word += 4;
         }
         for (; size >= sizeof(Word); size -= sizeof(Word))
             *target_word++ = *source_word++;

@@ -267,10 +267,12 @@ struct Tracking {
     int rows_taken = 0;
     int stride_px = 0;
     int rows_kept = 0;      ///< at most
+    int ring_bytes = 0;     ///< of all of them
     int first_of_lap = 0;   ///< the row of the image that is the first of the memory
     /// From so many rows on it is known how far the prediction is off.
     int first_rows = 0;
-    int half_px = 0;   ///< around an intersection, dots are within so much
+    int half_px = 0;      ///< around an intersection, dots are within so much
+    int dot_half_px = 0;  ///< around a dot's centre, it is
     int reach_px = 0;  ///< so far off may the prediction be at the image centre
     std::int32_t spacing_q8 = 0;  ///< px
     Place corner;  ///< where cell (0, 0) stands in the code
@@ -285,7 +287,7 @@ struct Tracking {
     int cut_q8 = 0;        ///< pixels are dark that lack this share of the paper's level
     std::int32_t least_mass = 0;
     std::int32_t most_mass = 0;
-    std::int32_t projections_q12 = 0;  ///< lengths of both of each dot kept
+    std::int32_t along_q16 = 0;  ///< of the dots kept: off their places, times their displacement
     // Memory.
     std::span<std::uint8_t> rows;            ///< the newest of the image
     std::span<TrackedLine> lines;            ///< the columns, and in the second half the rows

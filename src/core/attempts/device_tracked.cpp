@@ -30,7 +30,7 @@ Status settle(Tracking& tracking) {
         tracking.cells.origin_q16 = predicted_q16 + Vec{shift_q8.x * 256, shift_q8.y * 256};
         // Until it is known how large dots are, any half way between paper and ink may be one.
         tracking.cut_q8 = 128 * shifts.depth() / paper;
-        tracking.least_mass = paper / 2 + 16;
+        tracking.least_mass = paper / 8 + 16;
         tracking.most_mass = INT16_MAX;
         if (find_turn(tracking)) return Status::ok;
     }
@@ -82,7 +82,7 @@ Status begin_device_tracked(int width_px, int height_px, const Options& options,
     t.width_px = width_px;
     t.height_px = height_px;
     t.rows_taken = t.first_of_lap = 0;
-    t.projections_q12 = 0;
+    t.along_q16 = 0;
     // Lenses that bend are left to fresh fixes.
     t.status = options.lens.k_q40 == 0 ? lay_predicted_cells(prediction, options.profile, t)
                                        : Status::not_tracked;

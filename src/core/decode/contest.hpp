@@ -43,6 +43,9 @@ class Contest {
     int own_roll(int line) const { return rolls_[static_cast<std::size_t>(line)]; }
     /// The least that a rival loses in a line which it does not share; may be negative.
     int least_loss(int line) const { return least_losses_[static_cast<std::size_t>(line)]; }
+    /// log2 of how many rolls lose about as little, in 2^-8, rounded up: the odds of the best, so
+    /// often, are at least those of all. Of bits only.
+    int log2_of_nearest_q8(int line) const;
     /// The most that it may win back in lines that another roll suits better.
     int most_regained() const { return most_regained_; }
     /// Lines in a row that a rival shares at most.

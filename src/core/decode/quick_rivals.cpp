@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "core/decode/similar_places.hpp"
+#include "core/decode/unshared_lines.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -92,8 +93,10 @@ int far_log2_q8(const Contest& contest, bool roughly, int enough) {
     AllLineOdds odds;
     for (int line = 0; line < contest.count(); ++line) {
         const int best = contest.log2_odds_q8(contest.least_loss(line));
-        odds[static_cast<std::size_t>(line)] = {
-            best, best + (roughly ? kShifts_q8 : log2_of_others_q8(contest, line))};
+        const int others = contest.is_of_bits() ? contest.log2_of_nearest_q8(line)
+                           : roughly            ? kShifts_q8
+                                                : log2_of_others_q8(contest, line);
+        odds[static_cast<std::size_t>(line)] = {best, best + others};
     }
     int sum = kNever_q8;
     for (const Set& set : kSets) {
@@ -221,10 +224,13 @@ int singles_log2_q8(const Contest& contest) {
     ByShift by_shift(contest, enough);
     int sum = kSingles_q8 + kPassedOver_q8 +
               256 * static_cast<int>(std::bit_width(static_cast<unsigned>(lines)));
-    visit_similar_places(contest, Steps(contest, enough, Excused::none),
-                         [&](std::size_t sequence, std::uint32_t place) {
-                             sum = by_shift.add(sequence, place, sum);
-                         });
+    const UnsharedLines unshared(contest);
+    visit_similar_places(
+        contest, Steps(contest, enough, Excused::none),
+        [&](std::size_t sequence) { return unshared.all_lose(sequence, Sharing::at_one_shift, enough); },
+        [&](std::size_t sequence, std::uint32_t place) {
+            sum = by_shift.add(sequence, place, sum);
+        });
     return sum;
 }
 

@@ -20,35 +20,38 @@ Way way_of(const Tracking& tracking) {
     return along.y < 0 ? Way{-along, -1} : Way{along, 1};
 }
 
-/// Notes what is read; whether it is what the code has there.
-bool note(const Tracking& tracking, int i, int j, const Projections& p) {
+/// Notes what is read.
+void note(const Tracking& tracking, int i, int j, Symbol symbol) {
     TrackedLine& column = column_of(tracking, i);
     TrackedLine& row = row_of(tracking, j);
     const auto in_column = std::uint32_t{1} << j;
     const auto in_row = std::uint32_t{1} << i;
     column.seen |= in_column;
     row.seen |= in_row;
-    const bool is_x_wrong = ((column.code & in_column) != 0) != (p.x_q12 > 0);
-    const bool is_y_wrong = ((row.code & in_row) != 0) != (p.y_q12 > 0);
-    if (is_x_wrong) column.wrong |= in_column;
-    if (is_y_wrong) row.wrong |= in_row;
-    return !is_x_wrong && !is_y_wrong;
+    if (((column.code & in_column) != 0) != (x_bit(symbol) != 0)) column.wrong |= in_column;
+    if (((row.code & in_row) != 0) != (y_bit(symbol) != 0)) row.wrong |= in_row;
 }
 
-/// Whether a bit can be told from a projection: between a quarter of the displacement and 7/4.
-bool is_clear(std::int32_t length_q12, std::int32_t displacement_q12) {
-    return 4 * length_q12 >= displacement_q12 && 4 * length_q12 <= 7 * displacement_q12;
-}
-
-/// Whether the dot is what the code has there.
-bool read_dot(Tracking& tracking, int i, int j, const NearDot& dot) {
-    const Projections p = projections(tracking, dot.from_intersection_q8);
-    const std::int32_t x_q12 = magnitude(p.x_q12);
-    const std::int32_t y_q12 = magnitude(p.y_q12);
-    const std::int32_t displacement_q12 = tracking.displacement_q12;
-    if (!is_clear(x_q12, displacement_q12) || !is_clear(y_q12, displacement_q12)) return false;
-    if (!note(tracking, i, j, p)) return false;
-    tracking.projections_q12 += x_q12 + y_q12;
+/// Reads the dot of a cell; whether it is what and where the code has one, and then its centre.
+bool read_dot(Tracking& tracking, int i, int j, Vec at_q16, Fix& fix, Dot& kept) {
+    const std::int32_t paper = paper_around(tracking, at_q16);
+    const std::int32_t depth = (paper * tracking.cut_q8) >> 8;
+    if (paper == 0) return false;
+    const Reading reading = read_symbol(tracking, at_q16, paper, depth);
+    if (!reading.is_clear) return false;
+    ++fix.dots_seen;
+    note(tracking, i, j, reading.symbol);
+    if (reading.symbol != coded_symbol(tracking, i, j)) return false;
+    const Vec displaced_q16 = tracking.displaced_q16[static_cast<std::size_t>(reading.symbol)];
+    const Vec place_q16 = at_q16 + displaced_q16;
+    NearDot dot;
+    if (!measure_dot(tracking, place_q16, tracking.dot_half_px, paper - depth, dot)) return false;
+    // Printers and lenses rarely move a dot by more than an eighth of the spacing; dirt does.
+    if (!is_within(dot.off_q8, tracking.spacing_q8 >> 3)) return false;
+    tracking.along_q16 +=
+        dot.off_q8.x * (displaced_q16.x >> 8) + dot.off_q8.y * (displaced_q16.y >> 8);
+    kept = {dot.off_q8 + Vec{place_q16.x >> 8, place_q16.y >> 8},
+            static_cast<std::uint16_t>(dot.mass), 0};
     return true;
 }
 
@@ -95,13 +98,8 @@ void read_ready_dots(Tracking& tracking, std::span<Dot> dots, int& dot_count, Fi
             const int i = row.i;
             row.next_q16 = at_q16 + way.step_q16;
             row.i = static_cast<std::int8_t>(i + way.i_step);
-            NearDot dot;
-            if (!measure_near_dot(tracking, at_q16, dot)) continue;
-            ++fix.dots_seen;
             const auto count = static_cast<std::size_t>(dot_count);
-            if (!read_dot(tracking, i, j, dot) || count == room) continue;
-            dots[count] = {dot.from_intersection_q8 + Vec{at_q16.x >> 8, at_q16.y >> 8},
-                           static_cast<std::uint16_t>(dot.mass), 0};
+            if (count == room || !read_dot(tracking, i, j, at_q16, fix, dots[count])) continue;
             tracking.dot_cells[count] = static_cast<std::uint16_t>(j * kMostTracked + i);
             ++dot_count;
         }

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/decode/similar_places.hpp"
+#include "core/decode/unshared_lines.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -117,7 +118,11 @@ int seam_rivals_log2_q8(const Contest& contest) {
             if (odds > kLeast_q8) sum = add_log2(sum, odds + kSeam_q8);
         }
     };
-    visit_similar_places(contest, Steps(contest, enough, Excused::any_one), add);
+    const UnsharedLines unshared(contest);
+    visit_similar_places(
+        contest, Steps(contest, enough, Excused::any_one),
+        [&](std::size_t sequence) { return unshared.all_lose(sequence, Sharing::on_two_sides, enough); },
+        add);
     return sum;
 }
 

@@ -1,8 +1,11 @@
 #include "core/detect/near_dot.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "core/detect/ring.hpp"
+#include "core/fixed.hpp"
+#include "core/kernels/portable/dark_sums.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -41,25 +44,89 @@ class Inverse {
     std::int32_t inverse_q21_ = 0;
 };
 
+/// The pixel next to a place.
+Vec pixel_at(Vec place_q16) {
+    return {(place_q16.x + 32768) >> 16, (place_q16.y + 32768) >> 16};
+}
+
+template <int Half>
+DarkSums sums_around(const Tracking& tracking, Vec pixel, std::int32_t level) {
+    const std::int32_t bytes = tracking.ring_bytes;
+    const int left = pixel.x - Half;
+    const RingRows ring{tracking.rows.data() + left + bytes, bytes, tracking.stride_px};
+    return dark_sums<Half>(kept_row(tracking, pixel.y - Half) + left, ring, level);
+}
+
+/// Of the four pixels about a place.
+std::int32_t sum_of_four(const Tracking& tracking, Vec place_q16) {
+    const std::uint8_t* const above = kept_row(tracking, place_q16.y >> 16) + (place_q16.x >> 16);
+    const std::uint8_t* below = above + tracking.stride_px;
+    if (below >= tracking.rows.data() + tracking.ring_bytes) below -= tracking.ring_bytes;
+    return above[0] + above[1] + below[0] + below[1];
+}
+
 }  // namespace
 
-bool measure_near_dot(const Tracking& tracking, Vec intersection_q16, NearDot& dot) {
+std::int32_t paper_around(const Tracking& tracking, Vec intersection_q16) {
     const int half = tracking.half_px;
-    const int u = (intersection_q16.x + 32768) >> 16;
-    const int v = (intersection_q16.y + 32768) >> 16;
+    const Vec at = pixel_at(intersection_q16);
     const auto inside_u = static_cast<unsigned>(tracking.width_px - 2 * half);
     const auto inside_v = static_cast<unsigned>(tracking.rows_taken - 2 * half);
-    if (static_cast<unsigned>(u - half) >= inside_u || static_cast<unsigned>(v - half) >= inside_v)
-        return false;
-    const RingSquare square = square_around(tracking, u, v);
-    const std::int32_t paper = mean_of_corners(square);
-    const DarkSums sums = dark_sums(square, paper - ((paper * tracking.cut_q8) >> 8));
+    if (static_cast<unsigned>(at.x - half) >= inside_u ||
+        static_cast<unsigned>(at.y - half) >= inside_v)
+        return 0;
+    const std::uint8_t* const top = kept_row(tracking, at.y - half) + at.x - half;
+    const std::uint8_t* const bottom = kept_row(tracking, at.y + half) + at.x - half;
+    return (top[0] + top[2 * half] + bottom[0] + bottom[2 * half]) >> 2;
+}
+
+Reading read_symbol(const Tracking& tracking, Vec intersection_q16, std::int32_t paper,
+                    std::int32_t depth) {
+    std::int32_t darkest = INT32_MAX;
+    std::int32_t second = INT32_MAX;
+    std::size_t symbol = 0;
+    for (std::size_t s = 0; s < tracking.displaced_q16.size(); ++s) {
+        const std::int32_t sum =
+            sum_of_four(tracking, intersection_q16 + tracking.displaced_q16[s]);
+        if (sum < darkest) {
+            second = darkest;
+            darkest = sum;
+            symbol = s;
+        } else {
+            second = std::min(second, sum);
+        }
+    }
+    // Dots lack some 6 depths in four pixels, and 2 of them at the places beside their own.
+    const bool is_dot = 4 * paper - darkest >= 2 * depth;
+    return {static_cast<Symbol>(symbol), is_dot && second - darkest >= depth};
+}
+
+bool measure_dot(const Tracking& tracking, Vec place_q16, int half, std::int32_t level,
+                 NearDot& dot) {
+    const Vec pixel = pixel_at(place_q16);
+    DarkSums sums;
+    switch (half) {
+        case 2:
+            sums = sums_around<2>(tracking, pixel, level);
+            break;
+        case 3:
+            sums = sums_around<3>(tracking, pixel, level);
+            break;
+        case 4:
+            sums = sums_around<4>(tracking, pixel, level);
+            break;
+        case 5:
+            sums = sums_around<5>(tracking, pixel, level);
+            break;
+        default:
+            sums = sums_around<kMostHalf_px>(tracking, pixel, level);
+            break;
+    }
     if (sums.mass < tracking.least_mass || sums.mass > tracking.most_mass) return false;
     const Inverse inverse(sums.mass);
     dot.mass = sums.mass;
-    dot.from_intersection_q8 = {inverse.quotient_q8(sums.x) + (u * 256 - (intersection_q16.x >> 8)),
-                                inverse.quotient_q8(sums.y) +
-                                    (v * 256 - (intersection_q16.y >> 8))};
+    dot.off_q8 = {inverse.quotient_q8(sums.x) + pixel.x * 256 - (place_q16.x >> 8),
+                  inverse.quotient_q8(sums.y) + pixel.y * 256 - (place_q16.y >> 8)};
     return true;
 }
 

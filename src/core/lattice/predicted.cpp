@@ -1,12 +1,13 @@
 #include "core/lattice/predicted.hpp"
 
+#include "core/detect/near_dot.hpp"
 #include "core/detect/ring.hpp"
 #include "core/plane.hpp"
 
 namespace dotpose::core {
 namespace {
 
-/// Spacings in the image that can be tracked; dots then fit the squares of kernels/dark_sums.hpp.
+/// Spacings in the image that can be tracked: dots fit the squares that are looked at.
 constexpr int kFinest_px = 7;
 constexpr int kCoarsest_px = 19;
 /// A twelfth to a third of the spacing.
@@ -69,8 +70,10 @@ bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     tracking.first_cell = kMostTracked / 2 - cells;
     tracking.last_cell = kMostTracked / 2 + cells - 1;
     tracking.half_px = std::clamp(spacing_q8 * 3 / 2048, kLeastHalf_px, kMostHalf_px);
+    tracking.dot_half_px = std::clamp(spacing_q8 * 7 / 32 >> 8, 2, 4);
     tracking.stride_px = stride_of(tracking.width_px);
     tracking.rows_kept = static_cast<int>(tracking.rows.size()) / tracking.stride_px;
+    tracking.ring_bytes = tracking.rows_kept * tracking.stride_px;
     tracking.first_rows =
         std::min({13 * spacing_q8 / (4 * 256), tracking.rows_kept, tracking.height_px});
     return tracking.first_rows * 256 >= 5 * spacing_q8 / 2;

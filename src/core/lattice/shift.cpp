@@ -21,13 +21,13 @@ Shifts::Shifts(const Tracking& tracking) {
         return std::min((reach_px + kStep_px - 1) / kStep_px, kMostSteps);
     };
     steps_ = {steps(tracking.reach_px + sideways_px), steps(tracking.reach_px)};
-    per_row_ = 2 * steps_.x + 1;
     // Dots are at most half a spacing from their intersections.
     const int margin = kStep_px * steps_.x + (tracking.spacing_q8 >> 9) + 1;
     left_ = std::max(tracking.width_px / 2 - half, margin);
     right_ = std::min(tracking.width_px / 2 + half, tracking.width_px - margin);
     measure_paper(tracking);
     add_dots(tracking);
+    divide_by_dots();
 }
 
 /// The mean of what is lighter than the mean.
@@ -76,40 +76,40 @@ void Shifts::add_dots(const Tracking& tracking) {
 }
 
 void Shifts::add_dot(const Tracking& tracking, int u, int v) {
-    const Vec reach{kStep_px * steps_.x, kStep_px * steps_.y};
-    std::uint16_t* sum = sums_.data();
-    int row = v - reach.y;
-    for (int y = 0; y <= 2 * steps_.y; ++y, row += kStep_px, sum += per_row_) {
+    const int left = u - kStep_px * steps_.x;
+    int row = v - kStep_px * steps_.y;
+    for (int y = 0; y <= 2 * steps_.y; ++y, row += kStep_px) {
         if (static_cast<unsigned>(row) >= static_cast<unsigned>(rows_)) continue;
         ++dots_[static_cast<std::size_t>(y)];
-        const std::uint8_t* pixel = kept_row(tracking, row) + u - reach.x;
-        for (int x = 0; x < per_row_; ++x, pixel += kStep_px) {
+        const std::uint8_t* pixel = kept_row(tracking, row) + left;
+        std::uint16_t* sum = row_of(y);
+        for (const std::uint16_t* end = sum + 2 * steps_.x + 1; sum != end;
+             ++sum, pixel += kStep_px) {
             const int lack = cut_ - *pixel;
-            if (lack > 0) sum[x] = static_cast<std::uint16_t>(sum[x] + lack);
+            if (lack >= 0) *sum = static_cast<std::uint16_t>(*sum + lack);
         }
     }
 }
 
-/// Of a dot, at a shift.
-int Shifts::mean(int x, int y) const {
-    if (x < 0 || y < 0 || x >= per_row_ || y > 2 * steps_.y) return 0;
-    // Of few dots it tells little.
+void Shifts::divide_by_dots() {
+    // What few dots show tells little.
     constexpr int kFewest = 6;
-    const int dots = std::max<int>(dots_[static_cast<std::size_t>(y)], kFewest);
-    return sums_[static_cast<std::size_t>(y * per_row_ + x)] / dots;
-}
-
-/// Noise is less of several.
-int Shifts::around(int x, int y) const {
-    return 4 * mean(x, y) + mean(x - 1, y) + mean(x + 1, y) + mean(x, y - 1) + mean(x, y + 1);
+    for (int y = 0; y <= 2 * steps_.y; ++y) {
+        const int dots = std::max<int>(dots_[static_cast<std::size_t>(y)], kFewest);
+        const int inverse_q12 = 4096 / dots;
+        std::uint16_t* mean = row_of(y);
+        for (const std::uint16_t* end = mean + 2 * steps_.x + 1; mean != end; ++mean)
+            *mean = static_cast<std::uint16_t>(*mean * inverse_q12 >> 12);
+    }
 }
 
 /// What was shown is not shown again.
 void Shifts::forget_around(Vec at) {
-    for (int y = 0; y <= 2 * steps_.y; ++y) {
-        for (int x = 0; x < per_row_; ++x) {
-            if (is_within(Vec{x, y} - at, 2)) sums_[static_cast<std::size_t>(y * per_row_ + x)] = 0;
-        }
+    constexpr int kFar = 2;
+    for (int y = std::max(at.y - kFar, 0); y <= std::min(at.y + kFar, 2 * steps_.y); ++y) {
+        std::uint16_t* const row = row_of(y);
+        std::fill(row + std::max(at.x - kFar, 0), row + std::min(at.x + kFar, 2 * steps_.x) + 1,
+                  std::uint16_t{0});
     }
 }
 
@@ -117,10 +117,13 @@ bool Shifts::next(Vec& shift_q8) {
     int best = 0;
     Vec at;
     for (int y = 0; y <= 2 * steps_.y; ++y) {
-        for (int x = 0; x < per_row_; ++x) {
-            const int here = around(x, y);
-            if (here <= best) continue;
-            best = here;
+        const std::uint16_t* here = row_of(y);
+        for (int x = 0; x <= 2 * steps_.x; ++x, ++here) {
+            // Noise is less of several.
+            const int around =
+                4 * here[0] + here[-1] + here[1] + here[-kPerRow] + here[kPerRow];
+            if (around <= best) continue;
+            best = around;
             at = {x, y};
         }
     }
@@ -130,12 +133,10 @@ bool Shifts::next(Vec& shift_q8) {
     const auto between = [](int before, int here, int after) {
         return (after - before) * kStep_q8 / std::max(before + here + after, 1);
     };
-    const int here = mean(at.x, at.y);
-    shift_q8 = {(at.x - steps_.x) * kStep_q8 +
-                    between(mean(at.x - 1, at.y), here, mean(at.x + 1, at.y)),
-                (at.y - steps_.y) * kStep_q8 +
-                    between(mean(at.x, at.y - 1), here, mean(at.x, at.y + 1))};
-    depth_ = paper_ - cut_ + here;
+    const std::uint16_t* const here = row_of(at.y) + at.x;
+    shift_q8 = {(at.x - steps_.x) * kStep_q8 + between(here[-1], here[0], here[1]),
+                (at.y - steps_.y) * kStep_q8 + between(here[-kPerRow], here[0], here[kPerRow])};
+    depth_ = paper_ - cut_ + here[0];
     forget_around(at);
     return true;
 }

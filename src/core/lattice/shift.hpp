@@ -28,24 +28,27 @@ class Shifts {
     /// Most steps from the middle of the search.
     static constexpr int kMostSteps = 8;
     static constexpr int kMostPerSide = 2 * kMostSteps + 1;
+    static constexpr int kPerRow = kMostPerSide + 2;
 
     void measure_paper(const Tracking& tracking);
     void add_dots(const Tracking& tracking);
     void add_dot(const Tracking& tracking, int u, int v);
-    int mean(int x, int y) const;
-    int around(int x, int y) const;
+    void divide_by_dots();
+    /// Of a row of steps; steps before the first and after the last are dark nowhere.
+    std::uint16_t* row_of(int y) {
+        return sums_.data() + (y + 1) * kPerRow + 1;
+    }
     void forget_around(Vec at);
 
     int left_ = 0;
     int right_ = 0;
     int rows_ = 0;
     Vec steps_;  ///< to each side
-    int per_row_ = 0;
     int paper_ = 0;
     int cut_ = 0;
     int depth_ = 0;
     std::array<std::uint8_t, kMostPerSide> dots_{};  ///< summed in each row
-    std::array<std::uint16_t, kMostPerSide * kMostPerSide> sums_{};
+    std::array<std::uint16_t, kPerRow * kPerRow> sums_{};  ///< and then means
 };
 
 }  // namespace dotpose::core

@@ -11,7 +11,7 @@ namespace dotpose::core {
 namespace {
 
 /// Rounds of cells about the middle one.
-constexpr int kRounds = 7;
+constexpr int kRounds = 5;
 /// Fewest dots, and the share of those looked at in 1/8, that have to be as the code has them.
 constexpr int kLeastDots = 12;
 constexpr int kLeastShare_q3 = 6;
@@ -80,6 +80,9 @@ class Rounds {
     Rounds(Tracking& tracking, Vec middle_q16)
         : tracking_(tracking), before_(tracking.cells), middle_q16_(middle_q16) {}
 
+    /// Shifts the cells by what the dots nearest the middle lie from their places, be they what the
+    /// code has there or not.
+    void recentre(Vec middle);
     void measure(int i, int j);
     /// Lays the cells anew.
     void lay_cells() {
@@ -95,8 +98,15 @@ class Rounds {
     std::int32_t mean_displacement_q12() const { return projections_q12_ / (2 * agreeing()); }
 
   private:
+    /// Of an intersection, wherever around it the dot is.
+    bool measure_around(Vec at_q16, NearDot& dot) const {
+        const std::int32_t paper = paper_around(tracking_, at_q16);
+        const std::int32_t level = paper - ((paper * tracking_.cut_q8) >> 8);
+        return paper > 0 && measure_dot(tracking_, at_q16, tracking_.half_px, level, dot);
+    }
+
     Tracking& tracking_;
-    const CellMap before_;
+    CellMap before_;
     const Vec middle_q16_;
     SimilarityFit fit_;
     SimilarityFit::Similarity similarity_;
@@ -105,12 +115,30 @@ class Rounds {
     std::int32_t projections_q12_ = 0;
 };
 
+void Rounds::recentre(Vec middle) {
+    Vec sum_q8;
+    std::int32_t count = 0;
+    for (int j = middle.y - 1; j <= middle.y + 1; ++j) {
+        for (int i = middle.x - 1; i <= middle.x + 1; ++i) {
+            NearDot dot;
+            if (!measure_around(place_q16(tracking_.cells, i, j), dot)) continue;
+            const Vec displaced_q16 =
+                tracking_.displaced_q16[static_cast<std::size_t>(coded_symbol(tracking_, i, j))];
+            sum_q8 = sum_q8 + dot.off_q8 - Vec{displaced_q16.x >> 8, displaced_q16.y >> 8};
+            ++count;
+        }
+    }
+    if (count == 0) return;
+    before_.origin_q16 = before_.origin_q16 + Vec{sum_q8.x / count * 256, sum_q8.y / count * 256};
+    tracking_.cells = before_;
+}
+
 void Rounds::measure(int i, int j) {
     const Vec at_q16 = place_q16(tracking_.cells, i, j);
     NearDot dot;
-    if (!measure_near_dot(tracking_, at_q16, dot)) return;
+    if (!measure_around(at_q16, dot)) return;
     ++seen_;
-    const Projections p = projections(tracking_, dot.from_intersection_q8);
+    const Projections p = projections(tracking_, dot.off_q8);
     const Symbol symbol = coded_symbol(tracking_, i, j);
     if (symbol_of(p) != symbol) return;
     const Vec displaced_q16 = tracking_.displaced_q16[static_cast<std::size_t>(symbol)];
@@ -118,7 +146,7 @@ void Rounds::measure(int i, int j) {
     const Vec p_q16 = was_q16 - middle_q16_;
     const Vec moved_q16 = at_q16 - was_q16 - displaced_q16;
     fit_.add({p_q16.x >> 16, p_q16.y >> 16},
-             dot.from_intersection_q8 + Vec{moved_q16.x >> 8, moved_q16.y >> 8});
+             dot.off_q8 + Vec{moved_q16.x >> 8, moved_q16.y >> 8});
     masses_ += dot.mass;
     projections_q12_ += magnitude(p.x_q12) + magnitude(p.y_q12);
 }
@@ -160,6 +188,7 @@ bool find_turn(Tracking& tracking) {
     const Vec middle_q16{(tracking.width_px - 1) * 32768, (tracking.first_rows - 1) * 32768};
     const Vec middle = middle_cell(tracking);
     Rounds rounds(tracking, middle_q16);
+    rounds.recentre(middle);
     bool agree = true;
     for (int round = 0; round <= kRounds && agree; ++round) {
         const int before = rounds.agreeing();
