@@ -82,8 +82,8 @@ Header read_header(FrameHeader& header) {
         return Header::bad;
     if (!host::read(&magic[1], 1) || magic[0] != 'P' || magic[1] != '5') return Header::bad;
     int most = 0;
-    const bool is_8_bit = read_into(header.width_px) && read_into(header.height_px) &&
-                          read_into(most) && most == 255;
+    const bool is_8_bit =
+        read_into(header.width_px) && read_into(header.height_px) && read_into(most) && most == 255;
     const bool has_room = header.width_px > 0 && header.width_px <= kMaxWidth_px &&
                           header.height_px >= 0 && header.height_px <= kMaxHeight_px;
     return is_8_bit && has_room ? Header::frame : Header::bad;

@@ -52,12 +52,12 @@ class Predictor {
         const double shift_q16 = 32768 * std::sqrt(rng_.uniform());
         const double direction_rad = rng_.uniform(-std::numbers::pi, std::numbers::pi);
         const double turn_rad = rng_.uniform(-4, 4) * std::numbers::pi / 180;
-        const Prediction p = moved(
-            Prediction::like(fix), options.profile,
-            {static_cast<std::int32_t>(shift_q16 * std::cos(direction_rad)),
-             static_cast<std::int32_t>(shift_q16 * std::sin(direction_rad))},
-            static_cast<std::int32_t>(turn_rad * (2147483648.0 / std::numbers::pi)),
-            {(image.width_px - 1) * 128, (image.height_px - 1) * 128});
+        const Prediction p =
+            moved(Prediction::like(fix), options.profile,
+                  {static_cast<std::int32_t>(shift_q16 * std::cos(direction_rad)),
+                   static_cast<std::int32_t>(shift_q16 * std::sin(direction_rad))},
+                  static_cast<std::int32_t>(turn_rad * (2147483648.0 / std::numbers::pi)),
+                  {(image.width_px - 1) * 128, (image.height_px - 1) * 128});
         const PlaneFromImage& plane = p.pattern_from_image;
         std::printf("T %u %u %d %d %d %d %d %d %d %d %d %d %d\n", p.place.cell.x, p.place.cell.y,
                     p.place.section.u, p.place.section.v, plane.centre_q8.x, plane.centre_q8.y,
@@ -93,9 +93,10 @@ int main(int argc, char** argv) {
     if (argc == 4 && std::strcmp(argv[1], "--predict") == 0)
         return predict(argv[3], std::strtoull(argv[2], nullptr, 10));
     if (argc != 2) {
-        std::fputs("usage: dotpose_frames FRAMES (binary PGM images, one after the other)\n"
-                   "       dotpose_frames --predict SEED FRAMES >TRACKED_FRAMES\n",
-                   stderr);
+        std::fputs(
+            "usage: dotpose_frames FRAMES (binary PGM images, one after the other)\n"
+            "       dotpose_frames --predict SEED FRAMES >TRACKED_FRAMES\n",
+            stderr);
         return 2;
     }
     return locate_frames(argv[1]);

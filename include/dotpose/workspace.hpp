@@ -116,7 +116,7 @@ class WorkspaceOf : public Workspace {
     std::array<std::uint8_t, 36 * std::min(MaxWidth, 376)> tracked_rows_{};
     std::array<TrackedLine, 2 * kMostTracked> tracked_lines_{};
     std::array<TrackedRow, kMostTracked> grid_rows_{};
-    std::array<std::uint16_t, std::min(MaxDots, kMostTracked * kMostTracked)> dot_cells_{};
+    std::array<std::uint16_t, std::min(MaxDots, kMostTracked* kMostTracked)> dot_cells_{};
 };
 
 /// For `finish_device` on a small microcontroller and a 188 x 120 px sensor: some 12 KB.
@@ -197,11 +197,12 @@ class DeviceWorkspace : public Workspace {
     }
 
     std::array<Dot, kDots> dots_{};
-    alignas(8) std::array<std::byte, std::max({sizeof(PixelStages), sizeof(LatticeStages),
-                                               sizeof(DecodeStages), sizeof(TrackedStages)})> memory_{};
+    alignas(
+        8) std::array<std::byte, std::max({sizeof(PixelStages), sizeof(LatticeStages),
+                                           sizeof(DecodeStages), sizeof(TrackedStages)})> memory_{};
 };
 
-static_assert(sizeof(void*) > 4 || sizeof(DeviceWorkspace) < 12 * 1024 + 128);
+static_assert(sizeof(void*) > 4 || sizeof(DeviceWorkspace) < 12 * 1024 + 256);
 
 /// For the paper's 188 x 120 px sensor.
 using SmallWorkspace = WorkspaceOf<188, 384, 32>;

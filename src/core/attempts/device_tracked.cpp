@@ -3,7 +3,7 @@
 #include "core/attempts/steps.hpp"
 #include "core/decode/read_dots.hpp"
 #include "core/decode/verify.hpp"
-#include "core/detect/ring.hpp"
+#include "core/detect/newest_rows.hpp"
 #include "core/fixed.hpp"
 #include "core/lattice/coded_cells.hpp"
 #include "core/lattice/predicted.hpp"
@@ -37,19 +37,17 @@ Status settle(Tracking& tracking) {
     return Status::not_tracked;
 }
 
-/// Dots are looked for every few rows, which is enough for a ring of a few more than they need.
-constexpr int kRowsAtOnce = 4;
-
 Status read_rows(Workspace& w) {
     Tracking& t = w.tracking;
     if (t.rows_taken < t.first_rows) return Status::ok;
     if (t.rows_taken == t.first_rows) {
         const Status status = settle(t);
         if (status != Status::ok) return status;
-        begin_reading(t);
-    } else if (t.rows_taken % kRowsAtOnce != 0 && t.rows_taken != t.height_px) {
+        if (!begin_reading(t)) return Status::not_tracked;
+    } else if (t.rows_taken < t.next_reading && t.rows_taken != t.height_px) {
         return Status::ok;
     }
+    t.next_reading = t.rows_taken + kRowsAtOnce;
     read_ready_dots(t, w.dots, w.dot_count, w.fix);
     return Status::ok;
 }
@@ -59,8 +57,7 @@ Status confirm(const Options& options, Workspace& w) {
     Tracking& t = w.tracking;
     if (t.status != Status::ok) return t.status;
     w.decoding.place = t.corner;
-    const Status status =
-        verify_tracked(options.profile, t, options.integrity, w.decoding, w.fix);
+    const Status status = verify_tracked(options.profile, t, options.integrity, w.decoding, w.fix);
     if (status != Status::ok) return Status::not_tracked;
     w.fix.dots_used =
         fit_tracked_pose(w.found_dots(), t, w.pattern_from_image, w.fix.displacement_q16);
@@ -81,7 +78,7 @@ Status begin_device_tracked(int width_px, int height_px, const Options& options,
     t.is_on = true;
     t.width_px = width_px;
     t.height_px = height_px;
-    t.rows_taken = t.first_of_lap = 0;
+    t.rows_taken = t.first_kept = 0;
     t.along_q16 = 0;
     // Lenses that bend are left to fresh fixes.
     t.status = options.lens.k_q40 == 0 ? lay_predicted_cells(prediction, options.profile, t)

@@ -10,9 +10,6 @@ namespace dotpose::core {
 
 namespace {
 
-/// Score of a full bit that is lost: what it was worth, and as much against it.
-constexpr int kScoreOfBit = 2 * 127;
-
 /// Bits in which two stretches of the main sequence differ, by their first indices.
 constexpr int distance_of(std::size_t first, std::size_t other, std::size_t length) {
     const std::uint32_t all = length == 0 ? 0 : ~std::uint32_t{0} >> (32 - length);
@@ -21,28 +18,38 @@ constexpr int distance_of(std::size_t first, std::size_t other, std::size_t leng
 
 /// Of the stretches of a length that differ from one in the fewest bits: in how many, and how many
 /// there are.
-struct Nearest {
+struct NearestStretches {
     int distance = kMostTracked + 1;
     int count = 0;
+
+    constexpr void add(int other_distance) {
+        if (other_distance < distance) *this = {other_distance, 0};
+        if (other_distance == distance) ++count;
+    }
 };
-constexpr Nearest nearest_of(std::size_t first, std::size_t length) {
-    Nearest nearest;
+constexpr NearestStretches nearest_of(std::size_t first, std::size_t length) {
+    NearestStretches nearest;
     for (std::size_t other = 0; other < kSections; ++other) {
-        if (other == first) continue;
-        const int distance = distance_of(first, other, length);
-        if (distance < nearest.distance) nearest = {distance, 0};
-        if (distance == nearest.distance) ++nearest.count;
+        if (other != first) nearest.add(distance_of(first, other, length));
     }
     return nearest;
 }
 
+/// log2 of a number in 2^-8, rounded up: log2(1 + f) is at most f + 0.087.
+constexpr int log2_at_most_q8(int n) {
+    const int whole = std::bit_width(static_cast<unsigned>(n)) - 1;
+    return n == 1 ? 0 : 256 * whole + ((n << 8 >> whole) - 256) + 23;
+}
+
 /// The least number of bits by which a stretch of the main sequence, by its first index and its
-/// length, differs from those of the same length elsewhere.
+/// length, differs from those of the same length elsewhere; two lengths in a byte.
 constexpr auto kLeastDistances = [] {
-    std::array<std::array<std::uint8_t, kMostTracked + 1>, kSections> least{};
+    std::array<std::array<std::uint8_t, kMostTracked / 2 + 1>, kSections> least{};
     for (std::size_t first = 0; first < least.size(); ++first) {
-        for (std::size_t length = 0; length < least[first].size(); ++length)
-            least[first][length] = static_cast<std::uint8_t>(nearest_of(first, length).distance);
+        for (std::size_t length = 0; length <= kMostTracked; ++length) {
+            const int distance = std::min(nearest_of(first, length).distance, 15);
+            least[first][length / 2] |= static_cast<std::uint8_t>(distance << length % 2 * 4);
+        }
     }
     return least;
 }();
@@ -55,29 +62,13 @@ constexpr auto kLog2OfNearest = [] {
         int most = 1;
         for (std::size_t first = 0; first < kSections; ++first)
             most = std::max(most, nearest_of(first, length).count);
-        // log2(1 + f) is at most f + 0.087.
-        const int whole = std::bit_width(static_cast<unsigned>(most)) - 1;
-        log2[length] = static_cast<std::uint16_t>(256 * whole + ((most << 8 >> whole) - 256) + 23);
+        log2[length] = static_cast<std::uint16_t>(log2_at_most_q8(most));
     }
     return log2;
 }();
 
 /// log2 of 62, likewise.
 constexpr int kLog2OfOthers_q8 = 1525;
-
-/// Bits that who puts a line at another roll contradicts at least more than who puts it at `roll`.
-/// Those not read might all be among those that differ, and so might those that are wrong.
-int least_lost_bits(const TrackedLine& line, int roll) {
-    if (line.seen == 0) return 0;
-    const int first = std::countr_zero(line.seen);
-    const int length = static_cast<int>(std::bit_width(line.seen)) - first;
-    const int unread = length - bits_in(line.seen);
-    const int begin = roll + first < kSections ? roll + first : roll + first - kSections;
-    const int distance =
-        kLeastDistances[static_cast<std::size_t>(begin)][static_cast<std::size_t>(length)];
-    const int wrong = bits_in(line.wrong);
-    return std::max(distance - unread, wrong) - 2 * wrong;
-}
 
 }  // namespace
 
@@ -107,7 +98,7 @@ Contest::Contest(Profile profile, std::span<const TrackedLine> lines_, const Axi
     follow_rolls(profile, reading);
     for (int i = 0; i < count_; ++i) {
         const auto line = static_cast<std::size_t>(i);
-        set_least_loss(i, kScoreOfBit * least_lost_bits(bits_[line], rolls_[line]));
+        if (bits_[line].seen != 0) set_least_loss(i, kScoreOfBit * nearest(i).lost_bits);
     }
     hopeless_score_ = most_regained_ + -kNegligible_q8 * 2 * 127 / odds_q8;
 }
@@ -124,15 +115,30 @@ void Contest::set_least_loss(int line, int least_loss) {
     most_regained_ += std::max(-least_loss, 0);
 }
 
-int Contest::log2_of_nearest_q8(int line) const {
+Contest::Nearest Contest::nearest(int line) const {
     const TrackedLine& bits = bits_[static_cast<std::size_t>(line)];
-    if (bits.seen == 0) return kLog2OfOthers_q8;
-    const int length = static_cast<int>(std::bit_width(bits.seen)) - std::countr_zero(bits.seen);
-    // Where bits are wrong or were not read, others may come as near.
-    if (bits.wrong != 0 || bits_in(bits.seen) != length) return kLog2OfOthers_q8;
-    // All others lose one bit more.
-    return std::min(add_log2(kLog2OfNearest[static_cast<std::size_t>(length)],
-                             kLog2OfOthers_q8 - odds_per_bit_q8_),
+    const int own = own_roll(line);
+    const int first = std::countr_zero(bits.seen);
+    const int length = static_cast<int>(std::bit_width(bits.seen)) - first;
+    if (bits.wrong == 0 && bits_in(bits.seen) == length) {
+        const int begin = own + first < kSections ? own + first : own + first - kSections;
+        const unsigned both =
+            kLeastDistances[static_cast<std::size_t>(begin)][static_cast<std::size_t>(length / 2)];
+        return {static_cast<int>(both >> length % 2 * 4 & 15),
+                kLog2OfNearest[static_cast<std::size_t>(length)]};
+    }
+    // No table has bits that were not read, or are wrong.
+    NearestStretches nearest;
+    for (int roll = 0; roll < kSections; ++roll) {
+        if (roll != own) nearest.add(loss_of_bits(line, roll));
+    }
+    return {nearest.distance, log2_at_most_q8(nearest.count)};
+}
+
+int Contest::log2_of_nearest_q8(int line) const {
+    if (bits_[static_cast<std::size_t>(line)].seen == 0) return kLog2OfOthers_q8;
+    // All others lose a bit more.
+    return std::min(add_log2(nearest(line).log2_count_q8, kLog2OfOthers_q8 - odds_per_bit_q8_),
                     kLog2OfOthers_q8);
 }
 
@@ -140,7 +146,7 @@ int Contest::loss_of_bits(int line, int roll) const {
     const TrackedLine& bits = bits_[static_cast<std::size_t>(line)];
     const std::uint32_t differ =
         (bits.code ^ code::kMainWords[static_cast<std::size_t>(roll)]) & bits.seen;
-    return kScoreOfBit * (bits_in(differ) - 2 * bits_in(differ & bits.wrong));
+    return bits_in(differ) - 2 * bits_in(differ & bits.wrong);
 }
 
 std::optional<int> loss_of_growth(const Contest& contest, const Growth& growth, int shared) {

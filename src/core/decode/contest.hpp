@@ -26,8 +26,7 @@ class Contest {
             int odds_per_bit_q8);
 
     int count() const { return count_; }
-    /// Whether scores of single rolls are known only through `loss`, and what is lost at least is an
-    /// estimate from below.
+    /// Whether there are no scores, but only `loss`.
     bool is_of_bits() const { return !bits_.empty(); }
 
     /// Score that a rival gives up in a line whose roll it puts `shift` further; |shift| < 63.
@@ -36,7 +35,7 @@ class Contest {
         const int moved = own + shift;
         const int other =
             moved < 0 ? moved + kSections : (moved < kSections ? moved : moved - kSections);
-        if (is_of_bits()) return loss_of_bits(line, other);
+        if (is_of_bits()) return kScoreOfBit * loss_of_bits(line, other);
         return lines[line][static_cast<std::size_t>(own)] -
                lines[line][static_cast<std::size_t>(other)];
     }
@@ -74,9 +73,18 @@ class Contest {
     std::array<std::uint32_t, 4> places;
 
   private:
+    /// Score of a full bit that is lost: what it was worth, and as much against it.
+    static constexpr int kScoreOfBit = 2 * 127;
+
     void follow_rolls(Profile profile, const AxisReading& reading);
     void set_least_loss(int line, int least_loss);
+    /// Bits that who puts a line at another roll contradicts more.
     int loss_of_bits(int line, int roll) const;
+    struct Nearest {
+        int lost_bits = 0;      ///< by the other rolls that lose least
+        int log2_count_q8 = 0;  ///< how many these are, at most
+    };
+    Nearest nearest(int line) const;
 
     const std::span<const TrackedLine> bits_;
     int count_;

@@ -227,7 +227,9 @@ int singles_log2_q8(const Contest& contest) {
     const UnsharedLines unshared(contest);
     visit_similar_places(
         contest, Steps(contest, enough, Excused::none),
-        [&](std::size_t sequence) { return unshared.all_lose(sequence, Sharing::at_one_shift, enough); },
+        [&](std::size_t sequence) {
+            return unshared.all_lose(sequence, Sharing::at_one_shift, enough);
+        },
         [&](std::size_t sequence, std::uint32_t place) {
             sum = by_shift.add(sequence, place, sum);
         });

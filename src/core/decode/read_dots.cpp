@@ -20,32 +20,36 @@ Way way_of(const Tracking& tracking) {
     return along.y < 0 ? Way{-along, -1} : Way{along, 1};
 }
 
-/// Notes what is read.
-void note(const Tracking& tracking, int i, int j, Symbol symbol) {
+/// Notes what is read; whether the code has it there.
+bool note(const Tracking& tracking, int i, int j, int symbol) {
     TrackedLine& column = column_of(tracking, i);
     TrackedLine& row = row_of(tracking, j);
     const auto in_column = std::uint32_t{1} << j;
     const auto in_row = std::uint32_t{1} << i;
     column.seen |= in_column;
     row.seen |= in_row;
-    if (((column.code & in_column) != 0) != (x_bit(symbol) != 0)) column.wrong |= in_column;
-    if (((row.code & in_row) != 0) != (y_bit(symbol) != 0)) row.wrong |= in_row;
+    const int coded = (column.code >> j & 1) + (row.code >> i & 1) * 2;
+    if (coded == symbol) return true;
+    const int wrong = coded ^ symbol;
+    if ((wrong & 1) != 0) column.wrong |= in_column;
+    if ((wrong & 2) != 0) row.wrong |= in_row;
+    return false;
 }
 
 /// Reads the dot of a cell; whether it is what and where the code has one, and then its centre.
-bool read_dot(Tracking& tracking, int i, int j, Vec at_q16, Fix& fix, Dot& kept) {
+[[gnu::always_inline]] inline bool read_dot(Tracking& tracking, int i, int j, Vec at_q16, Fix& fix,
+                                            Dot& kept) {
     const std::int32_t paper = paper_around(tracking, at_q16);
     const std::int32_t depth = (paper * tracking.cut_q8) >> 8;
     if (paper == 0) return false;
-    const Reading reading = read_symbol(tracking, at_q16, paper, depth);
-    if (!reading.is_clear) return false;
+    const int symbol = read_symbol(tracking, at_q16, paper, depth);
+    if (symbol < 0) return false;
     ++fix.dots_seen;
-    note(tracking, i, j, reading.symbol);
-    if (reading.symbol != coded_symbol(tracking, i, j)) return false;
-    const Vec displaced_q16 = tracking.displaced_q16[static_cast<std::size_t>(reading.symbol)];
+    if (!note(tracking, i, j, symbol)) return false;
+    const Vec displaced_q16 = tracking.displaced_q16[static_cast<std::size_t>(symbol)];
     const Vec place_q16 = at_q16 + displaced_q16;
     NearDot dot;
-    if (!measure_dot(tracking, place_q16, tracking.dot_half_px, paper - depth, dot)) return false;
+    if (!measure_square<kDotHalf_px>(tracking, place_q16, paper - depth, dot)) return false;
     // Printers and lenses rarely move a dot by more than an eighth of the spacing; dirt does.
     if (!is_within(dot.off_q8, tracking.spacing_q8 >> 3)) return false;
     tracking.along_q16 +=
@@ -57,9 +61,10 @@ bool read_dot(Tracking& tracking, int i, int j, Vec at_q16, Fix& fix, Dot& kept)
 
 }  // namespace
 
-void begin_reading(Tracking& tracking) {
+bool begin_reading(Tracking& tracking) {
+    if (!lay_dot_pixels(tracking)) return false;
     const Way way = way_of(tracking);
-    const int half = tracking.half_px;
+    constexpr int half = kHalf_px;
     const std::int32_t least_q16 = half * 65536 - 32768;
     const auto width_q16 = static_cast<std::uint32_t>(tracking.width_px - 2 * half) << 16;
     const auto height_q16 = static_cast<std::uint32_t>(tracking.height_px - 2 * half) << 16;
@@ -84,13 +89,15 @@ void begin_reading(Tracking& tracking) {
             ++row.left;
         }
     }
+    return true;
 }
 
 void read_ready_dots(Tracking& tracking, std::span<Dot> dots, int& dot_count, Fix& fix) {
     const Way way = way_of(tracking);
-    const std::int32_t ready_q16 =
-        (tracking.rows_taken - 1 - tracking.half_px) * 65536 + 32767;
-    const std::size_t room = std::min(dots.size(), tracking.dot_cells.size());
+    // A dot may reach a row farther than its square; the last row of all is always ready.
+    const int ahead = tracking.rows_taken == tracking.height_px ? 1 : 2;
+    const std::int32_t ready_q16 = (tracking.rows_taken - ahead - kHalf_px) * 65536 + 32767;
+    const auto room = static_cast<int>(std::min(dots.size(), tracking.dot_cells.size()));
     for (int j = tracking.first_cell; j <= tracking.last_cell; ++j) {
         TrackedRow& row = tracking.grid_rows[static_cast<std::size_t>(j)];
         for (; row.left > 0 && row.next_q16.y <= ready_q16; --row.left) {
@@ -98,8 +105,9 @@ void read_ready_dots(Tracking& tracking, std::span<Dot> dots, int& dot_count, Fi
             const int i = row.i;
             row.next_q16 = at_q16 + way.step_q16;
             row.i = static_cast<std::int8_t>(i + way.i_step);
+            if (dot_count == room) continue;
             const auto count = static_cast<std::size_t>(dot_count);
-            if (count == room || !read_dot(tracking, i, j, at_q16, fix, dots[count])) continue;
+            if (!read_dot(tracking, i, j, at_q16, fix, dots[count])) continue;
             tracking.dot_cells[count] = static_cast<std::uint16_t>(j * kMostTracked + i);
             ++dot_count;
         }

@@ -8,8 +8,8 @@
 
 namespace dotpose::core {
 
-/// Once the cells lie where they are.
-void begin_reading(Tracking& tracking);
+/// Once the cells lie where they are; false where dots are too far from their intersections.
+bool begin_reading(Tracking& tracking);
 
 /// Reads all dots that the rows taken so far show, and adds those that are where and what the code
 /// has there to `dots`; their cells stand in `tracking`. Counts in fix.dots_seen.

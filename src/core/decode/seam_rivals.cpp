@@ -121,7 +121,9 @@ int seam_rivals_log2_q8(const Contest& contest) {
     const UnsharedLines unshared(contest);
     visit_similar_places(
         contest, Steps(contest, enough, Excused::any_one),
-        [&](std::size_t sequence) { return unshared.all_lose(sequence, Sharing::on_two_sides, enough); },
+        [&](std::size_t sequence) {
+            return unshared.all_lose(sequence, Sharing::on_two_sides, enough);
+        },
         add);
     return sum;
 }

@@ -183,8 +183,8 @@ struct TrackedAxis {
 };
 
 TrackedAxis tracked_axis(Profile profile, const Tracking& tracking, Axis axis) {
-    const auto all = axis == Axis::x ? tracking.lines.first(kMostTracked)
-                                     : tracking.lines.last(kMostTracked);
+    const auto all =
+        axis == Axis::x ? tracking.lines.first(kMostTracked) : tracking.lines.last(kMostTracked);
     std::size_t begin = 0;
     std::size_t end = all.size();
     while (begin < end && all[begin].seen == 0)
@@ -204,9 +204,8 @@ TrackedAxis tracked_axis(Profile profile, const Tracking& tracking, Axis axis) {
     // Of its lines the first in view, at the corner's cell of the crossing ones.
     const auto ahead = static_cast<std::int32_t>(begin);
     const Place& corner = tracking.corner;
-    result.reading = axis == Axis::x
-                         ? reading_of(profile, moved(profile, corner, ahead, 0), axis)
-                         : reading_of(profile, moved(profile, corner, 0, ahead), axis);
+    result.reading = axis == Axis::x ? reading_of(profile, moved(profile, corner, ahead, 0), axis)
+                                     : reading_of(profile, moved(profile, corner, 0, ahead), axis);
     return result;
 }
 
@@ -217,16 +216,14 @@ Status verify_tracked(Profile profile, const Tracking& tracking, const Integrity
     decoding.p_wrong_log2_q8 = {};
     const std::array axes{tracked_axis(profile, tracking, Axis::x),
                           tracked_axis(profile, tracking, Axis::y)};
-    const Doubt doubt =
-        doubt_of({axes[0].confidence, axes[1].confidence}, options, decoding, fix);
+    const Doubt doubt = doubt_of({axes[0].confidence, axes[1].confidence}, options, decoding, fix);
     const int limit_q8 = 256 * options.max_p_wrong_log2;
     if (!is_hopeless(doubt, limit_q8)) {
         for (std::size_t i = 0; i < axes.size(); ++i) {
             if (doubt.by_chance_q8[i] > limit_q8) continue;
             const Contest contest(profile, axes[i].lines, axes[i].reading, doubt.odds_per_bit_q8);
-            decoding.p_wrong_log2_q8[i] =
-                with_rivals(contest, doubt.by_chance_q8[i], limit_q8,
-                            quick_rivals_log2_q8(contest, limit_q8));
+            decoding.p_wrong_log2_q8[i] = with_rivals(contest, doubt.by_chance_q8[i], limit_q8,
+                                                      quick_rivals_log2_q8(contest, limit_q8));
         }
     }
     return judge(doubt, options, decoding, fix);

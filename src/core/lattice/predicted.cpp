@@ -1,7 +1,7 @@
 #include "core/lattice/predicted.hpp"
 
 #include "core/detect/near_dot.hpp"
-#include "core/detect/ring.hpp"
+#include "core/detect/newest_rows.hpp"
 #include "core/plane.hpp"
 
 namespace dotpose::core {
@@ -9,7 +9,7 @@ namespace {
 
 /// Spacings in the image that can be tracked: dots fit the squares that are looked at.
 constexpr int kFinest_px = 7;
-constexpr int kCoarsest_px = 19;
+constexpr int kCoarsest_px = 13;
 /// A twelfth to a third of the spacing.
 constexpr std::int32_t kLeastDisplacement_q16 = 65536 / 12;
 constexpr std::int32_t kMostDisplacement_q16 = 65536 / 3;
@@ -25,10 +25,9 @@ bool is_sane(const Prediction& prediction) {
     return is_within(plane.centre_q8, kFarthest_q8) &&
            is_within(plane.at_centre_q16, kFarthest_q16) &&
            is_within(plane.du_q24, kSteepest_q24) && is_within(plane.dv_q24, kSteepest_q24) &&
-           is_within(plane.perspective_q30, kSteepest_q30) &&
-           place.cell.x < kPositionsPerAxis && place.cell.y < kPositionsPerAxis &&
-           place.section.u < kSections && place.section.v < kSections &&
-           prediction.displacement_q16 >= kLeastDisplacement_q16 &&
+           is_within(plane.perspective_q30, kSteepest_q30) && place.cell.x < kPositionsPerAxis &&
+           place.cell.y < kPositionsPerAxis && place.section.u < kSections &&
+           place.section.v < kSections && prediction.displacement_q16 >= kLeastDisplacement_q16 &&
            prediction.displacement_q16 <= kMostDisplacement_q16;
 }
 
@@ -69,11 +68,10 @@ bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     if (cells > kMostTracked / 2) return false;
     tracking.first_cell = kMostTracked / 2 - cells;
     tracking.last_cell = kMostTracked / 2 + cells - 1;
-    tracking.half_px = std::clamp(spacing_q8 * 3 / 2048, kLeastHalf_px, kMostHalf_px);
-    tracking.dot_half_px = std::clamp(spacing_q8 * 7 / 32 >> 8, 2, 4);
     tracking.stride_px = stride_of(tracking.width_px);
     tracking.rows_kept = static_cast<int>(tracking.rows.size()) / tracking.stride_px;
-    tracking.ring_bytes = tracking.rows_kept * tracking.stride_px;
+    tracking.rows_needed = 2 * kHalf_px + 3 + kRowsAtOnce;
+    if (2 * tracking.rows_needed > tracking.rows_kept) return false;
     tracking.first_rows =
         std::min({13 * spacing_q8 / (4 * 256), tracking.rows_kept, tracking.height_px});
     return tracking.first_rows * 256 >= 5 * spacing_q8 / 2;
@@ -91,8 +89,8 @@ int reach_px(const Prediction& prediction, std::int32_t spacing_q8) {
 
 Vec middle_cell(const Tracking& tracking) {
     const Vec middle_q8{(tracking.width_px - 1) * 128, (tracking.first_rows - 1) * 128};
-    const Vec p_q8 = middle_q8 - Vec{tracking.cells.origin_q16.x >> 8,
-                                     tracking.cells.origin_q16.y >> 8};
+    const Vec p_q8 =
+        middle_q8 - Vec{tracking.cells.origin_q16.x >> 8, tracking.cells.origin_q16.y >> 8};
     const auto cell = [&](std::int32_t du_q20, std::int32_t dv_q20) {
         return shift_rounded(std::int64_t{du_q20} * p_q8.x + std::int64_t{dv_q20} * p_q8.y, 28);
     };
@@ -125,8 +123,8 @@ Status lay_predicted_cells(const Prediction& prediction, Profile profile, Tracki
     const Vec at_q16{at.x - first.x * 65536, at.y - first.y * 65536};
     if (!invert(plane, at_q16, tracking.cells)) return Status::not_tracked;
     const Vec along = tracking.cells.along_x_q16;
-    const auto spacing_q8 = static_cast<std::int32_t>(
-        square_root(static_cast<std::uint64_t>(squared(along))) >> 8);
+    const auto spacing_q8 =
+        static_cast<std::int32_t>(square_root(static_cast<std::uint64_t>(squared(along))) >> 8);
     if (!lay_out_memory(spacing_q8, tracking)) return Status::not_tracked;
     tracking.du_q20 = {plane.du_q24.x >> 4, plane.du_q24.y >> 4};
     tracking.dv_q20 = {plane.dv_q24.x >> 4, plane.dv_q24.y >> 4};

@@ -9,6 +9,9 @@
 
 namespace dotpose::core {
 
+/// Dots are looked for every few rows.
+inline constexpr int kRowsAtOnce = 6;
+
 /// Sets corner, cells, and what depends on the spacing. The size of the image, at most 4096 px per
 /// side, and the memory stand in `tracking`. Errors: not_tracked, if no such view of the pattern
 /// can be tracked; any bits are safe.

@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/lattice/coded_cells.hpp"
-#include "core/detect/ring.hpp"
+#include "core/detect/newest_rows.hpp"
 #include "core/fixed.hpp"
+#include "core/lattice/coded_cells.hpp"
 #include "core/lattice/predicted.hpp"
 
 namespace dotpose::core {
 
 Shifts::Shifts(const Tracking& tracking) {
-    // At most 2 1/2 spacings from the middle column, so that a turn hardly blurs what dots show
+    // At most two spacings from the middle column, so that a turn hardly blurs what dots show
     // together.
-    const int half = 5 * tracking.spacing_q8 >> 9;
+    const int half = 4 * tracking.spacing_q8 >> 9;
     rows_ = tracking.first_rows;
     // A turn about the image centre of 4 degrees, 18/256, moves what is above it sideways.
     const int sideways_px = 18 * ((tracking.height_px - rows_) / 2) >> 8;
@@ -52,7 +52,7 @@ void Shifts::measure_paper(const Tracking& tracking) {
 
 void Shifts::add_dots(const Tracking& tracking) {
     const int reach = kStep_px * steps_.y;
-    // Cells so far from the middle one that dots within 2 1/2 spacings of its column, and the rows
+    // Cells so far from the middle one that dots within two spacings of its column, and the rows
     // and what may be shifted into them, are among them however the grid is turned.
     constexpr int kAround = 5;
     const Vec middle = middle_cell(tracking);
@@ -120,8 +120,7 @@ bool Shifts::next(Vec& shift_q8) {
         const std::uint16_t* here = row_of(y);
         for (int x = 0; x <= 2 * steps_.x; ++x, ++here) {
             // Noise is less of several.
-            const int around =
-                4 * here[0] + here[-1] + here[1] + here[-kPerRow] + here[kPerRow];
+            const int around = 4 * here[0] + here[-1] + here[1] + here[-kPerRow] + here[kPerRow];
             if (around <= best) continue;
             best = around;
             at = {x, y};

@@ -35,9 +35,7 @@ class Shifts {
     void add_dot(const Tracking& tracking, int u, int v);
     void divide_by_dots();
     /// Of a row of steps; steps before the first and after the last are dark nowhere.
-    std::uint16_t* row_of(int y) {
-        return sums_.data() + (y + 1) * kPerRow + 1;
-    }
+    std::uint16_t* row_of(int y) { return sums_.data() + (y + 1) * kPerRow + 1; }
     void forget_around(Vec at);
 
     int left_ = 0;
@@ -47,7 +45,7 @@ class Shifts {
     int paper_ = 0;
     int cut_ = 0;
     int depth_ = 0;
-    std::array<std::uint8_t, kMostPerSide> dots_{};  ///< summed in each row
+    std::array<std::uint8_t, kMostPerSide> dots_{};        ///< summed in each row
     std::array<std::uint16_t, kPerRow * kPerRow> sums_{};  ///< and then means
 };
 

@@ -2,16 +2,16 @@
 
 #include <algorithm>
 
-#include "core/lattice/coded_cells.hpp"
 #include "core/detect/near_dot.hpp"
 #include "core/fixed.hpp"
+#include "core/lattice/coded_cells.hpp"
 #include "core/lattice/predicted.hpp"
 
 namespace dotpose::core {
 namespace {
 
 /// Rounds of cells about the middle one.
-constexpr int kRounds = 5;
+constexpr int kRounds = 4;
 /// Fewest dots, and the share of those looked at in 1/8, that have to be as the code has them.
 constexpr int kLeastDots = 12;
 constexpr int kLeastShare_q3 = 6;
@@ -98,13 +98,6 @@ class Rounds {
     std::int32_t mean_displacement_q12() const { return projections_q12_ / (2 * agreeing()); }
 
   private:
-    /// Of an intersection, wherever around it the dot is.
-    bool measure_around(Vec at_q16, NearDot& dot) const {
-        const std::int32_t paper = paper_around(tracking_, at_q16);
-        const std::int32_t level = paper - ((paper * tracking_.cut_q8) >> 8);
-        return paper > 0 && measure_dot(tracking_, at_q16, tracking_.half_px, level, dot);
-    }
-
     Tracking& tracking_;
     CellMap before_;
     const Vec middle_q16_;
@@ -121,7 +114,7 @@ void Rounds::recentre(Vec middle) {
     for (int j = middle.y - 1; j <= middle.y + 1; ++j) {
         for (int i = middle.x - 1; i <= middle.x + 1; ++i) {
             NearDot dot;
-            if (!measure_around(place_q16(tracking_.cells, i, j), dot)) continue;
+            if (!measure_around(tracking_, place_q16(tracking_.cells, i, j), dot)) continue;
             const Vec displaced_q16 =
                 tracking_.displaced_q16[static_cast<std::size_t>(coded_symbol(tracking_, i, j))];
             sum_q8 = sum_q8 + dot.off_q8 - Vec{displaced_q16.x >> 8, displaced_q16.y >> 8};
@@ -136,7 +129,7 @@ void Rounds::recentre(Vec middle) {
 void Rounds::measure(int i, int j) {
     const Vec at_q16 = place_q16(tracking_.cells, i, j);
     NearDot dot;
-    if (!measure_around(at_q16, dot)) return;
+    if (!measure_around(tracking_, at_q16, dot)) return;
     ++seen_;
     const Projections p = projections(tracking_, dot.off_q8);
     const Symbol symbol = coded_symbol(tracking_, i, j);
@@ -145,8 +138,7 @@ void Rounds::measure(int i, int j) {
     const Vec was_q16 = place_q16(before_, i, j);
     const Vec p_q16 = was_q16 - middle_q16_;
     const Vec moved_q16 = at_q16 - was_q16 - displaced_q16;
-    fit_.add({p_q16.x >> 16, p_q16.y >> 16},
-             dot.off_q8 + Vec{moved_q16.x >> 8, moved_q16.y >> 8});
+    fit_.add({p_q16.x >> 16, p_q16.y >> 16}, dot.off_q8 + Vec{moved_q16.x >> 8, moved_q16.y >> 8});
     masses_ += dot.mass;
     projections_q12_ += magnitude(p.x_q12) + magnitude(p.y_q12);
 }
@@ -170,9 +162,8 @@ void visit_round(const Tracking& tracking, Vec middle, int round, Use use) {
 void turn_back(const SimilarityFit::Similarity& s, Tracking& tracking) {
     const auto less = [&](Vec v, Vec ahead) {
         const auto part = [&](std::int32_t along, std::int32_t across) {
-            return static_cast<std::int32_t>((std::int64_t{s.stretch_q20} * along +
-                                              std::int64_t{s.turn_q20} * across) >>
-                                             20);
+            return static_cast<std::int32_t>(
+                (std::int64_t{s.stretch_q20} * along + std::int64_t{s.turn_q20} * across) >> 20);
         };
         return v - Vec{part(v.x, ahead.x), part(v.y, ahead.y)};
     };

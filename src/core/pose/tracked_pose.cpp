@@ -17,8 +17,7 @@ int fit_tracked_pose(std::span<const Dot> dots, const Tracking& tracking,
     const Vec up_q16 = tracking.displaced_q16[static_cast<std::size_t>(Symbol::up)];
     const Vec up_q8{up_q16.x >> 8, up_q16.y >> 8};
     const std::int32_t squared_q16 = up_q8.x * up_q8.x + up_q8.y * up_q8.y;
-    const std::int32_t longer_q12 =
-        tracking.along_q16 / count * 64 / std::max(squared_q16 / 64, 1);
+    const std::int32_t longer_q12 = tracking.along_q16 / count * 64 / std::max(squared_q16 / 64, 1);
     const std::int32_t displacement_q12 =
         tracking.displacement_q12 + ((tracking.displacement_q12 * longer_q12) >> 12);
     displacement_q16 = displacement_q12 * 16;

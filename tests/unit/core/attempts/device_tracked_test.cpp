@@ -153,8 +153,8 @@ Place worst_rival(Place place) {
                 std::array<std::uint32_t, 4> there = places;
                 there[k] = other;
                 rival.cell.x = code::position_at(basis, there);
-                const int here = code::roll_from(Profile::anoto, place.cell.x, place.section.u,
-                                                 place.cell.y);
+                const int here =
+                    code::roll_from(Profile::anoto, place.cell.x, place.section.u, place.cell.y);
                 const int wanted = (here + kSections - grown % kSections) % kSections;
                 rival.section.u = static_cast<std::uint8_t>(
                     section_of(Profile::anoto, wanted, rival.cell.x, place.cell.y));
@@ -162,10 +162,9 @@ Place worst_rival(Place place) {
         }
     }
     // The rows are as they were.
-    const int row =
-        code::roll_from(Profile::anoto, place.cell.y, place.section.v, place.cell.x);
-    rival.section.v = static_cast<std::uint8_t>(
-        section_of(Profile::anoto, row, place.cell.y, rival.cell.x));
+    const int row = code::roll_from(Profile::anoto, place.cell.y, place.section.v, place.cell.x);
+    rival.section.v =
+        static_cast<std::uint8_t>(section_of(Profile::anoto, row, place.cell.y, rival.cell.x));
     return rival;
 }
 

@@ -1,4 +1,4 @@
-// Ring: the newest rows of a tracked frame, which is all that is kept of it.
+// Newest rows: all that is kept of a tracked frame.
 #pragma once
 
 #include "dotpose/stages.hpp"
@@ -10,13 +10,12 @@ constexpr int stride_of(int width_px) {
     return (width_px + 3) & ~3;
 }
 
+/// Where there is no more room, those before the last `Tracking::rows_needed` are forgotten.
 void keep_row(const std::uint8_t* pixels, Tracking& tracking);
 
-/// A row that is kept.
+/// A row that is kept; those after it follow.
 inline const std::uint8_t* kept_row(const Tracking& tracking, int v) {
-    const int from_first = v - tracking.first_of_lap;
-    return tracking.rows.data() +
-           (from_first < 0 ? from_first + tracking.rows_kept : from_first) * tracking.stride_px;
+    return tracking.rows.data() + (v - tracking.first_kept) * tracking.stride_px;
 }
 
 }  // namespace dotpose::core
