@@ -38,10 +38,8 @@ inline Vec2 image_of(const core::FloatPlane& plane, Vec2 pattern) {
     for (int step = 0; step < 30; ++step) {
         constexpr double kStep = 1e-3;
         const Vec2 off = pattern - formula(plane, px);
-        const Vec2 u =
-            1 / kStep * (formula(plane, px + Vec2{kStep, 0}) - formula(plane, px));
-        const Vec2 v =
-            1 / kStep * (formula(plane, px + Vec2{0, kStep}) - formula(plane, px));
+        const Vec2 u = 1 / kStep * (formula(plane, px + Vec2{kStep, 0}) - formula(plane, px));
+        const Vec2 v = 1 / kStep * (formula(plane, px + Vec2{0, kStep}) - formula(plane, px));
         const double area = u.x * v.y - u.y * v.x;
         px = px + Vec2{(off.x * v.y - off.y * v.x) / area, (u.x * off.y - u.y * off.x) / area};
     }

@@ -46,8 +46,7 @@ TEST(Prediction, MovesAndTurnsAboutThePivot) {
         const Vec2 by{rng.uniform(-300, 300), rng.uniform(-300, 300)};
         const double turn = rng.uniform(-3, 3);
         const Vec2 pivot{rng.uniform(0, 188), rng.uniform(0, 188)};
-        const auto turn_bam =
-            static_cast<std::int32_t>(turn * 2147483648.0 / std::numbers::pi);
+        const auto turn_bam = static_cast<std::int32_t>(turn * 2147483648.0 / std::numbers::pi);
         const Prediction after =
             moved(before, Profile::anoto, fixed(by, 16), turn_bam, fixed(pivot, 8));
         const Cell from = before.place.cell;

@@ -241,12 +241,20 @@ std::int32_t any_number(Rng& rng) {
 /// A prediction some fields of which are nonsense.
 Prediction garbled(Prediction p, Rng& rng) {
     PlaneFromImage& plane = p.pattern_from_image;
-    const std::array numbers{
-        &plane.centre_q8.x,         &plane.centre_q8.y,         &plane.at_centre_q16.x,
-        &plane.at_centre_q16.y,     &plane.du_q24.x,            &plane.du_q24.y,
-        &plane.dv_q24.x,            &plane.dv_q24.y,            &plane.perspective_q30.x,
-        &plane.perspective_q30.y,   &plane.lens_q40,            &p.displacement_q16,
-        &p.sigma_q16,               &p.sigma_theta_bam};
+    const std::array numbers{&plane.centre_q8.x,
+                             &plane.centre_q8.y,
+                             &plane.at_centre_q16.x,
+                             &plane.at_centre_q16.y,
+                             &plane.du_q24.x,
+                             &plane.du_q24.y,
+                             &plane.dv_q24.x,
+                             &plane.dv_q24.y,
+                             &plane.perspective_q30.x,
+                             &plane.perspective_q30.y,
+                             &plane.lens_q40,
+                             &p.displacement_q16,
+                             &p.sigma_q16,
+                             &p.sigma_theta_bam};
     // One of them, or many.
     const std::uint32_t share = rng.below(2) == 0 ? 1 : 8;
     const std::size_t one = rng.below(static_cast<std::uint32_t>(numbers.size() + 4));
@@ -269,8 +277,7 @@ TEST(LocateTracked, NonsenseNeitherBreaksNorDeceives) {
     for (int i = 0; i < 24; ++i) {
         const Shot shot = shot_of(kSizes[static_cast<std::size_t>(i) % kSizes.size()], kSeed,
                                   static_cast<std::uint64_t>(i));
-        const GreyImage image =
-            i % 6 == 5 ? render_scene(Scene::noise, shot, 0.4) : render(shot);
+        const GreyImage image = i % 6 == 5 ? render_scene(Scene::noise, shot, 0.4) : render(shot);
         const Prediction truth = true_prediction(shot);
         for (int k = 0; k < 400; ++k) {
             SCOPED_TRACE(testing::Message() << "shot " << i << ", prediction " << k);

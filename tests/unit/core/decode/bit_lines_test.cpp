@@ -4,12 +4,15 @@
 #include <gtest/gtest.h>
 
 #include "../geometry.hpp"
+#include "core/fixed.hpp"
 #include "core/kernels/select.hpp"
 
 namespace dotpose::core_test {
 namespace {
 
 using core::BitBlock;
+using core::operator-;
+using core_test::operator-;
 
 constexpr std::uint64_t kSeed = 76;
 
@@ -108,8 +111,7 @@ TEST(BitLines, APlaneTurnsAsItsCellsDo) {
     for (int quarters = 0; quarters < 4; ++quarters) {
         const core::FloatPlane turned = core::turned(quarters, plane);
         const auto at = [](const core::FloatPlane& p, float x, float y) {
-            const float over =
-                1 / (1 + p.tilt_x * x + p.tilt_y * y + p.bend * (x * x + y * y));
+            const float over = 1 / (1 + p.tilt_x * x + p.tilt_y * y + p.bend * (x * x + y * y));
             return Vec2{double{p.at_x + (p.du_x * x + p.dv_x * y) * over},
                         double{p.at_y + (p.du_y * x + p.dv_y * y) * over}};
         };
@@ -184,12 +186,12 @@ TEST(BitLines, FewLinesSpellNoPlace) {
     for (const Vec most : {Vec{5, 12}, Vec{12, 5}, Vec{1, 1}}) {
         const BitBlock block = seen_block(Profile::anoto, zero, 0, {0, 0}, most, {}, rng);
         Place place;
-        EXPECT_FALSE(core::find_place(
-            Profile::anoto, core::score_block(core::kernels(), block, storage), place));
+        EXPECT_FALSE(core::find_place(Profile::anoto,
+                                      core::score_block(core::kernels(), block, storage), place));
     }
     Place place;
-    EXPECT_FALSE(core::find_place(
-        Profile::anoto, core::score_block(core::kernels(), BitBlock{}, storage), place));
+    EXPECT_FALSE(core::find_place(Profile::anoto,
+                                  core::score_block(core::kernels(), BitBlock{}, storage), place));
     EXPECT_EQ(core::turned(core::likeliest_turn(core::kernels(), BitBlock{}), BitBlock{})
                   .columns.valid[0],
               0U);
@@ -199,8 +201,7 @@ TEST(BitLines, MoreLinesThanThereIsRoomForAreThoseAroundTheMiddle) {
     Rng rng(kSeed);
     std::array<ScoredLine, 2 * 24> storage;
     const Place zero = random_place(rng);
-    const BitBlock block =
-        seen_block(Profile::anoto, zero, 0, {-30, -25}, {30, 31}, {}, rng);
+    const BitBlock block = seen_block(Profile::anoto, zero, 0, {-30, -25}, {30, 31}, {}, rng);
     const core::BlockLines lines = core::score_block(core::kernels(), block, storage);
     EXPECT_EQ(lines.columns.count(), 24);
     EXPECT_EQ(lines.rows.count(), 24);

@@ -13,7 +13,8 @@ constexpr std::uint64_t kSeed = 77;
 /// Some lines with some bits wrong.
 ContestCase random_case(int lines, Profile profile, Rng& rng) {
     ContestCase c = at_random_place(rng, lines);
-    while (c.profile != profile) c = at_random_place(rng, lines);
+    while (c.profile != profile)
+        c = at_random_place(rng, lines);
     for (const int own : c.rolls)
         c.storage.push_back(scored_line(own, 6 + static_cast<int>(rng.below(14)), 0.08, 127, rng));
     c.odds_q8 = 4 * 256;
@@ -58,7 +59,7 @@ TEST(LeastLosses, AreTheLeastOverAllPatternsOfSharedRuns) {
     Rng rng(kSeed);
     for (int i = 0; i < 60; ++i) {
         SCOPED_TRACE(testing::Message() << "case " << i << ", seed " << kSeed);
-        const Profile profile = kProfiles[static_cast<std::size_t>(i % 3)];
+        const Profile profile = code_test::kProfiles[static_cast<std::size_t>(i % 3)];
         const int most_shared = profile == Profile::published ? 7 : 5;
         const ContestCase c = random_case(1 + i % 12, profile, rng);
         const std::vector<int> losses = losses_of(c);
@@ -81,7 +82,7 @@ TEST(LeastLosses, ABorderSeparatesTwoPatterns) {
     Rng rng(kSeed);
     for (int i = 0; i < 40; ++i) {
         SCOPED_TRACE(testing::Message() << "case " << i << ", seed " << kSeed);
-        const Profile profile = kProfiles[static_cast<std::size_t>(i % 3)];
+        const Profile profile = code_test::kProfiles[static_cast<std::size_t>(i % 3)];
         const int most_shared = profile == Profile::published ? 7 : 5;
         const ContestCase c = random_case(2 + i % 11, profile, rng);
         const std::vector<int> losses = losses_of(c);

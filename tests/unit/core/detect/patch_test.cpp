@@ -21,7 +21,8 @@ TEST(Patch, LiesAroundItsCentreWithinTheImage) {
         const int u = static_cast<int>(rng.below(static_cast<std::uint32_t>(image.width_px)));
         const int v = static_cast<int>(rng.below(static_cast<std::uint32_t>(image.height_px)));
         const int scale = 1 << rng.below(3);
-        const bool is_large = core::place_patch(image, u, v, 224 * scale, 160 * scale, scale, *patch);
+        const bool is_large =
+            core::place_patch(image, u, v, 224 * scale, 160 * scale, scale, *patch);
         EXPECT_EQ(patch->scale, scale);
         EXPECT_EQ(patch->width_px, std::min(224, image.width_px / scale));
         EXPECT_EQ(patch->height_px, std::min(160, image.height_px / scale));
@@ -65,13 +66,15 @@ TEST(PatchContrast, IsThatOfTheTypicalTile) {
     for (const int darkest : {20, 60, 100, 140, 170}) {
         const auto patch = lit_patch(160, 96, 200, darkest);
         // A few tiles are black, and a few blank.
-        for (std::size_t i = 0; i < 3; ++i) patch->darkness[i] = 255;
-        for (std::size_t i = 5; i < 8; ++i) patch->darkness[i] = 55;
+        for (std::size_t i = 0; i < 3; ++i)
+            patch->darkness[i] = 255;
+        for (std::size_t i = 5; i < 8; ++i)
+            patch->darkness[i] = 55;
         ASSERT_TRUE(core::measure_contrast(*patch));
         EXPECT_NEAR(patch->depth_q8, 256.0 * (200 - darkest) / 200, 4.1);
         // Between dot and paper, nearer to the dot; in the same proportion where it is darker.
         const double depth = (200 - darkest) / 200.0;
-        EXPECT_NEAR(patch->thresholds[10], 200 * (1 - depth * 150 / 256), 3);
+        EXPECT_NEAR(patch->thresholds[2], 200 * (1 - depth * 150 / 256), 3);
     }
 }
 
@@ -93,7 +96,8 @@ TEST(PatchContrast, WhatIsBlankHasNone) {
     EXPECT_FALSE(core::measure_contrast(*lit_patch(160, 96, 0, 0)));
     // Something dark in a few tiles only.
     const auto patch = lit_patch(160, 96, 200, 199);
-    for (std::size_t i = 0; i < 10; ++i) patch->darkness[i] = 200;
+    for (std::size_t i = 0; i < 10; ++i)
+        patch->darkness[i] = 200;
     EXPECT_FALSE(core::measure_contrast(*patch));
 }
 

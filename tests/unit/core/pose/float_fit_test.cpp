@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "../float_planes.hpp"
+#include "core/kernels/select.hpp"
 #include "core/pose/covariance.hpp"
 
 namespace dotpose::core_test {
@@ -117,6 +118,7 @@ TEST(FitPlane, SaysHowFarItMayBeOff) {
                                     static_cast<float>(kDisplacement), plane, fit));
         EXPECT_LT(worst_difference(plane, truth), 0.02);
         Fix fix;
+        fix.spacing_px_q16 = 11 * 65536;
         const Vec centre_q8{};
         core::estimate_covariance(fit, core::fixed_plane(plane, centre_q8), centre_q8, fix);
         const Vec2 off = formula(plane, {}) - formula(truth, {});
@@ -125,8 +127,8 @@ TEST(FitPlane, SaysHowFarItMayBeOff) {
         const auto square = [](double v) { return v * v; };
         nees_x += square(off.x) / double{fix.covariance[0][0]} / kTrials;
         nees_y += square(off.y) / double{fix.covariance[1][1]} / kTrials;
-        nees_theta += square(std::remainder(turn, 6.283185307)) /
-                      double{fix.covariance[2][2]} / kTrials;
+        nees_theta +=
+            square(std::remainder(turn, 6.283185307)) / double{fix.covariance[2][2]} / kTrials;
         EXPECT_NEAR(fix.residual_px, 0.1, 0.03);
     }
     // The mean of 200 squared normal numbers has a deviation of 0.1.
@@ -156,7 +158,8 @@ TEST(FitPlane, NeedsTwentyDots) {
     const FloatPlane truth = random_float_plane(11, 0, rng);
     OwnedDots owned;
     show_dots(truth, 0, 0, rng, owned);
-    for (std::size_t k = 19; k < owned.dots.x.size(); ++k) owned.dots.x[k] = kNoDot_px;
+    for (std::size_t k = 19; k < owned.dots.x.size(); ++k)
+        owned.dots.x[k] = kNoDot_px;
     owned.dots.count = 19;
     FloatPlane plane = truth;
     core::PoseFit fit;
