@@ -24,6 +24,11 @@ inline float spacing_px(const FloatPlane& plane) {
     return 1 / std::sqrt(std::abs(plane.du_x * plane.dv_y - plane.dv_x * plane.du_y));
 }
 
+/// Whether a camera may see paper so: the grid is neither finer nor coarser than dots can be
+/// measured, not seen from behind or from the side, nowhere in the image folded, and counted from
+/// nearby. False of a plane with something that is no number in it.
+bool is_within_reason(const FloatPlane& plane, float half_width_px, float half_height_px);
+
 PlaneFromImage fixed_plane(const FloatPlane& plane, Vec centre_q8);
 FloatPlane float_plane(const PlaneFromImage& plane);
 

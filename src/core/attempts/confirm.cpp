@@ -186,6 +186,11 @@ void write_fix(const ImageView& image, const Options& options, const Sight& sigh
 
 }  // namespace
 
+bool is_plausible(const ImageView& image, const FloatPlane& plane) {
+    return is_within_reason(plane, static_cast<float>(image.width_px) / 2,
+                            static_cast<float>(image.height_px) / 2);
+}
+
 FloatLens float_lens(const Lens& lens) {
     constexpr float kQ40 = 1099511627776.0F;
     return {static_cast<float>(lens.k_q40) / kQ40, static_cast<float>(lens.centre_dx_q8) / 256,
@@ -257,6 +262,7 @@ Confirmation confirm(const Kernels& kernels, const ImageView& image, const Optio
     PoseFit fit;
     BitsRead bits;
     for (bool is_first = true;; is_first = false) {
+        if (!is_plausible(image, plane)) return Confirmation::implausible;
         count_from_centre(options.profile, sight);
         const CellsInView view =
             cells_in_view(image, options, sight, reach, is_first ? dots.capacity() : most_dots, w);
@@ -279,6 +285,7 @@ Confirmation confirm(const Kernels& kernels, const ImageView& image, const Optio
         if (reach >= full) break;
         reach = std::min(reach * kFarther, full);
     }
+    if (!is_plausible(image, plane)) return Confirmation::implausible;
     if (is_far_fetched(fit, 2 * bits.read, bits.wrong_x + bits.wrong_y))
         return Confirmation::uncertain;
     write_fix(image, options, sight, bits, fit, w);

@@ -30,6 +30,9 @@ FloatLens float_lens(const Lens& lens);
 CellsInView cells_in_view(const ImageView& image, const Options& options, const Sight& sight,
                           float reach_px, int most_cells, Workspace& w);
 
+/// Whether an image can show the grid so; all that follows relies on it.
+bool is_plausible(const ImageView& image, const FloatPlane& plane);
+
 /// Counts cells from the one at the image centre.
 void count_from_centre(Profile profile, Sight& sight);
 

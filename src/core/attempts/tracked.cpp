@@ -42,7 +42,7 @@ bool fit_similarity(const Kernels& kernels, const MeasuredDots& dots, float reac
 /// How far the prediction may be off, px.
 int most_shift_px(const Prediction& prediction, float spacing_px) {
     const float off =
-        std::min(3 * static_cast<float>(prediction.sigma_q16) / 65536 + 0.1F, kMostOff);
+        std::clamp(3 * static_cast<float>(prediction.sigma_q16) / 65536 + 0.1F, 0.1F, kMostOff);
     return static_cast<int>(std::ceil(off * spacing_px));
 }
 
@@ -91,6 +91,11 @@ bool correct(const Kernels& kernels, const ImageView& image, const Options& opti
     return false;
 }
 
+bool is_in_code(const Place& place) {
+    return place.cell.x < kPositionsPerAxis && place.cell.y < kPositionsPerAxis &&
+           place.section.u < kSections && place.section.v < kSections;
+}
+
 /// Where the prediction has the pattern, counted from the image centre. False if it makes no sense.
 bool take(const Prediction& prediction, const ImageView& image, const Options& options,
           Sight& sight) {
@@ -104,6 +109,7 @@ bool take(const Prediction& prediction, const ImageView& image, const Options& o
     sight.place = prediction.place;
     sight.displacement = static_cast<float>(prediction.displacement_q16) / 65536;
     const float spacing = spacing_px(sight.pattern_from_image);
+    if (!is_in_code(sight.place) || !is_plausible(image, sight.pattern_from_image)) return false;
     if (!(spacing > kFinest_px && spacing < kCoarsest_px)) return false;
     if (!(sight.displacement > 0.05F && sight.displacement < 0.4F)) return false;
     count_from_centre(options.profile, sight);
