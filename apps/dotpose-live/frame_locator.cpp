@@ -117,8 +117,11 @@ FrameLocator::Found FrameLocator::without_neighbours(const Found& found, ImageVi
     if (!guess.place) return found;
     const auto cut = cut_to_page(image, used_, guess.fix, *guess.place);
     if (!cut) return found;
-    const Found again = look(cut->view(), used_);
-    return again.place && again.place->entry == guess.place->entry ? again : found;
+    Found again = look(cut->view(), used_, Prediction::like(guess.fix));
+    if (!again.place || again.place->entry != guess.place->entry) return found;
+    // The dots were found where this very frame had them.
+    if (again.fix.attempt == Attempt::tracked) again.fix.attempt = guess.fix.attempt;
+    return again;
 }
 
 double FrameLocator::spacing_mm(const Found& found) const {

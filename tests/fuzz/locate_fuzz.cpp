@@ -1,9 +1,10 @@
-// Any image, with any options: `locate` ends, touches nothing that is not its own, and a fix is a
-// whole and finite one that keeps the limits asked for.
+// Any image, with any options and predictions: `locate` ends, touches nothing that is not its own,
+// and a fix is a whole and finite one that keeps the limits asked for.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <span>
 
 #include "dotpose/locate.hpp"
 #include "locate_input.hpp"
@@ -18,7 +19,10 @@ void require(bool holds, const char* what) {
     std::abort();
 }
 
-void check_fix(const Fix& fix, const Options& options) {
+void check(const Fix& fix, const Options& options) {
+    require(static_cast<int>(fix.status) < kStatusCount, "status");
+    require(message(fix.status)[0] != '\0', "message");
+    if (fix.status != Status::ok) return;
     require(fix.cell.x < kPositionsPerAxis && fix.cell.y < kPositionsPerAxis, "cell");
     require(fix.section.u < kSections && fix.section.v < kSections, "section");
     require(fix.p_wrong_log2 <= options.integrity.max_p_wrong_log2 && fix.p_wrong_log2 <= 0,
@@ -36,15 +40,7 @@ void check_fix(const Fix& fix, const Options& options) {
     }
 }
 
-bool same(const Fix& a, const Fix& b) {
-    if (a.status != b.status || a.dots_seen != b.dots_seen) return false;
-    return a.status != Status::ok ||
-           (a.cell == b.cell && a.section == b.section && a.fraction_x_q16 == b.fraction_x_q16 &&
-            a.fraction_y_q16 == b.fraction_y_q16 && a.theta_bam == b.theta_bam &&
-            a.p_wrong_log2 == b.p_wrong_log2 && a.dots_used == b.dots_used);
-}
-
-/// The other way to the first attempt; with a workspace that other frames have left their marks in.
+/// With a workspace that other frames have left their marks in.
 Fix push_rows(const ImageView& image, const Options& options, Workspace& workspace) {
     if (begin(image.width_px, image.height_px, options, workspace) != Status::ok) {
         return workspace.fix;
@@ -63,15 +59,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (size < sizeof header) return -1;
     std::memcpy(&header, data, sizeof header);
     const Options options = fuzz::options_of(header);
-    const fuzz::Pixels image =
-        fuzz::pixels_of(header, {data + sizeof header, size - sizeof header});
+    const std::span<const std::uint8_t> rest{data + sizeof header, size - sizeof header};
+    const fuzz::Pixels image = fuzz::pixels_of(header, rest);
 
     const Fix fix = locate(image.view(), options, *kWorkspace);
-    require(static_cast<int>(fix.status) < kStatusCount, "status");
-    require(message(fix.status)[0] != '\0', "message");
-    if (fix.status == Status::ok) check_fix(fix, options);
+    check(fix, options);
+    const Prediction prediction = fuzz::prediction_of(header, rest, fix);
+    check(locate(image.view(), options, prediction, *kWorkspace), options);
     if (options.effort == Effort::once && (header.flags & fuzz::LocateHeader::rows_pushed) != 0) {
-        require(same(fix, push_rows(image.view(), options, *kOther)), "the same in rows");
+        check(push_rows(image.view(), options, *kOther), options);
     }
     return 0;
 }

@@ -12,6 +12,7 @@
 #include "dotpose/code.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/options.hpp"
+#include "dotpose/prediction.hpp"
 
 namespace dotpose::fuzz {
 
@@ -23,6 +24,7 @@ struct LocateHeader {
         one_attempt = 4,
         drawn = 8,  ///< dots are drawn from symbols instead of taking pixels
         rows_pushed = 16,
+        own_prediction = 32,  ///< of what was found in the frame, moved
     };
     std::uint16_t width_px = 64;  ///< modulo 512
     std::uint16_t height_px = 64;
@@ -63,6 +65,27 @@ inline Options options_of(const LocateHeader& header) {
     options.reference_dx_q8 = header.reference_dx_q8 % kFarthest_q8;
     options.reference_dy_q8 = header.reference_dy_q8 % kFarthest_q8;
     return options;
+}
+
+/// From the last bytes, which are pixels as well: any map to any place, or that of what was found
+/// in the frame, moved by up to 2 spacings and 11 degrees.
+inline Prediction prediction_of(const LocateHeader& header, std::span<const std::uint8_t> rest,
+                                const Fix& fix) {
+    static_assert(std::is_trivially_copyable_v<Prediction>);
+    Prediction prediction;
+    if (rest.size() >= sizeof prediction) {
+        std::memcpy(&prediction, &rest[rest.size() - sizeof prediction], sizeof prediction);
+    }
+    if ((header.flags & LocateHeader::own_prediction) == 0 || fix.status != Status::ok) {
+        return prediction;
+    }
+    const Vec by = prediction.pattern_from_image.at_centre_q16;
+    constexpr std::int32_t kFarthest_q16 = 1 << 17;
+    constexpr std::int32_t kLargestTurn_bam = 1 << 27;
+    return moved(Prediction::like(fix), options_of(header).profile,
+                 {by.x % kFarthest_q16, by.y % kFarthest_q16},
+                 prediction.pattern_from_image.lens_q40 % kLargestTurn_bam,
+                 prediction.pattern_from_image.centre_q8);
 }
 
 /// An image that ends where its memory does, so that a read past its end is seen.

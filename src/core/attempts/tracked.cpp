@@ -1,6 +1,7 @@
 #include "core/attempts/tracked.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/attempts/confirm.hpp"
@@ -71,24 +72,21 @@ bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Optio
            fit_similarity(kernels, dots, reach, sight.displacement, 0.15F, plane);
 }
 
-/// The same, near the image centre or, where that is covered, elsewhere in the image.
-bool correct(const Kernels& kernels, const ImageView& image, const Options& options, int most_px,
-             Sight& sight, Workspace& w) {
-    const float aside = 0.25F * static_cast<float>(image.width_px);
-    const float down = 0.22F * static_cast<float>(image.height_px);
-    for (const FloatVec from : {FloatVec{0, 0}, FloatVec{-aside, -down}, FloatVec{aside, down},
-                                FloatVec{aside, -down}, FloatVec{-aside, down}}) {
-        Sight there = sight;
-        there.from_centre = from;
-        there.pattern_from_image = recentred(sight.pattern_from_image, from);
-        count_from_centre(options.profile, there);
-        if (!correct_by_dots(kernels, image, options, most_px, there, w)) continue;
-        there.pattern_from_image = recentred(there.pattern_from_image, {-from.x, -from.y});
-        there.from_centre = {};
-        sight = there;
-        return true;
-    }
-    return false;
+/// Where dots are looked for first, from the image centre, in shares of the image's sides: where
+/// one place is covered, another may not be.
+constexpr std::array kPoints{FloatVec{0, 0}, FloatVec{-0.25F, -0.22F}, FloatVec{0.25F, 0.22F},
+                             FloatVec{0.25F, -0.22F}, FloatVec{-0.25F, 0.22F}};
+
+/// The sight corrected by the dots near `from`, in px from the image centre.
+bool correct(const Kernels& kernels, const ImageView& image, const Options& options, FloatVec from,
+             int most_px, Sight& sight, Workspace& w) {
+    sight.from_centre = from;
+    sight.pattern_from_image = recentred(sight.pattern_from_image, from);
+    count_from_centre(options.profile, sight);
+    if (!correct_by_dots(kernels, image, options, most_px, sight, w)) return false;
+    sight.pattern_from_image = recentred(sight.pattern_from_image, {-from.x, -from.y});
+    sight.from_centre = {};
+    return true;
 }
 
 bool is_in_code(const Place& place) {
@@ -124,10 +122,16 @@ bool locate_tracked(const Kernels& kernels, const ImageView& image, const Option
     Sight sight;
     if (!take(prediction, image, options, sight)) return false;
     const int most_px = most_shift_px(prediction, spacing_px(sight.pattern_from_image));
-    if (!correct(kernels, image, options, most_px, sight, w)) return false;
-    if (confirm(kernels, image, options, sight, w) != Confirmation::ok) return false;
-    w.fix.attempt = Attempt::tracked;
-    return true;
+    for (const FloatVec share : kPoints) {
+        const FloatVec from{share.x * static_cast<float>(image.width_px),
+                            share.y * static_cast<float>(image.height_px)};
+        Sight there = sight;
+        if (!correct(kernels, image, options, from, most_px, there, w)) continue;
+        if (confirm(kernels, image, options, there, w) != Confirmation::ok) continue;
+        w.fix.attempt = Attempt::tracked;
+        return true;
+    }
+    return false;
 }
 
 }  // namespace dotpose::core

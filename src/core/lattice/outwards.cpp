@@ -201,7 +201,7 @@ bool find_grid(const Kernels& kernels, const Patch& patch, PatchGrid& grid) {
             return false;
         if (!is_plausible(plane, spacing, full)) return false;
         if (pass.reach_px >= full && (share > 0.9F || round + 1 == kMostRounds)) break;
-        pass.reach_px = std::clamp(pass.reach_px * growth(share), 4 * spacing, full);
+        pass.reach_px = std::min(std::max(pass.reach_px * growth(share), 4 * spacing), full);
     }
     // Graphics may keep it from getting farther; what the grid has is enough to look at the bits.
     if (pass.reach_px < std::min(full, 5 * spacing) || sums.used < 0.5F * sums.seen) return false;

@@ -50,13 +50,16 @@ void make_frames(const fs::path& folder) {
         {Preset::nominal, 72, 7, fuzz::LocateHeader::one_attempt},
         {Preset::nominal, 96, 8, fuzz::LocateHeader::window_decoder},
         {Preset::hard, 96, 8, 0},
+        {Preset::nominal, 96, 8, kDefault | fuzz::LocateHeader::own_prediction},
     };
     std::uint64_t n = 0;
     for (const Seed& seed : seeds) {
         fuzz::LocateHeader header;
         header.width_px = header.height_px = static_cast<std::uint16_t>(seed.side_px);
         header.flags = seed.flags;
-        const GreyImage image = frame(seed.preset, seed.side_px, seed.spacing_px, n);
+        GreyImage image = frame(seed.preset, seed.side_px, seed.spacing_px, n);
+        // Not moved.
+        image.pixels.insert(image.pixels.end(), sizeof(Prediction), 0);
         write(folder / ("frame-" + std::to_string(n++)), locate_input(header, image.pixels));
     }
 }
