@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <initializer_list>
+#include <span>
 
 #include "core/decode/expected_double_rivals.hpp"
 
@@ -60,15 +62,26 @@ class Groups {
     std::array<Anchors, kFewestFound - 1> groups_{};
 };
 
-/// Places of a sequence, but the reading's own, by how much less they grow from one line to
+/// One place of a sequence: how much more the first eight lines have grown than one anchor, which
+/// is known for a pair of places only if the bytes of both are added.
+struct Since {
+    EightGrowths first;
+    const RankedLines::Grown* grown;
+};
+
+int at(const RankedLines::Grown& grown, int rank) {
+    return grown.all[static_cast<std::size_t>(rank)];
+}
+
+/// Places of a sequence, but the reading's own, by how much less they grow from one anchor to
 /// another, modulo 63.
 class Buckets {
   public:
-    Buckets(const RankedLines& lines, std::size_t sequence, int from, int to) {
+    Buckets(const RankedLines& lines, std::size_t sequence, int one, int other) {
         const std::uint32_t length = lines.contest.basis[sequence].length;
         const std::uint32_t own = lines.contest.places[sequence];
         const auto less_at = [&](std::uint32_t place) {
-            return grown_less(lines.grown(sequence, place), from, to);
+            return grown_less(lines.grown(sequence, place), one, other);
         };
         for (std::uint32_t place = 0; place < length; ++place)
             ++begins_[less_at(place) + 1];
@@ -78,24 +91,26 @@ class Buckets {
         auto next = begins_;
         for (std::uint32_t place = 0; place < length; ++place) {
             if (place == own) continue;
-            places_[next[less_at(place)]++] = &lines.grown(sequence, place);
+            const RankedLines::Grown& grown = lines.grown(sequence, place);
+            // 126 is no shift, as are 63 and 189, and keeps the sum of two places above 0.
+            const auto base = static_cast<EightGrowths>(2 * kSections - at(grown, one));
+            places_[next[less_at(place)]++] = {grown.first + base * kInEach, &grown};
         }
     }
 
-    static std::size_t grown_less(const RankedLines::Grown& grown, int from, int to) {
-        const int less =
-            grown.all[static_cast<std::size_t>(from)] - grown.all[static_cast<std::size_t>(to)];
+    static std::size_t grown_less(const RankedLines::Grown& grown, int one, int other) {
+        const int less = at(grown, one) - at(grown, other);
         return static_cast<std::size_t>(less < 0 ? less + kSections : less);
     }
 
-    std::span<const RankedLines::Grown* const> operator[](std::size_t less) const {
+    std::span<const Since> operator[](std::size_t less) const {
         return std::span(places_).subspan(
             begins_[less], static_cast<std::size_t>(begins_[less + 1] - begins_[less]));
     }
 
   private:
     std::array<std::uint8_t, kSections + 1> begins_{};
-    std::array<const RankedLines::Grown*, code::kA4Restored.size()> places_;
+    std::array<Since, code::kA4Restored.size()> places_;
 };
 
 /// Those that share some number of anchors.
@@ -107,38 +122,39 @@ class Finder {
     float sum() const {
         float sum = 0;
         groups_.visit_pairs([&](int one, int other) {
-            // The longer sequence has the buckets; the third is the shortest.
-            sum += sum_of_pair(0, 1, one, other) + sum_of_pair(0, 3, one, other) +
-                   sum_of_pair(1, 3, one, other) + sum_of_pair(2, 0, one, other) +
-                   sum_of_pair(2, 1, one, other) + sum_of_pair(2, 3, one, other);
+            // Of every two sequences one has the buckets: not the third, which is the shortest.
+            sum += sum_of_bucketed(0, {2}, one, other) + sum_of_bucketed(1, {0, 2}, one, other) +
+                   sum_of_bucketed(3, {0, 1, 2}, one, other);
         });
         return sum;
     }
 
   private:
-    /// Who differs in the places of two sequences and shares both anchors.
-    float sum_of_pair(std::size_t first, std::size_t second, int one, int other) const {
-        const Buckets buckets(lines_, second, one, other);
+    /// Who differs in the places of this sequence and of one of the others, and shares both
+    /// anchors.
+    float sum_of_bucketed(std::size_t sequence, std::initializer_list<std::size_t> others, int one,
+                          int other) const {
+        const Buckets buckets(lines_, sequence, one, other);
         float sum = 0;
-        for (std::uint32_t place = 0; place < lines_.contest.basis[first].length; ++place) {
-            if (place == lines_.contest.places[first]) continue;
-            const RankedLines::Grown& a = lines_.grown(first, place);
-            for (const RankedLines::Grown* b : buckets[Buckets::grown_less(a, other, one)])
-                sum += odds(a, *b, one, other);
+        for (const std::size_t k : others) {
+            for (std::uint32_t place = 0; place < lines_.contest.basis[k].length; ++place) {
+                if (place == lines_.contest.places[k]) continue;
+                const RankedLines::Grown& a = lines_.grown(k, place);
+                const EightGrowths since =
+                    a.first - static_cast<EightGrowths>(at(a, one)) * kInEach;
+                for (const Since& b : buckets[Buckets::grown_less(a, other, one)])
+                    sum += odds(since + b.first, a, *b.grown, one, other);
+            }
         }
         return sum;
     }
 
-    float odds(const RankedLines::Grown& a, const RankedLines::Grown& b, int one, int other) const {
-        const auto at = [](const RankedLines::Grown& grown, int rank) {
-            return int{grown.all[static_cast<std::size_t>(rank)]};
-        };
-        // A growth less that of the anchor that is shared; 126 is no shift, as are 63 and 189.
-        const int base = 2 * kSections - at(a, one) - at(b, one);
-        // No byte gets below 0 or above 255, so none carries.
-        const EightGrowths first = a.first + b.first + static_cast<EightGrowths>(base) * kInEach;
+    /// `first` is by how much the first eight lines have grown since the anchor that is shared.
+    float odds(EightGrowths first, const RankedLines::Grown& a, const RankedLines::Grown& b,
+               int one, int other) const {
         int lost = lines_.loss_of_first(first);
         if (lines_.contest.is_hopeless(lost)) return kNegligible;
+        const int base = 2 * kSections - at(a, one) - at(b, one);
         Anchors shared = 0;
         for (int rank = 0; rank < anchors_; ++rank) {
             const int further = at(a, rank) + at(b, rank) + base;
