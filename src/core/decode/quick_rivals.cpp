@@ -6,6 +6,7 @@
 #include "core/decode/least_losses.hpp"
 #include "core/decode/rival_sets.hpp"
 #include "core/decode/similar_places.hpp"
+#include "core/decode/unshared_lines.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -68,22 +69,24 @@ int far_log2_q8(const Contest& contest, const RivalSet& set, const AllLineOdds& 
         sum = apart;
         for (int n = 0; n < most; ++n)
             sum = add_log2(sum, newest[-n]);
-        if (++line == contest.lines.count()) break;
+        if (++line == contest.count()) break;
         const LineOdds& here = odds[static_cast<std::size_t>(line)];
         *++newest = apart;
         apart = sum - equal + std::min(here.best_q8 + kUnevenness_q8, here.sum_q8 + equal);
     }
-    return sum + (contest.lines.count() - 1) * equal + set.rivals_q8;
+    return sum + (contest.count() - 1) * equal + set.rivals_q8;
 }
 
 /// All sets together: roughly, with the number of rolls times the best for the sum, or exactly.
 /// Once it is more than `enough`, sets need not be added.
 int far_log2_q8(const Contest& contest, bool roughly, int enough) {
     AllLineOdds odds;
-    for (int line = 0; line < contest.lines.count(); ++line) {
+    for (int line = 0; line < contest.count(); ++line) {
         const int best = contest.log2_odds_q8(contest.least_loss(line));
-        odds[static_cast<std::size_t>(line)] = {
-            best, best + (roughly ? kShifts_q8 : log2_of_others_q8(contest, line))};
+        const int others = contest.is_of_bits() ? contest.log2_of_nearest_q8(line)
+                           : roughly            ? kShifts_q8
+                                                : log2_of_others_q8(contest, line);
+        odds[static_cast<std::size_t>(line)] = {best, best + others};
     }
     int sum = kNever_q8;
     for (const RivalSet& set : kRivalSets) {
@@ -138,7 +141,7 @@ class ByShift {
 
 ByShift::ByShift(const Contest& contest, int enough)
     : contest_(contest), enough_(static_cast<std::uint32_t>(enough)), none_(enough_) {
-    for (int line = 0; line < contest.lines.count(); ++line) {
+    for (int line = 0; line < contest.count(); ++line) {
         if (contest.least_loss(line) <= 0) continue;
         const auto least = static_cast<std::uint16_t>(contest.least_loss(line));
         std::size_t i = count_++;
@@ -186,11 +189,11 @@ ByShift::ByShift(const Contest& contest, int enough)
     Growth growth;
     grow(contest_, sequence_, place, growth);
     std::array<std::uint32_t, kSections> kept;  // by the shift at which lines are shared
-    for (int line = 0; line < contest_.lines.count(); ++line)
+    for (int line = 0; line < contest_.count(); ++line)
         kept[growth[static_cast<std::size_t>(line)]] = 0;
     for (std::size_t i = 0; i < count_; ++i)
         kept[growth[static_cast<std::size_t>(losses_[i].line)]] += losses_[i].least;
-    for (int line = 0; line < contest_.lines.count(); ++line) {
+    for (int line = 0; line < contest_.count(); ++line) {
         std::uint32_t& here = kept[growth[static_cast<std::size_t>(line)]];
         if (in_all_ - here < enough_) {
             const std::optional<int> lost = loss_of_growth(contest_, growth, line);
@@ -206,22 +209,27 @@ ByShift::ByShift(const Contest& contest, int enough)
 /// Rivals that differ in one sequence: those that have surely lost enough are passed over; the
 /// others, few, are looked at one by one.
 int singles_log2_q8(const Contest& contest) {
-    const int lines = contest.lines.count();
+    const int lines = contest.count();
     const int enough = contest.loss_for(kPassedOver_q8) + contest.most_regained();
     int sum = kSingles_q8 + kPassedOver_q8 +
               256 * static_cast<int>(std::bit_width(static_cast<unsigned>(lines)));
     if (least_losses(contest, false)[static_cast<std::size_t>(lines)] >= enough) return sum;
     ByShift by_shift(contest, enough);
-    visit_similar_places(contest, Steps(contest, enough, Excused::none),
-                         [&](std::size_t sequence, std::uint32_t place) {
-                             sum = by_shift.add(sequence, place, sum);
-                         });
+    const UnsharedLines unshared(contest);
+    visit_similar_places(
+        contest, Steps(contest, enough, Excused::none),
+        [&](std::size_t sequence) {
+            return unshared.all_lose(sequence, Sharing::at_one_shift, enough);
+        },
+        [&](std::size_t sequence, std::uint32_t place) {
+            sum = by_shift.add(sequence, place, sum);
+        });
     return sum;
 }
 
 int other_sections_log2_q8(const Contest& contest) {
     int lost = 0;
-    for (int line = 0; line < contest.lines.count(); ++line)
+    for (int line = 0; line < contest.count(); ++line)
         lost += contest.least_loss(line);
     return kShifts_q8 + contest.log2_odds_q8(lost);
 }
@@ -232,7 +240,7 @@ int quick_rivals_log2_q8(const Contest& contest, int limit_q8) {
     // Nobody wants to know odds like these more exactly.
     constexpr int kSmall_q8 = -36 * 256;
     int far = far_log2_q8(contest, true, kSmall_q8);
-    if (far > kSmall_q8) far = far_log2_q8(contest, false, limit_q8);
+    if (far > kSmall_q8 && !contest.is_of_bits()) far = far_log2_q8(contest, false, limit_q8);
     const int sum = add_log2(other_sections_log2_q8(contest), far);
     if (sum >= limit_q8) return 0;
     return std::min(add_log2(sum, singles_log2_q8(contest)), 0);
