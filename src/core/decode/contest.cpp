@@ -151,7 +151,7 @@ int Contest::loss_of_bits(int line, int roll) const {
 
 std::optional<int> loss_of_growth(const Contest& contest, const Growth& growth, int shared) {
     const int base = growth[static_cast<std::size_t>(shared)];
-    const int count = contest.lines.count();
+    const int count = contest.count();
     int lost = 0;
     // Outwards from the shared line, where most is lost soonest; its predecessors last.
     for (int i = 1, line = shared + 1; i < count; ++i, ++line) {
