@@ -175,6 +175,14 @@ struct GridCell {
     std::uint16_t dot = kNoDot;  ///< index of the dot read here
 };
 
+/// A seed in the order of buckets that lie row by row; and a bucket, which has nothing to do with it
+/// but its number.
+struct BucketedSeed {
+    Vec at_q8;                ///< from the corner of the first bucket
+    std::uint16_t seed = 0;   ///< its index
+    std::uint16_t begin = 0;  ///< of the bucket: which of the seeds is its first
+};
+
 /// Quarter turns of the grid against the pattern: pattern_step = turn(grid_step).
 struct Turn {
     int quarters = 0;  ///< 0 to 3, from +x towards +y

@@ -35,9 +35,11 @@ struct Workspace {
     // lattice
     std::span<std::uint16_t> seeds;  ///< indices of dots
     int seed_count = 0;
+    std::span<BucketedSeed> buckets;                    ///< one more than seeds
     std::span<std::array<std::int16_t, 4>> neighbours;  ///< of each seed
     std::span<Edge> edges;                              ///< two for each seed
     int edge_count = 0;
+    std::span<std::int32_t> edge_values;  ///< two for each edge
     Lattice lattice;
     PlaneFromImage grid_from_image;
     // decode
@@ -92,6 +94,8 @@ class WorkspaceOf : public Workspace {
         open.blobs = blobs_;
         dots = dots_;
         seeds = seeds_;
+        buckets = buckets_;
+        edge_values = edge_values_;
         neighbours = neighbours_;
         edges = edges_;
         grid.storage = cells_;
@@ -136,8 +140,10 @@ class WorkspaceOf : public Workspace {
     std::array<OpenBlob, 2 * kRuns> blobs_{};
     std::array<Dot, MaxDots> dots_{};
     std::array<std::uint16_t, kMaxSeeds> seeds_{};
+    std::array<BucketedSeed, kMaxSeeds + 1> buckets_{};
     std::array<std::array<std::int16_t, 4>, kMaxSeeds> neighbours_{};
     std::array<Edge, 2 * kMaxSeeds> edges_{};
+    std::array<std::int32_t, 4 * kMaxSeeds> edge_values_{};
     std::array<GridCell, GridSide * GridSide> cells_{};
     std::array<ScoredLine, 2 * std::min(GridSide, kMaxLines)> line_scores_{};
     std::array<std::uint8_t, 36 * std::min(MaxWidth, 376)> tracked_rows_{};
@@ -163,8 +169,10 @@ class DeviceWorkspace : public Workspace {
         open.runs = pixels.runs;
         auto& lattices = memory_of<LatticeStages>();
         seeds = lattices.seeds;
+        buckets = lattices.buckets;
         neighbours = lattices.neighbours;
         edges = lattices.edges;
+        edge_values = lattices.edge_values;
         auto& decoders = memory_of<DecodeStages>();
         grid.storage = decoders.cells;
         line_scores = decoders.line_scores;
@@ -204,6 +212,8 @@ class DeviceWorkspace : public Workspace {
     };
     struct LatticeStages {
         std::array<Edge, 2 * kSeeds> edges;
+        std::array<std::int32_t, 4 * kSeeds> edge_values;
+        std::array<BucketedSeed, kSeeds + 1> buckets;
         std::array<std::array<std::int16_t, 4>, kSeeds> neighbours;
         std::array<std::uint16_t, kSeeds> seeds;
     };
@@ -229,7 +239,7 @@ class DeviceWorkspace : public Workspace {
                                            sizeof(DecodeStages), sizeof(TrackedStages)})> memory_{};
 };
 
-static_assert(sizeof(void*) > 4 || sizeof(DeviceWorkspace) < 12 * 1024 + 256);
+static_assert(sizeof(void*) > 4 || sizeof(DeviceWorkspace) < 12 * 1024 + 512);
 
 /// For the paper's 188 x 120 px sensor.
 using SmallWorkspace = WorkspaceOf<188, 384, 32>;
