@@ -36,6 +36,12 @@ void* memcpy(void* __restrict to, const void* __restrict from, std::size_t size)
             target_word += 4 * kWords;
             source_word += 4 * kWords;
         }
+        auto* target_words = reinterpret_cast<Words*>(target_word);
+        const auto* source_words = reinterpret_cast<const Words*>(source_word);
+        for (; size >= sizeof(Words); size -= sizeof(Words))
+            *target_words++ = *source_words++;
+        target_word = reinterpret_cast<Word*>(target_words);
+        source_word = reinterpret_cast<const Word*>(source_words);
         for (; size >= sizeof(Word); size -= sizeof(Word))
             *target_word++ = *source_word++;
     }

@@ -293,7 +293,7 @@ struct Tracking {
     Vec dv_q20;
     std::int32_t displacement_q12 = 0;
     int rows_kept = 0;     ///< at most
-    int rows_needed = 0;   ///< of the newest: at most half as many
+    int rows_needed = 0;   ///< of the newest, after dots were looked for: less than half as many
     int first_rows = 0;    ///< from so many on it is known how far the prediction is off
     int next_reading = 0;  ///< when so many rows are taken, dots are looked for
     int reach_px = 0;      ///< so far off may the prediction be at the image centre

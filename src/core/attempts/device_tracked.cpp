@@ -48,7 +48,8 @@ Status read_rows(Workspace& w) {
         return Status::ok;
     }
     t.next_reading = t.rows_taken + kRowsAtOnce;
-    read_ready_dots(t, w.dots, w.dot_count, w.fix);
+    read_ready_dots(t, w.dots, w.dot_count);
+    make_room(kRowsAtOnce, t);
     return Status::ok;
 }
 
@@ -56,6 +57,7 @@ Status read_rows(Workspace& w) {
 Status confirm(const Options& options, Workspace& w) {
     Tracking& t = w.tracking;
     if (t.status != Status::ok) return t.status;
+    w.fix.dots_seen = dots_seen(t);
     w.decoding.place = t.corner;
     const Status status = verify_tracked(options.profile, t, options.integrity, w.decoding, w.fix);
     if (status != Status::ok) return Status::not_tracked;

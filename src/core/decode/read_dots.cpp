@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/by_itself.hpp"
 #include "core/detect/near_dot.hpp"
 #include "core/fixed.hpp"
 #include "core/lattice/coded_cells.hpp"
@@ -21,7 +22,7 @@ Way way_of(const Tracking& tracking) {
 }
 
 /// Notes what is read; whether the code has it there.
-bool note(const Tracking& tracking, int i, int j, int symbol) {
+DOTPOSE_BY_ITSELF bool note(const Tracking& tracking, int i, int j, int symbol) {
     TrackedLine& column = column_of(tracking, i);
     TrackedLine& row = row_of(tracking, j);
     const auto in_column = std::uint32_t{1} << j;
@@ -37,19 +38,21 @@ bool note(const Tracking& tracking, int i, int j, int symbol) {
 }
 
 /// Reads the dot of a cell; whether it is what and where the code has one, and then its centre.
-[[gnu::always_inline]] inline bool read_dot(Tracking& tracking, int i, int j, Vec at_q16, Fix& fix,
-                                            Dot& kept) {
-    const std::int32_t paper = paper_around(tracking, at_q16);
-    const std::int32_t depth = (paper * tracking.cut_q8) >> 8;
-    if (paper == 0) return false;
-    const int symbol = read_symbol(tracking, at_q16, paper, depth);
-    if (symbol < 0) return false;
-    ++fix.dots_seen;
-    if (!note(tracking, i, j, symbol)) return false;
+/// Rows are read so often that all of its square is kept.
+DOTPOSE_BY_ITSELF bool read_dot(Tracking& tracking, int i, int j, Vec at_q16, Dot& kept) {
+    Ink ink;
+    ink.paper = paper_around(tracking, pixel_at(at_q16));
+    ink.depth = (ink.paper * tracking.cut_q8) >> 8;
+    const int quarter = (at_q16.x >> 15 & 1) + (at_q16.y >> 14 & 2);
+    const int symbol =
+        read_symbol(kept_row(tracking, at_q16.y >> 16) + (at_q16.x >> 16),
+                    tracking.dot_pixels[static_cast<std::size_t>(quarter)].data(),
+                    tracking.stride_px, ink);
+    if (symbol < 0 || !note(tracking, i, j, symbol)) return false;
     const Vec displaced_q16 = tracking.displaced_q16[static_cast<std::size_t>(symbol)];
     const Vec place_q16 = at_q16 + displaced_q16;
     NearDot dot;
-    if (!measure_square<kDotHalf_px>(tracking, place_q16, paper - depth, dot)) return false;
+    if (!measure_square<kDotHalf_px>(tracking, place_q16, ink.paper - ink.depth, dot)) return false;
     // Printers and lenses rarely move a dot by more than an eighth of the spacing; dirt does.
     if (!is_within(dot.off_q8, tracking.spacing_q8 >> 3)) return false;
     tracking.along_q16 +=
@@ -92,7 +95,7 @@ bool begin_reading(Tracking& tracking) {
     return true;
 }
 
-void read_ready_dots(Tracking& tracking, std::span<Dot> dots, int& dot_count, Fix& fix) {
+void read_ready_dots(Tracking& tracking, std::span<Dot> dots, int& dot_count) {
     const Way way = way_of(tracking);
     // A dot may reach a row farther than its square; the last row of all is always ready.
     const int ahead = tracking.rows_taken == tracking.height_px ? 1 : 2;
@@ -107,7 +110,7 @@ void read_ready_dots(Tracking& tracking, std::span<Dot> dots, int& dot_count, Fi
             row.i = static_cast<std::int8_t>(i + way.i_step);
             if (dot_count == room) continue;
             const auto count = static_cast<std::size_t>(dot_count);
-            if (!read_dot(tracking, i, j, at_q16, fix, dots[count])) continue;
+            if (!read_dot(tracking, i, j, at_q16, dots[count])) continue;
             tracking.dot_cells[count] = static_cast<std::uint16_t>(j * kMostTracked + i);
             ++dot_count;
         }

@@ -3,7 +3,6 @@
 
 #include <span>
 
-#include "dotpose/fix.hpp"
 #include "dotpose/stages.hpp"
 
 namespace dotpose::core {
@@ -12,7 +11,7 @@ namespace dotpose::core {
 bool begin_reading(Tracking& tracking);
 
 /// Reads all dots that the rows taken so far show, and adds those that are where and what the code
-/// has there to `dots`; their cells stand in `tracking`. Counts in fix.dots_seen.
-void read_ready_dots(Tracking& tracking, std::span<Dot> dots, int& dot_count, Fix& fix);
+/// has there to `dots`; their cells stand in `tracking`.
+void read_ready_dots(Tracking& tracking, std::span<Dot> dots, int& dot_count);
 
 }  // namespace dotpose::core

@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "core/by_itself.hpp"
 #include "core/detect/newest_rows.hpp"
 #include "core/kernels/portable/dark_sums.hpp"
 #include "dotpose/code.hpp"
@@ -31,13 +32,10 @@ constexpr Vec pixel_at(Vec place_q16) {
 }
 
 /// Level of the paper around an intersection, from the corners of its square, which no dot reaches.
-/// 0 where the square leaves the image or the rows that are kept.
-[[gnu::always_inline]] inline std::int32_t paper_around(const Tracking& tracking,
-                                                        Vec intersection_q16) {
-    const Vec at = pixel_at(intersection_q16);
-    if (!is_kept(tracking, at, kHalf_px)) return 0;
+/// All of the square is kept.
+[[gnu::always_inline]] inline std::int32_t paper_around(const Tracking& tracking, Vec pixel) {
     constexpr int kSide_px = 2 * kHalf_px;
-    const std::uint8_t* const top = kept_row(tracking, at.y - kHalf_px) + at.x - kHalf_px;
+    const std::uint8_t* const top = kept_row(tracking, pixel.y - kHalf_px) + pixel.x - kHalf_px;
     const std::uint8_t* const bottom = top + kSide_px * tracking.stride_px;
     return (top[0] + top[kSide_px] + bottom[0] + bottom[kSide_px]) >> 2;
 }
@@ -45,33 +43,37 @@ constexpr Vec pixel_at(Vec place_q16) {
 /// Where `read_symbol` looks from now on; false where that is beyond the squares.
 bool lay_dot_pixels(Tracking& tracking);
 
-/// Which of the four places is darkest, where one clearly is; -1 where none is. `depth` is half of
-/// what a dot lacks of the paper's level. All of the square around the intersection is kept.
-[[gnu::always_inline]] inline int read_symbol(const Tracking& tracking, Vec at_q16,
-                                              std::int32_t paper, std::int32_t depth) {
-    const std::int32_t stride = tracking.stride_px;
-    const std::uint8_t* const at = kept_row(tracking, at_q16.y >> 16) + (at_q16.x >> 16);
-    const int quarter = (at_q16.x >> 15 & 1) + (at_q16.y >> 14 & 2);
-    const std::int16_t* offset = tracking.dot_pixels[static_cast<std::size_t>(quarter)].data();
+/// Level of the paper, and half of what a dot lacks of it.
+struct Ink {
+    std::int32_t paper;
+    std::int32_t depth;
+};
+
+/// Which of the four places is darkest, where one clearly is; -1 where none is. `at` is the pixel
+/// in which the intersection lies, `offset` those of the places from there.
+// By itself, so that small processors can keep all it needs in registers.
+DOTPOSE_BY_ITSELF inline int read_symbol(const std::uint8_t* at, const std::int16_t* offset,
+                                         std::int32_t stride, const Ink& ink) {
+    // Sums of four pixels, times 4, and the symbol added.
     std::int32_t darkest = INT32_MAX;
     std::int32_t second = INT32_MAX;
-    int symbol = 0;
 #pragma GCC unroll 4
     for (int s = 0; s < 4; ++s) {
         const std::uint8_t* const above = at + *offset++;
         const std::uint8_t* const below = above + stride;
         const std::int32_t sum = above[0] + above[1] + below[0] + below[1];
-        if (sum < darkest) {
+        const std::int32_t here = sum * 4 + s;
+        if (here < darkest) {
             second = darkest;
-            darkest = sum;
-            symbol = s;
-        } else if (sum < second) {
-            second = sum;
+            darkest = here;
+        } else if (here < second) {
+            second = here;
         }
     }
     // Dots lack some 6 depths in four pixels, and 2 of them at the places beside their own.
-    const bool is_clear = 4 * paper - darkest >= 2 * depth && second - darkest >= depth;
-    return is_clear ? symbol : -1;
+    const bool is_clear =
+        4 * ink.paper - (darkest >> 2) >= 2 * ink.depth && (second >> 2) - (darkest >> 2) >= ink.depth;
+    return is_clear ? darkest & 3 : -1;
 }
 
 struct NearDot {

@@ -10,8 +10,11 @@ constexpr int stride_of(int width_px) {
     return (width_px + 3) & ~3;
 }
 
-/// Where there is no more room, those before the last `Tracking::rows_needed` are forgotten.
+/// There must be room for it.
 void keep_row(const std::uint8_t* pixels, Tracking& tracking);
+
+/// Forgets those before the last `Tracking::rows_needed` where there is no room for so many more.
+void make_room(int rows, Tracking& tracking);
 
 /// A row that is kept; those after it follow.
 inline const std::uint8_t* kept_row(const Tracking& tracking, int v) {

@@ -5,6 +5,7 @@
 
 #include "code/rolls.hpp"
 #include "code/tables.hpp"
+#include "core/fixed.hpp"
 
 namespace dotpose::core {
 
@@ -20,6 +21,13 @@ void lay_tracked_lines(Profile profile, Tracking& tracking) {
     };
     lay(corner.cell.x, corner.section.u, corner.cell.y, tracking.lines.first(kMostTracked));
     lay(corner.cell.y, corner.section.v, corner.cell.x, tracking.lines.last(kMostTracked));
+}
+
+int dots_seen(const Tracking& tracking) {
+    int seen = 0;
+    for (const TrackedLine& column : tracking.lines.first(kMostTracked))
+        seen += bits_in(column.seen);
+    return seen;
 }
 
 Projections projections(const Tracking& tracking, Vec from_intersection_q8) {

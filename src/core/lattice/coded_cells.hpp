@@ -16,6 +16,9 @@ inline TrackedLine& row_of(const Tracking& tracking, int j) {
     return tracking.lines[static_cast<std::size_t>(kMostTracked + j)];
 }
 
+/// Dots that were read so far.
+int dots_seen(const Tracking& tracking);
+
 /// What the code has in a cell.
 inline Symbol coded_symbol(const Tracking& tracking, int i, int j) {
     return make_symbol(static_cast<int>(column_of(tracking, i).code >> j & 1),
