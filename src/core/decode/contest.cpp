@@ -98,7 +98,13 @@ Contest::Contest(Profile profile, std::span<const TrackedLine> lines_, const Axi
     follow_rolls(profile, reading);
     for (int i = 0; i < count_; ++i) {
         const auto line = static_cast<std::size_t>(i);
-        if (bits_[line].seen != 0) set_least_loss(i, kScoreOfBit * nearest(i).lost_bits);
+        const Nearest others =
+            bits_[line].seen != 0 ? nearest(i) : Nearest{0, kLog2OfOthers_q8};
+        set_least_loss(i, kScoreOfBit * others.lost_bits);
+        // All others lose a bit more.
+        const int log2_q8 = add_log2(others.log2_count_q8, kLog2OfOthers_q8 - odds_q8);
+        log2_of_nearest_q8_[line] =
+            static_cast<std::int16_t>(std::min(log2_q8, kLog2OfOthers_q8));
     }
     hopeless_score_ = most_regained_ + -kNegligible_q8 * 2 * 127 / odds_q8;
 }
@@ -133,13 +139,6 @@ Contest::Nearest Contest::nearest(int line) const {
         if (roll != own) nearest.add(loss_of_bits(line, roll));
     }
     return {nearest.distance, log2_at_most_q8(nearest.count)};
-}
-
-int Contest::log2_of_nearest_q8(int line) const {
-    if (bits_[static_cast<std::size_t>(line)].seen == 0) return kLog2OfOthers_q8;
-    // All others lose a bit more.
-    return std::min(add_log2(nearest(line).log2_count_q8, kLog2OfOthers_q8 - odds_per_bit_q8_),
-                    kLog2OfOthers_q8);
 }
 
 int Contest::loss_of_bits(int line, int roll) const {

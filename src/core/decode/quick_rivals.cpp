@@ -14,6 +14,8 @@ namespace {
 /// log2 of numbers of rivals, and of shifts at which a rival shares no line, in 2^-8, rounded up.
 constexpr int kShifts_q8 = 1525;   // 62
 constexpr int kSingles_q8 = 2441;  // 741
+/// Nobody wants to know odds like these more exactly.
+constexpr int kSmallOdds_q8 = -36 * 256;
 /// Odds, as a power of two, at which single rivals are counted that have less, known or not.
 constexpr int kPassedOver_q8 = -52 * 256;
 
@@ -77,10 +79,31 @@ int far_log2_q8(const Contest& contest, const RivalSet& set, const AllLineOdds& 
     return sum + (contest.count() - 1) * equal + set.rivals_q8;
 }
 
+/// What rivals of all sets have together that share few lines, at most: seven, and so lose in all
+/// others. There are fewer than 2^lines ways to share lines.
+int sharing_few_log2_q8(const Contest& contest) {
+    constexpr std::size_t kFew = 7;
+    std::array<int, kFew> most{};  // the greatest losses
+    int lost = 0;
+    for (int line = 0; line < contest.count(); ++line) {
+        int loss = contest.least_loss(line);
+        lost += loss;
+        for (int& greater : most) {
+            if (loss > greater) std::swap(loss, greater);
+        }
+    }
+    for (const int loss : most)
+        lost -= loss;
+    constexpr int kSets_q8 = 2 * 256;
+    return kRivalSets.back().rivals_q8 + kSets_q8 + 256 * contest.count() +
+           contest.log2_odds_q8(lost);
+}
+
 /// All sets together: roughly, with the number of rolls times the best for the sum, or exactly.
 /// Once it is more than `enough`, sets need not be added.
 int far_log2_q8(const Contest& contest, bool roughly, int enough) {
     AllLineOdds odds;
+    odds[0] = {};
     for (int line = 0; line < contest.count(); ++line) {
         const int best = contest.log2_odds_q8(contest.least_loss(line));
         const int others = contest.is_of_bits() ? contest.log2_of_nearest_q8(line)
@@ -88,8 +111,12 @@ int far_log2_q8(const Contest& contest, bool roughly, int enough) {
                                                 : log2_of_others_q8(contest, line);
         odds[static_cast<std::size_t>(line)] = {best, best + others};
     }
-    int sum = kNever_q8;
-    for (const RivalSet& set : kRivalSets) {
+    int sum = far_log2_q8(contest, kRivalSets.front(), odds);
+    // Other sets have more rivals, but these share a line more rarely: those that share more than
+    // seven lines have less than half of the odds of the first set's in each of the four.
+    const int with_others = add_log2(sum + 406, sharing_few_log2_q8(contest));
+    if (with_others < kSmallOdds_q8) return with_others;
+    for (const RivalSet& set : std::span(kRivalSets).subspan(1)) {
         if (sum > enough) break;
         sum = add_log2(sum, far_log2_q8(contest, set, odds));
     }
@@ -237,10 +264,8 @@ int other_sections_log2_q8(const Contest& contest) {
 }  // namespace
 
 int quick_rivals_log2_q8(const Contest& contest, int limit_q8) {
-    // Nobody wants to know odds like these more exactly.
-    constexpr int kSmall_q8 = -36 * 256;
-    int far = far_log2_q8(contest, true, kSmall_q8);
-    if (far > kSmall_q8 && !contest.is_of_bits()) far = far_log2_q8(contest, false, limit_q8);
+    int far = far_log2_q8(contest, true, kSmallOdds_q8);
+    if (far > kSmallOdds_q8 && !contest.is_of_bits()) far = far_log2_q8(contest, false, limit_q8);
     const int sum = add_log2(other_sections_log2_q8(contest), far);
     if (sum >= limit_q8) return 0;
     return std::min(add_log2(sum, singles_log2_q8(contest)), 0);

@@ -37,28 +37,19 @@ DOTPOSE_BY_ITSELF bool note(const Tracking& tracking, int i, int j, int symbol) 
     return false;
 }
 
-/// Reads the dot of a cell; whether it is what and where the code has one, and then its centre.
-/// Rows are read so often that all of its square is kept.
-DOTPOSE_BY_ITSELF bool read_dot(Tracking& tracking, int i, int j, Vec at_q16, Dot& kept) {
-    Ink ink;
-    ink.paper = paper_around(tracking, pixel_at(at_q16));
-    ink.depth = (ink.paper * tracking.cut_q8) >> 8;
-    const int quarter = (at_q16.x >> 15 & 1) + (at_q16.y >> 14 & 2);
-    const int symbol =
-        read_symbol(kept_row(tracking, at_q16.y >> 16) + (at_q16.x >> 16),
-                    tracking.dot_pixels[static_cast<std::size_t>(quarter)].data(),
-                    tracking.stride_px, ink);
-    if (symbol < 0 || !note(tracking, i, j, symbol)) return false;
-    const Vec displaced_q16 = tracking.displaced_q16[static_cast<std::size_t>(symbol)];
+/// Measures the dot that the code has at an intersection; whether it is where it should be.
+DOTPOSE_BY_ITSELF bool measure_dot(Tracking& tracking, Vec at_q16, const ReadSymbol& read,
+                                   Dot& dot) {
+    const Vec displaced_q16 = tracking.displaced_q16[static_cast<std::size_t>(read.symbol)];
     const Vec place_q16 = at_q16 + displaced_q16;
-    NearDot dot;
-    if (!measure_square<kDotHalf_px>(tracking, place_q16, ink.paper - ink.depth, dot)) return false;
+    NearDot near;
+    if (!measure_square<kDotHalf_px>(tracking, place_q16, read.level, near)) return false;
     // Printers and lenses rarely move a dot by more than an eighth of the spacing; dirt does.
-    if (!is_within(dot.off_q8, tracking.spacing_q8 >> 3)) return false;
+    if (!is_within(near.off_q8, tracking.spacing_q8 >> 3)) return false;
     tracking.along_q16 +=
-        dot.off_q8.x * (displaced_q16.x >> 8) + dot.off_q8.y * (displaced_q16.y >> 8);
-    kept = {dot.off_q8 + Vec{place_q16.x >> 8, place_q16.y >> 8},
-            static_cast<std::uint16_t>(dot.mass), 0};
+        near.off_q8.x * (displaced_q16.x >> 8) + near.off_q8.y * (displaced_q16.y >> 8);
+    dot = {near.off_q8 + Vec{place_q16.x >> 8, place_q16.y >> 8},
+           static_cast<std::uint16_t>(near.mass), 0};
     return true;
 }
 
@@ -68,7 +59,7 @@ bool begin_reading(Tracking& tracking) {
     if (!lay_dot_pixels(tracking)) return false;
     const Way way = way_of(tracking);
     constexpr int half = kHalf_px;
-    const std::int32_t least_q16 = half * 65536 - 32768;
+    const std::int32_t least_q16 = half * 65536;
     const auto width_q16 = static_cast<std::uint32_t>(tracking.width_px - 2 * half) << 16;
     const auto height_q16 = static_cast<std::uint32_t>(tracking.height_px - 2 * half) << 16;
     const int first = way.i_step > 0 ? tracking.first_cell : tracking.last_cell;
@@ -100,21 +91,23 @@ void read_ready_dots(Tracking& tracking, std::span<Dot> dots, int& dot_count) {
     // A dot may reach a row farther than its square; the last row of all is always ready.
     const int ahead = tracking.rows_taken == tracking.height_px ? 1 : 2;
     const std::int32_t ready_q16 = (tracking.rows_taken - ahead - kHalf_px) * 65536 + 32767;
-    const auto room = static_cast<int>(std::min(dots.size(), tracking.dot_cells.size()));
-    for (int j = tracking.first_cell; j <= tracking.last_cell; ++j) {
-        TrackedRow& row = tracking.grid_rows[static_cast<std::size_t>(j)];
-        for (; row.left > 0 && row.next_q16.y <= ready_q16; --row.left) {
-            const Vec at_q16 = row.next_q16;
-            const int i = row.i;
-            row.next_q16 = at_q16 + way.step_q16;
-            row.i = static_cast<std::int8_t>(i + way.i_step);
-            if (dot_count == room) continue;
-            const auto count = static_cast<std::size_t>(dot_count);
-            if (!read_dot(tracking, i, j, at_q16, dots[count])) continue;
-            tracking.dot_cells[count] = static_cast<std::uint16_t>(j * kMostTracked + i);
-            ++dot_count;
+    const auto room = std::min(dots.size(), tracking.dot_cells.size());
+    auto count = static_cast<std::size_t>(dot_count);
+    TrackedRow* row = &tracking.grid_rows[static_cast<std::size_t>(tracking.first_cell)];
+    for (int j = tracking.first_cell; j <= tracking.last_cell; ++j, ++row) {
+        for (; row->left > 0 && row->next_q16.y <= ready_q16 && count < room; --row->left) {
+            const Vec at_q16 = row->next_q16;
+            const int i = row->i;
+            row->next_q16 = at_q16 + way.step_q16;
+            row->i = static_cast<std::int8_t>(i + way.i_step);
+            const ReadSymbol read = read_symbol(tracking, at_q16);
+            if (read.symbol < 0 || !note(tracking, i, j, read.symbol) ||
+                !measure_dot(tracking, at_q16, read, dots[count]))
+                continue;
+            tracking.dot_cells[count++] = static_cast<std::uint16_t>(j * kMostTracked + i);
         }
     }
+    dot_count = static_cast<int>(count);
 }
 
 }  // namespace dotpose::core

@@ -22,7 +22,7 @@ bool lay_dot_pixels(Tracking& tracking) {
 bool measure_around(const Tracking& tracking, Vec intersection_q16, NearDot& dot) {
     const Vec pixel = pixel_at(intersection_q16);
     if (!is_kept(tracking, pixel, kHalf_px)) return false;
-    const std::int32_t paper = paper_around(tracking, pixel);
+    const std::int32_t paper = paper_around(tracking, kept_row(tracking, pixel.y) + pixel.x);
     const std::int32_t level = paper - ((paper * tracking.cut_q8) >> 8);
     return paper > 0 && measure_square<kHalf_px>(tracking, intersection_q16, level, dot);
 }

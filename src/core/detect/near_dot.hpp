@@ -31,11 +31,11 @@ constexpr Vec pixel_at(Vec place_q16) {
                static_cast<unsigned>(tracking.rows_taken - tracking.first_kept - 2 * half);
 }
 
-/// Level of the paper around an intersection, from the corners of its square, which no dot reaches.
-/// All of the square is kept.
-[[gnu::always_inline]] inline std::int32_t paper_around(const Tracking& tracking, Vec pixel) {
+/// Level of the paper around a pixel, from the corners of its square, which no dot reaches.
+[[gnu::always_inline]] inline std::int32_t paper_around(const Tracking& tracking,
+                                                        const std::uint8_t* at) {
     constexpr int kSide_px = 2 * kHalf_px;
-    const std::uint8_t* const top = kept_row(tracking, pixel.y - kHalf_px) + pixel.x - kHalf_px;
+    const std::uint8_t* const top = at - kHalf_px * tracking.stride_px - kHalf_px;
     const std::uint8_t* const bottom = top + kSide_px * tracking.stride_px;
     return (top[0] + top[kSide_px] + bottom[0] + bottom[kSide_px]) >> 2;
 }
@@ -43,17 +43,22 @@ constexpr Vec pixel_at(Vec place_q16) {
 /// Where `read_symbol` looks from now on; false where that is beyond the squares.
 bool lay_dot_pixels(Tracking& tracking);
 
-/// Level of the paper, and half of what a dot lacks of it.
-struct Ink {
-    std::int32_t paper;
-    std::int32_t depth;
+/// What was read of a dot: -1 where none of the four places is clearly darkest; and the level below
+/// which pixels belong to it.
+struct ReadSymbol {
+    int symbol;
+    std::int32_t level;
 };
 
-/// Which of the four places is darkest, where one clearly is; -1 where none is. `at` is the pixel
-/// in which the intersection lies, `offset` those of the places from there.
+/// Looks at the four places around an intersection in a pixel that is kept, as is all of its square
+/// and a pixel around it.
 // By itself, so that small processors can keep all it needs in registers.
-DOTPOSE_BY_ITSELF inline int read_symbol(const std::uint8_t* at, const std::int16_t* offset,
-                                         std::int32_t stride, const Ink& ink) {
+DOTPOSE_BY_ITSELF inline ReadSymbol read_symbol(const Tracking& tracking, Vec intersection_q16) {
+    const std::int32_t stride = tracking.stride_px;
+    const std::uint8_t* const at =
+        kept_row(tracking, intersection_q16.y >> 16) + (intersection_q16.x >> 16);
+    const int quarter = (intersection_q16.x >> 15 & 1) + (intersection_q16.y >> 14 & 2);
+    const std::int16_t* offset = tracking.dot_pixels[static_cast<std::size_t>(quarter)].data();
     // Sums of four pixels, times 4, and the symbol added.
     std::int32_t darkest = INT32_MAX;
     std::int32_t second = INT32_MAX;
@@ -70,10 +75,12 @@ DOTPOSE_BY_ITSELF inline int read_symbol(const std::uint8_t* at, const std::int1
             second = here;
         }
     }
+    const std::int32_t paper = paper_around(tracking, at);
+    const std::int32_t depth = (paper * tracking.cut_q8) >> 8;
     // Dots lack some 6 depths in four pixels, and 2 of them at the places beside their own.
-    const bool is_clear =
-        4 * ink.paper - (darkest >> 2) >= 2 * ink.depth && (second >> 2) - (darkest >> 2) >= ink.depth;
-    return is_clear ? darkest & 3 : -1;
+    const bool is_clear = paper * 4 - (darkest >> 2) >= 2 * depth &&
+                          (second >> 2) - (darkest >> 2) >= depth;
+    return {is_clear ? darkest & 3 : -1, paper - depth};
 }
 
 struct NearDot {

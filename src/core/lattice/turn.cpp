@@ -111,15 +111,14 @@ class Rounds {
 void Rounds::recentre(Vec middle) {
     Vec sum_q8;
     std::int32_t count = 0;
-    for (int j = middle.y - 1; j <= middle.y + 1; ++j) {
-        for (int i = middle.x - 1; i <= middle.x + 1; ++i) {
-            NearDot dot;
-            if (!measure_around(tracking_, place_q16(tracking_.cells, i, j), dot)) continue;
-            const Vec displaced_q16 =
-                tracking_.displaced_q16[static_cast<std::size_t>(coded_symbol(tracking_, i, j))];
-            sum_q8 = sum_q8 + dot.off_q8 - Vec{displaced_q16.x >> 8, displaced_q16.y >> 8};
-            ++count;
-        }
+    for (const Vec step : {Vec{0, 0}, Vec{1, 0}, Vec{0, 1}, Vec{-1, 0}, Vec{0, -1}}) {
+        const Vec cell = middle + step;
+        NearDot dot;
+        if (!measure_around(tracking_, place_q16(tracking_.cells, cell.x, cell.y), dot)) continue;
+        const Symbol symbol = coded_symbol(tracking_, cell.x, cell.y);
+        const Vec displaced_q16 = tracking_.displaced_q16[static_cast<std::size_t>(symbol)];
+        sum_q8 = sum_q8 + dot.off_q8 - Vec{displaced_q16.x >> 8, displaced_q16.y >> 8};
+        ++count;
     }
     if (count == 0) return;
     before_.origin_q16 = before_.origin_q16 + Vec{sum_q8.x / count * 256, sum_q8.y / count * 256};
@@ -185,7 +184,8 @@ bool find_turn(Tracking& tracking) {
         const int before = rounds.agreeing();
         visit_round(tracking, middle, round, [&](int i, int j) { rounds.measure(i, j); });
         agree = rounds.seen() < kTelling || 8 * rounds.agreeing() >= kLeastShare_q3 * rounds.seen();
-        if (rounds.agreeing() > before) rounds.lay_cells();
+        // The middle one says no more than those around it did.
+        if (round > 0 && rounds.agreeing() > before) rounds.lay_cells();
     }
     if (!agree || rounds.agreeing() < kLeastDots) {
         rounds.lay_cells_as_before();

@@ -3,11 +3,20 @@
 #include <algorithm>
 #include <array>
 
+#include "core/by_itself.hpp"
 #include "core/cell_fit.hpp"
 #include "core/fixed.hpp"
 #include "core/lattice/coded_cells.hpp"
 
 namespace dotpose::core {
+
+namespace {
+
+DOTPOSE_BY_ITSELF void add(CellFit& fit, Vec p, Vec target) {
+    fit.add(p, target);
+}
+
+}  // namespace
 
 int fit_tracked_pose(std::span<const Dot> dots, const Tracking& tracking,
                      PlaneFromImage& pattern_from_image, std::int32_t& displacement_q16) {
@@ -38,8 +47,8 @@ int fit_tracked_pose(std::span<const Dot> dots, const Tracking& tracking,
         const auto symbol = static_cast<std::size_t>(coded_symbol(tracking, i, j));
         // In 1/8 px, rounded.
         const Vec p = dot.centre_q8 - centre_q8 + Vec{16, 16};
-        fit.add({p.x >> 5, p.y >> 5},
-                Vec{i * (1 << kTargetBits), j * (1 << kTargetBits)} + targets[symbol]);
+        add(fit, {p.x >> 5, p.y >> 5},
+            Vec{i * (1 << kTargetBits), j * (1 << kTargetBits)} + targets[symbol]);
     }
     pattern_from_image = {};
     pattern_from_image.centre_q8 = centre_q8;
