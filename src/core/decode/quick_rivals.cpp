@@ -57,30 +57,37 @@ int log2_of_others_q8(const Contest& contest, int line) {
 /// most the probability of the one that stays shared, so a line has at most that share of the sum
 /// of its odds, and at most the best of them.
 int far_log2_q8(const Contest& contest, const RivalSet& set, const AllLineOdds& odds) {
-    const int most = contest.most_shared();
+    static_assert(code::kOrder % 2 == 1 && kMostShared % 2 == 1);
+    const auto most = static_cast<std::size_t>(contest.most_shared());
     const int equal = set.equal_q8 + kUnevenness_q8;
     // All sums are divided by the probability that every line so far is shared: then those that
     // share the lines from one on, and none before it, stay as they are.
     std::array<int, kMostShared + kMaxLines> sharing;
+    // Of each and the one before it: then there is half as much to be summed.
+    std::array<int, kMostShared + kMaxLines> pairs;
     std::fill_n(sharing.begin(), kMostShared, kNever_q8);
-    int* newest = &sharing[kMostShared];
-    *newest = 0;
+    std::fill_n(pairs.begin(), kMostShared, kNever_q8);
+    std::size_t newest = kMostShared;
+    sharing[newest] = pairs[newest] = 0;
     int apart = odds[0].sum_q8;
     int sum = 0;
     for (int line = 0;;) {
-        sum = apart;
-        for (int n = 0; n < most; ++n)
-            sum = add_log2(sum, newest[-n]);
+        sum = add_log2(apart, sharing[newest + 1 - most]);
+        for (std::size_t n = 0; n + 1 < most; n += 2)
+            sum = add_log2(sum, pairs[newest - n]);
         if (++line == contest.count()) break;
         const LineOdds& here = odds[static_cast<std::size_t>(line)];
-        *++newest = apart;
+        ++newest;
+        sharing[newest] = apart;
+        pairs[newest] = add_log2(apart, sharing[newest - 1]);
         apart = sum - equal + std::min(here.best_q8 + kUnevenness_q8, here.sum_q8 + equal);
     }
     return sum + (contest.count() - 1) * equal + set.rivals_q8;
 }
 
-/// What rivals of all sets have together that share few lines, at most: seven, and so lose in all
-/// others. There are fewer than 2^lines ways to share lines.
+/// At most what all rivals of all sets have together that share seven lines or fewer, and so lose
+/// in all others: of the first line it is not known at which roll. There are fewer than 2^lines
+/// ways to share lines.
 int sharing_few_log2_q8(const Contest& contest) {
     constexpr std::size_t kFew = 7;
     std::array<int, kFew> most{};  // the greatest losses
@@ -95,8 +102,8 @@ int sharing_few_log2_q8(const Contest& contest) {
     for (const int loss : most)
         lost -= loss;
     constexpr int kSets_q8 = 2 * 256;
-    return kRivalSets.back().rivals_q8 + kSets_q8 + 256 * contest.count() +
-           contest.log2_odds_q8(lost);
+    return kRivalSets.back().rivals_q8 + kSets_q8 + kShifts_q8 +
+           (256 + kUnevenness_q8) * contest.count() + contest.log2_odds_q8(lost);
 }
 
 /// All sets together: roughly, with the number of rolls times the best for the sum, or exactly.
@@ -112,9 +119,10 @@ int far_log2_q8(const Contest& contest, bool roughly, int enough) {
         odds[static_cast<std::size_t>(line)] = {best, best + others};
     }
     int sum = far_log2_q8(contest, kRivalSets.front(), odds);
-    // Other sets have more rivals, but these share a line more rarely: those that share more than
-    // seven lines have less than half of the odds of the first set's in each of the four.
-    const int with_others = add_log2(sum + 406, sharing_few_log2_q8(contest));
+    // The four others have more rivals, but these share a line more rarely: those of each that
+    // share more than seven lines have less than half of the odds that the first set's have.
+    constexpr int kThreeTimes_q8 = 406;
+    const int with_others = add_log2(sum + kThreeTimes_q8, sharing_few_log2_q8(contest));
     if (with_others < kSmallOdds_q8) return with_others;
     for (const RivalSet& set : std::span(kRivalSets).subspan(1)) {
         if (sum > enough) break;

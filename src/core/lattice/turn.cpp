@@ -184,8 +184,10 @@ bool find_turn(Tracking& tracking) {
         const int before = rounds.agreeing();
         visit_round(tracking, middle, round, [&](int i, int j) { rounds.measure(i, j); });
         agree = rounds.seen() < kTelling || 8 * rounds.agreeing() >= kLeastShare_q3 * rounds.seen();
-        // The middle one says no more than those around it did.
-        if (round > 0 && rounds.agreeing() > before) rounds.lay_cells();
+        // The middle one says no more than those around it did, the third round little more than
+        // the second.
+        const bool tells = round % 2 == 0 ? round > 0 : round == 1;
+        if (tells && rounds.agreeing() > before) rounds.lay_cells();
     }
     if (!agree || rounds.agreeing() < kLeastDots) {
         rounds.lay_cells_as_before();

@@ -84,6 +84,10 @@ TEST(ContestOfBits, LosesAsWeightsDo) {
             ASSERT_LE(bound, 64 * sum) << line;
         }
         EXPECT_EQ(bits.most_regained(), weights.most_regained());
+        Growth growth;
+        grow(bits, 2, (bits.places[2] + 1) % bits.basis[2].length, growth);
+        for (int line = 0; line < kLines; ++line)
+            EXPECT_EQ(loss_of_growth(bits, growth, line), loss_of_growth(weights, growth, line));
     }
 }
 
