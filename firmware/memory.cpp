@@ -29,8 +29,11 @@ constexpr std::size_t kBlock = 40;
         :
         : "r3", "r4", "r5", "r6", "r7", "memory");
 #else
+#pragma GCC unroll 10
     for (std::size_t i = 0; i < kBlock / sizeof(Word); ++i)
-        *to++ = *from++;
+        to[i] = from[i];
+    to += kBlock / sizeof(Word);
+    from += kBlock / sizeof(Word);
 #endif
 }
 
