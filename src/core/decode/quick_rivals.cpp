@@ -122,8 +122,10 @@ int far_log2_q8(const Contest& contest, bool roughly, int enough) {
     // The four others have more rivals, but these share a line more rarely: those of each that
     // share more than seven lines have less than half of the odds that the first set's have.
     constexpr int kThreeTimes_q8 = 406;
-    const int with_others = add_log2(sum + kThreeTimes_q8, sharing_few_log2_q8(contest));
-    if (with_others < kSmallOdds_q8) return with_others;
+    if (sum + kThreeTimes_q8 < kSmallOdds_q8) {
+        const int with_others = add_log2(sum + kThreeTimes_q8, sharing_few_log2_q8(contest));
+        if (with_others < kSmallOdds_q8) return with_others;
+    }
     for (const RivalSet& set : std::span(kRivalSets).subspan(1)) {
         if (sum > enough) break;
         sum = add_log2(sum, far_log2_q8(contest, set, odds));
