@@ -118,7 +118,8 @@ PixelPoint pixel_from_image_centre(const Camera& camera, CameraPoint point);
 /// not known, the same pixel.
 std::optional<PixelPoint> reference_in(const Camera& other, const Camera& camera);
 
-/// Sets lens and reference point for images of this size. Throws BadArgument if the camera's are of
+/// Sets lens and reference point for images of this size, and if the camera's view is known, that
+/// the dots stay in the workspace for `with_camera`. Throws BadArgument if the camera's are of
 /// another size.
 void use_camera(const Camera& camera, int width_px, int height_px, Options& options);
 

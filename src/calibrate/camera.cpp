@@ -161,6 +161,7 @@ void use_camera(const Camera& camera, int width_px, int height_px, Options& opti
     options.lens = Lens::from_k(camera.k_per_px2);
     options.lens.centre_dx_q8 = q8(camera.centre_px.u - middle.u);
     options.lens.centre_dy_q8 = q8(camera.centre_px.v - middle.v);
+    if (camera.paper) options.show_stages = true;  // with_camera fits their dots
     if (camera.reference_px) {
         options.reference_dx_q8 = q8(camera.reference_px->u - middle.u);
         options.reference_dy_q8 = q8(camera.reference_px->v - middle.v);

@@ -198,6 +198,7 @@ std::optional<SheetView> SeamLocator::view_in(const GreyImage& image, const Part
     const Camera camera = camera_of(image, part);
     Options options;
     options.effort = effort;
+    options.show_stages = true;
     use_camera(camera, part.width, part.height, options);
     for (const Profile profile : profiles_) {
         options.profile = profile;

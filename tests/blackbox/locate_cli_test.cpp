@@ -247,7 +247,11 @@ TEST_F(LocateCommand, the_lens_is_used) {
     EXPECT_LT(with_lens["residual_px"], 0.5);
     run("a.pgm");
     const json without = records().at(0);
-    EXPECT_TRUE(without["status"] != "ok" || without["residual_px"] > 1) << without;
+    // A bend that the pose fit adds by itself explains most of the dots, and less exactly.
+    if (without["status"] == "ok") {
+        EXPECT_LT(without["dots_used"], 0.95 * with_lens["dots_used"].get<double>()) << without;
+        EXPECT_GT(without["sigma_x_mm"], 1.2 * with_lens["sigma_x_mm"].get<double>()) << without;
+    }
 }
 
 TEST_F(LocateCommand, white_dots_on_black_are_read_if_told) {

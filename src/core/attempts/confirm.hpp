@@ -21,7 +21,7 @@ struct Sight {
 
 /// Windows count what is darker than the paper by this share, in 1/256, of a typical dot's
 /// darkness.
-inline constexpr int kCutOfDepth_q8 = 200;
+inline constexpr int kCutOfDepth_q8 = 160;
 
 FloatLens float_lens(const Lens& lens);
 

@@ -55,7 +55,8 @@ TEST(CalibrateLens, FindsThePapersLens) {
     expect_near_truth(result.camera, "mm_per_px_y", paper.mm_per_px_y, truth.mm_per_px);
     expect_near_truth(result.camera, "skew", paper.skew, 0);
     EXPECT_FALSE(result.camera.focal_px.has_value());  // nothing tells it straight from above
-    EXPECT_GT(result.residual_before_px, 4 * result.residual_px);
+    // Without the lens, noise is the least of what is left.
+    EXPECT_GT(result.residual_before_px, 3 * result.residual_px);
     EXPECT_EQ(result.coverage, 1);
 }
 
