@@ -175,8 +175,8 @@ struct GridCell {
     std::uint16_t dot = kNoDot;  ///< index of the dot read here
 };
 
-/// A seed in the order of buckets that lie row by row; and a bucket, which has nothing to do with it
-/// but its number.
+/// A seed in the order of buckets that lie row by row; and a bucket, which has nothing to do with
+/// it but its number.
 struct BucketedSeed {
     Vec at_q8;                ///< from the corner of the first bucket
     std::uint16_t seed = 0;   ///< its index

@@ -98,13 +98,11 @@ Contest::Contest(Profile profile, std::span<const TrackedLine> lines_, const Axi
     follow_rolls(profile, reading);
     for (int i = 0; i < count_; ++i) {
         const auto line = static_cast<std::size_t>(i);
-        const Nearest others =
-            bits_[line].seen != 0 ? nearest(i) : Nearest{0, kLog2OfOthers_q8};
+        const Nearest others = bits_[line].seen != 0 ? nearest(i) : Nearest{0, kLog2OfOthers_q8};
         set_least_loss(i, kScoreOfBit * others.lost_bits);
         // All others lose a bit more.
         const int log2_q8 = add_log2(others.log2_count_q8, kLog2OfOthers_q8 - odds_q8);
-        log2_of_nearest_q8_[line] =
-            static_cast<std::int16_t>(std::min(log2_q8, kLog2OfOthers_q8));
+        log2_of_nearest_q8_[line] = static_cast<std::int16_t>(std::min(log2_q8, kLog2OfOthers_q8));
     }
     hopeless_score_ = most_regained_ + -kNegligible_q8 * 2 * 127 / odds_q8;
 }

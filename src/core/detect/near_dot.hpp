@@ -78,8 +78,8 @@ DOTPOSE_BY_ITSELF inline ReadSymbol read_symbol(const Tracking& tracking, Vec in
     const std::int32_t paper = paper_around(tracking, at);
     const std::int32_t depth = (paper * tracking.cut_q8) >> 8;
     // Dots lack some 6 depths in four pixels, and 2 of them at the places beside their own.
-    const bool is_clear = paper * 4 - (darkest >> 2) >= 2 * depth &&
-                          (second >> 2) - (darkest >> 2) >= depth;
+    const bool is_clear =
+        paper * 4 - (darkest >> 2) >= 2 * depth && (second >> 2) - (darkest >> 2) >= depth;
     return {is_clear ? darkest & 3 : -1, paper - depth};
 }
 

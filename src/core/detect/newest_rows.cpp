@@ -5,9 +5,9 @@
 namespace dotpose::core {
 
 void keep_row(const std::uint8_t* pixels, Tracking& tracking) {
-    std::memcpy(tracking.rows.data() +
-                    (tracking.rows_taken - tracking.first_kept) * tracking.stride_px,
-                pixels, static_cast<std::size_t>(tracking.width_px));
+    std::memcpy(
+        tracking.rows.data() + (tracking.rows_taken - tracking.first_kept) * tracking.stride_px,
+        pixels, static_cast<std::size_t>(tracking.width_px));
     ++tracking.rows_taken;
 }
 

@@ -111,8 +111,7 @@ class Nearest {
   private:
     /// Keeps the point if it is another and not too far off; tells how near the next must be.
     DOTPOSE_BY_ITSELF std::uint32_t consider(const BucketedSeed* p, std::uint32_t squared_q16) {
-        const bool is_far =
-            may_be_far_ && larger_component(p->at_q8 - self_.at_q8) >= kFarthest_q8;
+        const bool is_far = may_be_far_ && larger_component(p->at_q8 - self_.at_q8) >= kFarthest_q8;
         if (p != &self_ && !is_far) insert<3>(p, squared_q16);
         return squared_q16_[3];
     }
