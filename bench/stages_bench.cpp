@@ -88,14 +88,15 @@ bool choose_seeds(Located& l) {
 
 bool connect_neighbours(Located& l) {
     const auto dots = l.w.found_dots();
-    core::find_neighbours(dots, l.seeds(), l.w.neighbours);
+    core::find_neighbours(dots, l.seeds(), l.w.buckets, l.w.neighbours);
     return core::connect_symmetric(dots, l.seeds(), l.w.neighbours, l.w.edges) == l.w.edge_count;
 }
 
 bool estimate_axes(Located& l) {
     const auto edges = l.w.edges.first(Located::size(l.w.edge_count));
     const Vec before = l.w.lattice.u_q16;
-    return core::estimate_axes(edges, l.w.lattice) == Status::ok && l.w.lattice.u_q16 == before;
+    return core::estimate_axes(edges, l.w.edge_values, l.w.lattice) == Status::ok &&
+           l.w.lattice.u_q16 == before;
 }
 
 bool find_origin(Located& l) {

@@ -14,9 +14,11 @@ namespace {
 using namespace dotpose;
 
 constexpr int kMaxWidth_px = 188;
+constexpr int kMaxHeight_px = 9999;
 
 DeviceWorkspace workspace;
-std::array<std::uint8_t, kMaxWidth_px> row;
+// As DMA wants it.
+alignas(4) std::array<std::uint8_t, kMaxWidth_px> row;
 
 constexpr Options kOptions = [] {
     Options options;
@@ -24,45 +26,82 @@ constexpr Options kOptions = [] {
     return options;
 }();
 
-struct FrameSize {
+struct FrameHeader {
     int width_px = 0;
     int height_px = 0;
+    bool is_predicted = false;
+    Prediction prediction;
 };
 
-/// The next number of a header, and the one byte after it; -1 where there is none.
-int read_number() {
+/// The next number of a header, and the one byte after it. False where there is none of 32 bits.
+bool read_number(std::int64_t& number) {
     char byte = 0;
     do {
-        if (!host::read(&byte, 1)) return -1;
+        if (!host::read(&byte, 1)) return false;
     } while (byte == ' ' || byte == '\n');
-    int number = 0;
-    while (byte >= '0' && byte <= '9' && number < 10000) {
+    const bool is_negative = byte == '-';
+    if (is_negative && !host::read(&byte, 1)) return false;
+    number = 0;
+    while (byte >= '0' && byte <= '9' && number <= INT32_MAX) {
         number = 10 * number + (byte - '0');
-        if (!host::read(&byte, 1)) return -1;
+        if (!host::read(&byte, 1)) return false;
     }
-    return byte == ' ' || byte == '\n' ? number : -1;
+    if (is_negative) number = -number;
+    return byte == ' ' || byte == '\n';
+}
+
+template <typename Int>
+bool read_into(Int& value) {
+    std::int64_t number = 0;
+    if (!read_number(number)) return false;
+    value = static_cast<Int>(number);
+    return true;
+}
+
+/// What follows the letter of a prediction.
+bool read_prediction(Prediction& prediction) {
+    Place& place = prediction.place;
+    PlaneFromImage& plane = prediction.pattern_from_image;
+    return read_into(place.cell.x) && read_into(place.cell.y) && read_into(place.section.u) &&
+           read_into(place.section.v) && read_into(plane.centre_q8.x) &&
+           read_into(plane.centre_q8.y) && read_into(plane.at_centre_q16.x) &&
+           read_into(plane.at_centre_q16.y) && read_into(plane.du_q24.x) &&
+           read_into(plane.du_q24.y) && read_into(plane.dv_q24.x) && read_into(plane.dv_q24.y) &&
+           read_into(prediction.displacement_q16);
 }
 
 enum class Header { frame, end, bad };
 
-Header read_header(FrameSize& size) {
+Header read_header(FrameHeader& header) {
+    header = {};
     std::array<char, 2> magic;
     if (!host::read(magic.data(), 1)) return Header::end;
+    header.is_predicted = magic[0] == 'T';
+    if (header.is_predicted &&
+        (!read_prediction(header.prediction) || !host::read(magic.data(), 1)))
+        return Header::bad;
     if (!host::read(&magic[1], 1) || magic[0] != 'P' || magic[1] != '5') return Header::bad;
-    size.width_px = read_number();
-    size.height_px = read_number();
-    const bool is_8_bit = read_number() == 255;
-    const bool has_room = size.width_px > 0 && size.width_px <= kMaxWidth_px;
+    int most = 0;
+    const bool is_8_bit =
+        read_into(header.width_px) && read_into(header.height_px) && read_into(most) && most == 255;
+    const bool has_room = header.width_px > 0 && header.width_px <= kMaxWidth_px &&
+                          header.height_px >= 0 && header.height_px <= kMaxHeight_px;
     return is_8_bit && has_room ? Header::frame : Header::bad;
 }
 
+Status begin_frame(const FrameHeader& frame) {
+    return frame.is_predicted
+               ? begin(frame.width_px, frame.height_px, kOptions, frame.prediction, workspace)
+               : begin(frame.width_px, frame.height_px, kOptions, workspace);
+}
+
 /// False if the file ends within the frame.
-bool locate_frame(FrameSize size) {
+bool locate_frame(const FrameHeader& frame) {
     markers::resume();
-    const Status status = begin(size.width_px, size.height_px, kOptions, workspace);
+    const Status status = begin_frame(frame);
     markers::pause();
-    for (int v = 0; v < size.height_px; ++v) {
-        if (!host::read(row.data(), static_cast<std::size_t>(size.width_px))) return false;
+    for (int v = 0; v < frame.height_px; ++v) {
+        if (!host::read(row.data(), static_cast<std::size_t>(frame.width_px))) return false;
         if (status != Status::ok) continue;
         markers::resume();
         push_row(row.data(), kOptions, workspace);
@@ -98,10 +137,10 @@ int locate_frames(const char* path) {
         host::print("cannot open the file of frames\n");
         return 1;
     }
-    FrameSize size;
+    FrameHeader frame;
     Header header = Header::end;
-    while ((header = read_header(size)) == Header::frame) {
-        if (!locate_frame(size)) {
+    while ((header = read_header(frame)) == Header::frame) {
+        if (!locate_frame(frame)) {
             host::print("the file ends within a frame\n");
             return 1;
         }

@@ -1,7 +1,9 @@
 #pragma once
 
 /// Locates the frames in the file at `path`: binary PGM images (P5, 8 bits, no comments), one after
-/// the other. Prints one line for each:
+/// the other. Before an image may stand a prediction, and it is then tracked: a line of T and the
+/// integers of Place (x, y, u, v), PlaneFromImage (centre, at_centre, du, dv) and displacement_q16,
+/// with blanks between them. Prints one line for each:
 ///
 ///     STATUS CELL_X CELL_Y FRACTION_X FRACTION_Y THETA SECTION_U SECTION_V SPACING SEEN USED
 ///     BIT_ERRORS P_WRONG

@@ -7,10 +7,34 @@
 namespace {
 
 using Word [[gnu::may_alias]] = std::uint32_t;
+/// As many as the compiler has small Arm processors load and store at a time.
+struct [[gnu::may_alias]] Words {
+    std::uint32_t words[3];
+};
 
 bool are_aligned(const void* a, const void* b) {
     const auto bits = reinterpret_cast<std::uintptr_t>(a) | reinterpret_cast<std::uintptr_t>(b);
     return bits % sizeof(Word) == 0;
+}
+
+/// Bytes of a block.
+constexpr std::size_t kBlock = 40;
+
+/// Copies a block, and steps over it.
+[[gnu::always_inline]] inline void copy_block(Word*& to, const Word*& from) {
+#if defined(__thumb__)
+    // As many words at a time as there are registers, which no compiler does.
+    asm("ldmia %1!, {r3-r7}\n\tstmia %0!, {r3-r7}\n\tldmia %1!, {r3-r7}\n\tstmia %0!, {r3-r7}"
+        : "+l"(to), "+l"(from)
+        :
+        : "r3", "r4", "r5", "r6", "r7", "memory");
+#else
+#pragma GCC unroll 10
+    for (std::size_t i = 0; i < kBlock / sizeof(Word); ++i)
+        to[i] = from[i];
+    to += kBlock / sizeof(Word);
+    from += kBlock / sizeof(Word);
+#endif
 }
 
 }  // namespace
@@ -21,6 +45,14 @@ void* memcpy(void* __restrict to, const void* __restrict from, std::size_t size)
     auto* target_word = static_cast<Word*>(to);
     const auto* source_word = static_cast<const Word*>(from);
     if (are_aligned(to, from)) {
+        for (; size >= kBlock; size -= kBlock)
+            copy_block(target_word, source_word);
+        auto* target_words = reinterpret_cast<Words*>(target_word);
+        const auto* source_words = reinterpret_cast<const Words*>(source_word);
+        for (; size >= sizeof(Words); size -= sizeof(Words))
+            *target_words++ = *source_words++;
+        target_word = reinterpret_cast<Word*>(target_words);
+        source_word = reinterpret_cast<const Word*>(source_words);
         for (; size >= sizeof(Word); size -= sizeof(Word))
             *target_word++ = *source_word++;
     }

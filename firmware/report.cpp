@@ -36,7 +36,8 @@ struct Target {
     double instructions_per_cycle;
 };
 constexpr std::array kTargets = {Target{"cortex-m0plus", 0.7}, Target{"mips32r2", 0.8}};
-constexpr std::array kPresets = {"nominal", "hard"};
+/// Frames of these presets, located afresh, and the first ones once more, tracked.
+constexpr std::array kPresets = {"nominal", "hard", "tracked"};
 
 /// Instructions of frames.
 struct Cost {

@@ -1,5 +1,14 @@
-// The firmware as a desktop program: its lines are what the devices must print.
+// The firmware as a desktop program: its lines are what the devices must print. It also predicts
+// frames for them to track.
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <numbers>
+
+#include <dotpose/grey_image.hpp>
+#include <dotpose/locate.hpp>
+#include <dotpose/random.hpp>
 
 #include "host.hpp"
 #include "locate_frames.hpp"
@@ -26,10 +35,68 @@ void print(const char* text) {
 
 }  // namespace host
 
+namespace {
+
+/// Reads the frames of a file again, with what a fresh fix of each tells.
+class Predictor {
+  public:
+    explicit Predictor(std::uint64_t seed) : rng_(seed) {}
+
+    /// Writes a prediction that is off by up to half a spacing and 4 degrees.
+    void write(const dotpose::GreyImage& image) {
+        using namespace dotpose;
+        Options options;
+        options.effort = Effort::device;
+        const Fix fix = locate(image.view(), options, workspace_);
+        if (fix.status != Status::ok) return;
+        const double shift_q16 = 32768 * std::sqrt(rng_.uniform());
+        const double direction_rad = rng_.uniform(-std::numbers::pi, std::numbers::pi);
+        const double turn_rad = rng_.uniform(-4, 4) * std::numbers::pi / 180;
+        const Prediction p =
+            moved(Prediction::like(fix), options.profile,
+                  {static_cast<std::int32_t>(shift_q16 * std::cos(direction_rad)),
+                   static_cast<std::int32_t>(shift_q16 * std::sin(direction_rad))},
+                  static_cast<std::int32_t>(turn_rad * (2147483648.0 / std::numbers::pi)),
+                  {(image.width_px - 1) * 128, (image.height_px - 1) * 128});
+        const PlaneFromImage& plane = p.pattern_from_image;
+        std::printf("T %u %u %d %d %d %d %d %d %d %d %d %d %d\n", p.place.cell.x, p.place.cell.y,
+                    p.place.section.u, p.place.section.v, plane.centre_q8.x, plane.centre_q8.y,
+                    plane.at_centre_q16.x, plane.at_centre_q16.y, plane.du_q24.x, plane.du_q24.y,
+                    plane.dv_q24.x, plane.dv_q24.y, p.displacement_q16);
+        std::printf("P5\n%d %d\n255\n", image.width_px, image.height_px);
+        std::fwrite(image.pixels.data(), 1, image.pixels.size(), stdout);
+    }
+
+  private:
+    dotpose::Rng rng_;
+    dotpose::DeviceWorkspace workspace_;
+};
+
+/// Standard output: the frames of the file that are located, each after a prediction.
+int predict(const char* path, std::uint64_t seed) {
+    if (!host::open(path)) return 1;
+    Predictor predictor(seed);
+    dotpose::GreyImage image;
+    while (std::fscanf(host::input, "P5 %d %d 255", &image.width_px, &image.height_px) == 2) {
+        std::fgetc(host::input);
+        image.pixels.resize(static_cast<std::size_t>(image.width_px) *
+                            static_cast<std::size_t>(image.height_px));
+        if (!host::read(image.pixels.data(), image.pixels.size())) return 1;
+        predictor.write(image);
+    }
+    return 0;
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
+    if (argc == 4 && std::strcmp(argv[1], "--predict") == 0)
+        return predict(argv[3], std::strtoull(argv[2], nullptr, 10));
     if (argc != 2) {
-        std::fputs("usage: dotpose_frames FRAMES (binary PGM images, one after the other)\n",
-                   stderr);
+        std::fputs(
+            "usage: dotpose_frames FRAMES (binary PGM images, one after the other)\n"
+            "       dotpose_frames --predict SEED FRAMES >TRACKED_FRAMES\n",
+            stderr);
         return 2;
     }
     return locate_frames(argv[1]);

@@ -10,6 +10,7 @@
 #include <span>
 
 #include "dotpose/code.hpp"
+#include "dotpose/status.hpp"
 
 namespace dotpose {
 
@@ -174,6 +175,14 @@ struct GridCell {
     std::uint16_t dot = kNoDot;  ///< index of the dot read here
 };
 
+/// A seed in the order of buckets that lie row by row; and a bucket, which has nothing to do with
+/// it but its number.
+struct BucketedSeed {
+    Vec at_q8;                ///< from the corner of the first bucket
+    std::uint16_t seed = 0;   ///< its index
+    std::uint16_t begin = 0;  ///< of the bucket: which of the seeds is its first
+};
+
 /// Quarter turns of the grid against the pattern: pattern_step = turn(grid_step).
 struct Turn {
     int quarters = 0;  ///< 0 to 3, from +x towards +y
@@ -230,6 +239,69 @@ struct Region {
     int j0 = 0;
     int columns = 0;
     int rows = 0;
+};
+
+/// Most columns, and most rows, of the grid that a tracked frame may show.
+inline constexpr int kMostTracked = 32;
+
+/// Where the cells of a grid lie in an image: cell (i, j) at origin + i along_x + j along_y. Unlike
+/// Lattice, upright on the pattern.
+struct CellMap {
+    Vec origin_q16;  ///< px
+    Vec along_x_q16;
+    Vec along_y_q16;
+};
+
+/// A column (or row) of a tracked frame: one bit for each cell.
+struct TrackedLine {
+    std::uint32_t code = 0;   ///< what the code has there
+    std::uint32_t seen = 0;   ///< whether a dot was read
+    std::uint32_t wrong = 0;  ///< of those, whether it contradicts
+};
+
+/// A row of cells of a tracked frame, and the next one of it that the image's rows will show.
+struct TrackedRow {
+    Vec next_q16;          ///< where it lies in the image, px
+    std::int8_t i = 0;     ///< its column
+    std::int8_t left = 0;  ///< cells from it on; 0 where none is in view
+};
+
+/// A frame of which dots are measured where a prediction has them, as its rows come in.
+struct Tracking {
+    bool is_on = false;  ///< whether the frame that was begun is such a one
+    Status status = Status::not_tracked;
+    // What is asked for at every dot comes first, where small processors reach it soonest.
+    int width_px = 0;
+    int height_px = 0;
+    int rows_taken = 0;
+    int first_kept = 0;  ///< the row of the image that is the first in memory
+    int stride_px = 0;
+    std::span<std::uint8_t> rows;  ///< the newest of the image
+    int cut_q8 = 0;                ///< pixels are dark that lack this share of the paper's level
+    std::int32_t least_mass = 0;
+    std::int32_t most_mass = 0;
+    std::int32_t along_q16 = 0;    ///< of the dots kept: off their places, times their displacement
+    std::int32_t spacing_q8 = 0;   ///< px
+    std::span<TrackedLine> lines;  ///< the columns, and in the second half the rows
+    std::array<Vec, 4> displaced_q16{};  ///< by Symbol: of a dot from its intersection, px
+    /// By the quarter of its pixel in which an intersection lies, and Symbol: the first of the four
+    /// pixels about a dot, in bytes from the intersection's.
+    std::array<std::array<std::int16_t, 4>, 4> dot_pixels{};
+    CellMap cells;
+    /// Spacings per px, in 2^-20.
+    Vec du_q20;
+    Vec dv_q20;
+    std::int32_t displacement_q12 = 0;
+    int rows_kept = 0;     ///< at most
+    int rows_needed = 0;   ///< of the newest, after dots were looked for: less than half as many
+    int first_rows = 0;    ///< from so many on it is known how far the prediction is off
+    int next_reading = 0;  ///< when so many rows are taken, dots are looked for
+    int reach_px = 0;      ///< so far off may the prediction be at the image centre
+    Place corner;          ///< where cell (0, 0) stands in the code
+    int first_cell = 0;    ///< per axis, of those that may be in view
+    int last_cell = 0;
+    std::span<TrackedRow> grid_rows;
+    std::span<std::uint16_t> dot_cells;  ///< of each dot kept: column, and row times kMostTracked
 };
 
 /// What the grid was read as.

@@ -26,6 +26,7 @@ struct Workspace {
     bool keeps_every_stage = false;   ///< each has memory of its own, so all of them can be shown
     // detect
     Smoothing smoothing;
+    Tracking tracking;
     Light light;
     OpenBlobs open;
     std::span<Dot> dots;  ///< capacity
@@ -34,9 +35,11 @@ struct Workspace {
     // lattice
     std::span<std::uint16_t> seeds;  ///< indices of dots
     int seed_count = 0;
+    std::span<BucketedSeed> buckets;                    ///< one more than seeds
     std::span<std::array<std::int16_t, 4>> neighbours;  ///< of each seed
     std::span<Edge> edges;                              ///< two for each seed
     int edge_count = 0;
+    std::span<std::int32_t> edge_values;  ///< two for each edge
     Lattice lattice;
     PlaneFromImage grid_from_image;
     // decode
@@ -91,11 +94,17 @@ class WorkspaceOf : public Workspace {
         open.blobs = blobs_;
         dots = dots_;
         seeds = seeds_;
+        buckets = buckets_;
+        edge_values = edge_values_;
         neighbours = neighbours_;
         edges = edges_;
         grid.storage = cells_;
         grid.side = GridSide;
         line_scores = line_scores_;
+        tracking.rows = tracked_rows_;
+        tracking.lines = tracked_lines_;
+        tracking.grid_rows = grid_rows_;
+        tracking.dot_cells = dot_cells_;
     }
     WorkspaceOf(const WorkspaceOf&) = delete;
     WorkspaceOf& operator=(const WorkspaceOf&) = delete;
@@ -131,13 +140,19 @@ class WorkspaceOf : public Workspace {
     std::array<OpenBlob, 2 * kRuns> blobs_{};
     std::array<Dot, MaxDots> dots_{};
     std::array<std::uint16_t, kMaxSeeds> seeds_{};
+    std::array<BucketedSeed, kMaxSeeds + 1> buckets_{};
     std::array<std::array<std::int16_t, 4>, kMaxSeeds> neighbours_{};
     std::array<Edge, 2 * kMaxSeeds> edges_{};
+    std::array<std::int32_t, 4 * kMaxSeeds> edge_values_{};
     std::array<GridCell, GridSide * GridSide> cells_{};
     std::array<ScoredLine, 2 * std::min(GridSide, kMaxLines)> line_scores_{};
+    std::array<std::uint8_t, 36 * std::min(MaxWidth, 376)> tracked_rows_{};
+    std::array<TrackedLine, 2 * kMostTracked> tracked_lines_{};
+    std::array<TrackedRow, kMostTracked> grid_rows_{};
+    std::array<std::uint16_t, std::min(MaxDots, kMostTracked* kMostTracked)> dot_cells_{};
 };
 
-/// For `finish_device` on a small microcontroller and a 188 x 120 px sensor: less than 12 KB.
+/// For `finish_device` on a small microcontroller and a 188 x 120 px sensor: some 12 KB.
 /// Stages use the same memory one after the other, so afterwards only what the last one left is to
 /// be seen.
 class DeviceWorkspace : public Workspace {
@@ -154,12 +169,19 @@ class DeviceWorkspace : public Workspace {
         open.runs = pixels.runs;
         auto& lattices = memory_of<LatticeStages>();
         seeds = lattices.seeds;
+        buckets = lattices.buckets;
         neighbours = lattices.neighbours;
         edges = lattices.edges;
+        edge_values = lattices.edge_values;
         auto& decoders = memory_of<DecodeStages>();
         grid.storage = decoders.cells;
         line_scores = decoders.line_scores;
         grid.side = kGridSide;
+        auto& tracked = memory_of<TrackedStages>();
+        tracking.rows = tracked.rows;
+        tracking.lines = tracked.lines;
+        tracking.grid_rows = tracked.grid_rows;
+        tracking.dot_cells = tracked.dot_cells;
         open.most_runs = kMostRuns;
     }
     DeviceWorkspace(const DeviceWorkspace&) = delete;
@@ -190,12 +212,20 @@ class DeviceWorkspace : public Workspace {
     };
     struct LatticeStages {
         std::array<Edge, 2 * kSeeds> edges;
+        std::array<std::int32_t, 4 * kSeeds> edge_values;
+        std::array<BucketedSeed, kSeeds + 1> buckets;
         std::array<std::array<std::int16_t, 4>, kSeeds> neighbours;
         std::array<std::uint16_t, kSeeds> seeds;
     };
     struct DecodeStages {
         std::array<GridCell, kGridSide * kGridSide> cells;
         std::array<ScoredLine, 2 * kGridSide> line_scores;
+    };
+    struct TrackedStages {
+        std::array<std::uint8_t, 36 * kWidth_px> rows;
+        std::array<TrackedLine, 2 * kMostTracked> lines;
+        std::array<TrackedRow, kMostTracked> grid_rows;
+        std::array<std::uint16_t, kDots> dot_cells;
     };
 
     template <typename Stages>
@@ -204,11 +234,12 @@ class DeviceWorkspace : public Workspace {
     }
 
     std::array<Dot, kDots> dots_{};
-    alignas(8) std::array<std::byte, std::max({sizeof(PixelStages), sizeof(LatticeStages),
-                                               sizeof(DecodeStages)})> memory_{};
+    alignas(
+        8) std::array<std::byte, std::max({sizeof(PixelStages), sizeof(LatticeStages),
+                                           sizeof(DecodeStages), sizeof(TrackedStages)})> memory_{};
 };
 
-static_assert(sizeof(void*) > 4 || sizeof(DeviceWorkspace) < 12 * 1024);
+static_assert(sizeof(void*) > 4 || sizeof(DeviceWorkspace) < 12 * 1024 + 512);
 
 /// For the paper's 188 x 120 px sensor.
 using SmallWorkspace = WorkspaceOf<188, 384, 32>;

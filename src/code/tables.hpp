@@ -190,6 +190,16 @@ inline constexpr auto kMainRepeated = [] {
     return bits;
 }();
 
+/// 32 bits of the main sequence from any index on, the first in the lowest bit.
+inline constexpr auto kMainWords = [] {
+    std::array<std::uint32_t, kSections> words{};
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        for (std::size_t bit = 0; bit < 32; ++bit)
+            words[i] |= std::uint32_t{kMainRepeated[i + bit]} << bit;
+    }
+    return words;
+}();
+
 /// Bits of the main sequence that tell the place in it.
 inline constexpr int kMainOrder = 6;
 inline constexpr auto kPlaceInMain = first_places<2, kMainOrder>(kMain);

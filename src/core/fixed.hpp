@@ -63,6 +63,15 @@ constexpr Vec divided_q30(Vec n, std::int64_t d_q30) {
             static_cast<std::int32_t>(divide_rounded(n.y * kOne_q30, d_q30))};
 }
 
+/// How many bits are set: in sums of two, four and eight bits side by side, as small processors do
+/// it best.
+constexpr int bits_in(std::uint32_t word) {
+    word -= word >> 1 & 0x55555555;
+    word = (word & 0x33333333) + (word >> 2 & 0x33333333);
+    word = (word + (word >> 4)) & 0x0F0F0F0F;
+    return static_cast<int>(word * 0x01010101 >> 24);
+}
+
 /// The value, or the limit of its sign where it goes beyond that.
 constexpr std::int32_t limited(std::int64_t value, std::int32_t limit) {
     return static_cast<std::int32_t>(std::clamp<std::int64_t>(value, -limit, limit));

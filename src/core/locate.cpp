@@ -2,6 +2,7 @@
 #include "dotpose/locate.hpp"
 
 #include "core/attempts/device.hpp"
+#include "core/attempts/device_tracked.hpp"
 #include "core/attempts/first.hpp"
 #include "core/attempts/rows.hpp"
 #include "core/attempts/second.hpp"
@@ -53,6 +54,15 @@ Fix attempt_as_device(const ImageView& image, const Options& options, Workspace&
     return core::finish_device_attempt(options, w);
 }
 
+bool track_as_device(const ImageView& image, const Options& options, const Prediction& prediction,
+                     Workspace& w) {
+    Status status =
+        core::begin_device_tracked(image.width_px, image.height_px, options, prediction, w);
+    for (int v = 0; v < image.height_px && status == Status::ok; ++v)
+        status = core::push_tracked_row(image.row(v), w);
+    return status == Status::ok && core::finish_device_tracked(options, w).status == Status::ok;
+}
+
 }  // namespace
 
 Fix locate(const ImageView& image, const Options& options, Workspace& w) {
@@ -74,10 +84,11 @@ Fix locate(const ImageView& image, const Options& options, const Prediction& pre
     const Status status = check(image.width_px, image.height_px, options, w);
     if (status != Status::ok) return refused(status, w);
     if (image.pixels == nullptr) return refused(Status::bad_argument, w);
-    const bool can_track = options.effort != Effort::device && w.patch != nullptr;
-    if (can_track && core::locate_tracked(core::kernels(), image, options, prediction, w))
-        return w.fix;
-    return locate(image, options, w);
+    const bool is_of_device = options.effort == Effort::device || w.patch == nullptr;
+    const bool is_tracked =
+        is_of_device ? track_as_device(image, options, prediction, w)
+                     : core::locate_tracked(core::kernels(), image, options, prediction, w);
+    return is_tracked ? w.fix : locate(image, options, w);
 }
 
 Status begin(int width_px, int height_px, const Options& options, Workspace& w) {
@@ -87,20 +98,29 @@ Status begin(int width_px, int height_px, const Options& options, Workspace& w) 
     return Status::ok;
 }
 
-Status begin(int width_px, int height_px, const Options& options, const Prediction&, Workspace& w) {
-    return begin(width_px, height_px, options, w);
+Status begin(int width_px, int height_px, const Options& options, const Prediction& prediction,
+             Workspace& w) {
+    const Status status = check(width_px, height_px, options, w);
+    if (status != Status::ok) return refused(status, w).status;
+    return core::begin_device_tracked(width_px, height_px, options, prediction, w);
 }
 
 void push_row(const std::uint8_t* pixels, const Options& options, Workspace& w) {
-    core::detect_row(pixels, options, w);
+    if (w.tracking.is_on) {
+        static_cast<void>(core::push_tracked_row(pixels, w));
+    } else {
+        core::detect_row(pixels, options, w);
+    }
 }
 
 Fix finish(const Options& options, Workspace& w) {
-    return core::finish_rows(options, w);
+    return w.tracking.is_on ? core::finish_device_tracked(options, w)
+                            : core::finish_rows(options, w);
 }
 
 Fix finish_device(const Options& options, Workspace& w) {
-    return core::finish_device_attempt(options, w);
+    return w.tracking.is_on ? core::finish_device_tracked(options, w)
+                            : core::finish_device_attempt(options, w);
 }
 
 }  // namespace dotpose

@@ -32,6 +32,7 @@ void forget_frame(Workspace& w) {
     w.lattice = {};
     w.decoding = {};
     w.grid.columns = w.grid.rows = 0;
+    w.tracking.is_on = false;
 }
 
 void begin_frame(int width_px, int height_px, Workspace& w) {
@@ -71,9 +72,9 @@ Status find_axes(int most_seeds, Workspace& w) {
     const int room = std::min(most_seeds, static_cast<int>(w.seeds.size()));
     w.seed_count = choose_seeds(dots, image_centre_q8(w.light), first(w.seeds, room));
     const std::span<const std::uint16_t> seeds = first(w.seeds, w.seed_count);
-    find_neighbours(dots, seeds, w.neighbours);  // II-B.2, Fig. 3
+    find_neighbours(dots, seeds, w.buckets, w.neighbours);  // II-B.2, Fig. 3
     w.edge_count = connect_symmetric(dots, seeds, w.neighbours, w.edges);
-    return estimate_axes(first(w.edges, w.edge_count), w.lattice);  // Fig. 4-5
+    return estimate_axes(first(w.edges, w.edge_count), w.edge_values, w.lattice);  // Fig. 4-5
 }
 
 Status find_grid(const Options& options, Workspace& w) {

@@ -23,6 +23,13 @@ class Contest {
   public:
     /// Odds are above 0.
     Contest(Profile profile, const Lines& lines_, const AxisReading& reading, int odds_per_bit_q8);
+    /// Of bits that are all as sure as a weight of 127, or were not read.
+    Contest(Profile profile, std::span<const TrackedLine> lines_, const AxisReading& reading,
+            int odds_per_bit_q8);
+
+    int count() const { return count_; }
+    /// Whether there are no scores, but only `loss`.
+    bool is_of_bits() const { return !bits_.empty(); }
 
     /// Score that a rival gives up in a line whose roll it puts `shift` further; |shift| < 63.
     int loss(int line, int shift) const {
@@ -30,12 +37,18 @@ class Contest {
         const int moved = own + shift;
         const int other =
             moved < 0 ? moved + kSections : (moved < kSections ? moved : moved - kSections);
+        if (is_of_bits()) return kScoreOfBit * loss_of_bits(line, other);
         return lines[line][static_cast<std::size_t>(own)] -
                lines[line][static_cast<std::size_t>(other)];
     }
     int own_roll(int line) const { return rolls_[static_cast<std::size_t>(line)]; }
     /// The least that a rival loses in a line which it does not share; may be negative.
     int least_loss(int line) const { return least_losses_[static_cast<std::size_t>(line)]; }
+    /// log2 of how many rolls lose about as little, in 2^-8, rounded up: the odds of the best, so
+    /// often, are at least those of all. Of bits only.
+    int log2_of_nearest_q8(int line) const {
+        return log2_of_nearest_q8_[static_cast<std::size_t>(line)];
+    }
     /// The most that it may win back in lines that another roll suits better.
     int most_regained() const { return most_regained_; }
     /// Lines in a row that a rival shares at most.
@@ -66,11 +79,27 @@ class Contest {
     std::array<std::uint32_t, 4> places;
 
   private:
+    /// Score of a full bit that is lost: what it was worth, and as much against it.
+    static constexpr int kScoreOfBit = 2 * 127;
+
+    void follow_rolls(Profile profile, const AxisReading& reading);
+    void set_least_loss(int line, int least_loss);
+    /// Bits that who puts a line at another roll contradicts more.
+    int loss_of_bits(int line, int roll) const;
+    struct Nearest {
+        int lost_bits = 0;      ///< by the other rolls that lose least
+        int log2_count_q8 = 0;  ///< how many these are, at most
+    };
+    Nearest nearest(int line) const;
+
+    const std::span<const TrackedLine> bits_;
+    int count_;
     int odds_per_bit_q8_;
     int most_regained_ = 0;
     int hopeless_score_ = 0;
     std::array<std::uint8_t, kMaxLines> rolls_{};
     std::array<std::int16_t, kMaxLines> least_losses_{};
+    std::array<std::int16_t, kMostTracked> log2_of_nearest_q8_;
 };
 
 /// By how much the roll of a rival exceeds that of the reading in each line, but for a shift of all
@@ -84,7 +113,7 @@ inline void grow(const Contest& contest, std::size_t sequence, std::uint32_t riv
     const std::uint8_t* rolls = contest.basis[sequence].rolls;
     const std::uint8_t* own = rolls + contest.places[sequence];
     const std::uint8_t* rival = rolls + rival_place;
-    for (int line = 0; line < contest.lines.count(); ++line) {
+    for (int line = 0; line < contest.count(); ++line) {
         const int grown = rival[line] - own[line];
         growth[static_cast<std::size_t>(line)] =
             static_cast<std::uint8_t>(grown < 0 ? grown + kSections : grown);

@@ -5,7 +5,7 @@
 namespace dotpose::core {
 
 OneSide least_losses(const Contest& contest, bool from_last) {
-    const int count = contest.lines.count();
+    const int count = contest.count();
     const int most_shared = contest.most_shared();
     OneSide least;
     OneSide with_last;  // of who does not share the last of the n lines
@@ -28,7 +28,7 @@ OneSide least_losses(const Contest& contest, bool from_last) {
 }
 
 int least_loss_with_border(const Contest& contest) {
-    const auto count = static_cast<std::size_t>(contest.lines.count());
+    const auto count = static_cast<std::size_t>(contest.count());
     const OneSide before = least_losses(contest, false);
     const OneSide beyond = least_losses(contest, true);
     int least = before[0] + beyond[count];

@@ -6,6 +6,7 @@
 #include "core/decode/least_losses.hpp"
 #include "core/decode/rival_sets.hpp"
 #include "core/decode/similar_places.hpp"
+#include "core/decode/unshared_lines.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -13,6 +14,8 @@ namespace {
 /// log2 of numbers of rivals, and of shifts at which a rival shares no line, in 2^-8, rounded up.
 constexpr int kShifts_q8 = 1525;   // 62
 constexpr int kSingles_q8 = 2441;  // 741
+/// Nobody wants to know odds like these more exactly.
+constexpr int kSmallOdds_q8 = -36 * 256;
 /// Odds, as a power of two, at which single rivals are counted that have less, known or not.
 constexpr int kPassedOver_q8 = -52 * 256;
 
@@ -54,39 +57,76 @@ int log2_of_others_q8(const Contest& contest, int line) {
 /// most the probability of the one that stays shared, so a line has at most that share of the sum
 /// of its odds, and at most the best of them.
 int far_log2_q8(const Contest& contest, const RivalSet& set, const AllLineOdds& odds) {
-    const int most = contest.most_shared();
+    static_assert(code::kOrder % 2 == 1 && kMostShared % 2 == 1);
+    const auto most = static_cast<std::size_t>(contest.most_shared());
     const int equal = set.equal_q8 + kUnevenness_q8;
     // All sums are divided by the probability that every line so far is shared: then those that
     // share the lines from one on, and none before it, stay as they are.
     std::array<int, kMostShared + kMaxLines> sharing;
+    // Of each and the one before it: then there is half as much to be summed.
+    std::array<int, kMostShared + kMaxLines> pairs;
     std::fill_n(sharing.begin(), kMostShared, kNever_q8);
-    int* newest = &sharing[kMostShared];
-    *newest = 0;
+    std::fill_n(pairs.begin(), kMostShared, kNever_q8);
+    std::size_t newest = kMostShared;
+    sharing[newest] = pairs[newest] = 0;
     int apart = odds[0].sum_q8;
     int sum = 0;
     for (int line = 0;;) {
-        sum = apart;
-        for (int n = 0; n < most; ++n)
-            sum = add_log2(sum, newest[-n]);
-        if (++line == contest.lines.count()) break;
+        sum = add_log2(apart, sharing[newest + 1 - most]);
+        for (std::size_t n = 0; n + 1 < most; n += 2)
+            sum = add_log2(sum, pairs[newest - n]);
+        if (++line == contest.count()) break;
         const LineOdds& here = odds[static_cast<std::size_t>(line)];
-        *++newest = apart;
+        ++newest;
+        sharing[newest] = apart;
+        pairs[newest] = add_log2(apart, sharing[newest - 1]);
         apart = sum - equal + std::min(here.best_q8 + kUnevenness_q8, here.sum_q8 + equal);
     }
-    return sum + (contest.lines.count() - 1) * equal + set.rivals_q8;
+    return sum + (contest.count() - 1) * equal + set.rivals_q8;
+}
+
+/// At most what all rivals of all sets have together that share seven lines or fewer, and so lose
+/// in all others: of the first line it is not known at which roll. There are fewer than 2^lines
+/// ways to share lines.
+int sharing_few_log2_q8(const Contest& contest) {
+    constexpr std::size_t kFew = 7;
+    std::array<int, kFew> most{};  // the greatest losses
+    int lost = 0;
+    for (int line = 0; line < contest.count(); ++line) {
+        int loss = contest.least_loss(line);
+        lost += loss;
+        for (int& greater : most) {
+            if (loss > greater) std::swap(loss, greater);
+        }
+    }
+    for (const int loss : most)
+        lost -= loss;
+    constexpr int kSets_q8 = 2 * 256;
+    return kRivalSets.back().rivals_q8 + kSets_q8 + kShifts_q8 +
+           (256 + kUnevenness_q8) * contest.count() + contest.log2_odds_q8(lost);
 }
 
 /// All sets together: roughly, with the number of rolls times the best for the sum, or exactly.
 /// Once it is more than `enough`, sets need not be added.
 int far_log2_q8(const Contest& contest, bool roughly, int enough) {
     AllLineOdds odds;
-    for (int line = 0; line < contest.lines.count(); ++line) {
+    odds[0] = {};
+    for (int line = 0; line < contest.count(); ++line) {
         const int best = contest.log2_odds_q8(contest.least_loss(line));
-        odds[static_cast<std::size_t>(line)] = {
-            best, best + (roughly ? kShifts_q8 : log2_of_others_q8(contest, line))};
+        const int others = contest.is_of_bits() ? contest.log2_of_nearest_q8(line)
+                           : roughly            ? kShifts_q8
+                                                : log2_of_others_q8(contest, line);
+        odds[static_cast<std::size_t>(line)] = {best, best + others};
     }
-    int sum = kNever_q8;
-    for (const RivalSet& set : kRivalSets) {
+    int sum = far_log2_q8(contest, kRivalSets.front(), odds);
+    // The four others have more rivals, but these share a line more rarely: those of each that
+    // share more than seven lines have less than half of the odds that the first set's have.
+    constexpr int kThreeTimes_q8 = 406;
+    if (sum + kThreeTimes_q8 < kSmallOdds_q8) {
+        const int with_others = add_log2(sum + kThreeTimes_q8, sharing_few_log2_q8(contest));
+        if (with_others < kSmallOdds_q8) return with_others;
+    }
+    for (const RivalSet& set : std::span(kRivalSets).subspan(1)) {
         if (sum > enough) break;
         sum = add_log2(sum, far_log2_q8(contest, set, odds));
     }
@@ -138,7 +178,7 @@ class ByShift {
 
 ByShift::ByShift(const Contest& contest, int enough)
     : contest_(contest), enough_(static_cast<std::uint32_t>(enough)), none_(enough_) {
-    for (int line = 0; line < contest.lines.count(); ++line) {
+    for (int line = 0; line < contest.count(); ++line) {
         if (contest.least_loss(line) <= 0) continue;
         const auto least = static_cast<std::uint16_t>(contest.least_loss(line));
         std::size_t i = count_++;
@@ -186,11 +226,11 @@ ByShift::ByShift(const Contest& contest, int enough)
     Growth growth;
     grow(contest_, sequence_, place, growth);
     std::array<std::uint32_t, kSections> kept;  // by the shift at which lines are shared
-    for (int line = 0; line < contest_.lines.count(); ++line)
+    for (int line = 0; line < contest_.count(); ++line)
         kept[growth[static_cast<std::size_t>(line)]] = 0;
     for (std::size_t i = 0; i < count_; ++i)
         kept[growth[static_cast<std::size_t>(losses_[i].line)]] += losses_[i].least;
-    for (int line = 0; line < contest_.lines.count(); ++line) {
+    for (int line = 0; line < contest_.count(); ++line) {
         std::uint32_t& here = kept[growth[static_cast<std::size_t>(line)]];
         if (in_all_ - here < enough_) {
             const std::optional<int> lost = loss_of_growth(contest_, growth, line);
@@ -206,22 +246,27 @@ ByShift::ByShift(const Contest& contest, int enough)
 /// Rivals that differ in one sequence: those that have surely lost enough are passed over; the
 /// others, few, are looked at one by one.
 int singles_log2_q8(const Contest& contest) {
-    const int lines = contest.lines.count();
+    const int lines = contest.count();
     const int enough = contest.loss_for(kPassedOver_q8) + contest.most_regained();
     int sum = kSingles_q8 + kPassedOver_q8 +
               256 * static_cast<int>(std::bit_width(static_cast<unsigned>(lines)));
     if (least_losses(contest, false)[static_cast<std::size_t>(lines)] >= enough) return sum;
     ByShift by_shift(contest, enough);
-    visit_similar_places(contest, Steps(contest, enough, Excused::none),
-                         [&](std::size_t sequence, std::uint32_t place) {
-                             sum = by_shift.add(sequence, place, sum);
-                         });
+    const UnsharedLines unshared(contest);
+    visit_similar_places(
+        contest, Steps(contest, enough, Excused::none),
+        [&](std::size_t sequence) {
+            return unshared.all_lose(sequence, Sharing::at_one_shift, enough);
+        },
+        [&](std::size_t sequence, std::uint32_t place) {
+            sum = by_shift.add(sequence, place, sum);
+        });
     return sum;
 }
 
 int other_sections_log2_q8(const Contest& contest) {
     int lost = 0;
-    for (int line = 0; line < contest.lines.count(); ++line)
+    for (int line = 0; line < contest.count(); ++line)
         lost += contest.least_loss(line);
     return kShifts_q8 + contest.log2_odds_q8(lost);
 }
@@ -229,10 +274,8 @@ int other_sections_log2_q8(const Contest& contest) {
 }  // namespace
 
 int quick_rivals_log2_q8(const Contest& contest, int limit_q8) {
-    // Nobody wants to know odds like these more exactly.
-    constexpr int kSmall_q8 = -36 * 256;
-    int far = far_log2_q8(contest, true, kSmall_q8);
-    if (far > kSmall_q8) far = far_log2_q8(contest, false, limit_q8);
+    int far = far_log2_q8(contest, true, kSmallOdds_q8);
+    if (far > kSmallOdds_q8 && !contest.is_of_bits()) far = far_log2_q8(contest, false, limit_q8);
     const int sum = add_log2(other_sections_log2_q8(contest), far);
     if (sum >= limit_q8) return 0;
     return std::min(add_log2(sum, singles_log2_q8(contest)), 0);

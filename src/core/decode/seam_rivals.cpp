@@ -5,6 +5,7 @@
 
 #include "core/decode/least_losses.hpp"
 #include "core/decode/similar_places.hpp"
+#include "core/decode/unshared_lines.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -24,7 +25,7 @@ class LossesOfSides {
         : contest_(contest), enough_(enough) {
         before_.fill(kNone);
         from_.fill(kNone);
-        const auto grown = std::span(growth).first(static_cast<std::size_t>(contest.lines.count()));
+        const auto grown = std::span(growth).first(static_cast<std::size_t>(contest.count()));
         // What who does not share the lines of a shift loses at least.
         std::array<int, kSections> kept{};
         int in_all = 0;
@@ -49,7 +50,7 @@ class LossesOfSides {
     static constexpr int kNone = 1 << 24;
 
     void add(const Growth& growth, int shift) {
-        const int count = contest_.lines.count();
+        const int count = contest_.count();
         const auto keep_less = [](int& least, int lost) { least = std::min(least, lost); };
         const auto loss_in = [&](int line) {
             return contest_.loss(line, growth[static_cast<std::size_t>(line)] - shift);
@@ -79,7 +80,7 @@ int seam_rivals_log2_q8(const Contest& contest) {
     const int enough = contest.loss_for(kLeast_q8) + contest.most_regained();
     int sum = kNever_q8;
     if (least_loss_with_border(contest) >= enough) return sum;
-    const int lines = contest.lines.count();
+    const int lines = contest.count();
     const auto add = [&](std::size_t sequence, std::uint32_t place) {
         Growth growth;
         grow(contest, sequence, place, growth);
@@ -89,7 +90,13 @@ int seam_rivals_log2_q8(const Contest& contest) {
             if (odds > kLeast_q8) sum = add_log2(sum, odds + kSeam_q8);
         }
     };
-    visit_similar_places(contest, Steps(contest, enough, Excused::any_one), add);
+    const UnsharedLines unshared(contest);
+    visit_similar_places(
+        contest, Steps(contest, enough, Excused::any_one),
+        [&](std::size_t sequence) {
+            return unshared.all_lose(sequence, Sharing::on_two_sides, enough);
+        },
+        add);
     return sum;
 }
 

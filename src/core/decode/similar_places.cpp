@@ -47,8 +47,8 @@ class Losses {
 }  // namespace
 
 Steps::Steps(const Contest& contest, int enough, Excused excused)
-    : count(std::min(contest.lines.count() - 1, kMostSteps)),
-      first_line((contest.lines.count() - 1 - count) / 2) {
+    : count(std::min(contest.count() - 1, kMostSteps)),
+      first_line((contest.count() - 1 - count) / 2) {
     const auto lost_at = [&](int step) {
         const int line = first_line + step;
         const int least = std::min(contest.least_loss(line), contest.least_loss(line + 1));

@@ -55,10 +55,13 @@ void visit_places(std::uint32_t places, std::uint32_t word, Use use) {
     }
 }
 
-/// Shows `use` the sequences and the places in them, at the first line, of all such rivals.
-template <typename Use>
-void visit_similar_places(const Contest& contest, const Steps& steps, Use use) {
+/// Shows `use` the sequences and the places in them, at the first line, of all such rivals. Those
+/// sequences are left out of which `is_settled`.
+template <typename IsSettled, typename Use>
+void visit_similar_places(const Contest& contest, const Steps& steps, IsSettled is_settled,
+                          Use use) {
     for (std::size_t k = 0; k < contest.basis.size(); ++k) {
+        if (is_settled(k)) continue;
         const code::Secondary& a = contest.basis[k];
         const auto ahead = static_cast<std::uint32_t>(steps.first_line) % a.length;
         const std::uint32_t own = contest.places[k] + ahead;

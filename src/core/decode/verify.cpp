@@ -59,14 +59,8 @@ struct Doubt {
     std::array<int, 2> by_chance_q8{};
 };
 
-Doubt compare_with_chance(const Grid& grid, Profile profile, const IntegrityOptions& options,
-                          Decoding& decoding, Fix& fix) {
-    const Upright upright(grid, {grid.i0, grid.j0, grid.columns, grid.rows},
-                          decoding.pattern_from_grid);
-    const Place place = corner_place(profile, decoding, upright);
-    const std::array agreements{
-        compare(profile, upright, Axis::x, reading_of(profile, place, Axis::x)),
-        compare(profile, upright, Axis::y, reading_of(profile, place, Axis::y))};
+Doubt doubt_of(const std::array<Confidence, 2>& agreements, const IntegrityOptions& options,
+               Decoding& decoding, Fix& fix) {
     decoding.bits = agreements[0].bits() + agreements[1].bits();
     fix.bit_errors = agreements[0].wrong() + agreements[1].wrong();
     for (const Confidence& agreement : agreements) {
@@ -81,6 +75,24 @@ Doubt compare_with_chance(const Grid& grid, Profile profile, const IntegrityOpti
         doubt.by_chance_q8[i] = 256 * chance_log2(agreements[i], doubt.odds_per_bit_q8);
     }
     return doubt;
+}
+
+Doubt compare_with_chance(const Grid& grid, Profile profile, const IntegrityOptions& options,
+                          Decoding& decoding, Fix& fix) {
+    const Upright upright(grid, {grid.i0, grid.j0, grid.columns, grid.rows},
+                          decoding.pattern_from_grid);
+    const Place place = corner_place(profile, decoding, upright);
+    const std::array agreements{
+        compare(profile, upright, Axis::x, reading_of(profile, place, Axis::x)),
+        compare(profile, upright, Axis::y, reading_of(profile, place, Axis::y))};
+    return doubt_of(agreements, options, decoding, fix);
+}
+
+/// Probability of an axis being wrong.
+int with_rivals(const Contest& contest, int by_chance_q8, int limit_q8, int rivals_q8) {
+    int sum_q8 = add_log2(by_chance_q8, rivals_q8);
+    if (sum_q8 <= limit_q8) sum_q8 = add_log2(sum_q8, seam_rivals_log2_q8(contest));
+    return std::min(sum_q8, 0);
 }
 
 /// Probability of each axis being wrong; `rivals_q8(axis, contest)` gives the odds of its rivals,
@@ -100,9 +112,8 @@ std::array<int, 2> with_rivals(const Grid& grid, Profile profile, const Decoding
                                                       : score_lines(upright, axis, half);
         const Contest contest(profile, lines, reading_of(profile, place, axis),
                               doubt.odds_per_bit_q8);
-        int sum_q8 = add_log2(doubt.by_chance_q8[i], rivals_q8(i, contest));
-        if (sum_q8 <= limit_q8) sum_q8 = add_log2(sum_q8, seam_rivals_log2_q8(contest));
-        p_wrong_q8[i] = std::min(sum_q8, 0);
+        p_wrong_q8[i] =
+            with_rivals(contest, doubt.by_chance_q8[i], limit_q8, rivals_q8(i, contest));
     }
     return p_wrong_q8;
 }
@@ -158,6 +169,62 @@ Status verify_quickly(const Grid& grid, Profile profile, Decoding& decoding,
     if (!is_hopeless(doubt, limit_q8)) {
         decoding.p_wrong_log2_q8 =
             estimate_quickly(grid, profile, decoding, limit_q8, storage, doubt);
+    }
+    return judge(doubt, options, decoding, fix);
+}
+
+namespace {
+
+/// Lines of one axis of a tracked frame, from the first in view to the last.
+struct TrackedAxis {
+    std::span<const TrackedLine> lines;
+    AxisReading reading;
+    Confidence confidence;
+};
+
+TrackedAxis tracked_axis(Profile profile, const Tracking& tracking, Axis axis) {
+    const auto all =
+        axis == Axis::x ? tracking.lines.first(kMostTracked) : tracking.lines.last(kMostTracked);
+    std::size_t begin = 0;
+    std::size_t end = all.size();
+    while (begin < end && all[begin].seen == 0)
+        ++begin;
+    while (begin < end && all[end - 1].seen == 0)
+        --end;
+    TrackedAxis result;
+    result.lines = all.subspan(begin, end - begin);
+    int seen = 0;
+    int wrong = 0;
+    for (const TrackedLine& line : result.lines) {
+        seen += bits_in(line.seen);
+        wrong += bits_in(line.wrong);
+    }
+    result.confidence.add(127, false, seen - wrong);
+    result.confidence.add(127, true, wrong);
+    // Of its lines the first in view, at the corner's cell of the crossing ones.
+    const auto ahead = static_cast<std::int32_t>(begin);
+    const Place& corner = tracking.corner;
+    result.reading = axis == Axis::x ? reading_of(profile, moved(profile, corner, ahead, 0), axis)
+                                     : reading_of(profile, moved(profile, corner, 0, ahead), axis);
+    return result;
+}
+
+}  // namespace
+
+Status verify_tracked(Profile profile, const Tracking& tracking, const IntegrityOptions& options,
+                      Decoding& decoding, Fix& fix) {
+    decoding.p_wrong_log2_q8 = {};
+    const std::array axes{tracked_axis(profile, tracking, Axis::x),
+                          tracked_axis(profile, tracking, Axis::y)};
+    const Doubt doubt = doubt_of({axes[0].confidence, axes[1].confidence}, options, decoding, fix);
+    const int limit_q8 = 256 * options.max_p_wrong_log2;
+    if (!is_hopeless(doubt, limit_q8)) {
+        for (std::size_t i = 0; i < axes.size(); ++i) {
+            if (doubt.by_chance_q8[i] > limit_q8) continue;
+            const Contest contest(profile, axes[i].lines, axes[i].reading, doubt.odds_per_bit_q8);
+            decoding.p_wrong_log2_q8[i] = with_rivals(contest, doubt.by_chance_q8[i], limit_q8,
+                                                      quick_rivals_log2_q8(contest, limit_q8));
+        }
     }
     return judge(doubt, options, decoding, fix);
 }

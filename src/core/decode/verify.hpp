@@ -22,6 +22,10 @@ Status verify(const Grid& grid, Profile profile, Decoding& decoding,
 Status verify_quickly(const Grid& grid, Profile profile, Decoding& decoding,
                       const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix);
 
+/// The same of bits that are all equally sure, of a tracked frame, whose place is known.
+Status verify_tracked(Profile profile, const Tracking& tracking, const IntegrityOptions& options,
+                      Decoding& decoding, Fix& fix);
+
 /// Whether two places show the same bits of this axis around them.
 bool share_line(Axis axis, Profile profile, const Place& a, const Place& b);
 

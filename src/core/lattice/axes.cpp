@@ -13,18 +13,18 @@ constexpr int kMaxIterations = 10;  // Fig. 5
 constexpr std::size_t kMostEdges = 2 * std::size_t{kMaxSeeds};
 constexpr std::size_t kFewestEdges = 12;
 
-using Values = std::array<std::int32_t, kMostEdges>;
+using Values = std::span<std::int32_t>;
 
-std::int32_t median_length(std::span<const Edge> edges, Values& scratch) {
+std::int32_t median_length(std::span<const Edge> edges, Values memory) {
     std::size_t n = 0;
     for (const Edge& edge : edges) {
         // Up to 128 px per axis, as neighbours are, half of the square fits.
         if (!is_within(edge.step_q8, (1 << 15) - 1)) continue;
         const auto x = static_cast<std::uint32_t>(edge.step_q8.x * edge.step_q8.x);
         const auto y = static_cast<std::uint32_t>(edge.step_q8.y * edge.step_q8.y);
-        scratch[n++] = static_cast<std::int32_t>((x + y) / 2);
+        memory[n++] = static_cast<std::int32_t>((x + y) / 2);
     }
-    const auto half_square = static_cast<std::uint32_t>(median(std::span(scratch).first(n)));
+    const auto half_square = static_cast<std::uint32_t>(median(memory.first(n)));
     return static_cast<std::int32_t>(square_root(half_square * 2));
 }
 
@@ -143,12 +143,12 @@ void constrained_k_means(std::span<const Edge> edges, Clusters clusters, Sides& 
 
 /// Medians of the edges of one cluster, separately in x and y (last lines of Fig. 5).
 Vec cluster_median(std::span<const Edge> edges, const Sides& sides, std::size_t cluster,
-                   Values& scratch) {
-    const auto x = std::span(scratch).first(scratch.size() / 2);
-    const auto y = std::span(scratch).last(scratch.size() / 2);
+                   Values memory) {
+    const Values x = memory.first(edges.size());
+    const Values y = memory.subspan(edges.size(), edges.size());
     std::size_t n = 0;
     for (std::size_t e = 0; e < edges.size(); ++e) {
-        if (cluster_of(sides[e]) != cluster || n == x.size()) continue;
+        if (cluster_of(sides[e]) != cluster) continue;
         const Vec step = turned(edges[e].step_q8, sides[e]);
         x[n] = step.x;
         y[n++] = step.y;
@@ -156,24 +156,23 @@ Vec cluster_median(std::span<const Edge> edges, const Sides& sides, std::size_t 
     return {median(x.first(n)), median(y.first(n))};
 }
 
-std::array<Vec, 2> medians(std::span<const Edge> edges, const Clusters& clusters, Values& scratch) {
+std::array<Vec, 2> medians(std::span<const Edge> edges, const Clusters& clusters, Values memory) {
     Sides sides;
     constrained_k_means(edges, clusters, sides);
-    return {cluster_median(edges, sides, 0, scratch), cluster_median(edges, sides, 1, scratch)};
+    return {cluster_median(edges, sides, 0, memory), cluster_median(edges, sides, 1, memory)};
 }
 
 }  // namespace
 
-Status estimate_axes(std::span<const Edge> edges, Lattice& lattice) {
+Status estimate_axes(std::span<const Edge> edges, Values memory, Lattice& lattice) {
     if (edges.size() < kFewestEdges) return Status::no_grid;
-    Values scratch;
-    const std::int32_t length_q8 = median_length(edges, scratch);
+    const std::int32_t length_q8 = median_length(edges, memory);
     if (length_q8 == 0) return Status::no_grid;
     const Vec unit = unit_q30(common_direction_bam(edges, length_q8));
     const Vec along{shift_rounded(std::int64_t{unit.x} * length_q8, 30),
                     shift_rounded(std::int64_t{unit.y} * length_q8, 30)};
     const Clusters clusters({along, Vec{-along.y, along.x}});
-    const auto [u, v] = medians(edges, clusters, scratch);
+    const auto [u, v] = medians(edges, clusters, memory);
     // Symmetric edges are 4 % too short on average, because each dot chose its nearest: the
     // displacements along an edge that shorten it favour it. Measured in docs/pipeline.md.
     constexpr std::int32_t kLengthening_q8 = 267;

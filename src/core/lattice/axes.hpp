@@ -8,8 +8,9 @@
 namespace dotpose::core {
 
 /// Sets u and v (right-handed: from u to v is the turn from +x to +y); the origin is not touched.
-/// Errors: no_grid, when the edges have no two directions of about one length at a right angle.
-Status estimate_axes(std::span<const Edge> edges, Lattice& lattice);
+/// `memory` holds two values for each edge. Errors: no_grid, when the edges have no two directions
+/// of about one length at a right angle.
+Status estimate_axes(std::span<const Edge> edges, std::span<std::int32_t> memory, Lattice& lattice);
 
 /// Whether two directions may belong to a square grid that is seen from up to about 35 degrees
 /// aside.

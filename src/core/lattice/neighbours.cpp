@@ -13,41 +13,31 @@ constexpr int kDistanceBins = 64;
 /// The seeds sorted into square buckets, row by row, so that near ones lie together.
 class Buckets {
   public:
-    /// Of a seed, from the corner of the first bucket.
-    struct Point {
-        std::int32_t x_q8;
-        std::int32_t y_q8;
-    };
-
-    Buckets(std::span<const Dot> dots, std::span<const std::uint16_t> seeds);
+    Buckets(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
+            std::span<BucketedSeed> memory);
 
     int columns() const { return columns_; }
     int rows() const { return rows_; }
     std::int32_t size_q8() const { return 1 << shift_; }
-    int column(const Point& p) const { return p.x_q8 >> shift_; }
-    int row(const Point& p) const { return p.y_q8 >> shift_; }
-    std::span<const Point> all() const { return std::span(sorted_).first(count_); }
-    std::int16_t seed_at(const Point* p) const {
-        return seeds_[static_cast<std::size_t>(p - sorted_.data())];
-    }
+    int column(Vec at_q8) const { return at_q8.x >> shift_; }
+    int row(Vec at_q8) const { return at_q8.y >> shift_; }
+    std::span<const BucketedSeed> all() const { return memory_.first(count_); }
     /// The first one in a column of a row, or the first after it.
-    const Point* in_row(int row, int column) const {
-        return sorted_.data() + begin_[static_cast<std::size_t>(row * columns_ + column)];
+    const BucketedSeed* in_row(int row, int column) const {
+        return &memory_[memory_[static_cast<std::size_t>(row * columns_ + column)].begin];
     }
 
   private:
-    std::array<Point, kMaxSeeds> sorted_;
-    std::array<std::uint8_t, kMaxSeeds> seeds_;       ///< their indices
-    std::array<std::uint16_t, kMaxSeeds + 1> begin_;  ///< of each bucket, and where the last ends
-    std::size_t count_;
+    const std::span<BucketedSeed> memory_;  ///< after the last bucket stands where it ends
+    const std::size_t count_;
     int shift_ = 0;
     int columns_ = 1;
     int rows_ = 1;
-    static_assert(kMaxSeeds <= 256);
 };
 
-Buckets::Buckets(std::span<const Dot> dots, std::span<const std::uint16_t> seeds)
-    : count_(seeds.size()) {
+Buckets::Buckets(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
+                 std::span<BucketedSeed> memory)
+    : memory_(memory), count_(seeds.size()) {
     Vec corner = dots[seeds[0]].centre_q8;
     Vec end = corner;
     for (const std::uint16_t s : seeds) {
@@ -63,24 +53,21 @@ Buckets::Buckets(std::span<const Dot> dots, std::span<const std::uint16_t> seeds
         rows_ = ((end.y - corner.y) >> shift_) + 1;
     } while (columns_ > most || rows_ > most || columns_ * rows_ > most);
     // Counted, then where each bucket ends, then filled from there backwards.
-    const int buckets = columns_ * rows_;
-    std::fill_n(begin_.begin(), buckets + 1, std::uint16_t{0});
-    const auto point_of = [&](std::size_t s) {
-        const Vec p = dots[seeds[s]].centre_q8 - corner;
-        return Point{p.x, p.y};
+    const auto buckets = static_cast<std::size_t>(columns_ * rows_);
+    for (BucketedSeed& bucket : memory_.first(buckets + 1))
+        bucket.begin = 0;
+    const auto begin_of = [&](Vec at_q8) -> std::uint16_t& {
+        return memory_[static_cast<std::size_t>(row(at_q8) * columns_ + column(at_q8))].begin;
     };
-    const auto bucket_of = [&](const Point& p) {
-        return static_cast<std::size_t>(row(p) * columns_ + column(p));
-    };
-    for (std::size_t s = 0; s < seeds.size(); ++s)
-        ++begin_[bucket_of(point_of(s))];
-    for (std::size_t k = 1; k <= static_cast<std::size_t>(buckets); ++k)
-        begin_[k] = static_cast<std::uint16_t>(begin_[k] + begin_[k - 1]);
+    for (const std::uint16_t s : seeds)
+        ++begin_of(dots[s].centre_q8 - corner);
+    for (std::size_t k = 1; k <= buckets; ++k)
+        memory_[k].begin = static_cast<std::uint16_t>(memory_[k].begin + memory_[k - 1].begin);
     for (std::size_t s = 0; s < seeds.size(); ++s) {
-        const auto [x_q8, y_q8] = point_of(s);
-        const std::size_t place = --begin_[bucket_of({x_q8, y_q8})];
-        sorted_[place] = {x_q8, y_q8};
-        seeds_[place] = static_cast<std::uint8_t>(s);
+        const Vec at_q8 = dots[seeds[s]].centre_q8 - corner;
+        BucketedSeed& place = memory_[--begin_of(at_q8)];
+        place.at_q8 = at_q8;
+        place.seed = static_cast<std::uint16_t>(s);
     }
 }
 
@@ -96,7 +83,7 @@ class Nearest {
   public:
     /// Nearer than the square root of `within_q16`. `may_be_far`: others may be 128 px away or
     /// more.
-    Nearest(const Buckets::Point& self, std::uint32_t within_q16, bool may_be_far)
+    Nearest(const BucketedSeed& self, std::uint32_t within_q16, bool may_be_far)
         : self_(self), may_be_far_(may_be_far) {
         for (std::size_t k = 0; k < points_.size(); ++k) {
             squared_q16_[k] = within_q16;
@@ -104,33 +91,32 @@ class Nearest {
         }
     }
 
-    DOTPOSE_BY_ITSELF void search(const Buckets::Point* p, const Buckets::Point* end) {
-        const auto [x, y] = self_;
+    DOTPOSE_BY_ITSELF void search(const BucketedSeed* p, const BucketedSeed* end) {
+        const auto [x, y] = self_.at_q8;
         std::uint32_t farthest_q16 = squared_q16_[3];
         for (; p != end; ++p) {
             // Too far off for 32 bits, it may be taken for near, but is not kept.
             const std::uint32_t squared_q16 =
-                wrapped_square(p->x_q8 - x) + wrapped_square(p->y_q8 - y);
+                wrapped_square(p->at_q8.x - x) + wrapped_square(p->at_q8.y - y);
             if (squared_q16 < farthest_q16) farthest_q16 = consider(p, squared_q16);
         }
     }
     bool are_four() const { return points_[3] != nullptr; }
     /// Their seeds; -1 where there are none.
-    void tell(const Buckets& buckets, std::array<std::int16_t, 4>& seeds) const {
+    void tell(std::array<std::int16_t, 4>& seeds) const {
         for (std::size_t k = 0; k < seeds.size(); ++k)
-            seeds[k] = points_[k] == nullptr ? std::int16_t{-1} : buckets.seed_at(points_[k]);
+            seeds[k] = points_[k] == nullptr ? -1 : static_cast<std::int16_t>(points_[k]->seed);
     }
 
   private:
     /// Keeps the point if it is another and not too far off; tells how near the next must be.
-    DOTPOSE_BY_ITSELF std::uint32_t consider(const Buckets::Point* p, std::uint32_t squared_q16) {
-        const bool is_far = may_be_far_ && larger_component({p->x_q8 - self_.x_q8,
-                                                             p->y_q8 - self_.y_q8}) >= kFarthest_q8;
+    DOTPOSE_BY_ITSELF std::uint32_t consider(const BucketedSeed* p, std::uint32_t squared_q16) {
+        const bool is_far = may_be_far_ && larger_component(p->at_q8 - self_.at_q8) >= kFarthest_q8;
         if (p != &self_ && !is_far) insert<3>(p, squared_q16);
         return squared_q16_[3];
     }
     template <std::size_t kPlace>
-    void insert(const Buckets::Point* p, std::uint32_t squared_q16) {
+    void insert(const BucketedSeed* p, std::uint32_t squared_q16) {
         if constexpr (kPlace > 0) {
             if (squared_q16 < squared_q16_[kPlace - 1]) {
                 squared_q16_[kPlace] = squared_q16_[kPlace - 1];
@@ -143,9 +129,9 @@ class Nearest {
         points_[kPlace] = p;
     }
 
-    const Buckets::Point& self_;
+    const BucketedSeed& self_;
     bool may_be_far_;
-    std::array<const Buckets::Point*, 4> points_;
+    std::array<const BucketedSeed*, 4> points_;
     std::array<std::uint32_t, 4> squared_q16_;
 };
 
@@ -187,13 +173,14 @@ int choose_seeds(std::span<const Dot> dots, Vec centre_q8, std::span<std::uint16
 }
 
 void find_neighbours(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
+                     std::span<BucketedSeed> memory,
                      std::span<std::array<std::int16_t, 4>> neighbours) {
     if (seeds.empty()) return;
-    const Buckets buckets(dots, seeds);
+    const Buckets buckets(dots, seeds, memory);
     const int most_reach = std::max(buckets.columns(), buckets.rows());
-    for (const Buckets::Point& p : buckets.all()) {
-        const int column = buckets.column(p);
-        const int row = buckets.row(p);
+    for (const BucketedSeed& p : buckets.all()) {
+        const int column = buckets.column(p.at_q8);
+        const int row = buckets.row(p.at_q8);
         for (int reach = 1;; ++reach) {
             const std::int32_t sure_q8 = reach * buckets.size_q8();
             const bool is_last = reach >= most_reach || sure_q8 >= kFarthest_q8;
@@ -207,7 +194,7 @@ void find_neighbours(std::span<const Dot> dots, std::span<const std::uint16_t> s
             for (int r = std::max(row - reach, 0); r <= bottom; ++r)
                 nearest.search(buckets.in_row(r, left), buckets.in_row(r, right + 1));
             if (!nearest.are_four() && !is_last) continue;
-            nearest.tell(buckets, neighbours[static_cast<std::size_t>(buckets.seed_at(&p))]);
+            nearest.tell(neighbours[p.seed]);
             break;
         }
     }

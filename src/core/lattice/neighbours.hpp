@@ -12,8 +12,9 @@ namespace dotpose::core {
 int choose_seeds(std::span<const Dot> dots, Vec centre_q8, std::span<std::uint16_t> seeds);
 
 /// For each seed the four nearest other seeds, nearest first, within 128 px per axis; -1 where
-/// there are none.
+/// there are none. `memory` holds one more than there are seeds.
 void find_neighbours(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
+                     std::span<BucketedSeed> memory,
                      std::span<std::array<std::int16_t, 4>> neighbours);
 
 /// The connections on which both ends agree, each once, pointing down. Returns their number.

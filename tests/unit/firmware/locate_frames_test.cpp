@@ -95,6 +95,30 @@ TEST(LocateFrames, GoesOnAfterAFrameOfAnotherSize) {
     EXPECT_EQ(output.substr(output.find('\n') + 1), expected_line(narrow));
 }
 
+TEST(LocateFrames, TracksFramesAfterAPrediction) {
+    const GreyImage image = frame(Preset::nominal, 3);
+    const auto workspace = std::make_unique<DeviceWorkspace>();
+    Options options;
+    options.effort = Effort::device;
+    const Prediction p = Prediction::like(locate(image.view(), options, *workspace));
+    const PlaneFromImage& plane = p.pattern_from_image;
+    const auto line_of = [&](int section_u) {
+        return fmt::format("T {} {} {} {} {} {} {} {} {} {} {} {} {}\n", p.place.cell.x,
+                           p.place.cell.y, section_u, p.place.section.v, plane.centre_q8.x,
+                           plane.centre_q8.y, plane.at_centre_q16.x, plane.at_centre_q16.y,
+                           plane.du_q24.x, plane.du_q24.y, plane.dv_q24.x, plane.dv_q24.y,
+                           p.displacement_q16);
+    };
+    input = line_of(p.place.section.u) + pgm(image) + line_of((p.place.section.u + 1) % 63) +
+            pgm(image) + pgm(image);
+    EXPECT_EQ(locate_frames("frames"), 0);
+    EXPECT_EQ(output.substr(0, 3), "ok ");
+    EXPECT_NE(output.find("\nnot_tracked "), std::string::npos);
+    EXPECT_NE(output.find(expected_line(image)), std::string::npos);
+    input = "T 1 2 3\nP5\n188 120\n255\n";
+    EXPECT_EQ(locate_frames("frames"), 1);
+}
+
 TEST(LocateFrames, AnEmptyFileHoldsNoFrame) {
     input.clear();
     EXPECT_EQ(locate_frames("frames"), 0);

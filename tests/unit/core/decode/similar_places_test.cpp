@@ -83,7 +83,8 @@ TEST(SimilarPlaces, AreVisitedAtTheFirstLine) {
             }
         }
         std::vector<std::pair<std::size_t, std::uint32_t>> visited;
-        visit_similar_places(contest, steps, [&](std::size_t sequence, std::uint32_t place) {
+        const auto none = [](std::size_t) { return false; };
+        visit_similar_places(contest, steps, none, [&](std::size_t sequence, std::uint32_t place) {
             visited.emplace_back(sequence, place);
         });
         std::sort(visited.begin(), visited.end());

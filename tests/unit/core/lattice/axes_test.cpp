@@ -21,10 +21,16 @@ std::vector<Edge> edges_of(const std::vector<Dot>& dots, Vec2 image_px) {
     const auto count = static_cast<std::size_t>(choose_seeds(dots, centre, seeds));
     const auto chosen = std::span<const std::uint16_t>(seeds).first(count);
     std::vector<std::array<std::int16_t, 4>> neighbours(count);
-    find_neighbours(dots, chosen, neighbours);
+    std::vector<BucketedSeed> memory(count + 1);
+    find_neighbours(dots, chosen, memory, neighbours);
     std::vector<Edge> edges(2 * kMaxSeeds);
     edges.resize(static_cast<std::size_t>(connect_symmetric(dots, chosen, neighbours, edges)));
     return edges;
+}
+
+Status axes_of(const std::vector<Edge>& edges, Lattice& lattice) {
+    std::vector<std::int32_t> memory(2 * edges.size());
+    return estimate_axes(edges, memory, lattice);
 }
 
 double degrees(Vec2 a) {
@@ -44,7 +50,7 @@ TEST(Axes, AreFoundAtAnyAngleAndSpacing) {
             const auto dots = dots_of(
                 placed_dots(mesh, 20, image, [&](int, int) { return random_displacement(rng); }));
             Lattice lattice;
-            ASSERT_EQ(estimate_axes(edges_of(dots, image), lattice), Status::ok);
+            ASSERT_EQ(axes_of(edges_of(dots, image), lattice), Status::ok);
             const Mesh found = mesh_of(lattice);
             for (const Vec2 axis : {found.u, found.v}) {
                 length_errors.push_back(std::abs(length(axis) / spacing - 1));
@@ -72,7 +78,7 @@ TEST(Axes, AreNearlyExactWithoutDisplacements) {
         const Mesh mesh = square_mesh(11, radians(angle), {93, 60});
         const auto dots = dots_of(placed_dots(mesh, 20, image, [](int, int) { return Vec2{}; }));
         Lattice lattice;
-        ASSERT_EQ(estimate_axes(edges_of(dots, image), lattice), Status::ok) << angle;
+        ASSERT_EQ(axes_of(edges_of(dots, image), lattice), Status::ok) << angle;
         // Made 4 % longer, because displaced neighbours seem nearer than they are.
         EXPECT_NEAR(length(mesh_of(lattice).u), 11 * 1.043, 0.05) << angle;
         EXPECT_NEAR(std::remainder(degrees(mesh_of(lattice).u) - angle, 90), 0, 0.2) << angle;
@@ -81,7 +87,7 @@ TEST(Axes, AreNearlyExactWithoutDisplacements) {
 
 TEST(Axes, NeedEdgesInTwoDirections) {
     Lattice lattice;
-    EXPECT_EQ(estimate_axes({}, lattice), Status::no_grid);
+    EXPECT_EQ(axes_of({}, lattice), Status::no_grid);
     const auto edges = [](std::initializer_list<Vec> steps, int copies) {
         std::vector<Edge> result;
         for (int i = 0; i < copies; ++i) {
@@ -90,13 +96,13 @@ TEST(Axes, NeedEdgesInTwoDirections) {
         }
         return result;
     };
-    EXPECT_EQ(estimate_axes(edges({{2816, 0}, {0, 2816}}, 40), lattice), Status::ok);
-    EXPECT_EQ(estimate_axes(edges({{2816, 0}, {0, 2816}}, 2), lattice),
+    EXPECT_EQ(axes_of(edges({{2816, 0}, {0, 2816}}, 40), lattice), Status::ok);
+    EXPECT_EQ(axes_of(edges({{2816, 0}, {0, 2816}}, 2), lattice),
               Status::no_grid);  // too few
-    EXPECT_EQ(estimate_axes(edges({{2816, 0}}, 80), lattice), Status::no_grid);
-    EXPECT_EQ(estimate_axes(edges({{2816, 0}, {0, 900}}, 40), lattice), Status::no_grid);  // 3:1
-    EXPECT_EQ(estimate_axes(edges({{2816, 0}, {1900, 2078}}, 40), lattice), Status::no_grid);
-    EXPECT_EQ(estimate_axes(edges({{0, 0}}, 80), lattice), Status::no_grid);
+    EXPECT_EQ(axes_of(edges({{2816, 0}}, 80), lattice), Status::no_grid);
+    EXPECT_EQ(axes_of(edges({{2816, 0}, {0, 900}}, 40), lattice), Status::no_grid);  // 3:1
+    EXPECT_EQ(axes_of(edges({{2816, 0}, {1900, 2078}}, 40), lattice), Status::no_grid);
+    EXPECT_EQ(axes_of(edges({{0, 0}}, 80), lattice), Status::no_grid);
 }
 
 TEST(Axes, NearlySquareMeansAboutOneLengthAtAboutARightAngle) {
@@ -144,7 +150,7 @@ TEST(Axes, BlobsFarApartDoNotOverflow) {
             edges.push_back({0, 1, {step_px * 256, i}});
             edges.push_back({0, 1, {-i, step_px * 256}});
         }
-        if (estimate_axes(edges, lattice) != Status::ok) continue;
+        if (axes_of(edges, lattice) != Status::ok) continue;
         EXPECT_NEAR(length(mesh_of(lattice).u), step_px, 0.06 * step_px);
     }
 }

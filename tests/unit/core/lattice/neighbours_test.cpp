@@ -68,7 +68,8 @@ TEST(Neighbours, AreTheFourNearestOfAll) {
         }
         if (seeds.size() > 40 && !is_full) seeds.resize(seeds.size() - 20);
         Table found(seeds.size());
-        find_neighbours(dots, seeds, found);
+        std::vector<BucketedSeed> memory(seeds.size() + 1);
+        find_neighbours(dots, seeds, memory, found);
         for (std::size_t s = 0; s < seeds.size(); ++s) {
             std::vector<std::int64_t> expected;
             for (std::size_t t = 0; t < seeds.size(); ++t) {
@@ -105,7 +106,8 @@ TEST(Neighbours, EdgesAreThosePairsThatBothEndsCount) {
         const auto dots = points(rng, 1 + static_cast<int>(rng.below(kMaxSeeds)), set % kKinds);
         const auto seeds = all_of(dots);
         Table neighbours(seeds.size());
-        find_neighbours(dots, seeds, neighbours);
+        std::vector<BucketedSeed> memory(seeds.size() + 1);
+        find_neighbours(dots, seeds, memory, neighbours);
         std::set<std::pair<int, int>> expected;
         for (std::size_t a = 0; a < seeds.size(); ++a) {
             for (std::size_t b = 0; b < seeds.size(); ++b) {

@@ -1,0 +1,104 @@
+#include "core/attempts/device_tracked.hpp"
+
+#include "core/attempts/steps.hpp"
+#include "core/decode/read_dots.hpp"
+#include "core/decode/verify.hpp"
+#include "core/detect/newest_rows.hpp"
+#include "core/fixed.hpp"
+#include "core/lattice/coded_cells.hpp"
+#include "core/lattice/predicted.hpp"
+#include "core/lattice/shift.hpp"
+#include "core/lattice/turn.hpp"
+#include "core/pose/subgrid.hpp"
+#include "core/pose/tracked_pose.hpp"
+
+namespace dotpose::core {
+namespace {
+
+/// Shifts that are tried: the true one is hardly ever beyond the second.
+constexpr int kMostShifts = 4;
+
+/// Lays the cells to where the first rows show them.
+Status settle(Tracking& tracking) {
+    Shifts shifts(tracking);
+    const int paper = shifts.paper_level();
+    if (paper == 0) return Status::not_tracked;
+    const Vec predicted_q16 = tracking.cells.origin_q16;
+    for (int tried = 0; tried < kMostShifts; ++tried) {
+        Vec shift_q8;
+        if (!shifts.next(shift_q8)) return Status::not_tracked;
+        tracking.cells.origin_q16 = predicted_q16 + Vec{shift_q8.x * 256, shift_q8.y * 256};
+        // Until it is known how large dots are, any half way between paper and ink may be one.
+        tracking.cut_q8 = 128 * shifts.depth() / paper;
+        tracking.least_mass = paper / 8 + 16;
+        tracking.most_mass = INT16_MAX;
+        if (find_turn(tracking)) return Status::ok;
+    }
+    return Status::not_tracked;
+}
+
+Status read_rows(Workspace& w) {
+    Tracking& t = w.tracking;
+    if (t.rows_taken < t.first_rows) return Status::ok;
+    if (t.rows_taken == t.first_rows) {
+        const Status status = settle(t);
+        if (status != Status::ok) return status;
+        if (!begin_reading(t)) return Status::not_tracked;
+    } else if (t.rows_taken < t.next_reading && t.rows_taken != t.height_px) {
+        return Status::ok;
+    }
+    t.next_reading = t.rows_taken + kRowsAtOnce;
+    read_ready_dots(t, w.dots, w.dot_count);
+    make_room(kRowsAtOnce, t);
+    return Status::ok;
+}
+
+/// Bits and dots -> whether the place is certain, and the pose.
+Status confirm(const Options& options, Workspace& w) {
+    Tracking& t = w.tracking;
+    if (t.status != Status::ok) return t.status;
+    w.fix.dots_seen = dots_seen(t);
+    w.decoding.place = t.corner;
+    const Status status = verify_tracked(options.profile, t, options.integrity, w.decoding, w.fix);
+    if (status != Status::ok) return Status::not_tracked;
+    w.fix.dots_used =
+        fit_tracked_pose(w.found_dots(), t, w.pattern_from_image, w.fix.displacement_q16);
+    if (w.fix.dots_used == 0) return Status::not_tracked;
+    const Vec reference{w.pattern_from_image.centre_q8.x + options.reference_dx_q8,
+                        w.pattern_from_image.centre_q8.y + options.reference_dy_q8};
+    write_affine_pose(w.pattern_from_image, reference, options.profile, t.corner, w.fix);
+    return Status::ok;
+}
+
+}  // namespace
+
+Status begin_device_tracked(int width_px, int height_px, const Options& options,
+                            const Prediction& prediction, Workspace& w) {
+    forget_frame(w);
+    w.fix.attempt = Attempt::tracked;
+    Tracking& t = w.tracking;
+    t.is_on = true;
+    t.width_px = width_px;
+    t.height_px = height_px;
+    t.rows_taken = t.first_kept = 0;
+    t.along_q16 = 0;
+    // Lenses that bend are left to fresh fixes.
+    t.status = options.lens.k_q40 == 0 ? lay_predicted_cells(prediction, options.profile, t)
+                                       : Status::not_tracked;
+    if (t.status == Status::ok) lay_tracked_lines(options.profile, t);
+    return w.fix.status = t.status;
+}
+
+Status push_tracked_row(const std::uint8_t* pixels, Workspace& w) {
+    Tracking& t = w.tracking;
+    if (t.status != Status::ok || t.rows_taken == t.height_px) return t.status;
+    keep_row(pixels, t);
+    return t.status = read_rows(w);
+}
+
+Fix finish_device_tracked(const Options& options, Workspace& w) {
+    w.fix.status = confirm(options, w);
+    return w.fix;
+}
+
+}  // namespace dotpose::core

@@ -1,0 +1,45 @@
+#include "core/decode/unshared_lines.hpp"
+
+#include <algorithm>
+
+#include "code/unshared_lines.hpp"
+
+namespace dotpose::core {
+
+UnsharedLines::UnsharedLines(const Contest& contest) : contest_(contest) {
+    const auto& numbers = code::kUnsharedOf;
+    static_assert(code::kUnsharedOf.back() == kMostLines);
+    std::size_t rows = 0;
+    while (rows < numbers.size() && numbers[rows] <= contest.count())
+        ++rows;
+    if (rows == 0) return;
+    row_ = rows - 1;
+    // The middle ones, which are longest.
+    const int lines = numbers[row_];
+    const int first = (contest.count() - lines) / 2;
+    first_line_ = static_cast<std::uint32_t>(first);
+    // Sorted as they come.
+    for (int n = 0; n < lines; ++n) {
+        const std::int32_t loss = std::max(contest.least_loss(first + n), 0);
+        auto i = static_cast<std::size_t>(n + 1);
+        for (; i > 1 && least_[i - 1] > loss; --i)
+            least_[i] = least_[i - 1];
+        least_[i] = loss;
+    }
+    for (std::size_t n = 1; n < least_.size(); ++n)
+        least_[n] += least_[n - 1];
+}
+
+bool UnsharedLines::all_lose(std::size_t sequence, Sharing sharing, int enough) const {
+    const code::Secondary& a = contest_.basis[sequence];
+    // Of the other forms of a4 there is no table.
+    const bool is_known = sequence < 3 || a.digits == code::kA4Restored.data();
+    if (row_ == SIZE_MAX || !is_known) return false;
+    const std::uint32_t ahead = contest_.places[sequence] + first_line_;
+    const std::uint32_t place = ahead < a.length ? ahead : ahead - a.length;
+    const unsigned both = code::kUnshared[row_][code::kUnsharedFrom[sequence] + place];
+    const unsigned unshared = sharing == Sharing::at_one_shift ? both >> 4 : both & 15;
+    return least_[unshared] >= enough;
+}
+
+}  // namespace dotpose::core

@@ -1,0 +1,35 @@
+// Unshared lines: what every rival loses that differs from the reading in one sequence, told by a
+// table of how many lines it shares at most; most need not be looked at then.
+#pragma once
+
+#include <array>
+
+#include "core/decode/contest.hpp"
+
+namespace dotpose::core {
+
+/// Where a rival shares lines.
+enum class Sharing : std::uint8_t {
+    at_one_shift,
+    on_two_sides,  ///< up to some border at one shift, beyond it at another
+};
+
+class UnsharedLines {
+  public:
+    explicit UnsharedLines(const Contest& contest);
+
+    /// Whether all rivals that stand elsewhere in a sequence lose so much at least, but for what
+    /// they may win back.
+    bool all_lose(std::size_t sequence, Sharing sharing, int enough) const;
+
+  private:
+    static constexpr std::size_t kMostLines = 16;
+
+    const Contest& contest_;
+    std::size_t row_ = SIZE_MAX;  ///< of the table; none for few lines
+    std::uint32_t first_line_ = 0;
+    /// Of the lines that lose least: what so many lose.
+    std::array<std::int32_t, kMostLines + 1> least_{};
+};
+
+}  // namespace dotpose::core

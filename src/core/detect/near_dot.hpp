@@ -1,0 +1,145 @@
+// Near dot: the dot of an intersection whose place in the image is known. What is read knows
+// nothing of which dot is expected, so that it can tell whether it is there. Most of it is inline:
+// of what small processors do for a dot, calls would be a third.
+#pragma once
+
+#include <array>
+
+#include "core/by_itself.hpp"
+#include "core/detect/newest_rows.hpp"
+#include "core/kernels/portable/dark_sums.hpp"
+#include "dotpose/code.hpp"
+#include "dotpose/stages.hpp"
+
+namespace dotpose::core {
+
+/// Around an intersection, dots are within so much; around its centre, a dot is. For spacings of 7
+/// to 13 px.
+inline constexpr int kHalf_px = 4;
+inline constexpr int kDotHalf_px = 2;
+
+/// The pixel next to a place.
+constexpr Vec pixel_at(Vec place_q16) {
+    return {(place_q16.x + 32768) >> 16, (place_q16.y + 32768) >> 16};
+}
+
+/// Whether all of a square is kept.
+[[gnu::always_inline]] inline bool is_kept(const Tracking& tracking, Vec pixel, int half) {
+    return static_cast<unsigned>(pixel.x - half) <
+               static_cast<unsigned>(tracking.width_px - 2 * half) &&
+           static_cast<unsigned>(pixel.y - half - tracking.first_kept) <
+               static_cast<unsigned>(tracking.rows_taken - tracking.first_kept - 2 * half);
+}
+
+/// Level of the paper around a pixel, from the corners of its square, which no dot reaches.
+[[gnu::always_inline]] inline std::int32_t paper_around(const Tracking& tracking,
+                                                        const std::uint8_t* at) {
+    constexpr int kSide_px = 2 * kHalf_px;
+    const std::uint8_t* const top = at - kHalf_px * tracking.stride_px - kHalf_px;
+    const std::uint8_t* const bottom = top + kSide_px * tracking.stride_px;
+    return (top[0] + top[kSide_px] + bottom[0] + bottom[kSide_px]) >> 2;
+}
+
+/// Where `read_symbol` looks from now on; false where that is beyond the squares.
+bool lay_dot_pixels(Tracking& tracking);
+
+/// What was read of a dot: -1 where none of the four places is clearly darkest; and the level below
+/// which pixels belong to it.
+struct ReadSymbol {
+    int symbol;
+    std::int32_t level;
+};
+
+/// Looks at the four places around an intersection in a pixel that is kept, as is all of its square
+/// and a pixel around it.
+// By itself, so that small processors can keep all it needs in registers.
+DOTPOSE_BY_ITSELF inline ReadSymbol read_symbol(const Tracking& tracking, Vec intersection_q16) {
+    const std::int32_t stride = tracking.stride_px;
+    const std::uint8_t* const at =
+        kept_row(tracking, intersection_q16.y >> 16) + (intersection_q16.x >> 16);
+    const int quarter = (intersection_q16.x >> 15 & 1) + (intersection_q16.y >> 14 & 2);
+    const std::int16_t* offset = tracking.dot_pixels[static_cast<std::size_t>(quarter)].data();
+    // Sums of four pixels, times 4, and the symbol added.
+    std::int32_t darkest = INT32_MAX;
+    std::int32_t second = INT32_MAX;
+#pragma GCC unroll 4
+    for (int s = 0; s < 4; ++s) {
+        const std::uint8_t* const above = at + *offset++;
+        const std::uint8_t* const below = above + stride;
+        const std::int32_t sum = above[0] + above[1] + below[0] + below[1];
+        const std::int32_t here = sum * 4 + s;
+        if (here < darkest) {
+            second = darkest;
+            darkest = here;
+        } else if (here < second) {
+            second = here;
+        }
+    }
+    const std::int32_t paper = paper_around(tracking, at);
+    const std::int32_t depth = (paper * tracking.cut_q8) >> 8;
+    // Dots lack some 6 depths in four pixels, and 2 of them at the places beside their own.
+    const bool is_clear =
+        paper * 4 - (darkest >> 2) >= 2 * depth && (second >> 2) - (darkest >> 2) >= depth;
+    return {is_clear ? darkest & 3 : -1, paper - depth};
+}
+
+struct NearDot {
+    Vec off_q8;  ///< of its centre from where it was looked for, px
+    std::int32_t mass = 0;
+};
+
+/// 2^21 / n for n from 256 to 511: processors without a divider multiply.
+inline constexpr auto kInverses_q21 = [] {
+    std::array<std::uint16_t, 256> all{};
+    for (std::size_t n = 0; n < all.size(); ++n)
+        all[n] = static_cast<std::uint16_t>(((1U << 21) + 128 + n / 2) / (256 + n));
+    return all;
+}();
+
+/// Divides by a mass, from 16 to 2^16, to half a percent.
+class Inverse {
+  public:
+    explicit Inverse(std::int32_t mass) {
+        while (mass >= 512) {
+            mass >>= 1;
+            ++shift_;
+        }
+        while (mass < 256) {
+            mass <<= 1;
+            --shift_;
+        }
+        inverse_q21_ = kInverses_q21[static_cast<std::size_t>(mass - 256)];
+    }
+    /// sum / mass in 2^-8, of a sum at most 8 times the mass.
+    std::int32_t quotient_q8(std::int32_t sum) const {
+        // The sum has the bits of the mass, 9, and 3 more.
+        const std::int32_t n = shift_ > 3 ? sum >> (shift_ - 3) : sum * (1 << (3 - shift_));
+        return (n * inverse_q21_) >> 16;
+    }
+
+  private:
+    int shift_ = 0;
+    std::int32_t inverse_q21_ = 0;
+};
+
+/// The centre of what is darker than `level` in the square of 2 Half + 1 px around a place. False
+/// where that is no dot, or leaves the image or the rows that are kept.
+template <int Half>
+[[gnu::always_inline]] inline bool measure_square(const Tracking& tracking, Vec place_q16,
+                                                  std::int32_t level, NearDot& dot) {
+    const Vec pixel = pixel_at(place_q16);
+    if (!is_kept(tracking, pixel, Half)) return false;
+    const std::uint8_t* const first = kept_row(tracking, pixel.y - Half) + pixel.x - Half;
+    const DarkSums sums = dark_sums<Half>(first, tracking.stride_px, level);
+    if (sums.mass < tracking.least_mass || sums.mass > tracking.most_mass) return false;
+    const Inverse inverse(sums.mass);
+    dot.mass = sums.mass;
+    dot.off_q8 = {inverse.quotient_q8(sums.x) + pixel.x * 256 - (place_q16.x >> 8),
+                  inverse.quotient_q8(sums.y) + pixel.y * 256 - (place_q16.y >> 8)};
+    return true;
+}
+
+/// The same of the whole square around an intersection.
+bool measure_around(const Tracking& tracking, Vec intersection_q16, NearDot& dot);
+
+}  // namespace dotpose::core

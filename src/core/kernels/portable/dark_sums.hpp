@@ -1,0 +1,57 @@
+// Dark sums: how dark the pixels of a square are, and where in it. For processors without vectors.
+#pragma once
+
+#include <cstdint>
+
+#include "core/by_itself.hpp"
+
+namespace dotpose::core {
+
+/// What the pixels darker than a level lack of it, and its sums weighted with their places from the
+/// middle. Of at most 11 x 11 pixels: below 2^15, and 2^18 for the others.
+struct DarkSums {
+    std::int32_t mass = 0;
+    std::int32_t x = 0;
+    std::int32_t y = 0;
+};
+
+/// Of a square of so small a half only the pixels count that are so many steps from the middle at
+/// most. Dots of tracked sizes have no others that are darker than half of what they are.
+inline constexpr int kHalfOfDiamond = 2;
+
+/// Of the square of 2 Half + 1 pixels per side that begins at `row`. With the side known, pixels of
+/// a row are summed without a loop, and their places are constants.
+// By itself, so that small processors can keep all it needs in registers.
+template <int Half>
+DOTPOSE_BY_ITSELF inline DarkSums dark_sums(const std::uint8_t* row, std::int32_t stride,
+                                            std::int32_t level) {
+    std::int32_t mass = 0;
+    std::int32_t sum_x = 0;
+    std::int32_t so_far = 0;  // the sum of all masses up to each row
+    const auto add_row = [&](int reach) {
+#pragma GCC unroll 16
+        for (int x = -reach; x <= reach; ++x) {
+            // Most pixels are paper. Asked for its sign alone, a difference needs no comparison.
+            const std::int32_t lack = level - row[Half + x];
+            if (lack < 0) continue;
+            mass += lack;
+            sum_x += x * lack;
+        }
+        so_far += mass;
+        row += stride;
+    };
+    if constexpr (Half == kHalfOfDiamond) {
+        add_row(0);
+        add_row(1);
+        add_row(2);
+        add_row(1);
+        add_row(0);
+    } else {
+        for (int y = -Half; y <= Half; ++y)
+            add_row(Half);
+    }
+    // A row counts as often as there are rows from it on.
+    return {mass, sum_x, (Half + 1) * mass - so_far};
+}
+
+}  // namespace dotpose::core

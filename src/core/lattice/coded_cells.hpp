@@ -1,0 +1,39 @@
+// Tracked bits: what the code has around a predicted place, line by line, and what is read of it.
+#pragma once
+
+#include "dotpose/code.hpp"
+#include "dotpose/stages.hpp"
+
+namespace dotpose::core {
+
+/// Sets what the code has in each line, counted from `Tracking::corner`; nothing is seen yet.
+void lay_tracked_lines(Profile profile, Tracking& tracking);
+
+inline TrackedLine& column_of(const Tracking& tracking, int i) {
+    return tracking.lines[static_cast<std::size_t>(i)];
+}
+inline TrackedLine& row_of(const Tracking& tracking, int j) {
+    return tracking.lines[static_cast<std::size_t>(kMostTracked + j)];
+}
+
+/// Dots that were read so far.
+int dots_seen(const Tracking& tracking);
+
+/// What the code has in a cell.
+inline Symbol coded_symbol(const Tracking& tracking, int i, int j) {
+    return make_symbol(static_cast<int>(column_of(tracking, i).code >> j & 1),
+                       static_cast<int>(row_of(tracking, j).code >> i & 1));
+}
+
+/// A dot's displacement along the directions that tell its bits (eq. 7-8): positive for 1.
+struct Projections {
+    std::int32_t x_q12;
+    std::int32_t y_q12;
+};
+Projections projections(const Tracking& tracking, Vec from_intersection_q8);
+
+inline Symbol symbol_of(const Projections& p) {
+    return make_symbol(p.x_q12 > 0 ? 1 : 0, p.y_q12 > 0 ? 1 : 0);
+}
+
+}  // namespace dotpose::core

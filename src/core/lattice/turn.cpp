@@ -1,0 +1,203 @@
+#include "core/lattice/turn.hpp"
+
+#include <algorithm>
+
+#include "core/detect/near_dot.hpp"
+#include "core/fixed.hpp"
+#include "core/lattice/coded_cells.hpp"
+#include "core/lattice/predicted.hpp"
+
+namespace dotpose::core {
+namespace {
+
+/// Rounds of cells about the middle one.
+constexpr int kRounds = 4;
+/// Fewest dots, and the share of those looked at in 1/8, that have to be as the code has them.
+constexpr int kLeastDots = 12;
+constexpr int kLeastShare_q3 = 6;
+/// From so many on, their share tells.
+constexpr int kTelling = 8;
+
+/// Least squares of a shift, a turn and a stretch: offset = shift + stretch p + turn J p, where J
+/// is a quarter turn.
+class SimilarityFit {
+  public:
+    /// The place in px from the middle, the offset in 2^-8 px.
+    void add(Vec p, Vec offset_q8) {
+        ++count_;
+        p_ = p_ + p;
+        offset_ = offset_ + offset_q8;
+        squares_ += p.x * p.x + p.y * p.y;
+        along_ += p.x * offset_q8.x + p.y * offset_q8.y;
+        across_ += p.x * offset_q8.y - p.y * offset_q8.x;
+    }
+    int count() const { return count_; }
+
+    struct Similarity {
+        std::int32_t stretch_q20 = 0;
+        std::int32_t turn_q20 = 0;
+        Vec shift_q8;  ///< at the middle
+    };
+    Similarity solve() const {
+        const std::int64_t spread = std::int64_t{count_} * squares_ - squared(p_);
+        Similarity s;
+        if (spread <= 0) return s;
+        const std::int64_t along = std::int64_t{count_} * along_ - dot(p_, offset_);
+        const std::int64_t across = std::int64_t{count_} * across_ - cross(p_, offset_);
+        s.stretch_q20 = short_quotient(along << 12, spread);
+        s.turn_q20 = short_quotient(across << 12, spread);
+        s.shift_q8 = {(offset_.x - ((s.stretch_q20 * p_.x - s.turn_q20 * p_.y) >> 12)) / count_,
+                      (offset_.y - ((s.stretch_q20 * p_.y + s.turn_q20 * p_.x) >> 12)) / count_};
+        return s;
+    }
+
+  private:
+    std::int32_t count_ = 0;
+    Vec p_;
+    Vec offset_;
+    std::int32_t squares_ = 0;
+    std::int32_t along_ = 0;
+    std::int32_t across_ = 0;
+};
+
+/// v stretched and turned, less v.
+Vec change(const SimilarityFit::Similarity& s, Vec v) {
+    const auto part = [](std::int64_t a_q20) { return static_cast<std::int32_t>(a_q20 >> 20); };
+    return {part(std::int64_t{s.stretch_q20} * v.x - std::int64_t{s.turn_q20} * v.y),
+            part(std::int64_t{s.stretch_q20} * v.y + std::int64_t{s.turn_q20} * v.x)};
+}
+
+CellMap changed(const CellMap& cells, Vec middle_q16, const SimilarityFit::Similarity& s) {
+    return {cells.origin_q16 + change(s, cells.origin_q16 - middle_q16) +
+                Vec{s.shift_q8.x * 256, s.shift_q8.y * 256},
+            cells.along_x_q16 + change(s, cells.along_x_q16),
+            cells.along_y_q16 + change(s, cells.along_y_q16)};
+}
+
+/// Dots measured, and what those say that are as the code has them.
+class Rounds {
+  public:
+    Rounds(Tracking& tracking, Vec middle_q16)
+        : tracking_(tracking), before_(tracking.cells), middle_q16_(middle_q16) {}
+
+    /// Shifts the cells by what the dots nearest the middle lie from their places, be they what the
+    /// code has there or not.
+    void recentre(Vec middle);
+    void measure(int i, int j);
+    /// Lays the cells anew.
+    void lay_cells() {
+        similarity_ = fit_.solve();
+        tracking_.cells = changed(before_, middle_q16_, similarity_);
+    }
+    void lay_cells_as_before() { tracking_.cells = before_; }
+
+    int seen() const { return seen_; }
+    int agreeing() const { return fit_.count(); }
+    const SimilarityFit::Similarity& similarity() const { return similarity_; }
+    std::int32_t mean_mass() const { return masses_ / agreeing(); }
+    std::int32_t mean_displacement_q12() const { return projections_q12_ / (2 * agreeing()); }
+
+  private:
+    Tracking& tracking_;
+    CellMap before_;
+    const Vec middle_q16_;
+    SimilarityFit fit_;
+    SimilarityFit::Similarity similarity_;
+    int seen_ = 0;
+    std::int32_t masses_ = 0;
+    std::int32_t projections_q12_ = 0;
+};
+
+void Rounds::recentre(Vec middle) {
+    Vec sum_q8;
+    std::int32_t count = 0;
+    for (const Vec step : {Vec{0, 0}, Vec{1, 0}, Vec{0, 1}, Vec{-1, 0}, Vec{0, -1}}) {
+        const Vec cell = middle + step;
+        NearDot dot;
+        if (!measure_around(tracking_, place_q16(tracking_.cells, cell.x, cell.y), dot)) continue;
+        const Symbol symbol = coded_symbol(tracking_, cell.x, cell.y);
+        const Vec displaced_q16 = tracking_.displaced_q16[static_cast<std::size_t>(symbol)];
+        sum_q8 = sum_q8 + dot.off_q8 - Vec{displaced_q16.x >> 8, displaced_q16.y >> 8};
+        ++count;
+    }
+    if (count == 0) return;
+    before_.origin_q16 = before_.origin_q16 + Vec{sum_q8.x / count * 256, sum_q8.y / count * 256};
+    tracking_.cells = before_;
+}
+
+void Rounds::measure(int i, int j) {
+    const Vec at_q16 = place_q16(tracking_.cells, i, j);
+    NearDot dot;
+    if (!measure_around(tracking_, at_q16, dot)) return;
+    ++seen_;
+    const Projections p = projections(tracking_, dot.off_q8);
+    const Symbol symbol = coded_symbol(tracking_, i, j);
+    if (symbol_of(p) != symbol) return;
+    const Vec displaced_q16 = tracking_.displaced_q16[static_cast<std::size_t>(symbol)];
+    const Vec was_q16 = place_q16(before_, i, j);
+    const Vec p_q16 = was_q16 - middle_q16_;
+    const Vec moved_q16 = at_q16 - was_q16 - displaced_q16;
+    fit_.add({p_q16.x >> 16, p_q16.y >> 16}, dot.off_q8 + Vec{moved_q16.x >> 8, moved_q16.y >> 8});
+    masses_ += dot.mass;
+    projections_q12_ += magnitude(p.x_q12) + magnitude(p.y_q12);
+}
+
+/// Shows `use` the cells that are `round` cells from the middle one.
+template <typename Use>
+void visit_round(const Tracking& tracking, Vec middle, int round, Use use) {
+    const auto is_in = [&](int cell) {
+        return cell >= tracking.first_cell && cell <= tracking.last_cell;
+    };
+    for (int j = middle.y - round; j <= middle.y + round; ++j) {
+        if (!is_in(j)) continue;
+        const bool is_end = round == 0 || magnitude(j - middle.y) == round;
+        for (int i = middle.x - round; i <= middle.x + round; i += is_end ? 1 : 2 * round) {
+            if (is_in(i)) use(i, j);
+        }
+    }
+}
+
+/// The slopes of a plane, of what is turned and stretched; small as these are, to be taken off.
+void turn_back(const SimilarityFit::Similarity& s, Tracking& tracking) {
+    const auto less = [&](Vec v, Vec ahead) {
+        const auto part = [&](std::int32_t along, std::int32_t across) {
+            return static_cast<std::int32_t>(
+                (std::int64_t{s.stretch_q20} * along + std::int64_t{s.turn_q20} * across) >> 20);
+        };
+        return v - Vec{part(v.x, ahead.x), part(v.y, ahead.y)};
+    };
+    const Vec du = tracking.du_q20;
+    const Vec dv = tracking.dv_q20;
+    tracking.du_q20 = less(du, dv);
+    tracking.dv_q20 = less(dv, -du);
+}
+
+}  // namespace
+
+bool find_turn(Tracking& tracking) {
+    const Vec middle_q16{(tracking.width_px - 1) * 32768, (tracking.first_rows - 1) * 32768};
+    const Vec middle = middle_cell(tracking);
+    Rounds rounds(tracking, middle_q16);
+    rounds.recentre(middle);
+    bool agree = true;
+    for (int round = 0; round <= kRounds && agree; ++round) {
+        const int before = rounds.agreeing();
+        visit_round(tracking, middle, round, [&](int i, int j) { rounds.measure(i, j); });
+        agree = rounds.seen() < kTelling || 8 * rounds.agreeing() >= kLeastShare_q3 * rounds.seen();
+        // The middle one says no more than those around it did, the third round little more than
+        // the second.
+        const bool tells = round % 2 == 0 ? round > 0 : round == 1;
+        if (tells && rounds.agreeing() > before) rounds.lay_cells();
+    }
+    if (!agree || rounds.agreeing() < kLeastDots) {
+        rounds.lay_cells_as_before();
+        return false;
+    }
+    turn_back(rounds.similarity(), tracking);
+    set_displacement(rounds.mean_displacement_q12(), tracking);
+    tracking.least_mass = rounds.mean_mass() * 3 / 8;
+    tracking.most_mass = rounds.mean_mass() * 5 / 2;
+    return true;
+}
+
+}  // namespace dotpose::core

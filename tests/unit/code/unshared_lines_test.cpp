@@ -1,0 +1,60 @@
+// The table of lines that are not shared, counted anew.
+#include "code/unshared_lines.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include <gtest/gtest.h>
+
+#include "code/basis.hpp"
+
+namespace dotpose::code {
+namespace {
+
+constexpr std::size_t kMost = 16;
+using Lines = std::array<int, kMost + 1>;
+
+/// The most lines that have grown by the same, of the first n from one end, for every n.
+Lines most_equal(const std::array<int, kMost>& growths, std::size_t lines, bool from_last) {
+    std::array<int, kSections> counts{};
+    Lines most{};
+    for (std::size_t n = 0; n < lines; ++n) {
+        const int growth = growths[from_last ? lines - 1 - n : n];
+        most[n + 1] = std::max(most[n], ++counts[static_cast<std::size_t>(growth)]);
+    }
+    return most;
+}
+
+/// The entry of a place: of the lines, those that no other place of the sequence shares.
+int entry(const Secondary& a, std::uint32_t place, int count) {
+    const auto lines = static_cast<std::size_t>(count);
+    int most_at_one = 0;
+    int most_on_both = 0;
+    for (std::uint32_t other = 0; other < a.length; ++other) {
+        if (other == place) continue;
+        std::array<int, kMost> growths{};
+        for (std::size_t line = 0; line < lines; ++line)
+            growths[line] = (a.rolls[other + line] - a.rolls[place + line] + kSections) % kSections;
+        const Lines before = most_equal(growths, lines, false);
+        const Lines from = most_equal(growths, lines, true);
+        most_at_one = std::max(most_at_one, before[lines]);
+        for (std::size_t border = 0; border <= lines; ++border)
+            most_on_both = std::max(most_on_both, before[border] + from[lines - border]);
+    }
+    return 16 * (count - most_at_one) + count - most_on_both;
+}
+
+TEST(UnsharedLines, AreAsCounted) {
+    const Basis& sequences = basis(Profile::anoto);
+    for (std::size_t row = 0; row < kUnsharedOf.size(); ++row) {
+        for (std::size_t k = 0; k < sequences.size(); ++k) {
+            for (std::uint32_t place = 0; place < sequences[k].length; ++place)
+                ASSERT_EQ(kUnshared[row][kUnsharedFrom[k] + place],
+                          entry(sequences[k], place, kUnsharedOf[row]))
+                    << row << ' ' << k << ' ' << place;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace dotpose::code
