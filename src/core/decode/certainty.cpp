@@ -48,7 +48,7 @@ constexpr float kNothing = 1e-30F;
 
 /// Something of every set of rivals, in whole vectors.
 struct OfSets {
-    std::array<Four, 2> part{};
+    std::array<Four, 2> part;
 
     static OfSets of(float value) { return {{Four{} + value, Four{} + value}}; }
 };
@@ -74,7 +74,7 @@ float far_rivals(const Contest& contest) {
     const int most = contest.most_shared();
     // Those that share the lines from one on, and none before it; nobody has before the first one.
     std::array<OfSets, kMostShared + kMaxLines> sharing;
-    std::fill_n(sharing.begin(), kMostShared, OfSets{});
+    std::fill_n(sharing.begin(), kMostShared, OfSets::of(0));
     OfSets* newest = &sharing[kMostShared - 1];
     *newest = OfSets::of(1);
     OfSets apart = OfSets::of(kShifts * odds_of(contest, contest.least_loss(0)));
