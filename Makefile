@@ -40,8 +40,9 @@ fuzz: setup build/fuzz/build.ninja
 	ctest --preset fuzz -j $(JOBS)
 
 bench: setup $(RELEASE)/build.ninja
-	$(BUILD) release -j $(JOBS) --target dotpose_bench
+	$(BUILD) release -j $(JOBS) --target dotpose_bench dotpose_instructions
 	$(RELEASE)/bin/dotpose_bench $(ARGS)
+	bench/instructions $(if $(findstring --update,$(ARGS)),--update)
 
 accuracy: setup $(RELEASE)/build.ninja
 	$(BUILD) release -j $(JOBS) --target dotpose_accuracy

@@ -19,7 +19,8 @@ struct FrameTimes {
     CameraModel camera;
     double dots = 0;
     double locate_us = 0;
-    double once_us = 0;    ///< `Effort::once`
+    double once_us = 0;  ///< `Effort::once`
+    double tracked_us = 0;
     double device_us = 0;  ///< `Effort::device`
     double floor_us = 0;
     double tag_us[2] = {};  ///< libapriltag with decimate 1 and 2
@@ -32,6 +33,20 @@ std::vector<FrameTimes> times_by_size(const Results& results);
 std::vector<FrameTimes> times_by_dots(const Results& results);
 std::string size_table(const std::vector<FrameTimes>& times);
 std::string dots_table(const std::vector<FrameTimes>& times);
+
+// ---- Tilted cameras: tilt.cpp ----
+
+/// Frames of one size, seen at one angle.
+struct TiltTimes {
+    CameraModel camera;
+    int tilt_deg = 0;
+    int frames = 0;
+    int at_once = 0;  ///< located at the first attempt
+    double median_us = 0;
+};
+/// Throws Error where a fix is wrong.
+std::vector<TiltTimes> time_tilted_frames(bool is_quick);
+std::string tilt_table(const std::vector<TiltTimes>& times);
 
 // ---- Stages: stages_bench.cpp ----
 

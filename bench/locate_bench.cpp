@@ -23,13 +23,20 @@ CameraModel camera_of(int width_px, int height_px) {
     return camera;
 }
 
+/// A phone's, of 12 megapixels, that sees a whole page.
+CameraModel phone_camera() {
+    CameraModel camera = camera_of(4000, 3000);
+    camera.mm_per_px = kDefaultSpacing_mm / 6;
+    return camera;
+}
+
 /// Largest frames that libapriltag gets: it takes longer than all others.
 constexpr int kMostTagPixels = 1280 * 800;
 
 const std::vector<CameraModel>& sizes() {
-    static const std::vector all = {camera_of(188, 120),   camera_of(320, 240),
-                                    camera_of(640, 480),   camera_of(1280, 800),
-                                    camera_of(2048, 2048), camera_of(4096, 4096)};
+    static const std::vector all = {
+        camera_of(188, 120),   camera_of(320, 240), camera_of(640, 480),  camera_of(1280, 800),
+        camera_of(2048, 2048), phone_camera(),      camera_of(4096, 4096)};
     return all;
 }
 
@@ -77,6 +84,27 @@ void locate_frames(benchmark::State& state, const CameraModel& camera, Effort ef
         next = (next + 1) % frames.size();
     }
     state.counters["dots"] = dots / static_cast<double>(frames.size());
+}
+
+/// Each frame from its own fix.
+void track_frames(benchmark::State& state, const CameraModel& camera) {
+    Workspace& workspace = workspace_for(camera);
+    const std::vector<KnownFrame>& frames = nominal_frames(camera);
+    std::vector<Prediction> predictions;
+    for (const KnownFrame& frame : frames) {
+        const auto like = Prediction::like(locate(frame.image.view(), {}, workspace));
+        const Fix fix = locate(frame.image.view(), {}, like, workspace);
+        if (fix.attempt != Attempt::tracked || !is_right(fix, frame.truth)) {
+            return state.SkipWithError("a frame was not tracked rightly");
+        }
+        predictions.push_back(like);
+    }
+    std::size_t next = 0;
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(
+            locate(frames[next].image.view(), {}, predictions[next], workspace));
+        next = (next + 1) % frames.size();
+    }
 }
 
 void count_pixels(benchmark::State& state, const CameraModel& camera) {
@@ -129,6 +157,7 @@ FrameTimes times_of(const CameraModel& camera, const Results& results) {
     const Result& located = results.of(name_of("locate", camera));
     FrameTimes times{camera, located.dots, located.us};
     times.once_us = results.of(name_of("locate_once", camera)).us;
+    times.tracked_us = results.of(name_of("locate_tracked", camera)).us;
     times.device_us = results.of(name_of("locate_device", camera)).us;
     return times;
 }
@@ -142,6 +171,8 @@ void add_frame_benchmarks() {
                 [=](benchmark::State& state) { locate_frames(state, camera, Effort::twice); });
             add(name_of("locate_once", camera),
                 [=](benchmark::State& state) { locate_frames(state, camera, Effort::once); });
+            add(name_of("locate_tracked", camera),
+                [=](benchmark::State& state) { track_frames(state, camera); });
             add(name_of("locate_device", camera),
                 [=](benchmark::State& state) { locate_frames(state, camera, Effort::device); });
         }
@@ -180,31 +211,33 @@ std::vector<FrameTimes> times_by_dots(const Results& results) {
 
 std::string size_table(const std::vector<FrameTimes>& all) {
     std::string table =
-        "| frame, px | dots | locate, µs | `--effort device`, µs | one pass, µs | apriltag 1, µs "
-        "| apriltag 2, µs | locate / one pass | apriltag 2 / locate |\n"
-        "|---|--:|--:|--:|--:|--:|--:|--:|--:|\n";
+        "| frame, px | spacing, px | dots | locate, µs | tracked, µs | `--effort device`, µs "
+        "| one pass, µs | apriltag 1, µs | apriltag 2, µs | locate / one pass "
+        "| apriltag 2 / locate |\n"
+        "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
     for (const FrameTimes& t : all) {
         const auto tag = [&](double us, int decimals) {
             return us > 0 ? fmt::format("{:.{}f}", us, decimals) : std::string("-");
         };
         table += fmt::format(
-            "| {} x {} | {:.0f} | {:.1f} | {:.1f} | {:.2f} | {} | {} | {:.0f} | "
+            "| {} x {} | {:.0f} | {:.0f} | {:.1f} | {:.1f} | {:.1f} | {:.2f} | {} | {} | {:.0f} | "
             "{} |\n",
-            t.camera.width_px, t.camera.height_px, t.dots, t.locate_us, t.device_us, t.floor_us,
-            tag(t.tag_us[0], 0), tag(t.tag_us[1], 0), t.locate_us / t.floor_us,
-            tag(t.tag_us[1] / t.locate_us, 1));
+            t.camera.width_px, t.camera.height_px, kDefaultSpacing_mm / t.camera.mm_per_px, t.dots,
+            t.locate_us, t.tracked_us, t.device_us, t.floor_us, tag(t.tag_us[0], 0),
+            tag(t.tag_us[1], 0), t.locate_us / t.floor_us, tag(t.tag_us[1] / t.locate_us, 1));
     }
     return table;
 }
 
 std::string dots_table(const std::vector<FrameTimes>& all) {
     std::string table =
-        "| spacing, px | dots | locate, µs | `--effort once`, µs | `--effort device`, µs |\n"
-        "|--:|--:|--:|--:|--:|\n";
+        "| spacing, px | dots | locate, µs | `--effort once`, µs | tracked, µs "
+        "| `--effort device`, µs |\n"
+        "|--:|--:|--:|--:|--:|--:|\n";
     for (const FrameTimes& t : all) {
-        table += fmt::format("| {:.0f} | {:.0f} | {:.1f} | {:.1f} | {:.1f} |\n",
+        table += fmt::format("| {:.0f} | {:.0f} | {:.1f} | {:.1f} | {:.1f} | {:.1f} |\n",
                              kDefaultSpacing_mm / t.camera.mm_per_px, t.dots, t.locate_us,
-                             t.once_us, t.device_us);
+                             t.once_us, t.tracked_us, t.device_us);
     }
     return table;
 }

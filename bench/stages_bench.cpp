@@ -257,7 +257,7 @@ void add_stage_benchmarks() {
 }
 
 std::string stage_table(const Results& results) {
-    std::string table = "| stage | default, µs | `--effort device`, µs |\n|---|--:|--:|\n";
+    std::string table = "| stage | rows pushed, µs | `--effort device`, µs |\n|---|--:|--:|\n";
     double full_us = 0;
     double device_us = 0;
     for (const NamedStage& stage : kStages) {

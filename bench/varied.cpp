@@ -6,14 +6,17 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <vector>
 
 #include <benchmark/benchmark.h>
 #include <fmt/core.h>
 
 #include <dotpose/locate.hpp>
+#include <dotpose/random.hpp>
 
 #include "apriltag.hpp"
+#include "core/attempts/first.hpp"
 #include "floor.hpp"
 #include "frames.hpp"
 
@@ -24,12 +27,13 @@ namespace {
 struct Subject {
     std::vector<const GreyImage*> frames;
     int found = 0;
-    std::function<void(GreyImage&)> run;
+    std::function<void(std::size_t, GreyImage&)> run;
     std::vector<double> fastest_us;
 };
 
 template <typename Frame>
-Subject subject_on(const std::vector<Frame>& frames, std::function<void(GreyImage&)> run) {
+Subject subject_on(const std::vector<Frame>& frames,
+                   std::function<void(std::size_t, GreyImage&)> run) {
     Subject subject;
     for (const Frame& frame : frames)
         subject.frames.push_back(&frame.image);
@@ -41,7 +45,7 @@ Subject subject_on(const std::vector<Frame>& frames, std::function<void(GreyImag
 Subject locating(const std::vector<KnownFrame>& frames, Effort effort, Workspace& workspace) {
     Options options;
     options.effort = effort;
-    Subject subject = subject_on(frames, [options, &workspace](GreyImage& image) {
+    Subject subject = subject_on(frames, [options, &workspace](std::size_t, GreyImage& image) {
         benchmark::DoNotOptimize(locate(image.view(), options, workspace));
     });
     for (const KnownFrame& frame : frames) {
@@ -53,15 +57,60 @@ Subject locating(const std::vector<KnownFrame>& frames, Effort effort, Workspace
     return subject;
 }
 
+/// As on a processor without AVX2; what it does not settle is not found.
+Subject locating_narrowly(const std::vector<KnownFrame>& frames, Workspace& workspace) {
+    const auto locates = [&workspace](const GreyImage& image) {
+        workspace.fix = {};
+        return core::locate_outwards(core::wide_kernels(), image.view(), {}, workspace);
+    };
+    Subject subject = subject_on(frames, [locates](std::size_t, GreyImage& image) {
+        benchmark::DoNotOptimize(locates(image));
+    });
+    for (const KnownFrame& frame : frames)
+        subject.found += locates(frame.image) && is_right(workspace.fix, frame.truth) ? 1 : 0;
+    return subject;
+}
+
+/// From the frame's own fix, displaced.
+Prediction prediction_for(const KnownFrame& frame, Rng& rng, Workspace& workspace) {
+    const Fix fix = locate(frame.image.view(), {}, workspace);
+    const double direction_rad = rng.uniform(0, 2 * std::numbers::pi);
+    const double way = rng.uniform(0, 0.35);
+    constexpr double kTurn = 4294967296.0;
+    const auto q16 = [](double spacings) { return static_cast<std::int32_t>(spacings * 65536); };
+    return moved(Prediction::like(fix), Profile::anoto,
+                 {q16(way * std::cos(direction_rad)), q16(way * std::sin(direction_rad))},
+                 static_cast<std::int32_t>(rng.uniform(-2, 2) / 360 * kTurn),
+                 fix.pattern_from_image.centre_q8);
+}
+
+Subject tracking(const std::vector<KnownFrame>& frames, Workspace& workspace) {
+    Rng rng(kSeed);
+    std::vector<Prediction> predictions;
+    for (const KnownFrame& frame : frames)
+        predictions.push_back(prediction_for(frame, rng, workspace));
+    Subject subject =
+        subject_on(frames, [predictions, &workspace](std::size_t i, GreyImage& image) {
+            benchmark::DoNotOptimize(locate(image.view(), {}, predictions[i], workspace));
+        });
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const Fix fix = locate(frames[i].image.view(), {}, predictions[i], workspace);
+        if (fix.status != Status::ok) continue;
+        if (!is_right(fix, frames[i].truth)) throw Error("a frame was located wrongly");
+        subject.found += fix.attempt == Attempt::tracked ? 1 : 0;
+    }
+    return subject;
+}
+
 Subject passing_over(const std::vector<KnownFrame>& frames) {
     constexpr std::uint8_t kLevel = 128;
-    return subject_on(frames, [](GreyImage& image) {
+    return subject_on(frames, [](std::size_t, GreyImage& image) {
         benchmark::DoNotOptimize(count_dark(image.pixels, kLevel));
     });
 }
 
 Subject detecting(std::vector<TagFrame>& frames, TagDetector& detector) {
-    Subject subject = subject_on(frames, [&detector](GreyImage& image) {
+    Subject subject = subject_on(frames, [&detector](std::size_t, GreyImage& image) {
         benchmark::DoNotOptimize(detector.detect(image));
     });
     for (TagFrame& frame : frames)
@@ -77,7 +126,7 @@ void pass(Subject& subject) {
     for (std::size_t i = 0; i < subject.frames.size(); ++i) {
         std::ranges::copy(subject.frames[i]->pixels, camera.pixels.begin());
         const auto start = Clock::now();
-        subject.run(camera);
+        subject.run(i, camera);
         const std::chrono::duration<double, std::micro> time = Clock::now() - start;
         subject.fastest_us[i] = std::min(subject.fastest_us[i], time.count());
     }
@@ -116,6 +165,8 @@ Varied time_varied_frames(int frame_count, int passes) {
     std::array<Subject, kWays> subjects = {
         locating(frames, Effort::twice, *workspace),
         locating(frames, Effort::once, *workspace),
+        locating_narrowly(frames, *workspace),
+        tracking(frames, *workspace),
         locating(frames, Effort::device, *workspace),
         passing_over(frames),
         detecting(tags, detector_1),
@@ -132,8 +183,9 @@ Varied time_varied_frames(int frame_count, int passes) {
 
 std::string varied_table(const Varied& varied) {
     constexpr std::array<const char*, kWays> kNames = {
-        "`locate`, default", "`locate`, `--effort once`", "`locate`, `--effort device`",
-        "one pass",          "libapriltag, decimate 1",   "libapriltag, decimate 2",
+        "`locate`, default",       "`locate`, `--effort once`",   "the same without AVX2",
+        "`locate`, tracked",       "`locate`, `--effort device`", "one pass",
+        "libapriltag, decimate 1", "libapriltag, decimate 2",
     };
     std::string table =
         "| | frames | found | median, µs | 99 %, µs | longest, µs | longest / median |\n"

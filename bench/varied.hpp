@@ -7,8 +7,17 @@
 namespace dotpose::bench {
 
 /// What looks at the frames, in the order of the table.
-enum class Way : std::uint8_t { twice, once, device, floor, apriltag_1, apriltag_2 };
-inline constexpr std::size_t kWays = 6;
+enum class Way : std::uint8_t {
+    twice,
+    once,
+    narrow,   ///< the first attempt in vectors of 16 bytes, as without AVX2
+    tracked,  ///< from predictions off by up to a third of a spacing and 2 degrees
+    device,
+    floor,
+    apriltag_1,
+    apriltag_2,
+};
+inline constexpr std::size_t kWays = 8;
 
 /// Times of one way, in µs: for each frame the fastest of several passes.
 struct FrameSpread {
@@ -19,6 +28,7 @@ struct FrameSpread {
     double longest_us = 0;
 
     double longest_over_median() const { return longest_us / median_us; }
+    double p99_over_median() const { return p99_us / median_us; }
 };
 
 struct Varied {

@@ -133,7 +133,8 @@ Fix timed_locate(const GreyImage& image, const Options& options, Workspace& work
 Drive drive_over(const Sheet& sheet, const fs::path& folder, Workspace& workspace) {
     const Page page = page_of(sheet);
     const CameraModel camera;
-    const Options options;
+    Options options;
+    options.show_stages = true;
     Drive drive;
     for (int frame = 0; frame < kFrames; ++frame) {
         const Waypoint truth = waypoint(sheet, frame);
@@ -191,7 +192,8 @@ void locate_photo(const fs::path& photo, const fs::path& folder, Workspace& work
         return;
     }
     const GreyImage image = read_image(photo);
-    const Options options;
+    Options options;
+    options.show_stages = true;
     const Fix fix = locate(image.view(), options, workspace);
     const fs::path picture = folder / "photo.svg";
     draw_frame(picture, image.view(), workspace, options, {.title = "a real photo"});

@@ -45,6 +45,7 @@ FrameLocator::FrameLocator(const LocatorOptions& options)
       used_(options.locate),
       workspace_(std::make_unique<LargeWorkspace>()),
       tracker_(options.track) {
+    used_.show_stages = true;  // for window and recording
     if (!options.sheets.empty()) use_sheets();
 }
 

@@ -190,6 +190,7 @@ class Locator {
 
     Options options_for(const GreyImage& image) const {
         Options options = arguments_.options;
+        options.show_stages = pictures_.has_value();
         if (arguments_.camera) {
             use_camera(*arguments_.camera, image.width_px, image.height_px, options);
         }

@@ -69,6 +69,7 @@ std::vector<SightedDot> dots_read(const Workspace& w, Profile profile) {
 
 Sighter::Sighter(Profile profile) : workspace_(std::make_unique<LargeWorkspace>()) {
     options_.profile = profile;
+    options_.show_stages = true;
 }
 
 std::optional<Sighting> Sighter::sight(const ImageView& image) {

@@ -28,18 +28,39 @@ FloatVec plane_point(const FloatPlane& plane, FloatVec px) {
 }
 
 FloatPlane recentred(const FloatPlane& plane, FloatVec to_px) {
-    const float divisor = std::max(1 + plane.tilt_x * to_px.x + plane.tilt_y * to_px.y, 0.25F);
-    const FloatVec way{(plane.du_x * to_px.x + plane.dv_x * to_px.y) / divisor,
-                       (plane.du_y * to_px.x + plane.dv_y * to_px.y) / divisor};
+    const auto& [x, y] = to_px;
+    const float divisor =
+        std::max(1 + plane.tilt_x * x + plane.tilt_y * y + plane.bend * (x * x + y * y), 0.25F);
+    const FloatVec way{(plane.du_x * x + plane.dv_x * y) / divisor,
+                       (plane.du_y * x + plane.dv_y * y) / divisor};
+    const FloatVec tilt{plane.tilt_x + 2 * plane.bend * x, plane.tilt_y + 2 * plane.bend * y};
     return {plane.at_x + way.x,
             plane.at_y + way.y,
-            (plane.du_x - way.x * plane.tilt_x) / divisor,
-            (plane.du_y - way.y * plane.tilt_x) / divisor,
-            (plane.dv_x - way.x * plane.tilt_y) / divisor,
-            (plane.dv_y - way.y * plane.tilt_y) / divisor,
-            plane.tilt_x / divisor,
-            plane.tilt_y / divisor,
-            0};
+            (plane.du_x - way.x * tilt.x) / divisor,
+            (plane.du_y - way.y * tilt.x) / divisor,
+            (plane.dv_x - way.x * tilt.y) / divisor,
+            (plane.dv_y - way.y * tilt.y) / divisor,
+            tilt.x / divisor,
+            tilt.y / divisor,
+            plane.bend / divisor};
+}
+
+bool is_within_reason(const FloatPlane& plane, float half_width_px, float half_height_px) {
+    // As many spacings as a PlaneFromImage holds, and cells are counted in whole numbers.
+    constexpr float kFarthest = 32768;
+    constexpr float kFinest_px = 3;
+    constexpr float kCoarsest_px = 400;
+    // A square of the grid, and the largest rectangle with sides as long.
+    constexpr float kFlattest = 1.0F / 4;
+    const float area = plane.du_x * plane.dv_y - plane.dv_x * plane.du_y;
+    const float sides = std::sqrt((plane.du_x * plane.du_x + plane.du_y * plane.du_y) *
+                                  (plane.dv_x * plane.dv_x + plane.dv_y * plane.dv_y));
+    const float fold =
+        std::abs(plane.tilt_x) * half_width_px + std::abs(plane.tilt_y) * half_height_px;
+    // What is no number is not within any limits.
+    return std::abs(plane.at_x) < kFarthest && std::abs(plane.at_y) < kFarthest &&
+           area * kFinest_px * kFinest_px < 1 && area * kCoarsest_px * kCoarsest_px > 1 &&
+           area > kFlattest * sides && fold < 0.75F && std::isfinite(plane.bend);
 }
 
 PlaneFromImage fixed_plane(const FloatPlane& plane, Vec centre_q8) {

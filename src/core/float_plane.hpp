@@ -16,13 +16,18 @@ struct FloatVec {
 /// fold.
 FloatVec plane_point(const FloatPlane& plane, FloatVec px);
 
-/// The same plane, without its bend, counted from another point of the image.
+/// The same plane counted from another point of the image; with a bend, near enough only.
 FloatPlane recentred(const FloatPlane& plane, FloatVec to_px);
 
 /// px per spacing at the centre.
 inline float spacing_px(const FloatPlane& plane) {
     return 1 / std::sqrt(std::abs(plane.du_x * plane.dv_y - plane.dv_x * plane.du_y));
 }
+
+/// Whether a camera may see paper so: the grid is neither finer nor coarser than dots can be
+/// measured, not seen from behind or from the side, nowhere in the image folded, and counted from
+/// nearby. False of a plane with something that is no number in it.
+bool is_within_reason(const FloatPlane& plane, float half_width_px, float half_height_px);
 
 PlaneFromImage fixed_plane(const FloatPlane& plane, Vec centre_q8);
 FloatPlane float_plane(const PlaneFromImage& plane);

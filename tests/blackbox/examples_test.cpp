@@ -12,7 +12,6 @@
 namespace dotpose::test {
 namespace {
 
-using testing::AnyOf;
 using testing::HasSubstr;
 
 class Examples : public ToolCommand {
@@ -52,7 +51,8 @@ TEST_F(Examples, FollowGoesWithTheRobot) {
         ASSERT_EQ(std::sscanf(lines[i].c_str(), "x %*f mm, y %*f mm, %lf and %lf mm/s", &vx, &vy),
                   2)
             << lines[i];
-        EXPECT_THAT(lines[i], AnyOf(HasSubstr("tracked"), HasSubstr("first")));
+        // Two fixes make a velocity; before, it moves too far from frame to frame.
+        EXPECT_THAT(lines[i], HasSubstr(i < 2 ? "first" : "tracked"));
         const DriveState truth = drive.at(first + static_cast<int>(i));
         if (i >= 4) {
             EXPECT_NEAR(std::hypot(vx, vy), std::hypot(truth.vx_mm_s, truth.vy_mm_s), 3);

@@ -7,6 +7,7 @@
 #include "core/attempts/fitted_pose.hpp"
 #include "core/decode/bit_lines.hpp"
 #include "core/decode/certainty.hpp"
+#include "core/decode/window.hpp"
 #include "core/pose/covariance.hpp"
 #include "core/pose/float_fit.hpp"
 #include "core/pose/subgrid.hpp"
@@ -27,7 +28,7 @@ FloatVec centre_px(const ImageView& image) {
             static_cast<float>(image.height_px - 1) / 2};
 }
 
-float half_diagonal_px(const ImageView& image) {
+float half_side_px(const ImageView& image) {
     return std::max(static_cast<float>(image.width_px), static_cast<float>(image.height_px)) / 2;
 }
 
@@ -62,9 +63,20 @@ bool is_plausible(const BitsRead& bits, const MeasuredDots& dots, const Options&
     const auto share_is_wrong = [&](int wrong) {
         return 256 * wrong > bits.read * options.integrity.max_bit_error_q8;
     };
-    return bits.read >= options.lattice.min_dots && 2 * bits.seen >= dots.count &&
-           4 * bits.read >= 3 * bits.seen && !share_is_wrong(bits.wrong_x) &&
+    return bits.read >= options.lattice.min_dots && 4 * bits.seen >= dots.count &&
+           2 * bits.read >= bits.seen && !share_is_wrong(bits.wrong_x) &&
            !share_is_wrong(bits.wrong_y);
+}
+
+BitsRead read(const Kernels& kernels, const Sight& sight, const MeasuredDots& dots,
+              BitBlock& block) {
+    return kernels.read_bits(dots, sight.pattern_from_image, sight.displacement, block.columns,
+                             block.rows, -BitBlock::kMiddle, -BitBlock::kMiddle);
+}
+
+/// Nearly all dots are clear, and hardly a bit is wrong.
+bool is_clean(const BitsRead& bits) {
+    return 100 * bits.read >= 97 * bits.seen && bits.wrong_x + bits.wrong_y <= 1;
 }
 
 /// Whether the bits of all dots near the centre leave no doubt.
@@ -135,9 +147,8 @@ void show(const Sight& sight, Workspace& w) {
         ++w.dot_count;
     }
     Decoding& decoding = w.decoding;
-    decoding.place = sight.place;
-    decoding.pattern_from_grid = {};
     decoding.region = {grid.i0, grid.j0, grid.columns, grid.rows};
+    decoding.window = choose_window(grid, kWindowSide);
     w.grid_from_image = w.pattern_from_image;
 }
 
@@ -146,16 +157,44 @@ Vec reference_q8(const ImageView& image, const Options& options) {
             (image.height_px - 1) * 128 + options.reference_dy_q8};
 }
 
+/// Fits the plane, and the displacement that it goes with.
+bool fit_to_dots(const Kernels& kernels, const MeasuredDots& dots, const BitsRead& bits,
+                 const ImageView& image, Sight& sight, PoseFit& fit) {
+    if (bits.right == 0) return false;
+    const auto right = static_cast<float>(bits.right);
+    sight.displacement = bits.projected / right;
+    // Four deviations of those that are right.
+    const float limit = 8.3F * bits.squares / right + 1e-6F;
+    return fit_plane(kernels, dots, static_cast<int>(half_side_px(image)) + 1, limit,
+                     sight.displacement, sight.pattern_from_image, fit);
+}
+
+void write_fix(const ImageView& image, const Options& options, const Sight& sight,
+               const BitsRead& bits, const PoseFit& fit, Workspace& w) {
+    w.fix.dots_seen = bits.seen;
+    w.fix.bit_errors = bits.wrong_x + bits.wrong_y;
+    w.fix.displacement_q16 = static_cast<std::int32_t>(fit.displacement * 65536);
+    const Vec centre_q8{(image.width_px - 1) * 128, (image.height_px - 1) * 128};
+    w.pattern_from_image = fixed_plane(sight.pattern_from_image, centre_q8);
+    w.decoding.place = sight.place;
+    w.decoding.pattern_from_grid = {};
+    const Vec reference = reference_q8(image, options);
+    write_pose(w.pattern_from_image, reference, options.profile, sight.place, w.fix);
+    estimate_covariance(fit, w.pattern_from_image, reference, w.fix);
+    w.fix.status = Status::ok;
+}
+
 }  // namespace
+
+bool is_plausible(const ImageView& image, const FloatPlane& plane) {
+    return is_within_reason(plane, static_cast<float>(image.width_px) / 2,
+                            static_cast<float>(image.height_px) / 2);
+}
 
 FloatLens float_lens(const Lens& lens) {
     constexpr float kQ40 = 1099511627776.0F;
     return {static_cast<float>(lens.k_q40) / kQ40, static_cast<float>(lens.centre_dx_q8) / 256,
             static_cast<float>(lens.centre_dy_q8) / 256};
-}
-
-int half_window_px(float spacing_px, float reach) {
-    return std::clamp(static_cast<int>(reach * spacing_px + 0.5F), 2, kMostHalfWindow_px);
 }
 
 CellsInView cells_in_view(const ImageView& image, const Options& options, const Sight& sight,
@@ -164,16 +203,18 @@ CellsInView cells_in_view(const ImageView& image, const Options& options, const 
     CellsInView view;
     view.plane = sight.pattern_from_image;
     view.lens = float_lens(options.lens);
-    view.centre_x = centre.x;
-    view.centre_y = centre.y;
+    view.lens.centre_x -= sight.from_centre.x;
+    view.lens.centre_y -= sight.from_centre.y;
+    view.centre_x = centre.x + sight.from_centre.x;
+    view.centre_y = centre.y + sight.from_centre.y;
     view.width_px = static_cast<float>(image.width_px);
     view.height_px = static_cast<float>(image.height_px);
     view.reach_px = reach_px;
     view.displacement = sight.displacement;
     // A dot that touches the border is not seen whole.
     view.margin_px = std::max(1.7F, 0.15F * spacing_px(sight.pattern_from_image));
-    const float half_width = std::min(centre.x + 1, reach_px);
-    const float half_height = std::min(centre.y + 1, reach_px);
+    const float half_width = std::min(centre.x + std::abs(sight.from_centre.x) + 1, reach_px);
+    const float half_height = std::min(centre.y + std::abs(sight.from_centre.y) + 1, reach_px);
     float least_x = 0, least_y = 0, most_x = 0, most_y = 0;
     for (const FloatVec corner :
          {FloatVec{-half_width, -half_height}, FloatVec{half_width, -half_height},
@@ -209,50 +250,47 @@ void count_from_centre(Profile profile, Sight& sight) {
                         static_cast<std::int32_t>(row));
 }
 
-bool confirm(const Kernels& kernels, const ImageView& image, const Options& options, Sight sight,
-             Workspace& w) {
+Confirmation confirm(const Kernels& kernels, const ImageView& image, const Options& options,
+                     Sight sight, Workspace& w) {
     FloatPlane& plane = sight.pattern_from_image;
     MeasuredDots& dots = w.measured;
-    const float full = half_diagonal_px(image) + 1;
+    const float full = half_side_px(image) + 1;
     const float spacing = spacing_px(plane);
-    const int reach_px = static_cast<int>(full);
-    constexpr int kCutOfDepth_q8 = 200;
-    const WindowLook look{half_window_px(spacing, 0.36F), sight.depth_q8 * kCutOfDepth_q8 >> 8};
+    const WindowLook look{spacing, 0.36F, sight.depth_q8 * kCutOfDepth_q8 >> 8};
     float reach = full <= kDenseAtMost * spacing ? full : kDense * spacing;
     const int most_dots = std::min(std::max(options.most_dots, 64), dots.capacity());
     PoseFit fit;
     BitsRead bits;
     for (bool is_first = true;; is_first = false) {
+        if (!is_plausible(image, plane)) return Confirmation::implausible;
         count_from_centre(options.profile, sight);
         const CellsInView view =
             cells_in_view(image, options, sight, reach, is_first ? dots.capacity() : most_dots, w);
         kernels.list_cells(view, dots);
         kernels.measure_windows(image, view, look, dots);
         BitBlock block;
-        bits = kernels.read_bits(dots, plane, sight.displacement, block.columns, block.rows,
-                                 -BitBlock::kMiddle, -BitBlock::kMiddle);
-        if (!is_plausible(bits, dots, options)) return false;
-        if (is_first && !is_certain(kernels, options, sight, block, bits, w)) return false;
-        const auto right = static_cast<float>(bits.right);
-        sight.displacement = bits.projected / right;
-        const float limit = 8.3F * bits.squares / right + 1e-6F;
-        if (!fit_plane(kernels, dots, reach_px, limit, sight.displacement, plane, fit))
-            return false;
+        bits = read(kernels, sight, dots, block);
+        if (!is_plausible(bits, dots, options)) return Confirmation::implausible;
+        if (is_first && !is_clean(bits)) {
+            // Through a plane that is fitted to all dots, fewer bits are misread.
+            if (!fit_to_dots(kernels, dots, bits, image, sight, fit))
+                return Confirmation::implausible;
+            block = {};
+            bits = read(kernels, sight, dots, block);
+        }
+        if (is_first && !is_certain(kernels, options, sight, block, bits, w)) {
+            return Confirmation::uncertain;
+        }
+        if (!fit_to_dots(kernels, dots, bits, image, sight, fit)) return Confirmation::implausible;
         if (reach >= full) break;
         reach = std::min(reach * kFarther, full);
     }
-    w.fix.dots_seen = bits.seen;
-    w.fix.bit_errors = bits.wrong_x + bits.wrong_y;
-    w.fix.displacement_q16 = static_cast<std::int32_t>(fit.displacement * 65536);
-    const Vec centre_q8{(image.width_px - 1) * 128, (image.height_px - 1) * 128};
-    w.pattern_from_image = fixed_plane(plane, centre_q8);
-    const Vec reference = reference_q8(image, options);
-    write_pose(w.pattern_from_image, reference, options.profile, sight.place, w.fix);
-    estimate_covariance(fit, w.pattern_from_image, reference, w.fix);
-    if (is_far_fetched(fit, 2 * bits.read, bits.wrong_x + bits.wrong_y)) return false;
+    if (!is_plausible(image, plane)) return Confirmation::implausible;
+    if (is_far_fetched(fit, 2 * bits.read, bits.wrong_x + bits.wrong_y))
+        return Confirmation::uncertain;
+    write_fix(image, options, sight, bits, fit, w);
     if (options.show_stages) show(sight, w);
-    w.fix.status = Status::ok;
-    return true;
+    return Confirmation::ok;
 }
 
 }  // namespace dotpose::core

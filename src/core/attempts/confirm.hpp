@@ -12,28 +12,38 @@ namespace dotpose::core {
 
 /// Where the pattern is thought to be in the image.
 struct Sight {
-    FloatPlane pattern_from_image;  ///< upright, counted from the image centre
+    FloatPlane pattern_from_image;  ///< upright, counted from `from_centre`
+    FloatVec from_centre;           ///< px, from the image centre
     Place place;                    ///< of the plane's cell (0, 0)
     float displacement = 0;         ///< of the typical dot, spacings
     int depth_q8 = 0;  ///< how much darker than paper a typical dot is, smoothed, in 1/256
 };
 
+/// Windows count what is darker than the paper by this share, in 1/256, of a typical dot's
+/// darkness.
+inline constexpr int kCutOfDepth_q8 = 200;
+
 FloatLens float_lens(const Lens& lens);
 
-/// Half a window that holds a dot wherever it stands around the middle, and none of its neighbours.
-int half_window_px(float spacing_px, float reach);
-
-/// What `list_cells` is asked for: the cells in view within `reach_px` of the image centre, at most
-/// about so many. Fills in the workspace's rolls.
+/// What `list_cells` is asked for: the cells in view within `reach_px` of the sight's point, at
+/// most about so many. Fills in the workspace's rolls.
 CellsInView cells_in_view(const ImageView& image, const Options& options, const Sight& sight,
                           float reach_px, int most_cells, Workspace& w);
+
+/// Whether an image can show the grid so; all that follows relies on it.
+bool is_plausible(const ImageView& image, const FloatPlane& plane);
 
 /// Counts cells from the one at the image centre.
 void count_from_centre(Profile profile, Sight& sight);
 
-/// Measures, compares, fits. Sets the workspace's fix and what there is to see of it. False if the
-/// image does not bear out where the pattern was thought to be, or not clearly.
-bool confirm(const Kernels& kernels, const ImageView& image, const Options& options, Sight sight,
-             Workspace& w);
+enum class Confirmation : std::uint8_t {
+    ok,
+    implausible,  ///< the dots are not where they were expected
+    uncertain,    ///< they are, but their bits leave doubts
+};
+
+/// Measures, compares, fits. Sets the workspace's fix and what there is to see of it.
+Confirmation confirm(const Kernels& kernels, const ImageView& image, const Options& options,
+                     Sight sight, Workspace& w);
 
 }  // namespace dotpose::core

@@ -63,10 +63,9 @@ bool locate_outwards(const Kernels& kernels, const ImageView& image, const Optio
         }
         Sight sight;
         if (!find_sight(kernels, image, options, w, sight)) continue;
-        if (confirm(kernels, image, options, sight, w)) {
-            w.fix.attempt = Attempt::first;
-            return true;
-        }
+        const Confirmation confirmation = confirm(kernels, image, options, sight, w);
+        w.fix.attempt = Attempt::first;
+        if (confirmation != Confirmation::implausible) return confirmation == Confirmation::ok;
     }
     return false;
 }

@@ -11,16 +11,21 @@
 namespace dotpose::core {
 namespace {
 
-/// Dots so near the image centre, in spacings, tell how far the prediction is off: few enough for a
-/// turn not to mix them up.
-constexpr float kCentre = 2.6F;
+/// Dots so near one point of the image, in spacings, tell how far the prediction is off: few enough
+/// for a turn not to mix them up.
+constexpr float kNear = 2.6F;
 constexpr float kMostOff = 0.6F;
+constexpr int kFewestNear = 10;
+/// Spacings of planes that can be tracked.
+constexpr float kFinest_px = 5;
+constexpr float kCoarsest_px = 80;
 
 /// Position, scale and turn of least squares; perspective and shear stay as predicted.
 bool fit_similarity(const Kernels& kernels, const MeasuredDots& dots, float reach_px,
-                    float displacement, float most_off, int fewest_dots, FloatPlane& plane) {
-    const FitSums sums = kernels.sum_similarity(dots, plane, displacement, reach_px, most_off * most_off);
-    if (sums.points < static_cast<float>(fewest_dots)) return false;
+                    float displacement, float most_off, FloatPlane& plane) {
+    const FitSums sums =
+        kernels.sum_similarity(dots, plane, displacement, reach_px, most_off * most_off);
+    if (sums.points < static_cast<float>(kFewestNear)) return false;
     Normal normal(sums);
     if (!normal.decompose()) return false;
     const Parameters step = normal.unwhitened(normal.whitened(normal.right()));
@@ -34,20 +39,24 @@ bool fit_similarity(const Kernels& kernels, const MeasuredDots& dots, float reac
     return true;
 }
 
-/// Corrects the sight by the dots near the image centre. False if they are not there.
-bool find_centre(const Kernels& kernels, const ImageView& image, const Options& options,
-                 const Prediction& prediction, Sight& sight, Workspace& w) {
+/// How far the prediction may be off, px.
+int most_shift_px(const Prediction& prediction, float spacing_px) {
+    const float off =
+        std::clamp(3 * static_cast<float>(prediction.sigma_q16) / 65536 + 0.1F, 0.1F, kMostOff);
+    return static_cast<int>(std::ceil(off * spacing_px));
+}
+
+/// Corrects the sight by the dots near the point it is counted from. False if they are not there.
+bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Options& options,
+                     int most_px, Sight& sight, Workspace& w) {
     FloatPlane& plane = sight.pattern_from_image;
     MeasuredDots& dots = w.measured;
     const float spacing = spacing_px(plane);
-    const float reach = kCentre * spacing;
-    CellsInView view = cells_in_view(image, options, sight, reach, 64, w);
+    const float reach = kNear * spacing;
+    CellsInView view = cells_in_view(image, options, sight, reach, dots.capacity(), w);
     view.window_on_dot = true;
-    view.step = 1;
     kernels.list_cells(view, dots);
-    const float off =
-        std::min(3 * static_cast<float>(prediction.sigma_q16) / 65536 + 0.1F, kMostOff);
-    const int most_px = static_cast<int>(std::ceil(off * spacing));
+    // Thirteen shifts along either axis.
     const int step_px = std::max((most_px + 3) / 6, 1);
     Vec shift;
     if (!kernels.find_shift(image, dots, most_px, step_px, shift, sight.depth_q8)) return false;
@@ -56,11 +65,55 @@ bool find_centre(const Kernels& kernels, const ImageView& image, const Options& 
         dots.window_v[i] += shift.y;
     }
     plane = recentred(plane, {static_cast<float>(-shift.x), static_cast<float>(-shift.y)});
-    constexpr int kCutOfDepth_q8 = 200;
-    kernels.measure_windows(
-        image, view, {half_window_px(spacing, 0.3F), sight.depth_q8 * kCutOfDepth_q8 >> 8}, dots);
-    return fit_similarity(kernels, dots, reach, sight.displacement, 0.30F, 10, plane) &&
-           fit_similarity(kernels, dots, reach, sight.displacement, 0.15F, 10, plane);
+    kernels.measure_windows(image, view, {spacing, 0.3F, sight.depth_q8 * kCutOfDepth_q8 >> 8},
+                            dots);
+    return fit_similarity(kernels, dots, reach, sight.displacement, 0.30F, plane) &&
+           fit_similarity(kernels, dots, reach, sight.displacement, 0.15F, plane);
+}
+
+/// The same, near the image centre or, where that is covered, elsewhere in the image.
+bool correct(const Kernels& kernels, const ImageView& image, const Options& options, int most_px,
+             Sight& sight, Workspace& w) {
+    const float aside = 0.25F * static_cast<float>(image.width_px);
+    const float down = 0.22F * static_cast<float>(image.height_px);
+    for (const FloatVec from : {FloatVec{0, 0}, FloatVec{-aside, -down}, FloatVec{aside, down},
+                                FloatVec{aside, -down}, FloatVec{-aside, down}}) {
+        Sight there = sight;
+        there.from_centre = from;
+        there.pattern_from_image = recentred(sight.pattern_from_image, from);
+        count_from_centre(options.profile, there);
+        if (!correct_by_dots(kernels, image, options, most_px, there, w)) continue;
+        there.pattern_from_image = recentred(there.pattern_from_image, {-from.x, -from.y});
+        there.from_centre = {};
+        sight = there;
+        return true;
+    }
+    return false;
+}
+
+bool is_in_code(const Place& place) {
+    return place.cell.x < kPositionsPerAxis && place.cell.y < kPositionsPerAxis &&
+           place.section.u < kSections && place.section.v < kSections;
+}
+
+/// Where the prediction has the pattern, counted from the image centre. False if it makes no sense.
+bool take(const Prediction& prediction, const ImageView& image, const Options& options,
+          Sight& sight) {
+    const PlaneFromImage& plane = prediction.pattern_from_image;
+    const auto from_q8 = [](int side_px, std::int32_t centre_q8) {
+        return (static_cast<float>(side_px - 1) * 128 - static_cast<float>(centre_q8)) / 256;
+    };
+    sight.pattern_from_image = recentred(
+        float_plane(plane),
+        {from_q8(image.width_px, plane.centre_q8.x), from_q8(image.height_px, plane.centre_q8.y)});
+    sight.place = prediction.place;
+    sight.displacement = static_cast<float>(prediction.displacement_q16) / 65536;
+    const float spacing = spacing_px(sight.pattern_from_image);
+    if (!is_in_code(sight.place) || !is_plausible(image, sight.pattern_from_image)) return false;
+    if (!(spacing > kFinest_px && spacing < kCoarsest_px)) return false;
+    if (!(sight.displacement > 0.05F && sight.displacement < 0.4F)) return false;
+    count_from_centre(options.profile, sight);
+    return true;
 }
 
 }  // namespace
@@ -69,20 +122,10 @@ bool locate_tracked(const Kernels& kernels, const ImageView& image, const Option
                     const Prediction& prediction, Workspace& w) {
     forget_frame(w);
     Sight sight;
-    const PlaneFromImage& plane = prediction.pattern_from_image;
-    sight.pattern_from_image =
-        recentred(float_plane(plane),
-                  {static_cast<float>((image.width_px - 1) * 128 - plane.centre_q8.x) / 256,
-                   static_cast<float>((image.height_px - 1) * 128 - plane.centre_q8.y) / 256});
-    sight.place = prediction.place;
-    sight.displacement = static_cast<float>(prediction.displacement_q16) / 65536;
-    const float spacing = spacing_px(sight.pattern_from_image);
-    if (!(spacing > 5 && spacing < 80) ||
-        !(sight.displacement > 0.05F && sight.displacement < 0.4F))
-        return false;
-    count_from_centre(options.profile, sight);
-    if (!find_centre(kernels, image, options, prediction, sight, w)) return false;
-    if (!confirm(kernels, image, options, sight, w)) return false;
+    if (!take(prediction, image, options, sight)) return false;
+    const int most_px = most_shift_px(prediction, spacing_px(sight.pattern_from_image));
+    if (!correct(kernels, image, options, most_px, sight, w)) return false;
+    if (confirm(kernels, image, options, sight, w) != Confirmation::ok) return false;
     w.fix.attempt = Attempt::tracked;
     return true;
 }

@@ -8,6 +8,7 @@
 #include "core/decode/least_losses.hpp"
 #include "core/decode/quick_rivals.hpp"
 #include "core/decode/rival_sets.hpp"
+#include "core/decode/rivals.hpp"
 #include "core/decode/seam_rivals.hpp"
 #include "core/fixed.hpp"
 #include "core/vectors.hpp"
@@ -62,8 +63,8 @@ constexpr NumbersOfSets of_each_set(Number number) {
         numbers[i] = number(kRivalSets[i]);
     return numbers;
 }
-constexpr NumbersOfSets kEqual = of_each_set(
-    [](const RivalSet& set) { return power_of_two(set.equal_q8 + kUnevenness_q8); });
+constexpr NumbersOfSets kEqual =
+    of_each_set([](const RivalSet& set) { return power_of_two(set.equal_q8 + kUnevenness_q8); });
 constexpr NumbersOfSets kRivals =
     of_each_set([](const RivalSet& set) { return power_of_two(set.rivals_q8); });
 
@@ -175,6 +176,7 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const Lines& li
     float sum =
         chance + far_rivals(contest) + other_sections(contest) + single_rivals(kernels, contest);
     if (sum > limit) sum = chance + power_of_two(quick_rivals_log2_q8(contest, 256 * limit_log2));
+    if (sum > limit) sum = chance + std::ldexp(1.0F, rivals_log2(profile, contest, limit_log2));
     if (sum > limit) return 1;
     return sum + power_of_two(std::max(seam_rivals_log2_q8(contest), -100 * 256));
 }

@@ -25,8 +25,18 @@ Contest::Contest(Profile profile, const Lines& lines_, const AxisReading& readin
 }
 
 std::optional<int> loss_of_growth(const Contest& contest, const Growth& growth, int shared) {
-    return loss_of_growth(contest, growth, shared,
-                          [&](int line, int shift) { return contest.loss(line, shift); });
+    const int base = growth[static_cast<std::size_t>(shared)];
+    const int count = contest.lines.count();
+    int lost = 0;
+    // Outwards from the shared line, where most is lost soonest; its predecessors last.
+    for (int i = 1, line = shared + 1; i < count; ++i, ++line) {
+        if (line == count) line = 0;
+        const int shift = growth[static_cast<std::size_t>(line)] - base;
+        if (shift == 0 && line < shared) return std::nullopt;
+        lost += contest.loss(line, shift);
+        if (contest.is_hopeless(lost)) break;
+    }
+    return lost;
 }
 
 }  // namespace dotpose::core

@@ -1,7 +1,9 @@
 // Contest: the position that was read against others, its rivals.
 #pragma once
 
-#include <cmath>
+#include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <optional>
 
 #include "code/basis.hpp"
@@ -46,11 +48,13 @@ class Contest {
     }
     /// The least loss that takes odds that far down.
     int loss_for(int log2_odds_q8) const { return -log2_odds_q8 * 254 / odds_per_bit_q8_ + 1; }
-    /// Odds as a number.
+    /// Odds as a number; those for a rival are not told apart from where they are past all doubt.
     float odds(int lost) const {
-        const int log2_q8 = std::max(log2_odds_q8(lost), kNegligible_q8);
+        const int log2_q8 = std::clamp(log2_odds_q8(lost), kNegligible_q8, -kNegligible_q8);
         const int whole = log2_q8 >> 8;
-        return std::ldexp(static_cast<float>(exp2_q16(log2_q8 - whole * 256)), whole - 16);
+        // The exponent of a float stands above 23 bits, and 127 too high.
+        const auto power = std::bit_cast<float>(static_cast<std::uint32_t>(whole - 16 + 127) << 23);
+        return static_cast<float>(exp2_q16(log2_q8 - whole * 256)) * power;
     }
     /// Whether the odds of a rival that has lost so much already are negligible, come what may.
     bool is_hopeless(int lost) const { return lost > hopeless_score_; }
@@ -88,25 +92,7 @@ inline void grow(const Contest& contest, std::size_t sequence, std::uint32_t riv
 }
 
 /// What a rival that shares the line `shared`, and none before, has lost when that gets hopeless,
-/// or in all; nothing if it shares one before. `loss` is as Contest::loss.
-template <typename Loss>
-std::optional<int> loss_of_growth(const Contest& contest, const Growth& growth, int shared,
-                                  const Loss& loss) {
-    const int base = growth[static_cast<std::size_t>(shared)];
-    const int count = contest.lines.count();
-    int lost = 0;
-    // Outwards from the shared line, where most is lost soonest; its predecessors last.
-    for (int i = 1, line = shared + 1; i < count; ++i, ++line) {
-        if (line == count) line = 0;
-        const int shift = growth[static_cast<std::size_t>(line)] - base;
-        if (shift == 0 && line < shared) return std::nullopt;
-        lost += loss(line, shift);
-        if (contest.is_hopeless(lost)) break;
-    }
-    return lost;
-}
-
-/// The same, with its own losses.
+/// or in all; nothing if it shares one before.
 std::optional<int> loss_of_growth(const Contest& contest, const Growth& growth, int shared);
 
 }  // namespace dotpose::core

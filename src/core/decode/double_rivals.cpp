@@ -1,208 +1,197 @@
 #include "core/decode/double_rivals.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <bit>
+#include <initializer_list>
+#include <span>
+
+#include "core/decode/expected_double_rivals.hpp"
 
 namespace dotpose::core {
 namespace {
 
-/// Most rivals are hopeless after so many lines: all there are, where there are fewest.
-constexpr std::size_t kFirstLines = 6;
-/// More than any loss makes up for.
-constexpr std::int32_t kNoLoss = INT32_MIN / 8;
+/// As if each of the 190,027 pairs were negligible at each shift: an expectation smaller than that
+/// is not relied on.
+constexpr float kFloor = 190'027.0F * kSections * kNegligible;
 
-/// Lines in the order of what they say: the mean odds of a rival that does not share them.
-struct Ranking {
-    explicit Ranking(const Contest& contest);
+/// At one position rivals can have more odds than is expected over all: 21 times as much, of 5,630
+/// axes of hard frames.
+constexpr float kMargin = 32;
 
-    std::array<std::uint8_t, kMaxLines> lines;
-    /// How many of them are such that a rival which shares none is hardly possible.
-    int anchors = 0;
-    /// Expected odds of a rival that shares no anchor.
-    float odds_without_anchor = 1;
-    /// What a rival loses in a line of the ranking, by how much further its roll is plus 126.
-    std::array<std::array<std::int16_t, 4 * kSections>, kMaxLines> losses;
-    /// The same of the first lines; and so little that nothing matters, where it shares the line.
-    std::array<std::array<std::int32_t, 4 * kSections>, kFirstLines> first_losses;
-    std::array<std::array<std::int32_t, 4 * kSections>, kFirstLines> first_losses_unshared;
-};
+/// A bit for each anchor, by rank.
+using Anchors = std::uint32_t;
 
-float mean_odds(const Contest& contest, int line) {
-    float sum = 0;
-    for (int shift = 1; shift < kSections; ++shift)
-        sum += contest.odds(contest.loss(line, shift));
-    return sum / (kSections - 1);
-}
-
-Ranking::Ranking(const Contest& contest) {
-    const int count = contest.lines.count();
-    std::array<float, kMaxLines> odds;
-    for (int line = 0; line < count; ++line) {
-        odds[static_cast<std::size_t>(line)] = mean_odds(contest, line);
-    }
-    const auto end = lines.begin() + count;
-    std::iota(lines.begin(), end, std::uint8_t{0});
-    std::sort(lines.begin(), end, [&](std::uint8_t a, std::uint8_t b) {
-        return odds[a] != odds[b] ? odds[a] < odds[b] : a < b;
-    });
-    while (anchors < count && odds_without_anchor > kNegligible) {
-        odds_without_anchor *= odds[lines[static_cast<std::size_t>(anchors++)]];
-    }
-    odds_without_anchor = std::max(odds_without_anchor, kNegligible);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-        for (int shift = 0; shift < 4 * kSections; ++shift) {
-            losses[i][static_cast<std::size_t>(shift)] =
-                static_cast<std::int16_t>(contest.loss(lines[i], shift % kSections));
-        }
-    }
-    for (std::size_t i = 0; i < kFirstLines; ++i) {
-        std::copy(losses[i].begin(), losses[i].end(), first_losses[i].begin());
-        first_losses_unshared[i] = first_losses[i];
-        for (std::size_t shift = 0; shift < 4 * kSections; shift += kSections)
-            first_losses_unshared[i][shift] = kNoLoss;
-    }
-}
-
-/// Growth of all places of a sequence, line by line of a ranking.
-class Growths {
+/// Anchors divided into groups, one fewer than the anchors that a rival shares to be looked at: so
+/// that it shares two of some group.
+class Groups {
   public:
-    Growths(const Contest& contest, const Ranking& ranking, std::size_t sequence)
-        : own_(contest.places[sequence]), length_(contest.basis[sequence].length) {
-        Growth by_line;
-        for (std::uint32_t rival = 0; rival < length_; ++rival) {
-            grow(contest, sequence, rival, by_line);
-            for (std::size_t i = 0; i < static_cast<std::size_t>(contest.lines.count()); ++i)
-                growths_[rival][i] = by_line[ranking.lines[i]];
+    Groups(const RankedLines& lines, int anchors, int shared) : count_(shared - 1) {
+        // One after the other as they stand: those of a group are far apart, so that few rivals
+        // share two of them.
+        int n = 0;
+        for (int line = 0; line < lines.count(); ++line) {
+            const int rank = lines.rank(static_cast<std::uint32_t>(line));
+            if (rank < anchors) groups_[static_cast<std::size_t>(n++ % count_)] |= 1U << rank;
         }
     }
 
-    /// Shows `use` the growth of every place but the reading's own.
+    /// Shows `use` all pairs of ranks of one group.
     template <typename Use>
-    void visit(Use use) const {
-        for (std::uint32_t rival = 0; rival < length_; ++rival) {
-            if (rival != own_) use(growths_[rival]);
+    void visit_pairs(Use use) const {
+        for (std::size_t group = 0; group < static_cast<std::size_t>(count_); ++group) {
+            for (Anchors rest = groups_[group]; rest != 0; rest &= rest - 1) {
+                const int one = std::countr_zero(rest);
+                for (Anchors others = rest & (rest - 1); others != 0; others &= others - 1)
+                    use(one, std::countr_zero(others));
+            }
         }
     }
 
-    std::size_t count() const { return length_ - 1; }
-
-    static constexpr std::size_t kLongest = 241;
+    /// Whether who shares these anchors shares no pair that is shown before.
+    bool is_first_pair(Anchors shared, int one, int other) const {
+        for (const Anchors group : groups_) {
+            const Anchors both = shared & group;
+            if ((both & (both - 1)) == 0) continue;
+            return std::countr_zero(both) == one && std::countr_zero(both & (both - 1)) == other;
+        }
+        return false;
+    }
 
   private:
-    std::uint32_t own_;
-    std::uint32_t length_;
-    std::array<Growth, kLongest> growths_;
+    int count_;
+    std::array<Anchors, kFewestFound - 1> groups_{};
 };
 
-/// Odds of the rival that shares an anchor, and none before it.
-float odds_of_anchored(const Contest& contest, const Ranking& ranking, const Growth& a,
-                       const Growth& b, int anchor) {
-    const auto growth = [&](int i) {
-        const auto n = static_cast<std::size_t>(i);
-        return a[n] + b[n];
-    };
-    const int base = growth(anchor) - 2 * kSections;
-    int lost = 0;
-    for (int i = 0; i < contest.lines.count(); ++i) {
-        const int shift = growth(i) - base;
-        if (i < anchor && shift % kSections == 0) return 0;
-        lost += ranking.losses[static_cast<std::size_t>(i)][static_cast<std::size_t>(shift)];
-        if (contest.is_hopeless(lost)) return kNegligible;
-    }
-    return contest.odds(lost);
+/// One place of a sequence: how much more the first eight lines have grown than one anchor, which
+/// is known for a pair of places only if the bytes of both are added.
+struct Since {
+    EightGrowths first;
+    const RankedLines::Grown* grown;
+};
+
+int at(const RankedLines::Grown& grown, int rank) {
+    return grown.all[static_cast<std::size_t>(rank)];
 }
 
-/// The first lines but an anchor.
-using FirstLines = std::array<std::size_t, kFirstLines - 1>;
-
-FirstLines first_lines_but(std::size_t anchor) {
-    FirstLines lines;
-    for (std::size_t n = 0, line = 0; n < lines.size(); ++n, ++line) {
-        if (line == anchor) ++line;
-        lines[n] = line;
-    }
-    return lines;
-}
-
-/// By how much a sequence grows from an anchor to each of them, plus 63; of all places but the
-/// reading's own.
-class FirstGrowths {
+/// Places of a sequence, but the reading's own, by how much less they grow from one anchor to
+/// another, modulo 63.
+class Buckets {
   public:
-    FirstGrowths(const Growths& growths, const FirstLines& lines, std::size_t anchor) {
-        growths.visit([&](const Growth& b) {
-            auto& grown = growths_[count_];
-            for (std::size_t n = 0; n < lines.size(); ++n) {
-                grown[n] = static_cast<std::uint8_t>(b[lines[n]] - b[anchor] + kSections);
-            }
-            places_[count_++] = &b;
-        });
+    Buckets(const RankedLines& lines, std::size_t sequence, int one, int other) {
+        const std::uint32_t length = lines.contest.basis[sequence].length;
+        const std::uint32_t own = lines.contest.places[sequence];
+        const auto less_at = [&](std::uint32_t place) {
+            return grown_less(lines.grown(sequence, place), one, other);
+        };
+        for (std::uint32_t place = 0; place < length; ++place)
+            ++begins_[less_at(place) + 1];
+        --begins_[less_at(own) + 1];
+        for (std::size_t n = 1; n < begins_.size(); ++n)
+            begins_[n] = static_cast<std::uint8_t>(begins_[n] + begins_[n - 1]);
+        auto next = begins_;
+        for (std::uint32_t place = 0; place < length; ++place) {
+            if (place == own) continue;
+            const RankedLines::Grown& grown = lines.grown(sequence, place);
+            // 126 is no shift, as are 63 and 189, and keeps the sum of two places above 0.
+            const auto base = static_cast<EightGrowths>(2 * kSections - at(grown, one));
+            places_[next[less_at(place)]++] = {grown.first + base * kInEach, &grown};
+        }
     }
 
-    /// Shows `use` those growths of every place and all of its growths.
-    template <typename Use>
-    void visit(Use use) const {
-        for (std::size_t i = 0; i < count_; ++i)
-            use(growths_[i], *places_[i]);
+    static std::size_t grown_less(const RankedLines::Grown& grown, int one, int other) {
+        const int less = at(grown, one) - at(grown, other);
+        return static_cast<std::size_t>(less < 0 ? less + kSections : less);
     }
-    std::size_t count() const { return count_; }
+
+    std::span<const Since> operator[](std::size_t less) const {
+        return std::span(places_).subspan(
+            begins_[less], static_cast<std::size_t>(begins_[less + 1] - begins_[less]));
+    }
 
   private:
-    std::size_t count_ = 0;
-    std::array<std::array<std::uint8_t, kFirstLines - 1>, Growths::kLongest> growths_;
-    std::array<const Growth*, Growths::kLongest> places_;
+    std::array<std::uint8_t, kSections + 1> begins_{};
+    std::array<Since, code::kA4Restored.size()> places_;
 };
 
-float sum_of_anchored(const Contest& contest, const Ranking& ranking, const Growths& first,
-                      const Growths& second, std::size_t anchor) {
-    const FirstLines lines = first_lines_but(anchor);
-    const FirstGrowths growths(second, lines, anchor);
-    float sum = 0;
-    first.visit([&](const Growth& a) {
-        // What is lost in each of the lines, as far as none before the anchor is shared.
-        std::array<const std::int32_t*, kFirstLines - 1> losses;
-        for (std::size_t n = 0; n < lines.size(); ++n) {
-            const std::size_t line = lines[n];
-            const auto& all =
-                line < anchor ? ranking.first_losses_unshared[line] : ranking.first_losses[line];
-            losses[n] = all.data() + kSections + a[line] - a[anchor];
-        }
-        int hopeless = 0;
-        growths.visit([&](const auto& grown, const Growth& b) {
-            std::int32_t lost = 0;
-            for (std::size_t n = 0; n < lines.size(); ++n)
-                lost += losses[n][grown[n]];
-            if (contest.is_hopeless(lost)) {
-                ++hopeless;
-            } else {
-                sum += odds_of_anchored(contest, ranking, a, b, static_cast<int>(anchor));
-            }
-        });
-        sum += kNegligible * static_cast<float>(hopeless);
-    });
-    return sum;
-}
+/// Those that share some number of anchors.
+class Finder {
+  public:
+    Finder(const RankedLines& lines, int anchors, int shared)
+        : lines_(lines), anchors_(anchors), shared_(shared), groups_(lines, anchors, shared) {}
 
-float sum_of_pair(const Contest& contest, const Ranking& ranking, const Growths& first,
-                  const Growths& second) {
-    float sum = static_cast<float>(first.count() * second.count()) * kSections *
-                ranking.odds_without_anchor;
-    for (std::size_t anchor = 0; anchor < static_cast<std::size_t>(ranking.anchors); ++anchor)
-        sum += sum_of_anchored(contest, ranking, first, second, anchor);
-    return sum;
-}
+    float sum() const {
+        float sum = 0;
+        groups_.visit_pairs([&](int one, int other) {
+            // Of every two sequences one has the buckets: not the third, which is the shortest.
+            sum += sum_of_bucketed(0, {2}, one, other) + sum_of_bucketed(1, {0, 2}, one, other) +
+                   sum_of_bucketed(3, {0, 1, 2}, one, other);
+        });
+        return sum;
+    }
+
+  private:
+    /// Who differs in the places of this sequence and of one of the others, and shares both
+    /// anchors.
+    float sum_of_bucketed(std::size_t sequence, std::initializer_list<std::size_t> others, int one,
+                          int other) const {
+        const Buckets buckets(lines_, sequence, one, other);
+        float sum = 0;
+        for (const std::size_t k : others) {
+            for (std::uint32_t place = 0; place < lines_.contest.basis[k].length; ++place) {
+                if (place == lines_.contest.places[k]) continue;
+                const RankedLines::Grown& a = lines_.grown(k, place);
+                const EightGrowths since =
+                    a.first - static_cast<EightGrowths>(at(a, one)) * kInEach;
+                for (const Since& b : buckets[Buckets::grown_less(a, other, one)])
+                    sum += odds(since + b.first, a, *b.grown, one, other);
+            }
+        }
+        return sum;
+    }
+
+    /// `first` is by how much the first eight lines have grown since the anchor that is shared.
+    float odds(EightGrowths first, const RankedLines::Grown& a, const RankedLines::Grown& b,
+               int one, int other) const {
+        int lost = lines_.loss_of_first(first);
+        if (lines_.contest.is_hopeless(lost)) return kNegligible;
+        const int base = 2 * kSections - at(a, one) - at(b, one);
+        Anchors shared = 0;
+        for (int rank = 0; rank < anchors_; ++rank) {
+            const int further = at(a, rank) + at(b, rank) + base;
+            if (further % kSections == 0) shared |= 1U << rank;
+        }
+        if (std::popcount(shared) < shared_) return 0;
+        if (!groups_.is_first_pair(shared, one, other)) return 0;
+        for (int rank = 8; rank < lines_.count(); ++rank) {
+            lost += lines_.loss(rank, at(a, rank) + at(b, rank) + base);
+            if (lines_.contest.is_hopeless(lost)) return kNegligible;
+        }
+        return lines_.contest.odds(lost);
+    }
+
+    const RankedLines& lines_;
+    int anchors_;
+    int shared_;
+    Groups groups_;
+};
 
 }  // namespace
 
-float sum_of_double_rivals(const Contest& contest) {
-    const Ranking ranking(contest);
-    float sum = 0;
-    for (std::size_t k = 0; k < contest.basis.size(); ++k) {
-        const Growths first(contest, ranking, k);
-        for (std::size_t l = k + 1; l < contest.basis.size(); ++l) {
-            sum += sum_of_pair(contest, ranking, first, Growths(contest, ranking, l));
-        }
-    }
-    return sum;
+float sum_of_double_rivals(const RankedLines& lines, float negligible, float most) {
+    const int anchors = std::min(lines.count(), kMostAnchors);
+    const auto expected = expected_double_rivals(lines, anchors);
+    const auto feared = [&](int shared) {
+        return kMargin * expected[static_cast<std::size_t>(shared)];
+    };
+    // For every anchor fewer that is to be shared, more pairs of anchors are gone through: for
+    // seven, 6 of the 66 that there are; for four, 18; for two, all. More than that many are worth
+    // it only where the fix would be lost otherwise.
+    constexpr int kFewestForDetail = 4;
+    int shared = std::min(kFewestFound, anchors);
+    while (shared > 2 && feared(shared) > (shared > kFewestForDetail ? negligible : most / 8))
+        --shared;
+    const float rest = feared(shared);
+    return kFloor + (rest > most ? rest : rest + Finder(lines, anchors, shared).sum());
 }
 
 }  // namespace dotpose::core

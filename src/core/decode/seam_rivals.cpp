@@ -20,7 +20,8 @@ constexpr int kLeast_q8 = -8 * 256;
 /// out with which it has lost enough whatever the other one.
 class LossesOfSides {
   public:
-    LossesOfSides(const Contest& contest, const Growth& growth, int enough) : contest_(contest) {
+    LossesOfSides(const Contest& contest, const Growth& growth, int enough)
+        : contest_(contest), enough_(enough) {
         before_.fill(kNone);
         from_.fill(kNone);
         const auto grown = std::span(growth).first(static_cast<std::size_t>(contest.lines.count()));
@@ -53,19 +54,21 @@ class LossesOfSides {
         const auto loss_in = [&](int line) {
             return contest_.loss(line, growth[static_cast<std::size_t>(line)] - shift);
         };
+        // Who has lost enough on one side does not count whatever the other.
         int lost = 0;
-        for (int line = 0; line < count; ++line) {
+        for (int line = 0; line < count && lost < enough_; ++line) {
             keep_less(before_[static_cast<std::size_t>(line)], lost);
             lost += loss_in(line);
         }
         lost = 0;
-        for (int line = count; line-- > 0;) {
+        for (int line = count; line-- > 0 && lost < enough_;) {
             lost += loss_in(line);
             keep_less(from_[static_cast<std::size_t>(line)], lost);
         }
     }
 
     const Contest& contest_;
+    int enough_;
     std::array<int, kMaxLines> before_;
     std::array<int, kMaxLines> from_;
 };

@@ -92,8 +92,9 @@ struct CellsInView {
 
 /// How windows are looked at.
 struct WindowLook {
-    int half_px = 4;   ///< 2 half_px + 1 pixels across; at most kMostHalfWindow_px
-    int cut_q8 = 128;  ///< what is darker than the paper by this share, in 1/256, counts
+    float spacing_px = 11;  ///< at the image centre
+    float reach = 0.36F;  ///< of a window from its middle, in spacings; at most kMostHalfWindow_px
+    int cut_q8 = 128;     ///< what is darker than the paper by this share, in 1/256, counts
 };
 inline constexpr int kMostHalfWindow_px = 24;
 
@@ -176,8 +177,8 @@ struct Kernels {
     FitSums (*sum_fit)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                        float reach_px, float limit);
     /// The same of at, scale and turn only; all else is 0.
-    FitSums (*sum_similarity)(const MeasuredDots& dots, const FloatPlane& plane,
-                              float displacement, float reach_px, float limit);
+    FitSums (*sum_similarity)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
+                              float reach_px, float limit);
     /// The other places of a sequence that may lose less than `enough` over these lines, the
     /// dearest first. False, if there are too many, or places that share none of the first lines
     /// may, too.

@@ -161,6 +161,13 @@ bool is_plausible(const FloatPlane& plane, float first_spacing, float reach) {
     return spacing > 0.7F * first_spacing && spacing < 1.4F * first_spacing && fold < 0.7F;
 }
 
+/// How much farther the next round reaches, by the share of dots that sit well: a plane that is not
+/// right yet is made better where it is best.
+float growth(float share) {
+    if (share > 0.9F) return 1.8F;
+    return share > 0.8F ? 1.25F : 0.8F;
+}
+
 }  // namespace
 
 bool find_grid(const Kernels& kernels, const Patch& patch, PatchGrid& grid) {
@@ -190,12 +197,14 @@ bool find_grid(const Kernels& kernels, const Patch& patch, PatchGrid& grid) {
         pass.with_perspective = pass.reach_px > 4 * spacing;
         sums = kernels.sum_cells(patch.dots, plane, pass);
         const float share = sums.used / std::max(sums.seen, 1.0F);
-        if (sums.used < 12 || share < 0.4F || !solve_plane(sums, pass.with_perspective, plane)) return false;
+        if (sums.used < 12 || share < 0.4F || !solve_plane(sums, pass.with_perspective, plane))
+            return false;
         if (!is_plausible(plane, spacing, full)) return false;
         if (pass.reach_px >= full && (share > 0.9F || round + 1 == kMostRounds)) break;
-        if (share > 0.8F) pass.reach_px = std::min(pass.reach_px * 1.8F, full);
+        pass.reach_px = std::clamp(pass.reach_px * growth(share), 4 * spacing, full);
     }
-    if (pass.reach_px < full || sums.used < 0.7F * sums.seen) return false;
+    // Graphics may keep it from getting farther; what the grid has is enough to look at the bits.
+    if (pass.reach_px < std::min(full, 5 * spacing) || sums.used < 0.5F * sums.seen) return false;
     grid.variance = sums.squares / (2 * sums.used);
     return true;
 }

@@ -31,6 +31,7 @@ constexpr std::pair<Status, const char*> kNames[] = {
     NAMED(not_in_code),
     NAMED(ambiguous),
     NAMED(not_certain),
+    NAMED(not_tracked),
 };
 #undef NAMED
 static_assert(std::size(kNames) == kStatusCount, "a status without a name in this test");

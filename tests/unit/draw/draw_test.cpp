@@ -27,7 +27,9 @@ using testing::Not;
 struct Located {
     explicit Located(const GreyImage& frame, const Options& with = {})
         : image(frame), options(with), workspace(std::make_unique<LargeWorkspace>()) {
-        fix = locate(image.view(), options, *workspace);
+        Options shown = options;
+        shown.show_stages = true;
+        fix = locate(image.view(), shown, *workspace);
     }
     std::string drawn(const DrawOptions& draw_options = {}) const {
         std::ostringstream out;

@@ -5,6 +5,7 @@
 
 #include "../../code/reference.hpp"
 #include "core/decode/correlation.hpp"
+#include "core/decode/expected_double_rivals.hpp"
 #include "dotpose/random.hpp"
 
 namespace dotpose::core_test {
@@ -15,6 +16,8 @@ using namespace core;
 constexpr std::uint64_t kSeed = 46;
 constexpr int kLines = 9;
 constexpr int kOdds_q8 = 3 * 256;
+/// What is counted in any case.
+constexpr double kFloor = 190'027.0 * 63 * 0x1p-64;
 
 /// Lines that fit a position, with scores of other rolls at random from `least` to `least` + 600.
 struct Case {
@@ -94,12 +97,43 @@ TEST(DoubleRivals, AreSummedOneByOne) {
         EXPECT_EQ(contest.most_regained() > 0, least == 420);
         const double exact = exact_sum(c);
         ASSERT_GT(exact, 1e-12);
-        const double ratio = static_cast<double>(sum_of_double_rivals(contest)) / exact;
+        const RankedLines lines(contest);
+        // As much as there are of them, of all that share two lines or more.
+        const auto expected = expected_double_rivals(lines, kLines);
+        const double sum = static_cast<double>(sum_of_double_rivals(lines, 0, expected[2]));
+        const double ratio = (sum - kFloor) / exact;
         // Exponentials are right to 2 %, and exact only down to whole 2^-8 of a power of two.
         EXPECT_GE(ratio, 0.96) << "least " << least << ", seed " << kSeed;
-        // What shares no line that says much is counted at the most that it can have.
+        // What shares one line only, or none, is counted at its expectation.
         EXPECT_LE(ratio, least == 420 ? 2 : 1.04) << "least " << least << ", seed " << kSeed;
     }
+}
+
+TEST(DoubleRivals, AreExpectedWhereThatIsNegligible) {
+    Rng rng(kSeed);
+    const Case c(rng, -200);
+    const Contest contest(Profile::anoto, c.lines, c.reading, kOdds_q8);
+    const RankedLines lines(contest);
+    const double exact = exact_sum(c);
+    const auto expected = expected_double_rivals(lines, kLines);
+    for (int shared = 4; shared <= kFewestFound; ++shared) {
+        const float negligible = expected[static_cast<std::size_t>(shared)];
+        const double sum = static_cast<double>(sum_of_double_rivals(lines, negligible, 1));
+        const double ratio = (sum - kFloor) / exact;
+        EXPECT_GE(ratio, 0.9) << shared << ", seed " << kSeed;
+        EXPECT_LE(ratio, 1.5) << shared << ", seed " << kSeed;
+    }
+}
+
+TEST(DoubleRivals, AreNotLookedAtWhereTheExpectationIsTooMuch) {
+    Rng rng(kSeed);
+    const Case c(rng, -200);
+    const Contest contest(Profile::anoto, c.lines, c.reading, kOdds_q8);
+    const RankedLines lines(contest);
+    const auto expected = expected_double_rivals(lines, kLines);
+    const double sum = static_cast<double>(sum_of_double_rivals(lines, 0, expected[2] / 2));
+    EXPECT_NEAR(sum, kFloor, 0.02 * kFloor) << "of which " << expected[2] << " are expected";
+    EXPECT_LT(sum, 0.9 * (exact_sum(c) + kFloor));
 }
 
 }  // namespace

@@ -1,0 +1,186 @@
+// Grids of dots in double precision, seen by tilted cameras, and what is no grid.
+#include "core/lattice/outwards.hpp"
+
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "../float_planes.hpp"
+#include "core/kernels/select.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+using core::FloatPlane;
+
+constexpr std::uint64_t kSeed = 75;
+
+struct Trouble {
+    double missing = 0;
+    double extra = 0;      ///< dots anywhere, per dot
+    double jitter_px = 0;  ///< deviation, per axis
+    double displacement = 1 / 6.0;
+};
+
+std::unique_ptr<Patch> empty_patch(int scale = 1) {
+    auto patch = std::make_unique<Patch>();
+    patch->scale = scale;
+    patch->width_px = 224;
+    patch->height_px = 160;
+    return patch;
+}
+
+void finish_patch(Patch& patch, const std::vector<Vec2>& dots) {
+    patch.dots.count = static_cast<int>(std::min<std::size_t>(dots.size(), PatchDots::kMost));
+    patch.dots.x.fill(kNoDot_px);
+    patch.dots.y.fill(kNoDot_px);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(patch.dots.count); ++i) {
+        patch.dots.x[i] = static_cast<float>(dots[i].x);
+        patch.dots.y[i] = static_cast<float>(dots[i].y);
+    }
+}
+
+std::unique_ptr<Patch> patch_of(const FloatPlane& plane, const Trouble& trouble, Rng& rng,
+                                int scale = 1) {
+    auto patch = empty_patch(scale);
+    const Vec2 half{112.0 * scale, 80.0 * scale};
+    std::vector<Vec2> dots;
+    for (int j = -70; j <= 70; ++j) {
+        for (int i = -70; i <= 70; ++i) {
+            const Vec2 d = 6 * trouble.displacement * random_displacement(rng);
+            // Behind the horizon of a tilted plane there are no dots.
+            const Vec2 at = image_of(plane, {i + d.x, j + d.y});
+            const Vec2 seen = at + trouble.jitter_px * Vec2{rng.normal(), rng.normal()};
+            if (!(std::abs(seen.x) < half.x - 2 && std::abs(seen.y) < half.y - 2)) continue;
+            if (rng.uniform() >= trouble.missing) dots.push_back(seen);
+            if (rng.uniform() < trouble.extra) {
+                dots.push_back({rng.uniform(-half.x, half.x), rng.uniform(-half.y, half.y)});
+            }
+        }
+    }
+    finish_patch(*patch, dots);
+    return patch;
+}
+
+/// By how much the planes differ at most, but for a whole number of cells and quarter turns.
+double difference(const FloatPlane& found, const FloatPlane& truth, Vec2 half_px) {
+    double least = 1e9;
+    for (int quarters = 0; quarters < 4; ++quarters) {
+        const auto turned = [&](Vec2 v) {
+            for (int i = 0; i < quarters; ++i)
+                v = {-v.y, v.x};
+            return v;
+        };
+        const Vec2 offset = formula(found, {}) - turned(formula(truth, {}));
+        const Vec2 whole{std::round(offset.x), std::round(offset.y)};
+        double most = 0;
+        for (const double u : {-1.0, 0.0, 1.0}) {
+            for (const double v : {-1.0, 0.0, 1.0}) {
+                const Vec2 px{u * half_px.x, v * half_px.y};
+                most =
+                    std::max(most, length(formula(found, px) - turned(formula(truth, px)) - whole));
+            }
+        }
+        least = std::min(least, most);
+    }
+    return least;
+}
+
+TEST(FindGrid, FindsThePlaneOfTiltedCameras) {
+    Rng rng(kSeed);
+    int found = 0;
+    for (int i = 0; i < 60; ++i) {
+        SCOPED_TRACE(testing::Message() << i << ", seed " << kSeed);
+        // tan 20 degrees at a focal length of 350 px.
+        const double tilt = std::tan(radians(rng.uniform(0, 20))) / 350;
+        const double spacing_px = rng.uniform(6, 20);
+        const FloatPlane truth = random_float_plane(spacing_px, tilt, rng);
+        const auto patch = patch_of(truth, {0.03, 0.01, 0.02 * spacing_px}, rng);
+        core::PatchGrid grid;
+        if (!core::find_grid(core::kernels(), *patch, grid)) continue;
+        ++found;
+        // Near enough for windows around the intersections to hold the dots.
+        EXPECT_LT(difference(grid.grid_from_image, truth, {20, 20}), 0.1);
+        EXPECT_LT(difference(grid.grid_from_image, truth, {56, 40}), 0.15);
+        EXPECT_LT(difference(grid.grid_from_image, truth, {112, 80}), 0.45);
+        EXPECT_NEAR(grid.displacement, 1 / 6.0, 0.03);
+        EXPECT_LT(grid.variance, 0.003);
+    }
+    EXPECT_GE(found, 56);
+}
+
+TEST(FindGrid, FindsGridsWithManyDotsMissingAndTooMany) {
+    Rng rng(kSeed);
+    int found = 0;
+    for (int i = 0; i < 60; ++i) {
+        SCOPED_TRACE(testing::Message() << i << ", seed " << kSeed);
+        const FloatPlane truth = random_float_plane(rng.uniform(7, 14), 1e-4, rng);
+        const auto patch = patch_of(truth, {0.15, 0.05, 0.4}, rng);
+        core::PatchGrid grid;
+        if (!core::find_grid(core::kernels(), *patch, grid)) continue;
+        ++found;
+        EXPECT_LT(difference(grid.grid_from_image, truth, {56, 40}), 0.15);
+    }
+    EXPECT_GE(found, 45);
+}
+
+TEST(FindGrid, FindsCoarseGridsInReducedPatches) {
+    Rng rng(kSeed);
+    for (const int scale : {2, 4}) {
+        const FloatPlane truth = random_float_plane(11.0 * scale, 1e-4 / scale, rng);
+        const auto patch = patch_of(truth, {}, rng, scale);
+        core::PatchGrid grid;
+        ASSERT_TRUE(core::find_grid(core::kernels(), *patch, grid)) << scale;
+        EXPECT_LT(difference(grid.grid_from_image, truth, {112.0 * scale, 80.0 * scale}), 0.05);
+        // They are too coarse, or else too fine, for a patch of another scale.
+        patch->scale = scale == 2 ? 4 : 1;
+        EXPECT_FALSE(core::find_grid(core::kernels(), *patch, grid) &&
+                     difference(grid.grid_from_image, truth, {40, 40}) > 0.2);
+    }
+}
+
+TEST(FindGrid, RefusesWhatIsNoGrid) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 60; ++i) {
+        SCOPED_TRACE(testing::Message() << i << ", seed " << kSeed);
+        core::PatchGrid grid;
+        // Dots anywhere.
+        const auto scattered = empty_patch();
+        std::vector<Vec2> dots;
+        const int count = 60 + static_cast<int>(rng.below(400));
+        for (int k = 0; k < count; ++k)
+            dots.push_back({rng.uniform(-110, 110), rng.uniform(-78, 78)});
+        finish_patch(*scattered, dots);
+        EXPECT_FALSE(core::find_grid(core::kernels(), *scattered, grid));
+        // Dots on their intersections.
+        const auto plain =
+            patch_of(random_float_plane(rng.uniform(7, 15), 1e-4, rng), {0, 0, 0.02, 0}, rng);
+        EXPECT_FALSE(core::find_grid(core::kernels(), *plain, grid));
+        // Too few of them.
+        const auto few = patch_of(random_float_plane(11, 0, rng), {}, rng);
+        few->dots.count = 39;
+        EXPECT_FALSE(core::find_grid(core::kernels(), *few, grid));
+        few->dots.count = 0;
+        EXPECT_FALSE(core::find_grid(core::kernels(), *few, grid));
+    }
+}
+
+TEST(FindGrid, AllFormsOfTheKernelsGiveTheSame) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 20; ++i) {
+        const FloatPlane truth = random_float_plane(rng.uniform(6, 16), 3e-4, rng);
+        const auto patch = patch_of(truth, {0.05, 0.02, 0.3}, rng);
+        core::PatchGrid a;
+        core::PatchGrid b;
+        ASSERT_EQ(core::find_grid(core::portable_kernels(), *patch, a),
+                  core::find_grid(core::kernels(), *patch, b));
+        EXPECT_EQ(a.grid_from_image.at_x, b.grid_from_image.at_x);
+        EXPECT_EQ(a.grid_from_image.dv_y, b.grid_from_image.dv_y);
+        EXPECT_EQ(a.grid_from_image.tilt_y, b.grid_from_image.tilt_y);
+        EXPECT_EQ(a.displacement, b.displacement);
+        EXPECT_EQ(a.variance, b.variance);
+    }
+}
+
+}  // namespace
+}  // namespace dotpose::core_test

@@ -1,0 +1,174 @@
+// Fits to dots that a plane in double precision puts there.
+#include "core/pose/float_fit.hpp"
+
+#include <gtest/gtest.h>
+
+#include "../float_planes.hpp"
+#include "core/kernels/select.hpp"
+#include "core/pose/covariance.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+using core::FloatPlane;
+
+constexpr std::uint64_t kSeed = 78;
+constexpr double kDisplacement = 1 / 6.0;
+constexpr int kReach_px = 95;
+
+/// Dots with their memory.
+struct OwnedDots {
+    MeasuredDots dots;
+    std::array<std::array<float, 1040>, 4> floats{};
+    std::array<std::array<std::int32_t, 1040>, 7> ints{};
+
+    OwnedDots() {
+        dots.column = floats[0];
+        dots.row = floats[1];
+        dots.x = floats[2];
+        dots.y = floats[3];
+        dots.bits = ints[0];
+        dots.window_u = ints[1];
+        dots.window_v = ints[2];
+        dots.mass = ints[3];
+        dots.sum_u = ints[4];
+        dots.sum_v = ints[5];
+        dots.paper = ints[6];
+        floats[2].fill(kNoDot_px);
+    }
+
+    void add(Vec cell, Symbol symbol, Vec2 px) {
+        const auto k = static_cast<std::size_t>(dots.count++);
+        dots.column[k] = static_cast<float>(cell.x);
+        dots.row[k] = static_cast<float>(cell.y);
+        dots.bits[k] = static_cast<std::int32_t>(symbol);
+        dots.x[k] = static_cast<float>(px.x);
+        dots.y[k] = static_cast<float>(px.y);
+    }
+};
+
+/// All dots that the plane shows in an image of 188 x 120 px.
+void show_dots(const FloatPlane& plane, double noise_px, double wrong, Rng& rng, OwnedDots& owned) {
+    for (int j = -14; j <= 14; ++j) {
+        for (int i = -14; i <= 14; ++i) {
+            const auto symbol = static_cast<Symbol>(rng.below(4));
+            const Vec2 place{i + kDisplacement * dx(symbol), j + kDisplacement * dy(symbol)};
+            Vec2 px = image_of(plane, place) + noise_px * Vec2{rng.normal(), rng.normal()};
+            if (!(std::abs(px.x) < 92 && std::abs(px.y) < 58)) continue;
+            if (rng.uniform() < wrong) px = px + Vec2{rng.uniform(-4, 4), rng.uniform(-4, 4)};
+            owned.add({i, j}, symbol, px);
+        }
+    }
+}
+
+/// Off by a tenth of a spacing, somewhat turned, and without perspective.
+FloatPlane guess_of(const FloatPlane& truth, Rng& rng) {
+    FloatPlane guess = truth;
+    const auto some = [&](double size) { return static_cast<float>(rng.uniform(-size, size)); };
+    guess.at_x += some(0.08);
+    guess.at_y += some(0.08);
+    guess.du_x += some(4e-4);
+    guess.dv_y += some(4e-4);
+    guess.tilt_x = guess.tilt_y = 0;
+    return guess;
+}
+
+double worst_difference(const FloatPlane& a, const FloatPlane& b) {
+    double worst = 0;
+    for (int v = -60; v <= 60; v += 20) {
+        for (int u = -90; u <= 90; u += 30) {
+            const Vec2 px{static_cast<double>(u), static_cast<double>(v)};
+            worst = std::max(worst, length(formula(a, px) - formula(b, px)));
+        }
+    }
+    return worst;
+}
+
+constexpr auto kFirstLimit = static_cast<float>(0.25 * 0.25);
+
+TEST(FitPlane, RecoversThePlaneOfExactDots) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 40; ++i) {
+        SCOPED_TRACE(testing::Message() << i << ", seed " << kSeed);
+        const FloatPlane truth = random_float_plane(rng.uniform(8, 16), rng.uniform(0, 8e-4), rng);
+        OwnedDots owned;
+        show_dots(truth, 0, 0, rng, owned);
+        FloatPlane plane = guess_of(truth, rng);
+        core::PoseFit fit;
+        ASSERT_TRUE(core::fit_plane(core::kernels(), owned.dots, kReach_px, kFirstLimit,
+                                    static_cast<float>(kDisplacement), plane, fit));
+        EXPECT_LT(worst_difference(plane, truth), 2e-4);
+        EXPECT_NEAR(fit.displacement, kDisplacement, 1e-3);
+    }
+}
+
+TEST(FitPlane, SaysHowFarItMayBeOff) {
+    Rng rng(kSeed);
+    double nees_x = 0;
+    double nees_y = 0;
+    double nees_theta = 0;
+    constexpr int kTrials = 200;
+    for (int i = 0; i < kTrials; ++i) {
+        const FloatPlane truth = random_float_plane(11, 2e-4, rng);
+        OwnedDots owned;
+        show_dots(truth, 0.1, 0, rng, owned);
+        FloatPlane plane = guess_of(truth, rng);
+        core::PoseFit fit;
+        ASSERT_TRUE(core::fit_plane(core::kernels(), owned.dots, kReach_px, kFirstLimit,
+                                    static_cast<float>(kDisplacement), plane, fit));
+        EXPECT_LT(worst_difference(plane, truth), 0.02);
+        Fix fix;
+        fix.spacing_px_q16 = 11 * 65536;
+        const Vec centre_q8{};
+        core::estimate_covariance(fit, core::fixed_plane(plane, centre_q8), centre_q8, fix);
+        const Vec2 off = formula(plane, {}) - formula(truth, {});
+        const double turn = std::atan2(double{plane.du_y}, double{plane.du_x}) -
+                            std::atan2(double{truth.du_y}, double{truth.du_x});
+        const auto square = [](double v) { return v * v; };
+        nees_x += square(off.x) / double{fix.covariance[0][0]} / kTrials;
+        nees_y += square(off.y) / double{fix.covariance[1][1]} / kTrials;
+        nees_theta +=
+            square(std::remainder(turn, 6.283185307)) / double{fix.covariance[2][2]} / kTrials;
+        EXPECT_NEAR(fix.residual_px, 0.1, 0.03);
+    }
+    // The mean of 200 squared normal numbers has a deviation of 0.1.
+    EXPECT_NEAR(nees_x, 1, 0.35);
+    EXPECT_NEAR(nees_y, 1, 0.35);
+    EXPECT_NEAR(nees_theta, 1, 0.45);
+}
+
+TEST(FitPlane, LeavesOutWhatIsFarOff) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 40; ++i) {
+        SCOPED_TRACE(testing::Message() << i << ", seed " << kSeed);
+        const FloatPlane truth = random_float_plane(11, 2e-4, rng);
+        OwnedDots owned;
+        show_dots(truth, 0.05, 0.15, rng, owned);
+        FloatPlane plane = guess_of(truth, rng);
+        core::PoseFit fit;
+        ASSERT_TRUE(core::fit_plane(core::kernels(), owned.dots, kReach_px, kFirstLimit,
+                                    static_cast<float>(kDisplacement), plane, fit));
+        EXPECT_LT(worst_difference(plane, truth), 0.015);
+        EXPECT_LT(fit.normal.points(), owned.dots.count * 93 / 100);
+    }
+}
+
+TEST(FitPlane, NeedsTwentyDots) {
+    Rng rng(kSeed);
+    const FloatPlane truth = random_float_plane(11, 0, rng);
+    OwnedDots owned;
+    show_dots(truth, 0, 0, rng, owned);
+    for (std::size_t k = 19; k < owned.dots.x.size(); ++k)
+        owned.dots.x[k] = kNoDot_px;
+    owned.dots.count = 19;
+    FloatPlane plane = truth;
+    core::PoseFit fit;
+    EXPECT_FALSE(core::fit_plane(core::kernels(), owned.dots, kReach_px, kFirstLimit,
+                                 static_cast<float>(kDisplacement), plane, fit));
+    owned.dots.count = 0;
+    EXPECT_FALSE(core::fit_plane(core::kernels(), owned.dots, kReach_px, kFirstLimit,
+                                 static_cast<float>(kDisplacement), plane, fit));
+}
+
+}  // namespace
+}  // namespace dotpose::core_test
