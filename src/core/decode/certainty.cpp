@@ -152,17 +152,14 @@ float single_rivals(const Kernels& kernels, const Contest& contest) {
     const std::size_t lines = sort_losses(contest, storage);
     const int enough = (contest.loss_for(kPassedOver_q8) + contest.most_regained()) / kBit + 1;
     float sum = kSingles * kPassedOver * static_cast<float>(lines);
-    for (std::size_t k = 0; k < contest.places.size(); ++k) {
-        const code::Secondary& a = contest.basis[k];
-        SimilarPlaceList list;
-        if (!kernels.list_similar_places(a.rolls, a.length, static_cast<int>(contest.places[k]),
-                                         std::span(storage).first(lines), enough, list)) {
-            return 1;
-        }
-        for (const auto& [place, line] :
-             std::span(list.places).first(static_cast<std::size_t>(list.count)))
-            sum += odds_of(contest, loss_of(contest, k, place, line));
+    SimilarPlaceList list;
+    if (!kernels.list_similar_places(contest.basis, contest.places,
+                                     std::span(storage).first(lines), enough, list)) {
+        return 1;
     }
+    for (const auto& [sequence, place, line] :
+         std::span(list.places).first(static_cast<std::size_t>(list.count)))
+        sum += odds_of(contest, loss_of(contest, sequence, place, line));
     return sum;
 }
 

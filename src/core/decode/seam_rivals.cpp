@@ -78,6 +78,7 @@ class LossesOfSides {
 int seam_rivals_log2_q8(const Contest& contest) {
     const int enough = contest.loss_for(kLeast_q8) + contest.most_regained();
     int sum = kNever_q8;
+    if (surely_lose_with_border(contest, enough)) return sum;
     if (least_loss_with_border(contest) >= enough) return sum;
     const int lines = contest.lines.count();
     const auto add = [&](std::size_t sequence, std::uint32_t place) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 
+#include "code/tables.hpp"
 #include "core/plane.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/patch.hpp"
@@ -125,11 +126,11 @@ struct LineLoss {
     std::uint8_t loss = 0;
 };
 
-/// Places of a sequence, each with a line that it shares with the reading. `list_similar_places`
-/// looks at 32 from every 32nd on: `rolls` go on for as many beyond the end.
+/// Places of a position's four sequences, each with a line that it shares with the reading.
 struct SimilarPlaceList {
-    static constexpr int kMost = 96;
+    static constexpr int kMost = 256;
     struct Entry {
+        std::uint8_t sequence;
         std::uint8_t place;
         std::uint8_t line;
     };
@@ -179,10 +180,10 @@ struct Kernels {
     /// The same of at, scale and turn only; all else is 0.
     FitSums (*sum_similarity)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                               float reach_px, float limit);
-    /// The other places of a sequence that may lose less than `enough` over these lines, the
+    /// The other places of each sequence that may lose less than `enough` over these lines, the
     /// dearest first. False, if there are too many, or places that share none of the first lines
     /// may, too.
-    bool (*list_similar_places)(const std::uint8_t* rolls, int length, int own,
+    bool (*list_similar_places)(const code::Basis& basis, const std::array<std::uint32_t, 4>& own,
                                 std::span<const LineLoss> lines, int enough,
                                 SimilarPlaceList& list);
 };
