@@ -171,9 +171,11 @@ struct Kernels {
     /// most.
     void (*measure_windows)(const ImageView& image, const CellsInView& view, const WindowLook& look,
                             MeasuredDots& dots);
-    /// Bits of the dots as measured, against those that the code has there.
+    /// Bits of the dots as measured, against those that the code has there. Adds them to empty
+    /// lines, where these are asked for, by the cell counted from (-32, -32); each cell may have
+    /// one dot.
     BitsRead (*read_bits)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
-                          BitLines& columns, BitLines& rows, int first_column, int first_row);
+                          BitLines* columns, BitLines* rows);
     /// Sums over the dots that are at most `limit` (spacings^2) off.
     FitSums (*sum_fit)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                        float reach_px, float limit);
