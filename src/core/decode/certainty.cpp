@@ -175,7 +175,7 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const Lines& li
     if (sum > limit) sum = chance + power_of_two(quick_rivals_log2_q8(contest, 256 * limit_log2));
     if (sum > limit) sum = chance + std::ldexp(1.0F, rivals_log2(profile, contest, limit_log2));
     if (sum > limit) return 1;
-    return sum + power_of_two(std::max(seam_rivals_log2_q8(contest), -100 * 256));
+    return sum + power_of_two(std::max(seam_rivals_log2_q8(kernels, contest), -100 * 256));
 }
 
 }  // namespace

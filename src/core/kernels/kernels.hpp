@@ -138,6 +138,17 @@ struct SimilarPlaceList {
     std::array<Entry, kMost> places;
 };
 
+/// A bit for each place of a sequence, from the lowest bit on.
+using PlaceBits = std::array<std::uint32_t, 8>;
+
+/// What a rival loses at least where its digit differs from the reading's in a step from one line
+/// to the next: one of the two lines. In parts, of which `kEnough` are enough.
+struct StepLosses {
+    static constexpr int kEnough = 8;
+    int count = 0;
+    std::array<std::uint8_t, 64> parts;  ///< at most kEnough
+};
+
 /// Words of bits, one for each of 64 lines of 64 cells.
 struct BitLines {
     std::array<std::uint64_t, 64> bits{};
@@ -182,6 +193,9 @@ struct Kernels {
     /// The same of at, scale and turn only; all else is 0.
     FitSums (*sum_similarity)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                               float reach_px, float limit);
+    /// The other places of a sequence that may lose less than enough, as far as steps tell.
+    PlaceBits (*find_similar_places)(const code::Secondary& sequence, std::uint32_t own,
+                                     const StepLosses& steps);
     /// The other places of each sequence that may lose less than `enough` over these lines, the
     /// dearest first. False, if there are too many, or places that share none of the first lines
     /// may, too.
