@@ -41,7 +41,7 @@ struct Secondary {
     const std::uint8_t* rolls;
     const std::uint8_t* first_place_of;  ///< by the key of 5 digits; kAbsent where there is none
     /// By digit: a bit for each place, whether it stands there, from the lowest bit on. Beyond the
-    /// end of the sequence it goes on, for another word.
+    /// end of the sequence it goes on: for 256 bits from each of `kLinesAhead` places on.
     const std::uint32_t* const* places_of;
     std::uint32_t reciprocal;     ///< 2^20 / length
     std::uint16_t rest_of_65536;  ///< modulo length
@@ -77,7 +77,7 @@ consteval Digits<Length + kLinesAhead + kVectorAhead> rolls(const Digits<Length>
 /// See Secondary::places_of.
 template <std::size_t Length>
 consteval auto places_of(const Digits<Length>& sequence, int digit) {
-    std::array<std::uint32_t, (Length + 31) / 32 + 1> words{};
+    std::array<std::uint32_t, (256 + kLinesAhead) / 32> words{};
     for (std::size_t i = 0; i < 32 * words.size(); ++i) {
         if (sequence[i % Length] == digit) words[i / 32] |= std::uint32_t{1} << i % 32;
     }

@@ -69,9 +69,10 @@ bool is_plausible(const BitsRead& bits, const MeasuredDots& dots, const Options&
 }
 
 BitsRead read(const Kernels& kernels, const Sight& sight, const MeasuredDots& dots,
-              BitBlock& block) {
-    return kernels.read_bits(dots, sight.pattern_from_image, sight.displacement, block.columns,
-                             block.rows, -BitBlock::kMiddle, -BitBlock::kMiddle);
+              BitBlock* block) {
+    return kernels.read_bits(dots, sight.pattern_from_image, sight.displacement,
+                             block != nullptr ? &block->columns : nullptr,
+                             block != nullptr ? &block->rows : nullptr);
 }
 
 /// Nearly all dots are clear, and hardly a bit is wrong.
@@ -269,14 +270,15 @@ Confirmation confirm(const Kernels& kernels, const ImageView& image, const Optio
         kernels.list_cells(view, dots);
         kernels.measure_windows(image, view, look, dots);
         BitBlock block;
-        bits = read(kernels, sight, dots, block);
+        // Farther out they add nothing to the certainty.
+        bits = read(kernels, sight, dots, is_first ? &block : nullptr);
         if (!is_plausible(bits, dots, options)) return Confirmation::implausible;
         if (is_first && !is_clean(bits)) {
             // Through a plane that is fitted to all dots, fewer bits are misread.
             if (!fit_to_dots(kernels, dots, bits, image, sight, fit))
                 return Confirmation::implausible;
             block = {};
-            bits = read(kernels, sight, dots, block);
+            bits = read(kernels, sight, dots, &block);
         }
         if (is_first && !is_certain(kernels, options, sight, block, bits, w)) {
             return Confirmation::uncertain;

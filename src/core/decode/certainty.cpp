@@ -49,7 +49,7 @@ constexpr float kNothing = 1e-30F;
 
 /// Something of every set of rivals, in whole vectors.
 struct OfSets {
-    std::array<Four, 2> part{};
+    std::array<Four, 2> part;
 
     static OfSets of(float value) { return {{Four{} + value, Four{} + value}}; }
 };
@@ -75,7 +75,7 @@ float far_rivals(const Contest& contest) {
     const int most = contest.most_shared();
     // Those that share the lines from one on, and none before it; nobody has before the first one.
     std::array<OfSets, kMostShared + kMaxLines> sharing;
-    std::fill_n(sharing.begin(), kMostShared, OfSets{});
+    std::fill_n(sharing.begin(), kMostShared, OfSets::of(0));
     OfSets* newest = &sharing[kMostShared - 1];
     *newest = OfSets::of(1);
     OfSets apart = OfSets::of(kShifts * odds_of(contest, contest.least_loss(0)));
@@ -152,17 +152,14 @@ float single_rivals(const Kernels& kernels, const Contest& contest) {
     const std::size_t lines = sort_losses(contest, storage);
     const int enough = (contest.loss_for(kPassedOver_q8) + contest.most_regained()) / kBit + 1;
     float sum = kSingles * kPassedOver * static_cast<float>(lines);
-    for (std::size_t k = 0; k < contest.places.size(); ++k) {
-        const code::Secondary& a = contest.basis[k];
-        SimilarPlaceList list;
-        if (!kernels.list_similar_places(a.rolls, a.length, static_cast<int>(contest.places[k]),
-                                         std::span(storage).first(lines), enough, list)) {
-            return 1;
-        }
-        for (const auto& [place, line] :
-             std::span(list.places).first(static_cast<std::size_t>(list.count)))
-            sum += odds_of(contest, loss_of(contest, k, place, line));
+    SimilarPlaceList list;
+    if (!kernels.list_similar_places(contest.basis, contest.places,
+                                     std::span(storage).first(lines), enough, list)) {
+        return 1;
     }
+    for (const auto& [sequence, place, line] :
+         std::span(list.places).first(static_cast<std::size_t>(list.count)))
+        sum += odds_of(contest, loss_of(contest, sequence, place, line));
     return sum;
 }
 
@@ -178,7 +175,7 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const Lines& li
     if (sum > limit) sum = chance + power_of_two(quick_rivals_log2_q8(contest, 256 * limit_log2));
     if (sum > limit) sum = chance + std::ldexp(1.0F, rivals_log2(profile, contest, limit_log2));
     if (sum > limit) return 1;
-    return sum + power_of_two(std::max(seam_rivals_log2_q8(contest), -100 * 256));
+    return sum + power_of_two(std::max(seam_rivals_log2_q8(kernels, contest), -100 * 256));
 }
 
 }  // namespace

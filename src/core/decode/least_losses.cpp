@@ -37,4 +37,14 @@ int least_loss_with_border(const Contest& contest) {
     return least;
 }
 
+bool surely_lose_with_border(const Contest& contest, int enough) {
+    const int most_shared = 2 * contest.most_shared();
+    int in_a_row = 0;
+    for (int line = 0; line < contest.count(); ++line) {
+        in_a_row = contest.least_loss(line) >= enough ? in_a_row + 1 : 0;
+        if (in_a_row > most_shared) return true;
+    }
+    return false;
+}
+
 }  // namespace dotpose::core

@@ -15,4 +15,8 @@ OneSide least_losses(const Contest& contest, bool from_last);
 /// at another beyond it, wherever the border is.
 int least_loss_with_border(const Contest& contest);
 
+/// Whether that is enough, told by one line alone: that which is lost of so many lines in a row,
+/// each worth enough, that nobody shares them all, whatever the border. Says no where in doubt.
+bool surely_lose_with_border(const Contest& contest, int enough);
+
 }  // namespace dotpose::core

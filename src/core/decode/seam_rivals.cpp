@@ -74,30 +74,85 @@ class LossesOfSides {
     std::array<int, kMaxLines> from_;
 };
 
+/// Summed odds of those that explain the lines about as well as the position found.
+class SeamRivals {
+  public:
+    SeamRivals(const Contest& contest, int enough) : contest_(contest), enough_(enough) {}
+
+    /// One that differs in a sequence.
+    void add(std::size_t sequence, std::uint32_t place) {
+        Growth growth;
+        grow(contest_, sequence, place, growth);
+        const LossesOfSides losses(contest_, growth, enough_);
+        for (int line = 1; line < contest_.count(); ++line) {
+            const int odds = contest_.log2_odds_q8(losses.with_border_before(line));
+            if (odds > kLeast_q8) sum_q8_ = add_log2(sum_q8_, odds + kSeam_q8);
+        }
+    }
+    int sum_q8() const { return sum_q8_; }
+
+  private:
+    const Contest& contest_;
+    int enough_;
+    int sum_q8_ = kNever_q8;
+};
+
+/// What takes odds so far down that they do not count.
+int enough_for(const Contest& contest) {
+    return contest.loss_for(kLeast_q8) + contest.most_regained();
+}
+
+/// Whether nobody can lose less.
+bool has_none(const Contest& contest, int enough) {
+    return surely_lose_with_border(contest, enough) || least_loss_with_border(contest) >= enough;
+}
+
+/// Who has lost all parts has lost enough, but for any one step: that of the border.
+StepLosses losses_of_steps(const Contest& contest, int enough) {
+    StepLosses steps;
+    steps.count = contest.count() - 1;
+    const auto lost_at = [&](int step) {
+        const int least = std::min(contest.least_loss(step), contest.least_loss(step + 1));
+        return std::clamp(least, 0, enough);
+    };
+    int most = 0;
+    for (int step = 0; step < steps.count; ++step)
+        most = std::max(most, lost_at(step));
+    const int part = (enough + most + StepLosses::kEnough - 1) / StepLosses::kEnough;
+    for (int step = 0; step < steps.count; ++step)
+        steps.parts[static_cast<std::size_t>(step)] =
+            static_cast<std::uint8_t>(lost_at(step) / part);
+    return steps;
+}
+
 }  // namespace
 
 int seam_rivals_log2_q8(const Contest& contest) {
-    const int enough = contest.loss_for(kLeast_q8) + contest.most_regained();
-    int sum = kNever_q8;
-    if (least_loss_with_border(contest) >= enough) return sum;
-    const int lines = contest.count();
-    const auto add = [&](std::size_t sequence, std::uint32_t place) {
-        Growth growth;
-        grow(contest, sequence, place, growth);
-        const LossesOfSides losses(contest, growth, enough);
-        for (int line = 1; line < lines; ++line) {
-            const int odds = contest.log2_odds_q8(losses.with_border_before(line));
-            if (odds > kLeast_q8) sum = add_log2(sum, odds + kSeam_q8);
-        }
-    };
+    const int enough = enough_for(contest);
+    SeamRivals rivals(contest, enough);
+    if (has_none(contest, enough)) return rivals.sum_q8();
     const UnsharedLines unshared(contest);
     visit_similar_places(
         contest, Steps(contest, enough, Excused::any_one),
         [&](std::size_t sequence) {
             return unshared.all_lose(sequence, Sharing::on_two_sides, enough);
         },
-        add);
-    return sum;
+        [&](std::size_t sequence, std::uint32_t place) { rivals.add(sequence, place); });
+    return rivals.sum_q8();
+}
+
+int seam_rivals_log2_q8(const Kernels& kernels, const Contest& contest) {
+    const int enough = enough_for(contest);
+    SeamRivals rivals(contest, enough);
+    if (has_none(contest, enough)) return rivals.sum_q8();
+    const StepLosses steps = losses_of_steps(contest, enough);
+    for (std::size_t k = 0; k < contest.basis.size(); ++k) {
+        const PlaceBits similar =
+            kernels.find_similar_places(contest.basis[k], contest.places[k], steps);
+        for (std::uint32_t word = 0; word < similar.size(); ++word)
+            visit_places(similar[word], word, [&](std::uint32_t place) { rivals.add(k, place); });
+    }
+    return rivals.sum_q8();
 }
 
 }  // namespace dotpose::core

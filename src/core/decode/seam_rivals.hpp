@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/decode/contest.hpp"
+#include "core/kernels/kernels.hpp"
 
 namespace dotpose::core {
 
@@ -10,5 +11,8 @@ namespace dotpose::core {
 /// border between two lines and with another one beyond it, as far as they explain the lines about
 /// as well as the position found. In 2^-8 powers of two.
 int seam_rivals_log2_q8(const Contest& contest);
+
+/// The same in vectors, with the kernels of a desktop.
+int seam_rivals_log2_q8(const Kernels& kernels, const Contest& contest);
 
 }  // namespace dotpose::core

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 
+#include "code/tables.hpp"
 #include "core/plane.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/patch.hpp"
@@ -125,16 +126,27 @@ struct LineLoss {
     std::uint8_t loss = 0;
 };
 
-/// Places of a sequence, each with a line that it shares with the reading. `list_similar_places`
-/// looks at 32 from every 32nd on: `rolls` go on for as many beyond the end.
+/// Places of a position's four sequences, each with a line that it shares with the reading.
 struct SimilarPlaceList {
-    static constexpr int kMost = 96;
+    static constexpr int kMost = 256;
     struct Entry {
+        std::uint8_t sequence;
         std::uint8_t place;
         std::uint8_t line;
     };
     int count = 0;
     std::array<Entry, kMost> places;
+};
+
+/// A bit for each place of a sequence, from the lowest bit on.
+using PlaceBits = std::array<std::uint32_t, 8>;
+
+/// What a rival loses at least where its digit differs from the reading's in a step from one line
+/// to the next: one of the two lines. In parts, of which `kEnough` are enough.
+struct StepLosses {
+    static constexpr int kEnough = 8;
+    int count = 0;
+    std::array<std::uint8_t, 64> parts;  ///< at most kEnough
 };
 
 /// Words of bits, one for each of 64 lines of 64 cells.
@@ -170,19 +182,24 @@ struct Kernels {
     /// most.
     void (*measure_windows)(const ImageView& image, const CellsInView& view, const WindowLook& look,
                             MeasuredDots& dots);
-    /// Bits of the dots as measured, against those that the code has there.
+    /// Bits of the dots as measured, against those that the code has there. Adds them to empty
+    /// lines, where these are asked for, by the cell counted from (-32, -32); each cell may have
+    /// one dot.
     BitsRead (*read_bits)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
-                          BitLines& columns, BitLines& rows, int first_column, int first_row);
+                          BitLines* columns, BitLines* rows);
     /// Sums over the dots that are at most `limit` (spacings^2) off.
     FitSums (*sum_fit)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                        float reach_px, float limit);
     /// The same of at, scale and turn only; all else is 0.
     FitSums (*sum_similarity)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                               float reach_px, float limit);
-    /// The other places of a sequence that may lose less than `enough` over these lines, the
+    /// The other places of a sequence that may lose less than enough, as far as steps tell.
+    PlaceBits (*find_similar_places)(const code::Secondary& sequence, std::uint32_t own,
+                                     const StepLosses& steps);
+    /// The other places of each sequence that may lose less than `enough` over these lines, the
     /// dearest first. False, if there are too many, or places that share none of the first lines
     /// may, too.
-    bool (*list_similar_places)(const std::uint8_t* rolls, int length, int own,
+    bool (*list_similar_places)(const code::Basis& basis, const std::array<std::uint32_t, 4>& own,
                                 std::span<const LineLoss> lines, int enough,
                                 SimilarPlaceList& list);
 };

@@ -37,12 +37,14 @@ FloatPlane changed(const FloatPlane& p, const Parameters& by, float reach) {
             p.bend + by[8] * unit * unit};
 }
 
-/// Squared deviations of a step after which no other is needed: where a plane hardly bends, the
-/// first one leads to the end.
+/// Squared deviations of a step after which no other is needed. The step ends so much off as the
+/// plane bends, and a fifth of a deviation does not matter.
 float settled(const FloatPlane& p, float reach) {
+    constexpr float kLeast = 0.2F;
+    constexpr float kMost = 1000;
     const float bent =
         (std::abs(p.tilt_x) + std::abs(p.tilt_y)) * reach + std::abs(p.bend) * reach * reach;
-    return bent < 0.02F ? 40.0F : 0.2F;
+    return std::clamp(0.04F / (bent * bent + 1e-6F), kLeast, kMost);
 }
 
 }  // namespace
