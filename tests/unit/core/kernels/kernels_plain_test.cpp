@@ -337,6 +337,8 @@ TEST(KernelsPlain, SimilarityIsSummedOverDotsNearTheirPlaces) {
             squares += left_x * left_x + left_y * left_y;
             right_x += left_x;
         }
+        EXPECT_EQ(kernels.count_fitting(table.dots, plane, 0.167F, static_cast<float>(limit)),
+                  points);
         for (const FitSums& sums :
              {kernels.sum_fit(table.dots, plane, 0.167F, 100, static_cast<float>(limit)),
               kernels.sum_similarity(table.dots, plane, 0.167F, 100, static_cast<float>(limit))}) {

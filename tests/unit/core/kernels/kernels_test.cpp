@@ -263,6 +263,7 @@ TEST_F(KernelsTest, SumsOfFitsAreTheSame) {
         const float reach = number(rng, 30, 400);
         expect_same([&](const Kernels& kernels, Record& record) {
             record.add(kernels.sum_fit(table.dots, plane, 0.167F, reach, limit));
+            record.add(kernels.count_fitting(table.dots, plane, 0.167F, limit));
             record.add(kernels.sum_similarity(table.dots, plane, 0.167F, reach, limit));
         });
     });
