@@ -190,7 +190,10 @@ struct Kernels {
     /// Sums over the dots that are at most `limit` (spacings^2) off.
     FitSums (*sum_fit)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                        float reach_px, float limit);
-    /// The same of at, scale and turn only; all else is 0.
+    /// How many dots these are.
+    int (*count_fitting)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
+                         float limit);
+    /// The sums of at, scale and turn only; all else is 0.
     FitSums (*sum_similarity)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                               float reach_px, float limit);
     /// The other places of a sequence that may lose less than enough, as far as steps tell.

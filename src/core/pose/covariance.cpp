@@ -12,22 +12,30 @@ Parameters direction_gradient(const Sights& sights, std::size_t from, std::size_
     const float y = sights.at.y[to] - sights.at.y[from];
     const auto of_from = sights.jacobian(from);
     const auto of_to = sights.jacobian(to);
+    const float over = 1 / (x * x + y * y);
     Parameters gradient;
     for (std::size_t i = 0; i < gradient.size(); ++i) {
-        gradient[i] = (x * (of_to[1][i] - of_from[1][i]) - y * (of_to[0][i] - of_from[0][i])) /
-                      (x * x + y * y);
+        gradient[i] =
+            (x * (of_to[1][i] - of_from[1][i]) - y * (of_to[0][i] - of_from[0][i])) * over;
     }
     return gradient;
 }
 
-/// a . covariance . b, where terms vary together with their neighbours at most.
-float between(const Parameters& a, const Parameters& b,
-              const std::array<Parameters, kPoseParameters>& covariance) {
-    float sum = 0;
+/// covariance . a, where terms vary together with their neighbours at most.
+Parameters times(const std::array<Parameters, kPoseParameters>& covariance, const Parameters& a) {
+    Parameters product;
     for (std::size_t k = 0; k < kPoseParameters; ++k) {
-        for (std::size_t l = k > 0 ? k - 1 : 0; l < std::min(k + 2, kPoseParameters); ++l)
-            sum += a[k] * covariance[k][l] * b[l];
+        product[k] = covariance[k][k] * a[k];
+        if (k > 0) product[k] += covariance[k][k - 1] * a[k - 1];
+        if (k + 1 < kPoseParameters) product[k] += covariance[k][k + 1] * a[k + 1];
     }
+    return product;
+}
+
+float inner_product(const Parameters& a, const Parameters& b) {
+    float sum = 0;
+    for (std::size_t k = 0; k < kPoseParameters; ++k)
+        sum += a[k] * b[k];
     return sum;
 }
 
@@ -47,11 +55,10 @@ void estimate_covariance(const PoseFit& fit, const PlaneFromImage& pattern_from_
     std::array<Parameters, 3> gradients{here[0], here[1], direction_gradient(sights, 1, 2)};
     for (Parameters& gradient : gradients)
         gradient = fit.normal.whitened(gradient);
-    for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t j = 0; j <= i; ++j) {
-            fix.covariance[i][j] = fix.covariance[j][i] =
-                between(gradients[i], gradients[j], fit.covariance);
-        }
+    for (std::size_t j = 0; j < 3; ++j) {
+        const Parameters product = times(fit.covariance, gradients[j]);
+        for (std::size_t i = j; i < 3; ++i)
+            fix.covariance[i][j] = fix.covariance[j][i] = inner_product(gradients[i], product);
     }
 }
 

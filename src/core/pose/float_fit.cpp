@@ -71,9 +71,12 @@ bool fit_plane(const Kernels& kernels, const MeasuredDots& dots, int reach_px, f
         plane = changed(plane, step, reach);
         const float next_limit = kOutlier * fit.variance + kExact;
         const bool is_settled = moved < std::min(bent_before, settled(plane, reach));
-        const bool same_dots = next_limit > 0.3F * limit;
         limit = next_limit;
-        if (is_settled && (same_dots || round > 0)) return true;
+        // Until the same dots would count again.
+        if (is_settled &&
+            kernels.count_fitting(dots, plane, displacement, limit) == fit.normal.points()) {
+            return true;
+        }
     }
     return true;
 }

@@ -1,0 +1,353 @@
+// Kernels against plain computations of the same. `kernels_test.cpp` says that all forms agree.
+#include <memory>
+#include <set>
+
+#include "core/detect/patch.hpp"
+#include "core/kernels/kernels.hpp"
+#include "random_inputs.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+using namespace core;
+
+constexpr std::uint64_t kSeed = 20262;
+
+/// Calls `use(kernels, rng)` so many times for each form, each time with numbers of its own.
+template <typename Use>
+void repeat(int times, Use use) {
+    for (const Kernels* form : forms()) {
+        for (int i = 0; i < times && !testing::Test::HasFailure(); ++i) {
+            SCOPED_TRACE(std::string(form->name) + ", seed " + std::to_string(kSeed) + ", case " +
+                         std::to_string(i));
+            Rng rng(kSeed, static_cast<std::uint64_t>(i));
+            use(*form, rng);
+        }
+    }
+}
+
+int mean(int a, int b) {
+    return (a + b + 1) / 2;
+}
+
+TEST(KernelsPlain, PatchIsSmoothedByMeansOfMeans) {
+    repeat(10, [](const Kernels& kernels, Rng& rng) {
+        const Picture picture(whole(rng, 48, 250), whole(rng, 48, 190), 3, rng);
+        auto patch = std::make_unique<Patch>();
+        ASSERT_TRUE(place_patch(picture.view, picture.view.width_px / 2, picture.view.height_px / 2,
+                                224, 160, 1, *patch));
+        kernels.fill_patch(picture.view, *patch);
+        kernels.smooth_patch(*patch);
+        const auto along = [&](int u, int v) {
+            const auto level = [&](int at) {
+                return picture.at(patch->left_px + at, patch->top_px + v);
+            };
+            return mean(mean(level(u - 1), level(u + 1)), level(u));
+        };
+        int brightest = 0;
+        int darkest = 255;
+        for (int v = 1; v < patch->height_px - 1; ++v) {
+            for (int u = 1; u < patch->width_px - 1; ++u) {
+                const int expected = mean(mean(along(u, v - 1), along(u, v + 1)), along(u, v));
+                ASSERT_EQ(patch->row(patch->smoothed, v)[u], expected) << u << ' ' << v;
+                if (u / 16 == 1 && v / 8 == 1) {
+                    brightest = std::max(brightest, expected);
+                    darkest = std::min(darkest, expected);
+                }
+            }
+        }
+        EXPECT_EQ(patch->brightest[Patch::kTilesPerRow + 1], brightest);
+        EXPECT_EQ(patch->darkness[Patch::kTilesPerRow + 1], 255 - darkest);
+    });
+}
+
+TEST(KernelsPlain, MinimaAreDarkerThanTheirNeighbours) {
+    repeat(10, [](const Kernels& kernels, Rng& rng) {
+        Picture picture(whole(rng, 100, 250), whole(rng, 80, 190), 0, rng);
+        picture.draw_dots(rng.uniform(8, 14), rng);
+        auto patch = std::make_unique<Patch>();
+        ASSERT_TRUE(place_patch(picture.view, picture.view.width_px / 2, picture.view.height_px / 2,
+                                224, 160, 1, *patch));
+        kernels.fill_patch(picture.view, *patch);
+        kernels.smooth_patch(*patch);
+        patch->thresholds.fill(160);
+        kernels.find_minima(*patch);
+        const auto level = [&](int u, int v) { return int{patch->row(patch->smoothed, v)[u]}; };
+        int count = 0;
+        for (int v = 2; v < patch->height_px - 2; ++v) {
+            for (int u = 2; u < patch->width_px - 2; ++u) {
+                const int here = level(u, v);
+                const int before = std::min(
+                    {level(u - 1, v - 1), level(u, v - 1), level(u + 1, v - 1), level(u - 1, v)});
+                const int after = std::min(
+                    {level(u + 1, v), level(u - 1, v + 1), level(u, v + 1), level(u + 1, v + 1)});
+                if (here > 160 || here >= before || here > after) continue;
+                const auto off = [&](int less, int more) {
+                    return static_cast<double>(less - more) / (2 * (less + more - 2 * here));
+                };
+                const auto k = static_cast<std::size_t>(count++);
+                ASSERT_LE(count, patch->dots.count);
+                EXPECT_NEAR(patch->dots.x[k],
+                            u + off(level(u - 1, v), level(u + 1, v)) - (patch->width_px - 1) / 2.0,
+                            1e-4);
+                EXPECT_NEAR(
+                    patch->dots.y[k],
+                    v + off(level(u, v - 1), level(u, v + 1)) - (patch->height_px - 1) / 2.0, 1e-4);
+            }
+        }
+        EXPECT_EQ(patch->dots.count, count);
+        EXPECT_GT(count, 20);
+    });
+}
+
+TEST(KernelsPlain, LinesAreScoredAgainstTheMainSequence) {
+    repeat(100, [](const Kernels& kernels, Rng& rng) {
+        const std::uint64_t bits = rng.bits();
+        const std::uint64_t valid = rng.bits() | (rng.below(2) == 0 ? rng.bits() : 0);
+        ScoredLine line;
+        kernels.score_line(bits, valid, line);
+        std::vector<int> scores;
+        for (std::size_t offset = 0; offset < 63; ++offset) {
+            int score = 0;
+            for (std::size_t cell = 0; cell < 64; ++cell) {
+                if ((valid >> cell & 1) == 0) continue;
+                score += code::kMainRepeated[offset + cell] == (bits >> cell & 1) ? 127 : -127;
+            }
+            ASSERT_EQ(line.scores[offset], score) << offset;
+            scores.push_back(score);
+        }
+        std::sort(scores.rbegin(), scores.rend());
+        EXPECT_EQ(line.lead.best, scores[0]);
+        EXPECT_EQ(line.lead.lead, scores[0] - scores[1]);
+    });
+}
+
+/// Sums of a window, pixel by pixel.
+void expect_sums(const Picture& picture, int half_px, int cut_q8, const MeasuredDots& dots,
+                 std::size_t k) {
+    const int u = dots.window_u[k];
+    const int v = dots.window_v[k];
+    const auto corner = [&](int du, int dv) {
+        return picture.at(std::clamp(u + du, 0, picture.view.width_px - 1),
+                          std::clamp(v + dv, 0, picture.view.height_px - 1));
+    };
+    const int paper = (corner(-half_px, -half_px) + corner(half_px, -half_px) +
+                       corner(-half_px, half_px) + corner(half_px, half_px) + 2) /
+                      4;
+    const int cut = paper - (paper * cut_q8 >> 8);
+    int mass = 0;
+    int sum_u = 0;
+    int sum_v = 0;
+    for (int dv = -half_px; dv <= half_px; ++dv) {
+        for (int du = -half_px; du <= half_px; ++du) {
+            const int dark = std::max(cut - picture.at_or_white(u + du, v + dv), 0);
+            mass += dark;
+            sum_u += du * dark;
+            sum_v += dv * dark;
+        }
+    }
+    ASSERT_EQ(dots.paper[k], paper) << u << ' ' << v << " half " << half_px;
+    ASSERT_EQ(dots.mass[k], mass) << u << ' ' << v << " half " << half_px;
+    ASSERT_EQ(dots.sum_u[k], sum_u) << u << ' ' << v << " half " << half_px;
+    ASSERT_EQ(dots.sum_v[k], sum_v) << u << ' ' << v << " half " << half_px;
+}
+
+TEST(KernelsPlain, WindowsAreSummedUpToTheBorder) {
+    repeat(40, [](const Kernels& kernels, Rng& rng) {
+        Picture picture(whole(rng, 64, 200), whole(rng, 64, 200), whole(rng, 0, 3), rng);
+        const int half_px = whole(rng, 2, kMostHalfWindow_px);
+        CellsInView view;
+        view.centre_x = static_cast<float>(picture.view.width_px - 1) / 2;
+        view.centre_y = static_cast<float>(picture.view.height_px - 1) / 2;
+        view.width_px = static_cast<float>(picture.view.width_px);
+        view.height_px = static_cast<float>(picture.view.height_px);
+        view.plane = {0, 0, 0.1F, 0, 0, 0.1F, 0, 0, 0};
+        DotTable table(200);
+        table.dots.count = 200;
+        for (std::size_t k = 0; k < 200; ++k) {
+            table.dots.window_u[k] = whole(rng, 0, picture.view.width_px - 1);
+            table.dots.window_v[k] = whole(rng, 0, picture.view.height_px - 1);
+        }
+        // The last pixel of all, and the first.
+        table.dots.window_u[0] = table.dots.window_v[0] = 0;
+        table.dots.window_u[1] = picture.view.width_px - 1;
+        table.dots.window_v[1] = picture.view.height_px - 1;
+        table.dots.window_u[2] = picture.view.width_px - 1 - half_px;
+        table.dots.window_v[2] = picture.view.height_px - 1 - half_px;
+        const int cut_q8 = whole(rng, 10, 220);
+        kernels.measure_windows(picture.view, view, {static_cast<float>(half_px), 1, cut_q8},
+                                table.dots);
+        for (std::size_t k = 0; k < 200; ++k) {
+            expect_sums(picture, half_px, cut_q8, table.dots, k);
+            if (testing::Test::HasFatalFailure()) return;
+        }
+    });
+}
+
+TEST(KernelsPlain, BitsStandInTheirLines) {
+    repeat(40, [](const Kernels& kernels, Rng& rng) {
+        const FloatPlane plane = random_plane(rng, 11, 0, 0);
+        const DotTable table = random_measures(plane, whole(rng, 0, 6000), 0.167F, rng);
+        BitLines columns;
+        BitLines rows;
+        const BitsRead read = kernels.read_bits(table.dots, plane, 0.167F, &columns, &rows);
+        int seen = 0;
+        int in_block = 0;
+        for (std::size_t k = 0; k < static_cast<std::size_t>(table.dots.count); ++k) {
+            if (table.dots.x[k] >= kNoDot_px) continue;
+            ++seen;
+            const int column = static_cast<int>(table.dots.column[k]) + 32;
+            const int row = static_cast<int>(table.dots.row[k]) + 32;
+            if (column < 0 || row < 0 || column > 63 || row > 63) continue;
+            const auto i = static_cast<std::size_t>(column);
+            const auto j = static_cast<std::size_t>(row);
+            const bool is_read = (columns.valid[i] >> row & 1) != 0;
+            ASSERT_EQ((rows.valid[j] >> column & 1) != 0, is_read);
+            if (!is_read) continue;
+            ++in_block;
+            const double x = table.dots.x[k];
+            const double y = table.dots.y[k];
+            const double off_x =
+                plane.at_x + plane.du_x * x + plane.dv_x * y - table.dots.column[k];
+            const double off_y = plane.at_y + plane.du_y * x + plane.dv_y * y - table.dots.row[k];
+            ASSERT_EQ(columns.bits[i] >> row & 1, off_y > off_x ? 1U : 0U);
+            ASSERT_EQ(rows.bits[j] >> column & 1, off_y > -off_x ? 1U : 0U);
+        }
+        int marked = 0;
+        for (const std::uint64_t valid : columns.valid)
+            marked += std::popcount(valid);
+        EXPECT_EQ(marked, in_block);
+        EXPECT_EQ(read.seen, seen);
+        EXPECT_GE(read.read, in_block);
+    });
+}
+
+/// Places of the four sequences, and a rival's growth in one of them.
+struct OwnPlaces {
+    const code::Basis& basis;
+    std::array<std::uint32_t, 4> own;
+
+    explicit OwnPlaces(Rng& rng) : basis(code::basis(static_cast<Profile>(rng.below(3)))) {
+        for (std::size_t k = 0; k < own.size(); ++k)
+            own[k] = rng.below(basis[k].length);
+    }
+    int growth(std::size_t k, std::uint32_t place, int line) const {
+        return (basis[k].rolls[place + static_cast<std::uint32_t>(line)] -
+                basis[k].rolls[own[k] + static_cast<std::uint32_t>(line)] + 63) %
+               63;
+    }
+};
+
+TEST(KernelsPlain, SimilarPlacesLoseTooLittleByTheirSteps) {
+    int count = 0;
+    repeat(50, [&](const Kernels& kernels, Rng& rng) {
+        const OwnPlaces places(rng);
+        StepLosses steps;
+        steps.count = whole(rng, 0, 63);
+        for (std::uint8_t& parts : steps.parts)
+            parts = static_cast<std::uint8_t>(std::min(whole(rng, 0, 9), StepLosses::kEnough));
+        for (std::size_t k = 0; k < 4; ++k) {
+            const code::Secondary& a = places.basis[k];
+            const PlaceBits similar = kernels.find_similar_places(a, places.own[k], steps);
+            for (std::uint32_t place = 0; place < 256; ++place) {
+                const bool is_similar = (similar[place / 32] >> place % 32 & 1) != 0;
+                if (place >= a.length || place == places.own[k]) {
+                    ASSERT_FALSE(is_similar);
+                    continue;
+                }
+                // All steps that differ, though no two in a row: more than that cannot be counted.
+                int most = 0;
+                int most_before = 0;
+                for (int step = 0; step < steps.count; ++step) {
+                    const auto at = static_cast<std::uint32_t>(step);
+                    const bool differ = a.digits[(place + at) % a.length] !=
+                                        a.digits[(places.own[k] + at) % a.length];
+                    const int with_this = most_before + (differ ? steps.parts[at] : 0);
+                    most_before = most;
+                    most = std::max(most, with_this);
+                }
+                if (most >= StepLosses::kEnough) continue;
+                ASSERT_TRUE(is_similar) << k << ' ' << place;
+                ++count;
+            }
+        }
+    });
+    EXPECT_GT(count, 1000);
+}
+
+TEST(KernelsPlain, ListHasAllPlacesThatLoseTooLittle) {
+    int listed = 0;
+    repeat(50, [&](const Kernels& kernels, Rng& rng) {
+        const OwnPlaces places(rng);
+        std::vector<LineLoss> lines;
+        const int count = whole(rng, 8, 40);
+        for (int line = 0; line < count; ++line)
+            lines.push_back(
+                {static_cast<std::uint8_t>(line), static_cast<std::uint8_t>(whole(rng, 1, 4))});
+        std::stable_sort(lines.begin(), lines.end(),
+                         [](LineLoss a, LineLoss b) { return a.loss > b.loss; });
+        const int enough = whole(rng, 4, 14);
+        SimilarPlaceList list;
+        if (!kernels.list_similar_places(places.basis, places.own, lines, enough, list)) return;
+        std::set<std::array<int, 3>>
+            found;  // sequence, place and the shift at which it is like the reading
+        for (const auto& [k, place, line] :
+             std::span(list.places).first(static_cast<std::size_t>(list.count)))
+            found.insert({k, place, places.growth(k, place, line)});
+        for (std::size_t k = 0; k < 4; ++k) {
+            for (std::uint32_t place = 0; place < places.basis[k].length; ++place) {
+                if (place == places.own[k]) continue;
+                for (int shift = 0; shift < 63; ++shift) {
+                    int lost = 0;
+                    for (const auto& [line, loss] : lines)
+                        lost += places.growth(k, place, line) == shift ? 0 : loss;
+                    const std::array<int, 3> rival{static_cast<int>(k), static_cast<int>(place),
+                                                   shift};
+                    // It may have others, too: a shift is looked at from its own line on.
+                    if (lost >= enough) continue;
+                    ASSERT_TRUE(found.count(rival) > 0) << k << ' ' << place << ' ' << shift;
+                    ++listed;
+                }
+            }
+        }
+    });
+    EXPECT_GT(listed, 100);
+}
+
+TEST(KernelsPlain, SimilarityIsSummedOverDotsNearTheirPlaces) {
+    repeat(30, [](const Kernels& kernels, Rng& rng) {
+        const FloatPlane plane = random_plane(rng, 11, 0, 0);
+        const DotTable table = random_measures(plane, whole(rng, 20, 300), 0.167F, rng);
+        const double limit = 0.012;
+        double points = 0;
+        double squares = 0;
+        double right_x = 0;
+        for (std::size_t k = 0; k < static_cast<std::size_t>(table.dots.count); ++k) {
+            const double x = table.dots.x[k];
+            const double y = table.dots.y[k];
+            if (x >= kNoDot_px) continue;
+            const int x_bit = table.dots.bits[k] & 1;
+            const int y_bit = table.dots.bits[k] >> 1;
+            const double left_x = table.dots.column[k] + 0.167 * (y_bit - x_bit) -
+                                  (plane.at_x + plane.du_x * x + plane.dv_x * y);
+            const double left_y = table.dots.row[k] + 0.167 * (x_bit + y_bit - 1) -
+                                  (plane.at_y + plane.du_y * x + plane.dv_y * y);
+            if (left_x * left_x + left_y * left_y > limit) continue;
+            ++points;
+            squares += left_x * left_x + left_y * left_y;
+            right_x += left_x;
+        }
+        EXPECT_EQ(kernels.count_fitting(table.dots, plane, 0.167F, static_cast<float>(limit)),
+                  points);
+        for (const FitSums& sums :
+             {kernels.sum_fit(table.dots, plane, 0.167F, 100, static_cast<float>(limit)),
+              kernels.sum_similarity(table.dots, plane, 0.167F, 100, static_cast<float>(limit))}) {
+            EXPECT_EQ(sums.points, points);
+            EXPECT_NEAR(sums.squared_residuals, squares, 1e-4);
+            EXPECT_NEAR(sums.right[0], right_x, 1e-3);
+        }
+    });
+}
+
+}  // namespace
+}  // namespace dotpose::core_test
