@@ -1,7 +1,6 @@
 #include "core/attempts/tracked.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/attempts/confirm.hpp"
@@ -74,8 +73,8 @@ bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Optio
 
 /// Where dots are looked for first, from the image centre, in shares of the image's sides: where
 /// one place is covered, another may not be.
-constexpr std::array kPoints{FloatVec{0, 0}, FloatVec{-0.25F, -0.22F}, FloatVec{0.25F, 0.22F},
-                             FloatVec{0.25F, -0.22F}, FloatVec{-0.25F, 0.22F}};
+constexpr FloatVec kPoints[] = {
+    {0, 0}, {-0.25F, -0.22F}, {0.25F, 0.22F}, {0.25F, -0.22F}, {-0.25F, 0.22F}};
 
 /// The sight corrected by the dots near `from`, in px from the image centre.
 bool correct(const Kernels& kernels, const ImageView& image, const Options& options, FloatVec from,

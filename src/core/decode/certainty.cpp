@@ -153,8 +153,8 @@ float single_rivals(const Kernels& kernels, const Contest& contest) {
     const int enough = (contest.loss_for(kPassedOver_q8) + contest.most_regained()) / kBit + 1;
     float sum = kSingles * kPassedOver * static_cast<float>(lines);
     SimilarPlaceList list;
-    if (!kernels.list_similar_places(contest.basis, contest.places,
-                                     std::span(storage).first(lines), enough, list)) {
+    if (!kernels.list_similar_places(contest.basis, contest.places, std::span(storage).first(lines),
+                                     enough, list)) {
         return 1;
     }
     for (const auto& [sequence, place, line] :

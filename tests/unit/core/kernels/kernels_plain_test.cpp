@@ -1,4 +1,5 @@
 // Kernels against plain computations of the same. `kernels_test.cpp` says that all forms agree.
+#include <array>
 #include <memory>
 #include <set>
 
@@ -12,6 +13,14 @@ namespace {
 using namespace core;
 
 constexpr std::uint64_t kSeed = 20262;
+
+/// Where a plane without perspective has a point of the image, in double precision.
+std::array<double, 2> exactly(const FloatPlane& plane, double x, double y) {
+    const auto along = [&](float at, float du, float dv) {
+        return static_cast<double>(at) + static_cast<double>(du) * x + static_cast<double>(dv) * y;
+    };
+    return {along(plane.at_x, plane.du_x, plane.dv_x), along(plane.at_y, plane.du_y, plane.dv_y)};
+}
 
 /// Calls `use(kernels, rng)` so many times for each form, each time with numbers of its own.
 template <typename Use>
@@ -205,11 +214,11 @@ TEST(KernelsPlain, BitsStandInTheirLines) {
             ASSERT_EQ((rows.valid[j] >> column & 1) != 0, is_read);
             if (!is_read) continue;
             ++in_block;
-            const double x = table.dots.x[k];
-            const double y = table.dots.y[k];
-            const double off_x =
-                plane.at_x + plane.du_x * x + plane.dv_x * y - table.dots.column[k];
-            const double off_y = plane.at_y + plane.du_y * x + plane.dv_y * y - table.dots.row[k];
+            const auto x = static_cast<double>(table.dots.x[k]);
+            const auto y = static_cast<double>(table.dots.y[k]);
+            const auto [at_x, at_y] = exactly(plane, x, y);
+            const double off_x = at_x - static_cast<double>(table.dots.column[k]);
+            const double off_y = at_y - static_cast<double>(table.dots.row[k]);
             ASSERT_EQ(columns.bits[i] >> row & 1, off_y > off_x ? 1U : 0U);
             ASSERT_EQ(rows.bits[j] >> column & 1, off_y > -off_x ? 1U : 0U);
         }
@@ -323,15 +332,16 @@ TEST(KernelsPlain, SimilarityIsSummedOverDotsNearTheirPlaces) {
         double squares = 0;
         double right_x = 0;
         for (std::size_t k = 0; k < static_cast<std::size_t>(table.dots.count); ++k) {
-            const double x = table.dots.x[k];
-            const double y = table.dots.y[k];
-            if (x >= kNoDot_px) continue;
+            const auto x = static_cast<double>(table.dots.x[k]);
+            const auto y = static_cast<double>(table.dots.y[k]);
+            if (table.dots.x[k] >= kNoDot_px) continue;
             const int x_bit = table.dots.bits[k] & 1;
             const int y_bit = table.dots.bits[k] >> 1;
-            const double left_x = table.dots.column[k] + 0.167 * (y_bit - x_bit) -
-                                  (plane.at_x + plane.du_x * x + plane.dv_x * y);
-            const double left_y = table.dots.row[k] + 0.167 * (x_bit + y_bit - 1) -
-                                  (plane.at_y + plane.du_y * x + plane.dv_y * y);
+            const auto [at_x, at_y] = exactly(plane, x, y);
+            const double left_x =
+                static_cast<double>(table.dots.column[k]) + 0.167 * (y_bit - x_bit) - at_x;
+            const double left_y =
+                static_cast<double>(table.dots.row[k]) + 0.167 * (x_bit + y_bit - 1) - at_y;
             if (left_x * left_x + left_y * left_y > limit) continue;
             ++points;
             squares += left_x * left_x + left_y * left_y;
