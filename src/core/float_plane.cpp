@@ -2,22 +2,9 @@
 
 #include <algorithm>
 
+#include "core/plane_units.hpp"
+
 namespace dotpose::core {
-namespace {
-
-constexpr float kPower16 = 65536.0F;
-constexpr float kPower24 = 16777216.0F;
-constexpr float kPower30 = 1073741824.0F;
-constexpr float kPower40 = kPower24 * kPower16;
-
-std::int32_t rounded(float value) {
-    constexpr float kMost = kBeyondReason;
-    const float whole = value + (value < 0 ? -0.5F : 0.5F);
-    // In this order, as it may be no number.
-    return static_cast<std::int32_t>(std::min(std::max(-kMost, whole), kMost));
-}
-
-}  // namespace
 
 FloatVec plane_point(const FloatPlane& plane, FloatVec px) {
     const float divisor = std::max(

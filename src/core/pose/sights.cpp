@@ -3,24 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/plane.hpp"
+#include "core/plane_units.hpp"
 
 namespace dotpose::core {
-namespace {
-
-constexpr float kPower16 = 65536.0F;
-constexpr float kPower24 = 16777216.0F;
-constexpr float kPower30 = 1073741824.0F;
-constexpr float kPower40 = kPower24 * kPower16;
-
-std::int32_t rounded(float value) {
-    constexpr float kMost = kBeyondReason;
-    const float whole = value + (value < 0 ? -0.5F : 0.5F);
-    // In this order, as it may be no number.
-    return static_cast<std::int32_t>(std::min(std::max(-kMost, whole), kMost));
-}
-
-}  // namespace
 
 ScaledPlane::ScaledPlane(const PlaneFromImage& plane, int reach_px)
     : plane_(plane), reach_px_(static_cast<float>(reach_px)) {
