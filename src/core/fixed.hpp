@@ -39,11 +39,11 @@ constexpr T magnitude(T a) {
 constexpr std::int32_t larger_component(Vec a) {
     return std::max(magnitude(a.x), magnitude(a.y));
 }
-/// Whether |x|, |y| <= limit. |x|, |y|, limit < 2^30.
+/// Whether |x|, |y| <= limit < 2^30.
 constexpr bool is_within(Vec a, std::int32_t limit) {
-    const auto twice = static_cast<std::uint32_t>(2 * limit);
-    return static_cast<std::uint32_t>(a.x + limit) <= twice &&
-           static_cast<std::uint32_t>(a.y + limit) <= twice;
+    const auto reach = static_cast<std::uint32_t>(limit);
+    return static_cast<std::uint32_t>(a.x) + reach <= 2 * reach &&
+           static_cast<std::uint32_t>(a.y) + reach <= 2 * reach;
 }
 
 /// Quotient rounded to nearest, halves away from zero. The divisor is positive.
