@@ -17,7 +17,7 @@ constexpr int kMaxWidth_px = 188;
 constexpr int kMaxHeight_px = 9999;
 
 DeviceWorkspace workspace;
-// As DMA wants it.
+// Cameras write rows to word boundaries, and rows so aligned are copied by words.
 alignas(4) std::array<std::uint8_t, kMaxWidth_px> row;
 
 constexpr Options kOptions = [] {
@@ -58,7 +58,7 @@ bool read_into(Int& value) {
     return true;
 }
 
-/// What follows the letter of a prediction.
+/// Reads the numbers that follow the letter T.
 bool read_prediction(Prediction& prediction) {
     Place& place = prediction.place;
     PlaneFromImage& plane = prediction.pattern_from_image;

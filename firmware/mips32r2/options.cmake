@@ -1,11 +1,4 @@
-# Sources that are not compiled with -O2 alone. What runs once a frame is made small, which leaves room in
-# flash for what runs all the time.
-function(compile_core options)
-    list(TRANSFORM ARGN PREPEND ${PROJECT_SOURCE_DIR}/src/)
-    set_source_files_properties(${ARGN} TARGET_DIRECTORY dotpose_code dotpose_core
-                                PROPERTIES COMPILE_OPTIONS ${options})
-endfunction()
-
+# What runs once a frame is made small, which leaves room in flash for what runs all the time.
 compile_core(-Os code/basis.cpp code/decode.cpp code/encode.cpp core/locate.cpp core/plane.cpp
              core/attempts/device.cpp core/attempts/device_tracked.cpp core/attempts/steps.cpp
              core/decode/contest.cpp core/decode/orientation.cpp

@@ -270,7 +270,7 @@ struct TrackedRow {
 struct Tracking {
     bool is_on = false;  ///< whether the frame that was begun is such a one
     Status status = Status::not_tracked;
-    // What is asked for at every dot comes first, where small processors reach it soonest.
+    // Small processors reach the first members soonest, so those needed for every dot lead.
     int width_px = 0;
     int height_px = 0;
     int rows_taken = 0;

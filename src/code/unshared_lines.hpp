@@ -8,7 +8,7 @@
 
 namespace dotpose::code {
 
-/// So many lines in a row are looked at.
+/// The table has these numbers of lines in a row.
 inline constexpr std::array<int, 3> kUnsharedOf{10, 13, 16};
 
 /// First entry of each sequence: a1, a2, a3 and the restored a4.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 
@@ -115,6 +116,13 @@ inline constexpr int kNever_q8 = -(1 << 20);
 /// log2(1 + 2^-d) in 2^-8 for d = 0, 1, ...; it is convex, and so below the chord in between.
 // Outside the function: inside, each call would copy it.
 inline constexpr std::array<std::uint8_t, 12> kGain{255, 150, 83, 44, 23, 12, 6, 3, 2, 1, 1, 1};
+
+/// log2(n) for 0 < n < 2^24 in 2^-8, rounded up: log2(1 + f) is at most f + 0.087.
+constexpr int log2_at_most_q8(std::uint32_t n) {
+    if (n == 1) return 0;
+    const int whole = static_cast<int>(std::bit_width(n)) - 1;
+    return whole * 256 + static_cast<int>(n << 8 >> whole) - 256 + 23;
+}
 
 /// log2(2^a + 2^b) in 2^-8, rounded up.
 constexpr int add_log2(int a_q8, int b_q8) {

@@ -5,6 +5,7 @@
 
 #include "code/rolls.hpp"
 #include "core/attempts/fitted_pose.hpp"
+#include "core/attempts/steps.hpp"
 #include "core/decode/bit_lines.hpp"
 #include "core/decode/certainty.hpp"
 #include "core/decode/window.hpp"
@@ -153,11 +154,6 @@ void show(const Sight& sight, Workspace& w) {
     w.grid_from_image = w.pattern_from_image;
 }
 
-Vec reference_q8(const ImageView& image, const Options& options) {
-    return {(image.width_px - 1) * 128 + options.reference_dx_q8,
-            (image.height_px - 1) * 128 + options.reference_dy_q8};
-}
-
 /// Fits the plane, and the displacement that it goes with.
 bool fit_to_dots(const Kernels& kernels, const MeasuredDots& dots, const BitsRead& bits,
                  const ImageView& image, Sight& sight, PoseFit& fit) {
@@ -179,7 +175,7 @@ void write_fix(const ImageView& image, const Options& options, const Sight& sigh
     w.pattern_from_image = fixed_plane(sight.pattern_from_image, centre_q8);
     w.decoding.place = sight.place;
     w.decoding.pattern_from_grid = {};
-    const Vec reference = reference_q8(image, options);
+    const Vec reference = reference_q8(centre_q8, options);
     write_pose(w.pattern_from_image, reference, options.profile, sight.place, w.fix);
     estimate_covariance(fit, w.pattern_from_image, reference, w.fix);
     w.fix.status = Status::ok;

@@ -37,8 +37,8 @@ Status measure_pose(const Options& options, Workspace& w) {
     const Observations observations(w.found_dots(), w.grid, nominal);
     w.fix.dots_used = fit_affine_pose(observations, w.pattern_from_image, w.fix.displacement_q16);
     if (w.fix.dots_used == 0) return Status::no_grid;
-    write_affine_pose(w.pattern_from_image, reference_q8(options, w), options.profile,
-                      w.decoding.place, w.fix);
+    write_affine_pose(w.pattern_from_image, reference_q8(image_centre_q8(w.light), options),
+                      options.profile, w.decoding.place, w.fix);
     w.fix.attempt = Attempt::device;
     return Status::ok;
 }

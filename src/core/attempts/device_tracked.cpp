@@ -64,9 +64,8 @@ Status confirm(const Options& options, Workspace& w) {
     w.fix.dots_used =
         fit_tracked_pose(w.found_dots(), t, w.pattern_from_image, w.fix.displacement_q16);
     if (w.fix.dots_used == 0) return Status::not_tracked;
-    const Vec reference{w.pattern_from_image.centre_q8.x + options.reference_dx_q8,
-                        w.pattern_from_image.centre_q8.y + options.reference_dy_q8};
-    write_affine_pose(w.pattern_from_image, reference, options.profile, t.corner, w.fix);
+    write_affine_pose(w.pattern_from_image, reference_q8(w.pattern_from_image.centre_q8, options),
+                      options.profile, t.corner, w.fix);
     return Status::ok;
 }
 

@@ -37,7 +37,7 @@ bool fit_pattern(const Options& options, const ImageView* image, Workspace& w, P
 Status measure_pose(const Options& options, const ImageView* image, Workspace& w) {
     PoseFit fit;
     if (!fit_pattern(options, image, w, fit)) return Status::no_grid;
-    const Vec reference = reference_q8(options, w);
+    const Vec reference = reference_q8(image_centre_q8(w.light), options);
     w.fix.displacement_q16 = static_cast<std::int32_t>(fit.displacement * 65536.0F);
     write_pose(w.pattern_from_image, reference, options.profile, w.decoding.place, w.fix);
     estimate_covariance(fit, w.pattern_from_image, reference, w.fix);

@@ -3,6 +3,7 @@
 #include "core/decode/orientation.hpp"
 #include "core/decode/window.hpp"
 #include "core/detect/undistort.hpp"
+#include "core/fixed.hpp"
 #include "core/lattice/axes.hpp"
 #include "core/lattice/grow.hpp"
 #include "core/lattice/neighbours.hpp"
@@ -21,9 +22,8 @@ Vec image_centre_q8(const Light& light) {
     return {(light.width_px - 1) * 128, (light.height_px - 1) * 128};
 }
 
-Vec reference_q8(const Options& options, const Workspace& w) {
-    const Vec centre_q8 = image_centre_q8(w.light);
-    return {centre_q8.x + options.reference_dx_q8, centre_q8.y + options.reference_dy_q8};
+Vec reference_q8(Vec centre_q8, const Options& options) {
+    return centre_q8 + Vec{options.reference_dx_q8, options.reference_dy_q8};
 }
 
 void forget_frame(Workspace& w) {

@@ -16,8 +16,8 @@ std::span<T> first(std::span<T, Extent> all, int count) {
 
 Vec image_centre_q8(const Light& light);
 
-/// The point whose pose is wanted.
-Vec reference_q8(const Options& options, const Workspace& w);
+/// The point whose pose is wanted, in an image whose centre is given.
+Vec reference_q8(Vec centre_q8, const Options& options);
 
 /// Nothing of the frame before is to be seen any more.
 void forget_frame(Workspace& w);

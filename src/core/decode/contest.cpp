@@ -16,8 +16,8 @@ constexpr int distance_of(std::size_t first, std::size_t other, std::size_t leng
     return bits_in((code::kMainWords[first] ^ code::kMainWords[other]) & all);
 }
 
-/// Of the stretches of a length that differ from one in the fewest bits: in how many, and how many
-/// there are.
+/// How few bits it takes to tell a stretch of the main sequence from another one of its length, and
+/// how many others differ from it in no more.
 struct NearestStretches {
     int distance = kMostTracked + 1;
     int count = 0;
@@ -33,12 +33,6 @@ constexpr NearestStretches nearest_of(std::size_t first, std::size_t length) {
         if (other != first) nearest.add(distance_of(first, other, length));
     }
     return nearest;
-}
-
-/// log2 of a number in 2^-8, rounded up: log2(1 + f) is at most f + 0.087.
-constexpr int log2_at_most_q8(int n) {
-    const int whole = std::bit_width(static_cast<unsigned>(n)) - 1;
-    return n == 1 ? 0 : 256 * whole + ((n << 8 >> whole) - 256) + 23;
 }
 
 /// The least number of bits by which a stretch of the main sequence, by its first index and its
@@ -62,13 +56,11 @@ constexpr auto kLog2OfNearest = [] {
         int most = 1;
         for (std::size_t first = 0; first < kSections; ++first)
             most = std::max(most, nearest_of(first, length).count);
-        log2[length] = static_cast<std::uint16_t>(log2_at_most_q8(most));
+        log2[length] =
+            static_cast<std::uint16_t>(log2_at_most_q8(static_cast<std::uint32_t>(most)));
     }
     return log2;
 }();
-
-/// log2 of 62, likewise.
-constexpr int kLog2OfOthers_q8 = 1525;
 
 }  // namespace
 
@@ -98,11 +90,11 @@ Contest::Contest(Profile profile, std::span<const TrackedLine> lines_, const Axi
     follow_rolls(profile, reading);
     for (int i = 0; i < count_; ++i) {
         const auto line = static_cast<std::size_t>(i);
-        const Nearest others = bits_[line].seen != 0 ? nearest(i) : Nearest{0, kLog2OfOthers_q8};
+        const Nearest others = bits_[line].seen != 0 ? nearest(i) : Nearest{0, kOtherRolls_q8};
         set_least_loss(i, kScoreOfBit * others.lost_bits);
         // All others lose a bit more.
-        const int log2_q8 = add_log2(others.log2_count_q8, kLog2OfOthers_q8 - odds_q8);
-        log2_of_nearest_q8_[line] = static_cast<std::int16_t>(std::min(log2_q8, kLog2OfOthers_q8));
+        const int log2_q8 = add_log2(others.log2_count_q8, kOtherRolls_q8 - odds_q8);
+        log2_of_nearest_q8_[line] = static_cast<std::int16_t>(std::min(log2_q8, kOtherRolls_q8));
     }
     hopeless_score_ = most_regained_ + -kNegligible_q8 * 2 * 127 / odds_q8;
 }
@@ -136,7 +128,7 @@ Contest::Nearest Contest::nearest(int line) const {
     for (int roll = 0; roll < kSections; ++roll) {
         if (roll != own) nearest.add(loss_of_bits(line, roll));
     }
-    return {nearest.distance, log2_at_most_q8(nearest.count)};
+    return {nearest.distance, log2_at_most_q8(static_cast<std::uint32_t>(nearest.count))};
 }
 
 int Contest::loss_of_bits(int line, int roll) const {

@@ -15,6 +15,9 @@ namespace dotpose::core {
 /// Lines in a row that two positions share at most; in the misprinted code.
 inline constexpr int kMostShared = 7;
 
+/// log2 of how many other rolls there are, 62, in 2^-8, rounded up.
+inline constexpr int kOtherRolls_q8 = 1525;
+
 /// Odds below 2^-64 are not followed up, but still counted, at this value.
 inline constexpr int kNegligible_q8 = -64 * 256;
 inline constexpr float kNegligible = 5.5e-20F;
@@ -23,7 +26,8 @@ class Contest {
   public:
     /// Odds are above 0.
     Contest(Profile profile, const Lines& lines_, const AxisReading& reading, int odds_per_bit_q8);
-    /// Of bits that are all as sure as a weight of 127, or were not read.
+    /// A contest about a tracked frame: its bits are either not read, or all equally sure, as
+    /// those with the weight 127 are elsewhere.
     Contest(Profile profile, std::span<const TrackedLine> lines_, const AxisReading& reading,
             int odds_per_bit_q8);
 
@@ -44,6 +48,11 @@ class Contest {
     int own_roll(int line) const { return rolls_[static_cast<std::size_t>(line)]; }
     /// The least that a rival loses in a line which it does not share; may be negative.
     int least_loss(int line) const { return least_losses_[static_cast<std::size_t>(line)]; }
+    /// The least that a rival loses whose digit differs in the step from a line to the next: one of
+    /// the two lines is not shared. Not negative.
+    int least_loss_of_step(int line) const {
+        return std::max(std::min(least_loss(line), least_loss(line + 1)), 0);
+    }
     /// log2 of how many rolls lose about as little, in 2^-8, rounded up: the odds of the best, so
     /// often, are at least those of all. Of bits only.
     int log2_of_nearest_q8(int line) const {

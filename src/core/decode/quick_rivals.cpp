@@ -11,9 +11,8 @@
 namespace dotpose::core {
 namespace {
 
-/// log2 of numbers of rivals, and of shifts at which a rival shares no line, in 2^-8, rounded up.
-constexpr int kShifts_q8 = 1525;   // 62
-constexpr int kSingles_q8 = 2441;  // 741
+/// log2 of the number of rivals that differ in one sequence, 741, in 2^-8, rounded up.
+constexpr int kSingles_q8 = 2441;
 /// Nobody wants to know odds like these more exactly.
 constexpr int kSmallOdds_q8 = -36 * 256;
 /// Odds, as a power of two, at which single rivals are counted that have less, known or not.
@@ -47,10 +46,7 @@ int log2_of_others_q8(const Contest& contest, int line) {
     for (int roll = 0; roll < kSections; ++roll)
         sum_q12 += scores[roll] <= hardly_any ? kPowers.back() : power_q12(scores[roll]);
     sum_q12 -= power_q12(scores[own]);
-    // log2(1 + f) is at most f + 0.087.
-    const int whole = static_cast<int>(std::bit_width(sum_q12)) - 1;
-    const auto fraction_q8 = static_cast<int>(sum_q12 * 256 >> whole) - 256;
-    return (whole - 12) * 256 + fraction_q8 + 23;
+    return log2_at_most_q8(sum_q12) - 12 * 256;
 }
 
 /// ExpectedRivals with all that share no line lumped together. A step leads to each roll with at
@@ -63,7 +59,7 @@ int far_log2_q8(const Contest& contest, const RivalSet& set, const AllLineOdds& 
     // All sums are divided by the probability that every line so far is shared: then those that
     // share the lines from one on, and none before it, stay as they are.
     std::array<int, kMostShared + kMaxLines> sharing;
-    // Of each and the one before it: then there is half as much to be summed.
+    // Each element of `sharing` plus the one before it, so that sums have half as many terms.
     std::array<int, kMostShared + kMaxLines> pairs;
     std::fill_n(sharing.begin(), kMostShared, kNever_q8);
     std::fill_n(pairs.begin(), kMostShared, kNever_q8);
@@ -102,7 +98,7 @@ int sharing_few_log2_q8(const Contest& contest) {
     for (const int loss : most)
         lost -= loss;
     constexpr int kSets_q8 = 2 * 256;
-    return kRivalSets.back().rivals_q8 + kSets_q8 + kShifts_q8 +
+    return kRivalSets.back().rivals_q8 + kSets_q8 + kOtherRolls_q8 +
            (256 + kUnevenness_q8) * contest.count() + contest.log2_odds_q8(lost);
 }
 
@@ -114,7 +110,7 @@ int far_log2_q8(const Contest& contest, bool roughly, int enough) {
     for (int line = 0; line < contest.count(); ++line) {
         const int best = contest.log2_odds_q8(contest.least_loss(line));
         const int others = contest.is_of_bits() ? contest.log2_of_nearest_q8(line)
-                           : roughly            ? kShifts_q8
+                           : roughly            ? kOtherRolls_q8
                                                 : log2_of_others_q8(contest, line);
         odds[static_cast<std::size_t>(line)] = {best, best + others};
     }
@@ -268,7 +264,7 @@ int other_sections_log2_q8(const Contest& contest) {
     int lost = 0;
     for (int line = 0; line < contest.count(); ++line)
         lost += contest.least_loss(line);
-    return kShifts_q8 + contest.log2_odds_q8(lost);
+    return kOtherRolls_q8 + contest.log2_odds_q8(lost);
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ class SeamRivals {
     int sum_q8_ = kNever_q8;
 };
 
-/// What takes odds so far down that they do not count.
+/// The loss after which a rival's odds are so small that they are not counted.
 int enough_for(const Contest& contest) {
     return contest.loss_for(kLeast_q8) + contest.most_regained();
 }
@@ -107,13 +107,13 @@ bool has_none(const Contest& contest, int enough) {
     return surely_lose_with_border(contest, enough) || least_loss_with_border(contest) >= enough;
 }
 
-/// Who has lost all parts has lost enough, but for any one step: that of the border.
+/// Losses of all steps, in parts so large that a rival which lost `StepLosses::kEnough` of them has
+/// lost enough even if one step, that of the border, does not count.
 StepLosses losses_of_steps(const Contest& contest, int enough) {
     StepLosses steps;
     steps.count = contest.count() - 1;
     const auto lost_at = [&](int step) {
-        const int least = std::min(contest.least_loss(step), contest.least_loss(step + 1));
-        return std::clamp(least, 0, enough);
+        return std::min(contest.least_loss_of_step(step), enough);
     };
     int most = 0;
     for (int step = 0; step < steps.count; ++step)

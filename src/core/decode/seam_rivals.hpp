@@ -12,7 +12,7 @@ namespace dotpose::core {
 /// as well as the position found. In 2^-8 powers of two.
 int seam_rivals_log2_q8(const Contest& contest);
 
-/// The same in vectors, with the kernels of a desktop.
+/// The same sum, of which a desktop's kernels look for the rivals.
 int seam_rivals_log2_q8(const Kernels& kernels, const Contest& contest);
 
 }  // namespace dotpose::core

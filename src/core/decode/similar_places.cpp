@@ -50,9 +50,7 @@ Steps::Steps(const Contest& contest, int enough, Excused excused)
     : count(std::min(contest.count() - 1, kMostSteps)),
       first_line((contest.count() - 1 - count) / 2) {
     const auto lost_at = [&](int step) {
-        const int line = first_line + step;
-        const int least = std::min(contest.least_loss(line), contest.least_loss(line + 1));
-        return std::clamp(least, 0, enough);
+        return std::min(contest.least_loss_of_step(first_line + step), enough);
     };
     int needed = enough;
     if (excused == Excused::any_one) {

@@ -12,7 +12,7 @@ namespace dotpose::core {
 /// places; where few are in view, those one spacing on may still look nearly as good.
 class Shifts {
   public:
-    /// The rows of the search stand in `tracking`, as does the paper's level in the end.
+    /// Searches the rows that `tracking` keeps.
     explicit Shifts(const Tracking& tracking);
 
     /// The likeliest of those that were not shown yet; false where nothing is dark.
