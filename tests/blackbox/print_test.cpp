@@ -144,8 +144,9 @@ TEST_F(PrintCommand, a_file_that_cannot_be_written_is_status_1) {
 
 TEST_F(PrintCommand, a_signal_leaves_no_litter) {
     // A page that would take minutes.
-    run("print -o huge.png --paper 20000x20000 --dpi 1200 & tool=$!; sleep 0.5; ls -A | grep -c "
-        "huge; kill $tool; wait $tool");
+    run("print -o huge.png --paper 20000x20000 --dpi 1200 & tool=$!; "
+        "until ls -A | grep -c huge || ! kill -0 $tool; do sleep 0.02; done > count; "
+        "tail -n 1 count; rm count; kill $tool; wait $tool");
     EXPECT_EQ(exit_code_, 1);
     EXPECT_EQ(output_, "1\n") << "the temporary file should have been there";
     EXPECT_EQ(errors_, "dotpose: stopped; nothing was written\n");

@@ -312,7 +312,8 @@ TEST_F(SheetFiles, an_interrupted_print_adds_no_sheet) {
     // A page that would take minutes.
     const int status = print(
         "-o huge.png --paper 20000x20000 --dpi 1200 --sheets sheets.json --name b & tool=$!; "
-        "sleep 0.5; ls -A > during; kill $tool; wait $tool");
+        "until ls -A | grep huge > during || ! kill -0 $tool; do sleep 0.02; done; "
+        "kill $tool; wait $tool");
     EXPECT_EQ(status, 1);
     EXPECT_THAT(read_file(directory_ / "during"), HasSubstr(".huge.png."));
     EXPECT_EQ(read_file(directory_ / "sheets.json"), before);

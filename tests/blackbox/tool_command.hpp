@@ -26,6 +26,12 @@ inline constexpr const char* kLargeCamera =
     "centre_px: [319.5, 239.5]}";
 inline constexpr const char* kNotForLargeCamera = ": the camera file is for images of 640 x 480";
 
+/// A shell command that waits until the tool, run in the background as process $tool, has a handler
+/// for SIGTERM (bit 14 of the mask that Linux tells): before, the signal would end it at once.
+inline constexpr const char* kUntilItHandlesSignals =
+    "until grep -qE '^SigCgt:.*[4-7c-f][0-9a-f]{3}$' /proc/$tool/status || ! kill -0 $tool; "
+    "do sleep 0.02; done; ";
+
 /// Runs the tool in a directory of its own, and keeps what the last run said.
 class ToolCommand : public testing::Test {
   protected:
