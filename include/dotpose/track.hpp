@@ -178,9 +178,10 @@ class Tracker {
     const Track& track() const { return track_; }
 
     /// Where the frame at `time_us` will show the pattern: as the newest ok fix, of which `seen` is
-    /// the sighting, but with the pose that the filter expects then, and its uncertainty. While the
-    /// filter expects nothing (it is lost, or will be by then, or does not believe `seen`) as the
-    /// fix has it. `options` are those of `locate`.
+    /// the sighting, but with the pose that the filter expects then, and its uncertainty. A
+    /// sighting that is not believed yet counts with those that agree with it. While the filter
+    /// expects nothing (it has not followed `seen`, or will be lost by then) as the fix has it.
+    /// `options` are those of `locate`.
     Prediction predict(std::int64_t time_us, const Fix& newest, const Sighting& seen,
                        const Options& options) const;
 
@@ -189,9 +190,11 @@ class Tracker {
     bool has_prior() const { return !track_.is_lost; }
 
   private:
+    /// The motion of which `seen` is the newest sighting; null if there is none.
+    const track::Motion* following(const Sighting& seen) const;
     Verdict judge(const track::Motion& prediction, const Sighting& sighting);
     bool is_confirmed(const Sighting& sighting);
-    void restart(const Sighting& sighting);
+    void restart(const track::Motion& motion);
     void watch_motion();
 
     TrackOptions options_;
@@ -200,9 +203,11 @@ class Tracker {
     bool has_frame_ = false;
     std::int64_t newest_us_ = 0;
     track::Motion last_;  ///< at the last believed sighting
-    Sighting candidate_;  ///< the newest one that contradicts
-    int agreeing_ = 0;    ///< candidates that agree with each other
-    TrackedPose rest_;    ///< from where movement is counted
+    /// At the newest sighting that contradicts, followed like the believed ones: where the robot is
+    /// if it was put somewhere else.
+    track::Motion candidate_;
+    int agreeing_ = 0;  ///< sightings that the candidate was made of
+    TrackedPose rest_;  ///< from where movement is counted
 };
 
 }  // namespace dotpose

@@ -49,17 +49,24 @@ float sigma(const Covariance6& predicted, const Sighting& seen, std::size_t axis
 
 }  // namespace
 
+const Motion* Tracker::following(const Sighting& seen) const {
+    const auto ends_at = [&](const Motion& motion) {
+        return motion.pose.time_us == seen.time_us && motion.pose.plane == seen.plane;
+    };
+    if (!track_.is_lost && ends_at(last_)) return &last_;
+    return agreeing_ > 0 && ends_at(candidate_) ? &candidate_ : nullptr;
+}
+
 Prediction Tracker::predict(std::int64_t time_us, const Fix& newest, const Sighting& seen,
                             const Options& options) const {
     const Prediction as_seen = Prediction::like(newest);
-    const std::int64_t last_us = last_.pose.time_us;
-    const bool is_believed = !track_.is_lost && seen.time_us == last_us &&
-                             seen.plane == last_.pose.plane && seen.spacing_nm > 0;
-    if (!is_believed || time_us <= last_us) return as_seen;
+    const Motion* followed = following(seen);
+    const std::int64_t last_us = seen.time_us;
+    if (followed == nullptr || seen.spacing_nm <= 0 || time_us <= last_us) return as_seen;
     const auto gap_us = static_cast<std::uint64_t>(time_us) - static_cast<std::uint64_t>(last_us);
     if (gap_us >= static_cast<std::uint64_t>(options_.lost_after_us)) return as_seen;
 
-    const TrackedPose expected = predicted(last_, time_us, options_).pose;
+    const TrackedPose expected = predicted(*followed, time_us, options_).pose;
     const Vector3 step = difference(pose_of(seen), expected);
     const float spacing_mm = static_cast<float>(seen.spacing_nm) * 1e-6F;
     const auto by = in_pattern(step[0] / spacing_mm, step[1] / spacing_mm, newest, seen);

@@ -127,7 +127,7 @@ Verdict Tracker::judge(const Motion& prediction, const Sighting& sighting) {
     if (track_.is_lost) {
         if (is_weak) return Verdict::too_weak;
         is_possible = is_possible || is_reachable(last_, sighting, options_);
-        if (is_possible) restart(sighting);
+        if (is_possible) restart(started_at(sighting, options_));
     } else {
         const Innovation found = innovation(prediction, sighting, options_);
         const float dt_s = seconds(last_.pose.time_us, sighting.time_us);
@@ -151,21 +151,26 @@ Verdict Tracker::judge(const Motion& prediction, const Sighting& sighting) {
     }
     if (is_confirmed(sighting)) {
         track_.events.kidnapped = true;
-        restart(sighting);
+        restart(candidate_);
         return Verdict::believed;
     }
     return Verdict::gated;
 }
 
 bool Tracker::is_confirmed(const Sighting& sighting) {
-    const bool agrees =
-        agreeing_ > 0 && is_reachable(started_at(candidate_, options_), sighting, options_);
-    agreeing_ = agrees ? agreeing_ + 1 : 1;
-    candidate_ = sighting;
+    if (agreeing_ > 0 && is_reachable(candidate_, sighting, options_)) {
+        ++agreeing_;
+        const float dt_s = seconds(candidate_.pose.time_us, sighting.time_us);
+        const Motion expected = predicted(candidate_, sighting.time_us, options_);
+        candidate_ = corrected(fitted(expected, sighting, dt_s, options_), sighting, options_);
+    } else {
+        agreeing_ = 1;
+        candidate_ = started_at(sighting, options_);
+    }
     return agreeing_ >= options_.confirmations;
 }
 
-void Tracker::restart(const Sighting& sighting) {
+void Tracker::restart(const Motion& motion) {
     track_.events.fix = track_.is_lost;
     track_.is_lost = false;
     // A robot that was put somewhere else moved, whatever it does now.
@@ -173,7 +178,7 @@ void Tracker::restart(const Sighting& sighting) {
     track_.is_stationary = false;
     was_seen_ = true;
     agreeing_ = 0;
-    last_ = started_at(sighting, options_);
+    last_ = motion;
     track_.pose = rest_ = last_.pose;
 }
 

@@ -194,11 +194,43 @@ TEST(TrackerPredict, ExpectsNothingWhereTheFilterDoesNot) {
     expect_as_seen(robot.predict(305'000), robot.fix);
 }
 
-TEST(TrackerPredict, ASightingThatIsNotBelievedIsWhereItIs) {
+/// As `driving`, but elsewhere.
+Pose driving_elsewhere(std::int64_t time_us) {
+    const Pose pose = driving(time_us);
+    return {pose.x + 9000, pose.y - 3000, pose.theta_rad};
+}
+
+TEST(TrackerPredict, OneSightingThatContradictsTellsNoSpeed) {
     Followed robot = drive(200'000, driving);
-    robot.see({9000, 100, 1}, 205'000);
+    const Pose elsewhere = driving_elsewhere(205'000);
+    robot.see(elsewhere, 205'000);
     ASSERT_EQ(robot.tracker.track().verdict, Verdict::gated);
-    expect_as_seen(robot.predict(210'000), robot.fix);
+    const Prediction prediction = robot.predict(210'000);
+    expect_near(pose_of(prediction), elsewhere, 0.001, 1e-4);
+    EXPECT_EQ(prediction.sigma_q16, Prediction{}.sigma_q16);
+}
+
+TEST(TrackerPredict, FollowsARobotThatWasPutElsewhereBeforeItBelievesIt) {
+    Followed robot = drive(200'000, driving);
+    robot.see(driving_elsewhere(205'000), 205'000);
+    robot.see(driving_elsewhere(210'000), 210'000);
+    ASSERT_EQ(robot.tracker.track().verdict, Verdict::gated);
+    expect_near(pose_of(robot.predict(215'000)), driving_elsewhere(215'000), 0.3, 0.02);
+}
+
+TEST(TrackerPredict, KeepsTheSpeedOfARobotThatIsBelievedToBeElsewhere) {
+    Followed robot = drive(200'000, driving);
+    std::int64_t time_us = 200'000;
+    while (robot.tracker.track().verdict != Verdict::believed || time_us == 200'000) {
+        time_us += kFrame_us;
+        ASSERT_LT(time_us, 300'000);
+        robot.see(driving_elsewhere(time_us), time_us);
+    }
+    EXPECT_TRUE(robot.tracker.track().events.kidnapped);
+    EXPECT_NEAR(std::hypot(robot.tracker.track().pose.vx_mm_s, robot.tracker.track().pose.vy_mm_s),
+                300, 15);
+    expect_near(pose_of(robot.predict(time_us + kFrame_us)), driving_elsewhere(time_us + kFrame_us),
+                0.3, 0.02);
 }
 
 TEST(TrackerPredict, BridgesFramesWithoutAFix) {
