@@ -17,6 +17,7 @@
 #include "path_memory.hpp"
 #include "print/output_file.hpp"
 #include "progress.hpp"
+#include "terminal_text.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -43,24 +44,37 @@ class FleetView {
   public:
     explicit FleetView(const FleetArguments& arguments)
         : map_path_(arguments.map), on_terminal_(isatty(STDOUT_FILENO) == 1) {
+        if (!map_path_.empty()) print::require_writable(map_path_);
         if (arguments.sheets.empty()) return;
         map_id_ = std::filesystem::path(arguments.sheets).stem().string();
         sheets_ = map_sheets(read_sheets(arguments.sheets), Plane::sheet_world);
     }
 
-    void refresh(const FleetState& fleet, bool is_last) const {
+    void refresh(const FleetState& fleet, bool is_last) {
         constexpr const char* kClear = "\033[H\033[J";
         if (on_terminal_ || is_last) {
             fmt::print("{}{}", on_terminal_ ? kClear : "", table_of(fleet, system_us()));
             std::fflush(stdout);
         }
-        if (map_path_.empty()) return;
-        print::OutputFile file(map_path_);
-        file.write(draw::draw_map(map_of(fleet, map_shown(fleet), sheets_)));
-        file.commit();
+        if (!map_path_.empty()) write_map(fleet, is_last);
     }
 
   private:
+    /// A map that cannot be written now may be later, and those who watch the table need none: only
+    /// the last one is an error.
+    void write_map(const FleetState& fleet, bool is_last) {
+        try {
+            print::OutputFile file(map_path_);
+            file.write(draw::draw_map(map_of(fleet, map_shown(fleet), sheets_)));
+            file.commit();
+            is_failing_ = false;
+        } catch (const Error& error) {
+            if (is_last) throw;
+            if (!is_failing_) tell(error.what());
+            is_failing_ = true;
+        }
+    }
+
     /// The sheets' world, or the plane of the first robot that has one.
     std::string map_shown(const FleetState& fleet) const {
         if (!map_id_.empty()) return map_id_;
@@ -74,17 +88,18 @@ class FleetView {
     std::string map_id_;
     std::vector<draw::MapSheet> sheets_;
     bool on_terminal_;
+    bool is_failing_ = false;  ///< the map could not be written
 };
 
 void run(const FleetArguments& arguments) {
     const auto options = arguments.mqtt.options();
     if (!options) throw BadArgument("name the broker: --mqtt mqtt://HOST");
     catch_interrupts();
-    const FleetView view(arguments);
+    FleetView view(arguments);
     FleetState fleet;
     const publish::MqttSubscriber subscriber(
-        *options, state_topic("+"), [&fleet](const std::string&, const std::string& payload) {
-            fleet.take(payload, system_us());
+        *options, state_topic("+"), [&fleet](const std::string& topic, const std::string& payload) {
+            fleet.take(topic, payload, system_us());
         });
     const auto begun = steady_clock::now();
     const auto seconds_since = [](steady_clock::time_point time) {

@@ -6,6 +6,8 @@
 
 #include <fmt/core.h>
 
+#include "terminal_text.hpp"
+
 namespace dotpose::cli {
 namespace {
 
@@ -16,10 +18,31 @@ double quantile(std::vector<float> values, double share) {
     return static_cast<double>(values[static_cast<std::size_t>(at)]);
 }
 
+/// Whether a message is news of its robot, or came late. Numbers that go on tell it, whatever the
+/// sender's clock says; where both are behind, the clock was set back and the numbers began anew
+/// once several messages in a row follow each other.
+bool is_news(const RobotState& state, FleetRobot& robot) {
+    constexpr int kDoubts = 5;
+    const bool is_late =
+        state.sent_us < robot.newest.sent_us && state.header_id <= robot.newest.header_id;
+    if (!is_late) {
+        robot.doubts = 0;
+        return true;
+    }
+    // Of a queue that is sent again the newest comes first, so that its messages do not ascend.
+    robot.doubts =
+        state.sent_us > robot.doubted_sent_us || robot.doubts == 0 ? robot.doubts + 1 : 1;
+    robot.doubted_sent_us = state.sent_us;
+    if (robot.doubts < kDoubts) return false;
+    robot.doubts = 0;
+    return true;
+}
+
 }  // namespace
 
-void FleetState::take(const std::string& payload, std::int64_t now_us) {
-    const auto state = parse_state(payload);
+void FleetState::take(const std::string& topic, const std::string& payload, std::int64_t now_us) {
+    const auto name = robot_of(topic);
+    const auto state = name ? parse_state(payload) : std::nullopt;
     const std::lock_guard lock(mutex_);
     if (!state) {
         ++bad_;
@@ -32,23 +55,44 @@ void FleetState::take(const std::string& payload, std::int64_t now_us) {
     } else {
         latencies_ms_[static_cast<std::size_t>(messages_) % kLatencies] = latency_ms;
     }
-    FleetRobot& robot = robots_[state->robot];
+    FleetRobot& robot = heard(*name, now_us);
     const bool is_first = robot.messages++ == 0;
-    robot.heard_us = now_us;
-    if (!is_first && state->sent_us < robot.newest.sent_us) {
-        robot.missed = std::max<std::int64_t>(robot.missed - 1, 0);  // it came late
+    if (!is_first && !is_news(*state, robot)) {
+        robot.missed = std::max<std::int64_t>(robot.missed - 1, 0);
         return;
     }
     // A robot that starts anew counts from 0 again.
-    if (!is_first && state->header_id > robot.newest.header_id + 1) {
-        robot.missed += static_cast<std::int64_t>(state->header_id - robot.newest.header_id - 1);
+    if (!is_first && state->header_id > robot.newest.header_id) {
+        constexpr std::uint64_t kMost = 1'000'000'000;
+        const std::uint64_t gap = state->header_id - robot.newest.header_id - 1;
+        robot.missed += static_cast<std::int64_t>(std::min(gap, kMost));
     }
     robot.newest = *state;
-    if (!state->is_localized) return;
-    if (robot.path_mm.size() == kPath) {
-        robot.path_mm.erase(robot.path_mm.begin(), robot.path_mm.begin() + kPath / 2);
+    if (state->is_localized) extend_path(robot);
+}
+
+FleetRobot& FleetState::heard(const std::string& name, std::int64_t now_us) {
+    const auto known = robots_.find(name);
+    if (known != robots_.end()) {
+        by_age_.erase({known->second.heard_us, name});
+    } else if (robots_.size() == kMostRobots) {
+        robots_.erase(by_age_.begin()->second);
+        by_age_.erase(by_age_.begin());
     }
-    robot.path_mm.push_back({state->x_m * 1000, state->y_m * 1000});
+    by_age_.emplace(now_us, name);
+    FleetRobot& robot = robots_[name];
+    robot.heard_us = now_us;
+    return robot;
+}
+
+void FleetState::extend_path(FleetRobot& robot) const {
+    const std::size_t most = std::min(kPath, kAllPaths / robots_.size());
+    auto& path = robot.path_mm;
+    if (path.size() >= most) {
+        path.erase(path.begin(), path.end() - static_cast<std::ptrdiff_t>(most / 2));
+        path.shrink_to_fit();
+    }
+    path.push_back({robot.newest.x_m * 1000, robot.newest.y_m * 1000});
 }
 
 std::map<std::string, FleetRobot> FleetState::robots() const {
@@ -84,12 +128,12 @@ std::string table_of(const FleetState& fleet, std::int64_t now_us) {
         const auto shown = [&state](double value, int decimals) {
             return state.is_localized ? fmt::format("{:.{}f}", value, decimals) : std::string("-");
         };
-        text += fmt::format("{:<16} {:<10} {:>12} {:>12} {:>9} {:>9} {:>8.1f} {:>9} {:>7}\n", name,
-                            state.state, shown(state.x_m * 1000, 3), shown(state.y_m * 1000, 3),
-                            shown(state.theta_rad * 180 / std::numbers::pi, 2),
-                            shown(std::hypot(state.vx_m_s, state.vy_m_s) * 1000, 1),
-                            static_cast<double>(now_us - robot.heard_us) * 1e-6, robot.messages,
-                            robot.missed);
+        text += fmt::format(
+            "{:<16.16} {:<10.10} {:>12} {:>12} {:>9} {:>9} {:>8.1f} {:>9} {:>7}\n", printable(name),
+            printable(state.state), shown(state.x_m * 1000, 3), shown(state.y_m * 1000, 3),
+            shown(state.theta_rad * 180 / std::numbers::pi, 2),
+            shown(std::hypot(state.vx_m_s, state.vy_m_s) * 1000, 1),
+            static_cast<double>(now_us - robot.heard_us) * 1e-6, robot.messages, robot.missed);
     }
     const Latency latency = fleet.latency();
     text += fmt::format("{} robots, {} states, {} bad, latency median {:.2f} ms, 99 % {:.2f} ms\n",
@@ -101,14 +145,14 @@ std::string table_of(const FleetState& fleet, std::int64_t now_us) {
 draw::Map map_of(const FleetState& fleet, const std::string& map_id,
                  std::vector<draw::MapSheet> sheets) {
     draw::Map map;
-    map.title = map_id;
+    map.title = printable(map_id);
     map.y_up = !map_id.starts_with("pattern");
     map.sheets = std::move(sheets);
     for (const auto& [name, robot] : fleet.robots()) {
         const RobotState& state = robot.newest;
         if (robot.path_mm.empty() || (state.is_localized && state.map_id != map_id)) continue;
         draw::MapRobot drawn;
-        drawn.name = name;
+        drawn.name = printable(name);
         drawn.strokes_mm = {robot.path_mm};
         drawn.place_mm = robot.path_mm.back();
         if (state.is_localized) drawn.heading_rad = state.theta_rad;

@@ -1,10 +1,13 @@
 /// What is known of all robots of a broker, from their state messages.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <mutex>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "draw/track_map.hpp"
@@ -18,6 +21,10 @@ struct FleetRobot {
     std::int64_t messages = 0;
     std::int64_t missed = 0;  ///< by the gaps in their numbers
     std::vector<draw::Point> path_mm;
+    /// Messages in a row that are older than `newest`, each newer than the one before, and when the
+    /// last of them was sent.
+    int doubts = 0;
+    std::int64_t doubted_sent_us = 0;
 };
 
 /// Figures of how long messages took, from the sender's clock to ours.
@@ -28,9 +35,13 @@ struct Latency {
 
 class FleetState {
   public:
+    /// Remembers at most so many robots: of more, those that were heard longest ago go.
+    static constexpr std::size_t kMostRobots = 10'000;
+
     /// Takes a message. One that is older than the newest of its robot counts, and changes nothing
-    /// else; what is no state counts as bad. May be called by any thread.
-    void take(const std::string& payload, std::int64_t now_us);
+    /// else, unless several such follow each other: then the sender's clock was set back. What is
+    /// no state counts as bad. May be called by any thread.
+    void take(const std::string& topic, const std::string& payload, std::int64_t now_us);
 
     std::map<std::string, FleetRobot> robots() const;
     std::int64_t messages() const;
@@ -41,9 +52,15 @@ class FleetState {
   private:
     static constexpr std::size_t kLatencies = 16384;
     static constexpr std::size_t kPath = 2000;
+    /// Points of all paths together: of many robots, shorter paths are remembered.
+    static constexpr std::size_t kAllPaths = 1 << 21;
+
+    FleetRobot& heard(const std::string& name, std::int64_t now_us);
+    void extend_path(FleetRobot& robot) const;
 
     mutable std::mutex mutex_;
     std::map<std::string, FleetRobot> robots_;
+    std::set<std::pair<std::int64_t, std::string>> by_age_;  ///< heard_us and name of all robots
     std::vector<float> latencies_ms_;
     std::int64_t messages_ = 0;
     std::int64_t bad_ = 0;

@@ -5,6 +5,8 @@
 
 #include <fmt/core.h>
 
+#include "terminal_text.hpp"
+
 namespace dotpose::cli {
 
 CLI::Option* MqttArguments::add_to(CLI::App& command) {
@@ -28,7 +30,7 @@ std::optional<publish::MqttOptions> MqttArguments::options() const {
     if (options.password.empty() && password != nullptr) options.password = password;
     options.ca_file = ca_file_;
     options.qos = qos_;
-    options.tell = [](const std::string& news) { fmt::print(stderr, "dotpose: {}\n", news); };
+    options.tell = tell;
     return options;
 }
 

@@ -1,14 +1,16 @@
 #include "robot_state.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <ctime>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include "dotpose/error.hpp"
+#include "print/input_file.hpp"
 #include "reading_fields.hpp"
 
 namespace dotpose::cli {
@@ -26,16 +28,54 @@ std::string timestamp(std::int64_t time_us) {
                        time_us % kMicro);
 }
 
-std::int64_t parse_timestamp(const std::string& text) {
-    std::tm utc{};
-    double seconds = 0;
-    if (std::sscanf(text.c_str(), "%4d-%2d-%2dT%2d:%2d:%lf", &utc.tm_year, &utc.tm_mon,
-                    &utc.tm_mday, &utc.tm_hour, &utc.tm_min, &seconds) != 6) {
-        return 0;
+/// Two digits, or four, of a text that is long enough; -1 if they are none.
+int digits(std::string_view text, std::size_t first, std::size_t count) {
+    int value = -1;
+    const char* const begin = text.data() + first;
+    const auto [stop, error] = std::from_chars(begin, begin + count, value);
+    return error == std::errc() && stop == begin + count ? value : -1;
+}
+
+/// "2026-11-24T16:20:00.123456Z", with any number of decimals or none. None if it is no such time.
+std::optional<std::int64_t> parse_timestamp(std::string_view text) {
+    constexpr std::string_view kSeconds = "2026-11-24T16:20:00";
+    if (text.size() <= kSeconds.size() || !text.ends_with('Z')) return std::nullopt;
+    for (const std::size_t i : {4U, 7U, 10U, 13U, 16U}) {
+        if (text[i] != kSeconds[i]) return std::nullopt;
     }
-    utc.tm_year -= 1900;
-    utc.tm_mon -= 1;
-    return std::int64_t{timegm(&utc)} * kMicro + std::llround(seconds * 1e6);
+    std::tm utc{};
+    const int year = digits(text, 0, 4);
+    const int month = digits(text, 5, 2);
+    utc.tm_mday = digits(text, 8, 2);
+    utc.tm_hour = digits(text, 11, 2);
+    utc.tm_min = digits(text, 14, 2);
+    utc.tm_sec = digits(text, 17, 2);
+    if (year < 1970 || month < 1 || month > 12 || utc.tm_mday < 1 || utc.tm_mday > 31 ||
+        utc.tm_hour < 0 || utc.tm_hour > 23 || utc.tm_min < 0 || utc.tm_min > 59 ||
+        utc.tm_sec < 0 || utc.tm_sec > 60) {
+        return std::nullopt;
+    }
+    utc.tm_year = year - 1900;
+    utc.tm_mon = month - 1;
+    std::string_view decimals = text.substr(kSeconds.size());
+    decimals.remove_suffix(1);
+    double fraction_s = 0;
+    if (!decimals.empty()) {
+        const char* const end = decimals.data() + decimals.size();
+        const auto [stop, error] = std::from_chars(decimals.data(), end, fraction_s);
+        const bool is_fraction = decimals.find_first_not_of(".0123456789") == std::string::npos;
+        if (error != std::errc() || stop != end || !is_fraction || decimals.front() != '.') {
+            return std::nullopt;
+        }
+    }
+    return std::int64_t{timegm(&utc)} * kMicro + std::llround(fraction_s * 1e6);
+}
+
+/// A number of a message that some world of robots could hold. Throws json::exception, or Error.
+double bounded(const nlohmann::json& object, const char* key, double most) {
+    const double value = object.at(key);
+    if (!(std::abs(value) <= most)) throw Error(fmt::format("{} is absurd", key));
+    return value;
 }
 
 }  // namespace
@@ -93,32 +133,51 @@ std::string json_of(const RobotState& state) {
     return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
+std::optional<std::string> robot_of(std::string_view topic) {
+    const std::string prefix = std::string(kTopicRoot) + '/';
+    constexpr std::string_view kSuffix = "/state";
+    if (!topic.starts_with(prefix) || !topic.ends_with(kSuffix)) return std::nullopt;
+    topic.remove_prefix(prefix.size());
+    if (topic.size() <= kSuffix.size()) return std::nullopt;
+    topic.remove_suffix(kSuffix.size());
+    if (topic.size() > kMostNameBytes || topic.find('/') != std::string_view::npos) {
+        return std::nullopt;
+    }
+    return std::string(topic);
+}
+
 std::optional<RobotState> parse_state(const std::string& text) {
+    constexpr double kMost_m = 1e6;
+    constexpr double kMost_m_s = 1e4;
+    constexpr double kMost_rad = 1e4;
     try {
-        const auto json = nlohmann::json::parse(text);
+        const auto json = print::parse_json(text);
         RobotState state;
-        state.robot = json.at("serialNumber");
-        // It is shown on terminals.
-        if (std::ranges::any_of(state.robot, [](unsigned char c) { return c < ' '; })) {
-            return std::nullopt;
-        }
-        state.header_id = json.at("headerId");
-        state.sent_us = parse_timestamp(json.at("timestamp"));
+        const auto& id = json.at("headerId");
+        const auto sent_us = parse_timestamp(json.at("timestamp").get<std::string>());
+        if (!id.is_number_unsigned() || !sent_us) return std::nullopt;
+        state.header_id = id;
+        state.sent_us = *sent_us;
         state.state = json.at("state");
         const auto& position = json.at("agvPosition");
         state.is_localized = position.at("localized");
         state.map_id = position.at("mapId");
+        if (state.state.size() > kMostNameBytes || state.map_id.size() > kMostNameBytes) {
+            return std::nullopt;
+        }
         if (!state.is_localized) return state;
-        state.x_m = position.at("x");
-        state.y_m = position.at("y");
-        state.theta_rad = position.at("theta");
-        state.deviation_m = position.at("deviationRange");
+        state.x_m = bounded(position, "x", kMost_m);
+        state.y_m = bounded(position, "y", kMost_m);
+        state.theta_rad = bounded(position, "theta", kMost_rad);
+        state.deviation_m = bounded(position, "deviationRange", kMost_m);
         const auto& velocity = json.at("velocity");
-        state.vx_m_s = velocity.at("vx");
-        state.vy_m_s = velocity.at("vy");
-        state.omega_rad_s = velocity.at("omega");
+        state.vx_m_s = bounded(velocity, "vx", kMost_m_s);
+        state.vy_m_s = bounded(velocity, "vy", kMost_m_s);
+        state.omega_rad_s = bounded(velocity, "omega", kMost_rad);
         return state;
     } catch (const nlohmann::json::exception&) {
+        return std::nullopt;
+    } catch (const Error&) {
         return std::nullopt;
     }
 }

@@ -1,9 +1,11 @@
 /// State messages of robots, in the style of VDA 5050, as JSON. docs/live.md describes them.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "frame_locator.hpp"
 
@@ -12,10 +14,16 @@ namespace dotpose::cli {
 /// All robots' topics begin with it: KTopicRoot/ROBOT/state.
 inline constexpr const char* kTopicRoot = "uagv/v2/dotpose";
 
+/// Names that are longer than this many bytes are none.
+inline constexpr std::size_t kMostNameBytes = 128;
+
 std::string state_topic(const std::string& robot);
+/// Of which robot a message is: brokers grant topics, whereas a message may say anything. None if
+/// the topic is none of `state_topic`, or the name is too long.
+std::optional<std::string> robot_of(std::string_view topic);
 
 struct RobotState {
-    std::string robot;
+    std::string robot;            ///< of the sender; empty in a message that was read
     std::uint64_t header_id = 0;  ///< counts the robot's messages
     std::int64_t sent_us = 0;     ///< system clock, since 1970
     std::string state = "lost";   ///< lost, moving, stationary
@@ -35,7 +43,7 @@ RobotState state_of(const Reading& reading, const std::string& robot, const std:
 
 std::string json_of(const RobotState& state);
 
-/// None if it is no such message.
+/// None if it is no such message, or its numbers are absurd.
 std::optional<RobotState> parse_state(const std::string& json);
 
 /// Microseconds since 1970.

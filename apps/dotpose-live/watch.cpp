@@ -9,10 +9,12 @@
 #include "commands.hpp"
 #include "common.hpp"
 #include "dotpose/error.hpp"
+#include "dotpose/image_file.hpp"
 #include "exit_codes.hpp"
 #include "frame_locator.hpp"
 #include "mqtt_arguments.hpp"
 #include "progress.hpp"
+#include "terminal_text.hpp"
 #include "video/frame_source.hpp"
 #include "watch_outputs.hpp"
 
@@ -49,10 +51,9 @@ void report(const WatchOutputs& outputs, std::int64_t dropped) {
 /// Returns the exit status.
 int run(WatchArguments& arguments) {
     catch_interrupts();
+    ignore_broken_pipes();
     arguments.source.stop = interrupted;
-    arguments.source.tell = [](const std::string& news) {
-        fmt::print(stderr, "dotpose: {}\n", news);
-    };
+    arguments.source.tell = tell;
     const auto source = video::open_source(arguments.source);
     FrameLocator locator(arguments.locator);
     arguments.outputs.world_map = std::filesystem::path(arguments.locator.sheets).stem().string();
@@ -72,25 +73,28 @@ int run(WatchArguments& arguments) {
         throw;
     } catch (const Error& error) {
         // What was seen before the source failed is kept: the map, the counts.
-        fmt::print(stderr, "dotpose: {}\n", error.what());
+        tell(error.what());
         exit_code = kExitFailed;
     }
-    outputs.finish();
+    try {
+        outputs.finish();
+    } catch (const Error& error) {
+        tell(error.what());
+        exit_code = kExitFailed;
+    }
     report(outputs, source->dropped());
     return exit_code;
 }
 
 video::Region parse_region(const std::string& text) {
-    video::Region region;
-    int used = 0;
-    if (std::sscanf(text.c_str(), "%d,%d,%dx%d%n", &region.left, &region.top, &region.width,
-                    &region.height, &used) != 4 ||
-        static_cast<std::size_t>(used) != text.size()) {
+    const auto numbers = whole_numbers(text, ",,x", kMaxImageSide_px);
+    if (!numbers) {
         throw CLI::ValidationError(
             "--roi",
             fmt::format("'{}' is not LEFT,TOP,WIDTHxHEIGHT in px, such as 10,20,640x480", text));
     }
-    return region;
+    const auto number = [&numbers](std::size_t i) { return static_cast<int>((*numbers)[i]); };
+    return {number(0), number(1), number(2), number(3)};
 }
 
 void add_source_options(CLI::App& command, video::SourceOptions& source) {
@@ -104,15 +108,9 @@ void add_source_options(CLI::App& command, video::SourceOptions& source) {
         .add_option_function<std::string>(
             "--size",
             [&source](const std::string& text) {
-                int used = 0;
-                if (std::sscanf(text.c_str(), "%dx%d%n", &source.width_px, &source.height_px,
-                                &used) != 2 ||
-                    static_cast<std::size_t>(used) != text.size() || source.width_px < 1 ||
-                    source.height_px < 1) {
-                    throw CLI::ValidationError(
-                        "--size",
-                        fmt::format("'{}' is not WIDTHxHEIGHT in px, such as 640x480", text));
-                }
+                const FrameSize size = parse_frame_size("--size", text);
+                source.width_px = size.width_px;
+                source.height_px = size.height_px;
             },
             "Of raw frames; of a camera, what it is asked for")
         ->type_name("WxH");

@@ -15,6 +15,7 @@
 #include "print/output_file.hpp"
 #include "reading_fields.hpp"
 #include "robot_state.hpp"
+#include "terminal_text.hpp"
 
 namespace dotpose::cli {
 
@@ -43,7 +44,10 @@ void PacketOutput::write(const Reading& reading, Profile profile) {
     while (written < bytes.size()) {
         const ssize_t size = ::write(descriptor_, bytes.data() + written, bytes.size() - written);
         if (size < 0 && errno != EINTR) {
-            throw Error("cannot write " + path_ + ": " + std::strerror(errno));
+            const int problem = errno;
+            const std::string what = "cannot write " + path_ + ": " + std::strerror(problem);
+            if (problem == EPIPE) throw ReaderLeft(what);
+            throw Error(what);
         }
         if (size > 0) written += static_cast<std::size_t>(size);
     }
@@ -100,11 +104,14 @@ WatchOutputs::WatchOutputs(const OutputOptions& options, const FrameLocator& loc
     : options_(options),
       locator_(locator),
       sheets_(map_sheets(locator.sheets(), locator.plane())),
-      lines_(options.out),
+      lines_(std::in_place, options.out),
       screen_(options.screen),
       begun_(std::chrono::steady_clock::now()) {
+    for (const std::string& late : {options.map, options.screen.record}) {
+        if (!late.empty()) print::require_writable(late);
+    }
     const std::string header = csv_header_of_readings(!locator.sheets().empty());
-    if (options.format == RecordFormat::csv) lines_.write(header);
+    if (options.format == RecordFormat::csv) write_line(header);
     if (!options.log.empty()) {
         log_.emplace(options.log);
         log_->write(header);
@@ -119,12 +126,37 @@ bool WatchOutputs::take(const video::Frame& frame, const Reading& reading, std::
     path_.add(reading.track);
     const auto values = fields(reading);
     const bool is_csv = options_.format == RecordFormat::csv;
-    lines_.write(is_csv ? csv_line(values) : json_line(values));
+    write_line(is_csv ? csv_line(values) : json_line(values));
     if (log_) log_->write(csv_line(values));
-    if (packets_) packets_->write(reading, locator_.options().profile);
+    write_packet(reading);
     if (states_) states_->take(reading);
+    if (!is_anything_left()) return false;
     if (frame.image.pixels.empty()) return screen_.is_wanted();
     return !screen_.is_on() || show(frame, reading, dropped);
+}
+
+/// Whoever reads the lines may leave; the rest of the run goes on.
+void WatchOutputs::write_line(const std::string& line) {
+    if (!lines_) return;
+    try {
+        lines_->write(line);
+    } catch (const ReaderLeft&) {
+        lines_.reset();
+    }
+}
+
+void WatchOutputs::write_packet(const Reading& reading) {
+    if (!packets_) return;
+    try {
+        packets_->write(reading, locator_.options().profile);
+    } catch (const ReaderLeft& error) {
+        tell(error.what());
+        packets_.reset();
+    }
+}
+
+bool WatchOutputs::is_anything_left() const {
+    return lines_ || log_ || packets_ || states_ || !options_.map.empty() || screen_.is_on();
 }
 
 bool WatchOutputs::show(const video::Frame& frame, const Reading& reading, std::int64_t dropped) {
@@ -162,6 +194,7 @@ double WatchOutputs::rate() const {
 }
 
 void WatchOutputs::finish() {
+    screen_.finish();
     if (options_.map.empty()) return;
     draw::Map map;
     map.title = fmt::format("{} frames, {} fixes", tally_.frames, tally_.fixes);

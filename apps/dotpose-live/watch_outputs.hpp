@@ -43,7 +43,7 @@ struct WatchTally {
 /// Pose packets to a file or serial device.
 class PacketOutput {
   public:
-    /// Throws Error if it cannot be opened.
+    /// Throws Error if it cannot be opened; `write`, if it cannot be written (ReaderLeft).
     explicit PacketOutput(const std::string& path);
     ~PacketOutput();
     PacketOutput(const PacketOutput&) = delete;
@@ -81,10 +81,10 @@ class WatchOutputs {
     /// Throws Error if something cannot be opened.
     WatchOutputs(const OutputOptions& options, const FrameLocator& locator);
 
-    /// Throws Error. False if the user closed the window.
+    /// Throws Error. False if the user closed the window, or nobody reads any output any more.
     bool take(const video::Frame& frame, const Reading& reading, std::int64_t dropped);
 
-    /// Writes what is written at the end.
+    /// Writes what is written at the end. Throws Error.
     void finish();
 
     const WatchTally& tally() const { return tally_; }
@@ -93,11 +93,14 @@ class WatchOutputs {
 
   private:
     bool show(const video::Frame& frame, const Reading& reading, std::int64_t dropped);
+    void write_line(const std::string& line);
+    void write_packet(const Reading& reading);
+    bool is_anything_left() const;
 
     OutputOptions options_;
     const FrameLocator& locator_;
     std::vector<draw::MapSheet> sheets_;
-    Lines lines_;
+    std::optional<Lines> lines_;
     std::optional<Lines> log_;
     std::optional<PacketOutput> packets_;
     std::optional<StateOutput> states_;

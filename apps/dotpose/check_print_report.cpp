@@ -10,6 +10,8 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include "terminal_text.hpp"
+
 namespace dotpose::cli {
 namespace {
 
@@ -150,7 +152,7 @@ ordered_json json_of(const Pattern& pattern) {
 
 std::string text_report(const CheckedScan& scan, const PrintCheck& check) {
     std::string text;
-    add(text, "{}: {} x {} px{}", scan.file, scan.width_px, scan.height_px,
+    add(text, "{}: {} x {} px{}", printable(scan.file), scan.width_px, scan.height_px,
         check.resolution ? fmt::format(", {:g} dpi", std::round(check.resolution->x_dpi)) : "");
     if (check.fields.empty()) {
         add(text, "no pattern was found in this image");
@@ -196,7 +198,9 @@ std::string json_report(const CheckedScan& scan, const PrintCheck& check) {
             {"kind", name(finding.kind)}, {"fault", finding.is_fault}, {"text", finding.text}});
         if (finding.field) last["field"] = *finding.field;
     }
-    return object.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
+    return with_escaped_controls(
+               object.dump(2, ' ', false, ordered_json::error_handler_t::replace)) +
+           '\n';
 }
 
 }  // namespace dotpose::cli

@@ -5,12 +5,14 @@
 #include <cstdint>
 #include <cstdio>
 #include <map>
+#include <set>
 #include <string_view>
 #include <vector>
 
 #include <fmt/core.h>
 
 #include "dotpose/evaluate.hpp"
+#include "dotpose/image_file.hpp"
 #include "dotpose/sheet_file.hpp"
 
 namespace dotpose::cli {
@@ -34,26 +36,16 @@ std::string quoted_for_shell(const std::string& word) {
     return quoted + "'";
 }
 
-bool parse_whole(std::string_view text, std::uint32_t limit, std::uint32_t& value) {
-    const char* end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, value);
-    return error == std::errc() && stop == end && value < limit;
-}
-
 /// "A,B" with whole numbers from 0 to limit - 1.
 std::pair<std::uint32_t, std::uint32_t> parse_pair(const std::string& flag, const std::string& text,
                                                    std::uint32_t limit) {
-    const std::string_view view = text;
-    const std::size_t comma = view.find(',');
-    std::uint32_t first = 0;
-    std::uint32_t second = 0;
-    if (comma == std::string_view::npos || !parse_whole(view.substr(0, comma), limit, first) ||
-        !parse_whole(view.substr(comma + 1), limit, second)) {
+    const auto numbers = whole_numbers(text, ",", limit - 1);
+    if (!numbers) {
         throw CLI::ValidationError(
             flag, fmt::format("'{}' must be two whole numbers from 0 to {} with a comma between",
                               text, limit - 1));
     }
-    return {first, second};
+    return {(*numbers)[0], (*numbers)[1]};
 }
 
 /// CLI11's own check for positive numbers names a limit of 309 digits.
@@ -177,14 +169,9 @@ void add_size_option(CLI::App& command, CameraModel& camera) {
         .add_option_function<std::string>(
             "--size",
             [&camera](const std::string& text) {
-                int used = 0;
-                if (std::sscanf(text.c_str(), "%dx%d%n", &camera.width_px, &camera.height_px,
-                                &used) != 2 ||
-                    static_cast<std::size_t>(used) != text.size()) {
-                    throw CLI::ValidationError(
-                        "--size",
-                        fmt::format("'{}' is not WIDTHxHEIGHT in px, such as 188x120", text));
-                }
+                const FrameSize size = parse_frame_size("--size", text);
+                camera.width_px = size.width_px;
+                camera.height_px = size.height_px;
             },
             "Size of a frame")
         ->type_name("WxH")
@@ -207,6 +194,53 @@ void add_drawing_option(CLI::App& command, DotDrawing& drawing) {
             "takes glyphs where they are exact at --dpi")
         ->type_name("NAME")
         ->default_str("auto");
+}
+
+std::optional<std::vector<std::uint32_t>> whole_numbers(std::string_view text,
+                                                        std::string_view separators,
+                                                        std::uint32_t most) {
+    std::vector<std::uint32_t> numbers;
+    const char* next = text.data();
+    const char* const end = next + text.size();
+    while (true) {
+        std::uint32_t& number = numbers.emplace_back();
+        const auto [stop, error] = std::from_chars(next, end, number);
+        if (error != std::errc() || number > most) return std::nullopt;
+        const std::size_t done = numbers.size() - 1;
+        if (done == separators.size()) return stop == end ? std::optional(numbers) : std::nullopt;
+        if (stop == end || *stop != separators[done]) return std::nullopt;
+        next = stop + 1;
+    }
+}
+
+FrameSize parse_frame_size(const std::string& flag, const std::string& text) {
+    const auto numbers = whole_numbers(text, "x", kMaxImageSide_px);
+    if (!numbers || (*numbers)[0] == 0 || (*numbers)[1] == 0) {
+        throw CLI::ValidationError(
+            flag, fmt::format("'{}' is not WIDTHxHEIGHT in px, such as 640x480", text));
+    }
+    const std::uint64_t pixels = std::uint64_t{(*numbers)[0]} * (*numbers)[1];
+    if (pixels > kMaxImagePixels) {
+        throw CLI::ValidationError(
+            flag, fmt::format("{} has more than {} million pixels", text, kMaxImagePixels >> 20));
+    }
+    return {static_cast<int>((*numbers)[0]), static_cast<int>((*numbers)[1])};
+}
+
+void refuse_non_finite_numbers(CLI::App& app) {
+    // Values that are text, such as a file that is called nan.
+    const std::set<std::string> texts = {"DIR",   "FILE", "FILE|-", "IMAGE", "NAME", "PART",
+                                         "RANGE", "SCAN", "SOURCE", "TEXT",  "URL"};
+    const auto is_finite = [](const std::string& text) -> std::string {
+        double value = 0;
+        if (!CLI::detail::lexical_cast(text, value) || std::isfinite(value)) return {};
+        return "'" + text + "' is not a finite number";
+    };
+    for (CLI::App* command : app.get_subcommands({})) {
+        for (CLI::Option* option : command->get_options()) {
+            if (!texts.contains(option->get_type_name())) option->check(is_finite);
+        }
+    }
 }
 
 void remember_command_line(int argc, char** argv) {

@@ -1,8 +1,11 @@
 /// Options that several subcommands share, spelt and explained in one place.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -90,6 +93,23 @@ class PatternArguments {
 
 /// --dots: how a PDF draws them.
 void add_drawing_option(CLI::App& command, DotDrawing& drawing);
+
+/// The whole numbers from 0 to `most` in a text, with these separators between them and nothing
+/// else: "640x480" with the separator x, "10,20,640x480" with ",,x". None if it is no such text.
+std::optional<std::vector<std::uint32_t>> whole_numbers(std::string_view text,
+                                                        std::string_view separators,
+                                                        std::uint32_t most);
+
+struct FrameSize {
+    int width_px = 0;
+    int height_px = 0;
+};
+/// "WIDTHxHEIGHT". Throws CLI::ValidationError that names the flag.
+FrameSize parse_frame_size(const std::string& flag, const std::string& text);
+
+/// Every option of every subcommand refuses what is read as a number and is none that can be
+/// reckoned with: nan, inf, 1e999. To be called when all options are there.
+void refuse_non_finite_numbers(CLI::App& app);
 
 /// Keeps the arguments of `main` for `command_line`.
 void remember_command_line(int argc, char** argv);

@@ -14,6 +14,7 @@
 #include "commands.hpp"
 #include "common.hpp"
 #include "progress.hpp"
+#include "terminal_text.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -111,7 +112,7 @@ int report(const std::vector<Outcome>& outcomes, bool as_json) {
     int exit_code = 0;
     for (const Outcome& outcome : outcomes) {
         if (outcome.problem.empty()) continue;
-        fmt::print(stderr, "dotpose: {}\n", outcome.problem);
+        tell(outcome.problem);
         exit_code = kExitFailed;
     }
     print_score(score_of(outcomes), as_json);

@@ -8,17 +8,21 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include "terminal_text.hpp"
+
 namespace dotpose::cli {
 namespace {
 
 std::string json_string(const std::string& text) {
-    return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return with_escaped_controls(
+        nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 std::string csv_string(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    const std::string shown = printable(text);
+    if (shown.find_first_of(",\"") == std::string::npos) return shown;
     std::string quoted = "\"";
-    for (const char c : text) {
+    for (const char c : shown) {
         if (c == '"') quoted += '"';
         quoted += c;
     }

@@ -1,21 +1,26 @@
 #include "lines.hpp"
 
-#include "dotpose/error.hpp"
+#include <cerrno>
+#include <cstring>
 
 namespace dotpose::cli {
 
 Lines::Lines(const std::string& path) : path_(path) {
     if (path.empty()) return;
     file_.reset(std::fopen(path.c_str(), "w"));
-    if (!file_) throw Error("cannot create " + path);
+    if (!file_) throw Error("cannot create " + path + ": " + std::strerror(errno));
 }
 
 void Lines::write(const std::string& line) {
     std::FILE* stream = file_ ? file_.get() : stdout;
+    errno = 0;
     const bool written = std::fwrite(line.data(), 1, line.size(), stream) == line.size();
-    if (!written || std::fflush(stream) != 0) {
-        throw Error("cannot write " + (path_.empty() ? "to standard output" : path_));
-    }
+    if (written && std::fflush(stream) == 0) return;
+    const int problem = errno;
+    const std::string what = "cannot write " + (path_.empty() ? "to standard output" : path_) +
+                             ": " + std::strerror(problem != 0 ? problem : EIO);
+    if (problem == EPIPE) throw ReaderLeft(what);
+    throw Error(what);
 }
 
 }  // namespace dotpose::cli

@@ -5,7 +5,14 @@
 #include <memory>
 #include <string>
 
+#include "dotpose/error.hpp"
+
 namespace dotpose::cli {
+
+/// Who read the lines has gone: `| head`, for example.
+struct ReaderLeft : Error {
+    using Error::Error;
+};
 
 /// Standard output or a file; every line leaves at once, so that stopping the tool loses none.
 class Lines {
@@ -13,7 +20,7 @@ class Lines {
     /// An empty path is standard output. Throws Error if the file cannot be created.
     explicit Lines(const std::string& path);
 
-    /// Throws Error if the line cannot be written.
+    /// Throws Error if the line cannot be written: ReaderLeft where SIGPIPE is ignored.
     void write(const std::string& line);
 
   private:

@@ -136,7 +136,12 @@ std::vector<Field> fields(const PosePacket& packet, double spacing_mm) {
 class LossCounter {
   public:
     void count(const PosePacket& packet) {
-        if (last_) lost_ += static_cast<std::uint16_t>(packet.sequence - *last_ - 1);
+        // Numbers of 16 bits that begin anew: a step back is a packet that came twice or late, or a
+        // device that was switched on again.
+        if (last_) {
+            const auto step = static_cast<std::int16_t>(packet.sequence - *last_);
+            if (step > 1) lost_ += static_cast<std::uint64_t>(step - 1);
+        }
         last_ = packet.sequence;
         ++arrived_;
     }

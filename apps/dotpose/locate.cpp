@@ -22,6 +22,7 @@
 #include "lines.hpp"
 #include "locate_record.hpp"
 #include "picture_folder.hpp"
+#include "terminal_text.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -231,7 +232,7 @@ int run(const LocateArguments& arguments) {
             action();
             return true;
         } catch (const Error& error) {
-            fmt::print(stderr, "dotpose: {}\n", error.what());
+            tell(error.what());
             exit_code = kExitFailed;
             return false;
         }

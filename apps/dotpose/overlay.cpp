@@ -10,6 +10,7 @@
 #include "common.hpp"
 #include "progress.hpp"
 #include "sheet_entries.hpp"
+#include "terminal_text.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -55,10 +56,10 @@ void run(OverlayArguments& arguments) {
     }
     if (sheet_file) sheet_file->save();
     for (const auto& [number, sheet] : report.pages)
-        fmt::print("{} {}: {}{}\n", arguments.out, number, region_text(sheet),
-                   arguments.entries.summary({number, report.pages.size() == 1}));
+        fmt::print("{} {}: {}{}\n", printable(arguments.out), number, region_text(sheet),
+                   printable(arguments.entries.summary({number, report.pages.size() == 1})));
     for (const std::string& warning : report.warnings)
-        fmt::print(stderr, "dotpose: warning: {}\n", warning);
+        tell("warning: " + warning);
 }
 
 void add_ink_options(CLI::App& command, OverlayOptions& options) {

@@ -13,6 +13,7 @@
 #include "dotpose/test_page.hpp"
 #include "progress.hpp"
 #include "sheet_entries.hpp"
+#include "terminal_text.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -111,8 +112,8 @@ void run(const PrintArguments& arguments) {
     for (std::size_t i = 0; i < sheets.size(); ++i) {
         const std::string number =
             sheets.size() > 1 ? fmt::format("{}/{}, ", i + 1, sheets.size()) : "";
-        fmt::print("{}: {}{}{}{}\n", arguments.out, number, region_text(sheets[i]), resolution,
-                   arguments.entries.summary(page(i)));
+        fmt::print("{}: {}{}{}{}\n", printable(arguments.out), number, region_text(sheets[i]),
+                   resolution, printable(arguments.entries.summary(page(i))));
     }
 }
 

@@ -33,6 +33,12 @@ void catch_interrupts() {
     }
 }
 
+void ignore_broken_pipes() {
+    struct sigaction action {};
+    action.sa_handler = SIG_IGN;
+    sigaction(SIGPIPE, &action, nullptr);
+}
+
 bool interrupted() {
     return signal_seen != 0;
 }

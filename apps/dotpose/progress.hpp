@@ -6,6 +6,9 @@
 
 namespace dotpose::cli {
 
+/// From now on a reader that leaves makes the write fail, and does not end the program.
+void ignore_broken_pipes();
+
 /// From now on SIGINT, SIGTERM and SIGHUP no longer end the program but make `interrupted` true, so
 /// that no temporary file is left behind. A second signal ends the program.
 void catch_interrupts();

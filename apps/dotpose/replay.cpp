@@ -9,6 +9,7 @@
 #include "dotpose/error.hpp"
 #include "print/output_file.hpp"
 #include "run_log.hpp"
+#include "terminal_text.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -29,7 +30,7 @@ struct ReplayArguments {
 std::string list_of(const std::map<std::string, std::int64_t>& counts) {
     std::string text;
     for (const auto& [name, count] : counts)
-        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, count);
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", printable(name), count);
     return text.empty() ? "none" : text;
 }
 
@@ -71,10 +72,12 @@ void print_json(const RunStatistics& run) {
                                          {"mean_speed_mm_s", run.mean_speed_mm_s},
                                          {"largest_speed_mm_s", run.largest_speed_mm_s},
                                          {"largest_p_wrong", run.largest_p_wrong}};
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", with_escaped_controls(
+                           json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace)));
 }
 
 void run(const ReplayArguments& arguments) {
+    if (!arguments.out.empty()) print::require_writable(arguments.out);
     const auto rows = read_log(arguments.log);
     const RunStatistics statistics = statistics_of(rows);
     if (arguments.json) {

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 #include <fmt/core.h>
@@ -46,16 +47,26 @@ class Row {
     std::vector<std::string> cells_;
 };
 
+/// A whole number below 2^53, which a double holds exactly.
+std::int64_t whole(double value, const char* column) {
+    if (!(value >= 0 && value < 9007199254740992.0) || value != std::floor(value)) {
+        throw Error(fmt::format("{} is no whole number from 0 on", column));
+    }
+    return static_cast<std::int64_t>(value);
+}
+
 LogRow log_row(const Row& row) {
     LogRow result;
-    result.frame = static_cast<std::int64_t>(row.required("frame"));
+    result.frame = whole(row.required("frame"), "frame");
     result.t_s = row.required("t_s");
     result.status = row.text("status");
     result.events = row.text("events");
     result.verdict = row.text("verdict");
     result.state = row.text("state");
     result.plane = row.text("plane");
-    result.dots_seen = static_cast<int>(row.number("dots_seen").value_or(0));
+    result.dots_seen =
+        static_cast<int>(std::min(whole(row.number("dots_seen").value_or(0), "dots_seen"),
+                                  std::int64_t{std::numeric_limits<int>::max()}));
     result.p_wrong = row.number("p_wrong");
     result.x_mm = row.number("track_x_mm");
     result.y_mm = row.number("track_y_mm");

@@ -19,6 +19,7 @@
 #include "common.hpp"
 #include "dotpose/image_file.hpp"
 #include "progress.hpp"
+#include "terminal_text.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -206,9 +207,10 @@ void run(SimulateArguments& arguments, bool section_given, int& exit_code) {
         }
     }
     if (!truth) throw Error("cannot write " + truth_path.string());
-    fmt::print("{}: {} frames of {} x {} px, preset {}, seed {}, truth.csv\n", arguments.out, done,
-               arguments.setup.camera.width_px, arguments.setup.camera.height_px,
-               name(arguments.setup.preset), arguments.setup.seed);
+    fmt::print("{}: {} frames of {} x {} px, preset {}, seed {}, truth.csv\n",
+               printable(arguments.out), done, arguments.setup.camera.width_px,
+               arguments.setup.camera.height_px, name(arguments.setup.preset),
+               arguments.setup.seed);
     if (done < arguments.frames) {
         fmt::print(stderr, "dotpose: interrupted; the frames in truth.csv are complete\n");
         exit_code = kExitFailed;

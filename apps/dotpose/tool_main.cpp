@@ -3,11 +3,10 @@
 #include <cstdio>
 #include <exception>
 
-#include <fmt/core.h>
-
 #include "common.hpp"
 #include "dotpose/error.hpp"
 #include "exit_codes.hpp"
+#include "terminal_text.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -19,16 +18,18 @@ int run(int argc, char** argv, const std::function<void(CLI::App& app, int& exit
     app.require_subcommand(1);
     int exit_code = 0;
     add(app, exit_code);
+    refuse_non_finite_numbers(app);
     try {
         app.parse(argc, argv);
         return exit_code;
     } catch (const CLI::Success& request) {
         return app.exit(request);  // --help and --version
     } catch (const CLI::ParseError& error) {
-        fmt::print(stderr, "dotpose: {}\nTry: dotpose --help\n", error.what());
+        tell(error.what());
+        std::fputs("Try: dotpose --help\n", stderr);
         return kExitUsage;
     } catch (const BadArgument& error) {
-        fmt::print(stderr, "dotpose: {}\n", error.what());
+        tell(error.what());
         return kExitUsage;
     }
 }
@@ -40,9 +41,7 @@ int tool_main(int argc, char** argv,
     try {
         return run(argc, argv, add);
     } catch (const std::exception& error) {
-        std::fputs("dotpose: ", stderr);
-        std::fputs(error.what(), stderr);
-        std::fputs("\n", stderr);
+        tell(error.what());
         return kExitFailed;
     }
 }

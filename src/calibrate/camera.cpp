@@ -14,6 +14,7 @@ namespace {
 constexpr double kFarthestCentre_px = 1000;
 /// Far outside any image, and far inside what the fixed-point pose can express.
 constexpr double kFarthestReference_px = 10'000;
+constexpr double kLongestFocal_px = 1e6;
 constexpr double kLeastStretch = 0.5;
 constexpr double kMostStretch = 2;
 
@@ -47,13 +48,20 @@ void require_lens(const Camera& camera) {
     }
 }
 
-void require_paper(const PaperScale& paper) {
-    const auto is_length = [](double mm) { return mm > 0 && std::isfinite(mm); };
+void require_paper(const PaperScale& paper, const Camera& camera) {
+    // From a microscope's to that of a camera over a hall.
+    const auto is_length = [](double mm) { return mm >= 1e-6 && mm <= 1e3; };
     require(is_length(paper.mm_per_px_x) && is_length(paper.mm_per_px_y), "mm_per_px",
-            "must be above 0");
+            "must be from 0.000001 to 1000");
     require(std::abs(paper.skew) <= 0.5, "skew", "must be from -0.5 to 0.5");
-    require(std::isfinite(paper.perspective_u) && std::isfinite(paper.perspective_v),
-            "perspective_per_px", "must be finite");
+    // The horizon, where the divisor of on_paper is 0, lies far outside of the image.
+    const double most_u =
+        std::max(std::abs(camera.centre_px.u), std::abs(camera.width_px - 1 - camera.centre_px.u));
+    const double most_v =
+        std::max(std::abs(camera.centre_px.v), std::abs(camera.height_px - 1 - camera.centre_px.v));
+    const double change =
+        std::abs(paper.perspective_u) * most_u + std::abs(paper.perspective_v) * most_v;
+    require(change <= 0.75, "perspective_per_px", "puts the horizon into the image");
 }
 
 }  // namespace
@@ -65,10 +73,10 @@ void validate(const Camera& camera) {
     require(is_side(camera.height_px), "height_px", side_range);
     require_near(camera.centre_px, camera, kFarthestCentre_px, "centre_px");
     require_lens(camera);
-    if (camera.paper) require_paper(*camera.paper);
+    if (camera.paper) require_paper(*camera.paper, camera);
     if (camera.focal_px) {
-        require(*camera.focal_px > 0 && std::isfinite(*camera.focal_px), "focal_px",
-                "must be above 0");
+        require(*camera.focal_px >= 1 && *camera.focal_px <= kLongestFocal_px, "focal_px",
+                fmt::format("must be from 1 to {:g}", kLongestFocal_px));
     }
     if (camera.tilt) {
         const auto is_tilt = [](double rad) { return std::abs(rad) < std::numbers::pi / 2; };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <ceres/ceres.h>
 #include <fmt/core.h>
@@ -12,6 +13,10 @@ namespace {
 
 /// What eq. 2 may be off plumb_bob, rms over the image.
 constexpr double kLargestMisfit_px = 0.5;
+
+/// What is beyond these is no camera, and what is fitted to it may overflow.
+constexpr double kMostPx = 1e6;
+constexpr double kMostDistortion = 1e3;
 
 /// http://docs.ros.org/en/api/sensor_msgs/html/msg/CameraInfo.html, plumb_bob: the lens of OpenCV,
 /// which leads from the undistorted to the distorted image.
@@ -77,7 +82,11 @@ double fit_division_model(const PlumbBob& lens, Camera& camera) {
         for (int i = 0; i <= kSteps; ++i) {
             const PixelPoint pixel{(camera.width_px - 1.0) * i / kSteps,
                                    (camera.height_px - 1.0) * j / kSteps};
-            misfits.push_back({pixel, lens.undistorted(pixel), reach_px});
+            const PixelPoint wanted = lens.undistorted(pixel);
+            if (!(std::abs(wanted.u) <= kMostPx && std::abs(wanted.v) <= kMostPx)) {
+                return std::numeric_limits<double>::infinity();  // the iteration does not converge
+            }
+            misfits.push_back({pixel, wanted, reach_px});
             problem.AddResidualBlock(
                 new ceres::AutoDiffCostFunction<Misfit, 2, 1, 2, 6>(new Misfit(misfits.back())),
                 nullptr, &k, centre.data(), affine.data());
@@ -135,9 +144,18 @@ Camera camera_from_camera_info(const YamlMap& file) {
     if (!(matrix[0] > 0 && matrix[4] > 0)) {
         file.fail(matrix_key, "has no focal lengths above 0: this camera was never calibrated");
     }
+    const auto is_focal = [](double px) { return px >= 1 && px <= kMostPx; };
+    const auto is_centre = [](double px) { return std::abs(px) <= kMostPx; };
+    if (!is_focal(matrix[0]) || !is_focal(matrix[4]) || !is_centre(matrix[2]) ||
+        !is_centre(matrix[5])) {
+        file.fail(matrix_key, "has focal lengths, or a centre, that no camera has");
+    }
     auto d = coefficients(file, "distortion_coefficients", "d", "D", 0);
     if (d.size() != 4 && d.size() != 5) {
         file.fail("distortion_coefficients", "must be k1, k2, t1, t2 and k3");
+    }
+    if (std::ranges::any_of(d, [](double k) { return std::abs(k) > kMostDistortion; })) {
+        file.fail("distortion_coefficients", "are larger than those of any lens");
     }
     d.resize(5);
     const PlumbBob lens{matrix[0], matrix[4], matrix[2], matrix[5], d[0], d[1], d[2], d[3], d[4]};

@@ -6,14 +6,20 @@
 #include <fmt/core.h>
 
 #include "dotpose/error.hpp"
+#include "print/input_file.hpp"
 
 namespace dotpose::calibrate {
+namespace {
+
+constexpr std::size_t kMostBytes = 1 << 20;
+
+}  // namespace
 
 YamlMap::YamlMap(const std::filesystem::path& path) : file_(path.string()) {
     try {
-        node_ = YAML::LoadFile(file_);
-    } catch (const YAML::BadFile&) {
-        throw Error(fmt::format("cannot read {}", file_));
+        const auto text = print::text_of(path, kMostBytes);
+        if (!text) throw Error(fmt::format("cannot read {}", file_));
+        node_ = YAML::Load(*text);
     } catch (const YAML::Exception& error) {
         throw Error(
             fmt::format("{}: not YAML: line {}: {}", file_, error.mark.line + 1, error.msg));

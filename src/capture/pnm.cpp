@@ -56,7 +56,14 @@ class Reader {
             value = 10 * value + static_cast<std::uint32_t>(character - '0');
         }
         if (!is_space(character)) fail_damaged("a number is expected");
+        ended_by_return_ = character == '\r';
         return value;
+    }
+
+    /// Where a header was written with line breaks of two characters, the last one is half read,
+    /// and one byte more is left than the pixels take.
+    void finish_line_break(std::size_t pixel_bytes) {
+        if (ended_by_return_ && rest_.size() > pixel_bytes && rest_.front() == '\n') byte();
     }
 
   private:
@@ -70,6 +77,7 @@ class Reader {
     }
 
     std::span<const std::uint8_t> rest_;
+    bool ended_by_return_ = false;  ///< the newest number
 };
 
 /// What the header says.
@@ -162,6 +170,7 @@ GreyImage decode_pnm(std::span<const std::uint8_t> bytes) {
     Reader reader(bytes);
     const Header header = read_header(reader);
     if (reader.bytes_left() < least_bytes(header)) throw Error("the PNM image is cut short");
+    if (!header.is_text) reader.finish_line_break(least_bytes(header));
     GreyImage image;
     image.width_px = static_cast<int>(header.width_px);
     image.height_px = static_cast<int>(header.height_px);

@@ -102,4 +102,8 @@ void OutputFile::commit() {
     }
 }
 
+void require_writable(const fs::path& target) {
+    const OutputFile never_committed(target);
+}
+
 }  // namespace dotpose::print

@@ -43,4 +43,8 @@ class OutputFile {
     int error_number_ = 0;
 };
 
+/// Throws Error, as OutputFile does, if the file could not be created: to be told before the work
+/// that it is to hold, not after it.
+void require_writable(const std::filesystem::path& target);
+
 }  // namespace dotpose::print

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 
 #include <fcntl.h>
@@ -12,6 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "input_file.hpp"
 #include "output_file.hpp"
 #include "sheet_json.hpp"
 #include "sheet_list.hpp"
@@ -25,17 +24,11 @@ namespace {
                             std::generic_category().message(error_number)));
 }
 
-/// None if there is no such file.
+/// Some 100,000 sheets.
+constexpr std::size_t kMostBytes = std::size_t{64} << 20;
+
 std::optional<std::string> text_of(const fs::path& path) {
-    std::error_code error;
-    const fs::file_status status = fs::status(path, error);
-    if (status.type() == fs::file_type::not_found) return std::nullopt;
-    if (fs::is_directory(status)) throw_system("read", path, EISDIR);
-    errno = 0;
-    std::ifstream stream(path, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    if (!stream.is_open() || stream.bad()) throw_system("read", path, errno != 0 ? errno : EIO);
-    return text;
+    return print::text_of(path, kMostBytes);
 }
 
 /// Whoever names the file by a link must wait for the same lock as the others, also before there is

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "dotpose/print.hpp"
+#include "input_file.hpp"
 #include "sheet_list.hpp"
 
 namespace dotpose::print {
@@ -91,12 +92,9 @@ class Node {
 
 json parse(const std::string& text, const std::string& file) {
     try {
-        return json::parse(text);
-    } catch (const json::exception& error) {
-        const std::string what = error.what();
-        const std::size_t tag = what.find("] ");  // "[json.exception.parse_error.101] "
-        throw Error(fmt::format("{} is no sheet file: {}", file,
-                                tag == std::string::npos ? what : what.substr(tag + 2)));
+        return parse_json(text);
+    } catch (const Error& error) {
+        throw Error(fmt::format("{} is no sheet file: {}", file, error.what()));
     }
 }
 
@@ -208,7 +206,7 @@ std::vector<SheetEntry> sheets_from_json(const std::string& text, const std::str
 
 std::string json_from_sheets(const std::vector<SheetEntry>& sheets,
                              const std::optional<std::string>& old_text) {
-    json document = old_text ? json::parse(*old_text) : json::object();
+    json document = old_text ? parse_json(*old_text) : json::object();
     document["format"] = kFormat;
     document["version"] = kSheetFileVersion;
     std::map<std::string, json> objects;

@@ -8,6 +8,8 @@ namespace {
 
 // std::floor is a call where the processor may lack the instruction.
 std::int64_t floor_of(double x) {
+    // What is farther away, as at the horizon of an absurd tilt, no integer holds.
+    if (!(std::abs(x) < 4e18)) return 0;
     const auto towards_zero = static_cast<std::int64_t>(x);
     return towards_zero - (x < static_cast<double>(towards_zero) ? 1 : 0);
 }

@@ -1,6 +1,11 @@
 #include "video/screen.hpp"
 
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+
 #include <dlfcn.h>
+#include <fmt/core.h>
 #include <opencv2/highgui.hpp>
 #include <opencv2/videoio.hpp>
 
@@ -43,7 +48,28 @@ class Screen::Output {
                cv::getWindowProperty(kWindow, cv::WND_PROP_VISIBLE) >= 1;
     }
 
+    /// The library tells neither a full disk nor a file that was cut short: what was recorded is
+    /// looked at.
+    void finish() {
+        if (!writer_.isOpened()) return;
+        writer_.release();
+        const cv::VideoCapture recorded(options_.record);
+        const auto frames = static_cast<std::int64_t>(recorded.get(cv::CAP_PROP_FRAME_COUNT));
+        if (recorded.isOpened() && frames >= frames_) return;
+        throw Error(fmt::format("{} is not complete: {} of {} frames{}", options_.record,
+                                recorded.isOpened() ? std::max<std::int64_t>(frames, 0) : 0,
+                                frames_, is_disk_full() ? "; the disk is full" : ""));
+    }
+
   private:
+    bool is_disk_full() const {
+        constexpr std::uintmax_t kLeast_bytes = 1 << 20;
+        std::error_code error;
+        const auto folder = std::filesystem::absolute(options_.record, error).parent_path();
+        const auto space = std::filesystem::space(folder, error);
+        return !error && space.available < kLeast_bytes;
+    }
+
     void record(const cv::Mat& picture) {
         if (!writer_.isOpened()) {
             size_ = picture.size();
@@ -54,7 +80,12 @@ class Screen::Output {
         if (picture.size() != size_) {
             throw Error("cannot record frames of different sizes to " + options_.record);
         }
+        constexpr std::int64_t kBetweenLooks = 64;
+        if (frames_ % kBetweenLooks == 0 && is_disk_full()) {
+            throw Error("cannot record to " + options_.record + ": the disk is full");
+        }
         writer_.write(picture);
+        ++frames_;
     }
 
     void display(const cv::Mat& picture) {
@@ -66,6 +97,7 @@ class Screen::Output {
     ScreenOptions options_;
     cv::VideoWriter writer_;
     cv::Size size_;
+    std::int64_t frames_ = 0;  ///< recorded
     bool is_shown_ = false;
 };
 
@@ -78,6 +110,10 @@ bool Screen::is_on() const {
 
 bool Screen::show(const Scene& scene) {
     return output_->show(scene);
+}
+
+void Screen::finish() {
+    output_->finish();
 }
 
 bool Screen::is_wanted() {

@@ -55,6 +55,9 @@ class Screen {
     /// Escape in it.
     bool show(const Scene& scene);
 
+    /// Closes the recording. Throws Error if it is not complete, as on a full disk.
+    void finish();
+
     /// Without anything new to show. The same return value.
     bool is_wanted();
 

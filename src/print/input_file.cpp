@@ -1,0 +1,59 @@
+#include "input_file.hpp"
+
+#include <array>
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+
+#include <fmt/core.h>
+
+#include "dotpose/error.hpp"
+
+namespace dotpose::print {
+namespace fs = std::filesystem;
+namespace {
+
+[[noreturn]] void throw_unreadable(const fs::path& path, int error_number) {
+    throw Error(fmt::format("cannot read {}: {}", path.string(),
+                            std::generic_category().message(error_number)));
+}
+
+}  // namespace
+
+std::optional<std::string> text_of(const fs::path& path, std::size_t most) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (status.type() == fs::file_type::not_found) return std::nullopt;
+    if (fs::is_directory(status)) throw_unreadable(path, EISDIR);
+    errno = 0;
+    std::ifstream stream(path, std::ios::binary);
+    std::string text;
+    std::array<char, 65536> block;
+    while (stream.read(block.data(), block.size()), stream.gcount() > 0) {
+        text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
+        if (text.size() > most) {
+            throw Error(fmt::format("{} has more than {} MB", path.string(), most >> 20));
+        }
+    }
+    if (!stream.is_open() || stream.bad()) throw_unreadable(path, errno != 0 ? errno : EIO);
+    return text;
+}
+
+nlohmann::json parse_json(const std::string& text) {
+    using nlohmann::json;
+    const auto refuse_depth = [](int depth, json::parse_event_t, const json&) {
+        if (depth > kMostJsonDepth) {
+            throw Error(fmt::format("it is nested deeper than {} levels", kMostJsonDepth));
+        }
+        return true;
+    };
+    try {
+        return json::parse(text, refuse_depth);
+    } catch (const json::exception& error) {
+        const std::string what = error.what();
+        const std::size_t tag = what.find("] ");  // "[json.exception.parse_error.101] "
+        throw Error(tag == std::string::npos ? what : what.substr(tag + 2));
+    }
+}
+
+}  // namespace dotpose::print
