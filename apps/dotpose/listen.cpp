@@ -136,13 +136,12 @@ std::vector<Field> fields(const PosePacket& packet, double spacing_mm) {
 class LossCounter {
   public:
     void count(const PosePacket& packet) {
-        // Numbers of 16 bits that begin anew: a step back is a packet that came twice or late, or a
-        // device that was switched on again.
-        if (last_) {
-            const auto step = static_cast<std::int16_t>(packet.sequence - *last_);
-            if (step > 1) lost_ += static_cast<std::uint64_t>(step - 1);
-        }
-        last_ = packet.sequence;
+        // A short step back is a packet that came twice or late; a long one, a device that was
+        // switched on again.
+        constexpr int kMostLate = 16;
+        const int step = last_ ? static_cast<std::int16_t>(packet.sequence - *last_) : 1;
+        if (step > 1) lost_ += static_cast<std::uint64_t>(step - 1);
+        if (step > 0 || step < -kMostLate) last_ = packet.sequence;
         ++arrived_;
     }
     void report(std::uint32_t damaged) const {

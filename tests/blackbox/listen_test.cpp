@@ -52,6 +52,14 @@ class Listen : public ToolCommand {
     }
 };
 
+TEST_F(Listen, CountsAPacketThatComesTwiceAsNoLoss) {
+    put(on_the_line(packet_at(7, 1000)) + on_the_line(packet_at(7, 1000)) +
+        on_the_line(packet_at(8, 1000)) + on_the_line(packet_at(7, 1000)) +
+        on_the_line(packet_at(11, 1000)));
+    ASSERT_EQ(run("listen packets.bin"), 0);
+    EXPECT_THAT(errors_, HasSubstr("5 packets, 0 stretches damaged, 2 packets lost"));
+}
+
 TEST_F(Listen, PrintsAPacketAsALine) {
     put(on_the_line(packet_at(7, 1000)));
     ASSERT_EQ(run("listen packets.bin --spacing 0.5"), 0);

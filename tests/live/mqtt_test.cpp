@@ -367,6 +367,114 @@ TEST_F(Mqtt, TwoHundredRobots) {
     std::printf("%s", table.substr(table.rfind("200 robots")).c_str());
 }
 
+/// A state message of a robot that stands somewhere.
+std::string state_message(int header_id, const std::string& time, const std::string& state,
+                          const std::string& robot) {
+    return nlohmann::json{{"headerId", header_id},
+                          {"timestamp", time},
+                          {"serialNumber", robot},
+                          {"state", state},
+                          {"agvPosition",
+                           {{"localized", true},
+                            {"mapId", "table"},
+                            {"x", 0.1 * header_id},
+                            {"y", 0.1},
+                            {"theta", 0},
+                            {"deviationRange", 1e-6}}},
+                          {"velocity", {{"vx", 0}, {"vy", 0}, {"omega", 0}}}}
+        .dump();
+}
+
+/// `dotpose fleet` in the background, until its subscription is there.
+class WatchedFleet {
+  public:
+    WatchedFleet(const fs::path& directory, const std::string& arguments)
+        : directory_(directory), thread_([directory, arguments] {
+              run_shell("cd '" + directory.string() +
+                        "' && echo $$ > fleet.pid && exec '" DOTPOSE_TOOL
+                        "' fleet --map fleet.svg --every 0.2 " +
+                        arguments + " > table 2> news");
+          }) {
+        wait_until([this] { return fs::exists(directory_ / "fleet.svg"); });
+    }
+    /// The last table.
+    std::string table() {
+        kill(std::stoi(read_file(directory_ / "fleet.pid")), SIGINT);
+        thread_.join();
+        return read_file(directory_ / "table");
+    }
+
+  private:
+    fs::path directory_;
+    std::thread thread_;
+};
+
+TEST_F(Mqtt, TopicsTellWhoARobotIsAndTextsDoNotActOnTheTerminal) {
+    const Broker broker(directory_);
+    WatchedFleet fleet(directory_, "--mqtt " + broker.url());
+    MqttPublisher sender(options(broker));
+    const std::string time = "2026-11-24T16:00:00.000000Z";
+    sender.publish("uagv/v2/dotpose/anna/state", state_message(1, time, "moving", "bert"));
+    sender.publish("uagv/v2/dotpose/\x1b[31mred/state",
+                   state_message(1, time, "\x1b]0;OWNED\x07\nroot moving", "\x1b[2J"));
+    for (const char* bad : {"2026-11-24T16:00:nanZ", "2026-11-24T16:00:00", "", "now"})
+        sender.publish("uagv/v2/dotpose/carl/state", state_message(1, bad, "moving", "carl"));
+    sender.publish("uagv/v2/dotpose/dora/state", std::string(1'000'000, '['));
+    ASSERT_TRUE(sender.flush(20s));
+    std::this_thread::sleep_for(500ms);
+    const std::string table = fleet.table();
+    EXPECT_THAT(table, HasSubstr("\nanna  "));
+    EXPECT_THAT(table, testing::Not(HasSubstr("bert")));
+    EXPECT_THAT(table, HasSubstr("2 robots, 2 states, 5 bad"));
+    EXPECT_EQ(std::ranges::count(table, '\n'), 4) << table;
+    EXPECT_EQ(table.find_first_of("\x1b\x07"), std::string::npos);
+}
+
+TEST_F(Mqtt, ASenderWhoseClockWasSetBackIsFollowed) {
+    const Broker broker(directory_);
+    WatchedFleet fleet(directory_, "--mqtt " + broker.url());
+    MqttOptions mqtt = options(broker);
+    mqtt.qos = 1;
+    MqttPublisher sender(mqtt);
+    const auto send = [&](const char* robot, int header_id, const char* time) {
+        sender.publish(fmt::format("uagv/v2/dotpose/{}/state", robot),
+                       state_message(header_id, time, "moving", robot));
+        ASSERT_TRUE(sender.flush(20s));
+    };
+    // Its numbers go on.
+    send("anna", 7, "2026-11-24T16:00:00Z");
+    send("anna", 8, "2026-11-24T15:00:00Z");
+    // It was switched on again: the numbers begin anew as well.
+    send("bert", 700, "2026-11-24T16:00:00Z");
+    for (int i = 0; i < 6; ++i)
+        send("bert", i, fmt::format("2026-11-24T15:00:0{}Z", i).c_str());
+    // One message that came late is none of the newest.
+    send("carl", 9, "2026-11-24T16:00:01Z");
+    send("carl", 8, "2026-11-24T16:00:00Z");
+    std::this_thread::sleep_for(500ms);
+    const std::string table = fleet.table();
+    EXPECT_THAT(table, testing::ContainsRegex("\nanna +moving +800.000 "));
+    EXPECT_THAT(table, testing::ContainsRegex("\nbert +moving +500.000 "));
+    EXPECT_THAT(table, testing::ContainsRegex("\ncarl +moving +900.000 "));
+}
+
+TEST_F(Mqtt, InventedNamesFillNoMemory) {
+    constexpr int kNames = 12'000;
+    const Broker broker(directory_);
+    WatchedFleet fleet(directory_, "--qos 1 --mqtt " + broker.url());
+    MqttOptions mqtt = options(broker);
+    mqtt.qos = 1;
+    mqtt.queue = kNames;
+    MqttPublisher sender(mqtt);
+    for (int i = 0; i < kNames; ++i) {
+        sender.publish(fmt::format("uagv/v2/dotpose/invented{}/state", i),
+                       state_message(1, "2026-11-24T16:00:00Z", "moving", "x"));
+    }
+    ASSERT_TRUE(sender.flush(60s));
+    std::this_thread::sleep_for(1s);
+    EXPECT_THAT(fleet.table(), HasSubstr("10000 robots, 12000 states, 0 bad"));
+}
+
 TEST_F(Mqtt, FleetNeedsABroker) {
     EXPECT_EQ(run("fleet"), 2);
     EXPECT_EQ(run("fleet --mqtt nonsense"), 2);

@@ -266,6 +266,18 @@ TEST_F(ImageFileTest, refuses_tiff_with_the_directory_cut) {
     EXPECT_THAT(error_of(tiff), HasSubstr("the TIFF image is cut short"));
 }
 
+TEST_F(ImageFileTest, reads_headers_with_line_breaks_of_two_characters) {
+    // The first pixel is 10 like a line break, so that only the size of the file tells them apart.
+    const auto first_pixel = [this](const std::string& file) {
+        std::ofstream(directory / "a.pgm", std::ios::binary) << file;
+        return int{read_image(directory / "a.pgm").pixels.front()};
+    };
+    EXPECT_EQ(first_pixel("P5\r\n2 1\r\n255\r\n\x0a\x63"), 10);
+    EXPECT_EQ(first_pixel("P5\r\n2 1\r\n255\r\n\x63\x0a"), 99);
+    EXPECT_EQ(first_pixel("P5\r2 1\r255\r\x0a\x63"), 10);
+    EXPECT_EQ(first_pixel("P5\n2 1\n255\n\x0a\x63"), 10);
+}
+
 TEST_F(ImageFileTest, refuses_damaged_files) {
     Bytes png = encode_png(kGrey);
     png[50] ^= 1;  // in the pixels
