@@ -14,6 +14,7 @@
 #include "frame_locator.hpp"
 #include "mqtt_arguments.hpp"
 #include "progress.hpp"
+#include "robot_state.hpp"
 #include "terminal_text.hpp"
 #include "video/frame_source.hpp"
 #include "watch_outputs.hpp"
@@ -151,8 +152,10 @@ void add_publish_options(CLI::App& command, OutputOptions& outputs, MqttArgument
         ->type_name("NAME")
         ->capture_default_str()
         ->check([](const std::string& name) {
-            const bool is_bad = name.empty() || name.find_first_of("/+#") != std::string::npos;
-            return is_bad ? "a robot's name is not empty and holds none of / + #" : std::string();
+            const bool is_bad = name.empty() || name.find_first_of("/+#") != std::string::npos ||
+                                name.size() > kMostNameBytes || printable(name) != name;
+            return is_bad ? "a robot's name is not empty, holds none of / + #, and can be printed"
+                          : std::string();
         });
     command.add_option("--mqtt-rate", outputs.mqtt_rate_hz, "Most states a second; events always")
         ->type_name("HZ")

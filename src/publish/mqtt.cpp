@@ -251,8 +251,16 @@ void MqttPublisher::send_waiting() {
         const int code = mosquitto_publish(handle(), &id, newest.topic.c_str(),
                                            static_cast<int>(newest.payload.size()),
                                            newest.payload.data(), options_.qos, false);
-        if (code != MOSQ_ERR_SUCCESS) return;  // not connected any more: stays
-        under_way_.insert(id);
+        const bool can_never_be_sent = code == MOSQ_ERR_INVAL || code == MOSQ_ERR_MALFORMED_UTF8 ||
+                                       code == MOSQ_ERR_PAYLOAD_SIZE ||
+                                       code == MOSQ_ERR_OVERSIZE_PACKET;
+        if (can_never_be_sent) {
+            ++dropped_;
+        } else if (code == MOSQ_ERR_SUCCESS) {
+            under_way_.insert(id);
+        } else {
+            return;  // not connected any more: it stays
+        }
         waiting_.pop_back();
     }
 }
