@@ -297,7 +297,7 @@ TEST(KernelsPlain, ListHasAllPlacesThatLoseTooLittle) {
                          [](LineLoss a, LineLoss b) { return a.loss > b.loss; });
         const int enough = whole(rng, 4, 14);
         SimilarPlaceList list;
-        if (!kernels.list_similar_places(places.basis, places.own, lines, enough, list)) return;
+        if (!kernels.list_similar_places(places.basis, places.own, 15, lines, enough, list)) return;
         std::set<std::array<int, 3>>
             found;  // sequence, place and the shift at which it is like the reading
         for (const auto& [k, place, line] :

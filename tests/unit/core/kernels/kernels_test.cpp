@@ -294,7 +294,7 @@ TEST_F(KernelsTest, SimilarPlacesAreTheSame) {
             for (std::size_t k = 0; k < own.size(); ++k)
                 record.add(kernels.find_similar_places(basis[k], own[k], steps));
             SimilarPlaceList list;
-            record.add(kernels.list_similar_places(basis, own, lines, enough, list));
+            record.add(kernels.list_similar_places(basis, own, 15, lines, enough, list));
             record.add(std::span(list.places), list.count);
         });
     });
