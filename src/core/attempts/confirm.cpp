@@ -99,9 +99,9 @@ bool is_certain(const Kernels& kernels, const Options& options, const Sight& sig
     const std::array confidences{confidence_in(bits.read, bits.wrong_x),
                                  confidence_in(bits.read, bits.wrong_y)};
     const CodedBlock coded(options.profile, sight.place, view, block);
-    if (is_plainly_certain(kernels,
-                           {coded.axis(Axis::x, confidences[0]), coded.axis(Axis::y, confidences[1])},
-                           options.profile, options.integrity, w.fix)) {
+    if (is_plainly_certain(
+            kernels, {coded.axis(Axis::x, confidences[0]), coded.axis(Axis::y, confidences[1])},
+            options.profile, options.integrity, w.fix)) {
         return true;
     }
     const BlockLines lines = score_block(kernels, block, w.line_scores);

@@ -278,8 +278,7 @@ bool is_certain(const Kernels& kernels, const Evidence& evidence, Profile profil
     const int limit = options.max_p_wrong_log2;
     const float x_wrong = axis_wrong(kernels, x_bits, evidence.columns, profile, x, odds_q8, limit);
     if (x_wrong >= 1) return false;
-    const float y_wrong =
-        axis_wrong(kernels, y_bits, evidence.rows, profile, y, odds_q8, limit);
+    const float y_wrong = axis_wrong(kernels, y_bits, evidence.rows, profile, y, odds_q8, limit);
     return is_within_limit(x_wrong + y_wrong, limit, fix);
 }
 

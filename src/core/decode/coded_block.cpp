@@ -40,8 +40,10 @@ CodedBlock::Half CodedBlock::half(const BitLines& lines, const std::uint8_t* rol
     const int end = std::min(first_line + count, kFirst + kMostTracked);
     for (int line = begin; line < end; ++line) {
         const auto i = static_cast<std::size_t>(line - kFirst);
-        const auto seen = static_cast<std::uint32_t>(lines.valid[kFirstOfBlock + i] >> kFirstOfBlock);
-        const auto bits = static_cast<std::uint32_t>(lines.bits[kFirstOfBlock + i] >> kFirstOfBlock);
+        const auto seen =
+            static_cast<std::uint32_t>(lines.valid[kFirstOfBlock + i] >> kFirstOfBlock);
+        const auto bits =
+            static_cast<std::uint32_t>(lines.bits[kFirstOfBlock + i] >> kFirstOfBlock);
         const int there = rolls[line - first_line] + ahead;
         const int roll = there < kSections ? there : there - kSections;
         const std::uint32_t code = code::kMainWords[static_cast<std::size_t>(roll)];

@@ -1,5 +1,5 @@
-// Coded block: bits that were read beside those that the code has there, as words, so that comparing
-// them takes an instruction.
+// Coded block: bits that were read beside those that the code has there, as words, so that
+// comparing them takes an instruction.
 #pragma once
 
 #include "core/decode/bit_lines.hpp"

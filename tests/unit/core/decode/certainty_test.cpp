@@ -292,7 +292,8 @@ Verdict judge_plainly(const Block& block, const Place& claimed,
         for (int column = 0; column < block.columns; ++column) {
             const std::size_t i = block.index(column, row);
             if (block.x[i] < 0) continue;
-            const auto u = static_cast<std::size_t>(core::BitBlock::kMiddle + first_column + column);
+            const auto u =
+                static_cast<std::size_t>(core::BitBlock::kMiddle + first_column + column);
             const auto v = static_cast<std::size_t>(core::BitBlock::kMiddle + first_row + row);
             words.columns.valid[u] |= std::uint64_t{1} << v;
             words.columns.bits[u] |= static_cast<std::uint64_t>(block.x[i]) << v;
