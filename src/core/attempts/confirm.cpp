@@ -8,6 +8,7 @@
 #include "core/attempts/steps.hpp"
 #include "core/decode/bit_lines.hpp"
 #include "core/decode/certainty.hpp"
+#include "core/decode/coded_block.hpp"
 #include "core/decode/window.hpp"
 #include "core/pose/covariance.hpp"
 #include "core/pose/float_fit.hpp"
@@ -81,23 +82,33 @@ bool is_clean(const BitsRead& bits) {
     return 100 * bits.read >= 97 * bits.seen && bits.wrong_x + bits.wrong_y <= 1;
 }
 
+/// Bits of one axis, as many as were read and so many of them wrong.
+Confidence confidence_in(int bits, int wrong) {
+    constexpr int kWeight = 127;
+    Confidence confidence;
+    confidence.add(kWeight, false, bits - wrong);
+    confidence.add(kWeight, true, wrong);
+    return confidence;
+}
+
 /// Whether the bits of all dots near the centre leave no doubt.
 bool is_certain(const Kernels& kernels, const Options& options, const Sight& sight,
-                const BitBlock& block, const BitsRead& bits, Workspace& w) {
-    const BlockLines lines = score_block(kernels, block, w.line_scores);
-    Evidence evidence;
-    evidence.corner = moved(options.profile, sight.place, lines.first_column - BitBlock::kMiddle,
-                            lines.first_row - BitBlock::kMiddle);
-    evidence.columns = lines.columns;
-    evidence.rows = lines.rows;
-    const std::array wrong{bits.wrong_x, bits.wrong_y};
-    for (std::size_t i = 0; i < wrong.size(); ++i) {
-        constexpr int kWeight = 127;
-        evidence.bits[i].add(kWeight, false, bits.read - wrong[i]);
-        evidence.bits[i].add(kWeight, true, wrong[i]);
-    }
+                const CellsInView& view, const BitBlock& block, const BitsRead& bits,
+                Workspace& w) {
     w.decoding.bits = 2 * bits.read;
-    return core::is_certain(kernels, evidence, options.profile, options.integrity, w.fix);
+    const std::array confidences{confidence_in(bits.read, bits.wrong_x),
+                                 confidence_in(bits.read, bits.wrong_y)};
+    const CodedBlock coded(options.profile, sight.place, view, block);
+    if (is_plainly_certain(
+            kernels, {coded.axis(Axis::x, confidences[0]), coded.axis(Axis::y, confidences[1])},
+            options.profile, options.integrity, w.fix)) {
+        return true;
+    }
+    const BlockLines lines = score_block(kernels, block, w.line_scores);
+    const Place corner = moved(options.profile, sight.place, lines.first_column - BitBlock::kMiddle,
+                               lines.first_row - BitBlock::kMiddle);
+    return core::is_certain(kernels, {corner, confidences, lines.columns, lines.rows},
+                            options.profile, options.integrity, w.fix);
 }
 
 /// What is to be seen of the fix: dots and the bits read from them.
@@ -276,7 +287,7 @@ Confirmation confirm(const Kernels& kernels, const ImageView& image, const Optio
             block = {};
             bits = read(kernels, sight, dots, &block);
         }
-        if (is_first && !is_certain(kernels, options, sight, block, bits, w)) {
+        if (is_first && !is_certain(kernels, options, sight, view, block, bits, w)) {
             return Confirmation::uncertain;
         }
         if (!fit_to_dots(kernels, dots, bits, image, sight, fit)) return Confirmation::implausible;

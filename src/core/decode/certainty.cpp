@@ -5,11 +5,13 @@
 #include <cmath>
 
 #include "code/rolls.hpp"
+#include "code/unshared_lines.hpp"
 #include "core/decode/least_losses.hpp"
 #include "core/decode/quick_rivals.hpp"
 #include "core/decode/rival_sets.hpp"
 #include "core/decode/rivals.hpp"
 #include "core/decode/seam_rivals.hpp"
+#include "core/decode/unshared_lines.hpp"
 #include "core/fixed.hpp"
 #include "core/vectors.hpp"
 
@@ -73,32 +75,31 @@ constexpr NumbersOfSets kRivals =
 float far_rivals(const Contest& contest) {
     constexpr float kUnevenness = 1.03F;
     const int most = contest.most_shared();
-    // Those that share the lines from one on, and none before it; nobody has before the first one.
-    std::array<OfSets, kMostShared + kMaxLines> sharing;
-    std::fill_n(sharing.begin(), kMostShared, OfSets::of(0));
-    OfSets* newest = &sharing[kMostShared - 1];
-    *newest = OfSets::of(1);
-    OfSets apart = OfSets::of(kShifts * odds_of(contest, contest.least_loss(0)));
+    // Those that share the lines up to one, but not it; and of all that share the first line, what
+    // comes out as 1. Before that there is nobody.
+    std::array<OfSets, kMostShared + kMaxLines> storage;
+    std::fill_n(storage.begin(), kMostShared, OfSets::of(0));
+    OfSets* apart = &storage[kMostShared];
     OfSets sum;
-    for (std::size_t i = 0; i < 2; ++i)
-        sum.part[i] = apart.part[i] + newest->part[i];
-    for (int line = 1; line < contest.lines.count(); ++line) {
+    const float first = kShifts * odds_of(contest, contest.least_loss(0));
+    for (std::size_t i = 0; i < 2; ++i) {
+        apart[-1].part[i] = 1 / four_at(&kEqual[4 * i]);
+        apart->part[i] = Four{} + first;
+        sum.part[i] = Four{} + (first + 1);
+    }
+    for (int line = 1; line < contest.count(); ++line) {
         const float best = odds_of(contest, contest.least_loss(line));
-        ++newest;
+        ++apart;
         for (std::size_t i = 0; i < 2; ++i) {
             const Four equally = four_at(&kEqual[4 * i]);
-            newest->part[i] = apart.part[i] * equally;
             const Four by_one = (Four{} + best) * kUnevenness;
             const Four by_all = kShifts * best * equally;
             const Four now = sum.part[i] * (by_one < by_all ? by_one : by_all);
-            apart.part[i] = now > kNothing ? now : Four{} + kNothing;
-            Four all = apart.part[i] + newest->part[i];
-            for (int n = 1; n < most; ++n) {
-                Four& before = (newest - n)->part[i];
-                before *= equally;
-                all += before;
-            }
-            sum.part[i] = all;
+            apart->part[i] = now > kNothing ? now : Four{} + kNothing;
+            Four shared = (apart - most)->part[i];
+            for (int n = most - 1; n > 0; --n)
+                shared = shared * equally + (apart - n)->part[i];
+            sum.part[i] = apart->part[i] + shared * equally;
         }
     }
     float all = 0;
@@ -107,19 +108,20 @@ float far_rivals(const Contest& contest) {
     return all;
 }
 
-/// The same position in other sections.
-float other_sections(const Contest& contest) {
+/// Who shares no line: the same position in other sections, and whoever differs in one sequence, at
+/// shifts which no line shows.
+float sharing_none(const Contest& contest) {
     int lost = 0;
-    for (int line = 0; line < contest.lines.count(); ++line)
+    for (int line = 0; line < contest.count(); ++line)
         lost += contest.least_loss(line);
-    return kShifts * odds_of(contest, lost);
+    return (1 + kSingles) * kShifts * odds_of(contest, lost);
 }
 
 /// What every line costs at least who does not share it, the dearest first. Bits count alike here,
 /// so losses are whole bits.
 constexpr int kBit = 2 * 127;  // of score
 std::size_t sort_losses(const Contest& contest, std::span<LineLoss> losses) {
-    const auto count = static_cast<std::size_t>(contest.lines.count());
+    const auto count = static_cast<std::size_t>(contest.count());
     for (std::size_t line = 0; line < count; ++line) {
         const int bits = std::max(contest.least_loss(static_cast<int>(line)), 0) / kBit;
         std::size_t i = line;
@@ -136,7 +138,7 @@ int loss_of(const Contest& contest, std::size_t sequence, std::uint32_t place, i
     const std::uint8_t* rival = contest.basis[sequence].rolls + place;
     const int base = rival[shared] - own[shared];
     int lost = 0;
-    for (int line = 0; line < contest.lines.count(); ++line) {
+    for (int line = 0; line < contest.count(); ++line) {
         int shift = rival[line] - own[line] - base;
         shift += shift < 0 ? kSections : 0;
         shift -= shift >= kSections ? kSections : 0;
@@ -145,22 +147,62 @@ int loss_of(const Contest& contest, std::size_t sequence, std::uint32_t place, i
     return lost;
 }
 
-/// Rivals that differ in one sequence: all that lose so little that they may count, one by one. 1
-/// if there are too many.
-float single_rivals(const Kernels& kernels, const Contest& contest) {
+/// Those of a sequence that share a line, as far as a table tells how many lines they do not share
+/// at least: of those in the middle of the view, since any number of them will do.
+float rivals_by_table(const Contest& contest, const UnsharedLines& unshared, std::size_t sequence) {
+    const int lost = unshared.least_loss(sequence, Sharing::at_one_shift) - contest.most_regained();
+    // At most as many shifts as there are lines.
+    return static_cast<float>(contest.count() * contest.basis[sequence].length) *
+           odds_of(contest, std::max(lost, 0));
+}
+
+/// The same for each sequence by the table that tells most. Leaves those `sequences` for which that
+/// is more than `enough`.
+float rivals_by_tables(const Contest& contest, float enough, unsigned& sequences) {
+    float sum = 0;
+    for (std::size_t table = code::kUnsharedOf.size(); table-- > 0 && sequences != 0;) {
+        if (code::kUnsharedOf[table] > contest.count()) continue;
+        const UnsharedLines unshared(contest, code::kUnsharedOf[table]);
+        for (unsigned rest = sequences; rest != 0; rest &= rest - 1) {
+            const int sequence = std::countr_zero(rest);
+            const float odds =
+                rivals_by_table(contest, unshared, static_cast<std::size_t>(sequence));
+            if (odds > enough) continue;
+            sum += odds;
+            sequences ^= 1U << sequence;
+        }
+    }
+    return sum;
+}
+
+/// Rivals that differ in one sequence: where the table does not tell, all that lose so little that
+/// they may count, one by one. 1 if there are too many.
+float single_rivals(const Kernels& kernels, const Contest& contest, float limit) {
+    unsigned sequences = 15;
+    float sum = rivals_by_tables(contest, limit / 12, sequences);
+    if (sequences == 0) return sum;
     std::array<LineLoss, kMaxLines> storage;
     const std::size_t lines = sort_losses(contest, storage);
     const int enough = (contest.loss_for(kPassedOver_q8) + contest.most_regained()) / kBit + 1;
-    float sum = kSingles * kPassedOver * static_cast<float>(lines);
+    sum += kSingles * kPassedOver * static_cast<float>(lines);
     SimilarPlaceList list;
-    if (!kernels.list_similar_places(contest.basis, contest.places, std::span(storage).first(lines),
-                                     enough, list)) {
+    if (!kernels.list_similar_places(contest.basis, contest.places, sequences,
+                                     std::span(storage).first(lines), enough, list)) {
         return 1;
     }
     for (const auto& [sequence, place, line] :
          std::span(list.places).first(static_cast<std::size_t>(list.count)))
         sum += odds_of(contest, loss_of(contest, sequence, place, line));
     return sum;
+}
+
+/// Odds of all rivals but those beyond seams.
+float rivals(const Kernels& kernels, const Contest& contest, float limit) {
+    return far_rivals(contest) + sharing_none(contest) + single_rivals(kernels, contest, limit);
+}
+
+float seam_rivals(const Kernels& kernels, const Contest& contest) {
+    return power_of_two(std::max(seam_rivals_log2_q8(kernels, contest), -100 * 256));
 }
 
 /// Probability that one axis is wrong; where it is above the limit, no more than that.
@@ -170,28 +212,62 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const Lines& li
     const float chance = std::ldexp(1.0F, chance_log2(bits, odds_per_bit_q8));
     if (chance > limit || lines.count() <= kMostShared) return 1;
     const Contest contest(profile, lines, reading, odds_per_bit_q8);
-    float sum =
-        chance + far_rivals(contest) + other_sections(contest) + single_rivals(kernels, contest);
+    float sum = chance + rivals(kernels, contest, limit);
     if (sum > limit) sum = chance + power_of_two(quick_rivals_log2_q8(contest, 256 * limit_log2));
     if (sum > limit) sum = chance + std::ldexp(1.0F, rivals_log2(profile, contest, limit_log2));
     if (sum > limit) return 1;
-    return sum + power_of_two(std::max(seam_rivals_log2_q8(kernels, contest), -100 * 256));
+    return sum + seam_rivals(kernels, contest);
+}
+
+/// The same by bits alone.
+float axis_wrong(const Kernels& kernels, const AxisBits& axis, Profile profile, int odds_per_bit_q8,
+                 int limit_log2) {
+    const float limit = std::ldexp(1.0F, limit_log2);
+    const float chance = std::ldexp(1.0F, chance_log2(axis.confidence, odds_per_bit_q8));
+    if (chance > limit || axis.lines.size() <= kMostShared) return 1;
+    const Contest contest(profile, axis.lines, axis.reading, odds_per_bit_q8);
+    const float sum = chance + rivals(kernels, contest, limit);
+    return sum > limit ? 1 : sum + seam_rivals(kernels, contest);
+}
+
+/// Odds of a bit, by both axes: they are read from the same dots, and so are misread alike. 0 where
+/// nothing is known, or too many bits are wrong.
+int odds_of_bits_q8(const Confidence& x, const Confidence& y, const IntegrityOptions& options,
+                    Fix& fix) {
+    fix.bit_errors = x.wrong() + y.wrong();
+    for (const Confidence* bits : {&x, &y}) {
+        // Two patterns in view.
+        if (256 * bits->wrong() > bits->bits() * options.max_bit_error_q8) return 0;
+    }
+    Confidence both = x;
+    both.add(y);
+    return odds_per_bit_q8(both);
+}
+
+bool is_within_limit(float wrong, int limit_log2, Fix& fix) {
+    int exponent = 0;
+    std::frexp(wrong, &exponent);  // wrong < 2^exponent
+    fix.p_wrong_log2 = std::min(exponent, 0);
+    return fix.p_wrong_log2 <= limit_log2;
 }
 
 }  // namespace
 
+bool is_plainly_certain(const Kernels& kernels, const std::array<AxisBits, 2>& axes,
+                        Profile profile, const IntegrityOptions& options, Fix& fix) {
+    const auto& [x, y] = axes;
+    const int odds_q8 = odds_of_bits_q8(x.confidence, y.confidence, options, fix);
+    if (odds_q8 == 0) return false;
+    const int limit = options.max_p_wrong_log2;
+    const float x_wrong = axis_wrong(kernels, x, profile, odds_q8, limit);
+    if (x_wrong >= 1) return false;
+    return is_within_limit(x_wrong + axis_wrong(kernels, y, profile, odds_q8, limit), limit, fix);
+}
+
 bool is_certain(const Kernels& kernels, const Evidence& evidence, Profile profile,
                 const IntegrityOptions& options, Fix& fix) {
     const auto& [x_bits, y_bits] = evidence.bits;
-    fix.bit_errors = x_bits.wrong() + y_bits.wrong();
-    for (const Confidence& bits : evidence.bits) {
-        // Two patterns in view.
-        if (256 * bits.wrong() > bits.bits() * options.max_bit_error_q8) return false;
-    }
-    // Both axes are read from the same dots, and so are misread alike.
-    Confidence both = x_bits;
-    both.add(y_bits);
-    const int odds_q8 = odds_per_bit_q8(both);
+    const int odds_q8 = odds_of_bits_q8(x_bits, y_bits, options, fix);
     if (odds_q8 == 0) return false;
     const auto& [cell, section] = evidence.corner;
     const auto roll = [&](std::uint32_t position, int own_section, std::uint32_t cross) {
@@ -202,12 +278,8 @@ bool is_certain(const Kernels& kernels, const Evidence& evidence, Profile profil
     const int limit = options.max_p_wrong_log2;
     const float x_wrong = axis_wrong(kernels, x_bits, evidence.columns, profile, x, odds_q8, limit);
     if (x_wrong >= 1) return false;
-    const float wrong =
-        x_wrong + axis_wrong(kernels, y_bits, evidence.rows, profile, y, odds_q8, limit);
-    int exponent = 0;
-    std::frexp(wrong, &exponent);  // wrong < 2^exponent
-    fix.p_wrong_log2 = std::min(exponent, 0);
-    return fix.p_wrong_log2 <= limit;
+    const float y_wrong = axis_wrong(kernels, y_bits, evidence.rows, profile, y, odds_q8, limit);
+    return is_within_limit(x_wrong + y_wrong, limit, fix);
 }
 
 }  // namespace dotpose::core

@@ -2,6 +2,9 @@
 // rivals, and by seams. docs/integrity.md derives it.
 #pragma once
 
+#include <array>
+#include <span>
+
 #include "core/decode/confidence.hpp"
 #include "core/decode/lines.hpp"
 #include "core/kernels/kernels.hpp"
@@ -9,6 +12,19 @@
 #include "dotpose/options.hpp"
 
 namespace dotpose::core {
+
+/// The bits of one axis that were read near the middle, by line, from the first line with any on.
+struct AxisBits {
+    std::span<const TrackedLine> lines;
+    AxisReading reading;    ///< of the first line, at the cells' first bit
+    Confidence confidence;  ///< of all bits, against the code
+};
+
+/// What is_certain says, told by hard bits alone and without the scores of lines: a tenth of the
+/// work, and enough for clean frames. False also where that leaves doubts. Bits that were not read
+/// near the middle count for chance only, so the claim is an upper estimate all the same.
+bool is_plainly_certain(const Kernels& kernels, const std::array<AxisBits, 2>& axes,
+                        Profile profile, const IntegrityOptions& options, Fix& fix);
 
 /// What speaks for a position and against it.
 struct Evidence {

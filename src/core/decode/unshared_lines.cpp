@@ -6,11 +6,11 @@
 
 namespace dotpose::core {
 
-UnsharedLines::UnsharedLines(const Contest& contest) : contest_(contest) {
+UnsharedLines::UnsharedLines(const Contest& contest, int most_lines) : contest_(contest) {
     const auto& numbers = code::kUnsharedOf;
     static_assert(code::kUnsharedOf.back() == kMostLines);
     std::size_t rows = 0;
-    while (rows < numbers.size() && numbers[rows] <= contest.count())
+    while (rows < numbers.size() && numbers[rows] <= std::min(contest.count(), most_lines))
         ++rows;
     if (rows == 0) return;
     row_ = rows - 1;
@@ -30,16 +30,16 @@ UnsharedLines::UnsharedLines(const Contest& contest) : contest_(contest) {
         least_[n] += least_[n - 1];
 }
 
-bool UnsharedLines::all_lose(std::size_t sequence, Sharing sharing, int enough) const {
+int UnsharedLines::least_loss(std::size_t sequence, Sharing sharing) const {
     const code::Secondary& a = contest_.basis[sequence];
     // Of the other forms of a4 there is no table.
     const bool is_known = sequence < 3 || a.digits == code::kA4Restored.data();
-    if (row_ == SIZE_MAX || !is_known) return false;
+    if (row_ == SIZE_MAX || !is_known) return 0;
     const std::uint32_t ahead = contest_.places[sequence] + first_line_;
     const std::uint32_t place = ahead < a.length ? ahead : ahead - a.length;
     const unsigned both = code::kUnshared[row_][code::kUnsharedFrom[sequence] + place];
     const unsigned unshared = sharing == Sharing::at_one_shift ? both >> 4 : both & 15;
-    return least_[unshared] >= enough;
+    return least_[unshared];
 }
 
 }  // namespace dotpose::core

@@ -16,15 +16,20 @@ enum class Sharing : std::uint8_t {
 
 class UnsharedLines {
   public:
-    explicit UnsharedLines(const Contest& contest);
+    static constexpr int kMostLines = 16;
+
+    /// By the table of the most lines that there are, and at most of so many.
+    explicit UnsharedLines(const Contest& contest, int most_lines = kMostLines);
 
     /// Whether all rivals that stand elsewhere in a sequence lose so much at least, but for what
     /// they may win back.
-    bool all_lose(std::size_t sequence, Sharing sharing, int enough) const;
+    bool all_lose(std::size_t sequence, Sharing sharing, int enough) const {
+        return least_loss(sequence, sharing) >= enough;
+    }
+    /// What they lose at least; 0 where no table tells.
+    int least_loss(std::size_t sequence, Sharing sharing) const;
 
   private:
-    static constexpr std::size_t kMostLines = 16;
-
     const Contest& contest_;
     std::size_t row_ = SIZE_MAX;  ///< of the table; none for few lines
     std::uint32_t first_line_ = 0;

@@ -199,11 +199,11 @@ struct Kernels {
     /// The other places of a sequence that may lose less than enough, as far as steps tell.
     PlaceBits (*find_similar_places)(const code::Secondary& sequence, std::uint32_t own,
                                      const StepLosses& steps);
-    /// The other places of each sequence that may lose less than `enough` over these lines, the
-    /// dearest first. False, if there are too many, or places that share none of the first lines
-    /// may, too.
+    /// The other places of some of the sequences, a bit each, that may lose less than `enough` over
+    /// these lines, the dearest first. False, if there are too many, or places that share none of
+    /// the first lines may, too.
     bool (*list_similar_places)(const code::Basis& basis, const std::array<std::uint32_t, 4>& own,
-                                std::span<const LineLoss> lines, int enough,
+                                unsigned sequences, std::span<const LineLoss> lines, int enough,
                                 SimilarPlaceList& list);
 };
 

@@ -297,13 +297,22 @@ TEST(KernelsPlain, ListHasAllPlacesThatLoseTooLittle) {
                          [](LineLoss a, LineLoss b) { return a.loss > b.loss; });
         const int enough = whole(rng, 4, 14);
         SimilarPlaceList list;
-        if (!kernels.list_similar_places(places.basis, places.own, lines, enough, list)) return;
+        const auto sequences = static_cast<unsigned>(whole(rng, 1, 15));
+        if (!kernels.list_similar_places(places.basis, places.own, sequences, lines, enough, list))
+            return;
         std::set<std::array<int, 3>>
             found;  // sequence, place and the shift at which it is like the reading
         for (const auto& [k, place, line] :
              std::span(list.places).first(static_cast<std::size_t>(list.count)))
             found.insert({k, place, places.growth(k, place, line)});
         for (std::size_t k = 0; k < 4; ++k) {
+            if ((sequences >> k & 1) == 0) {
+                const auto is_of_it = [&](const auto& rival) {
+                    return rival[0] == static_cast<int>(k);
+                };
+                ASSERT_TRUE(std::ranges::none_of(found, is_of_it)) << k;
+                continue;
+            }
             for (std::uint32_t place = 0; place < places.basis[k].length; ++place) {
                 if (place == places.own[k]) continue;
                 for (int shift = 0; shift < 63; ++shift) {
