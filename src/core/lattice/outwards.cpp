@@ -24,17 +24,9 @@ constexpr float kFaintWaves = 0.12F;
 constexpr float kFinest_px = 5.2F;
 constexpr float kCoarsest_px = 40;
 
-/// Half of the patch's longer side, px of the image.
-float full_reach_px(const Patch& patch) {
-    return static_cast<float>(std::max(patch.width_px, patch.height_px) * patch.scale) / 2 + 1;
-}
-
-std::optional<Waves> find_waves(const Kernels& kernels, const Patch& patch) {
+std::optional<Waves> find_waves(const Kernels& kernels, const Patch& patch, float spacing) {
     const PatchDots& dots = patch.dots;
     const auto scale = static_cast<float>(patch.scale);
-    const float area =
-        static_cast<float>((patch.width_px - 4) * (patch.height_px - 4)) * scale * scale;
-    const float spacing = std::sqrt(area / static_cast<float>(dots.count));
     if (spacing < kFinest_px * scale || spacing > kCoarsest_px * scale) return {};
     // A disc that holds as many.
     const float radius_2 = kCentralDots * spacing * spacing / 3.14159265F;
@@ -168,16 +160,111 @@ float growth(float share) {
     return share > 0.8F ? 1.25F : 0.8F;
 }
 
+/// Drops minima that are dark as well a little way off in more than two of eight directions, such as
+/// those of noise beyond the edge of a sheet.
+void keep_isolated(Patch& patch) {
+    constexpr int kAway_px = 4;
+    constexpr int kDiagonally_px = 3;
+    constexpr int kMostDark = 2;
+    constexpr std::array<std::array<int, 2>, 8> kAround{{{kAway_px, 0},
+                                                         {-kAway_px, 0},
+                                                         {0, kAway_px},
+                                                         {0, -kAway_px},
+                                                         {kDiagonally_px, kDiagonally_px},
+                                                         {kDiagonally_px, -kDiagonally_px},
+                                                         {-kDiagonally_px, kDiagonally_px},
+                                                         {-kDiagonally_px, -kDiagonally_px}}};
+    PatchDots& dots = patch.dots;
+    const auto pixel_of = [&](float from_middle_px, int size_px) {
+        const auto scale = static_cast<float>(patch.scale);
+        const float at = from_middle_px / scale + static_cast<float>(size_px - 1) / 2 + 0.5F;
+        return std::clamp(static_cast<int>(at), 0, size_px - 1);
+    };
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(dots.count); ++i) {
+        const int u = pixel_of(dots.x[i], patch.width_px);
+        const int v = pixel_of(dots.y[i], patch.height_px);
+        const int threshold = patch.thresholds[static_cast<std::size_t>(
+            v / Patch::kTileHeight_px * Patch::kTilesPerRow + u / Patch::kTileWidth_px)];
+        int dark = 0;
+        for (const auto& [du, dv] : kAround) {
+            const int x = std::clamp(u + du, 0, patch.width_px - 1);
+            const int y = std::clamp(v + dv, 0, patch.height_px - 1);
+            dark += patch.row(patch.smoothed, y)[x] < threshold ? 1 : 0;
+        }
+        if (dark > kMostDark) continue;
+        dots.x[kept] = dots.x[i];
+        dots.y[kept++] = dots.y[i];
+    }
+    std::fill_n(dots.x.begin() + kept, 8, kNoDot_px);
+    std::fill_n(dots.y.begin() + kept, 8, 0.0F);
+    dots.count = static_cast<int>(kept);
+}
+
+/// Dots around one, itself included, that tell how far dots are apart.
+constexpr std::size_t kNearest = 20;
+
+float squared_reach_of_nearest(const PatchDots& dots, FloatVec of) {
+    std::array<float, PatchDots::kMost> squares;
+    const auto count = static_cast<std::size_t>(dots.count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const float x = dots.x[i] - of.x;
+        const float y = dots.y[i] - of.y;
+        squares[i] = x * x + y * y;
+    }
+    const auto farthest = squares.begin() + kNearest;
+    std::nth_element(squares.begin(), farthest, squares.begin() + count);
+    return *farthest;
+}
+
 }  // namespace
 
-bool find_grid(const Kernels& kernels, const Patch& patch, PatchGrid& grid) {
+PatchView whole_view(const Patch& patch) {
+    const auto scale = static_cast<float>(patch.scale);
+    const float area =
+        static_cast<float>((patch.width_px - 4) * (patch.height_px - 4)) * scale * scale;
+    return {std::sqrt(area / static_cast<float>(std::max(patch.dots.count, 1))),
+            static_cast<float>(std::max(patch.width_px, patch.height_px) * patch.scale) / 2 + 1};
+}
+
+bool count_from_densest(Patch& patch, PatchView& view, FloatVec& from_middle_px) {
+    keep_isolated(patch);
+    PatchDots& dots = patch.dots;
+    const int count = dots.count;
+    if (count < kFewestDots) return false;
+    // Some of them stand for all.
+    constexpr int kMostCandidates = 64;
+    const int step = count / kMostCandidates + 1;
+    float least = kNoDot_px;
+    for (int i = 0; i < count; i += step) {
+        const auto k = static_cast<std::size_t>(i);
+        const FloatVec candidate{dots.x[k], dots.y[k]};
+        const float reach_2 = squared_reach_of_nearest(dots, candidate);
+        if (reach_2 >= least) continue;
+        least = reach_2;
+        // Whole pixels, so that nothing is lost where planes are counted from there.
+        from_middle_px = {std::floor(candidate.x), std::floor(candidate.y)};
+    }
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+        dots.x[i] -= from_middle_px.x;
+        dots.y[i] -= from_middle_px.y;
+    }
+    view = whole_view(patch);
+    view.full_reach_px += std::max(std::abs(from_middle_px.x), std::abs(from_middle_px.y));
+    // A disc with so many dots has the area of as many cells.
+    view.spacing_px = std::sqrt(3.14159265F * least / (kNearest + 0.5F));
+    return true;
+}
+
+bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view,
+               PatchGrid& grid) {
     if (patch.dots.count < kFewestDots) return false;
-    const std::optional<Waves> waves = find_waves(kernels, patch);
+    const std::optional<Waves> waves = find_waves(kernels, patch, view.spacing_px);
     if (!waves) return false;
     FloatPlane& plane = grid.grid_from_image;
     plane = plane_from_waves(*waves);
     const float spacing = spacing_px(plane);
-    const float full = full_reach_px(patch);
+    const float full = view.full_reach_px;
     // Cells only: displacements are noise as yet.
     CellPass pass{3 * spacing, 0.42F, 0};
     CellSums sums;
