@@ -62,6 +62,22 @@ void follow_code(Profile profile, const Place& place, const CellsInView& view, W
     follow(corner.cell.y, corner.section.v, corner.cell.x, view.rows, w.row_rolls);
 }
 
+/// Leaves out windows so much darker than paper that they show the table beyond the sheet, where
+/// noise is as dark as dots. `paper` is the mean level around dots, once it is known.
+void leave_out_table(MeasuredDots& dots, float& paper) {
+    constexpr float kDarkest = 0.4F;
+    float sum = 0;
+    float count = 0;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(dots.count); ++k) {
+        const auto level = static_cast<float>(dots.paper[k]);
+        if (level < kDarkest * paper) dots.x[k] = kNoDot_px;
+        if (dots.x[k] >= kNoDot_px) continue;
+        sum += level;
+        count += 1;
+    }
+    if (paper == 0 && count > 0) paper = sum / count;
+}
+
 /// Whether what was measured bears out the bits expected, by and large.
 bool is_plausible(const BitsRead& bits, const MeasuredDots& dots, const Options& options,
                   bool shows_part) {
@@ -289,6 +305,7 @@ Confirmation confirm(const Kernels& kernels, const ImageView& image, const Optio
     const int most_dots = std::min(std::max(options.most_dots, 64), dots.capacity());
     PoseFit fit;
     BitsRead bits;
+    float paper = 0;
     for (Reach reach(image, sight, spacing);; reach.grow()) {
         const bool decides = reach.decides();
         if (!is_plausible(image, plane)) return Confirmation::implausible;
@@ -297,8 +314,11 @@ Confirmation confirm(const Kernels& kernels, const ImageView& image, const Optio
                                                decides ? dots.capacity() : most_dots, w);
         kernels.list_cells(view, dots);
         const float typical_mass = kernels.measure_windows(image, view, look, dots);
-        // Farther out, most windows may be empty.
-        if (sight.shows_part) look.typical_mass = typical_mass;
+        if (sight.shows_part) {
+            // Farther out, most windows may be empty.
+            look.typical_mass = typical_mass;
+            leave_out_table(dots, paper);
+        }
         BitBlock block;
         bits = read(kernels, sight, dots, decides ? &block : nullptr);
         if (!is_plausible(bits, dots, options, sight.shows_part)) return Confirmation::implausible;

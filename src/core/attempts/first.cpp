@@ -83,10 +83,11 @@ bool find_sight_around(const Kernels& kernels, const ImageView& image, const Opt
     FloatVec from_middle;
     if (!place_patch(image, around_px.x, around_px.y, kPatchWidth_px * scale,
                      kPatchHeight_px * scale, scale, patch) ||
-        !find_patch_dots(kernels, image, patch) ||
-        !count_from_densest(patch, view, from_middle)) {
+        !find_patch_dots(kernels, image, patch)) {
         return false;
     }
+    keep_isolated(patch);
+    if (!count_from_densest(patch, view, from_middle)) return false;
     densest_px = {static_cast<std::int32_t>(middle_u_px(patch) + from_middle.x),
                   static_cast<std::int32_t>(middle_v_px(patch) + from_middle.y)};
     const FloatVec middle = middle_of(patch, image);
@@ -113,10 +114,11 @@ bool locate_elsewhere(const Kernels& kernels, const ImageView& image, const Opti
                     const bool is_found = find_sight_around(kernels, image, options, around, scale,
                                                             w, densest, sight);
                     if (is_found) {
-                        --looks_left;
+                        const auto confirmation = confirm(kernels, image, options, sight, w);
                         w.fix.attempt = Attempt::first;
-                        if (confirm(kernels, image, options, sight, w) == Confirmation::ok)
-                            return true;
+                        if (confirmation == Confirmation::ok) return true;
+                        looks_left -= confirmation == Confirmation::uncertain ? 1 : 0;
+                        break;
                     }
                     if (densest == around) break;
                     around = densest;

@@ -25,9 +25,8 @@ struct PatchView {
 PatchView whole_view(const Patch& patch);
 
 /// Counts the dots of a patch that shows the pattern in a part only from the one that has the
-/// others nearest around it, and drops what is no dot: minima that do not lie in lighter
-/// surroundings. False if there are too few. `from_middle_px`: how far off the patch's middle it
-/// lies.
+/// others nearest around it. False if there are too few. `from_middle_px`: how far off the patch's
+/// middle it lies.
 bool count_from_densest(Patch& patch, PatchView& view, FloatVec& from_middle_px);
 
 /// False if the dots lie on no grid, or are not displaced.
