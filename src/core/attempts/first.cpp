@@ -46,7 +46,6 @@ bool find_patch_dots(const Kernels& kernels, const ImageView& image, Patch& patc
 bool read_sight(const Kernels& kernels, const Options& options, const PatchView& view,
                 FloatVec from_centre, Workspace& w, Sight& sight) {
     Patch& patch = *w.patch;
-    if (options.lens.k_q40 != 0) straighten(options.lens, from_centre, patch.dots);
     PatchGrid grid;
     if (!find_grid(kernels, patch, view, grid)) return false;
     BitBlock block;
@@ -68,6 +67,7 @@ bool find_sight(const Kernels& kernels, const ImageView& image, const Options& o
     Patch& patch = *w.patch;
     if (!find_patch_dots(kernels, image, patch)) return false;
     const FloatVec middle = middle_of(patch, image);
+    if (options.lens.k_q40 != 0) straighten(options.lens, middle, patch.dots);
     if (!read_sight(kernels, options, whole_view(patch), middle, w, sight)) return false;
     sight.pattern_from_image = recentred(sight.pattern_from_image, {-middle.x, -middle.y});
     sight.from_centre = {};
@@ -91,9 +91,15 @@ bool find_sight_around(const Kernels& kernels, const ImageView& image, const Opt
     densest_px = {static_cast<std::int32_t>(middle_u_px(patch) + from_middle.x),
                   static_cast<std::int32_t>(middle_v_px(patch) + from_middle.y)};
     const FloatVec middle = middle_of(patch, image);
+    const FloatVec from_centre{middle.x + from_middle.x, middle.y + from_middle.y};
+    if (options.lens.k_q40 != 0) straighten(options.lens, from_centre, patch.dots);
     sight.shows_part = true;
-    return read_sight(kernels, options, view,
-                      {middle.x + from_middle.x, middle.y + from_middle.y}, w, sight);
+    // Where dots are displaced so far that their waves are faint, some discs show others.
+    for (const float central_dots : {30.0F, 20.0F, 45.0F}) {
+        view.central_dots = central_dots;
+        if (read_sight(kernels, options, view, from_centre, w, sight)) return true;
+    }
+    return false;
 }
 
 /// Looks all over the image for dots: once in each patch, and once more around where they are

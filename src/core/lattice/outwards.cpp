@@ -11,8 +11,7 @@ namespace dotpose::core {
 namespace {
 
 constexpr int kFewestDots = 40;
-/// Dots near the middle whose waves are looked at: about so many, and at most.
-constexpr float kCentralDots = 30;
+/// Dots near the middle whose waves are looked at.
 constexpr int kFewestCentralDots = 14;
 constexpr int kMostCentralDots = 64;
 /// Of the power that a grid without displacements would have: enough to stop, and enough to go on.
@@ -24,12 +23,14 @@ constexpr float kFaintWaves = 0.12F;
 constexpr float kFinest_px = 5.2F;
 constexpr float kCoarsest_px = 40;
 
-std::optional<Waves> find_waves(const Kernels& kernels, const Patch& patch, float spacing) {
+std::optional<Waves> find_waves(const Kernels& kernels, const Patch& patch,
+                                const PatchView& view) {
+    const float spacing = view.spacing_px;
     const PatchDots& dots = patch.dots;
     const auto scale = static_cast<float>(patch.scale);
     if (spacing < kFinest_px * scale || spacing > kCoarsest_px * scale) return {};
     // A disc that holds as many.
-    const float radius_2 = kCentralDots * spacing * spacing / 3.14159265F;
+    const float radius_2 = view.central_dots * spacing * spacing / 3.14159265F;
     alignas(64) std::array<float, kMostCentralDots + 8> x;
     alignas(64) std::array<float, kMostCentralDots + 8> y;
     std::size_t count = 0;
@@ -217,7 +218,7 @@ bool count_from_densest(Patch& patch, PatchView& view, FloatVec& from_middle_px)
 bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view,
                PatchGrid& grid) {
     if (patch.dots.count < kFewestDots) return false;
-    const std::optional<Waves> waves = find_waves(kernels, patch, view.spacing_px);
+    const std::optional<Waves> waves = find_waves(kernels, patch, view);
     if (!waves) return false;
     FloatPlane& plane = grid.grid_from_image;
     plane = plane_from_waves(*waves);
@@ -233,7 +234,7 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
     constexpr float kUndisplaced = 1.0F / 256;
     const float mean_square = sums.squares / sums.used;
     if (mean_square < kUndisplaced) return false;
-    grid.displacement = std::clamp(std::sqrt(mean_square), 0.11F, 0.24F);
+    grid.displacement = std::clamp(std::sqrt(mean_square), 0.11F, 0.32F);
     // Then the nearest of four places counts, which leaves a fifth of that noise.
     pass.displacement = grid.displacement;
     pass.most_off = 0.75F * grid.displacement;

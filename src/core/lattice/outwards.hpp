@@ -19,6 +19,8 @@ struct PatchGrid {
 struct PatchView {
     float spacing_px = 0;     ///< about, of the image
     float full_reach_px = 0;  ///< no dot is farther along an axis
+    /// Dots near the middle whose waves are looked at: about so many, and at most 64.
+    float central_dots = 30;
 };
 
 /// Of a patch that is full of dots.
