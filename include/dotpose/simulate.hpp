@@ -76,7 +76,7 @@ struct Imperfections {
     /// Inks of unequal darkness, one for each direction of displacement: the contrast of the palest
     /// relative to the darkest, which has `ink_reflectance`; the other two lie evenly in between.
     double palest_ink = 1;
-    double vignetting = 0;          ///< loss of light in the image corners, growing with r^2
+    double vignetting = 0;  ///< loss of light in the image corners, growing with r^2
     /// Linear change of light from one side to the other, relative to that at the centre; 0 to 2.
     double fall = 0;
     double fall_direction_rad = 0;  ///< image direction of less light, from +u towards +v

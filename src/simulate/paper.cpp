@@ -88,9 +88,9 @@ class Table {
           px_per_grid_(page.pattern.spacing_mm / view.camera.mm_per_px) {}
 
     double light_at(Vec2 offset_mm) const {
-        const double beyond_px = px_per_grid_ * page_.paper->distance(
-                                                    origin_.x + offset_mm.x * grid_per_mm_.x,
-                                                    origin_.y + offset_mm.y * grid_per_mm_.y);
+        const double beyond_px =
+            px_per_grid_ * page_.paper->distance(origin_.x + offset_mm.x * grid_per_mm_.x,
+                                                 origin_.y + offset_mm.y * grid_per_mm_.y);
         return 1 - (1 - page_.table_reflectance) * std::clamp(0.5 + beyond_px, 0.0, 1.0);
     }
 

@@ -90,11 +90,10 @@ PageArea draw_island(const Shot& shot, Rng& rng) {
     area.half_height = std::max(rng.uniform(7, 12), kFewest / width) / 2;
     area.angle_rad = draw_direction(shot, rng);
     const Projection projection(shot.camera, shot.pose);
-    const double reach_px = 0.75 * spacing_px(shot) *
-                            std::hypot(area.half_width, area.half_height);
-    const Vec2 offset_mm = projection.offset_from_pixel(
-        {rng.uniform(reach_px, shot.camera.width_px - reach_px),
-         rng.uniform(reach_px, shot.camera.height_px - reach_px)});
+    const double reach_px = 0.75 * spacing_px(shot) * std::hypot(area.half_width, area.half_height);
+    const Vec2 offset_mm =
+        projection.offset_from_pixel({rng.uniform(reach_px, shot.camera.width_px - reach_px),
+                                      rng.uniform(reach_px, shot.camera.height_px - reach_px)});
     area.x_grid = x_grid(shot.pose) + offset_mm.x / shot.page.pattern.spacing_mm;
     area.y_grid = y_grid(shot.pose) + offset_mm.y / shot.page.pattern.spacing_mm;
     return area;
@@ -115,9 +114,8 @@ bool draw_islands(const Shot& shot, int count, Rng& rng, std::vector<PageArea>& 
         const double share = share_in(island, sample_points(shot));
         const bool is_whole =
             share * intersections(shot) >= 0.97 * 4 * island.half_width * island.half_height;
-        if (is_whole && std::ranges::all_of(areas, [&](const PageArea& other) {
-                return are_apart(island, other);
-            }))
+        if (is_whole && std::ranges::all_of(
+                            areas, [&](const PageArea& other) { return are_apart(island, other); }))
             areas.push_back(island);
     }
     return static_cast<int>(areas.size()) == count;
@@ -135,6 +133,9 @@ double PageArea::distance(double x, double y) const {
 }
 
 void cover_partly(Shot& shot, const PartialView& view) {
+    if (!(view.least_share > 0 && view.least_share <= view.most_share && view.most_share <= 1))
+        throw BadArgument("the share that is covered must be above 0 and at most 1");
+    if (view.islands < 0 || view.islands > 16) throw BadArgument("islands must be 0 to 16");
     Rng rng(shot.seed, 2);
     if (view.islands > 0) {
         for (int tries = 0; !draw_islands(shot, view.islands, rng, shot.page.areas); ++tries) {
@@ -143,8 +144,7 @@ void cover_partly(Shot& shot, const PartialView& view) {
         return;
     }
     // A dot or two of each row at the border is not seen whole.
-    const double least =
-        std::max(view.least_share, 1.15 * view.fewest_dots / intersections(shot));
+    const double least = std::max(view.least_share, 1.15 * view.fewest_dots / intersections(shot));
     const double share = rng.uniform(least, std::max(least, view.most_share));
     const PageArea dots = edge_of_sheet(shot, share, rng);
     shot.page.areas = {dots};

@@ -85,9 +85,8 @@ bool is_plausible(const BitsRead& bits, const MeasuredDots& dots, const Options&
     const auto share_is_wrong = [&](int wrong) {
         return 256 * wrong > bits.read * options.integrity.max_bit_error_q8;
     };
-    return bits.read >= options.lattice.min_dots && is_full &&
-           2 * bits.read >= bits.seen && !share_is_wrong(bits.wrong_x) &&
-           !share_is_wrong(bits.wrong_y);
+    return bits.read >= options.lattice.min_dots && is_full && 2 * bits.read >= bits.seen &&
+           !share_is_wrong(bits.wrong_x) && !share_is_wrong(bits.wrong_y);
 }
 
 BitsRead read(const Kernels& kernels, const Sight& sight, const MeasuredDots& dots,
@@ -210,6 +209,26 @@ void write_fix(const ImageView& image, const Options& options, const Sight& sigh
     w.fix.status = Status::ok;
 }
 
+/// How far is looked, round by round, px.
+struct Reach {
+    float full;      ///< the whole image
+    float deciding;  ///< whose bits must make the position certain; farther out they add nothing
+    float now;
+
+    Reach(const ImageView& image, const Sight& sight, float spacing_px)
+        : full(half_side_px(image) +
+               std::max(std::abs(sight.from_centre.x), std::abs(sight.from_centre.y)) + 1),
+          deciding(full <= kDenseAtMost * spacing_px ? full : kDense * spacing_px),
+          now(deciding) {
+        if (!sight.shows_part) return;
+        // Where the pattern ends, it is not full, and where there are islands, one is not certain.
+        deciding = std::min(full, kDecidingOfPart * spacing_px);
+        now = std::min(full, kDenseOfPart * spacing_px);
+    }
+    bool decides() const { return now == deciding; }
+    void grow() { now = std::min(now * kFarther, now < deciding ? deciding : full); }
+};
+
 }  // namespace
 
 bool is_plausible(const ImageView& image, const FloatPlane& plane) {
@@ -275,26 +294,6 @@ void count_from_centre(Profile profile, Sight& sight) {
     sight.place = moved(profile, sight.place, static_cast<std::int32_t>(column),
                         static_cast<std::int32_t>(row));
 }
-
-/// How far is looked, round by round, px.
-struct Reach {
-    float full;      ///< the whole image
-    float deciding;  ///< whose bits must make the position certain; farther out they add nothing
-    float now;
-
-    Reach(const ImageView& image, const Sight& sight, float spacing_px)
-        : full(half_side_px(image) +
-               std::max(std::abs(sight.from_centre.x), std::abs(sight.from_centre.y)) + 1),
-          deciding(full <= kDenseAtMost * spacing_px ? full : kDense * spacing_px),
-          now(deciding) {
-        if (!sight.shows_part) return;
-        // Where the pattern ends, it is not full, and where there are islands, one is not certain.
-        deciding = std::min(full, kDecidingOfPart * spacing_px);
-        now = std::min(full, kDenseOfPart * spacing_px);
-    }
-    bool decides() const { return now == deciding; }
-    void grow() { now = std::min(now * kFarther, now < deciding ? deciding : full); }
-};
 
 Confirmation confirm(const Kernels& kernels, const ImageView& image, const Options& options,
                      Sight sight, Workspace& w) {

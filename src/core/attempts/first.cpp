@@ -95,9 +95,11 @@ bool find_sight_around(const Kernels& kernels, const ImageView& image, const Opt
     if (options.lens.k_q40 != 0) straighten(options.lens, from_centre, patch.dots);
     sight.shows_part = true;
     // Where dots are displaced so far that their waves are faint, some discs show others.
-    for (const float central_dots : {30.0F, 20.0F, 45.0F}) {
-        view.central_dots = central_dots;
-        if (read_sight(kernels, options, view, from_centre, w, sight)) return true;
+    for (const float central_dots : {30.0F, 20.0F, 45.0F, 25.0F, 37.0F}) {
+        for (const float by : {1.0F, 0.965F}) {
+            const PatchView other{by * view.spacing_px, view.full_reach_px, central_dots};
+            if (read_sight(kernels, options, other, from_centre, w, sight)) return true;
+        }
     }
     return false;
 }

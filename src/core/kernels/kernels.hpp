@@ -181,8 +181,8 @@ struct Kernels {
                        Vec& shift_px, int& cut_q8);
     /// Centres of what is dark in the dots' windows; none where that is much more or less than in
     /// a typical one, whose mass is returned.
-    float (*measure_windows)(const ImageView& image, const CellsInView& view, const WindowLook& look,
-                            MeasuredDots& dots);
+    float (*measure_windows)(const ImageView& image, const CellsInView& view,
+                             const WindowLook& look, MeasuredDots& dots);
     /// Bits of the dots as measured, against those that the code has there. Adds them to empty
     /// lines, where these are asked for, by the cell counted from (-32, -32); each cell may have
     /// one dot.

@@ -23,8 +23,7 @@ constexpr float kFaintWaves = 0.12F;
 constexpr float kFinest_px = 5.2F;
 constexpr float kCoarsest_px = 40;
 
-std::optional<Waves> find_waves(const Kernels& kernels, const Patch& patch,
-                                const PatchView& view) {
+std::optional<Waves> find_waves(const Kernels& kernels, const Patch& patch, const PatchView& view) {
     const float spacing = view.spacing_px;
     const PatchDots& dots = patch.dots;
     const auto scale = static_cast<float>(patch.scale);
@@ -215,8 +214,7 @@ bool count_from_densest(Patch& patch, PatchView& view, FloatVec& from_middle_px)
     return true;
 }
 
-bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view,
-               PatchGrid& grid) {
+bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view, PatchGrid& grid) {
     if (patch.dots.count < kFewestDots) return false;
     const std::optional<Waves> waves = find_waves(kernels, patch, view);
     if (!waves) return false;
