@@ -117,12 +117,16 @@ inline void add_dots(std::vector<Limit>& limits) {
                               camera});
         }
     }
-    for (const auto& [length, share] : {Dots{"0.12", 0.12}, {"0.20", 0.20}}) {
+    for (const auto& [length, share] :
+         {Dots{"0.12", 0.12}, {"0.20", 0.20}, {"0.28", 0.28}, {"0.30", 0.30}}) {
         limits.push_back({std::string("dots displaced by ") + length + " of the spacing",
                           [share = share](Shot& shot) {
                               shot.page.pattern.displacement_mm = share * kDefaultSpacing_mm;
                           }});
+        limits.back().is_held = share < 0.30;
     }
+    limits.push_back({"one ink for each direction, the palest with 0.4 of the contrast",
+                      [](Shot& shot) { shot.imperfections.palest_ink = 0.4; }});
     for (const int percent : {10, 20, 25}) {
         limits.push_back({std::to_string(percent) + " % of the dots missing",
                           [=](Shot& shot) { shot.imperfections.missing = percent / 100.0; }});
@@ -217,6 +221,27 @@ inline void add_sizes(std::vector<Limit>& limits) {
     }
 }
 
+/// The pattern covers a part of the view.
+inline void add_partial(std::vector<Limit>& limits) {
+    for (const int spacing_px : {11, 14, 20}) {
+        const std::string seen = ", 640 x 480 at " + std::to_string(spacing_px) + " px";
+        const CameraModel camera = camera_of(640, 480, spacing_px);
+        const auto part = [&](const std::string& condition, const PartialView& view) {
+            limits.push_back(
+                {condition + seen, [view](Shot& shot) { cover_partly(shot, view); }, camera});
+        };
+        PartialView on_table;
+        on_table.on_table = true;
+        PartialView islands;
+        islands.islands = 3;
+        part("dots on 15 to 45 % of the area, the rest paper", {});
+        // At 20 px, strips of seven rows leave doubts.
+        limits.back().is_held = spacing_px < 20;
+        part("the same, the rest a dark table", on_table);
+        part("three islands of 60 dots and more", islands);
+    }
+}
+
 /// What a camera sees of a sheet whose dots are as light as the paper of `shot`, and whose paper is
 /// as dark as its ink.
 inline GreyImage white_on_black(const Shot& shot) {
@@ -243,6 +268,7 @@ inline std::vector<Limit> all_limits() {
     detail::add_light(limits);
     detail::add_dots(limits);
     detail::add_covered(limits);
+    detail::add_partial(limits);
     detail::add_camera_faults(limits);
     detail::add_sizes(limits);
     return limits;

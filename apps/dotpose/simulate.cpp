@@ -47,6 +47,8 @@ struct NumberOption {
 constexpr NumberOption kNumberOptions[] = {
     {"--paper", "LEVEL", "Grey level of paper at the image centre", &Imperfections::paper_level},
     {"--ink", "FRACTION", "Reflectance of ink, relative to paper", &Imperfections::ink_reflectance},
+    {"--palest-ink", "FRACTION", "Contrast of the palest of four inks, one for each direction",
+     &Imperfections::palest_ink},
     {"--ink-variation", "FRACTION", "Its deviation from dot to dot", &Imperfections::ink_variation},
     {"--vignetting", "FRACTION", "Loss of light in the corners", &Imperfections::vignetting},
     {"--fall", "FRACTION", "Change of light from side to side", &Imperfections::fall},
@@ -75,6 +77,9 @@ struct SimulateArguments {
     Pair at_grid;
     Pair motion_px;
     Pair tilt_deg;
+    Pair covered;
+    int islands = 0;
+    bool on_table = false;
     std::optional<int> dirt_blobs;
     std::optional<int> graphics;
     std::optional<double> numbers[std::size(kNumberOptions)];
@@ -109,6 +114,17 @@ Shot shot_of(const SimulateArguments& arguments, int index) {
         pose.cell = {static_cast<std::uint32_t>(at.x), static_cast<std::uint32_t>(at.y)};
         pose.fraction_x = at.x - pose.cell.x;
         pose.fraction_y = at.y - pose.cell.y;
+    }
+    if (arguments.covered.given() || arguments.islands > 0 || arguments.on_table) {
+        PartialView view;
+        view.islands = arguments.islands;
+        view.on_table = arguments.on_table;
+        if (arguments.covered.given()) {
+            view.least_share = to_vec(arguments.covered).x;
+            view.most_share = to_vec(arguments.covered).y;
+            view.fewest_dots = 0;
+        }
+        cover_partly(shot, view);
     }
     return shot;
 }
@@ -250,6 +266,13 @@ void add_overrides(CLI::App& command, SimulateArguments& arguments) {
         const NumberOption& option = kNumberOptions[i];
         command.add_option(option.flag, arguments.numbers[i], option.help)->type_name(option.unit);
     }
+    add_pair(command, "--covered", "FROM,TO", arguments.covered,
+             "Share of the frame that has dots, along a border or in a corner");
+    command
+        .add_option("--islands", arguments.islands, "Rectangles of dots in each frame, else none")
+        ->type_name("N");
+    command.add_flag("--table", arguments.on_table,
+                     "The sheet ends in the frame, a dark table is beyond");
     command.add_option("--dirt", arguments.dirt_blobs, "Dark specks in each frame")->type_name("N");
     command.add_option("--graphics", arguments.graphics, "Thick strokes or words in each frame")
         ->type_name("N");

@@ -19,7 +19,9 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "dotpose/code.hpp"
 #include "dotpose/error.hpp"
@@ -71,7 +73,10 @@ struct Imperfections {
     double paper_level = 200;       ///< grey level of bare paper at the image centre, 0 to 255
     double ink_reflectance = 0.15;  ///< relative to paper
     double ink_variation = 0;       ///< deviation of a dot's reflectance, relative to paper
-    double vignetting = 0;          ///< loss of light in the image corners, growing with r^2
+    /// Inks of unequal darkness, one for each direction of displacement: the contrast of the palest
+    /// relative to the darkest, which has `ink_reflectance`; the other two lie evenly in between.
+    double palest_ink = 1;
+    double vignetting = 0;  ///< loss of light in the image corners, growing with r^2
     /// Linear change of light from one side to the other, relative to that at the centre; 0 to 2.
     double fall = 0;
     double fall_direction_rad = 0;  ///< image direction of less light, from +u towards +v
@@ -97,6 +102,18 @@ const char* name(Preset preset);
 /// Draws each imperfection from the preset's range, uniformly.
 Imperfections draw_imperfections(Preset preset, Rng& rng);
 
+/// A rectangle on a page, turned by any angle.
+struct PageArea {
+    double x_grid = 0;  ///< its middle, in grid units
+    double y_grid = 0;
+    double half_width = 0;  ///< in grid units
+    double half_height = 0;
+    double angle_rad = 0;  ///< of the side that is `half_width`, from +x towards +y
+
+    /// How far a point lies outside, in grid units; below 0 inside.
+    double distance(double x, double y) const;
+};
+
 /// A printed page: a pattern, its printing errors, and how far it reaches.
 struct Page {
     Pattern pattern;
@@ -110,6 +127,12 @@ struct Page {
     /// Above 0. Pose and `displacement_mm` are told as meant to be printed, offsets and theta are
     /// those on the paper.
     AxisScale print_scale;
+    /// Dots are printed where their intersection lies in one of these; if there are none, on the
+    /// whole page.
+    std::vector<PageArea> areas;
+    /// Where the paper ends, if it does, and what the table beyond reflects, relative to paper.
+    std::optional<PageArea> paper;
+    double table_reflectance = 0.2;
 };
 
 Page page_of(const Sheet& sheet, std::uint64_t seed = 1);
@@ -180,6 +203,25 @@ struct Shot {
 /// Frame `index` of a run: uniform angle, position anywhere on the plane with the whole frame on
 /// it, imperfections from the preset.
 Shot draw_shot(const Setup& setup, std::uint64_t index);
+
+/// A view of which the pattern covers a part only.
+struct PartialView {
+    /// 0: one area along a border or in a corner of the image. Else so many rectangles anywhere in
+    /// it, apart from each other, of `kFewestIslandDots` dots and more.
+    int islands = 0;
+    static constexpr int kFewestIslandDots = 60;
+    /// Of the image, what the one area covers: between these, and at least `fewest_dots`.
+    double least_share = 0.15;
+    double most_share = 0.45;
+    int fewest_dots = 150;
+    /// The one area is the corner or side of a sheet that lies on a table.
+    bool on_table = false;
+};
+
+/// Draws, from the shot's seed, where its page has dots, and where its paper ends. Areas have the
+/// direction of the pattern in every second frame, else that of the image. Throws BadArgument where
+/// there is no room for the islands.
+void cover_partly(Shot& shot, const PartialView& view);
 
 GreyImage render(const Shot& shot);
 

@@ -26,13 +26,32 @@ DotErrors errors_of(const Page& page, Cell cell) {
     return errors;
 }
 
+bool is_in_areas(const Page& page, std::int64_t x, std::int64_t y) {
+    if (page.areas.empty()) return true;
+    return std::ranges::any_of(page.areas, [&](const PageArea& area) {
+        return area.distance(static_cast<double>(x), static_cast<double>(y)) <= 0;
+    });
+}
+
 bool printed(const Page& page, std::int64_t x, std::int64_t y) {
+    if (!is_in_areas(page, x, y)) return false;
     if (page.columns == 0) {
         return x >= 0 && y >= 0 && x < kPositionsPerAxis && y < kPositionsPerAxis;
     }
     const std::int64_t column = x - page.origin.x;
     const std::int64_t row = y - page.origin.y;
     return column >= 0 && row >= 0 && column < page.columns && row < page.rows;
+}
+
+/// Of the ink in which the dots of a direction are printed: right, down, left, up from the darkest
+/// to the palest.
+double reflectance_of(Vec2 displacement, const Imperfections& imperfections) {
+    const double paleness = displacement.x > 0   ? 0
+                            : displacement.y > 0 ? 1
+                            : displacement.x < 0 ? 2
+                                                 : 3;
+    const double contrast = 1 - (1 - imperfections.palest_ink) * paleness / 3;
+    return 1 - (1 - imperfections.ink_reflectance) * contrast;
 }
 
 }  // namespace
@@ -125,8 +144,8 @@ void add_dots(Ink& ink, const View& view, const Page& page, const Imperfections&
                                   errors.jitter.x * imperfections.jitter_mm,
                               scale.y * meant_mm(y, pose.fraction_y, displacement.y) +
                                   errors.jitter.y * imperfections.jitter_mm};
-            const double reflectance =
-                imperfections.ink_reflectance + imperfections.ink_variation * errors.ink;
+            const double reflectance = reflectance_of(displacement, imperfections) +
+                                       imperfections.ink_variation * errors.ink;
             add_disc(ink, view, offset, pattern.dot_mm / 2, std::clamp(reflectance, 0.0, 1.0));
         }
     }

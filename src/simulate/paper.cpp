@@ -79,6 +79,30 @@ class Texture {
     std::vector<double> nodes_;
 };
 
+/// What of the light is left where the paper ends: pixels on its edge see both.
+class Table {
+  public:
+    Table(const Page& page, const View& view)
+        : page_(page),
+          origin_{x_grid(view.pose), y_grid(view.pose)},
+          grid_per_mm_{1 / (page.print_scale.x * page.pattern.spacing_mm),
+                       1 / (page.print_scale.y * page.pattern.spacing_mm)},
+          px_per_grid_(page.pattern.spacing_mm / view.camera.mm_per_px) {}
+
+    double light_at(Vec2 offset_mm) const {
+        const double beyond_px =
+            px_per_grid_ * page_.paper->distance(origin_.x + offset_mm.x * grid_per_mm_.x,
+                                                 origin_.y + offset_mm.y * grid_per_mm_.y);
+        return 1 - (1 - page_.table_reflectance) * std::clamp(0.5 + beyond_px, 0.0, 1.0);
+    }
+
+  private:
+    const Page& page_;
+    Vec2 origin_;
+    Vec2 grid_per_mm_;
+    double px_per_grid_;
+};
+
 }  // namespace
 
 std::vector<float> bare_paper(const View& view, const Page& page,
@@ -91,6 +115,7 @@ std::vector<float> bare_paper(const View& view, const Page& page,
     const double across_px =
         std::abs(towards.x) * camera.width_px + std::abs(towards.y) * camera.height_px;
     const Texture texture(page, view, imperfections.texture);
+    const Table table(page, view);
 
     const auto width = static_cast<std::size_t>(camera.width_px + 2 * border_px);
     std::vector<double> levels(width);
@@ -106,10 +131,11 @@ std::vector<float> bare_paper(const View& view, const Page& page,
             levels[i] =
                 imperfections.paper_level * std::max(0.0, 1 - shade) * std::max(0.0, 1 - slope);
         }
-        if (imperfections.texture > 0) {
+        if (imperfections.texture > 0 || page.paper)
             view.projection.offsets_from_row({-1.0 * border_px, 1.0 * v}, offsets_mm);
-            for (std::size_t i = 0; i < width; ++i)
-                levels[i] *= texture.at(offsets_mm[i]);
+        for (std::size_t i = 0; i < width; ++i) {
+            if (imperfections.texture > 0) levels[i] *= texture.at(offsets_mm[i]);
+            if (page.paper) levels[i] *= table.light_at(offsets_mm[i]);
         }
         paper.insert(paper.end(), levels.begin(), levels.end());
     }

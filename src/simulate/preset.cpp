@@ -96,7 +96,10 @@ Page page_of(const Sheet& sheet, std::uint64_t seed) {
             sheet.origin,
             static_cast<std::uint32_t>(sheet.columns),
             static_cast<std::uint32_t>(sheet.rows),
-            {}};
+            {},
+            {},
+            {},
+            Page{}.table_reflectance};
 }
 
 Shot draw_shot(const Setup& setup, std::uint64_t index) {

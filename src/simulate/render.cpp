@@ -61,8 +61,9 @@ void check(const Page& page, const CameraModel& camera, const CameraPose& pose,
             "the section must be 0 to 62");
     const Imperfections& i = imperfections;
     require(within(i.paper_level, 0, 255), "the paper level must be 0 to 255");
-    for (const double fraction : {i.ink_reflectance, i.ink_variation, i.vignetting,
-                                  i.salt_and_pepper, i.missing, i.texture}) {
+    for (const double fraction :
+         {i.ink_reflectance, i.ink_variation, i.palest_ink, i.vignetting, i.salt_and_pepper,
+          i.missing, i.texture, page.table_reflectance}) {
         require(within(fraction, 0, 1), "fractions and reflectances must be 0 to 1");
     }
     require(within(i.fall, 0, 2), "the fall of light must be 0 to 2");

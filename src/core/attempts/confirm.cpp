@@ -22,6 +22,9 @@ namespace {
 constexpr float kDense = 10;
 /// Where the image ends within so many, it is measured at once.
 constexpr float kDenseAtMost = 17;
+/// The same where the pattern may end anywhere, and how far the bits reach that make it certain.
+constexpr float kDenseOfPart = 6;
+constexpr float kDecidingOfPart = 32;
 /// How much farther a plane can be trusted than the dots reach that it was fitted to.
 constexpr float kFarther = 3.5F;
 
@@ -60,14 +63,31 @@ void follow_code(Profile profile, const Place& place, const CellsInView& view, W
     follow(corner.cell.y, corner.section.v, corner.cell.x, view.rows, w.row_rolls);
 }
 
+/// Leaves out windows so much darker than paper that they show the table beyond the sheet, where
+/// noise is as dark as dots. `paper` is the mean level around dots, once it is known.
+void leave_out_table(MeasuredDots& dots, float& paper) {
+    constexpr float kDarkest = 0.4F;
+    float sum = 0;
+    float count = 0;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(dots.count); ++k) {
+        const auto level = static_cast<float>(dots.paper[k]);
+        if (level < kDarkest * paper) dots.x[k] = kNoDot_px;
+        if (dots.x[k] >= kNoDot_px) continue;
+        sum += level;
+        count += 1;
+    }
+    if (paper == 0 && count > 0) paper = sum / count;
+}
+
 /// Whether what was measured bears out the bits expected, by and large.
-bool is_plausible(const BitsRead& bits, const MeasuredDots& dots, const Options& options) {
+bool is_plausible(const BitsRead& bits, const MeasuredDots& dots, const Options& options,
+                  bool shows_part) {
+    const bool is_full = 4 * bits.seen >= dots.count || shows_part;
     const auto share_is_wrong = [&](int wrong) {
         return 256 * wrong > bits.read * options.integrity.max_bit_error_q8;
     };
-    return bits.read >= options.lattice.min_dots && 4 * bits.seen >= dots.count &&
-           2 * bits.read >= bits.seen && !share_is_wrong(bits.wrong_x) &&
-           !share_is_wrong(bits.wrong_y);
+    return bits.read >= options.lattice.min_dots && is_full && 2 * bits.read >= bits.seen &&
+           !share_is_wrong(bits.wrong_x) && !share_is_wrong(bits.wrong_y);
 }
 
 BitsRead read(const Kernels& kernels, const Sight& sight, const MeasuredDots& dots,
@@ -183,14 +203,42 @@ void write_fix(const ImageView& image, const Options& options, const Sight& sigh
     w.fix.bit_errors = bits.wrong_x + bits.wrong_y;
     w.fix.displacement_q16 = static_cast<std::int32_t>(fit.displacement * 65536);
     const Vec centre_q8{(image.width_px - 1) * 128, (image.height_px - 1) * 128};
-    w.pattern_from_image = fixed_plane(sight.pattern_from_image, centre_q8);
+    const FloatVec from = sight.from_centre;
+    const Vec from_q8{static_cast<std::int32_t>(from.x * 256),
+                      static_cast<std::int32_t>(from.y * 256)};
+    w.pattern_from_image = fixed_plane(sight.pattern_from_image, centre_q8 + from_q8);
     w.decoding.place = sight.place;
     w.decoding.pattern_from_grid = {};
     const Vec reference = reference_q8(centre_q8, options);
     write_pose(w.pattern_from_image, reference, options.profile, sight.place, w.fix);
     estimate_covariance(fit, w.pattern_from_image, reference, w.fix);
+    if (!(from_q8 == Vec{})) {
+        // Who goes on from the fix counts from the image centre.
+        w.fix.pattern_from_image =
+            fixed_plane(recentred(sight.pattern_from_image, {-from.x, -from.y}), centre_q8);
+    }
     w.fix.status = Status::ok;
 }
+
+/// How far is looked, round by round, px.
+struct Reach {
+    float full;      ///< the whole image
+    float deciding;  ///< whose bits must make the position certain; farther out they add nothing
+    float now;
+
+    Reach(const ImageView& image, const Sight& sight, float spacing_px)
+        : full(half_side_px(image) +
+               std::max(std::abs(sight.from_centre.x), std::abs(sight.from_centre.y)) + 1),
+          deciding(full <= kDenseAtMost * spacing_px ? full : kDense * spacing_px),
+          now(deciding) {
+        if (!sight.shows_part) return;
+        // Where the pattern ends, it is not full, and where there are islands, one is not certain.
+        deciding = std::min(full, kDecidingOfPart * spacing_px);
+        now = std::min(full, kDenseOfPart * spacing_px);
+    }
+    bool decides() const { return now == deciding; }
+    void grow() { now = std::min(now * kFarther, now < deciding ? deciding : full); }
+};
 
 }  // namespace
 
@@ -262,37 +310,40 @@ Confirmation confirm(const Kernels& kernels, const ImageView& image, const Optio
                      Sight sight, Workspace& w) {
     FloatPlane& plane = sight.pattern_from_image;
     MeasuredDots& dots = w.measured;
-    const float full = half_side_px(image) + 1;
     const float spacing = spacing_px(plane);
-    const WindowLook look{spacing, 0.36F, sight.depth_q8 * kCutOfDepth_q8 >> 8};
-    float reach = full <= kDenseAtMost * spacing ? full : kDense * spacing;
+    WindowLook look{spacing, 0.36F, sight.depth_q8 * kCutOfDepth_q8 >> 8};
     const int most_dots = std::min(std::max(options.most_dots, 64), dots.capacity());
     PoseFit fit;
     BitsRead bits;
-    for (bool is_first = true;; is_first = false) {
+    float paper = 0;
+    for (Reach reach(image, sight, spacing);; reach.grow()) {
+        const bool decides = reach.decides();
         if (!is_plausible(image, plane)) return Confirmation::implausible;
         count_from_centre(options.profile, sight);
-        const CellsInView view =
-            cells_in_view(image, options, sight, reach, is_first ? dots.capacity() : most_dots, w);
+        const CellsInView view = cells_in_view(image, options, sight, reach.now,
+                                               decides ? dots.capacity() : most_dots, w);
         kernels.list_cells(view, dots);
-        kernels.measure_windows(image, view, look, dots);
+        const float typical_mass = kernels.measure_windows(image, view, look, dots);
+        if (sight.shows_part) {
+            // Farther out, most windows may be empty.
+            look.typical_mass = typical_mass;
+            leave_out_table(dots, paper);
+        }
         BitBlock block;
-        // Farther out they add nothing to the certainty.
-        bits = read(kernels, sight, dots, is_first ? &block : nullptr);
-        if (!is_plausible(bits, dots, options)) return Confirmation::implausible;
-        if (is_first && !is_clean(bits)) {
+        bits = read(kernels, sight, dots, decides ? &block : nullptr);
+        if (!is_plausible(bits, dots, options, sight.shows_part)) return Confirmation::implausible;
+        if (decides && !is_clean(bits)) {
             // Through a plane that is fitted to all dots, fewer bits are misread.
             if (!fit_to_dots(kernels, dots, bits, image, sight, fit))
                 return Confirmation::implausible;
             block = {};
             bits = read(kernels, sight, dots, &block);
         }
-        if (is_first && !is_certain(kernels, options, sight, view, block, bits, w)) {
+        if (decides && !is_certain(kernels, options, sight, view, block, bits, w)) {
             return Confirmation::uncertain;
         }
         if (!fit_to_dots(kernels, dots, bits, image, sight, fit)) return Confirmation::implausible;
-        if (reach >= full) break;
-        reach = std::min(reach * kFarther, full);
+        if (reach.now >= reach.full) break;
     }
     if (!is_plausible(image, plane)) return Confirmation::implausible;
     if (is_far_fetched(fit, 2 * bits.read, bits.wrong_x + bits.wrong_y))

@@ -27,29 +27,114 @@ void straighten(const Lens& lens, FloatVec middle, PatchDots& dots) {
     }
 }
 
-bool find_sight(const Kernels& kernels, const ImageView& image, const Options& options,
-                Workspace& w, Sight& sight) {
-    Patch& patch = *w.patch;
+/// Where a patch has its middle, from the image centre.
+FloatVec middle_of(const Patch& patch, const ImageView& image) {
+    return {middle_u_px(patch) - static_cast<float>(image.width_px - 1) / 2,
+            middle_v_px(patch) - static_cast<float>(image.height_px - 1) / 2};
+}
+
+/// The patch's dots. False if it has no contrast.
+bool find_patch_dots(const Kernels& kernels, const ImageView& image, Patch& patch) {
     kernels.fill_patch(image, patch);
     kernels.smooth_patch(patch);
     if (!measure_contrast(patch)) return false;
     kernels.find_minima(patch);
-    const FloatVec middle{middle_u_px(patch) - static_cast<float>(image.width_px - 1) / 2,
-                          middle_v_px(patch) - static_cast<float>(image.height_px - 1) / 2};
-    if (options.lens.k_q40 != 0) straighten(options.lens, middle, patch.dots);
+    return true;
+}
+
+/// From the dots of a patch, counted from `from_centre`, to a place in the code.
+bool read_sight(const Kernels& kernels, const Options& options, const PatchView& view,
+                FloatVec from_centre, Workspace& w, Sight& sight) {
+    Patch& patch = *w.patch;
     PatchGrid grid;
-    if (!find_grid(kernels, patch, grid)) return false;
+    if (!find_grid(kernels, patch, view, grid)) return false;
     BitBlock block;
     kernels.read_cells(patch.dots, grid.grid_from_image, grid.displacement, block.columns,
                        block.rows);
     const int quarters = likeliest_turn(kernels, block);
     const BlockLines lines = score_block(kernels, turned(quarters, block), w.line_scores);
     if (!find_place(options.profile, lines, sight.place)) return false;
-    sight.pattern_from_image =
-        recentred(turned(quarters, grid.grid_from_image), {-middle.x, -middle.y});
+    sight.pattern_from_image = turned(quarters, grid.grid_from_image);
+    sight.from_centre = from_centre;
     sight.displacement = grid.displacement;
     sight.depth_q8 = patch.depth_q8;
     return true;
+}
+
+/// What the patch at the image centre shows.
+bool find_sight(const Kernels& kernels, const ImageView& image, const Options& options,
+                Workspace& w, Sight& sight) {
+    Patch& patch = *w.patch;
+    if (!find_patch_dots(kernels, image, patch)) return false;
+    const FloatVec middle = middle_of(patch, image);
+    if (options.lens.k_q40 != 0) straighten(options.lens, middle, patch.dots);
+    if (!read_sight(kernels, options, whole_view(patch), middle, w, sight)) return false;
+    sight.pattern_from_image = recentred(sight.pattern_from_image, {-middle.x, -middle.y});
+    sight.from_centre = {};
+    return true;
+}
+
+/// What a patch around a point of the image, px, shows from where its dots are densest. `densest`
+/// is where that is.
+bool find_sight_around(const Kernels& kernels, const ImageView& image, const Options& options,
+                       Vec around_px, int scale, Workspace& w, Vec& densest_px, Sight& sight) {
+    Patch& patch = *w.patch;
+    PatchView view;
+    FloatVec from_middle;
+    if (!place_patch(image, around_px.x, around_px.y, kPatchWidth_px * scale,
+                     kPatchHeight_px * scale, scale, patch) ||
+        !find_patch_dots(kernels, image, patch)) {
+        return false;
+    }
+    keep_isolated(patch);
+    if (!count_from_densest(patch, view, from_middle)) return false;
+    densest_px = {static_cast<std::int32_t>(middle_u_px(patch) + from_middle.x),
+                  static_cast<std::int32_t>(middle_v_px(patch) + from_middle.y)};
+    const FloatVec middle = middle_of(patch, image);
+    const FloatVec from_centre{middle.x + from_middle.x, middle.y + from_middle.y};
+    if (options.lens.k_q40 != 0) straighten(options.lens, from_centre, patch.dots);
+    sight.shows_part = true;
+    // Where dots are displaced so far that their waves are faint, some discs show others.
+    for (const float central_dots : {30.0F, 20.0F, 45.0F, 25.0F, 37.0F}) {
+        for (const float by : {1.0F, 0.965F}) {
+            const PatchView other{by * view.spacing_px, view.full_reach_px, central_dots};
+            if (read_sight(kernels, options, other, from_centre, w, sight)) return true;
+        }
+    }
+    return false;
+}
+
+/// Looks all over the image for dots: once in each patch, and once more around where they are
+/// densest in it.
+bool locate_elsewhere(const Kernels& kernels, const ImageView& image, const Options& options,
+                      Workspace& w) {
+    // Each look that the bits do not bear out is one more chance to be deceived.
+    int looks_left = 4;
+    for (const int scale : {1, 2, 4}) {
+        const int width = kPatchWidth_px * scale;
+        const int height = kPatchHeight_px * scale;
+        for (int v = height / 2; v < image.height_px + height / 2; v += height) {
+            for (int u = width / 2; u < image.width_px + width / 2; u += width) {
+                Vec around{u, v};
+                for (int round = 0; round < 2 && looks_left > 0; ++round) {
+                    Sight sight;
+                    Vec densest = around;
+                    const bool is_found = find_sight_around(kernels, image, options, around, scale,
+                                                            w, densest, sight);
+                    if (is_found) {
+                        const auto confirmation = confirm(kernels, image, options, sight, w);
+                        w.fix.attempt = Attempt::first;
+                        if (confirmation == Confirmation::ok) return true;
+                        looks_left -= confirmation == Confirmation::uncertain ? 1 : 0;
+                        break;
+                    }
+                    if (densest == around) break;
+                    around = densest;
+                }
+            }
+        }
+    }
+    return false;
 }
 
 }  // namespace
@@ -59,15 +144,16 @@ bool locate_outwards(const Kernels& kernels, const ImageView& image, const Optio
     for (const int scale : {1, 2, 4}) {
         if (!place_patch(image, image.width_px / 2, image.height_px / 2, kPatchWidth_px * scale,
                          kPatchHeight_px * scale, scale, *w.patch)) {
-            return false;
+            break;
         }
         Sight sight;
         if (!find_sight(kernels, image, options, w, sight)) continue;
         const Confirmation confirmation = confirm(kernels, image, options, sight, w);
         w.fix.attempt = Attempt::first;
-        if (confirmation != Confirmation::implausible) return confirmation == Confirmation::ok;
+        if (confirmation == Confirmation::ok) return true;
+        if (confirmation == Confirmation::uncertain) break;
     }
-    return false;
+    return locate_elsewhere(kernels, image, options, w);
 }
 
 Fix make_first_attempt(const ImageView& image, const Options& options, Workspace& w) {

@@ -83,6 +83,47 @@ bool measure_contrast(Patch& patch) {
     return true;
 }
 
+void keep_isolated(Patch& patch) {
+    constexpr int kAway_px = 4;
+    constexpr int kDiagonally_px = 3;
+    constexpr int kMostDark = 2;
+    constexpr std::array<std::array<int, 2>, 8> kAround{{{kAway_px, 0},
+                                                         {-kAway_px, 0},
+                                                         {0, kAway_px},
+                                                         {0, -kAway_px},
+                                                         {kDiagonally_px, kDiagonally_px},
+                                                         {kDiagonally_px, -kDiagonally_px},
+                                                         {-kDiagonally_px, kDiagonally_px},
+                                                         {-kDiagonally_px, -kDiagonally_px}}};
+    PatchDots& dots = patch.dots;
+    const auto pixel_of = [&](float from_middle_px, int size_px) {
+        const auto scale = static_cast<float>(patch.scale);
+        const float at = from_middle_px / scale + static_cast<float>(size_px - 1) / 2 + 0.5F;
+        return std::clamp(static_cast<int>(at), 0, size_px - 1);
+    };
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(dots.count); ++i) {
+        const int u = pixel_of(dots.x[i], patch.width_px);
+        const int v = pixel_of(dots.y[i], patch.height_px);
+        const auto tile = static_cast<std::size_t>(v / Patch::kTileHeight_px * Patch::kTilesPerRow +
+                                                   u / Patch::kTileWidth_px);
+        if (patch.brightest[tile] + patch.darkness[tile] - 255 < kLeastDarkness) continue;
+        const int threshold = patch.thresholds[tile];
+        int dark = 0;
+        for (const auto& [du, dv] : kAround) {
+            const int x = std::clamp(u + du, 0, patch.width_px - 1);
+            const int y = std::clamp(v + dv, 0, patch.height_px - 1);
+            dark += patch.row(patch.smoothed, y)[x] < threshold ? 1 : 0;
+        }
+        if (dark > kMostDark) continue;
+        dots.x[kept] = dots.x[i];
+        dots.y[kept++] = dots.y[i];
+    }
+    std::fill_n(dots.x.begin() + kept, 8, kNoDot_px);
+    std::fill_n(dots.y.begin() + kept, 8, 0.0F);
+    dots.count = static_cast<int>(kept);
+}
+
 float middle_u_px(const Patch& patch) {
     return static_cast<float>(2 * patch.left_px + patch.width_px * patch.scale - 1) / 2;
 }

@@ -16,6 +16,10 @@ bool place_patch(const ImageView& image, int centre_u_px, int centre_v_px, int w
 /// how much darker dots are in most of them. False if hardly a tile has anything dark.
 bool measure_contrast(Patch& patch);
 
+/// Drops minima of noise on a dark table: those that are dark as well a little way off in more than
+/// two of eight directions, as beyond the edge of a sheet, and those in tiles without contrast.
+void keep_isolated(Patch& patch);
+
 /// The middle of the patch, px of the image.
 float middle_u_px(const Patch& patch);
 float middle_v_px(const Patch& patch);

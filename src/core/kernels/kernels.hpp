@@ -96,6 +96,7 @@ struct WindowLook {
     float spacing_px = 11;  ///< at the image centre
     float reach = 0.36F;  ///< of a window from its middle, in spacings; at most kMostHalfWindow_px
     int cut_q8 = 128;     ///< what is darker than the paper by this share, in 1/256, counts
+    float typical_mass = 0;  ///< of a dot over the paper's level; 0: that of most windows
 };
 inline constexpr int kMostHalfWindow_px = 24;
 
@@ -179,9 +180,9 @@ struct Kernels {
     bool (*find_shift)(const ImageView& image, const MeasuredDots& dots, int most_px, int step_px,
                        Vec& shift_px, int& cut_q8);
     /// Centres of what is dark in the dots' windows; none where that is much more or less than in
-    /// most.
-    void (*measure_windows)(const ImageView& image, const CellsInView& view, const WindowLook& look,
-                            MeasuredDots& dots);
+    /// a typical one, whose mass is returned.
+    float (*measure_windows)(const ImageView& image, const CellsInView& view,
+                             const WindowLook& look, MeasuredDots& dots);
     /// Bits of the dots as measured, against those that the code has there. Adds them to empty
     /// lines, where these are asked for, by the cell counted from (-32, -32); each cell may have
     /// one dot.

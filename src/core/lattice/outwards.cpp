@@ -11,8 +11,7 @@ namespace dotpose::core {
 namespace {
 
 constexpr int kFewestDots = 40;
-/// Dots near the middle whose waves are looked at: about so many, and at most.
-constexpr float kCentralDots = 30;
+/// Dots near the middle whose waves are looked at.
 constexpr int kFewestCentralDots = 14;
 constexpr int kMostCentralDots = 64;
 /// Of the power that a grid without displacements would have: enough to stop, and enough to go on.
@@ -24,20 +23,13 @@ constexpr float kFaintWaves = 0.12F;
 constexpr float kFinest_px = 5.2F;
 constexpr float kCoarsest_px = 40;
 
-/// Half of the patch's longer side, px of the image.
-float full_reach_px(const Patch& patch) {
-    return static_cast<float>(std::max(patch.width_px, patch.height_px) * patch.scale) / 2 + 1;
-}
-
-std::optional<Waves> find_waves(const Kernels& kernels, const Patch& patch) {
+std::optional<Waves> find_waves(const Kernels& kernels, const Patch& patch, const PatchView& view) {
+    const float spacing = view.spacing_px;
     const PatchDots& dots = patch.dots;
     const auto scale = static_cast<float>(patch.scale);
-    const float area =
-        static_cast<float>((patch.width_px - 4) * (patch.height_px - 4)) * scale * scale;
-    const float spacing = std::sqrt(area / static_cast<float>(dots.count));
     if (spacing < kFinest_px * scale || spacing > kCoarsest_px * scale) return {};
     // A disc that holds as many.
-    const float radius_2 = kCentralDots * spacing * spacing / 3.14159265F;
+    const float radius_2 = view.central_dots * spacing * spacing / 3.14159265F;
     alignas(64) std::array<float, kMostCentralDots + 8> x;
     alignas(64) std::array<float, kMostCentralDots + 8> y;
     std::size_t count = 0;
@@ -168,16 +160,68 @@ float growth(float share) {
     return share > 0.8F ? 1.25F : 0.8F;
 }
 
+/// Dots around one, itself included, that tell how far dots are apart.
+constexpr std::size_t kNearest = 20;
+
+float squared_reach_of_nearest(const PatchDots& dots, FloatVec of) {
+    std::array<float, PatchDots::kMost> squares;
+    const auto count = static_cast<std::size_t>(dots.count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const float x = dots.x[i] - of.x;
+        const float y = dots.y[i] - of.y;
+        squares[i] = x * x + y * y;
+    }
+    const auto farthest = squares.begin() + kNearest;
+    std::nth_element(squares.begin(), farthest, squares.begin() + count);
+    return *farthest;
+}
+
 }  // namespace
 
-bool find_grid(const Kernels& kernels, const Patch& patch, PatchGrid& grid) {
+PatchView whole_view(const Patch& patch) {
+    const auto scale = static_cast<float>(patch.scale);
+    const float area =
+        static_cast<float>((patch.width_px - 4) * (patch.height_px - 4)) * scale * scale;
+    return {std::sqrt(area / static_cast<float>(std::max(patch.dots.count, 1))),
+            static_cast<float>(std::max(patch.width_px, patch.height_px) * patch.scale) / 2 + 1};
+}
+
+bool count_from_densest(Patch& patch, PatchView& view, FloatVec& from_middle_px) {
+    PatchDots& dots = patch.dots;
+    const int count = dots.count;
+    if (count < kFewestDots) return false;
+    // Some of them stand for all.
+    constexpr int kMostCandidates = 64;
+    const int step = count / kMostCandidates + 1;
+    float least = kNoDot_px;
+    for (int i = 0; i < count; i += step) {
+        const auto k = static_cast<std::size_t>(i);
+        const FloatVec candidate{dots.x[k], dots.y[k]};
+        const float reach_2 = squared_reach_of_nearest(dots, candidate);
+        if (reach_2 >= least) continue;
+        least = reach_2;
+        // Whole pixels, so that nothing is lost where planes are counted from there.
+        from_middle_px = {std::floor(candidate.x), std::floor(candidate.y)};
+    }
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+        dots.x[i] -= from_middle_px.x;
+        dots.y[i] -= from_middle_px.y;
+    }
+    view = whole_view(patch);
+    view.full_reach_px += std::max(std::abs(from_middle_px.x), std::abs(from_middle_px.y));
+    // A disc with so many dots has the area of as many cells.
+    view.spacing_px = std::sqrt(3.14159265F * least / (kNearest + 0.5F));
+    return true;
+}
+
+bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view, PatchGrid& grid) {
     if (patch.dots.count < kFewestDots) return false;
-    const std::optional<Waves> waves = find_waves(kernels, patch);
+    const std::optional<Waves> waves = find_waves(kernels, patch, view);
     if (!waves) return false;
     FloatPlane& plane = grid.grid_from_image;
     plane = plane_from_waves(*waves);
     const float spacing = spacing_px(plane);
-    const float full = full_reach_px(patch);
+    const float full = view.full_reach_px;
     // Cells only: displacements are noise as yet.
     CellPass pass{3 * spacing, 0.42F, 0};
     CellSums sums;
@@ -188,7 +232,7 @@ bool find_grid(const Kernels& kernels, const Patch& patch, PatchGrid& grid) {
     constexpr float kUndisplaced = 1.0F / 256;
     const float mean_square = sums.squares / sums.used;
     if (mean_square < kUndisplaced) return false;
-    grid.displacement = std::clamp(std::sqrt(mean_square), 0.11F, 0.24F);
+    grid.displacement = std::clamp(std::sqrt(mean_square), 0.11F, 0.32F);
     // Then the nearest of four places counts, which leaves a fifth of that noise.
     pass.displacement = grid.displacement;
     pass.most_off = 0.75F * grid.displacement;

@@ -1,0 +1,160 @@
+// Views of which the pattern covers a part only: edges of sheets, islands.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "dotpose/simulate.hpp"
+
+namespace dotpose {
+namespace {
+
+/// Pixels of the image, evenly spread, as points of the page.
+std::vector<Vec2> sample_points(const Shot& shot) {
+    constexpr int kColumns = 64;
+    constexpr int kRows = 48;
+    const Projection projection(shot.camera, shot.pose);
+    std::vector<Vec2> points;
+    for (int row = 0; row < kRows; ++row) {
+        for (int column = 0; column < kColumns; ++column) {
+            const Vec2 offset_mm = projection.offset_from_pixel(
+                {(column + 0.5) / kColumns * shot.camera.width_px - 0.5,
+                 (row + 0.5) / kRows * shot.camera.height_px - 0.5});
+            points.push_back({x_grid(shot.pose) + offset_mm.x / shot.page.pattern.spacing_mm,
+                              y_grid(shot.pose) + offset_mm.y / shot.page.pattern.spacing_mm});
+        }
+    }
+    return points;
+}
+
+double share_in(const PageArea& area, const std::vector<Vec2>& points) {
+    const auto inside =
+        std::ranges::count_if(points, [&](Vec2 p) { return area.distance(p.x, p.y) <= 0; });
+    return static_cast<double>(inside) / static_cast<double>(points.size());
+}
+
+double spacing_px(const Shot& shot) {
+    return shot.page.pattern.spacing_mm / shot.camera.mm_per_px;
+}
+
+/// Intersections in view.
+double intersections(const Shot& shot) {
+    return shot.camera.width_px * shot.camera.height_px / (spacing_px(shot) * spacing_px(shot));
+}
+
+/// The direction of the pattern, or that of the image, plus quarter turns.
+double draw_direction(const Shot& shot, Rng& rng) {
+    const double of_image = rng.uniform() < 0.5 ? shot.pose.theta_rad : 0;
+    return of_image + static_cast<double>(rng.below(4)) * std::numbers::pi / 2;
+}
+
+/// So large that it ends nowhere in view.
+double endless(const Shot& shot) {
+    return 8 * std::hypot(shot.camera.width_px, shot.camera.height_px) / spacing_px(shot);
+}
+
+/// A side or a corner of a sheet that covers a share of the view.
+PageArea edge_of_sheet(const Shot& shot, double share, Rng& rng) {
+    const std::vector<Vec2> points = sample_points(shot);
+    const double size = endless(shot);
+    PageArea area;
+    area.half_width = area.half_height = size;
+    area.angle_rad = draw_direction(shot, rng);
+    const bool is_corner = rng.uniform() < 0.5;
+    const Vec2 along{std::cos(area.angle_rad), std::sin(area.angle_rad)};
+    // A corner advances along a diagonal that is not quite that of the square.
+    const double across = is_corner ? rng.uniform(0.6, 1.0) : 0;
+    const auto advance = [&](double by) {
+        // The middle stands so that the edge, or the corner, is `by` beyond the image centre.
+        const double u = by - size;
+        const double v = is_corner ? across * by - size : 0;
+        area.x_grid = x_grid(shot.pose) + u * along.x - v * along.y;
+        area.y_grid = y_grid(shot.pose) + u * along.y + v * along.x;
+    };
+    double least = -size;
+    double most = size;
+    for (int halving = 0; halving < 40; ++halving) {
+        const double middle = (least + most) / 2;
+        advance(middle);
+        (share_in(area, points) < share ? least : most) = middle;
+    }
+    return area;
+}
+
+/// A rectangle that lies in view and holds enough dots.
+PageArea draw_island(const Shot& shot, Rng& rng) {
+    constexpr double kFewest = PartialView::kFewestIslandDots * 1.05;
+    PageArea area;
+    const double width = rng.uniform(7, 12);
+    area.half_width = width / 2;
+    area.half_height = std::max(rng.uniform(7, 12), kFewest / width) / 2;
+    area.angle_rad = draw_direction(shot, rng);
+    const Projection projection(shot.camera, shot.pose);
+    const double reach_px = 0.75 * spacing_px(shot) * std::hypot(area.half_width, area.half_height);
+    const Vec2 offset_mm =
+        projection.offset_from_pixel({rng.uniform(reach_px, shot.camera.width_px - reach_px),
+                                      rng.uniform(reach_px, shot.camera.height_px - reach_px)});
+    area.x_grid = x_grid(shot.pose) + offset_mm.x / shot.page.pattern.spacing_mm;
+    area.y_grid = y_grid(shot.pose) + offset_mm.y / shot.page.pattern.spacing_mm;
+    return area;
+}
+
+/// Apart by some spacings, wherever their corners point.
+bool are_apart(const PageArea& a, const PageArea& b) {
+    constexpr double kGap = 2;
+    const double reach = std::hypot(a.half_width, a.half_height);
+    return b.distance(a.x_grid, a.y_grid) > 0.85 * reach + kGap;
+}
+
+bool draw_islands(const Shot& shot, int count, Rng& rng, std::vector<PageArea>& areas) {
+    constexpr int kTries = 1000;
+    areas.clear();
+    for (int tries = 0; tries < kTries && static_cast<int>(areas.size()) < count; ++tries) {
+        const PageArea island = draw_island(shot, rng);
+        const double share = share_in(island, sample_points(shot));
+        const bool is_whole =
+            share * intersections(shot) >= 0.97 * 4 * island.half_width * island.half_height;
+        if (is_whole && std::ranges::all_of(
+                            areas, [&](const PageArea& other) { return are_apart(island, other); }))
+            areas.push_back(island);
+    }
+    return static_cast<int>(areas.size()) == count;
+}
+
+}  // namespace
+
+double PageArea::distance(double x, double y) const {
+    const double dx = x - x_grid;
+    const double dy = y - y_grid;
+    const double c = std::cos(angle_rad);
+    const double s = std::sin(angle_rad);
+    return std::max(std::abs(c * dx + s * dy) - half_width,
+                    std::abs(c * dy - s * dx) - half_height);
+}
+
+void cover_partly(Shot& shot, const PartialView& view) {
+    if (!(view.least_share > 0 && view.least_share <= view.most_share && view.most_share <= 1))
+        throw BadArgument("the share that is covered must be above 0 and at most 1");
+    if (view.islands < 0 || view.islands > 16) throw BadArgument("islands must be 0 to 16");
+    Rng rng(shot.seed, 2);
+    if (view.islands > 0) {
+        for (int tries = 0; !draw_islands(shot, view.islands, rng, shot.page.areas); ++tries) {
+            if (tries == 10) throw BadArgument("there is no room for the islands in the image");
+        }
+        return;
+    }
+    // A dot or two of each row at the border is not seen whole.
+    const double least = std::max(view.least_share, 1.15 * view.fewest_dots / intersections(shot));
+    const double share = rng.uniform(least, std::max(least, view.most_share));
+    const PageArea dots = edge_of_sheet(shot, share, rng);
+    shot.page.areas = {dots};
+    if (!view.on_table) return;
+    PageArea paper = dots;
+    const double margin = rng.uniform(0, 4);
+    paper.half_width += margin;
+    paper.half_height += margin;
+    shot.page.paper = paper;
+    shot.page.table_reflectance = rng.uniform(0.1, 0.5);
+}
+
+}  // namespace dotpose

@@ -1,0 +1,80 @@
+// Views of which the pattern covers a part only, with `locate` at its first attempt.
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "dotpose/evaluate.hpp"
+#include "dotpose/locate.hpp"
+#include "dotpose/simulate.hpp"
+
+namespace dotpose {
+namespace {
+
+Shot partial_shot(std::uint64_t index, const PartialView& view) {
+    Setup setup;
+    setup.seed = 91;
+    setup.camera.width_px = 640;
+    setup.camera.height_px = 480;
+    setup.camera.mm_per_px = kDefaultSpacing_mm / 11;
+    Shot shot = draw_shot(setup, index);
+    cover_partly(shot, view);
+    return shot;
+}
+
+void expect_located_at_once(const PartialView& view) {
+    const auto workspace = std::make_unique<LargeWorkspace>();
+    Options options;
+    options.effort = Effort::once;
+    for (std::uint64_t i = 0; i < 8; ++i) {
+        const Shot shot = partial_shot(i, view);
+        const GreyImage image = render(shot);
+        Outcome outcome;
+        outcome.truth = truth_of(shot);
+        outcome.fix = locate(image.view(), options, *workspace);
+        EXPECT_EQ(outcome.fix.status, Status::ok) << "frame " << i;
+        EXPECT_FALSE(outcome.is_wrong()) << "frame " << i;
+        // Whoever tracks on counts from the image centre.
+        EXPECT_EQ(outcome.fix.pattern_from_image.centre_q8, (Vec{639 * 128, 479 * 128}));
+        const Fix next = locate(image.view(), options, Prediction::like(outcome.fix), *workspace);
+        EXPECT_EQ(next.status, Status::ok) << "frame " << i;
+    }
+}
+
+TEST(PartialViews, BordersAndCornersOnPaperAreLocatedAtOnce) {
+    expect_located_at_once({});
+}
+
+TEST(PartialViews, BordersAndCornersOnADarkTableAreLocatedAtOnce) {
+    PartialView view;
+    view.on_table = true;
+    expect_located_at_once(view);
+}
+
+TEST(PartialViews, IslandsAreLocatedAtOnce) {
+    PartialView view;
+    view.islands = 3;
+    expect_located_at_once(view);
+}
+
+TEST(PartialViews, CoverWhatTheyShould) {
+    // Ink has a 36th of pi of each cell's area: pixels darker than any paper tell where dots are.
+    PartialView view;
+    view.least_share = view.most_share = 0.3;
+    for (std::uint64_t i = 0; i < 4; ++i) {
+        Shot shot = partial_shot(i, view);
+        shot.imperfections = {};
+        const GreyImage part = render(shot);
+        shot.page.areas.clear();
+        const GreyImage whole = render(shot);
+        const auto darkness = [](const GreyImage& image) {
+            double sum = 0;
+            for (const int grey : image.pixels)
+                sum += 200 - grey;
+            return sum;
+        };
+        EXPECT_NEAR(darkness(part) / darkness(whole), 0.3, 0.02);
+    }
+}
+
+}  // namespace
+}  // namespace dotpose
