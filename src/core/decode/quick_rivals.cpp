@@ -270,8 +270,10 @@ int other_sections_log2_q8(const Contest& contest) {
 }  // namespace
 
 int quick_rivals_log2_q8(const Contest& contest, int limit_q8) {
-    int far = far_log2_q8(contest, true, kSmallOdds_q8);
-    if (far > kSmallOdds_q8 && !contest.is_of_bits()) far = far_log2_q8(contest, false, limit_q8);
+    // Of bits there is no closer sum, so that all sets have to be in it.
+    const bool is_last = contest.is_of_bits();
+    int far = far_log2_q8(contest, true, is_last ? limit_q8 : kSmallOdds_q8);
+    if (far > kSmallOdds_q8 && !is_last) far = far_log2_q8(contest, false, limit_q8);
     const int sum = add_log2(other_sections_log2_q8(contest), far);
     if (sum >= limit_q8) return 0;
     return std::min(add_log2(sum, singles_log2_q8(contest)), 0);

@@ -1,6 +1,9 @@
 // A contest of bits that are all equally sure is that of weights of 127.
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -8,6 +11,7 @@
 #include "code/tables.hpp"
 #include "core/decode/contest.hpp"
 #include "core/decode/quick_rivals.hpp"
+#include "core/decode/rival_sets.hpp"
 #include "core/decode/rivals.hpp"
 #include "core/decode/unshared_lines.hpp"
 #include "core/fixed.hpp"
@@ -103,6 +107,56 @@ TEST(ContestOfBits, EstimatesNoLessThanThereIs) {
         settled += estimate_q8 < -30 * 256 ? 1 : 0;
     }
     EXPECT_GT(settled, 80);
+}
+
+/// The expected odds of one set of far rivals (docs/integrity.md, the quick estimate), in double
+/// precision: those that share the lines from one on, and all others together.
+double far_odds(const Contest& contest, const RivalSet& set) {
+    const auto power = [](int log2_q8) { return std::exp2(log2_q8 / 256.0); };
+    const double equal = power(set.equal_q8 + kUnevenness_q8);
+    std::vector<double> sharing{1};
+    double apart = 0;
+    double sum = 0;
+    for (int line = 0; line < contest.count(); ++line) {
+        const double best = power(contest.log2_odds_q8(contest.least_loss(line)));
+        const double all = best * power(contest.log2_of_nearest_q8(line));
+        if (line > 0) {
+            for (double& odds : sharing)
+                odds *= equal;
+            sharing.push_back(apart * equal);
+        }
+        apart = line == 0 ? all : sum * std::min(best * power(kUnevenness_q8), all * equal);
+        const auto most = std::min(sharing.size(), static_cast<std::size_t>(contest.most_shared()));
+        sum = std::accumulate(sharing.end() - static_cast<std::ptrdiff_t>(most), sharing.end(),
+                              apart);
+    }
+    return sum * power(set.rivals_q8);
+}
+
+/// However doubtful the reading, and whatever the limit. Of so few lines the other sets have about
+/// as much as the first.
+TEST(ContestOfBits, EstimatesNoLessThanAllSetsOfFarRivals) {
+    Rng rng(11);
+    int doubtful = 0;
+    for (int round = 0; round < 400; ++round) {
+        const Columns columns(rng);
+        std::array<TrackedLine, kLines> lines = columns.lines;
+        const std::uint32_t seen = (std::uint32_t{1} << (12 + rng.below(18))) - 1;
+        for (TrackedLine& line : lines)
+            line = {line.code, seen, 0};
+        const Contest contest(Profile::anoto, std::span(lines).first(6 + rng.below(4)),
+                              columns.reading, kOdds_q8);
+        double expected = 0;
+        for (const RivalSet& set : kRivalSets)
+            expected += far_odds(contest, set);
+        for (const int limit : {0, -20, -30}) {
+            const int estimate_q8 = quick_rivals_log2_q8(contest, 256 * limit);
+            if (estimate_q8 == 0) continue;
+            doubtful += estimate_q8 > -36 * 256 ? 1 : 0;
+            EXPECT_GE(std::exp2(estimate_q8 / 256.0), expected) << round << ", limit " << limit;
+        }
+    }
+    EXPECT_GT(doubtful, 100);
 }
 
 /// Every rival loses what the table says.
