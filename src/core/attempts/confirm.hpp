@@ -17,7 +17,7 @@ struct Sight {
     Place place;                    ///< of the plane's cell (0, 0)
     float displacement = 0;         ///< of the typical dot, spacings
     bool shows_part = false;  ///< the pattern may cover any part of the image around `from_centre`
-    int depth_q8 = 0;  ///< how much darker than paper a typical dot is, smoothed, in 1/256
+    int depth_q8 = 0;         ///< how much darker than paper a typical dot is, smoothed, in 1/256
 };
 
 /// Windows count what is darker than the paper by this share, in 1/256, of a typical dot's
