@@ -104,7 +104,8 @@ inline void add_dots(std::vector<Limit>& limits) {
         const char* spacing;
     };
     const CameraModel device;
-    for (const auto& [diameter, share] : {Dots{"0.10", 0.10}, {"0.25", 0.25}, {"0.35", 0.35}}) {
+    for (const auto& [diameter, share] :
+         {Dots{"0.10", 0.10}, {"0.25", 0.25}, {"0.35", 0.35}, {"0.40", 0.40}}) {
         for (const auto& [camera, spacing] :
              {Seen{camera_of(device.width_px, device.height_px, 8), "8 px"},
               {camera_of(device.width_px, device.height_px, 11), "11 px"},

@@ -235,7 +235,9 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
     grid.displacement = std::clamp(std::sqrt(mean_square), 0.11F, 0.32F);
     // Then the nearest of four places counts, which leaves a fifth of that noise.
     pass.displacement = grid.displacement;
-    pass.most_off = 0.75F * grid.displacement;
+    // Wider circles around the four places would leave hardly any room between them.
+    constexpr float kMostOff = 0.18F;
+    pass.most_off = std::min(0.75F * grid.displacement, kMostOff);
     constexpr int kMostRounds = 16;
     for (int round = 0; round < kMostRounds; ++round) {
         pass.with_perspective = pass.reach_px > 4 * spacing;

@@ -98,7 +98,7 @@ TEST(FindGrid, FindsThePlaneOfTiltedCameras) {
         const FloatPlane truth = random_float_plane(spacing_px, tilt, rng);
         const auto patch = patch_of(truth, {0.03, 0.01, 0.02 * spacing_px}, rng);
         core::PatchGrid grid;
-        if (!core::find_grid(core::kernels(), *patch, grid)) continue;
+        if (!core::find_grid(core::kernels(), *patch, core::whole_view(*patch), grid)) continue;
         ++found;
         EXPECT_LT(difference(grid.grid_from_image, truth, {20, 20}), 0.1);
         EXPECT_NEAR(grid.displacement, 1 / 6.0, 0.03);
@@ -120,7 +120,7 @@ TEST(FindGrid, FindsGridsWithManyDotsMissingAndTooMany) {
         const FloatPlane truth = random_float_plane(rng.uniform(7, 14), 1e-4, rng);
         const auto patch = patch_of(truth, {0.15, 0.05, 0.4}, rng);
         core::PatchGrid grid;
-        if (!core::find_grid(core::kernels(), *patch, grid)) continue;
+        if (!core::find_grid(core::kernels(), *patch, core::whole_view(*patch), grid)) continue;
         ++found;
         EXPECT_LT(difference(grid.grid_from_image, truth, {56, 40}), 0.15);
     }
@@ -133,11 +133,12 @@ TEST(FindGrid, FindsCoarseGridsInReducedPatches) {
         const FloatPlane truth = random_float_plane(11.0 * scale, 1e-4 / scale, rng);
         const auto patch = patch_of(truth, {}, rng, scale);
         core::PatchGrid grid;
-        ASSERT_TRUE(core::find_grid(core::kernels(), *patch, grid)) << scale;
+        ASSERT_TRUE(core::find_grid(core::kernels(), *patch, core::whole_view(*patch), grid))
+            << scale;
         EXPECT_LT(difference(grid.grid_from_image, truth, {112.0 * scale, 80.0 * scale}), 0.05);
         // They are too coarse, or else too fine, for a patch of another scale.
         patch->scale = scale == 2 ? 4 : 1;
-        EXPECT_FALSE(core::find_grid(core::kernels(), *patch, grid) &&
+        EXPECT_FALSE(core::find_grid(core::kernels(), *patch, core::whole_view(*patch), grid) &&
                      difference(grid.grid_from_image, truth, {40, 40}) > 0.2);
     }
 }
@@ -154,17 +155,18 @@ TEST(FindGrid, RefusesWhatIsNoGrid) {
         for (int k = 0; k < count; ++k)
             dots.push_back({rng.uniform(-110, 110), rng.uniform(-78, 78)});
         finish_patch(*scattered, dots);
-        EXPECT_FALSE(core::find_grid(core::kernels(), *scattered, grid));
+        EXPECT_FALSE(
+            core::find_grid(core::kernels(), *scattered, core::whole_view(*scattered), grid));
         // Dots on their intersections.
         const auto plain =
             patch_of(random_float_plane(rng.uniform(7, 15), 1e-4, rng), {0, 0, 0.02, 0}, rng);
-        EXPECT_FALSE(core::find_grid(core::kernels(), *plain, grid));
+        EXPECT_FALSE(core::find_grid(core::kernels(), *plain, core::whole_view(*plain), grid));
         // Too few of them.
         const auto few = patch_of(random_float_plane(11, 0, rng), {}, rng);
         few->dots.count = 39;
-        EXPECT_FALSE(core::find_grid(core::kernels(), *few, grid));
+        EXPECT_FALSE(core::find_grid(core::kernels(), *few, core::whole_view(*few), grid));
         few->dots.count = 0;
-        EXPECT_FALSE(core::find_grid(core::kernels(), *few, grid));
+        EXPECT_FALSE(core::find_grid(core::kernels(), *few, core::whole_view(*few), grid));
     }
 }
 
@@ -175,8 +177,8 @@ TEST(FindGrid, AllFormsOfTheKernelsGiveTheSame) {
         const auto patch = patch_of(truth, {0.05, 0.02, 0.3}, rng);
         core::PatchGrid a;
         core::PatchGrid b;
-        ASSERT_EQ(core::find_grid(core::portable_kernels(), *patch, a),
-                  core::find_grid(core::kernels(), *patch, b));
+        ASSERT_EQ(core::find_grid(core::portable_kernels(), *patch, core::whole_view(*patch), a),
+                  core::find_grid(core::kernels(), *patch, core::whole_view(*patch), b));
         EXPECT_EQ(a.grid_from_image.at_x, b.grid_from_image.at_x);
         EXPECT_EQ(a.grid_from_image.dv_y, b.grid_from_image.dv_y);
         EXPECT_EQ(a.grid_from_image.tilt_y, b.grid_from_image.tilt_y);
