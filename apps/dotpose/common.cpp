@@ -217,7 +217,7 @@ FrameSize parse_frame_size(const std::string& flag, const std::string& text) {
     const auto numbers = whole_numbers(text, "x", kMaxImageSide_px);
     if (!numbers || (*numbers)[0] == 0 || (*numbers)[1] == 0) {
         throw CLI::ValidationError(
-            flag, fmt::format("'{}' is not WIDTHxHEIGHT in px, such as 640x480", text));
+            flag, fmt::format("'{}' is not WIDTHxHEIGHT in px, such as 188x120", text));
     }
     const std::uint64_t pixels = std::uint64_t{(*numbers)[0]} * (*numbers)[1];
     if (pixels > kMaxImagePixels) {
