@@ -164,7 +164,7 @@ float growth(float share) {
 constexpr std::size_t kNearest = 20;
 
 float squared_reach_of_nearest(const PatchDots& dots, FloatVec of) {
-    std::array<float, PatchDots::kMost> squares;
+    std::array<float, PatchDots::kMost> squares{};
     const auto count = static_cast<std::size_t>(dots.count);
     for (std::size_t i = 0; i < count; ++i) {
         const float x = dots.x[i] - of.x;
