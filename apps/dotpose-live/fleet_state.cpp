@@ -29,7 +29,7 @@ bool is_news(const RobotState& state, FleetRobot& robot) {
         robot.doubts = 0;
         return true;
     }
-    // Of a queue that is sent again the newest comes first, so that its messages do not ascend.
+    // A queue that is sent again begins with its newest message, so that its times do not ascend.
     robot.doubts =
         state.sent_us > robot.doubted_sent_us || robot.doubts == 0 ? robot.doubts + 1 : 1;
     robot.doubted_sent_us = state.sent_us;

@@ -18,8 +18,9 @@ inline constexpr const char* kTopicRoot = "uagv/v2/dotpose";
 inline constexpr std::size_t kMostNameBytes = 128;
 
 std::string state_topic(const std::string& robot);
-/// Of which robot a message is: brokers grant topics, whereas a message may say anything. None if
-/// the topic is none of `state_topic`, or the name is too long.
+/// The robot whose state has this topic. Brokers grant topics, so it is the topic that says whose a
+/// message is, whatever the message says. None if it is no topic of `state_topic`, or the name is
+/// too long.
 std::optional<std::string> robot_of(std::string_view topic);
 
 struct RobotState {

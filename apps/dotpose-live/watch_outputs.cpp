@@ -43,12 +43,7 @@ void PacketOutput::write(const Reading& reading, Profile profile) {
     std::size_t written = 0;
     while (written < bytes.size()) {
         const ssize_t size = ::write(descriptor_, bytes.data() + written, bytes.size() - written);
-        if (size < 0 && errno != EINTR) {
-            const int problem = errno;
-            const std::string what = "cannot write " + path_ + ": " + std::strerror(problem);
-            if (problem == EPIPE) throw ReaderLeft(what);
-            throw Error(what);
-        }
+        if (size < 0 && errno != EINTR) throw_unwritable(path_, errno);
         if (size > 0) written += static_cast<std::size_t>(size);
     }
 }

@@ -5,6 +5,12 @@
 
 namespace dotpose::cli {
 
+void throw_unwritable(const std::string& output, int error_number) {
+    const std::string what = "cannot write " + output + ": " + std::strerror(error_number);
+    if (error_number == EPIPE) throw ReaderLeft(what);
+    throw Error(what);
+}
+
 Lines::Lines(const std::string& path) : path_(path) {
     if (path.empty()) return;
     file_.reset(std::fopen(path.c_str(), "w"));
@@ -16,11 +22,7 @@ void Lines::write(const std::string& line) {
     errno = 0;
     const bool written = std::fwrite(line.data(), 1, line.size(), stream) == line.size();
     if (written && std::fflush(stream) == 0) return;
-    const int problem = errno;
-    const std::string what = "cannot write " + (path_.empty() ? "to standard output" : path_) +
-                             ": " + std::strerror(problem != 0 ? problem : EIO);
-    if (problem == EPIPE) throw ReaderLeft(what);
-    throw Error(what);
+    throw_unwritable(path_.empty() ? "to standard output" : path_, errno != 0 ? errno : EIO);
 }
 
 }  // namespace dotpose::cli

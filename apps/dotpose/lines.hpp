@@ -9,10 +9,14 @@
 
 namespace dotpose::cli {
 
-/// Who read the lines has gone: `| head`, for example.
+/// Nobody reads an output any more, as after `| head`.
 struct ReaderLeft : Error {
     using Error::Error;
 };
+
+/// Throws Error, or ReaderLeft where that is the reason: an output could not be written, and errno
+/// was this then.
+[[noreturn]] void throw_unwritable(const std::string& output, int error_number);
 
 /// Standard output or a file; every line leaves at once, so that stopping the tool loses none.
 class Lines {

@@ -210,7 +210,8 @@ struct PartialView {
     /// it, apart from each other, of `kFewestIslandDots` dots and more.
     int islands = 0;
     static constexpr int kFewestIslandDots = 60;
-    /// Of the image, what the one area covers: between these, and at least `fewest_dots`.
+    /// The share of the image that the one area covers lies between these, and the area holds at
+    /// least `fewest_dots`.
     double least_share = 0.15;
     double most_share = 0.45;
     int fewest_dots = 150;

@@ -14,7 +14,8 @@ namespace {
 /// What eq. 2 may be off plumb_bob, rms over the image.
 constexpr double kLargestMisfit_px = 0.5;
 
-/// What is beyond these is no camera, and what is fitted to it may overflow.
+/// Focal lengths, centres and distortion coefficients of cameras are far below these; a fit to
+/// larger ones may overflow.
 constexpr double kMostPx = 1e6;
 constexpr double kMostDistortion = 1e3;
 

@@ -8,23 +8,16 @@
 #include <fmt/core.h>
 
 #include "dotpose/error.hpp"
+#include "system_error.hpp"
 
 namespace dotpose::print {
 namespace fs = std::filesystem;
-namespace {
-
-[[noreturn]] void throw_unreadable(const fs::path& path, int error_number) {
-    throw Error(fmt::format("cannot read {}: {}", path.string(),
-                            std::generic_category().message(error_number)));
-}
-
-}  // namespace
 
 std::optional<std::string> text_of(const fs::path& path, std::size_t most) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (status.type() == fs::file_type::not_found) return std::nullopt;
-    if (fs::is_directory(status)) throw_unreadable(path, EISDIR);
+    if (fs::is_directory(status)) throw_system("read", path, EISDIR);
     errno = 0;
     std::ifstream stream(path, std::ios::binary);
     std::string text;
@@ -35,7 +28,7 @@ std::optional<std::string> text_of(const fs::path& path, std::size_t most) {
             throw Error(fmt::format("{} has more than {} MB", path.string(), most >> 20));
         }
     }
-    if (!stream.is_open() || stream.bad()) throw_unreadable(path, errno != 0 ? errno : EIO);
+    if (!stream.is_open() || stream.bad()) throw_system("read", path, errno != 0 ? errno : EIO);
     return text;
 }
 

@@ -10,17 +10,13 @@
 #include <unistd.h>
 
 #include "dotpose/error.hpp"
+#include "system_error.hpp"
 
 namespace dotpose::print {
 namespace fs = std::filesystem;
 namespace {
 
 constexpr int kNameAttempts = 100;
-
-[[noreturn]] void throw_system(const char* action, const fs::path& path, int error_number) {
-    throw Error(fmt::format("cannot {} {}: {}", action, path.string(),
-                            std::generic_category().message(error_number)));
-}
 
 }  // namespace
 

@@ -14,15 +14,12 @@
 #include "output_file.hpp"
 #include "sheet_json.hpp"
 #include "sheet_list.hpp"
+#include "system_error.hpp"
 
 namespace dotpose {
 namespace fs = std::filesystem;
+using print::throw_system;
 namespace {
-
-[[noreturn]] void throw_system(const char* action, const fs::path& path, int error_number) {
-    throw Error(fmt::format("cannot {} {}: {}", action, path.string(),
-                            std::generic_category().message(error_number)));
-}
 
 /// Some 100,000 sheets.
 constexpr std::size_t kMostBytes = std::size_t{64} << 20;

@@ -22,7 +22,8 @@ namespace {
 constexpr float kDense = 10;
 /// Where the image ends within so many, it is measured at once.
 constexpr float kDenseAtMost = 17;
-/// The same where the pattern may end anywhere, and how far the bits reach that make it certain.
+/// Where the pattern may end anywhere, the first look reaches this far, in spacings, and the bits
+/// that decide whether the place is certain reach that far.
 constexpr float kDenseOfPart = 6;
 constexpr float kDecidingOfPart = 32;
 /// How much farther a plane can be trusted than the dots reach that it was fitted to.
@@ -213,7 +214,7 @@ void write_fix(const ImageView& image, const Options& options, const Sight& sigh
     write_pose(w.pattern_from_image, reference, options.profile, sight.place, w.fix);
     estimate_covariance(fit, w.pattern_from_image, reference, w.fix);
     if (!(from_q8 == Vec{})) {
-        // Who goes on from the fix counts from the image centre.
+        // Predictions are made from the fix, and count from the image centre.
         w.fix.pattern_from_image =
             fixed_plane(recentred(sight.pattern_from_image, {-from.x, -from.y}), centre_q8);
     }

@@ -61,7 +61,7 @@ bool read_sight(const Kernels& kernels, const Options& options, const PatchView&
     return true;
 }
 
-/// What the patch at the image centre shows.
+/// Reads the patch at the image centre. False if it shows no place in the code.
 bool find_sight(const Kernels& kernels, const ImageView& image, const Options& options,
                 Workspace& w, Sight& sight) {
     Patch& patch = *w.patch;
@@ -74,8 +74,8 @@ bool find_sight(const Kernels& kernels, const ImageView& image, const Options& o
     return true;
 }
 
-/// What a patch around a point of the image, px, shows from where its dots are densest. `densest`
-/// is where that is.
+/// Reads a patch around a point of the image, in px, from where its dots are densest, which is
+/// `densest_px`. False if it shows no place in the code.
 bool find_sight_around(const Kernels& kernels, const ImageView& image, const Options& options,
                        Vec around_px, int scale, Workspace& w, Vec& densest_px, Sight& sight) {
     Patch& patch = *w.patch;
@@ -104,32 +104,37 @@ bool find_sight_around(const Kernels& kernels, const ImageView& image, const Opt
     return false;
 }
 
-/// Looks all over the image for dots: once in each patch, and once more around where they are
-/// densest in it.
+/// Looks once in a patch around a point of the image, and once more around where its dots are
+/// densest. Every look that the bits do not bear out is one more chance to be deceived, of which
+/// `looks_left` are left.
+bool locate_around(const Kernels& kernels, const ImageView& image, const Options& options,
+                   Vec around_px, int scale, int& looks_left, Workspace& w) {
+    for (int round = 0; round < 2 && looks_left > 0; ++round) {
+        Sight sight;
+        Vec densest_px = around_px;
+        if (find_sight_around(kernels, image, options, around_px, scale, w, densest_px, sight)) {
+            const auto confirmation = confirm(kernels, image, options, sight, w);
+            w.fix.attempt = Attempt::first;
+            looks_left -= confirmation == Confirmation::uncertain ? 1 : 0;
+            return confirmation == Confirmation::ok;
+        }
+        if (densest_px == around_px) return false;
+        around_px = densest_px;
+    }
+    return false;
+}
+
+/// Looks all over the image for dots, in patches that grow.
 bool locate_elsewhere(const Kernels& kernels, const ImageView& image, const Options& options,
                       Workspace& w) {
-    // Each look that the bits do not bear out is one more chance to be deceived.
     int looks_left = 4;
     for (const int scale : {1, 2, 4}) {
         const int width = kPatchWidth_px * scale;
         const int height = kPatchHeight_px * scale;
         for (int v = height / 2; v < image.height_px + height / 2; v += height) {
             for (int u = width / 2; u < image.width_px + width / 2; u += width) {
-                Vec around{u, v};
-                for (int round = 0; round < 2 && looks_left > 0; ++round) {
-                    Sight sight;
-                    Vec densest = around;
-                    const bool is_found = find_sight_around(kernels, image, options, around, scale,
-                                                            w, densest, sight);
-                    if (is_found) {
-                        const auto confirmation = confirm(kernels, image, options, sight, w);
-                        w.fix.attempt = Attempt::first;
-                        if (confirmation == Confirmation::ok) return true;
-                        looks_left -= confirmation == Confirmation::uncertain ? 1 : 0;
-                        break;
-                    }
-                    if (densest == around) break;
-                    around = densest;
+                if (locate_around(kernels, image, options, {u, v}, scale, looks_left, w)) {
+                    return true;
                 }
             }
         }

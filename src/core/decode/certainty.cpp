@@ -108,8 +108,8 @@ float far_rivals(const Contest& contest) {
     return all;
 }
 
-/// Who shares no line: the same position in other sections, and whoever differs in one sequence, at
-/// shifts which no line shows.
+/// Odds of the rivals that share no line: those at the same position in other sections, and those
+/// that differ in one sequence, at shifts which no line shows.
 float sharing_none(const Contest& contest) {
     int lost = 0;
     for (int line = 0; line < contest.count(); ++line)
@@ -156,8 +156,9 @@ float rivals_by_table(const Contest& contest, const UnsharedLines& unshared, std
            odds_of(contest, std::max(lost, 0));
 }
 
-/// The same for each sequence by the table that tells most. Leaves those `sequences` for which that
-/// is more than `enough`.
+/// Odds of rivals that differ in one sequence and share a line, by the table that tells most of
+/// each sequence. Sequences for which no table tells less than `enough` are not counted, and stay
+/// in `sequences`.
 float rivals_by_tables(const Contest& contest, float enough, unsigned& sequences) {
     float sum = 0;
     for (std::size_t table = code::kUnsharedOf.size(); table-- > 0 && sequences != 0;) {
@@ -219,7 +220,8 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const Lines& li
     return sum + seam_rivals(kernels, contest);
 }
 
-/// The same by bits alone.
+/// Probability that one axis is wrong, by bits alone, without scores of lines. It is never less
+/// than by scores.
 float axis_wrong(const Kernels& kernels, const AxisBits& axis, Profile profile, int odds_per_bit_q8,
                  int limit_log2) {
     const float limit = std::ldexp(1.0F, limit_log2);
