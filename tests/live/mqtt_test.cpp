@@ -195,10 +195,14 @@ TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
     // One that was under way when the broker went may come twice.
     const std::vector<int> ids = header_ids(shell(reader + "-W 2 || true"));
     EXPECT_EQ(std::set<int>(ids.begin(), ids.end()).size(), static_cast<std::size_t>(sent));
-    // After the gap the newest come first.
-    const auto before = std::ranges::adjacent_find(ids, [](int a, int b) { return b > a + 1; });
-    ASSERT_NE(before, ids.end());
-    EXPECT_GT(*(before + 1) - *before, kBack - kGone - 100);
+    // After the gap the newest come first. A machine that is busy makes small gaps of its own.
+    ASSERT_GT(ids.size(), 22U);
+    auto before = ids.begin();
+    for (auto i = ids.begin(); i + 1 != ids.end(); ++i) {
+        if (i[1] - i[0] > before[1] - before[0]) before = i;
+    }
+    EXPECT_GT(before[1] - before[0], kBack - kGone - 100);
+    ASSERT_GT(ids.end() - before, 20);
     EXPECT_TRUE(std::is_sorted(before + 1, before + 21, std::greater<>()));
 }
 
