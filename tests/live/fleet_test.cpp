@@ -1,0 +1,229 @@
+// `dotpose fleet`: what it makes of the states that robots publish to a real broker.
+#include <chrono>
+#include <csignal>
+#include <ctime>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "../drive.hpp"
+#include "dotpose/image_file.hpp"
+#include "mqtt_fixture.hpp"
+
+namespace dotpose::test {
+namespace {
+
+using publish::MqttOptions;
+using publish::MqttPublisher;
+using testing::HasSubstr;
+
+using Fleet = Mqtt;
+
+/// What a robot says of itself.
+struct Message {
+    std::string robot;
+    int header_id = 0;
+    std::string time;
+    std::string state = "moving";
+    bool is_localized = true;
+    double x_m = 0;
+    double y_m = 0;
+
+    std::string json() const {
+        const nlohmann::json position = {
+            {"localized", is_localized}, {"mapId", "table"}, {"x", x_m}, {"y", y_m}, {"theta", 0},
+            {"deviationRange", 1e-6}};
+        return nlohmann::json{
+            {"headerId", header_id},   {"timestamp", time},
+            {"serialNumber", robot},   {"state", state},
+            {"agvPosition", position}, {"velocity", {{"vx", 0}, {"vy", 0.5}, {"omega", 0}}}}
+            .dump();
+    }
+};
+
+std::string topic_of(const std::string& robot) {
+    return "uagv/v2/dotpose/" + robot + "/state";
+}
+
+/// This moment, as messages tell it.
+std::string time_now() {
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    const auto us = std::chrono::duration_cast<std::chrono::microseconds>(now).count();
+    const std::time_t seconds = us / 1'000'000;
+    char text[40];
+    const std::size_t size = std::strftime(text, sizeof text, "%FT%T", std::gmtime(&seconds));
+    std::snprintf(text + size, sizeof text - size, ".%06dZ", static_cast<int>(us % 1'000'000));
+    return text;
+}
+
+/// `dotpose fleet` in the background, until its subscription is there.
+class WatchedFleet {
+  public:
+    WatchedFleet(const fs::path& directory, const std::string& arguments)
+        : directory_(directory), thread_([directory, arguments] {
+              run_shell("cd '" + directory.string() +
+                        "' && echo $$ > fleet.pid && exec '" DOTPOSE_TOOL
+                        "' fleet --map fleet.svg --every 0.2 " +
+                        arguments + " > table 2> news");
+          }) {
+        wait_until([this] { return fs::exists(directory_ / "fleet.svg"); });
+    }
+    /// The last table.
+    std::string table() {
+        kill(std::stoi(read_file(directory_ / "fleet.pid")), SIGINT);
+        thread_.join();
+        return read_file(directory_ / "table");
+    }
+
+  private:
+    fs::path directory_;
+    std::thread thread_;
+};
+
+TEST_F(Fleet, SeesAWatchedRobot) {
+    const Broker broker(directory_);
+    const DriveCamera camera(188, 120);
+    const Drive drive;
+    for (int i = 0; i < 20; ++i) {
+        write_pgm(directory_ / ("f" + std::to_string(100 + i) + ".pgm"),
+                  camera.frame(drive, 240 + i).view());
+    }
+    save_drive_sheets(directory_ / "table.json");
+    std::thread fleet([&] {
+        shell("'" DOTPOSE_TOOL "' fleet --mqtt " + broker.url() +
+              " --sheets table.json --map fleet.svg --seconds 4 --every 0.2");
+    });
+    wait_until([&] { return fs::exists(directory_ / "fleet.svg"); });  // it has subscribed
+    EXPECT_EQ(
+        run("watch 'f*.pgm' --fps 200 --sheets table.json --robot anna --mqtt " + broker.url()), 0);
+    EXPECT_THAT(errors_, HasSubstr("21 states published, 0 dropped"));
+    fleet.join();
+    const std::string table = file("out");
+    EXPECT_THAT(table, HasSubstr("\nanna             lost  "));
+    EXPECT_THAT(table, testing::ContainsRegex(" 21 +0\n"));
+    EXPECT_THAT(table, HasSubstr("1 robots, 21 states, 0 bad"));
+    EXPECT_THAT(file("fleet.svg"), HasSubstr("anna (lost)"));
+    EXPECT_THAT(file("fleet.svg"), HasSubstr(">left<"));
+}
+
+TEST_F(Fleet, TwoHundredRobots) {
+    constexpr int kRobots = 200;
+    constexpr int kStates = 50;
+    const Broker broker(directory_);
+    WatchedFleet fleet(directory_, "--qos 1 --mqtt " + broker.url());
+    std::vector<std::unique_ptr<MqttPublisher>> robots;
+    for (int i = 0; i < kRobots; ++i)
+        robots.push_back(std::make_unique<MqttPublisher>(options(broker)));
+    const auto begun = std::chrono::steady_clock::now();
+    for (int n = 0; n < kStates; ++n) {
+        for (int i = 0; i < kRobots; ++i) {
+            const std::string name = fmt::format("robot{}", i);
+            const Message message{name,    n,       time_now(), "moving", n + 1 < kStates,
+                                  0.1 * i, 0.01 * n};
+            robots[static_cast<std::size_t>(i)]->publish(topic_of(name), message.json());
+        }
+        std::this_thread::sleep_until(begun + (n + 1) * 20ms);
+    }
+    for (const auto& robot : robots)
+        EXPECT_TRUE(robot->flush(20s));
+    // Their last states say that they are lost.
+    const auto are_all_lost = [&] {
+        const std::string map = file("fleet.svg");
+        int lost = 0;
+        for (std::size_t at = 0; (at = map.find("(lost)", at)) != std::string::npos; ++at)
+            ++lost;
+        return lost == kRobots;
+    };
+    wait_until(are_all_lost, 60s);
+    const std::string table = fleet.table();
+    EXPECT_THAT(table, HasSubstr("200 robots, 10000 states, 0 bad, latency median "));
+    EXPECT_THAT(table, testing::Not(testing::ContainsRegex(" 50 +[1-9][0-9]*\n")));
+    std::printf("%s", table.substr(table.rfind("200 robots")).c_str());
+}
+
+TEST_F(Fleet, TopicsTellWhoARobotIsAndTextsDoNotActOnTheTerminal) {
+    const Broker broker(directory_);
+    WatchedFleet fleet(directory_, "--mqtt " + broker.url());
+    MqttPublisher sender(options(broker));
+    const std::string time = "2026-11-24T16:00:00.000000Z";
+    sender.publish(topic_of("anna"), Message{"bert", 1, time}.json());
+    sender.publish(topic_of("\xe2\x80\xae"
+                            "red"),
+                   Message{"\x1b[2J", 1, time, "\x1b]0;OWNED\x07\nroot moving"}.json());
+    for (const char* bad : {"2026-11-24T16:00:nanZ", "2026-11-24T16:00:00", "", "now"})
+        sender.publish(topic_of("carl"), Message{"carl", 1, bad}.json());
+    sender.publish(topic_of("\x1b[31mred"), "{}");  // the library sends no such topic
+    sender.publish(topic_of("dora"), std::string(1'000'000, '['));
+    EXPECT_TRUE(sender.flush(20s));
+    EXPECT_EQ(sender.dropped(), 1);
+    std::this_thread::sleep_for(500ms);
+    const std::string table = fleet.table();
+    EXPECT_THAT(table, HasSubstr("\nanna  "));
+    EXPECT_THAT(table, testing::Not(HasSubstr("bert")));
+    EXPECT_THAT(table, HasSubstr("2 robots, 2 states, 5 bad"));
+    EXPECT_EQ(std::ranges::count(table, '\n'), 4) << table;
+    EXPECT_EQ(table.find_first_of("\x1b\x07"), std::string::npos);
+}
+
+TEST_F(Fleet, ASenderWhoseClockWasSetBackIsFollowed) {
+    const Broker broker(directory_);
+    WatchedFleet fleet(directory_, "--mqtt " + broker.url());
+    MqttOptions mqtt = options(broker);
+    mqtt.qos = 1;
+    MqttPublisher sender(mqtt);
+    const auto send = [&](const char* robot, int header_id, const char* time) {
+        const Message message{robot, header_id, time, "moving", true, 0.1 * header_id};
+        sender.publish(topic_of(robot), message.json());
+        EXPECT_TRUE(sender.flush(20s));
+    };
+    // Its numbers go on.
+    send("anna", 7, "2026-11-24T16:00:00Z");
+    send("anna", 8, "2026-11-24T15:00:00Z");
+    // It was switched on again: the numbers begin anew as well.
+    send("bert", 700, "2026-11-24T16:00:00Z");
+    for (int i = 0; i < 6; ++i)
+        send("bert", i, fmt::format("2026-11-24T15:00:0{}Z", i).c_str());
+    // One message that came late is none of the newest.
+    send("carl", 9, "2026-11-24T16:00:01Z");
+    send("carl", 8, "2026-11-24T16:00:00Z");
+    std::this_thread::sleep_for(500ms);
+    const std::string table = fleet.table();
+    EXPECT_THAT(table, testing::ContainsRegex("\nanna +moving +800.000 "));
+    EXPECT_THAT(table, testing::ContainsRegex("\nbert +moving +500.000 "));
+    EXPECT_THAT(table, testing::ContainsRegex("\ncarl +moving +900.000 "));
+}
+
+TEST_F(Fleet, InventedNamesFillNoMemory) {
+    constexpr int kNames = 12'000;
+    const Broker broker(directory_);
+    WatchedFleet fleet(directory_, "--qos 1 --mqtt " + broker.url());
+    MqttOptions mqtt = options(broker);
+    mqtt.qos = 1;
+    mqtt.queue = kNames;
+    MqttPublisher sender(mqtt);
+    for (int i = 0; i < kNames; ++i) {
+        sender.publish(topic_of(fmt::format("invented{}", i)),
+                       Message{"x", 1, "2026-11-24T16:00:00Z"}.json());
+    }
+    EXPECT_TRUE(sender.flush(60s));
+    std::this_thread::sleep_for(1s);
+    EXPECT_THAT(fleet.table(), HasSubstr("10000 robots, 12000 states, 0 bad"));
+}
+
+TEST_F(Fleet, NeedsABroker) {
+    EXPECT_EQ(run("fleet"), 2);
+    EXPECT_EQ(run("fleet --mqtt nonsense"), 2);
+    EXPECT_THAT(errors_, HasSubstr("'nonsense' is not mqtt://HOST or mqtts://HOST"));
+    EXPECT_EQ(run("watch nowhere.mp4 --robot a/b"), 2);
+    EXPECT_THAT(errors_, HasSubstr("holds none of / + #"));
+}
+
+}  // namespace
+}  // namespace dotpose::test
