@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 namespace dotpose::core {
@@ -103,6 +104,8 @@ void keep_isolated(Patch& patch) {
     };
     std::size_t kept = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(dots.count); ++i) {
+        // On a plateau a parabola has no vertex, and its minimum no finite place.
+        if (!(std::abs(dots.x[i]) < kNoDot_px && std::abs(dots.y[i]) < kNoDot_px)) continue;
         const int u = pixel_of(dots.x[i], patch.width_px);
         const int v = pixel_of(dots.y[i], patch.height_px);
         const auto tile = static_cast<std::size_t>(v / Patch::kTileHeight_px * Patch::kTilesPerRow +

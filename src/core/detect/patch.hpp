@@ -17,7 +17,8 @@ bool place_patch(const ImageView& image, int centre_u_px, int centre_v_px, int w
 bool measure_contrast(Patch& patch);
 
 /// Drops minima of noise on a dark table: those that are dark as well a little way off in more than
-/// two of eight directions, as beyond the edge of a sheet, and those in tiles without contrast.
+/// two of eight directions, as beyond the edge of a sheet, those in tiles without contrast, and
+/// those of plateaus.
 void keep_isolated(Patch& patch);
 
 /// The middle of the patch, px of the image.

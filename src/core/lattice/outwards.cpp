@@ -171,7 +171,7 @@ float squared_reach_of_nearest(const PatchDots& dots, FloatVec of) {
         const float y = dots.y[i] - of.y;
         squares[i] = x * x + y * y;
     }
-    const auto farthest = squares.begin() + std::min(kNearest, count - 1);
+    const auto farthest = squares.begin() + kNearest;
     std::nth_element(squares.begin(), farthest, squares.begin() + count);
     return *farthest;
 }

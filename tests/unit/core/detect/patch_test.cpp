@@ -1,6 +1,10 @@
 // Where patches lie, and the light in them.
 #include "core/detect/patch.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
 #include <memory>
 
 #include <gtest/gtest.h>
@@ -99,6 +103,26 @@ TEST(PatchContrast, WhatIsBlankHasNone) {
     for (std::size_t i = 0; i < 10; ++i)
         patch->darkness[i] = 200;
     EXPECT_FALSE(core::measure_contrast(*patch));
+}
+
+TEST(KeepIsolated, DropsMinimaThatHaveNoFinitePlace) {
+    const auto patch = lit_patch(160, 96, 200, 100);
+    ASSERT_TRUE(core::measure_contrast(*patch));
+    for (int v = 0; v < patch->height_px; ++v)
+        std::fill_n(patch->row(patch->smoothed, v), patch->width_px, std::uint8_t{200});
+    constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+    constexpr float kFar = std::numeric_limits<float>::infinity();
+    const std::array<std::array<float, 2>, 6> places{
+        {{kNone, 3}, {5, 7}, {3, kNone}, {kFar, 1}, {2, -kFar}, {-20, 9}}};
+    patch->dots.count = static_cast<int>(places.size());
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        patch->dots.x[i] = places[i][0];
+        patch->dots.y[i] = places[i][1];
+    }
+    core::keep_isolated(*patch);
+    ASSERT_EQ(patch->dots.count, 2);
+    EXPECT_EQ(patch->dots.x[0], 5);
+    EXPECT_EQ(patch->dots.y[1], 9);
 }
 
 }  // namespace
