@@ -147,7 +147,7 @@ TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
     EXPECT_GT(dropped, kBack - kGone - 100);
 
     // One that was under way when the broker went may come twice.
-    const std::vector<int> ids = header_ids(shell(reader + "-W 2 || true"));
+    const std::vector<int> ids = header_ids(shell(reader + "-W 5 || true"));
     EXPECT_EQ(std::set<int>(ids.begin(), ids.end()).size(), static_cast<std::size_t>(sent));
     // After the gap the newest come first. A machine that is busy makes small gaps of its own.
     ASSERT_GT(ids.size(), 22U);
@@ -156,8 +156,13 @@ TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
         if (i[1] - i[0] > before[1] - before[0]) before = i;
     }
     EXPECT_GT(before[1] - before[0], kBack - kGone - 100);
-    ASSERT_GT(ids.end() - before, 20);
-    EXPECT_TRUE(std::is_sorted(before + 1, before + 21, std::greater<>()));
+    // The newest 50 were kept. What was under way when the broker went, and frames that are taken
+    // meanwhile, come in between.
+    std::vector<int> waited;
+    std::copy_if(before + 1, ids.end(), std::back_inserter(waited),
+                 [&](int id) { return id > before[1] - 50 && id <= before[1]; });
+    EXPECT_GE(waited.size(), 20U);
+    EXPECT_TRUE(std::ranges::is_sorted(waited, std::greater<>()));
 }
 
 TEST_F(Mqtt, StartsBeforeItsBroker) {
