@@ -17,6 +17,7 @@
 #include "path_memory.hpp"
 #include "print/output_file.hpp"
 #include "progress.hpp"
+#include "run_files.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
@@ -94,6 +95,10 @@ class FleetView {
 void run(const FleetArguments& arguments) {
     const auto options = arguments.mqtt.options();
     if (!options) throw BadArgument("name the broker: --mqtt mqtt://HOST");
+    RunFiles files;
+    files.reads("--sheets", arguments.sheets);
+    files.reads("--mqtt-ca", arguments.mqtt.ca_file());
+    files.writes("--map", arguments.map, Content::svg);
     catch_interrupts();
     FleetView view(arguments);
     FleetState fleet;

@@ -19,6 +19,8 @@ class MqttArguments {
     /// DOTPOSE_MQTT_PASSWORD. Throws BadArgument.
     std::optional<publish::MqttOptions> options() const;
 
+    const std::string& ca_file() const { return ca_file_; }
+
   private:
     std::string url_;
     std::string ca_file_;

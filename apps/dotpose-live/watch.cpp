@@ -15,6 +15,7 @@
 #include "mqtt_arguments.hpp"
 #include "progress.hpp"
 #include "robot_state.hpp"
+#include "run_files.hpp"
 #include "terminal_text.hpp"
 #include "video/frame_source.hpp"
 #include "watch_outputs.hpp"
@@ -49,8 +50,22 @@ void report(const WatchOutputs& outputs, std::int64_t dropped) {
                tally.frames, tally.fixes, tally.lost, tally.kidnapped, dropped, outputs.rate());
 }
 
+void require_apart(const WatchArguments& arguments) {
+    const OutputOptions& outputs = arguments.outputs;
+    RunFiles files;
+    files.reads("", video::files_of(arguments.source.name));
+    files.reads("--sheets", arguments.locator.sheets);
+    files.reads("--mqtt-ca", arguments.mqtt.ca_file());
+    files.writes_lines(outputs.out, content_of(outputs.format));
+    files.writes("--log", outputs.log, Content::csv);
+    files.writes("--map", outputs.map, Content::svg);
+    files.writes("--record", outputs.screen.record, Content::own);
+    files.writes("--packets", outputs.packets, Content::packets);
+}
+
 /// Returns the exit status.
 int run(WatchArguments& arguments) {
+    require_apart(arguments);
     catch_interrupts();
     ignore_broken_pipes();
     arguments.source.stop = interrupted;

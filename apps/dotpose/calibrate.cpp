@@ -15,6 +15,7 @@
 #include "common.hpp"
 #include "dotpose/image_file.hpp"
 #include "progress.hpp"
+#include "run_files.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -36,7 +37,7 @@ struct CalibrateArguments {
     bool stitch = false;
     ScaleReference reference;
     std::string sheets;
-    std::optional<Camera> camera;
+    CameraArgument camera;
     std::string out;
     std::string picture;
     std::string spin_picture;
@@ -64,7 +65,7 @@ auto with_progress(const Names& names, const std::string& what, CalibrateOptions
 /// Lens, then mount, as far as frames of each are given; returns what it did.
 std::string calibrate_camera(const CalibrateArguments& arguments) {
     std::string report;
-    std::optional<Camera> camera = arguments.camera;
+    std::optional<Camera> camera = arguments.camera.camera;
     std::optional<LensCalibration> lens;
     if (!arguments.images.empty()) {
         lens = with_progress(arguments.images, "calibrating the lens", arguments.options,
@@ -117,17 +118,35 @@ ScaleReference parse_reference(const std::string& text) {
 /// Writes the world poses and print scales into the sheet file; returns what it did.
 std::string stitch(const CalibrateArguments& arguments) {
     SheetFile file(arguments.sheets);
-    const Stitching stitching =
-        with_progress(arguments.images, "stitching", arguments.options,
-                      [&](int frames, const FrameAt& frame_at, const CalibrateOptions& options) {
-                          return stitch_sheets(frames, frame_at, file.sheets(), arguments.camera,
-                                               options, arguments.reference);
-                      });
+    const Stitching stitching = with_progress(
+        arguments.images, "stitching", arguments.options,
+        [&](int frames, const FrameAt& frame_at, const CalibrateOptions& options) {
+            return stitch_sheets(frames, frame_at, file.sheets(), arguments.camera.camera, options,
+                                 arguments.reference);
+        });
     if (!arguments.picture.empty()) draw_stitching(arguments.picture, file.sheets(), stitching);
     for (const SheetEntry& entry : stitching.sheets)
         file.replace(entry);
     file.save();
     return stitching_report(stitching);
+}
+
+void require_apart(const CalibrateArguments& arguments) {
+    RunFiles files;
+    files.reads("", arguments.images);
+    files.reads("--spin", arguments.spin);
+    files.reads("--drive", arguments.drive);
+    files.updates("--sheets", arguments.sheets, Content::json);
+    // A camera file may be completed: what is not found anew stays in it.
+    const auto camera = identity_of(arguments.camera.path);
+    if (camera && camera == identity_of(arguments.out) && !is_camera_info(arguments.camera.path)) {
+        files.updates("-o", arguments.out, Content::yaml);
+    } else {
+        files.reads("--camera", arguments.camera.path);
+        files.writes("-o", arguments.out, Content::yaml);
+    }
+    files.writes("--draw", arguments.picture, Content::svg);
+    files.writes("--draw-spin", arguments.spin_picture, Content::svg);
 }
 
 /// Returns the exit status.
@@ -137,6 +156,7 @@ int run(const CalibrateArguments& arguments) {
         throw BadArgument("no images given: name 5 to 50 frames");
     }
     if (arguments.stitch && has_mount) throw BadArgument("--stitch is a job of its own");
+    require_apart(arguments);
     catch_interrupts();
     const std::string report = arguments.stitch ? stitch(arguments) : calibrate_camera(arguments);
     std::fputs(report.c_str(), stdout);

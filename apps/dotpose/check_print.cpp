@@ -17,6 +17,7 @@
 #include "dotpose/image_file.hpp"
 #include "dotpose/sheet_file.hpp"
 #include "progress.hpp"
+#include "run_files.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -104,9 +105,17 @@ CheckPrintOptions options_of(const CheckPrintArguments& arguments,
     return options;
 }
 
+void require_apart(const CheckPrintArguments& arguments) {
+    RunFiles files;
+    files.reads("", arguments.scan);
+    files.reads("--sheets", arguments.sheets);
+    files.writes("-o", arguments.out, Content::svg);
+}
+
 /// Returns the exit status.
 int run(const CheckPrintArguments& arguments) {
     if (!arguments.out.empty()) require_svg(arguments.out);
+    require_apart(arguments);
     std::vector<SheetEntry> sheets;
     if (!arguments.sheets.empty()) sheets = read_sheets(arguments.sheets);
     CheckPrintOptions options = options_of(arguments, sheets);

@@ -135,11 +135,14 @@ CLI::Option* add_lens_option(CLI::App& command, Lens& lens) {
         ->default_str("0");
 }
 
-CLI::Option* add_camera_option(CLI::App& command, std::optional<Camera>& camera,
-                               const std::string& help) {
+CLI::Option* add_camera_option(CLI::App& command, CameraArgument& camera, const std::string& help) {
     return command
         .add_option_function<std::string>(
-            "--camera", [&camera](const std::string& path) { camera = read_camera(path); }, help)
+            "--camera",
+            [&camera](const std::string& path) {
+                camera = {path, read_camera(path)};
+            },
+            help)
         ->type_name("FILE");
 }
 

@@ -38,9 +38,14 @@ CLI::Option* add_sheets_option(CLI::App& command, std::string& path, const std::
 /// --k 1/PX^2: what `locate` corrects.
 CLI::Option* add_lens_option(CLI::App& command, Lens& lens);
 
+/// A camera file and what it says.
+struct CameraArgument {
+    std::string path;  ///< empty: none
+    std::optional<Camera> camera;
+};
+
 /// --camera FILE, which is read at once.
-CLI::Option* add_camera_option(CLI::App& command, std::optional<Camera>& camera,
-                               const std::string& help);
+CLI::Option* add_camera_option(CLI::App& command, CameraArgument& camera, const std::string& help);
 
 /// --decoder and --effort. `options` must outlive the command.
 void add_attempt_options(CLI::App& command, Options& options);

@@ -55,7 +55,7 @@ struct EvaluateArguments {
     std::optional<int> frames;
     Setup setup;
     Options options;
-    std::optional<Camera> camera;
+    CameraArgument camera;
     TruthOf truth_of = TruthOf::image;
     double spacing_mm = kDefaultSpacing_mm;
     bool spacing_given = false;
@@ -158,7 +158,7 @@ int evaluate_folder(const EvaluateArguments& arguments) {
     FrameRun run;
     run.frames = static_cast<int>(rows.size());
     run.frame_at = frames_of_folder(folder, rows);
-    if (arguments.camera) locate_with(*arguments.camera, rows, run);
+    if (arguments.camera.camera) locate_with(*arguments.camera.camera, rows, run);
     return evaluate_run(arguments, arguments.folder, run);
 }
 
@@ -221,7 +221,7 @@ int run(EvaluateArguments& arguments) {
     if (writes && arguments.out.empty()) throw BadArgument("name a folder for the results: -o DIR");
     if (writes && arguments.json) throw BadArgument("--json is for DIR and --preset only");
     if (has_folder && arguments.frames) throw BadArgument("--frames is for simulated frames only");
-    if (auto& camera = arguments.camera) {
+    if (auto& camera = arguments.camera.camera) {
         if (!has_folder) throw BadArgument("--camera is for frames in a folder only");
         if (arguments.truth_of == TruthOf::image) {
             camera->reference_px.reset();

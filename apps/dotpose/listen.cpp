@@ -22,6 +22,7 @@
 #include "fields.hpp"
 #include "lines.hpp"
 #include "progress.hpp"
+#include "run_files.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -158,6 +159,9 @@ class LossCounter {
 };
 
 void run(const ListenArguments& arguments) {
+    RunFiles files;
+    files.reads("", arguments.source);
+    files.writes_lines(arguments.out, content_of(arguments.format));
     catch_interrupts();
     ByteSource source(arguments);
     Lines lines(arguments.out);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <limits>
@@ -22,6 +23,7 @@
 #include "lines.hpp"
 #include "locate_record.hpp"
 #include "picture_folder.hpp"
+#include "run_files.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
@@ -53,15 +55,16 @@ struct LocateArguments {
     double spacing_mm = kDefaultSpacing_mm;
     bool is_inverted = false;
     Options options;
-    std::optional<Camera> camera;
+    CameraArgument camera;
     std::optional<PixelPoint> reference_px;
 };
 
-/// All names in turn: those on the command line, then those of the list, read as they come.
+/// All names in turn: those on the command line and of a list in a file, which are known from the
+/// start, then those of a list in a pipe, read as they come.
 class Names {
   public:
     explicit Names(const LocateArguments& arguments)
-        : images_(arguments.images), list_name_(arguments.list) {
+        : known_(arguments.images), list_name_(arguments.list) {
         if (arguments.list.empty()) return;
         if (arguments.list == "-") {
             list_ = &std::cin;
@@ -70,10 +73,19 @@ class Names {
         file_.open(arguments.list);
         list_ = &file_;
         require_good();
+        if (!std::filesystem::is_regular_file(arguments.list)) return;
+        while (const auto name = next_of_list())
+            known_.push_back(*name);
     }
 
+    const std::vector<std::string>& known() const { return known_; }
+
     std::optional<std::string> next() {
-        if (next_image_ < images_.size()) return images_[next_image_++];
+        return next_known_ < known_.size() ? known_[next_known_++] : next_of_list();
+    }
+
+  private:
+    std::optional<std::string> next_of_list() {
         std::string line;
         while (list_ != nullptr && std::getline(*list_, line)) {
             if (!line.empty()) return line;
@@ -81,15 +93,13 @@ class Names {
         if (list_ != nullptr && !list_->eof()) require_good();
         return std::nullopt;
     }
-
-  private:
     void require_good() const {
         if (!*list_) throw Error("cannot read the list " + list_name_);
     }
 
-    const std::vector<std::string>& images_;
+    std::vector<std::string> known_;
     std::string list_name_;
-    std::size_t next_image_ = 0;
+    std::size_t next_known_ = 0;
     std::ifstream file_;
     std::istream* list_ = nullptr;
 };
@@ -102,13 +112,13 @@ void invert(GreyImage& image) {
 /// Reads and locates one image after the other.
 class Locator {
   public:
-    explicit Locator(const LocateArguments& arguments)
+    Locator(const LocateArguments& arguments, RunFiles& files)
         : arguments_(arguments),
           profiles_{arguments.options.profile},
           unplaced_spacing_mm_(arguments.spacing_mm),
           workspace_(std::make_unique<LargeWorkspace>()) {
         if (!arguments.sheets.empty()) use_sheets();
-        if (!arguments.draw_folder.empty()) pictures_.emplace(arguments.draw_folder);
+        if (!arguments.draw_folder.empty()) pictures_.emplace(arguments.draw_folder, files);
     }
 
     bool has_sheets() const { return !arguments_.sheets.empty(); }
@@ -183,17 +193,17 @@ class Locator {
     Fix locate_with(Profile profile) {
         options_.profile = profile;
         const Fix fix = locate(image_.view(), options_, *workspace_);
-        if (!arguments_.camera) return fix;
+        if (!arguments_.camera.camera) return fix;
         const auto place = find_sheet(sheets_, profile, fix);
-        return with_camera(fix, *arguments_.camera, options_, *workspace_,
+        return with_camera(fix, *arguments_.camera.camera, options_, *workspace_,
                            place ? place->entry->print_scale() : AxisScale{});
     }
 
     Options options_for(const GreyImage& image) const {
         Options options = arguments_.options;
         options.show_stages = pictures_.has_value();
-        if (arguments_.camera) {
-            use_camera(*arguments_.camera, image.width_px, image.height_px, options);
+        if (const auto& camera = arguments_.camera.camera) {
+            use_camera(*camera, image.width_px, image.height_px, options);
         }
         if (const auto& reference_px = arguments_.reference_px) {
             const auto from_centre_q8 = [](double px, int side_px) {
@@ -216,6 +226,16 @@ class Locator {
     double spacing_mm_ = 0;
 };
 
+RunFiles files_of(const LocateArguments& arguments, const Names& names) {
+    RunFiles files;
+    files.reads("--sheets", arguments.sheets);
+    files.reads("--camera", arguments.camera.path);
+    files.reads("--list", arguments.list);
+    files.reads("", names.known());
+    files.writes_lines(arguments.out, content_of(arguments.format));
+    return files;
+}
+
 /// Returns the exit status.
 int run(const LocateArguments& arguments) {
     if (arguments.images.empty() && arguments.list.empty()) {
@@ -223,7 +243,8 @@ int run(const LocateArguments& arguments) {
     }
     const bool is_csv = arguments.format == RecordFormat::csv;
     Names names(arguments);
-    Locator locator(arguments);
+    RunFiles files = files_of(arguments, names);
+    Locator locator(arguments, files);
     Lines lines(arguments.out);
     int exit_code = 0;
     // One bad file does not keep the others from being done.
@@ -240,7 +261,11 @@ int run(const LocateArguments& arguments) {
     if (is_csv) lines.write(csv_header(locator.has_sheets()));
     while (const auto name = names.next()) {
         Record record;
-        if (!attempt([&] { record = locator(*name); })) continue;
+        const bool is_read = attempt([&] {
+            files.require_not_written(*name);
+            record = locator(*name);
+        });
+        if (!is_read) continue;
         lines.write(is_csv ? csv_line(record) : json_line(record));
         attempt([&] { locator.draw(*name); });
     }

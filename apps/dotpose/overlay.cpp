@@ -9,6 +9,7 @@
 #include "commands.hpp"
 #include "common.hpp"
 #include "progress.hpp"
+#include "run_files.hpp"
 #include "sheet_entries.hpp"
 #include "terminal_text.hpp"
 
@@ -33,7 +34,15 @@ constexpr const char* kExamples =
     "Black ink hides dots from infrared cameras: --cmy-black prints the document's black from\n"
     "cyan, magenta and yellow, which they do not see.\n";
 
+void require_apart(const OverlayArguments& arguments) {
+    RunFiles files;
+    files.reads("", arguments.in);
+    files.updates("--sheets", arguments.entries.path(), Content::json);
+    files.writes("-o", arguments.out, Content::own);
+}
+
 void run(OverlayArguments& arguments) {
+    require_apart(arguments);
     OverlayOptions options = arguments.options;
     options.pattern = arguments.pattern.pattern();
     std::optional<SheetFile> sheet_file;

@@ -9,7 +9,8 @@ namespace dotpose::cli {
 
 namespace fs = std::filesystem;
 
-PictureFolder::PictureFolder(fs::path folder) : folder_(std::move(folder)) {
+PictureFolder::PictureFolder(fs::path folder, RunFiles& files)
+    : folder_(std::move(folder)), files_(files) {
     std::error_code error;
     fs::create_directories(folder_, error);
     if (!fs::is_directory(folder_)) {
@@ -24,6 +25,7 @@ void PictureFolder::add(const std::string& image_name, ImageView image, const Wo
     std::string file = stem + ".svg";
     for (int n = 2; !used_.insert(file).second; ++n)
         file = fmt::format("{}-{}.svg", stem, n);
+    files_.writes("--draw", (folder_ / file).string(), Content::svg);
     draw_frame(folder_ / file, image, workspace, options,
                {.spacing_mm = spacing_mm, .title = fs::path(image_name).filename().string()});
 }

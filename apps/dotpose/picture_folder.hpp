@@ -8,13 +8,14 @@
 #include "dotpose/image.hpp"
 #include "dotpose/options.hpp"
 #include "dotpose/workspace.hpp"
+#include "run_files.hpp"
 
 namespace dotpose::cli {
 
 class PictureFolder {
   public:
-    /// Creates the folder. Throws Error.
-    explicit PictureFolder(std::filesystem::path folder);
+    /// Creates the folder. Throws Error. The pictures are outputs of the run.
+    PictureFolder(std::filesystem::path folder, RunFiles& files);
 
     /// Writes STEM.svg after the image's name, or STEM-2.svg and so on if an earlier image had the
     /// same stem. Throws Error.
@@ -23,6 +24,7 @@ class PictureFolder {
 
   private:
     std::filesystem::path folder_;
+    RunFiles& files_;
     std::set<std::string> used_;
 };
 

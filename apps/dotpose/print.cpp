@@ -12,6 +12,7 @@
 #include "common.hpp"
 #include "dotpose/test_page.hpp"
 #include "progress.hpp"
+#include "run_files.hpp"
 #include "sheet_entries.hpp"
 #include "terminal_text.hpp"
 
@@ -85,7 +86,14 @@ void print_test_page(const PrintArguments& arguments, const Paper& paper) {
         arguments.out, page.width_mm, page.height_mm, page.sheets.size());
 }
 
+void require_apart(const PrintArguments& arguments) {
+    RunFiles files;
+    files.updates("--sheets", arguments.entries.path(), Content::json);
+    files.writes("-o", arguments.out, Content::own);
+}
+
 void run(const PrintArguments& arguments) {
+    require_apart(arguments);
     SheetOptions options = arguments.sheet;
     options.paper = paper_by_name(arguments.paper);
     if (arguments.landscape) options.paper = landscape(options.paper);

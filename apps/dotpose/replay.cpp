@@ -8,6 +8,7 @@
 #include "commands.hpp"
 #include "dotpose/error.hpp"
 #include "print/output_file.hpp"
+#include "run_files.hpp"
 #include "run_log.hpp"
 #include "terminal_text.hpp"
 
@@ -77,6 +78,9 @@ void print_json(const RunStatistics& run) {
 }
 
 void run(const ReplayArguments& arguments) {
+    RunFiles files;
+    files.reads("", arguments.log);
+    files.writes("-o", arguments.out, Content::svg);
     if (!arguments.out.empty()) print::require_writable(arguments.out);
     const auto rows = read_log(arguments.log);
     const RunStatistics statistics = statistics_of(rows);

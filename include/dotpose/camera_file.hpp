@@ -87,6 +87,10 @@ void validate(const Camera& camera);
 /// eq. 2 cannot follow to within 0.5 px rms.
 Camera read_camera(const std::filesystem::path& path);
 
+/// Whether it is a camera_info file of ROS, which `write_camera` would turn into one of another
+/// format. Throws Error: the file cannot be read.
+bool is_camera_info(const std::filesystem::path& path);
+
 /// Writes the file, whole or not at all. Throws Error, or BadArgument as `validate`.
 void write_camera(const std::filesystem::path& path, const Camera& camera);
 

@@ -135,6 +135,10 @@ Camera read_camera(const std::filesystem::path& path) {
     return camera;
 }
 
+bool is_camera_info(const std::filesystem::path& path) {
+    return calibrate::is_camera_info(YamlMap(path));
+}
+
 void write_camera(const std::filesystem::path& path, const Camera& camera) {
     validate(camera);
     print::OutputFile file(path);

@@ -20,12 +20,19 @@ constexpr int kNameAttempts = 100;
 
 }  // namespace
 
-OutputFile::OutputFile(const fs::path& target) : target_(target) {
+fs::path without_links(fs::path path) {
+    constexpr int kMostLinks = 40;  // as many as Linux follows
     std::error_code error;
-    if (fs::is_symlink(target_, error)) {
-        const fs::path resolved = fs::weakly_canonical(target_, error);
-        if (!error) target_ = resolved;
+    for (int i = 0; i < kMostLinks && fs::is_symlink(path, error); ++i) {
+        const fs::path target = fs::read_symlink(path, error);
+        if (error) break;
+        path = path.parent_path() / target;
     }
+    return path;
+}
+
+OutputFile::OutputFile(const fs::path& target) : target_(without_links(target)) {
+    std::error_code error;
     const fs::file_status status = fs::status(target_, error);
     if (fs::is_directory(status)) throw_system("write", target_, EISDIR);
     if (fs::exists(status) && !fs::is_regular_file(status)) {

@@ -9,6 +9,10 @@
 
 namespace dotpose::print {
 
+/// The name of the file itself where `path` is a symbolic link, also to a file that does not exist
+/// yet.
+std::filesystem::path without_links(std::filesystem::path path);
+
 /// Writes to a temporary file beside the target; `commit` renames it, the destructor of an
 /// uncommitted file removes it. Symbolic links are followed, the mode of an old file is kept.
 class OutputFile {

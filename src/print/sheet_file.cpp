@@ -28,19 +28,6 @@ std::optional<std::string> text_of(const fs::path& path) {
     return print::text_of(path, kMostBytes);
 }
 
-/// Whoever names the file by a link must wait for the same lock as the others, also before there is
-/// a file: a link to none is no canonical path to the standard library.
-fs::path without_links(fs::path path) {
-    constexpr int kMostLinks = 40;  // as many as Linux follows
-    std::error_code error;
-    for (int i = 0; i < kMostLinks && fs::is_symlink(path, error); ++i) {
-        const fs::path target = fs::read_symlink(path, error);
-        if (error) break;
-        path = path.parent_path() / target;
-    }
-    return path;
-}
-
 }  // namespace
 
 std::vector<SheetEntry> read_sheets(const fs::path& path) {
@@ -79,8 +66,9 @@ SheetFile::Lock::~Lock() {
     close(descriptor_);
 }
 
+// Whoever names the file by a link must wait for the same lock as the others.
 SheetFile::SheetFile(const fs::path& path)
-    : path_(without_links(path)), lock_(path_), text_(text_of(path_)) {
+    : path_(print::without_links(path)), lock_(path_), text_(text_of(path_)) {
     if (text_) sheets_ = print::sheets_from_json(*text_, path_.string());
 }
 

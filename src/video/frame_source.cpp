@@ -37,14 +37,16 @@ class Cropped : public FrameSource {
     Region region_;
 };
 
+bool is_images(const std::string& name) {
+    return fs::is_directory(name) || name.find_first_of("*?[") != std::string::npos;
+}
+
 std::unique_ptr<FrameSource> open_whole(const SourceOptions& options) {
     const std::string& name = options.name;
     if (name.empty()) throw BadArgument("the name of the source is empty");
     if (name == "-") return open_raw(options);
     if (is_camera(name)) return open_camera(options);
-    if (fs::is_directory(name) || name.find_first_of("*?[") != std::string::npos) {
-        return open_images(options);
-    }
+    if (is_images(name)) return open_images(options);
     return open_video(options);
 }
 
@@ -52,6 +54,11 @@ std::unique_ptr<FrameSource> open_whole(const SourceOptions& options) {
 
 bool is_url(const std::string& name) {
     return name.find("://") != std::string::npos;
+}
+
+std::vector<std::string> files_of(const std::string& name) {
+    if (name.empty() || is_camera(name)) return {};
+    return is_images(name) ? images_at(name) : std::vector{name};
 }
 
 std::unique_ptr<FrameSource> open_source(const SourceOptions& options) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "dotpose/error.hpp"
 #include "dotpose/grey_image.hpp"
@@ -60,6 +61,9 @@ class FrameSource {
     /// Frames per second as the source states it; 0: unknown.
     virtual double rate() const { return 0; }
 };
+
+/// The files that a source of this name reads: images, a video, "-"; none of a camera.
+std::vector<std::string> files_of(const std::string& name);
 
 /// Throws Error: there is no such source, or it cannot be read; BadArgument: raw frames need a
 /// size, the region leaves the frame.

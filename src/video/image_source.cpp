@@ -51,9 +51,7 @@ std::vector<std::string> images_of_glob(const std::string& pattern) {
 class ImageSource : public FrameSource {
   public:
     explicit ImageSource(const SourceOptions& options)
-        : options_(options),
-          names_(fs::is_directory(options.name) ? images_of_folder(options.name)
-                                                : images_of_glob(options.name)) {
+        : options_(options), names_(images_at(options.name)) {
         if (names_.empty()) throw Error("no images at " + options.name);
     }
 
@@ -82,6 +80,10 @@ class ImageSource : public FrameSource {
 };
 
 }  // namespace
+
+std::vector<std::string> images_at(const std::string& name) {
+    return fs::is_directory(name) ? images_of_folder(name) : images_of_glob(name);
+}
 
 std::unique_ptr<FrameSource> open_images(const SourceOptions& options) {
     return std::make_unique<ImageSource>(options);

@@ -10,6 +10,10 @@ std::unique_ptr<FrameSource> open_images(const SourceOptions& options);
 std::unique_ptr<FrameSource> open_video(const SourceOptions& options);
 std::unique_ptr<FrameSource> open_camera(const SourceOptions& options);
 
+/// The images of a folder or glob, in the order of their names. Throws Error: the folder cannot be
+/// read.
+std::vector<std::string> images_at(const std::string& name);
+
 /// Whether the name is that of something in the network.
 bool is_url(const std::string& name);
 

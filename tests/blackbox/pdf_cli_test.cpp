@@ -168,7 +168,7 @@ TEST_F(PdfCommands, overlay_refuses_and_writes_nothing) {
         {"cut.pdf -o out.pdf", 1, "cut.pdf: damaged PDF"},
         {"locked.pdf -o out.pdf", 1, "a password is needed"},
         {"locked.pdf -o out.pdf --password x", 1, "wrong password"},
-        {"same.pdf -o ./same.pdf", 2, "is the document itself"},
+        {"same.pdf -o ./same.pdf", 2, "would overwrite the input same.pdf"},
         {"in.pdf -o out.pdf --pages 2", 2, "give numbers from 1 to 1"},
         {"in.pdf -o out.pdf --origin 410815300,0", 2, "page 1: 138 columns"},
         {"in.pdf -o out.pdf --margin 30", 2, "leaves nothing"},

@@ -1,0 +1,141 @@
+#include "run_files.hpp"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <string_view>
+
+#include <fmt/core.h>
+#include <sys/stat.h>
+
+#include "dotpose/error.hpp"
+#include "print/output_file.hpp"
+
+namespace dotpose::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 24> kImagesAndVideos = {
+    ".pgm", ".ppm",  ".pbm", ".pnm",  ".png",  ".jpg",  ".jpeg", ".bmp",
+    ".tif", ".tiff", ".gif", ".webp", ".heic", ".heif", ".svg",  ".pdf",
+    ".mp4", ".m4v",  ".avi", ".mkv",  ".mov",  ".webm", ".mpg",  ".mpeg"};
+
+std::string lower(std::string text) {
+    std::ranges::transform(text, text.begin(),
+                           [](char c) { return 'A' <= c && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+    return text;
+}
+
+const char* name(Content content) {
+    switch (content) {
+        case Content::json:
+            return "JSON";
+        case Content::csv:
+            return "CSV";
+        case Content::yaml:
+            return "YAML";
+        case Content::svg:
+            return "an SVG picture";
+        case Content::packets:
+            return "pose packets";
+        case Content::own:
+            break;
+    }
+    return "";
+}
+
+void require_fitting_name(const std::string& label, const std::string& path, Content content) {
+    const std::string ending = lower(fs::path(path).extension().string());
+    if (content == Content::own || (content == Content::svg && ending == ".svg")) return;
+    if (std::ranges::find(kImagesAndVideos, ending) == kImagesAndVideos.end()) return;
+    throw BadArgument(fmt::format(
+        "{}: the name ends like that of an image or video ({}), and the file would hold {}; was "
+        "the name of the output left out?",
+        label, ending, name(content)));
+}
+
+std::string label_of(const std::string& option, const std::string& path) {
+    return option.empty() ? path : option + " " + path;
+}
+
+/// "-" is standard input.
+std::string input_path(const std::string& path) {
+    return path == "-" ? "/dev/stdin" : path;
+}
+
+[[noreturn]] void refuse(const std::string& output, const std::string& input) {
+    throw BadArgument(
+        fmt::format("{} would overwrite the input {}: name another file", output, input));
+}
+
+}  // namespace
+
+Content content_of(RecordFormat format) {
+    return format == RecordFormat::csv ? Content::csv : Content::json;
+}
+
+std::optional<FileIdentity> identity_of(const std::string& path) {
+    if (path.empty()) return std::nullopt;
+    struct stat found {};
+    if (stat(path.c_str(), &found) == 0) {
+        if (!S_ISREG(found.st_mode)) return std::nullopt;
+        return FileIdentity{found.st_dev, found.st_ino, ""};
+    }
+    const fs::path target = print::without_links(path);
+    const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+    if (stat(folder.c_str(), &found) != 0) return std::nullopt;
+    return FileIdentity{found.st_dev, found.st_ino, lower(target.filename().string())};
+}
+
+void RunFiles::reads(const std::string& option, const std::string& path) {
+    if (path.empty()) return;
+    const auto identity = identity_of(input_path(path));
+    if (!identity) return;
+    const std::string label = path == "-" ? "on standard input" : label_of(option, path);
+    const auto output = outputs_.find(*identity);
+    if (output != outputs_.end()) refuse(output->second, label);
+    inputs_.emplace(*identity, label);
+}
+
+void RunFiles::reads(const std::string& option, const std::vector<std::string>& paths) {
+    for (const std::string& path : paths)
+        reads(option, path);
+}
+
+void RunFiles::writes(const std::string& option, const std::string& path, Content content) {
+    if (path.empty()) return;
+    const std::string label = label_of(option, path);
+    require_fitting_name(label, path, content);
+    add_output(label, path);
+}
+
+void RunFiles::writes_lines(const std::string& path, Content content) {
+    if (!path.empty()) return writes("-o", path, content);
+    add_output("standard output", "/dev/stdout");
+}
+
+void RunFiles::updates(const std::string& option, const std::string& path, Content content) {
+    std::error_code error;
+    fs::exists(path, error) ? reads(option, path) : writes(option, path, content);
+}
+
+void RunFiles::require_not_written(const std::string& path) const {
+    const auto identity = identity_of(path);
+    const auto output = identity ? outputs_.find(*identity) : outputs_.end();
+    if (output != outputs_.end()) refuse(output->second, path);
+}
+
+void RunFiles::add_output(const std::string& label, const std::string& path) {
+    const auto identity = identity_of(path);
+    if (!identity) return;
+    const auto input = inputs_.find(*identity);
+    if (input != inputs_.end()) refuse(label, input->second);
+    const auto [other, is_new] = outputs_.emplace(*identity, label);
+    if (!is_new) {
+        throw BadArgument(fmt::format("{} and {} are the same file: name another for one of them",
+                                      other->second, label));
+    }
+}
+
+}  // namespace dotpose::cli
