@@ -84,6 +84,12 @@ std::string spin_report(const SpinCalibration& calibration) {
         reference.v);
     add(text, "residual    {:.4f} mm (rms per axis): so well the robot stayed on the spot",
         calibration.residual_mm);
+    add(text, "verdict     {}: {}", name(calibration.verdict),
+        calibration.drift_mm > 0
+            ? fmt::format("the robot moved on while it turned, which makes {:.4f} mm of the "
+                          "deviation; let it turn on the spot",
+                          calibration.drift_mm)
+            : "one point stayed put");
     return text;
 }
 
@@ -94,6 +100,7 @@ std::string drive_report(const DriveCalibration& calibration) {
     add(text, "heading     image x axis {:+.3f} +- {:.3f} degrees",
         degrees(calibration.camera.theta_offset_rad), degrees(calibration.sigma_rad));
     add(text, "residual    {:.4f} mm (rms): so straight was the drive", calibration.residual_mm);
+    add(text, "verdict     good: straight ahead, in order");
     return text;
 }
 

@@ -55,6 +55,20 @@ std::string require_positive(const std::string& text) {
     return "'" + text + "' is not a length in mm above 0";
 }
 
+/// Refuses what is meant in another unit: micrometres, metres. Ten dots of a printer of 25,000 dpi
+/// make the smallest spacing, and the largest makes 8 x 8 dots, the least that tell a place, fill
+/// most of an A0 poster.
+std::string require_spacing(const std::string& text) {
+    constexpr double kLeast_mm = 0.01;
+    constexpr double kMost_mm = 100;
+    double value_mm = 0;
+    if (!CLI::detail::lexical_cast(text, value_mm) || !(value_mm > 0))
+        return require_positive(text);
+    if (value_mm >= kLeast_mm && value_mm <= kMost_mm) return {};
+    return fmt::format("'{}' is no spacing of dots in mm, {:g} to {:g}; usual is {:g}", text,
+                       kLeast_mm, kMost_mm, kDefaultSpacing_mm);
+}
+
 }  // namespace
 
 void add_code_option(CLI::App& command, Profile& profile) {
@@ -91,7 +105,7 @@ void add_spacing_option(CLI::App& command, double& spacing_mm) {
     command.add_option("--spacing", spacing_mm, "Distance of neighbouring grid intersections")
         ->type_name("MM")
         ->capture_default_str()
-        ->check(require_positive);
+        ->check(require_spacing);
 }
 
 void add_cell_option(CLI::App& command, const std::string& flag, Cell& cell,

@@ -328,7 +328,8 @@ void add_locate(CLI::App& app, int& exit_code) {
         ->type_name("FILE");
     command
         ->add_option("--draw", arguments->draw_folder,
-                     "Also write a picture (SVG) of what was seen in each image")
+                     "Also write a picture (SVG) of what was seen in each image; the last "
+                     "folder of the name is made if missing")
         ->type_name("DIR");
     command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }

@@ -12,7 +12,8 @@ namespace fs = std::filesystem;
 PictureFolder::PictureFolder(fs::path folder, RunFiles& files)
     : folder_(std::move(folder)), files_(files) {
     std::error_code error;
-    fs::create_directories(folder_, error);
+    // One folder only: more missing ones are a mistyped name.
+    fs::create_directory(folder_, error);
     if (!fs::is_directory(folder_)) {
         throw Error(fmt::format("cannot create the folder {}: {}", folder_.string(),
                                 error ? error.message() : "a file has this name"));

@@ -14,7 +14,7 @@ namespace dotpose::cli {
 
 class PictureFolder {
   public:
-    /// Creates the folder. Throws Error. The pictures are outputs of the run.
+    /// Creates the folder, in one that exists. Throws Error. The pictures are outputs of the run.
     PictureFolder(std::filesystem::path folder, RunFiles& files);
 
     /// Writes STEM.svg after the image's name, or STEM-2.svg and so on if an earlier image had the

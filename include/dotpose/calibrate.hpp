@@ -94,6 +94,12 @@ struct SpinStation {
     double off_y_mm = 0;
 };
 
+enum class MountVerdict {
+    good,
+    drifted,  ///< the robot moved on while it turned, by more than chance explains
+};
+const char* name(MountVerdict verdict);
+
 /// Where the camera sits: the point that stays put while the robot turns on the spot.
 struct SpinCalibration {
     Camera camera;  ///< the one given, with `reference_px` set
@@ -104,12 +110,17 @@ struct SpinCalibration {
     double sigma_mm = 0;     ///< standard deviation of the point, per axis
     double residual_mm = 0;  ///< rms of the frames about it, per axis: how well the robot stood
     double turn_rad = 0;     ///< smallest arc that holds all angles
+    /// By how much a robot that moved on while it turned falsifies the point, per axis; part of
+    /// `sigma_mm`. 0: it stayed, as far as chance lets that be told.
+    double drift_mm = 0;
+    MountVerdict verdict = MountVerdict::good;
     std::vector<SpinStation> stations;
 };
 
 /// At least 3 frames over more than 30 degrees; a full turn in 12 is good. `camera`: its lens and
 /// view; none: without distortion. Throws Error: too few frames with a fix, too small a turn,
-/// frames of other sizes, a point farther off than a camera file can say.
+/// frames of other sizes, a point farther off than a camera file can say; no point stays put to one
+/// spacing (rms per axis), or it is not told to half a spacing.
 SpinCalibration calibrate_spin(int frames, const FrameAt& frame_at,
                                const std::optional<Camera>& camera,
                                const CalibrateOptions& options);
@@ -124,7 +135,9 @@ struct DriveCalibration {
     double length_mm = 0;    ///< of the drive
 };
 
-/// At least 2 frames over more than 5 mm. Throws Error as `calibrate_spin`.
+/// At least 2 frames over more than 5 mm. Throws Error: too few frames with a fix, frames of other
+/// sizes, too short a drive, a robot that turned by more than 5 degrees off its mean direction, or
+/// left the straight line by more than that, or went back.
 DriveCalibration calibrate_drive(int frames, const FrameAt& frame_at,
                                  const std::optional<Camera>& camera,
                                  const CalibrateOptions& options);

@@ -21,8 +21,13 @@ using Eigen::Vector2d;
 constexpr int kLeastSpinFrames = 3;
 constexpr double kLeastTurn_rad = std::numbers::pi / 6;
 constexpr double kLeastDrive_mm = 5;
-/// A robot that turns by more than this does not drive straight.
+/// A robot that turns by more than this does not drive straight, nor does one whose path leaves its
+/// mean line at a larger angle.
 constexpr double kMostSwerve_rad = std::numbers::pi / 36;
+/// Chance of taking a robot that stayed on the spot for one that moved on while it turned.
+constexpr double kFalseDrift = 1e-3;
+/// Degrees of freedom with which a drift can be told from chance.
+constexpr int kLeastDriftFrames = 5;
 
 /// Place (mm, from the first frame's cell) and angle of the image centre in one frame.
 struct Station {
@@ -130,7 +135,107 @@ void require_stations(std::size_t found, int least, int frames) {
                             frames, least));
 }
 
+/// A turn about one point, by least squares: pivot + t drift - turn(theta) offset = place, linear
+/// in all three; t runs from -1 at the first frame to 1 at the last.
+struct SpotTurn {
+    Vector2d pivot;
+    Vector2d offset;          ///< of the pivot from the image centre, along the image axes
+    double squares_mm2 = 0;   ///< of the residuals
+    double offset_share = 0;  ///< variance of the offset, per axis, over that of a place
+};
+
+/// `kParameters`: 4 for a robot that stays on the spot, 6 for one that drifts as well.
+template <int kParameters>
+SpotTurn fit_turn(const std::vector<Station>& stations) {
+    using Rows = Eigen::Matrix<double, 2, kParameters>;
+    using Vector = Eigen::Matrix<double, kParameters, 1>;
+    const auto rows_of = [&](std::size_t i) {
+        Rows rows;
+        rows.template leftCols<4>() << Matrix2d::Identity(), -turn(stations[i].theta_rad);
+        if constexpr (kParameters == 6) {
+            const double t = 2.0 * double(i) / double(stations.size() - 1) - 1;
+            rows.template rightCols<2>() = t * Matrix2d::Identity();
+        }
+        return rows;
+    };
+    Eigen::Matrix<double, kParameters, kParameters> normal =
+        Eigen::Matrix<double, kParameters, kParameters>::Zero();
+    Vector right = Vector::Zero();
+    for (std::size_t i = 0; i < stations.size(); ++i) {
+        const Rows rows = rows_of(i);
+        normal += rows.transpose() * rows;
+        right += rows.transpose() * stations[i].place_mm;
+    }
+    const Vector solved = normal.ldlt().solve(right);
+    SpotTurn result{solved.template head<2>(), solved.template segment<2>(2)};
+    for (std::size_t i = 0; i < stations.size(); ++i)
+        result.squares_mm2 += (stations[i].place_mm - rows_of(i) * solved).squaredNorm();
+    result.offset_share = normal.inverse()(2, 2);
+    return result;
+}
+
+/// By how much a drift of the robot falsifies the offset, per axis; 0 where chance explains what
+/// looks like one. With two parameters more, the F test of m = 2 n - 6 degrees of freedom has the
+/// tail (squares with drift / squares without) ^ (m / 2).
+double bias_of_drift_mm(const std::vector<Station>& stations, const SpotTurn& on_the_spot) {
+    if (stations.size() < kLeastDriftFrames) return 0;
+    const SpotTurn drifting = fit_turn<6>(stations);
+    const auto half_m = static_cast<double>(stations.size() - 3);
+    const double chance = std::pow(drifting.squares_mm2 / on_the_spot.squares_mm2, half_m);
+    if (!(chance < kFalseDrift)) return 0;
+    return (drifting.offset - on_the_spot.offset).norm() / std::numbers::sqrt2;
+}
+
+/// The bars are the pattern's own measure. A point that leaves the cell it stood in (residual above
+/// one spacing) did not stay where it was; and a reference that is not known to half a spacing does
+/// not even tell the cell that the robot stands on.
+void require_spin(const SpinCalibration& spin, double spacing_mm) {
+    if (spin.residual_mm > spacing_mm) {
+        throw Error(
+            fmt::format("these are no frames of a turn on the spot: the point that stays put best "
+                        "moved by {:.2f} "
+                        "mm from frame to frame (rms per axis), and more than one spacing, {:.3f} "
+                        "mm, is not on "
+                        "the spot; nothing was written",
+                        spin.residual_mm, spacing_mm));
+    }
+    if (spin.sigma_mm <= spacing_mm / 2) return;
+    const std::string why = spin.drift_mm > 0
+                                ? "the robot moved on while it turned: turn it on the spot"
+                                : "turn farther, best all around, and take more frames";
+    throw Error(fmt::format(
+        "the frames do not tell the point that stays put: it is known to +- {:.2f} mm, and half a "
+        "spacing, {:.3f} mm, is needed; {}",
+        spin.sigma_mm, spacing_mm / 2, why));
+}
+
+/// Names in the order of the drive, and none of them off the line by more than a robot would be
+/// that turned by kMostSwerve_rad in the middle.
+void require_straight(const std::vector<Vector2d>& on_line, double length_mm) {
+    const double most_mm = std::tan(kMostSwerve_rad) * length_mm / 2;
+    double farthest_mm = on_line.front().x();
+    for (const Vector2d& place : on_line) {
+        if (std::abs(place.y()) > most_mm) {
+            throw Error(fmt::format(
+                "the robot did not drive straight: it was {:.2f} mm off the line, more than {:.0f} "
+                "degrees from its middle; drive straight ahead",
+                std::abs(place.y()), kMostSwerve_rad * 180 / std::numbers::pi));
+        }
+        farthest_mm = std::max(farthest_mm, place.x());
+        if (farthest_mm - place.x() > most_mm) {
+            throw Error(
+                fmt::format("the robot went back by {:.2f} mm: drive straight ahead, and "
+                            "name the frames in order",
+                            farthest_mm - place.x()));
+        }
+    }
+}
+
 }  // namespace
+
+const char* name(MountVerdict verdict) {
+    return verdict == MountVerdict::good ? "good" : "drifted";
+}
 
 SpinCalibration calibrate_spin(int frames, const FrameAt& frame_at,
                                const std::optional<Camera>& camera,
@@ -147,31 +252,22 @@ SpinCalibration calibrate_spin(int frames, const FrameAt& frame_at,
             "spot by at least {:.0f}, best all around",
             result.turn_rad * 180 / std::numbers::pi, kLeastTurn_rad * 180 / std::numbers::pi));
     }
-    // pivot - turn(theta) offset = place: linear in both.
-    Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
-    Eigen::Vector4d right = Eigen::Vector4d::Zero();
+    const SpotTurn fitted = fit_turn<4>(found.stations);
+    const Vector2d& offset = fitted.offset;
     for (const Station& station : found.stations) {
-        Eigen::Matrix<double, 2, 4> rows;
-        rows << Matrix2d::Identity(), -turn(station.theta_rad);
-        normal += rows.transpose() * rows;
-        right += rows.transpose() * station.place_mm;
-    }
-    const Eigen::Vector4d solved = normal.ldlt().solve(right);
-    const Vector2d pivot = solved.head<2>();
-    const Vector2d offset = solved.tail<2>();
-    double squares = 0;
-    for (const Station& station : found.stations) {
-        const Vector2d from_pivot = station.place_mm - pivot;
+        const Vector2d from_pivot = station.place_mm - fitted.pivot;
         const Vector2d off = from_pivot + turn(station.theta_rad) * offset;
-        squares += off.squaredNorm();
         result.stations.push_back(
             {from_pivot.x(), from_pivot.y(), station.theta_rad, off.x(), off.y()});
     }
     const int freedom = 2 * result.located - 4;
-    result.residual_mm = std::sqrt(squares / freedom);
+    result.residual_mm = std::sqrt(fitted.squares_mm2 / freedom);
+    result.drift_mm = bias_of_drift_mm(found.stations, fitted);
+    result.verdict = result.drift_mm > 0 ? MountVerdict::drifted : MountVerdict::good;
     result.camera = camera.value_or(found.camera);
-    result.sigma_mm = std::hypot(result.residual_mm * std::sqrt(normal.inverse()(2, 2)),
-                                 sigma_of_lens_mm(result.camera, offset));
+    result.sigma_mm = std::hypot(result.residual_mm * std::sqrt(fitted.offset_share),
+                                 result.drift_mm, sigma_of_lens_mm(result.camera, offset));
+    require_spin(result, options.pattern.spacing_mm);
     result.camera.reference_px = pixel_of(offset, found);
     result.offset_mm = {offset.x(), offset.y()};
     result.camera.sigma["reference_u_px"] = result.sigma_mm / found.mm_per_px;
@@ -213,6 +309,12 @@ DriveCalibration calibrate_drive(int frames, const FrameAt& frame_at,
     const Eigen::SelfAdjointEigenSolver<Matrix2d> axes(scatter);
     Vector2d along = axes.eigenvectors().col(1);
     if (along.dot(drive) < 0) along = -along;
+    std::vector<Vector2d> on_line;
+    for (const Station& station : found.stations) {
+        const Vector2d off = station.place_mm - mean;
+        on_line.push_back({along.dot(off), along.x() * off.y() - along.y() * off.x()});
+    }
+    require_straight(on_line, result.length_mm);
     const double theta_rad = std::atan2(heading.y(), heading.x());
     result.residual_mm = std::sqrt(std::max(axes.eigenvalues()[0], 0.0) / count);
     // Of the line's direction, and of the mean angle.

@@ -283,10 +283,30 @@ TEST_F(LocateCommand, white_dots_on_black_are_read_if_told) {
     EXPECT_EQ(pixels_in("inverted.svg"), pixels_in("usual.svg"));
 }
 
+// Half a millimetre, in micrometres and in metres.
+TEST_F(LocateCommand, a_spacing_in_another_unit_is_refused) {
+    write_frame("a.pgm", 0);
+    for (const std::string spacing : {"508", "0.0005", "100.1", "0.0099"}) {
+        run("--spacing " + spacing + " a.pgm");
+        EXPECT_EQ(exit_code_, 2) << spacing;
+        EXPECT_THAT(errors_, HasSubstr("'" + spacing + "' is no spacing of dots in mm")) << spacing;
+        EXPECT_THAT(output_, IsEmpty()) << spacing;
+    }
+    for (const std::string spacing : {"100", "0.01"}) {
+        run("--spacing " + spacing + " a.pgm");
+        EXPECT_EQ(exit_code_, 0) << spacing << errors_;
+    }
+}
+
 TEST_F(LocateCommand, draws_a_picture_for_each_image) {
     write_frame("a.pgm", 0);
     write_png(directory_ / "a.png", render(shot(1)).view());
     write_level("flat<&>.pgm", 64, 64);
+    run("--draw new/folder a.pgm");
+    EXPECT_EQ(exit_code_, 1);
+    EXPECT_THAT(errors_, StartsWith("dotpose: cannot create the folder new/folder: No such file"));
+    EXPECT_FALSE(fs::exists(directory_ / "new"));
+    fs::create_directory(directory_ / "new");
     run("--draw new/folder a.pgm a.png 'flat<&>.pgm' missing.pgm");
     EXPECT_EQ(exit_code_, 1);
     std::vector<std::string> pictures;

@@ -190,6 +190,62 @@ std::string refusal(const std::function<void()>& calibrate) {
     return "not refused";
 }
 
+/// Frame `i` of 12 of a robot that turns by `step_deg` and moves by `drift_mm` along x each time.
+FrameAt turning(const CameraModel& model, double step_deg, double drift_mm) {
+    return [=](int i) {
+        return robot_frame(model, 65, i, kPivot_x_mm + drift_mm * i, kPivot_y_mm,
+                           step_deg * i * kDegree_rad);
+    };
+}
+
+// A drive with the robot turning slowly is no turn on the spot, however well an arc about a far
+// point goes through it.
+TEST(CalibrateSpin, RefusesADrive) {
+    const CameraModel model;
+    EXPECT_THAT(
+        refusal([&] { calibrate_spin(12, turning(model, 4, 4), {}, {}); }),
+        HasSubstr("no frames of a turn on the spot: the point that stays put best moved by"));
+    EXPECT_THAT(refusal([&] { calibrate_spin(12, turning(model, 30, 4), {}, {}); }),
+                HasSubstr("no frames of a turn on the spot"));
+    // Half a millimetre in all, over 40 degrees: the residual is small, and the point far off.
+    EXPECT_THAT(refusal([&] { calibrate_spin(12, turning(model, 3.6, 0.05), {}, {}); }),
+                HasSubstr("the robot moved on while it turned"));
+}
+
+// 12 frames all around, and the robot moves on by 0.02 mm each time.
+TEST(CalibrateSpin, CountsADriftInItsDeviation) {
+    const CameraModel model;
+    const SpinCalibration still = calibrate_spin(12, turning(model, 30, 0), {}, {});
+    EXPECT_EQ(still.verdict, MountVerdict::good);
+    EXPECT_EQ(still.drift_mm, 0);
+    const SpinCalibration drifted = calibrate_spin(12, turning(model, 30, 0.02), {}, {});
+    EXPECT_EQ(drifted.verdict, MountVerdict::drifted);
+    const double off_mm =
+        distance_mm(drifted.camera.reference_px.value(), true_reference(model), model);
+    EXPECT_GT(off_mm, 0.02);
+    EXPECT_LT(off_mm, 3 * drifted.sigma_mm);
+}
+
+TEST(CalibrateDrive, RefusesWhatIsNotStraightAhead) {
+    const CameraModel model;
+    const auto along = [&](const std::vector<double>& x_mm, const std::vector<double>& y_mm) {
+        return refusal([&] {
+            calibrate_drive(static_cast<int>(x_mm.size()),
+                            [&](int i) {
+                                const auto k = static_cast<std::size_t>(i);
+                                return robot_frame(model, 66, i, kPivot_x_mm + x_mm[k],
+                                                   kPivot_y_mm + y_mm[k], 0);
+                            },
+                            {}, {});
+        });
+    };
+    EXPECT_EQ(along({0, 5, 10, 15, 20}, {0, 0.1, 0, -0.1, 0}), "not refused");
+    EXPECT_THAT(along({0, 5, 10, 15, 20}, {0, 2, 4, 2, 0}), HasSubstr("did not drive straight"));
+    EXPECT_THAT(
+        along({0, 10, 5, 15, 20}, {0, 0, 0, 0, 0}),
+        HasSubstr("went back by 5.00 mm: drive straight ahead, and name the frames in order"));
+}
+
 TEST(CalibrateMount, RefusesUselessFramesWithAdvice) {
     const CameraModel model;
     const auto still = [&](int i) {
