@@ -1,4 +1,4 @@
-/// Options of `locate`, one aggregate for each stage; the defaults suit any camera.
+/// Options of `locate`; the defaults suit any camera. [Ranges]; outside: Status::bad_argument.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,10 @@ namespace dotpose {
 
 /// Radial distortion, paper eq. 1-2: p_u = m + r_d / (1 + k |r_d|^2), m the distortion centre.
 struct Lens {
-    /// k in 2^-40 / px^2; negative for barrel distortion. Default 0: none.
+    /// k in 2^-40 / px^2; negative for barrel distortion. Default 0: none. [any]
     std::int32_t k_q40 = 0;
     /// m in pixels from the image centre, times 256. Default: the image centre itself, as in the
-    /// paper; real lenses sit a few pixels off. |m| < 1024 px.
+    /// paper; real lenses sit a few pixels off. [-1024 to 1024 px]
     std::int32_t centre_dx_q8 = 0;
     std::int32_t centre_dy_q8 = 0;
 
@@ -25,36 +25,36 @@ struct Lens {
 
 struct ThresholdOptions {
     /// A pixel belongs to a blob when it is darker than the paper by this share (in 1/256) of the
-    /// local contrast. Smaller joins neighbouring dots, larger loses blurred ones.
+    /// local contrast. Smaller joins neighbouring dots, larger loses blurred ones. [1 to 256]
     int extent_q8 = 120;
-    /// Some pixel of a blob must be darker by this share (in 1/256). Larger drops more noise.
+    /// Some pixel of a blob must be darker by this (in 1/256). Larger drops more noise. [1 to 256]
     int core_q8 = 155;
-    /// Contrast, in grey levels, below which an area counts as blank. Raise it for noisy cameras.
+    /// Grey levels of contrast below which an area is blank. Raise it for noisy cameras. [1 to 255]
     int min_contrast = 8;
 };
 
 struct BlobOptions {
-    /// Fewest pixels of a dot. 1 keeps salt and pepper noise.
+    /// Fewest pixels of a dot. 1 keeps salt and pepper noise. [0 to 2^20]
     int min_area_px = 2;
-    /// Blobs with less darkness than this share (in 1/256) of the upper quartile are noise.
+    /// Blobs less dark than this share (in 1/256) of the upper quartile are noise. [0 to 256]
     int min_mass_q8 = 64;
-    /// Blobs larger than this multiple of the upper quartile are graphics.
+    /// Blobs larger than this multiple of the upper quartile are graphics. [1 to 1024]
     int max_area_ratio = 5;
 };
 
 struct LatticeOptions {
-    /// Fewest dots worth a try; 6 x 6 is the least that can carry a position.
+    /// Fewest dots worth a try; 6 x 6 is the least that can carry a position. [0 to 2^20]
     int min_dots = 40;
     /// Most a dot may lie from its intersection, per axis, in 2^-16 spacing, before it counts as
-    /// noise. Nominal is 1/6.
+    /// noise. Nominal is 1/6. [0 to 32768]
     int max_offset_q16 = 24000;
 };
 
 struct IntegrityOptions {
-    /// A position that may be wrong with more than 2^this is refused. Default 2^-30 < 1e-9.
+    /// A position is refused that may be wrong with more than 2^this. 2^-30 < 1e-9. [-2^20 to 0]
     int max_p_wrong_log2 = -30;
     /// Most contradicting bits, in 1/256 of those read, on either axis; more mean that the frame
-    /// shows two patterns.
+    /// shows two patterns. [0 to 256]
     int max_bit_error_q8 = 46;
 };
 
@@ -83,7 +83,7 @@ struct Options {
 
     /// Most dots that the pose is fitted to, spread evenly over the frame: accuracy grows with the
     /// square root of their number, time with the number. Default: all of a VGA frame at 8 px per
-    /// spacing.
+    /// spacing. [any; 64 to what the workspace holds are taken]
     int most_dots = 4096;
 
     /// Leaves dots, grid and bits of the first and the tracked attempt in the workspace, for
@@ -91,7 +91,7 @@ struct Options {
     bool show_stages = false;
 
     /// The point whose pose is wanted, in pixels from the image centre, times 256. Default: the
-    /// image centre itself.
+    /// image centre itself. [-16384 to 16384 px]
     std::int32_t reference_dx_q8 = 0;
     std::int32_t reference_dy_q8 = 0;
 };

@@ -105,6 +105,15 @@ void make_images(const fs::path& folder) {
     }
 }
 
+/// One change to each of the options of options_fuzz.cpp.
+void make_options(const fs::path& folder) {
+    constexpr std::uint8_t kFields = 20;
+    for (std::uint8_t field = 0; field < kFields; ++field) {
+        const auto frame = static_cast<std::uint8_t>(field % 3);
+        write(folder / ("field-" + std::to_string(field)), {frame, field, 1, 0, 0, 0});
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -113,4 +122,5 @@ int main(int argc, char** argv) {
     make_frames(folder / "locate");
     make_drawn(folder / "locate");
     make_images(folder / "image_file");
+    make_options(folder / "options");
 }

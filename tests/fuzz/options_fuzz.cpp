@@ -1,0 +1,84 @@
+// Any value in any option, on frames that can be read: `locate` ends, and a fix keeps what was
+// asked for. An input is a list of changes to the defaults: which field, and its value.
+#include <array>
+#include <cstring>
+#include <memory>
+
+#include "dotpose/simulate.hpp"
+#include "locate_checks.hpp"
+
+namespace {
+
+using namespace dotpose;
+
+/// The field and its value, in the byte order of the machine.
+struct Change {
+    std::uint8_t field = 0;
+    std::int32_t value = 0;
+};
+constexpr std::size_t kChangeBytes = 5;
+
+void apply(const Change& change, Options& options) {
+    const std::array<std::int32_t*, 16> numbers = {&options.lens.k_q40,
+                                                   &options.lens.centre_dx_q8,
+                                                   &options.lens.centre_dy_q8,
+                                                   &options.threshold.extent_q8,
+                                                   &options.threshold.core_q8,
+                                                   &options.threshold.min_contrast,
+                                                   &options.blobs.min_area_px,
+                                                   &options.blobs.min_mass_q8,
+                                                   &options.blobs.max_area_ratio,
+                                                   &options.lattice.min_dots,
+                                                   &options.lattice.max_offset_q16,
+                                                   &options.integrity.max_p_wrong_log2,
+                                                   &options.integrity.max_bit_error_q8,
+                                                   &options.most_dots,
+                                                   &options.reference_dx_q8,
+                                                   &options.reference_dy_q8};
+    const auto byte = static_cast<std::uint8_t>(change.value);
+    const std::size_t field = change.field % (numbers.size() + 4);
+    if (field < numbers.size()) {
+        *numbers[field] = change.value;
+    } else if (field == numbers.size()) {
+        options.profile = static_cast<Profile>(byte);
+    } else if (field == numbers.size() + 1) {
+        options.effort = static_cast<Effort>(byte);
+    } else if (field == numbers.size() + 2) {
+        options.decoder = static_cast<Decoder>(byte);
+    } else {
+        options.show_stages = (byte & 1) != 0;
+    }
+}
+
+std::array<GreyImage, 3> make_frames() {
+    std::array<GreyImage, 3> frames;
+    for (std::uint64_t i = 0; i < frames.size(); ++i) {
+        Setup setup;
+        setup.preset = i == 0 ? Preset::clean : Preset::hard;
+        setup.camera.width_px = setup.camera.height_px = 96;
+        setup.camera.mm_per_px = kDefaultSpacing_mm / 8;
+        frames[i] = render(draw_shot(setup, i));
+    }
+    return frames;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    static const auto kWorkspace = std::make_unique<LargeWorkspace>();
+    static const std::array<GreyImage, 3> kFrames = make_frames();
+    if (size < 1) return -1;
+    const ImageView image = kFrames[data[0] % kFrames.size()].view();
+    Options options;
+    for (std::size_t at = 1; at + kChangeBytes <= size; at += kChangeBytes) {
+        Change change{data[at]};
+        std::memcpy(&change.value, data + at + 1, sizeof change.value);
+        apply(change, options);
+    }
+    const Fix usual = locate(image, {}, *kWorkspace);
+    fuzz::check(locate(image, options, *kWorkspace), options);
+    fuzz::check(locate(image, options, Prediction::like(usual), *kWorkspace), options);
+    if (options.effort == Effort::once)
+        fuzz::check(fuzz::push_rows(image, options, *kWorkspace), options);
+    return 0;
+}

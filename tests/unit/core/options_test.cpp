@@ -1,0 +1,104 @@
+// Every option has a range in which no stage can overflow; what is outside of it is refused.
+#include <climits>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "canvas.hpp"
+#include "dotpose/evaluate.hpp"
+#include "dotpose/locate.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+GreyImage a_frame() {
+    Setup setup;
+    setup.seed = 34;
+    return render(draw_shot(setup, 0));
+}
+
+/// A field, and the values at the ends of its range as options.hpp documents it.
+struct Range {
+    const char* field;
+    std::function<void(Options&, int)> set;
+    std::int64_t low;
+    std::int64_t high;
+};
+
+#define FIELD(path) #path, [](Options & options, int value) { options.path = value; }
+
+const Range kRanges[] = {
+    {FIELD(lens.k_q40), INT_MIN, INT_MAX},       {FIELD(lens.centre_dx_q8), -262144, 262144},
+    {FIELD(lens.centre_dy_q8), -262144, 262144}, {FIELD(threshold.extent_q8), 1, 256},
+    {FIELD(threshold.core_q8), 1, 256},          {FIELD(threshold.min_contrast), 1, 255},
+    {FIELD(blobs.min_area_px), 0, 1048576},      {FIELD(blobs.min_mass_q8), 0, 256},
+    {FIELD(blobs.max_area_ratio), 1, 1024},      {FIELD(lattice.min_dots), 0, 1048576},
+    {FIELD(lattice.max_offset_q16), 0, 32768},   {FIELD(integrity.max_p_wrong_log2), -1048576, 0},
+    {FIELD(integrity.max_bit_error_q8), 0, 256}, {FIELD(most_dots), INT_MIN, INT_MAX},
+    {FIELD(reference_dx_q8), -4194304, 4194304}, {FIELD(reference_dy_q8), -4194304, 4194304},
+};
+
+#undef FIELD
+
+/// A new field does not compile here before it is in the tests below.
+[[maybe_unused]] void has_all_fields(const Options& o) {
+    [[maybe_unused]] const auto& [profile, effort, decoder, lens, threshold, blobs, lattice,
+                                  integrity, most_dots, show_stages, dx, dy] = o;
+    [[maybe_unused]] const auto& [k, centre_dx, centre_dy] = lens;
+    [[maybe_unused]] const auto& [extent, core, min_contrast] = threshold;
+    [[maybe_unused]] const auto& [min_area, min_mass, max_area] = blobs;
+    [[maybe_unused]] const auto& [min_dots, max_offset] = lattice;
+    [[maybe_unused]] const auto& [max_p_wrong, max_bit_error] = integrity;
+}
+
+/// What each way to locate says of the options.
+void expect_refusal(const Options& options, bool is_refused, const char* field, int value) {
+    static const auto kWorkspace = std::make_unique<LargeWorkspace>();
+    static const GreyImage kFrame = a_frame();
+    const auto expect = [&](Status status, const char* way) {
+        EXPECT_EQ(status == Status::bad_argument, is_refused)
+            << way << ": " << field << " = " << value << " gave " << name(status);
+    };
+    const Prediction prediction = Prediction::like(locate(kFrame.view(), {}, *kWorkspace));
+    expect(locate(kFrame.view(), options, *kWorkspace).status, "locate");
+    expect(locate(kFrame.view(), options, prediction, *kWorkspace).status, "tracked");
+    expect(begin(kFrame.width_px, kFrame.height_px, options, *kWorkspace), "begin");
+    expect(begin(kFrame.width_px, kFrame.height_px, options, prediction, *kWorkspace), "tracked");
+}
+
+TEST(Options, EveryNumberIsTakenInItsRangeAndRefusedOutside) {
+    for (const Effort effort : kEfforts) {
+        for (const auto& [field, set, low, high] : kRanges) {
+            for (const std::int64_t value :
+                 {low - 1, low, high, high + 1, std::int64_t{INT_MIN}, std::int64_t{INT_MAX}}) {
+                if (value < INT_MIN || value > INT_MAX) continue;
+                Options options;
+                options.effort = effort;
+                set(options, static_cast<int>(value));
+                expect_refusal(options, value < low || value > high, field,
+                               static_cast<int>(value));
+            }
+        }
+    }
+}
+
+TEST(Options, EnumerationsAreTakenAsFarAsTheyHaveNames) {
+    for (int value = 0; value < 256; ++value) {
+        const auto byte = static_cast<std::uint8_t>(value);
+        Options profile;
+        profile.profile = static_cast<Profile>(byte);
+        expect_refusal(profile, value >= 3, "profile", value);
+        Options effort;
+        effort.effort = static_cast<Effort>(byte);
+        expect_refusal(effort, value >= static_cast<int>(kEfforts.size()), "effort", value);
+        Options decoder;
+        decoder.decoder = static_cast<Decoder>(byte);
+        expect_refusal(decoder, value >= static_cast<int>(kDecoders.size()), "decoder", value);
+    }
+}
+
+}  // namespace
+}  // namespace dotpose::core_test
