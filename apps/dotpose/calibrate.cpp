@@ -16,6 +16,7 @@
 #include "dotpose/image_file.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"
+#include "terminal_text.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -117,7 +118,7 @@ ScaleReference parse_reference(const std::string& text) {
 
 /// Writes the world poses and print scales into the sheet file; returns what it did.
 std::string stitch(const CalibrateArguments& arguments) {
-    SheetFile file(arguments.sheets);
+    SheetFile file(arguments.sheets, {.tell = tell, .stop = interrupted});
     const Stitching stitching = with_progress(
         arguments.images, "stitching", arguments.options,
         [&](int frames, const FrameAt& frame_at, const CalibrateOptions& options) {

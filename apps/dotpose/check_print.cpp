@@ -18,6 +18,7 @@
 #include "dotpose/sheet_file.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"
+#include "terminal_text.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -52,7 +53,7 @@ void require_svg(const std::string& path) {
 /// are those that the fields name.
 std::string fit_sheets(const std::string& path, const std::vector<SheetEntry>& sheets,
                        const PrintCheck& check) {
-    SheetFile file(path);
+    SheetFile file(path, {.tell = tell, .stop = interrupted});
     std::string done;
     std::set<std::size_t> fitted;
     for (const PrintField& field : check.fields) {

@@ -8,6 +8,7 @@
 
 #include "commands.hpp"
 #include "common.hpp"
+#include "print/output_file.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"
 #include "sheet_entries.hpp"
@@ -45,15 +46,18 @@ void run(OverlayArguments& arguments) {
     require_apart(arguments);
     OverlayOptions options = arguments.options;
     options.pattern = arguments.pattern.pattern();
-    std::optional<SheetFile> sheet_file;
+    catch_interrupts();
+    std::optional<SheetReservation> reservation;
     if (arguments.entries.given()) {
-        sheet_file.emplace(arguments.entries.path());
+        print::require_writable(arguments.out);
         options.place = [&](std::span<OverlaidPage> pages) {
-            for (auto& [number, sheet] : pages)
-                sheet = arguments.entries.enter(*sheet_file, sheet, {number, pages.size() == 1});
+            const auto enter_all = [&](SheetFile& file) {
+                for (auto& [number, sheet] : pages)
+                    sheet = arguments.entries.enter(file, sheet, {number, pages.size() == 1});
+            };
+            arguments.entries.reserve(enter_all, reservation);
         };
     }
-    catch_interrupts();
     OverlayReport report;
     {
         ProgressLine line("writing " + arguments.out);
@@ -63,7 +67,7 @@ void run(OverlayArguments& arguments) {
         };
         report = overlay_pdf(arguments.in, arguments.out, options);
     }
-    if (sheet_file) sheet_file->save();
+    if (reservation) arguments.entries.confirm(*reservation, arguments.out);
     for (const auto& [number, sheet] : report.pages)
         fmt::print("{} {}: {}{}\n", printable(arguments.out), number, region_text(sheet),
                    printable(arguments.entries.summary({number, report.pages.size() == 1})));

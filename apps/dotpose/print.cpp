@@ -11,6 +11,7 @@
 #include "commands.hpp"
 #include "common.hpp"
 #include "dotpose/test_page.hpp"
+#include "print/output_file.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"
 #include "sheet_entries.hpp"
@@ -105,16 +106,20 @@ void run(const PrintArguments& arguments) {
     const auto page = [&sheets](std::size_t i) {
         return SheetEntryArguments::Page{static_cast<int>(i + 1), sheets.size() == 1};
     };
-    std::optional<SheetFile> sheet_file;
+    std::optional<SheetReservation> reservation;
     if (arguments.entries.given()) {
-        sheet_file.emplace(arguments.entries.path());
-        for (std::size_t i = 0; i < sheets.size(); ++i)
-            sheets[i] = arguments.entries.enter(*sheet_file, sheets[i], page(i));
+        print::require_writable(arguments.out);
+        catch_interrupts();
+        const auto enter_all = [&](SheetFile& file) {
+            for (std::size_t i = 0; i < sheets.size(); ++i)
+                sheets[i] = arguments.entries.enter(file, sheets[i], page(i));
+        };
+        arguments.entries.reserve(enter_all, reservation);
     }
     with_progress(arguments, [&](const PrintOptions& print_options) {
         write_sheets(sheets, arguments.out, print_options);
     });
-    if (sheet_file) sheet_file->save();
+    if (reservation) arguments.entries.confirm(*reservation, arguments.out);
     const std::string resolution =
         has_resolution(format) ? fmt::format(", {:g} dpi", arguments.print.dpi) : "";
     for (std::size_t i = 0; i < sheets.size(); ++i) {

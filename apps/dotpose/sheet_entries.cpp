@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include "common.hpp"
+#include "progress.hpp"
+#include "terminal_text.hpp"
 
 namespace dotpose::cli {
 
@@ -12,11 +14,30 @@ void SheetEntryArguments::add_to(CLI::App& command) {
     CLI::Option* name = command.add_option("--name", name_, "Name in the sheet file");
     name->type_name("NAME")->needs(sheets);
     sheets->needs(name);
+    command.add_option("--wait", wait_s_, "Longest to wait for others who change the sheet file")
+        ->type_name("SECONDS")
+        ->capture_default_str()
+        ->needs(sheets)
+        ->check(CLI::Range(0.0, 86'400.0));
     origin_ = command.get_option("--origin");
 }
 
 std::string SheetEntryArguments::page_name(Page page) const {
     return page.is_only ? name_ : fmt::format("{}-{}", name_, page.number);
+}
+
+void SheetEntryArguments::reserve(const std::function<void(SheetFile&)>& enter_all,
+                                  std::optional<SheetReservation>& reservation) const {
+    reservation.emplace(path_, enter_all, SheetFileWait{wait_s_, tell, interrupted});
+}
+
+void SheetEntryArguments::confirm(SheetReservation& reservation, const std::string& out) const {
+    try {
+        reservation.confirm();
+    } catch (const Error& error) {
+        throw Error(fmt::format("{}; {} is complete, and its region is marked as reserved",
+                                error.what(), out));
+    }
 }
 
 Sheet SheetEntryArguments::enter(SheetFile& file, const Sheet& sheet, Page page) const {

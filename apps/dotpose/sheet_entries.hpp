@@ -1,6 +1,8 @@
-/// --sheets FILE --name NAME: entering what is printed in a sheet file.
+/// --sheets FILE --name NAME --wait SECONDS: entering what is printed in a sheet file.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -28,9 +30,16 @@ class SheetEntryArguments {
     /// What the file calls a page: NAME, or NAME-NUMBER if there are others.
     std::string page_name(Page page) const;
 
+    /// Reserves the regions of all pages that `enter_all` enters, before any is written.
+    void reserve(const std::function<void(SheetFile&)>& enter_all,
+                 std::optional<SheetReservation>& reservation) const;
+
     /// Adds a page to the file, in the next free region unless the user chose an origin. Returns
     /// the sheet where it stands now.
     Sheet enter(SheetFile& file, const Sheet& sheet, Page page) const;
+
+    /// The pages at `out` are written: so says the file from now on. Throws Error.
+    void confirm(SheetReservation& reservation, const std::string& out) const;
 
     /// ", sheet 'NAME' of FILE"; empty if there is no sheet file.
     std::string summary(Page page) const;
@@ -38,6 +47,7 @@ class SheetEntryArguments {
   private:
     std::string path_;
     std::string name_;
+    double wait_s_ = SheetFileWait{}.most_s;
     const CLI::Option* origin_ = nullptr;
 };
 

@@ -4,12 +4,14 @@
 ///     const std::vector<SheetEntry> sheets = read_sheets("sheets.json");
 ///     if (const auto place = find_sheet(sheets, Profile::anoto, fix)) use(place->x_mm);
 ///
-/// To add sheets, hold the file for as long as it takes to print them:
+/// To print sheets, reserve their regions first, so that no page is ever without its entry:
 ///
-///     SheetFile file("sheets.json");  // waits for whoever else is changing it
-///     const auto added = file.allocate("table", make_sheet(options));
+///     std::vector<SheetEntry> added;
+///     SheetReservation reservation("sheets.json", [&](SheetFile& file) {
+///         added = file.allocate("table", make_sheet(options));
+///     });
 ///     write_sheet(added[0].sheet, "table.svg");
-///     file.save();
+///     reservation.confirm();
 ///
 /// Frames: *sheet*, mm from the top left corner of the page, x right, y DOWN; *world*, metres,
 /// right-handed, z out of the paper, y up, angles counter-clockwise (ROS REP-103).
@@ -17,6 +19,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -62,6 +65,9 @@ struct SheetEntry {
     /// Where the top left corner of the page lies in the world, and the direction in which the
     /// page's upper edge runs from there. None: not known.
     std::optional<WorldPose> world;
+    /// The region is taken, but whether the page was written is not known: it is being written, or
+    /// whoever did that was stopped.
+    bool is_reserved = false;
 };
 
 /// Checks one entry: name not empty, of UTF-8 without control characters; page at least 1; scales
@@ -77,13 +83,23 @@ bool overlap(const Sheet& a, const Sheet& b);
 /// out of range, a name occurs twice, two regions overlap.
 std::vector<SheetEntry> read_sheets(const std::filesystem::path& path);
 
+/// How to wait for somebody else who is changing a sheet file.
+struct SheetFileWait {
+    double most_s = 60;
+    /// Told once, if there is anything to wait for.
+    std::function<void(const std::string&)> tell = [](const std::string&) {};
+    /// Asked now and then; true gives up.
+    std::function<bool()> stop = [] { return false; };
+};
+
 /// Exclusive use of a sheet file, to change it. Others that want to change it wait for the object's
 /// end; who only reads is not kept waiting. Not for use by several threads at once.
 class SheetFile {
   public:
-    /// Waits for its turn, then reads the file; one that does not exist has no sheets.
-    /// Throws Error as `read_sheets`, or if the file cannot be locked.
-    explicit SheetFile(const std::filesystem::path& path);
+    /// Waits for its turn, then reads the file; one that does not exist has no sheets. Throws Error
+    /// as `read_sheets`, or if the file cannot be locked, also because somebody else has it for
+    /// longer than `wait` allows.
+    explicit SheetFile(const std::filesystem::path& path, const SheetFileWait& wait = {});
     ~SheetFile();
     SheetFile(const SheetFile&) = delete;
     SheetFile& operator=(const SheetFile&) = delete;
@@ -112,15 +128,20 @@ class SheetFile {
     /// Throws BadArgument as `add`, or if there is no such sheet.
     void replace(const SheetEntry& entry);
 
+    /// Takes the sheet of this name out, if there is one.
+    void remove(const std::string& name);
+
     /// Writes the file, whole or not at all. Keys of the old file that this version does not know
     /// are kept. Throws Error: it cannot be written, or an editor changed it in the meantime.
     void save();
 
   private:
+    friend class SheetReservation;
+
     /// The right to change the file, held by a lock on a hidden file beside it.
     class Lock {
       public:
-        explicit Lock(const std::filesystem::path& path);
+        Lock(const std::filesystem::path& path, const SheetFileWait& wait);
         ~Lock();
         Lock(const Lock&) = delete;
         Lock& operator=(const Lock&) = delete;
@@ -134,6 +155,34 @@ class SheetFile {
     Lock lock_;
     std::optional<std::string> text_;  ///< the file as it was read or saved; none if there was none
     std::vector<SheetEntry> sheets_;
+};
+
+/// Sheets that are entered before their pages are written: marked as reserved from then on, so that
+/// nobody else gets their regions even if this program is killed, and without the mark once they
+/// are confirmed. The file is not kept from others in between.
+class SheetReservation {
+  public:
+    /// `enter` adds the sheets. Throws Error as SheetFile; nothing is reserved then.
+    SheetReservation(const std::filesystem::path& path,
+                     const std::function<void(SheetFile&)>& enter, const SheetFileWait& wait = {});
+    /// What was not confirmed is taken out again, if that is possible; an untouched file becomes
+    /// what it was.
+    ~SheetReservation();
+    SheetReservation(const SheetReservation&) = delete;
+    SheetReservation& operator=(const SheetReservation&) = delete;
+
+    /// The pages exist. Throws Error: the file cannot be changed, and the sheets stay reserved; or
+    /// somebody took them out and gave their cells away.
+    void confirm();
+
+  private:
+    void release();
+
+    std::filesystem::path path_;
+    SheetFileWait wait_;
+    std::vector<SheetEntry> entries_;         ///< reserved, and not confirmed
+    std::optional<std::string> text_before_;  ///< of the file; none if there was none
+    std::optional<std::string> text_reserved_;
 };
 
 /// Where a fix lies on a page.

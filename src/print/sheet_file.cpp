@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <system_error>
+#include <thread>
 
 #include <fcntl.h>
 #include <fmt/core.h>
@@ -28,6 +30,43 @@ std::optional<std::string> text_of(const fs::path& path) {
     return print::text_of(path, kMostBytes);
 }
 
+/// Waits for locks on a file, for as long as is allowed in all.
+class Patience {
+  public:
+    Patience(const fs::path& path, const SheetFileWait& wait)
+        : path_(path),
+          wait_(wait),
+          end_(Clock::now() + std::chrono::duration<double>(wait.most_s)) {}
+
+    /// Throws Error: the time is over, or there are no locks here.
+    void lock(int descriptor) {
+        constexpr auto kPause = std::chrono::milliseconds(10);
+        while (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+            if (errno != EWOULDBLOCK && errno != EINTR) throw_system("lock", path_, errno);
+            if (wait_.stop()) throw Error("stopped; nothing was written");
+            if (Clock::now() >= end_) {
+                throw Error(
+                    fmt::format("cannot lock {}: another program has been changing it for "
+                                "{:g} s",
+                                path_.string(), wait_.most_s));
+            }
+            if (!is_told_) {
+                wait_.tell(
+                    fmt::format("waiting for another program that is changing {}", path_.string()));
+            }
+            is_told_ = true;
+            std::this_thread::sleep_for(kPause);
+        }
+    }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    const fs::path& path_;
+    const SheetFileWait& wait_;
+    std::chrono::time_point<Clock, std::chrono::duration<double>> end_;
+    bool is_told_ = false;
+};
+
 }  // namespace
 
 std::vector<SheetEntry> read_sheets(const fs::path& path) {
@@ -36,19 +75,17 @@ std::vector<SheetEntry> read_sheets(const fs::path& path) {
     return print::sheets_from_json(*text, path.string());
 }
 
-SheetFile::Lock::Lock(const fs::path& path) : path_(path) {
+SheetFile::Lock::Lock(const fs::path& path, const SheetFileWait& wait) : path_(path) {
     path_.replace_filename(fmt::format(".{}.lock", path.filename().string()));
+    Patience patience(path, wait);
     while (true) {
         descriptor_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
         if (descriptor_ < 0) throw_system("lock", path, errno);
-        int result = 0;
-        do {
-            result = flock(descriptor_, LOCK_EX);
-        } while (result != 0 && errno == EINTR);
-        if (result != 0) {
-            const int error_number = errno;
+        try {
+            patience.lock(descriptor_);
+        } catch (const Error&) {
             close(descriptor_);
-            throw_system("lock", path, error_number);
+            throw;
         }
         // The one before removes the file: a lock on what is no longer there locks nobody out.
         struct stat held {};
@@ -67,8 +104,8 @@ SheetFile::Lock::~Lock() {
 }
 
 // Whoever names the file by a link must wait for the same lock as the others.
-SheetFile::SheetFile(const fs::path& path)
-    : path_(print::without_links(path)), lock_(path_), text_(text_of(path_)) {
+SheetFile::SheetFile(const fs::path& path, const SheetFileWait& wait)
+    : path_(print::without_links(path)), lock_(path_, wait), text_(text_of(path_)) {
     if (text_) sheets_ = print::sheets_from_json(*text_, path_.string());
 }
 
@@ -107,6 +144,10 @@ void SheetFile::replace(const SheetEntry& entry) {
     }
     print::check_beside(entry, sheets_, &*found);
     *found = entry;
+}
+
+void SheetFile::remove(const std::string& name) {
+    std::erase_if(sheets_, [&](const SheetEntry& entry) { return entry.name == name; });
 }
 
 void SheetFile::save() {

@@ -64,6 +64,12 @@ class Node {
         return number;
     }
 
+    bool flag(const char* key) const {
+        const json& value = member(key);
+        if (!value.is_boolean()) fail(path_of(key), "must be true or false");
+        return value.get<bool>();
+    }
+
     bool has(const char* key) const { return value_.contains(key); }
 
     [[noreturn]] void fail_at(const char* key, const std::string& problem) const {
@@ -138,6 +144,7 @@ SheetEntry entry_of(const Node& node) {
     entry.sheet = sheet_of(node);
     if (node.has("print_scale_x")) entry.print_scale_x = node.number("print_scale_x");
     if (node.has("print_scale_y")) entry.print_scale_y = node.number("print_scale_y");
+    if (node.has("reserved")) entry.is_reserved = node.flag("reserved");
     if (node.has("world")) {
         const Node world = node.object("world");
         entry.world = {world.number("x_m"), world.number("y_m"), world.number("yaw_rad")};
@@ -166,6 +173,11 @@ void update(json& object, const SheetEntry& entry) {
     object["first_y_mm"] = sheet.origin_y_mm;
     object["print_scale_x"] = entry.print_scale_x;
     object["print_scale_y"] = entry.print_scale_y;
+    if (entry.is_reserved) {
+        object["reserved"] = true;
+    } else {
+        object.erase("reserved");
+    }
     if (entry.world) {
         json& world = object["world"];
         world["x_m"] = entry.world->x_m;

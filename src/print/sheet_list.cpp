@@ -121,7 +121,12 @@ void print::check_beside(const SheetEntry& entry, const std::vector<SheetEntry>&
     for (const SheetEntry& other : sheets) {
         if (&other == ignored) continue;
         if (other.name == entry.name) {
-            throw BadArgument(fmt::format("there already is a sheet '{}'", entry.name));
+            throw BadArgument(
+                fmt::format("there already is a sheet '{}'{}", entry.name,
+                            other.is_reserved
+                                ? ", reserved by a print that goes on or was stopped: its page may "
+                                  "exist, so take another name"
+                                : ""));
         }
         if (overlap(entry.sheet, other.sheet)) {
             const Range columns = columns_of(other.sheet);

@@ -321,6 +321,69 @@ TEST_F(SheetFiles, an_interrupted_print_adds_no_sheet) {
     EXPECT_FALSE(fs::exists(directory_ / ".sheets.json.lock"));
 }
 
+TEST_F(SheetFiles, no_page_is_written_where_its_entry_cannot_be) {
+    ASSERT_EQ(shell("$T print -o in.pdf --paper 40x40 && mkdir folder.json"), 0) << errors_;
+    const struct {
+        const char* command;
+        const char* problem;
+    } wrong[] = {
+        {"$T print -o new.svg --paper 40x40 --sheets folder.json --name a", "Is a directory"},
+        {"$T overlay in.pdf -o new.svg --sheets folder.json --name a", "Is a directory"},
+        // As on a full disk: no file grows beyond 512 bytes, and an entry has more.
+        {"(trap '' XFSZ; ulimit -f 1; $T print -o new.svg --paper 30x20 --sheets s.json --name a)",
+         "cannot write s.json: File too large"},
+        {"$T print -o new.svg --paper 40x40 --sheets /proc/s.json --name a",
+         "cannot lock /proc/s.json"},
+    };
+    for (const auto& [command, problem] : wrong) {
+        EXPECT_EQ(shell(command), 1) << command;
+        EXPECT_THAT(errors_, HasSubstr(problem)) << command;
+        EXPECT_EQ(shell("ls -A"), 0);
+        EXPECT_EQ(output_, "folder.json\nin.pdf\n") << command;
+    }
+}
+
+TEST_F(SheetFiles, a_page_that_cannot_be_written_leaves_no_entry) {
+    // The entry has some 700 bytes, and the page more than the 2 KB that a file may have.
+    EXPECT_EQ(
+        shell("trap '' XFSZ; ulimit -f 4; $T print -o a.svg --paper 40x40 --sheets sheets.json "
+              "--name a"),
+        1);
+    EXPECT_THAT(errors_, HasSubstr("cannot write a.svg: File too large"));
+    EXPECT_EQ(shell("ls -A"), 0);
+    EXPECT_THAT(output_, IsEmpty());
+}
+
+TEST_F(SheetFiles, waiting_for_others_is_told_and_ends) {
+    EXPECT_EQ(
+        shell("(exec 9>.sheets.json.lock; flock 9; echo > locked; exec sleep 60) & holder=$!; "
+              "until [ -e locked ]; do sleep 0.01; done; "
+              "$T print -o a.svg --paper 40x40 --sheets sheets.json --name a --wait 0.1; "
+              "code=$?; kill $holder; wait $holder; exit $code"),
+        1);
+    EXPECT_THAT(errors_, HasSubstr("waiting for another program that is changing sheets.json"));
+    EXPECT_THAT(errors_, HasSubstr("another program has been changing it for 0.1 s"));
+    EXPECT_FALSE(fs::exists(directory_ / "a.svg"));
+    EXPECT_EQ(print("-o a.svg --paper 40x40 --wait 1"), 2);
+    EXPECT_THAT(errors_, HasSubstr("--wait requires --sheets"));
+}
+
+TEST_F(SheetFiles, whoever_is_killed_leaves_no_page_without_its_entry) {
+    ASSERT_EQ(shell("for i in 1 2 3 4 5 6 7 8 9 10 11 12; do timeout -s KILL 0.0$((i * 7 + 10)) "
+                    "$T print -o n$i.svg --paper 40x40 --sheets sheets.json --name n$i; done; "
+                    "$T print -o last.svg --paper 40x40 --sheets sheets.json --name last"),
+              0)
+        << errors_;
+    std::vector<std::string> names;
+    for (const json& sheet : sheets())
+        names.push_back(sheet["name"]);
+    EXPECT_THAT(names, testing::Contains("last"));
+    for (const auto& entry : fs::directory_iterator(directory_)) {
+        if (entry.path().extension() != ".svg") continue;
+        EXPECT_THAT(names, testing::Contains(entry.path().stem().string()));
+    }
+}
+
 TEST_F(SheetFiles, prints_at_the_same_time_all_get_regions_of_their_own) {
     ASSERT_EQ(shell("for i in 1 2 3 4 5 6 7 8; do $T print -o $i.svg --paper 40x40 "
                     "--sheets sheets.json --name n$i & done; wait"),
