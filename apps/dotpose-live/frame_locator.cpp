@@ -184,6 +184,7 @@ Reading FrameLocator::operator()(video::Frame& frame) {
     record.width_px = image.width_px;
     record.height_px = image.height_px;
     record.min_dots = used_.lattice.min_dots;
+    record.max_p_wrong_log2 = used_.integrity.max_p_wrong_log2;
     return reading;
 }
 

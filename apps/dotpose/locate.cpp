@@ -22,6 +22,7 @@
 #include "dotpose/sheet_file.hpp"
 #include "lines.hpp"
 #include "locate_record.hpp"
+#include "page_cut.hpp"
 #include "picture_folder.hpp"
 #include "run_files.hpp"
 #include "terminal_text.hpp"
@@ -138,6 +139,7 @@ class Locator {
         record.width_px = image_.width_px;
         record.height_px = image_.height_px;
         record.min_dots = options_.lattice.min_dots;
+        record.max_p_wrong_log2 = options_.integrity.max_p_wrong_log2;
         const auto start = steady_clock::now();
         record.fix = locate_with_any_profile();
         const std::chrono::duration<double, std::micro> elapsed = steady_clock::now() - start;
@@ -192,11 +194,28 @@ class Locator {
 
     Fix locate_with(Profile profile) {
         options_.profile = profile;
-        const Fix fix = locate(image_.view(), options_, *workspace_);
-        if (!arguments_.camera.camera) return fix;
+        Fix fix = locate(image_.view(), options_, *workspace_);
         const auto place = find_sheet(sheets_, profile, fix);
+        if (place) fix = without_surroundings(fix, *place);
+        if (!arguments_.camera.camera) return fix;
         return with_camera(fix, *arguments_.camera.camera, options_, *workspace_,
                            place ? place->entry->print_scale() : AxisScale{});
+    }
+
+    /// Where the sheet is known, labels and table beside its dots contradict nothing.
+    Fix without_surroundings(const Fix& fix, const SheetPlace& place) {
+        if (fix.bit_errors == 0) return fix;
+        const auto cut = cut_to_dots(image_.view(), options_, fix, place.entry->sheet);
+        if (!cut) return fix;
+        Fix again = locate(cut->view(), options_, Prediction::like(fix), *workspace_);
+        const auto place_again = find_sheet(sheets_, options_.profile, again);
+        const bool is_better = place_again && place_again->entry == place.entry &&
+                               again.bit_errors < fix.bit_errors &&
+                               again.dots_used + fix.bit_errors >= fix.dots_used;
+        // The workspace must show what is returned.
+        if (!is_better) return locate(image_.view(), options_, *workspace_);
+        if (again.attempt == Attempt::tracked) again.attempt = fix.attempt;
+        return again;
     }
 
     Options options_for(const GreyImage& image) const {

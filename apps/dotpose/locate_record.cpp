@@ -34,6 +34,29 @@ std::vector<Field> sheet_fields(const std::optional<SheetPlace>& place) {
     return fields;
 }
 
+/// What is missing to a position that is not certain.
+std::string doubt(const Record& record) {
+    const Fix& fix = record.fix;
+    if (fix.p_wrong_log2 <= record.max_p_wrong_log2) {
+        return fmt::format(
+            "{} bits of {} dots contradict it, and the dots lie too far from where it "
+            "has them; paper that is bent, or two patterns, look so",
+            fix.bit_errors, fix.dots_seen);
+    }
+    const std::string odds =
+        fix.p_wrong_log2 >= 0 ? "others are as likely"
+                              : fmt::format("{} instead of at most {}", p_wrong_text(fix.p_wrong()),
+                                            p_wrong_text(std::ldexp(1.0, record.max_p_wrong_log2)));
+    if (fix.bit_errors > 0) {
+        return fmt::format("{}; {} bits of {} dots contradict it", odds, fix.bit_errors,
+                           fix.dots_seen);
+    }
+    return fmt::format(
+        "{}; no bit contradicts it, but of {} dots too few could be read for sure: "
+        "show more of the sheet, larger, sharper or in better light",
+        odds, fix.dots_seen);
+}
+
 }  // namespace
 
 std::string reason(const Record& record) {
@@ -54,8 +77,7 @@ std::string reason(const Record& record) {
             return fmt::format("found {} dots; at least {} are needed", fix.dots_seen,
                                record.min_dots);
         case Status::not_certain:
-            return fmt::format("{}: {} bits of {} dots contradict the best position",
-                               message(fix.status), fix.bit_errors, fix.dots_seen);
+            return fmt::format("{}: {}", message(fix.status), doubt(record));
         default:
             return message(fix.status);
     }

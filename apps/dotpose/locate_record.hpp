@@ -20,7 +20,8 @@ struct Record {
     double elapsed_us = 0;            ///< of `dotpose::locate` alone
     int width_px = 0;
     int height_px = 0;
-    int min_dots = 0;  ///< fewest that are worth a try
+    int min_dots = 0;          ///< fewest that are worth a try
+    int max_p_wrong_log2 = 0;  ///< what may be wrong with more than 2^this is refused
 };
 
 /// Why there is no fix, with the numbers that matter; empty if there is one.

@@ -106,6 +106,7 @@ Fix with_camera(const Fix& fix, const Camera& camera, const Options& options,
                     workspace.decoding.place, result);
         write_covariance(pose, x, y, print, result);
         result.dots_used = pose.dots;
+        result.dots_seen = std::max(result.dots_seen, result.dots_used);
         result.residual_px = static_cast<float>(std::sqrt(pose.variance) * fix.spacing_px());
         // At the image centre: elsewhere, image rows of a tilted camera run in another direction.
         const PixelPoint centre{(camera.width_px - 1) / 2.0, (camera.height_px - 1) / 2.0};

@@ -132,6 +132,16 @@ TEST_F(LocateCommand, frames_without_a_fix_are_lines_with_a_reason) {
     }
 }
 
+// 7 x 7 dots or so, all of them clear: not enough to rule out all other places.
+TEST_F(LocateCommand, a_position_that_is_not_certain_says_what_was_missing) {
+    ASSERT_EQ(ToolCommand::run("simulate -o few --size 84x84 --frames 1 --preset clean --seed 3"),
+              0);
+    run("few/frame_000000.pgm");
+    EXPECT_EQ(records().at(0)["status"], "not_certain");
+    EXPECT_THAT(records().at(0)["message"], HasSubstr("no bit contradicts it, but of "));
+    EXPECT_THAT(records().at(0)["message"], HasSubstr("show more of the sheet"));
+}
+
 TEST_F(LocateCommand, sixteen_bits_and_transparency_change_nothing) {
     const GreyImage image = render(shot(2));
     write_pgm(directory_ / "grey.pgm", image.view());

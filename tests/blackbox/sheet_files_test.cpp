@@ -422,6 +422,38 @@ TEST_F(SheetFiles, locate_refuses_wrong_usage_and_bad_files) {
     }
 }
 
+TEST_F(SheetFiles, labels_beside_the_dots_contradict_nothing_where_the_sheet_is_known) {
+    ASSERT_EQ(print("-o a.svg --paper 40x40 --sheets sheets.json --name a"), 0) << errors_;
+    const json sheet = sheets().at(0);
+    const double spacing_mm = sheet["spacing_mm"];
+    const double right_mm =
+        sheet["first_x_mm"].get<double>() + (sheet["columns"].get<int>() - 0.5) * spacing_mm;
+    // The last column of dots is 1.5 mm to the right of the image's centre.
+    GreyImage frame = frame_of(sheet, right_mm - 1.5, 20, 0, 5);
+    const double px_per_mm = 1 / CameraModel{}.mm_per_px;
+    const int first_u = static_cast<int>((frame.width_px - 1) / 2.0 + 1.5 * px_per_mm) + 3;
+    std::mt19937 random(12);
+    for (int n = 0; n < 40; ++n) {
+        // Two by two pixels, as of a small letter.
+        const auto u = std::uniform_int_distribution(first_u, frame.width_px - 2)(random);
+        const auto v = std::uniform_int_distribution(0, frame.height_px - 2)(random);
+        for (const int at : {v * frame.width_px + u, (v + 1) * frame.width_px + u}) {
+            frame.pixels[static_cast<std::size_t>(at)] = 40;
+            frame.pixels[static_cast<std::size_t>(at) + 1] = 40;
+        }
+    }
+    write_pgm(directory_ / "frame.pgm", frame.view());
+    run("frame.pgm");
+    ASSERT_EQ(records().at(0)["status"], "ok") << output_;
+    ASSERT_GT(records().at(0)["bit_errors"], 0) << output_;
+    const json record = locate_with_sheets(frame);
+    EXPECT_EQ(record["bit_errors"], 0) << record;
+    EXPECT_EQ(record["attempt"], "first");
+    EXPECT_LE(record["dots_used"], record["dots_seen"]);
+    EXPECT_NEAR(record["x_sheet_mm"], right_mm - 1.5, kTolerance_mm);
+    EXPECT_NEAR(record["y_sheet_mm"], 20, kTolerance_mm);
+}
+
 TEST_F(SheetFiles, pictures_show_the_profile_that_was_found) {
     ASSERT_EQ(print("-o a.svg --paper 40x40 --sheets sheets.json --name a"), 0);
     ASSERT_EQ(print("-o b.svg --paper 40x40 --sheets sheets.json --name b --code microdots "

@@ -44,6 +44,8 @@ float inner_product(const Parameters& a, const Parameters& b) {
 void estimate_covariance(const PoseFit& fit, const PlaneFromImage& pattern_from_image,
                          Vec reference_q8, Fix& fix) {
     fix.dots_used = fit.dots;
+    // Dots that were measured where the code has them were seen, though not as blobs of their own.
+    fix.dots_seen = std::max(fix.dots_seen, fix.dots_used);
     fix.residual_px = std::sqrt(fit.variance) * static_cast<float>(fix.spacing_px_q16) / 65536.0F;
     const ScaledPlane plane(pattern_from_image, fit.reach_px);
     // Theta is the direction of the image x axis.

@@ -331,6 +331,19 @@ TEST(Locate, AFrameWithoutAPositionTellsWhy) {
     }
 }
 
+// The second attempt measures dots where the code has them, also those that are no blobs.
+TEST(Locate, UsesNoMoreDotsThanItSaw) {
+    SmallWorkspace workspace;
+    int by_second = 0;
+    for (std::uint64_t i = 0; i < 20; ++i) {
+        const Fix fix = locate(render(shot_of(Preset::hard, i)).view(), {}, workspace);
+        if (fix.status != Status::ok) continue;
+        by_second += fix.attempt == Attempt::second;
+        EXPECT_LE(fix.dots_used, fix.dots_seen) << "shot " << i << ", seed " << kSeed;
+    }
+    EXPECT_GT(by_second, 10);
+}
+
 TEST(Locate, EveryStageCanRefuse) {
     // A frame of the pattern, made worse step by step until each stage has had its say.
     SmallWorkspace workspace;

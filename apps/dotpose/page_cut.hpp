@@ -16,4 +16,9 @@ namespace dotpose::cli {
 std::optional<GreyImage> cut_to_page(ImageView image, const Options& options, const Fix& fix,
                                      const SheetPlace& place);
 
+/// The image with all painted over that is not among the dots of the sheet: labels in its margins,
+/// the table beside it. `fix` lies on the sheet. None if the image shows nothing but the dots.
+std::optional<GreyImage> cut_to_dots(ImageView image, const Options& options, const Fix& fix,
+                                     const Sheet& sheet);
+
 }  // namespace dotpose::cli

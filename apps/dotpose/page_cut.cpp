@@ -1,0 +1,123 @@
+#include "page_cut.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "core/detect/undistort.hpp"
+#include "core/plane.hpp"
+
+namespace dotpose::cli {
+namespace {
+
+/// Where the pixels lie on a page. Tilt and lens are left out: the place is known to some pixels.
+class PixelsOnPage {
+  public:
+    PixelsOnPage(ImageView image, const Options& options, const Fix& fix, const SheetPlace& place)
+        : place_(place),
+          u_((image.width_px - 1) / 2.0 + options.reference_dx_q8 / 256.0),
+          v_((image.height_px - 1) / 2.0 + options.reference_dy_q8 / 256.0) {
+        const double mm_per_px = place.entry->sheet.pattern.spacing_mm / fix.spacing_px();
+        cosine_mm_ = mm_per_px * std::cos(place.theta_rad);
+        sine_mm_ = mm_per_px * std::sin(place.theta_rad);
+    }
+
+    bool holds(int u, int v) const {
+        const Sheet& sheet = place_.entry->sheet;
+        const double x_mm = place_.x_mm + cosine_mm_ * (u - u_) - sine_mm_ * (v - v_);
+        const double y_mm = place_.y_mm + sine_mm_ * (u - u_) + cosine_mm_ * (v - v_);
+        return x_mm >= 0 && x_mm <= sheet.width_mm && y_mm >= 0 && y_mm <= sheet.height_mm;
+    }
+
+  private:
+    const SheetPlace& place_;
+    double u_;  ///< of the reference point
+    double v_;
+    double cosine_mm_ = 0;
+    double sine_mm_ = 0;
+};
+
+/// As bright as half of the image: paper.
+std::uint8_t brightness_of(ImageView image) {
+    std::array<std::int64_t, 256> counts{};
+    for (int v = 0; v < image.height_px; ++v) {
+        for (int u = 0; u < image.width_px; ++u)
+            ++counts[image.row(v)[u]];
+    }
+    std::int64_t left = std::int64_t{image.width_px} * image.height_px / 2;
+    std::size_t grey = 0;
+    while (left >= counts[grey])
+        left -= counts[grey++];
+    return static_cast<std::uint8_t>(grey);
+}
+
+/// The image with what `region` does not hold painted as paper; none if it holds all corners.
+template <typename Region>
+std::optional<GreyImage> cut_to(ImageView image, const Region& region) {
+    const int right = image.width_px - 1;
+    const int bottom = image.height_px - 1;
+    if (region.holds(0, 0) && region.holds(right, 0) && region.holds(0, bottom) &&
+        region.holds(right, bottom)) {
+        return std::nullopt;
+    }
+    const std::uint8_t paper = brightness_of(image);
+    GreyImage cut{{}, image.width_px, image.height_px};
+    cut.pixels.reserve(static_cast<std::size_t>(image.width_px) *
+                       static_cast<std::size_t>(image.height_px));
+    for (int v = 0; v < image.height_px; ++v) {
+        for (int u = 0; u < image.width_px; ++u)
+            cut.pixels.push_back(region.holds(u, v) ? image.row(v)[u] : paper);
+    }
+    return cut;
+}
+
+/// Where the pixels lie among the dots of a sheet, as exactly as the fix tells.
+class PixelsAmongDots {
+  public:
+    PixelsAmongDots(ImageView image, const Options& options, const Fix& fix, const Sheet& sheet)
+        : lens_(options.lens),
+          centre_q8_{(image.width_px - 1) * 128, (image.height_px - 1) * 128},
+          plane_(fix.pattern_from_image),
+          left_q16_(cells_q16(fix.place.cell.x, sheet.origin.x)),
+          top_q16_(cells_q16(fix.place.cell.y, sheet.origin.y)),
+          width_q16_(std::int64_t{sheet.columns} << 16),
+          height_q16_(std::int64_t{sheet.rows} << 16) {}
+
+    bool holds(int u, int v) const {
+        const Vec point_q8 = core::undistorted(lens_, centre_q8_, {u * 256, v * 256});
+        const Vec at_q16 = core::plane_point_q16(plane_, point_q8);
+        const std::int64_t x_q16 = at_q16.x - left_q16_;
+        const std::int64_t y_q16 = at_q16.y - top_q16_;
+        return x_q16 >= 0 && x_q16 < width_q16_ && y_q16 >= 0 && y_q16 < height_q16_;
+    }
+
+  private:
+    /// From a cell to the edge half a cell before the first one, the shorter way around the plane.
+    static std::int64_t cells_q16(std::uint32_t from, std::uint32_t first) {
+        const double cells = std::remainder(double(first) - double(from), kPositionsPerAxis);
+        return std::llround(cells * 65536) - 32768;
+    }
+
+    Lens lens_;
+    Vec centre_q8_;
+    PlaneFromImage plane_;
+    std::int64_t left_q16_;
+    std::int64_t top_q16_;
+    std::int64_t width_q16_;
+    std::int64_t height_q16_;
+};
+
+}  // namespace
+
+std::optional<GreyImage> cut_to_page(ImageView image, const Options& options, const Fix& fix,
+                                     const SheetPlace& place) {
+    return cut_to(image, PixelsOnPage(image, options, fix, place));
+}
+
+std::optional<GreyImage> cut_to_dots(ImageView image, const Options& options, const Fix& fix,
+                                     const Sheet& sheet) {
+    return cut_to(image, PixelsAmongDots(image, options, fix, sheet));
+}
+
+}  // namespace dotpose::cli
