@@ -197,6 +197,7 @@ class Overlay {
         if (content.paints_images) images_.push_back(number);
         if (content.paints_areas) areas_.push_back(number);
         if (!change_.is_none()) colours_.convert(page);
+        print::write_turn_as_integer(page);
         draw(page, frame, sheet, content);
     }
 

@@ -201,6 +201,22 @@ TEST_F(HostileDocument, pages_of_many_metres_are_refused) {
     expect_refused(page_with("/UserUnit 1000"), "in.pdf, page 1: a page of 70556 x 35278 mm needs");
 }
 
+TEST_F(HostileDocument, turns_that_readers_do_not_agree_on_are_refused) {
+    for (const char* degrees : {"45", "89.5", "1"}) {
+        expect_refused(page_with(fmt::format("/Rotate {}", degrees)),
+                       fmt::format("in.pdf, page 1: it is turned by {} degrees", degrees));
+    }
+}
+
+TEST_F(HostileDocument, inline_images_without_an_end_are_refused) {
+    const std::string image = "BI /W 10 /H 10 /BPC 8 /CS /G ID " + std::string(100, 'x');
+    const std::string reason =
+        "in.pdf, page 1: damaged PDF: its content cannot be read: an inline image has no end";
+    expect_refused(page_with("", stream(image)), reason);
+    expect_refused(page_with("", stream(image)), reason, change_colours_);
+    EXPECT_EQ(overlaid(page_with("", stream(image + "\nEI"))).pages.size(), 1U);
+}
+
 TEST_F(HostileDocument, endless_files_are_refused) {
     EXPECT_THAT([&] { overlay_pdf("/dev/zero", out_); },
                 testing::ThrowsMessage<Error>(HasSubstr("pipes and devices")));
