@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <new>
 #include <set>
 
 #include <fmt/format.h>
@@ -101,6 +102,22 @@ void with_name(const std::string& name, const Work& work) {
     }
 }
 
+/// Runs `work`; where qpdf is at a loss, the document is damaged.
+template <typename Work>
+auto understood(const fs::path& path, const Work& work) {
+    try {
+        return work();
+    } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const QPDFExc& error) {
+        throw_damaged(path, error.getMessageDetail());
+    } catch (const std::exception& error) {
+        throw_damaged(path, error.what());
+    }
+}
+
 /// The document says how large its pages are, up to a user unit that makes metres of points.
 void require_few_dots(const Sheet& sheet) {
     constexpr double kMostDots = 5e7;
@@ -126,9 +143,11 @@ class Overlay {
           colours_(change_, unpacked_) {
         rows_->progress = options.progress;
         open(pdf_, in, options.password);
-        with_name(in_.string(), [&] {
-            unpacked_.count_object_streams(pdf_);
-            print::require_shallow_page_tree(pdf_);
+        understood(in_, [&] {
+            with_name(in_.string(), [&] {
+                unpacked_.count_object_streams(pdf_);
+                print::require_shallow_page_tree(pdf_);
+            });
         });
     }
 
@@ -158,23 +177,17 @@ class Overlay {
 
   private:
     std::vector<QPDFPageObjectHelper> all_pages() {
-        try {
+        return understood(in_, [&] {
             std::vector<QPDFPageObjectHelper> pages = QPDFPageDocumentHelper(pdf_).getAllPages();
             small_faults(pdf_, in_);
             return pages;
-        } catch (const QPDFExc& error) {
-            throw_damaged(in_, error.getMessageDetail());
-        }
+        });
     }
 
     /// Runs `work`; its errors then name the page.
     template <typename Work>
     void on_page(int number, const Work& work) {
-        try {
-            with_name(fmt::format("{}, page {}", in_.string(), number), work);
-        } catch (const QPDFExc& error) {
-            throw_damaged(in_, error.getMessageDetail());
-        }
+        understood(in_, [&] { with_name(fmt::format("{}, page {}", in_.string(), number), work); });
     }
 
     void lay_out(int number, const QPDFPageObjectHelper& page) {

@@ -146,8 +146,10 @@ void ColourConverter::convert(QPDFPageObjectHelper page) {
     QPDFObjectHandle contents = dict.getKey("/Contents");
     // Another page may share this very stream.
     if (contents.isStream()) dict.replaceKey("/Contents", contents.copyStream());
-    page.addContentTokenFilter(
-        std::make_shared<ColourFilter>(change_, named_spaces(original), true));
+    if (!page.getPageContents().empty()) {
+        page.addContentTokenFilter(
+            std::make_shared<ColourFilter>(change_, named_spaces(original), true));
+    }
     blend_in_cmyk(dict, change_);
     dict.replaceKey("/Resources", resources(original));
     for (QPDFAnnotationObjectHelper& annotation : page.getAnnotations()) {

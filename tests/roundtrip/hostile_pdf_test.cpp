@@ -201,6 +201,17 @@ TEST_F(HostileDocument, pages_of_many_metres_are_refused) {
     expect_refused(page_with("/UserUnit 1000"), "in.pdf, page 1: a page of 70556 x 35278 mm needs");
 }
 
+TEST_F(HostileDocument, pages_without_content_have_no_colours_to_change) {
+    for (const char* contents : {"", "/Contents []", "/Contents null", "/Contents [(x)]"}) {
+        EXPECT_EQ(overlaid({kCatalogue, "<< /Type /Pages /Kids [3 0 R] /Count 1 >>",
+                            fmt::format("<< /Type /Page /MediaBox [0 0 200 100] {} >>", contents)},
+                           change_colours_)
+                      .pages.size(),
+                  1U)
+            << contents;
+    }
+}
+
 TEST_F(HostileDocument, turns_that_readers_do_not_agree_on_are_refused) {
     for (const char* degrees : {"45", "89.5", "1"}) {
         expect_refused(page_with(fmt::format("/Rotate {}", degrees)),
