@@ -7,6 +7,7 @@
 #include "../../unit/capture/encoders.hpp"
 #include "../locate_input.hpp"
 #include "dotpose/simulate.hpp"
+#include "texts.hpp"
 
 namespace {
 
@@ -113,4 +114,6 @@ int main(int argc, char** argv) {
     make_frames(folder / "locate");
     make_drawn(folder / "locate");
     make_images(folder / "image_file");
+    for (const fuzz::TextSeed& seed : fuzz::text_seeds())
+        write(folder / seed.path, {seed.bytes.begin(), seed.bytes.end()});
 }
