@@ -13,7 +13,7 @@
 #include "calibrate_report.hpp"
 #include "commands.hpp"
 #include "common.hpp"
-#include "dotpose/image_file.hpp"
+#include "dotpose/frame_file.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"
 #include "terminal_text.hpp"
@@ -48,7 +48,7 @@ struct CalibrateArguments {
 using Names = std::vector<std::string>;
 
 FrameAt frames_of(const Names& names) {
-    return [&names](int index) { return read_image(names[static_cast<std::size_t>(index)]); };
+    return [&names](int index) { return read_frame(names[static_cast<std::size_t>(index)]); };
 }
 
 /// Runs `work(frames, frame_at, options)` with its progress shown.

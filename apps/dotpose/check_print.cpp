@@ -36,6 +36,7 @@ struct CheckPrintArguments {
     std::string scan;
     std::string out;
     std::optional<double> dpi;
+    int max_megapixels = kDefaultImagePixels / 1'000'000;
     bool as_json = false;
     bool fit = false;
     std::string sheets;
@@ -120,7 +121,7 @@ int run(const CheckPrintArguments& arguments) {
     std::vector<SheetEntry> sheets;
     if (!arguments.sheets.empty()) sheets = read_sheets(arguments.sheets);
     CheckPrintOptions options = options_of(arguments, sheets);
-    const GreyImage scan = read_image(arguments.scan);
+    const GreyImage scan = read_image(arguments.scan, arguments.max_megapixels * 1'000'000);
     catch_interrupts();
     PrintCheck check;
     {
@@ -156,6 +157,12 @@ void add_check_print(CLI::App& app, int& exit_code) {
         ->type_name("N")
         ->default_str("as the file states")
         ->check(CLI::Range(1.0, 100'000.0));
+    command
+        ->add_option("--max-pixels", arguments->max_megapixels,
+                     "Largest scan, in millions; each takes 9 MB of memory")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(CLI::Range(1, kMaxImagePixels / 1'000'000));
     arguments->pattern.add_to(*command, PatternArguments::Use::expected);
     command
         ->add_option_function<std::string>(

@@ -18,12 +18,13 @@
 
 #include "commands.hpp"
 #include "common.hpp"
-#include "dotpose/image_file.hpp"
+#include "dotpose/frame_file.hpp"
 #include "dotpose/sheet_file.hpp"
 #include "lines.hpp"
 #include "locate_record.hpp"
 #include "page_cut.hpp"
 #include "picture_folder.hpp"
+#include "print/input_file.hpp"
 #include "run_files.hpp"
 #include "terminal_text.hpp"
 
@@ -88,10 +89,13 @@ class Names {
   private:
     std::optional<std::string> next_of_list() {
         std::string line;
-        while (list_ != nullptr && std::getline(*list_, line)) {
-            if (!line.empty()) return line;
+        try {
+            while (list_ != nullptr && print::next_line(*list_, line)) {
+                if (!line.empty()) return line;
+            }
+        } catch (const Error& error) {
+            throw Error("the list " + list_name_ + ": " + error.what());
         }
-        if (list_ != nullptr && !list_->eof()) require_good();
         return std::nullopt;
     }
     void require_good() const {
@@ -126,7 +130,11 @@ class Locator {
 
     /// Throws Error if the image cannot be read.
     Record operator()(const std::string& name) {
-        image_ = read_image(name);
+        try {
+            image_ = read_frame(name);
+        } catch (const ImageTooLarge& large) {
+            return too_large(name, large);
+        }
         if (arguments_.is_inverted) invert(image_);
         try {
             options_ = options_for(image_);
@@ -153,11 +161,23 @@ class Locator {
 
     /// Draws the image just located, if pictures are wanted. Throws Error.
     void draw(const std::string& name) {
-        if (!pictures_) return;
+        if (!pictures_ || image_.pixels.empty()) return;
         pictures_->add(name, image_.view(), *workspace_, options_, spacing_mm_);
     }
 
   private:
+    /// What is told of an image whose pixels were not even decoded.
+    Record too_large(const std::string& name, const ImageTooLarge& image) {
+        image_ = {};
+        Record record;
+        record.file = name;
+        record.has_sheets = has_sheets();
+        record.width_px = image.width_px;
+        record.height_px = image.height_px;
+        record.fix.status = Status::image_too_large;
+        return record;
+    }
+
     void use_sheets() {
         sheets_ = read_sheets(arguments_.sheets);
         if (sheets_.empty()) throw Error(arguments_.sheets + " has no sheets");

@@ -111,6 +111,12 @@ void add_overlay(CLI::App& app, int& /*exit_code*/) {
     add_cell_option(*command, "--origin", options.origin,
                     "Cell of the code plane at the top left of the first page");
     arguments->entries.add_to(*command);
+    command
+        ->add_option("--max-content", options.max_content_mb,
+                     "Most that a page's content may take when it is unpacked")
+        ->type_name("MB")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1'000'000));
     command->add_option("--dpi", options.dpi, "The printer's own resolution")
         ->type_name("N")
         ->capture_default_str();

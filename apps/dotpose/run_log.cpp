@@ -11,6 +11,7 @@
 
 #include "dotpose/error.hpp"
 #include "evaluate/csv.hpp"
+#include "print/input_file.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -55,6 +56,9 @@ std::int64_t whole(double value, const char* column) {
     return static_cast<std::int64_t>(value);
 }
 
+/// At 100 frames per second the log of half a day, which takes about a gigabyte of memory.
+constexpr std::size_t kMostLogRows = 5'000'000;
+
 LogRow log_row(const Row& row) {
     LogRow result;
     result.frame = whole(row.required("frame"), "frame");
@@ -96,12 +100,15 @@ std::vector<LogRow> read_log(const std::filesystem::path& path) {
     if (std::filesystem::is_directory(path) || !file) throw Error("cannot read " + path.string());
     int number = 1;
     try {
-        if (!std::getline(file, line)) throw Error("it is empty");
+        if (!print::next_line(file, line)) throw Error("it is empty");
         const auto columns = columns_of(line);
         const std::size_t width = cells_of(line).size();
         std::vector<LogRow> rows;
-        while (std::getline(file, line)) {
+        while (print::next_line(file, line)) {
             ++number;
+            if (rows.size() == kMostLogRows) {
+                throw Error(fmt::format("more than {} frames", kMostLogRows));
+            }
             if (file.eof()) break;  // no line break: cut off
             auto cells = cells_of(line);
             if (cells.size() != width) {

@@ -14,6 +14,7 @@
 /// calibration and mount refer to those.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 
@@ -22,15 +23,26 @@
 
 namespace dotpose {
 
-/// Largest image that is read; a larger one is an Error.
+/// Largest image that can be read, and what is read unless more is asked for.
 inline constexpr int kMaxImageSide_px = 100'000;
 inline constexpr int kMaxImagePixels = 1 << 28;
+inline constexpr int kDefaultImagePixels = 100'000'000;
 
-/// Reads one image. While reading, 9 bytes of memory are needed per pixel, besides the file.
+/// An image has more pixels than were asked for; its header says so, and they were not decoded.
+struct ImageTooLarge : Error {
+    ImageTooLarge(const std::string& what, int width, int height)
+        : Error(what), width_px(width), height_px(height) {}
+    int width_px;
+    int height_px;
+};
+
+/// Reads one image. While reading, 9 bytes of memory are needed per pixel, besides the file, of
+/// which no more is read than an image of `max_pixels` takes.
 /// Throws Error, naming the file and the reason: no such file, a directory, no permission, empty,
-/// no known image format, cut short, damaged, too large, not enough memory.
+/// no known image format, cut short, damaged, too large, not enough memory. Throws ImageTooLarge
+/// for more than `max_pixels`, at most kMaxImagePixels.
 /// Thread-safe. The first call sets up the decoding library, which takes some milliseconds.
-GreyImage read_image(const std::filesystem::path& path);
+GreyImage read_image(const std::filesystem::path& path, int max_pixels = kDefaultImagePixels);
 
 /// Pixels per inch along both axes.
 struct Resolution {

@@ -37,6 +37,10 @@ struct OverlayOptions {
     bool black_to_cmy =
         false;           ///< print what is black without black ink, which infrared light sees
     double lighten = 0;  ///< part of its ink that the document gives up, 0 to under 1
+    /// Most megabytes that the content of one page may take when it is unpacked; all pages together
+    /// may take eight times as much. A page takes a few times this of memory. Raise it for large
+    /// maps.
+    int max_content_mb = 64;
     Progress progress;
     /// Called once, with all pages that get dots, before anything is written: may change each
     /// `sheet.origin`, for example to where a SheetFile has room. What it throws ends the work.
@@ -56,7 +60,8 @@ struct OverlayReport {
 ///
 /// Throws BadArgument: bad pattern, margin or page range; a page that is too small or whose region
 /// would run past the end of the code plane; `out` is `in`. Throws Error: `in` cannot be read, is
-/// damaged or needs another password; `out` cannot be written; `progress` returned false.
+/// damaged, needs another password, is nested too deeply or unpacks to too much; `out` cannot be
+/// written; `progress` returned false.
 OverlayReport overlay_pdf(const std::filesystem::path& in, const std::filesystem::path& out,
                           const OverlayOptions& options = {});
 

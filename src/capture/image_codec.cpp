@@ -122,13 +122,26 @@ GreyImage to_grey(const Image& image, Report& report) {
     return grey;
 }
 
+/// What the header says, without the pixels.
+ImagePointer read_header(ImageFormat format, std::span<const std::uint8_t> bytes) {
+    Report report;
+    const InfoPointer info = make_info(format);
+    ImagePointer image(PingBlob(info.get(), bytes.data(), bytes.size(), &report));
+    if (!image) fail(format, bytes, report);
+    return image;
+}
+
 }  // namespace
 
-GreyImage decode_image(ImageFormat format, std::span<const std::uint8_t> bytes) {
+GreyImage decode_image(ImageFormat format, std::span<const std::uint8_t> bytes, int max_pixels) {
     start_library();
     Report report;
     // The library leaves the pixels of missing TIFF strips unset, without a word.
     if (format == ImageFormat::tiff && is_cut_short(format, bytes)) fail(format, bytes, report);
+    {
+        const ImagePointer header = read_header(format, bytes);
+        require_size(header->columns, header->rows, max_pixels);
+    }
     const InfoPointer info = make_info(format);
     const ImagePointer image(BlobToImage(info.get(), bytes.data(), bytes.size(), &report));
     if (!image || report.is_failure()) fail(format, bytes, report);
@@ -141,10 +154,7 @@ GreyImage decode_image(ImageFormat format, std::span<const std::uint8_t> bytes) 
 std::optional<Resolution> decode_resolution(ImageFormat format,
                                             std::span<const std::uint8_t> bytes) {
     start_library();
-    Report report;
-    const InfoPointer info = make_info(format);
-    const ImagePointer image(PingBlob(info.get(), bytes.data(), bytes.size(), &report));
-    if (!image) fail(format, bytes, report);
+    const ImagePointer image = read_header(format, bytes);
     const bool is_stated = image->x_resolution > 0 && image->y_resolution > 0;
     if (!is_stated || image->units == UndefinedResolution) return std::nullopt;
     const double per_inch = image->units == PixelsPerCentimeterResolution ? 2.54 : 1;

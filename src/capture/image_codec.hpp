@@ -14,7 +14,7 @@ namespace dotpose::capture {
 
 /// All formats but PNM. Conversions and limits as in image_file.hpp. Throws Error with the reason
 /// only; the caller knows the file's name.
-GreyImage decode_image(ImageFormat format, std::span<const std::uint8_t> bytes);
+GreyImage decode_image(ImageFormat format, std::span<const std::uint8_t> bytes, int max_pixels);
 
 /// What the file states, without decoding the pixels. Throws Error with the reason only.
 std::optional<Resolution> decode_resolution(ImageFormat format,

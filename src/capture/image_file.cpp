@@ -1,5 +1,6 @@
 #include "dotpose/image_file.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -18,8 +19,10 @@ namespace {
 using capture::ImageFormat;
 using Bytes = std::vector<std::uint8_t>;
 
-/// More than the largest image takes at 16 bits and four channels; ends endless files.
-constexpr std::size_t kMaxFileBytes = (std::size_t{8} << 28) + (std::size_t{1} << 20);
+/// More than an image takes at 16 bits and four channels; ends endless files.
+std::size_t max_file_bytes(int max_pixels) {
+    return std::size_t{8} * static_cast<std::size_t>(max_pixels) + (std::size_t{1} << 20);
+}
 
 struct Closer {
     void operator()(std::FILE* file) const { std::fclose(file); }
@@ -54,7 +57,7 @@ struct Content {
     Bytes bytes;
 };
 
-Content read_file(const std::filesystem::path& path) {
+Content read_file(const std::filesystem::path& path, int max_pixels) {
     const File file(std::fopen(path.c_str(), "rb"));
     if (!file) throw Error(system_reason());
     Bytes bytes;
@@ -63,11 +66,15 @@ Content read_file(const std::filesystem::path& path) {
     const auto format = capture::sniff(bytes);
     if (!format) throw Error("not a PNM, PNG, JPEG, BMP or TIFF image");
     // Read to the end instead of asking for the size, which pipes do not have.
+    const std::size_t most = max_file_bytes(max_pixels);
     std::size_t chunk = std::size_t{1} << 16;
     while (std::feof(file.get()) == 0) {
-        if (bytes.size() > kMaxFileBytes) throw Error("the file is larger than 2 GiB");
+        if (bytes.size() > most) {
+            throw Error("the file is larger than an image of " +
+                        std::to_string(max_pixels / 1'000'000) + " million px takes");
+        }
         append(file.get(), chunk, bytes);
-        chunk = bytes.size();
+        chunk = std::min(bytes.size(), most);
     }
     return {*format, std::move(bytes)};
 }
@@ -103,6 +110,8 @@ auto with_name(const char* verb, const std::filesystem::path& path, Action actio
     };
     try {
         return action();
+    } catch (const ImageTooLarge& error) {
+        throw ImageTooLarge(sentence(error.what()), error.width_px, error.height_px);
     } catch (const Error& error) {
         throw Error(sentence(error.what()));
     } catch (const std::bad_alloc&) {
@@ -112,18 +121,18 @@ auto with_name(const char* verb, const std::filesystem::path& path, Action actio
 
 }  // namespace
 
-GreyImage read_image(const std::filesystem::path& path) {
+GreyImage read_image(const std::filesystem::path& path, int max_pixels) {
     return with_name("read", path, [&] {
-        const Content content = read_file(path);
+        const Content content = read_file(path, max_pixels);
         return content.format == ImageFormat::pnm
-                   ? capture::decode_pnm(content.bytes)
-                   : capture::decode_image(content.format, content.bytes);
+                   ? capture::decode_pnm(content.bytes, max_pixels)
+                   : capture::decode_image(content.format, content.bytes, max_pixels);
     });
 }
 
 std::optional<Resolution> read_resolution(const std::filesystem::path& path) {
     return with_name("read", path, [&]() -> std::optional<Resolution> {
-        const Content content = read_file(path);
+        const Content content = read_file(path, kMaxImagePixels);
         if (content.format == ImageFormat::pnm) return std::nullopt;
         return capture::decode_resolution(content.format, content.bytes);
     });

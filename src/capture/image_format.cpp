@@ -4,6 +4,8 @@
 #include <array>
 #include <string_view>
 
+#include <fmt/core.h>
+
 #include "dotpose/image_file.hpp"
 
 namespace dotpose::capture {
@@ -134,6 +136,17 @@ class TiffDirectory {
 };
 
 }  // namespace
+
+void require_size(std::uint64_t width_px, std::uint64_t height_px, int max_pixels) {
+    if (width_px > kMaxImageSide_px || height_px > kMaxImageSide_px) throw Error(kTooLarge);
+    if (width_px * height_px <= static_cast<std::uint64_t>(std::min(max_pixels, kMaxImagePixels))) {
+        return;
+    }
+    throw ImageTooLarge(
+        fmt::format("the image is too large: {} x {} px; at most {} million px are read", width_px,
+                    height_px, max_pixels / 1'000'000),
+        static_cast<int>(width_px), static_cast<int>(height_px));
+}
 
 std::optional<ImageFormat> sniff(std::span<const std::uint8_t> bytes) {
     using namespace std::string_view_literals;

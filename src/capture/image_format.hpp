@@ -17,6 +17,9 @@ inline constexpr std::size_t kMagicBytes = 8;
 inline constexpr char kTooLarge[] =
     "the image is too large: at most 100,000 px per side and 2^28 px are read";
 
+/// Throws Error if a side is beyond the limit, ImageTooLarge if there are too many pixels.
+void require_size(std::uint64_t width_px, std::uint64_t height_px, int max_pixels);
+
 /// The format the first bytes announce.
 std::optional<ImageFormat> sniff(std::span<const std::uint8_t> bytes);
 

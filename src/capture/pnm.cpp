@@ -90,7 +90,7 @@ struct Header {
     std::uint32_t max_level = 1;
 };
 
-Header read_header(Reader& reader) {
+Header read_header(Reader& reader, int max_pixels) {
     Header header;
     reader.byte();
     const int kind = reader.byte() - '0';
@@ -104,10 +104,7 @@ Header read_header(Reader& reader) {
     if (header.max_level == 0 || header.max_level > kMaxLevel) {
         fail_damaged("its largest level is not in 1 to 65535");
     }
-    if (header.width_px > kMaxImageSide_px || header.height_px > kMaxImageSide_px ||
-        header.width_px * header.height_px > kMaxImagePixels) {
-        throw Error(kTooLarge);
-    }
+    require_size(header.width_px, header.height_px, max_pixels);
     return header;
 }
 
@@ -166,9 +163,9 @@ void read_levels(Reader& reader, const Header& header, GreyImage& image) {
 
 }  // namespace
 
-GreyImage decode_pnm(std::span<const std::uint8_t> bytes) {
+GreyImage decode_pnm(std::span<const std::uint8_t> bytes, int max_pixels) {
     Reader reader(bytes);
-    const Header header = read_header(reader);
+    const Header header = read_header(reader, max_pixels);
     if (reader.bytes_left() < least_bytes(header)) throw Error("the PNM image is cut short");
     if (!header.is_text) reader.finish_line_break(least_bytes(header));
     GreyImage image;

@@ -12,6 +12,6 @@
 namespace dotpose::capture {
 
 /// `bytes` start with a magic that `sniff` knows. Throws Error with the reason only.
-GreyImage decode_pnm(std::span<const std::uint8_t> bytes);
+GreyImage decode_pnm(std::span<const std::uint8_t> bytes, int max_pixels);
 
 }  // namespace dotpose::capture

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "dotpose/evaluate.hpp"
-#include "dotpose/image_file.hpp"
+#include "dotpose/frame_file.hpp"
 #include "dotpose/locate.hpp"
 
 namespace dotpose {
@@ -115,7 +115,7 @@ FrameSource frames_of_folder(const std::filesystem::path& folder, std::vector<Tr
         frame.truth = row.truth;
         frame.profile = row.profile;
         try {
-            frame.image = read_image(folder / row.file);
+            frame.image = read_frame(folder / row.file);
         } catch (const Error& error) {
             frame.problem = error.what();
         }

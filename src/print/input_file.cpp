@@ -32,6 +32,18 @@ std::optional<std::string> text_of(const fs::path& path, std::size_t most) {
     return text;
 }
 
+bool next_line(std::istream& stream, std::string& line) {
+    constexpr std::size_t kMost = 64 << 10;
+    line.clear();
+    for (int byte = stream.get(); byte != std::istream::traits_type::eof(); byte = stream.get()) {
+        if (byte == '\n') return true;
+        if (line.size() == kMost) throw Error("a line has more than 64 KB");
+        line += static_cast<char>(byte);
+    }
+    if (stream.bad()) throw Error("it cannot be read");
+    return !line.empty();
+}
+
 nlohmann::json parse_json(const std::string& text) {
     using nlohmann::json;
     const auto refuse_depth = [](int depth, json::parse_event_t, const json&) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <new>
 #include <set>
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 
 #include "pdf_colours.hpp"
 #include "pdf_file.hpp"
+#include "pdf_limits.hpp"
 #include "pdf_page_frame.hpp"
 #include "pdf_scan.hpp"
 #include "regions.hpp"
@@ -25,12 +27,17 @@ namespace {
                             path.string(), reason, path.string()));
 }
 
+[[noreturn]] void throw_too_deep(const fs::path& path) {
+    throw Error(fmt::format("{}: its objects are nested too deeply", path.string()));
+}
+
 /// qpdf goes on after small faults, which the new file no longer has. Content that it cannot unpack
 /// or read would stay as it is. Returns the small faults, in words.
 std::set<std::string> small_faults(QPDF& pdf, const fs::path& path) {
     std::set<std::string> faults;
     for (const QPDFExc& warning : pdf.getWarnings()) {
         const std::string& detail = warning.getMessageDetail();
+        if (print::is_too_deep(detail)) throw_too_deep(path);
         const bool is_in_content = warning.getObject() == "content";
         if (is_in_content || detail.find("stream data") != std::string::npos) {
             throw_damaged(path, detail);
@@ -44,7 +51,7 @@ void open(QPDF& pdf, const fs::path& path, const std::string& password) {
     pdf.setSuppressWarnings(true);
     pdf.setAttemptRecovery(false);
     try {
-        pdf.processFile(path.c_str(), password.c_str());
+        pdf.processInputSource(print::open_pdf(path), password.c_str());
     } catch (const QPDFSystemError& error) {
         throw Error(fmt::format("cannot read {}: {}", path.string(),
                                 std::generic_category().message(error.getErrno())));
@@ -83,6 +90,45 @@ std::string page_list(const std::vector<int>& numbers) {
                        numbers.size() > kShown ? " ..." : "");
 }
 
+/// Runs `work`; its errors then begin with `name`.
+template <typename Work>
+void with_name(const std::string& name, const Work& work) {
+    try {
+        work();
+    } catch (const BadArgument& error) {
+        throw BadArgument(fmt::format("{}: {}", name, error.what()));
+    } catch (const Error& error) {
+        throw Error(fmt::format("{}: {}", name, error.what()));
+    }
+}
+
+/// Runs `work`; where qpdf is at a loss, the document is damaged.
+template <typename Work>
+auto understood(const fs::path& path, const Work& work) {
+    try {
+        return work();
+    } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const QPDFExc& error) {
+        throw_damaged(path, error.getMessageDetail());
+    } catch (const std::exception& error) {
+        throw_damaged(path, error.what());
+    }
+}
+
+/// The document says how large its pages are, up to a user unit that makes metres of points.
+void require_few_dots(const Sheet& sheet) {
+    constexpr double kMostDots = 5e7;
+    const double dots = double{1} * sheet.columns * sheet.rows;
+    if (dots <= kMostDots) return;
+    throw Error(
+        fmt::format("a page of {:.0f} x {:.0f} mm needs {:.0f} million dots; at most {:.0f} "
+                    "million are laid on a page",
+                    sheet.width_mm, sheet.height_mm, dots / 1e6, kMostDots / 1e6));
+}
+
 /// One document being given dots.
 class Overlay {
   public:
@@ -93,13 +139,20 @@ class Overlay {
           rows_(std::make_shared<print::RowCount>()),
           dots_(pdf_, options.dpi, options.drawing, rows_),
           regions_(options.origin),
-          colours_(change_) {
+          unpacked_(options.max_content_mb),
+          colours_(change_, unpacked_) {
         rows_->progress = options.progress;
         open(pdf_, in, options.password);
+        understood(in_, [&] {
+            with_name(in_.string(), [&] {
+                unpacked_.count_object_streams(pdf_);
+                print::require_shallow_page_tree(pdf_);
+            });
+        });
     }
 
     void add_dots() {
-        std::vector<QPDFPageObjectHelper> pages = QPDFPageDocumentHelper(pdf_).getAllPages();
+        std::vector<QPDFPageObjectHelper> pages = all_pages();
         if (pages.empty()) throw Error(fmt::format("{}: the document has no pages", in_.string()));
         const auto page = [&](int number) { return pages[static_cast<std::size_t>(number - 1)]; };
         for (const int number : page_numbers(options_.pages, static_cast<int>(pages.size()))) {
@@ -123,18 +176,18 @@ class Overlay {
     OverlayReport report() && { return std::move(report_); }
 
   private:
+    std::vector<QPDFPageObjectHelper> all_pages() {
+        return understood(in_, [&] {
+            std::vector<QPDFPageObjectHelper> pages = QPDFPageDocumentHelper(pdf_).getAllPages();
+            small_faults(pdf_, in_);
+            return pages;
+        });
+    }
+
     /// Runs `work`; its errors then name the page.
     template <typename Work>
     void on_page(int number, const Work& work) {
-        try {
-            work();
-        } catch (const BadArgument& error) {
-            throw BadArgument(fmt::format("{}, page {}: {}", in_.string(), number, error.what()));
-        } catch (const Error& error) {
-            throw Error(fmt::format("{}, page {}: {}", in_.string(), number, error.what()));
-        } catch (const QPDFExc& error) {
-            throw_damaged(in_, error.getMessageDetail());
-        }
+        understood(in_, [&] { with_name(fmt::format("{}, page {}", in_.string(), number), work); });
     }
 
     void lay_out(int number, const QPDFPageObjectHelper& page) {
@@ -143,6 +196,7 @@ class Overlay {
                                   .paper = print::page_frame(page).paper,
                                   .margin_mm = options_.margin_mm});
         validate_resolution(sheet, options_.dpi);
+        require_few_dots(sheet);
         sheet.origin = regions_.take(sheet.columns, sheet.rows);
         report_.pages.push_back({number, sheet});
     }
@@ -151,11 +205,12 @@ class Overlay {
         const auto& [number, sheet] = laid_out;
         validate(sheet);
         const print::PageFrame frame = print::page_frame(page);
-        const print::PageContent content = print::scan_page(page);
+        const print::PageContent content = print::scan_page(page, unpacked_);
         if (content.paints_black) black_.push_back(number);
         if (content.paints_images) images_.push_back(number);
         if (content.paints_areas) areas_.push_back(number);
         if (!change_.is_none()) colours_.convert(page);
+        print::write_turn_as_integer(page);
         draw(page, frame, sheet, content);
     }
 
@@ -225,6 +280,7 @@ class Overlay {
     std::shared_ptr<print::RowCount> rows_;
     print::DotContent dots_;
     print::Regions regions_;
+    print::UnpackedBytes unpacked_;
     print::ColourConverter colours_;
     OverlayReport report_;
     std::vector<int> black_;

@@ -11,6 +11,8 @@ namespace {
 
 using Token = QPDFTokenizer::Token;
 
+constexpr std::size_t kMostPending = 1000;
+
 bool is_blank(const Token& token) {
     return token.getType() == QPDFTokenizer::tt_space ||
            token.getType() == QPDFTokenizer::tt_comment;
@@ -41,6 +43,8 @@ void ColourFilter::handleToken(Token const& token) {
         write_colour(ColourKind::grey, {0}, true);
     }
     if (token.getType() != QPDFTokenizer::tt_word) {
+        // No operator that is rewritten has as many operands.
+        if (pending_.size() == kMostPending) flush();
         pending_.push_back(token);
         return;
     }

@@ -33,9 +33,10 @@ void blend_in_cmyk(QPDFObjectHandle holder, InkChange change) {
     holder.replaceKey("/Group", copy);
 }
 
-std::string palette_bytes(QPDFObjectHandle table) {
+std::string palette_bytes(QPDFObjectHandle table, UnpackedBytes& unpacked) {
     if (table.isString()) return table.getStringValue();
     if (!table.isStream()) return {};
+    unpacked.count(table);
     const auto data = table.getStreamData();
     return {reinterpret_cast<const char*>(data->getBuffer()), data->getSize()};
 }
@@ -65,7 +66,7 @@ QPDFObjectHandle indexed(InkChange change, ColourKind from, const std::string& b
 }
 
 bool convert_palette(InkChange change, QPDFObjectHandle dict, QPDFObjectHandle space,
-                     QPDFObjectHandle spaces) {
+                     QPDFObjectHandle spaces, UnpackedBytes& unpacked) {
     if (!space.isArray() || space.getArrayNItems() != 4 ||
         !space.getArrayItem(0).isNameAndEquals("/Indexed") || !space.getArrayItem(2).isInteger()) {
         return false;
@@ -73,8 +74,9 @@ bool convert_palette(InkChange change, QPDFObjectHandle dict, QPDFObjectHandle s
     const ColourKind kind = kind_of_space(space.getArrayItem(1), spaces);
     const long long last = space.getArrayItem(2).getIntValue();
     if (kind == ColourKind::other || last < 0 || last > 255) return false;
-    dict.replaceKey("/ColorSpace", indexed(change, kind, palette_bytes(space.getArrayItem(3)),
-                                           static_cast<std::size_t>(last) + 1));
+    dict.replaceKey("/ColorSpace",
+                    indexed(change, kind, palette_bytes(space.getArrayItem(3), unpacked),
+                            static_cast<std::size_t>(last) + 1));
     return true;
 }
 
@@ -133,14 +135,21 @@ bool convert_decode(InkChange change, QPDFObjectHandle dict, ColourKind kind, QP
 }  // namespace
 
 void ColourConverter::convert(QPDFPageObjectHelper page) {
+    unpacked_.start_page();
+    constexpr bool kInFormsOfForms = true;
+    page.forEachFormXObject(kInFormsOfForms,
+                            [this](QPDFObjectHandle& form, QPDFObjectHandle& /*forms*/,
+                                   const std::string& /*name*/) { unpacked_.count(form); });
     page.externalizeInlineImages();
     QPDFObjectHandle dict = page.getObjectHandle();
     QPDFObjectHandle original = page.getAttribute("/Resources", false);
     QPDFObjectHandle contents = dict.getKey("/Contents");
     // Another page may share this very stream.
     if (contents.isStream()) dict.replaceKey("/Contents", contents.copyStream());
-    page.addContentTokenFilter(
-        std::make_shared<ColourFilter>(change_, named_spaces(original), true));
+    if (!page.getPageContents().empty()) {
+        page.addContentTokenFilter(
+            std::make_shared<ColourFilter>(change_, named_spaces(original), true));
+    }
     blend_in_cmyk(dict, change_);
     dict.replaceKey("/Resources", resources(original));
     for (QPDFAnnotationObjectHelper& annotation : page.getAnnotations()) {
@@ -176,6 +185,7 @@ QPDFObjectHandle ColourConverter::resources(QPDFObjectHandle original) {
     if (!original.isDictionary()) return QPDFObjectHandle::newDictionary();
     const QPDFObjGen id = original.getObjGen();
     if (original.isIndirect() && converted_.contains(id)) return converted_.at(id);
+    require_pdf_level("resources", ++level_);
     QPDFObjectHandle copy = original.shallowCopy();
     if (original.isIndirect()) {
         copy = original.getOwningQPDF()->makeIndirectObject(copy);
@@ -193,6 +203,7 @@ QPDFObjectHandle ColourConverter::resources(QPDFObjectHandle original) {
     for (const auto& [name, kind] : named_spaces(original)) {
         if (kind == ColourKind::other) left_alone_.insert("colours of special colour spaces");
     }
+    --level_;
     return copy;
 }
 
@@ -206,6 +217,7 @@ QPDFObjectHandle ColourConverter::content(QPDFObjectHandle original, bool starts
     if (!original.isStream()) return original;
     const QPDFObjGen id = original.getObjGen();
     if (converted_.contains(id)) return converted_.at(id);
+    unpacked_.count(original);
     QPDFObjectHandle copy = original.copyStream();
     converted_[id] = copy;
     QPDFObjectHandle used = original.getDict().getKey("/Resources");
@@ -258,8 +270,9 @@ QPDFObjectHandle ColourConverter::image(QPDFObjectHandle original, QPDFObjectHan
     }
     const ColourKind kind = kind_of_space(space, spaces);
     const bool is_single = kind == ColourKind::grey || kind == ColourKind::black;
-    const bool done = kind == ColourKind::other ? convert_palette(change_, dict, space, spaces)
-                      : is_single               ? convert_grey(change_, dict, kind)
+    const bool done = kind == ColourKind::other
+                          ? convert_palette(change_, dict, space, spaces, unpacked_)
+                      : is_single ? convert_grey(change_, dict, kind)
                                   : convert_decode(change_, dict, kind, original.getOwningQPDF());
     if (!done) left_alone_.insert(kind == ColourKind::cmyk ? "CMYK images" : "some images");
     converted_[id] = done ? copy : original;

@@ -9,6 +9,7 @@
 #include <qpdf/QPDFPageObjectHelper.hh>
 
 #include "pdf_ink.hpp"
+#include "pdf_limits.hpp"
 
 namespace dotpose::print {
 
@@ -16,8 +17,11 @@ namespace dotpose::print {
 /// the originals. Content is rewritten only while the file is written.
 class ColourConverter {
   public:
-    explicit ColourConverter(InkChange change) : change_(change) {}
+    /// `unpacked` counts all content that is changed, and must outlive this.
+    ColourConverter(InkChange change, UnpackedBytes& unpacked)
+        : change_(change), unpacked_(unpacked) {}
 
+    /// Throws Error if the page draws from resources that are nested too deeply.
     void convert(QPDFPageObjectHelper page);
 
     /// What was met and left as it was, in words, for example "shadings".
@@ -35,6 +39,8 @@ class ColourConverter {
     void replace_all(QPDFObjectHandle resources, const char* kind, Convert convert);
 
     InkChange change_;
+    UnpackedBytes& unpacked_;
+    int level_ = 0;  ///< of the resources that are being converted
     std::map<QPDFObjGen, QPDFObjectHandle> converted_;
     std::set<std::string> left_alone_;
 };

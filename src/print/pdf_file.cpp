@@ -4,10 +4,23 @@
 #include <qpdf/QPDFWriter.hh>
 
 namespace dotpose::print {
+namespace {
+
+/// What the document packed itself stays as it is: unpacking takes time and memory without end.
+void keep_packed(QPDF& pdf) {
+    for (QPDFObjectHandle object : pdf.getAllObjects()) {
+        if (object.isStream() && object.getDict().hasKey("/Filter") && !object.isDataModified()) {
+            object.setFilterOnWrite(false);
+        }
+    }
+}
+
+}  // namespace
 
 void write_document(QPDF& pdf, const RowCount& rows, OutputFile& file) {
     FilePipeline out(file);
     try {
+        keep_packed(pdf);
         QPDFWriter writer(pdf);
         writer.setOutputPipeline(&out);
         writer.setObjectStreamMode(qpdf_o_generate);

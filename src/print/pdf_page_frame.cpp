@@ -1,6 +1,7 @@
 #include "pdf_page_frame.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/core.h>
 
@@ -33,8 +34,15 @@ double user_unit(QPDFPageObjectHelper& page) {
 
 int quarter_turns(QPDFPageObjectHelper& page) {
     QPDFObjectHandle rotate = page.getAttribute("/Rotate", false);
-    const int degrees = rotate.isInteger() ? rotate.getIntValueAsInt() : 0;
-    return degrees % 90 == 0 ? ((degrees / 90) % 4 + 4) % 4 : 0;
+    if (!rotate.isNumber()) return 0;
+    // Written as an integer or as a real.
+    const double degrees = rotate.getNumericValue();
+    const double turns = std::fmod(degrees / 90, 4);
+    if (turns != std::floor(turns)) {
+        throw Error(
+            fmt::format("it is turned by {:g} degrees; only quarter turns are known", degrees));
+    }
+    return (static_cast<int>(turns) + 4) % 4;
 }
 
 }  // namespace
@@ -58,6 +66,12 @@ PageFrame page_frame(QPDFPageObjectHelper page) {
     frame.matrix = fmt::format("{:.9g} {:.9g} {:.9g} {:.9g} {:.6f} {:.6f}", a * scale, b * scale,
                                c * scale, d * scale, x, y);
     return frame;
+}
+
+void write_turn_as_integer(QPDFPageObjectHelper page) {
+    if (!page.getAttribute("/Rotate", false).isReal()) return;
+    page.getObjectHandle().replaceKey("/Rotate",
+                                      QPDFObjectHandle::newInteger(90 * quarter_turns(page)));
 }
 
 }  // namespace dotpose::print

@@ -1,11 +1,17 @@
 #include "pdf_scan.hpp"
 
 #include <algorithm>
+#include <cstdlib>
+#include <deque>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <qpdf/Pl_Concatenate.hh>
+#include <qpdf/Pl_QPDFTokenizer.hh>
+
+#include "dotpose/error.hpp"
 #include "pdf_ink.hpp"
 
 namespace dotpose::print {
@@ -25,26 +31,100 @@ struct Colours {
     Colour stroke;
 };
 
-class Scan : public QPDFObjectHandle::ParserCallbacks {
-  public:
-    Scan(QPDFObjectHandle resources, Colours start, std::set<QPDFObjGen>& seen, PageContent& found)
-        : resources_(std::move(resources)), now_(start), seen_(seen), found_(found) {}
+/// What the content of a page and that of its forms have in common.
+struct PageScan {
+    UnpackedBytes& unpacked;
+    std::set<QPDFObjGen> seen;
+    PageContent found;
+};
 
-    void handleObject(QPDFObjectHandle object) override {
-        if (object.isOperator()) {
-            handle_operator(object.getOperatorValue());
-            operands_.clear();
-        } else {
-            operands_.push_back(object);
+/// Operators have at most 33 operands, numbers of a colour and a name.
+constexpr std::size_t kMostOperands = 64;
+
+struct Operand {
+    QPDFTokenizer::token_type_e type;
+    std::string text;  ///< of names and numbers
+};
+
+/// Reads tokens instead of objects, so that nothing but the bytes themselves is ever in memory.
+class Scan : public QPDFObjectHandle::TokenFilter {
+  public:
+    Scan(QPDFObjectHandle resources, Colours start, PageScan& page, int level)
+        : resources_(std::move(resources)), now_(start), page_(page), level_(level) {
+        require_pdf_level("forms", level);
+    }
+
+    void read(const std::vector<QPDFObjectHandle>& streams);
+
+    void handleToken(QPDFTokenizer::Token const& token) override {
+        switch (token.getType()) {
+            case QPDFTokenizer::tt_space:
+            case QPDFTokenizer::tt_comment:
+            case QPDFTokenizer::tt_eof:
+                return;
+            case QPDFTokenizer::tt_bad:
+                throw_damaged(last_operator_ == "ID" ? "an inline image has no end"
+                                                     : token.getErrorMessage());
+            case QPDFTokenizer::tt_array_open:
+            case QPDFTokenizer::tt_dict_open:
+                open_brackets_ += token.getValue().front();
+                require_pdf_level("arrays", static_cast<int>(open_brackets_.size()));
+                return;
+            case QPDFTokenizer::tt_array_close:
+            case QPDFTokenizer::tt_dict_close:
+                close_bracket(token);
+                return;
+            case QPDFTokenizer::tt_word:
+                handle_operator(token.getValue());
+                return;
+            default:
+                add_operand(token);
         }
     }
-    void handleEOF() override {}
+    void handleEOF() override {
+        if (!open_brackets_.empty()) throw_damaged("an array or dictionary has no end");
+    }
 
     int unclosed_saves() const { return static_cast<int>(saved_.size()); }
     int extra_restores() const { return extra_restores_; }
 
   private:
+    [[noreturn]] static void throw_damaged(const std::string& reason) {
+        throw Error("damaged PDF: its content cannot be read: " + reason);
+    }
+
+    void close_bracket(const QPDFTokenizer::Token& token) {
+        const char opened = token.getType() == QPDFTokenizer::tt_array_close ? '[' : '<';
+        if (open_brackets_.empty() || open_brackets_.back() != opened) {
+            throw_damaged("unexpected " + token.getValue());
+        }
+        open_brackets_.pop_back();
+        add_operand(token);
+    }
+
+    void add_operand(const QPDFTokenizer::Token& token) {
+        const auto type = token.getType();
+        if (type == QPDFTokenizer::tt_brace_open || type == QPDFTokenizer::tt_brace_close) {
+            throw_damaged("unexpected " + token.getValue());
+        }
+        if (!open_brackets_.empty()) return;
+        if (operands_.size() == kMostOperands) operands_.pop_front();
+        const bool has_text = type == QPDFTokenizer::tt_name || is_number(type);
+        operands_.push_back({type, has_text ? token.getValue() : std::string()});
+    }
+
+    static bool is_number(QPDFTokenizer::token_type_e type) {
+        return type == QPDFTokenizer::tt_integer || type == QPDFTokenizer::tt_real;
+    }
+
     void handle_operator(const std::string& name) {
+        if (!open_brackets_.empty()) throw_damaged("unexpected " + name.substr(0, 20));
+        last_operator_ = name;
+        obey(name);
+        operands_.clear();
+    }
+
+    void obey(const std::string& name) {
         const auto is = [&name](std::initializer_list<const char*> names) {
             return std::ranges::find(names, name) != names.end();
         };
@@ -56,11 +136,10 @@ class Scan : public QPDFObjectHandle::ParserCallbacks {
             set(now_.fill, kind_of_count());
         } else if (is({"G", "RG", "K"})) {
             set(now_.stroke, kind_of_count());
-        } else if (is({"cs", "CS"}) && !operands_.empty()) {
-            QPDFObjectHandle spaces = resources_.isDictionary() ? resources_.getKey("/ColorSpace")
-                                                                : QPDFObjectHandle::newNull();
-            (name == "cs" ? now_.fill : now_.stroke) = {kind_of_space(operands_.back(), spaces),
-                                                        true};
+        } else if (is({"cs", "CS"}) && ends_with_name()) {
+            const auto space = QPDFObjectHandle::newName(operands_.back().text);
+            (name == "cs" ? now_.fill : now_.stroke) = {
+                kind_of_space(space, resource("/ColorSpace")), true};
         } else if (is({"sc", "scn"})) {
             set(now_.fill, now_.fill.kind);
         } else if (is({"SC", "SCN"})) {
@@ -75,12 +154,20 @@ class Scan : public QPDFObjectHandle::ParserCallbacks {
         } else if (is({"Tj", "TJ", "'", "\""})) {
             paint(now_.fill, false);
         } else if (name == "sh") {
-            found_.paints_areas = true;
+            page_.found.paints_areas = true;
         } else if (name == "EI") {
-            found_.paints_areas = found_.paints_images = true;
-        } else if (name == "Do" && !operands_.empty() && operands_.back().isName()) {
-            paint_object(operands_.back().getName());
+            page_.found.paints_areas = page_.found.paints_images = true;
+        } else if (name == "Do" && ends_with_name()) {
+            paint_object(operands_.back().text);
         }
+    }
+
+    bool ends_with_name() const {
+        return !operands_.empty() && operands_.back().type == QPDFTokenizer::tt_name;
+    }
+
+    QPDFObjectHandle resource(const char* kind) {
+        return resources_.isDictionary() ? resources_.getKey(kind) : QPDFObjectHandle::newNull();
     }
 
     void restore() {
@@ -100,51 +187,67 @@ class Scan : public QPDFObjectHandle::ParserCallbacks {
 
     void set(Colour& colour, ColourKind kind) {
         std::vector<double> values;
-        for (QPDFObjectHandle& operand : operands_) {
-            if (operand.isNumber()) values.push_back(operand.getNumericValue());
+        for (const Operand& operand : operands_) {
+            if (is_number(operand.type))
+                values.push_back(std::strtod(operand.text.c_str(), nullptr));
         }
         const bool is_known = components(kind) > 0 && values.size() == components(kind);
         colour = {kind, is_known && black_of(kind, values) > kHidingBlack};
     }
 
     void paint(const Colour& colour, bool is_area) {
-        found_.paints_black |= colour.is_black;
-        found_.paints_areas |= is_area;
+        page_.found.paints_black |= colour.is_black;
+        page_.found.paints_areas |= is_area;
     }
 
     void paint_object(const std::string& name) {
-        QPDFObjectHandle objects =
-            resources_.isDictionary() ? resources_.getKey("/XObject") : QPDFObjectHandle::newNull();
+        QPDFObjectHandle objects = resource("/XObject");
         if (!objects.isDictionary() || !objects.getKey(name).isStream()) return;
         QPDFObjectHandle object = objects.getKey(name);
         if (object.getDict().getKey("/Subtype").isNameAndEquals("/Image")) {
-            found_.paints_areas = found_.paints_images = true;
+            page_.found.paints_areas = page_.found.paints_images = true;
             return;
         }
-        if (!seen_.insert(object.getObjGen()).second) return;
-        Scan scan(object.getDict().getKey("/Resources"), now_, seen_, found_);
-        QPDFPageObjectHelper(object).parseContents(&scan);
+        if (!page_.seen.insert(object.getObjGen()).second) return;
+        Scan(object.getDict().getKey("/Resources"), now_, page_, level_ + 1).read({object});
     }
 
     QPDFObjectHandle resources_;
     Colours now_;
-    std::set<QPDFObjGen>& seen_;
-    PageContent& found_;
+    PageScan& page_;
+    int level_;
     std::vector<Colours> saved_;
-    std::vector<QPDFObjectHandle> operands_;
+    std::deque<Operand> operands_;
+    std::string open_brackets_;
+    std::string last_operator_;
     int extra_restores_ = 0;
 };
 
+void Scan::read(const std::vector<QPDFObjectHandle>& streams) {
+    Pl_QPDFTokenizer tokens("content", this);
+    // What is thrown while a stream is unpacked would become a warning; after that it is not.
+    Pl_Concatenate all("content", &tokens);
+    for (QPDFObjectHandle stream : streams) {
+        page_.unpacked.count(stream);
+        bool attempted = false;
+        if (!stream.pipeStreamData(&all, &attempted, 0, qpdf_dl_specialized, true)) {
+            throw_damaged("it cannot be unpacked");
+        }
+        all.writeCStr("\n");
+    }
+    all.manualFinish();
+}
+
 }  // namespace
 
-PageContent scan_page(QPDFPageObjectHelper page) {
-    PageContent found;
-    std::set<QPDFObjGen> seen;
-    Scan scan(page.getAttribute("/Resources", false), {}, seen, found);
-    page.parseContents(&scan);
-    found.unclosed_saves = scan.unclosed_saves();
-    found.extra_restores = scan.extra_restores();
-    return found;
+PageContent scan_page(QPDFPageObjectHelper page, UnpackedBytes& unpacked) {
+    unpacked.start_page();
+    PageScan all{unpacked, {}, {}};
+    Scan scan(page.getAttribute("/Resources", false), {}, all, 1);
+    scan.read(page.getPageContents());
+    all.found.unclosed_saves = scan.unclosed_saves();
+    all.found.extra_restores = scan.extra_restores();
+    return all.found;
 }
 
 }  // namespace dotpose::print

@@ -3,6 +3,8 @@
 
 #include <qpdf/QPDFPageObjectHelper.hh>
 
+#include "pdf_limits.hpp"
+
 namespace dotpose::print {
 
 struct PageContent {
@@ -13,7 +15,8 @@ struct PageContent {
     int extra_restores = 0;      ///< Q without q before it
 };
 
-/// Follows forms too. Reads the page only.
-PageContent scan_page(QPDFPageObjectHelper page);
+/// Follows forms too, and counts in `unpacked` what is read. Reads the page only. Throws Error if
+/// content cannot be read to its end: a reader would not get as far as the dots.
+PageContent scan_page(QPDFPageObjectHelper page, UnpackedBytes& unpacked);
 
 }  // namespace dotpose::print

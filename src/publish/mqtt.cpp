@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 #include <mosquitto.h>
+#include <poll.h>
 
 namespace dotpose::publish {
 namespace {
@@ -27,6 +28,13 @@ struct Library {
 
 std::string reason_of(int code) {
     return code == MOSQ_ERR_ERRNO ? std::strerror(errno) : mosquitto_strerror(code);
+}
+
+/// With TLS, the library takes a broker that is not there for one that is slow to answer, and waits
+/// for as long as its keep-alive; the system knows better.
+bool is_hung_up(int socket) {
+    pollfd state{socket, 0, 0};
+    return socket >= 0 && poll(&state, 1, 0) > 0 && (state.revents & (POLLHUP | POLLERR)) != 0;
 }
 
 void require(int code, const std::string& what) {
@@ -180,9 +188,14 @@ void MqttClient::run() {
     constexpr int kWait_ms = 100;
     constexpr int kPackets = 1;
     for (;;) {
-        const int code = mosquitto_loop(mosquitto_, kWait_ms, kPackets);
-        const std::string reason = reason_of(code);
+        int code = mosquitto_loop(mosquitto_, kWait_ms, kPackets);
+        std::string reason = reason_of(code);
         std::unique_lock lock(mutex_);
+        if (code == MOSQ_ERR_SUCCESS && !is_connected_ &&
+            is_hung_up(mosquitto_socket(mosquitto_))) {
+            code = MOSQ_ERR_NO_CONN;
+            reason = "no connection";
+        }
         // A broker that is not taken leave of sends the last will.
         const bool has_left = !is_connected_ || code != MOSQ_ERR_SUCCESS;
         if (ends_ && (has_left || std::chrono::steady_clock::now() > ends_by_)) return;

@@ -8,7 +8,7 @@
 #include <fmt/core.h>
 #include <glob.h>
 
-#include "dotpose/image_file.hpp"
+#include "dotpose/frame_file.hpp"
 #include "video/sources.hpp"
 
 namespace dotpose::video {
@@ -62,7 +62,7 @@ class ImageSource : public FrameSource {
             frame.time_us = time_of(frame.index, rate());
             frame.file = name;
             try {
-                frame.image = read_image(name);
+                frame.image = read_frame(name);
                 return true;
             } catch (const Error& error) {
                 // One bad image does not keep the others from being seen.

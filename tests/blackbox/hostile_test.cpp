@@ -103,6 +103,46 @@ TEST_F(Hostile, NestingAndSizeOfTextFilesAreBounded) {
     EXPECT_THAT(errors_, HasSubstr("/dev/zero has more than 1 MB"));
 }
 
+/// A PNG of 16,000 x 16,000 px that ends where its pixels begin.
+std::string png_header() {
+    using namespace std::string_literals;
+    return "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x3e\x80\0\0\x3e\x80\x08\0\0\0\0\x64\x15\x80\x02"
+           "\0\0\x10\0IDAT"s +
+           std::string(100, '\0');
+}
+
+TEST_F(Hostile, TheHeaderOfAnImageIsLookedAtFirst) {
+    put("bomb.png", png_header());
+    put("bomb.pgm", "P5 16000 16000 255\n");
+    for (const char* bomb : {"bomb.png", "bomb.pgm"}) {
+        EXPECT_EQ(run(std::string("locate ") + bomb), 0);
+        EXPECT_THAT(output_,
+                    HasSubstr("\"status\":\"image_too_large\",\"message\":\"the image is 16000 "
+                              "x 16000 px; at most 4096 x 4096 can be located\""));
+        EXPECT_EQ(run(std::string("check-print --dpi 600 ") + bomb), 1);
+        EXPECT_THAT(errors_, HasSubstr("the image is too large: 16000 x 16000 px; at most 100 "
+                                       "million px are read"));
+        EXPECT_EQ(run(std::string("check-print --dpi 600 --max-pixels 256 ") + bomb), 1);
+        EXPECT_THAT(errors_, Not(HasSubstr("too large")));
+    }
+    EXPECT_EQ(run("check-print --max-pixels 269 bomb.png"), 2);
+}
+
+TEST_F(Hostile, EndlessFilesAreRefused) {
+    EXPECT_EQ(shell("{ printf 'P5 64 64 255\\n'; cat /dev/zero; } | \"$T\" locate /dev/stdin"), 1);
+    EXPECT_THAT(errors_, HasSubstr("cannot read /dev/stdin: the file is larger than an image of 16 "
+                                   "million px takes"));
+    EXPECT_EQ(run("locate /dev/zero"), 1);
+    EXPECT_THAT(errors_, HasSubstr("not a PNM, PNG"));
+    EXPECT_EQ(run("locate --list /dev/zero"), 1);
+    EXPECT_THAT(errors_, HasSubstr("the list /dev/zero: a line has more than 64 KB"));
+    EXPECT_EQ(run("replay /dev/zero"), 1);
+    EXPECT_THAT(errors_,
+                HasSubstr("/dev/zero:1: no log of dotpose watch: a line has more than 64 KB"));
+    put("run.csv", "frame,t_s\n" + std::string(100'000, '1'));
+    EXPECT_EQ(run("replay run.csv"), 1);
+}
+
 TEST_F(Hostile, AbsurdCamerasAreRefused) {
     simulate();
     const std::string native =

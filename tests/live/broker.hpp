@@ -35,9 +35,12 @@ inline int free_port() {
 
 class Broker {
   public:
-    /// `users`: a file of mosquitto_passwd; empty: everybody may come in.
-    explicit Broker(const std::filesystem::path& directory, const std::string& users = {})
-        : port_(free_port()), directory_(directory) {
+    /// `users`: a file of mosquitto_passwd; empty: everybody may come in. With TLS the broker has a
+    /// certificate of its own making, cert.pem in the directory.
+    explicit Broker(const std::filesystem::path& directory, const std::string& users = {},
+                    bool has_tls = false)
+        : port_(free_port()), directory_(directory), has_tls_(has_tls) {
+        if (has_tls) make_certificate();
         std::ofstream configuration(directory / "mosquitto.conf");
         configuration << "listener " << port_ << " 127.0.0.1\n"
                       << "persistence true\npersistence_location " << directory.string() << "/\n"
@@ -46,6 +49,10 @@ class Broker {
             configuration << "allow_anonymous true\n";
         } else {
             configuration << "allow_anonymous false\npassword_file " << users << "\n";
+        }
+        if (has_tls) {
+            configuration << "certfile " << certificate() << "\nkeyfile "
+                          << (directory / "key.pem").string() << "\n";
         }
         configuration.close();
         start();
@@ -78,9 +85,20 @@ class Broker {
     }
 
     int port() const { return port_; }
-    std::string url() const { return "mqtt://127.0.0.1:" + std::to_string(port_); }
+    std::string url() const {
+        return (has_tls_ ? "mqtts://127.0.0.1:" : "mqtt://127.0.0.1:") + std::to_string(port_);
+    }
+    std::string certificate() const { return (directory_ / "cert.pem").string(); }
 
   private:
+    void make_certificate() const {
+        const std::string command =
+            "cd '" + directory_.string() +
+            "' && openssl req -x509 -newkey ec -pkeyopt ec_paramgen_curve:prime256v1 -nodes "
+            "-keyout key.pem -out cert.pem -days 2 -subj /CN=127.0.0.1 "
+            "-addext subjectAltName=IP:127.0.0.1 2> /dev/null";
+        if (std::system(command.c_str()) != 0) throw std::runtime_error("no certificate");
+    }
     bool answers() const {
         const int descriptor = socket(AF_INET, SOCK_STREAM, 0);
         sockaddr_in address{};
@@ -95,6 +113,7 @@ class Broker {
 
     int port_;
     std::filesystem::path directory_;
+    bool has_tls_;
     pid_t process_ = 0;
 };
 

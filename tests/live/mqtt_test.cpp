@@ -179,6 +179,21 @@ TEST_F(Mqtt, StartsBeforeItsBroker) {
     EXPECT_EQ(publisher.sent(), 1);
 }
 
+TEST_F(Mqtt, FindsItsBrokerAgainAsFastWithTls) {
+    Broker broker(directory_, {}, true);
+    MqttOptions mqtt = options(broker);
+    mqtt.ca_file = broker.certificate();
+    MqttPublisher publisher(mqtt);
+    ASSERT_TRUE(publisher.is_connected()) << news_.text();
+    broker.stop();
+    wait_until([&] { return !publisher.is_connected(); });
+    std::this_thread::sleep_for(1500ms);  // some attempts in vain
+    broker.start();
+    // Half a second from attempt to attempt, and time for a slow machine; the library's own
+    // patience is ten seconds.
+    wait_until([&] { return publisher.is_connected(); }, 4s);
+}
+
 TEST_F(Mqtt, TellsThatTheUserIsRefused) {
     shell("touch users; mosquitto_passwd -b users me secret");
     const Broker broker(directory_, (directory_ / "users").string());

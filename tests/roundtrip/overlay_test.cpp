@@ -143,7 +143,7 @@ std::string producer_name(const testing::TestParamInfo<Producer>& tested) {
 INSTANTIATE_TEST_SUITE_P(producers, OverlaidDocument, testing::ValuesIn(kProducers), producer_name);
 
 TEST_F(Documents, turned_and_cropped_pages_get_dots_as_they_are_shown) {
-    for (const int rotate : {0, 90, 180, 270, -90}) {
+    for (const char* rotate : {"0", "90", "180", "270", "-90", "90.0", "-450."}) {
         write_pdf(path("in.pdf"),
                   {"<< /Type /Catalog /Pages 2 0 R >>",
                    fmt::format("<< /Type /Pages /Kids [3 0 R] /Count 1 /Rotate {} "
@@ -155,7 +155,7 @@ TEST_F(Documents, turned_and_cropped_pages_get_dots_as_they_are_shown) {
         const OverlayReport report = overlay_pdf(path("in.pdf"), path("out.pdf"), options);
         ASSERT_EQ(report.pages.size(), 1U);
         const Sheet& sheet = report.pages.front().sheet;
-        const double width_pt = rotate % 180 == 0 ? 200.4 : 110;
+        const double width_pt = std::atoi(rotate) % 180 == 0 ? 200.4 : 110;
         EXPECT_NEAR(sheet.width_mm, width_pt * 25.4 / 72, 1e-9);
         for (const char* renderer : kRenderers) {
             const DotErrors errors =

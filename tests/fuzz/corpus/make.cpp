@@ -7,6 +7,7 @@
 #include "../../unit/capture/encoders.hpp"
 #include "../locate_input.hpp"
 #include "dotpose/simulate.hpp"
+#include "texts.hpp"
 
 namespace {
 
@@ -123,4 +124,6 @@ int main(int argc, char** argv) {
     make_drawn(folder / "locate");
     make_images(folder / "image_file");
     make_options(folder / "options");
+    for (const fuzz::TextSeed& seed : fuzz::text_seeds())
+        write(folder / seed.path, {seed.bytes.begin(), seed.bytes.end()});
 }

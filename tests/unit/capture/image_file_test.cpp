@@ -193,6 +193,25 @@ TEST_F(ImageFileTest, refuses_too_large_images) {
     }
 }
 
+TEST_F(ImageFileTest, refuses_more_pixels_than_asked_for) {
+    const Raster grey{8, 8, 1, 8, std::vector<std::uint16_t>(64, 255)};
+    const Raster blocks{1, 1, 1, 8, {255}};  // of 8 x 8 px
+    for (const Bytes& bytes :
+         {encode_pnm(grey, false, 255), encode_png(grey), encode_tiff(grey, false),
+          encode_bmp(grey, Bytes(768, 255)), encode_jpeg(blocks)}) {
+        const auto path = write(bytes);
+        EXPECT_EQ(read_image(path, 64).width_px, 8);
+        try {
+            read_image(path, 63);
+            ADD_FAILURE() << "read";
+        } catch (const ImageTooLarge& error) {
+            EXPECT_EQ(error.width_px, 8);
+            EXPECT_EQ(error.height_px, 8);
+            EXPECT_THAT(error.what(), HasSubstr("the image is too large: 8 x 8 px"));
+        }
+    }
+}
+
 TEST_F(ImageFileTest, names_what_is_no_image_file) {
     const auto missing = directory / "missing.pgm";
     EXPECT_EQ(error_of(missing), "cannot read " + missing.string() + ": no such file");

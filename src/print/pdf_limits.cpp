@@ -1,0 +1,185 @@
+#include "pdf_limits.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <set>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+#include <qpdf/FileInputSource.hh>
+#include <qpdf/Pipeline.hh>
+#include <qpdf/QPDFXRefEntry.hh>
+
+#include "dotpose/error.hpp"
+#include "system_error.hpp"
+
+namespace dotpose::print {
+namespace {
+
+constexpr const char* kTooDeep = "streams whose lengths stand in other streams";
+
+/// Far more than reading takes, and far less than a program's first thread has.
+constexpr std::ptrdiff_t kMostStack_bytes = 2 << 20;
+
+class ShallowFile : public FileInputSource {
+  public:
+    explicit ShallowFile(const std::filesystem::path& path)
+        : FileInputSource(path.c_str()), start_(stack_place()) {}
+
+    std::size_t read(char* bytes, std::size_t length) override {
+        if (std::abs(stack_place() - start_) > kMostStack_bytes) throw std::runtime_error(kTooDeep);
+        return FileInputSource::read(bytes, length);
+    }
+
+  private:
+    static std::ptrdiff_t stack_place() {
+        return reinterpret_cast<std::ptrdiff_t>(__builtin_frame_address(0));
+    }
+
+    std::ptrdiff_t start_;
+};
+
+/// Lets bytes go, up to `most` of them.
+class ByteCount : public Pipeline {
+  public:
+    explicit ByteCount(std::uint64_t most) : Pipeline("byte count", nullptr), most_(most) {}
+
+    void write(unsigned char const* /*data*/, std::size_t size) override {
+        bytes_ += size;
+        // The library makes a warning of it, so the caller has to look at the count.
+        if (bytes_ > most_) throw std::runtime_error("too many bytes");
+    }
+    void finish() override {}
+
+    std::uint64_t bytes() const { return bytes_; }
+
+  private:
+    std::uint64_t most_;
+    std::uint64_t bytes_ = 0;
+};
+
+/// The bytes of a row that a predictor works on, which it allocates; 0 without one.
+double predictor_row_bytes(QPDFObjectHandle parameters) {
+    if (!parameters.isDictionary()) return 0;
+    double bytes = 1.0 / 8;
+    for (const char* key : {"/Columns", "/Colors", "/BitsPerComponent"}) {
+        QPDFObjectHandle value = parameters.getKey(key);
+        if (value.isInteger()) bytes *= static_cast<double>(value.getIntValue());
+    }
+    return bytes;
+}
+
+/// Filters on top of each other multiply what comes out, and each takes memory of its own.
+void require_few_filters(QPDFObjectHandle dict) {
+    constexpr int kMostFilters = 8;
+    constexpr double kMostRowBytes = 1 << 24;
+    QPDFObjectHandle filters = dict.getKey("/Filter");
+    if (filters.isArray() && filters.getArrayNItems() > kMostFilters) {
+        throw Error(fmt::format("it has content packed {} times; at most {} are unpacked",
+                                filters.getArrayNItems(), kMostFilters));
+    }
+    QPDFObjectHandle parameters = dict.getKey("/DecodeParms");
+    double row_bytes = predictor_row_bytes(parameters);
+    if (parameters.isArray()) {
+        for (const QPDFObjectHandle& one : parameters.getArrayAsVector())
+            row_bytes = std::max(row_bytes, predictor_row_bytes(one));
+    }
+    if (row_bytes > kMostRowBytes) {
+        throw Error(
+            fmt::format("it has content packed in rows of {:.3g} bytes; at most {:.0f} "
+                        "are unpacked",
+                        row_bytes, kMostRowBytes));
+    }
+}
+
+/// The top of the page tree, as far up as the tree's own words lead.
+QPDFObjectHandle page_tree(QPDF& pdf) {
+    QPDFObjectHandle node = pdf.getRoot().getKey("/Pages");
+    std::set<QPDFObjGen> seen;
+    while (node.isDictionary() && node.getKey("/Parent").isDictionary() &&
+           seen.insert(node.getObjGen()).second) {
+        node = node.getKey("/Parent");
+    }
+    return node;
+}
+
+}  // namespace
+
+void require_pdf_level(const char* what, int level) {
+    if (level <= kMostPdfLevels) return;
+    throw Error(fmt::format("its {} are nested deeper than {} levels", what, kMostPdfLevels));
+}
+
+void require_shallow_page_tree(QPDF& pdf) {
+    std::vector<std::pair<QPDFObjectHandle, int>> nodes = {{page_tree(pdf), 1}};
+    std::set<QPDFObjGen> seen;
+    while (!nodes.empty()) {
+        auto [node, level] = nodes.back();
+        nodes.pop_back();
+        // What is met again is a loop or a page shown twice, and the library's to judge.
+        if (!node.isDictionary() || (node.isIndirect() && !seen.insert(node.getObjGen()).second)) {
+            continue;
+        }
+        require_pdf_level("groups of pages", level);
+        QPDFObjectHandle kids = node.getKey("/Kids");
+        if (!kids.isArray()) continue;
+        for (const QPDFObjectHandle& kid : kids.getArrayAsVector())
+            nodes.emplace_back(kid, level + 1);
+    }
+}
+
+std::shared_ptr<InputSource> open_pdf(const std::filesystem::path& path) {
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    if (std::filesystem::is_directory(status)) throw_system("read", path, EISDIR);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+        throw Error(
+            fmt::format("cannot read {}: a PDF is read from its end, which pipes and "
+                        "devices do not have",
+                        path.string()));
+    }
+    return std::make_shared<ShallowFile>(path);
+}
+
+bool is_too_deep(const std::string& warning) {
+    return warning.find(kTooDeep) != std::string::npos ||
+           warning.find("deeply nested") != std::string::npos;
+}
+
+void UnpackedBytes::count(QPDFObjectHandle stream) {
+    if (!stream.isStream()) return;
+    require_few_filters(stream.getDict());
+    const std::uint64_t most = static_cast<std::uint64_t>(most_mb_) << 20;
+    const std::uint64_t most_of_document = 8 * most;
+    ByteCount bytes(std::min(most - page_, most_of_document - document_));
+    bool attempted = false;
+    constexpr bool kSuppressWarnings = true;
+    stream.pipeStreamData(&bytes, &attempted, 0, qpdf_dl_specialized, kSuppressWarnings);
+    page_ += bytes.bytes();
+    document_ += bytes.bytes();
+    if (page_ > most) {
+        throw Error(fmt::format("its content takes more than {} MB when it is unpacked", most_mb_));
+    }
+    if (document_ > most_of_document) {
+        throw Error(fmt::format("the content up to here takes more than {} MB when it is unpacked",
+                                most_of_document >> 20));
+    }
+}
+
+void UnpackedBytes::count_object_streams(QPDF& pdf) {
+    constexpr int kInObjectStream = 2;
+    std::set<int> streams;
+    for (const auto& [id, entry] : pdf.getXRefTable()) {
+        if (entry.getType() == kInObjectStream) streams.insert(entry.getObjStreamNumber());
+    }
+    for (const int number : streams) {
+        start_page();
+        count(pdf.getObjectByID(number, 0));
+    }
+}
+
+}  // namespace dotpose::print

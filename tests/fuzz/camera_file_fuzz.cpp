@@ -1,0 +1,15 @@
+// Any file: `read_camera` gives a camera that images can be located with, or throws Error.
+#include <cstdlib>
+
+#include "dotpose/camera_file.hpp"
+#include "reads_or_refuses.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace dotpose;
+    return fuzz::reads_or_refuses(data, size, [](const std::string& path) {
+        const Camera camera = read_camera(path);
+        if (camera.width_px < 1 || camera.height_px < 1) std::abort();
+        Options options;
+        use_camera(camera, camera.width_px, camera.height_px, options);
+    });
+}

@@ -1,0 +1,30 @@
+// Any messages of a broker, a line each, a topic and a tab before the payload: the fleet takes them
+// or counts them as bad, and its table and map can be made.
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <sstream>
+#include <string>
+
+#include "fleet_state.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace dotpose;
+    constexpr std::int64_t kNow_us = 1'795'000'000'000'000;
+    std::istringstream stream({reinterpret_cast<const char*>(data), size});
+    cli::FleetState fleet;
+    std::int64_t taken = 0;
+    for (std::string line; std::getline(stream, line); ++taken) {
+        const std::size_t tab = std::min(line.find('\t'), line.size());
+        const std::string topic = tab == 0 ? cli::state_topic("anna") : line.substr(0, tab);
+        fleet.take(topic, line.substr(std::min(tab + 1, line.size())), kNow_us + taken);
+    }
+    if (fleet.messages() + fleet.bad() != taken) std::abort();
+    fleet.latency();
+    for (const char c : cli::table_of(fleet, kNow_us)) {
+        if (static_cast<unsigned char>(c) < ' ' && c != '\n') std::abort();
+    }
+    for (const auto& [name, robot] : fleet.robots())
+        cli::map_of(fleet, robot.newest.map_id, {});
+    return 0;
+}

@@ -1,0 +1,23 @@
+// Any document: `overlay_pdf` lays dots over it, with its colours changed or not, or throws Error.
+#include <filesystem>
+
+#include "dotpose/overlay.hpp"
+#include "reads_or_refuses.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace dotpose;
+    static const std::filesystem::path kOut =
+        std::filesystem::temp_directory_path() / ("overlay_fuzz-" + std::to_string(getpid()));
+    OverlayOptions options;
+    // Few dots, and limits that a short input can come near to.
+    options.pattern.spacing_mm = 8;
+    options.max_content_mb = 1;
+    for (const bool changes_colours : {false, true}) {
+        options.black_to_cmy = changes_colours;
+        options.under = changes_colours;
+        fuzz::reads_or_refuses(data, size,
+                               [&](const std::string& path) { overlay_pdf(path, kOut, options); });
+    }
+    std::filesystem::remove(kOut);
+    return 0;
+}
