@@ -25,6 +25,7 @@
 #include "page_cut.hpp"
 #include "picture_folder.hpp"
 #include "print/input_file.hpp"
+#include "reduced_image.hpp"
 #include "run_files.hpp"
 #include "terminal_text.hpp"
 
@@ -146,12 +147,14 @@ class Locator {
         record.has_sheets = has_sheets();
         record.width_px = image_.width_px;
         record.height_px = image_.height_px;
+        const int reduction = reduce_if_large(name);
         record.min_dots = options_.lattice.min_dots;
         record.max_p_wrong_log2 = options_.integrity.max_p_wrong_log2;
         const auto start = steady_clock::now();
         record.fix = locate_with_any_profile();
         const std::chrono::duration<double, std::micro> elapsed = steady_clock::now() - start;
         record.elapsed_us = elapsed.count();
+        record.fix = in_whole_pixels(record.fix, reduction);
         record.place = find_sheet(sheets_, options_.profile, record.fix);
         spacing_mm_ =
             record.place ? record.place->entry->sheet.pattern.spacing_mm : unplaced_spacing_mm_;
@@ -192,6 +195,19 @@ class Locator {
                 unplaced_spacing_mm_ = std::numeric_limits<double>::quiet_NaN();
             }
         }
+    }
+
+    /// Returns by how much. A camera file is for images of its own size.
+    int reduce_if_large(const std::string& name) {
+        const int by =
+            arguments_.camera.camera ? 1 : reduction_of(image_.width_px, image_.height_px);
+        if (by == 1) return 1;
+        options_ = reduced(options_, image_, by);
+        GreyImage small = reduced(image_, by);
+        tell(fmt::format("{}: reduced from {} x {} to {} x {} px", name, image_.width_px,
+                         image_.height_px, small.width_px, small.height_px));
+        image_ = std::move(small);
+        return by;
     }
 
     /// The first fix that lies on a sheet of its profile; if none does, the first fix; if there is

@@ -64,6 +64,11 @@ Content read_file(const std::filesystem::path& path, int max_pixels) {
     append(file.get(), capture::kMagicBytes, bytes);
     if (bytes.empty()) throw Error("the file is empty");
     const auto format = capture::sniff(bytes);
+    if (!format && capture::is_heif(bytes)) {
+        throw Error(
+            "a photo in HEIC or AVIF format, which is not read: make it a JPEG first, for "
+            "example with heif-convert PHOTO.heic PHOTO.jpg");
+    }
     if (!format) throw Error("not a PNM, PNG, JPEG, BMP or TIFF image");
     // Read to the end instead of asking for the size, which pipes do not have.
     const std::size_t most = max_file_bytes(max_pixels);

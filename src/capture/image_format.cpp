@@ -164,6 +164,16 @@ std::optional<ImageFormat> sniff(std::span<const std::uint8_t> bytes) {
     return std::nullopt;
 }
 
+bool is_heif(std::span<const std::uint8_t> bytes) {
+    constexpr std::size_t kBrand = 8;
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (text.size() < kBrand || text.substr(4, 4) != "ftyp") return false;
+    const std::string_view brand = text.substr(kBrand, 4);
+    constexpr std::array<std::string_view, 8> kBrands = {"heic", "heix", "heim", "heis",
+                                                         "hevc", "mif1", "msf1", "avif"};
+    return std::ranges::find(kBrands, brand) != kBrands.end();
+}
+
 const char* name(ImageFormat format) {
     switch (format) {
         case ImageFormat::pnm:

@@ -11,7 +11,7 @@ namespace dotpose::capture {
 enum class ImageFormat : std::uint8_t { pnm, png, jpeg, bmp, tiff };
 
 /// Bytes `sniff` looks at.
-inline constexpr std::size_t kMagicBytes = 8;
+inline constexpr std::size_t kMagicBytes = 12;
 
 /// The reason given for images beyond the limits.
 inline constexpr char kTooLarge[] =
@@ -22,6 +22,10 @@ void require_size(std::uint64_t width_px, std::uint64_t height_px, int max_pixel
 
 /// The format the first bytes announce.
 std::optional<ImageFormat> sniff(std::span<const std::uint8_t> bytes);
+
+/// Whether these are the first bytes of an image of phones, HEIC or AVIF, which is none of the
+/// formats.
+bool is_heif(std::span<const std::uint8_t> bytes);
 
 /// "PNM", "PNG", "JPEG", "BMP" or "TIFF".
 const char* name(ImageFormat format);

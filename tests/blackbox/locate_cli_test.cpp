@@ -142,6 +142,45 @@ TEST_F(LocateCommand, a_position_that_is_not_certain_says_what_was_missing) {
     EXPECT_THAT(records().at(0)["message"], HasSubstr("show more of the sheet"));
 }
 
+Shot wide_shot() {
+    Setup setup;
+    setup.seed = 8;
+    setup.camera.width_px = 4201;
+    setup.camera.height_px = 301;
+    setup.camera.mm_per_px = kDefaultSpacing_mm / 24;
+    return draw_shot(setup, 0);
+}
+
+// Both sides of the image are no multiple of 2, so that its centre moves when it is reduced.
+TEST_F(LocateCommand, an_image_beyond_the_limit_is_reduced_and_that_is_told) {
+    const Shot wide = wide_shot();
+    write_pgm(directory_ / "wide.pgm", render(wide).view());
+    run("wide.pgm");
+    EXPECT_EQ(errors_, "dotpose: wide.pgm: reduced from 4201 x 301 to 2100 x 150 px\n");
+    const json record = records().at(0);
+    ASSERT_EQ(record["status"], "ok") << record;
+    EXPECT_NEAR(record["x_grid"], x_grid(wide.pose), 0.005);
+    EXPECT_NEAR(record["y_grid"], y_grid(wide.pose), 0.005);
+    EXPECT_NEAR(record["spacing_px"], 24, 0.05);
+    // Another point of the image: 1000 px along the image x axis.
+    run("--reference 3100,150 wide.pgm");
+    const double along = 1000.0 / 24;
+    EXPECT_NEAR(records().at(0)["x_grid"],
+                x_grid(wide.pose) + along * std::cos(wide.pose.theta_rad), 0.01);
+    EXPECT_NEAR(records().at(0)["y_grid"],
+                y_grid(wide.pose) + along * std::sin(wide.pose.theta_rad), 0.01);
+}
+
+TEST_F(LocateCommand, names_a_converter_for_photos_of_phones) {
+    write("photo.heic", std::string("\0\0\0\x18"
+                                    "ftypheic\0\0\0\0",
+                                    16));
+    run("photo.heic");
+    EXPECT_EQ(exit_code_, 1);
+    EXPECT_THAT(errors_, HasSubstr("cannot read photo.heic: a photo in HEIC or AVIF format"));
+    EXPECT_THAT(errors_, HasSubstr("heif-convert"));
+}
+
 TEST_F(LocateCommand, sixteen_bits_and_transparency_change_nothing) {
     const GreyImage image = render(shot(2));
     write_pgm(directory_ / "grey.pgm", image.view());

@@ -1,0 +1,24 @@
+/// Images larger than `locate` takes, such as scans of large pages: reduced by a whole number.
+#pragma once
+
+#include "dotpose/fix.hpp"
+#include "dotpose/grey_image.hpp"
+#include "dotpose/options.hpp"
+
+namespace dotpose::cli {
+
+/// The least number by which an image of this size has to be reduced; 1: it can be located as it
+/// is, or hardly anything would be left of it.
+int reduction_of(int width_px, int height_px);
+
+/// Every pixel is the mean of `by` x `by`; what is left over at the right and at the bottom is cut
+/// off.
+GreyImage reduced(const GreyImage& image, int by);
+
+/// The same options for the reduced image of `image`: lens and reference point stay where they are.
+Options reduced(const Options& options, const GreyImage& image, int by);
+
+/// The fix of a reduced image, with its pixels counted in those of the whole one.
+Fix in_whole_pixels(const Fix& fix, int by);
+
+}  // namespace dotpose::cli
