@@ -23,6 +23,7 @@
 #include "lines.hpp"
 #include "locate_record.hpp"
 #include "page_cut.hpp"
+#include "picture_advice.hpp"
 #include "picture_folder.hpp"
 #include "print/input_file.hpp"
 #include "reduced_image.hpp"
@@ -155,6 +156,7 @@ class Locator {
         const std::chrono::duration<double, std::micro> elapsed = steady_clock::now() - start;
         record.elapsed_us = elapsed.count();
         record.fix = in_whole_pixels(record.fix, reduction);
+        record.advice = advice(record.fix.status);
         record.place = find_sheet(sheets_, options_.profile, record.fix);
         spacing_mm_ =
             record.place ? record.place->entry->sheet.pattern.spacing_mm : unplaced_spacing_mm_;
@@ -195,6 +197,15 @@ class Locator {
                 unplaced_spacing_mm_ = std::numeric_limits<double>::quiet_NaN();
             }
         }
+    }
+
+    std::string advice(Status status) {
+        if (status == Status::ok || status == Status::image_too_small ||
+            status == Status::image_too_large || status == Status::no_contrast) {
+            return {};
+        }
+        if (!scratch_) scratch_ = std::make_unique<LargeWorkspace>();
+        return advice_on(image_.view(), status, options_, *scratch_);
     }
 
     /// Returns by how much. A camera file is for images of its own size.
@@ -275,6 +286,7 @@ class Locator {
     std::vector<Profile> profiles_;  ///< to try, in this order
     double unplaced_spacing_mm_;     ///< for a fix on no sheet; not a number if sheets differ
     std::unique_ptr<LargeWorkspace> workspace_;
+    std::unique_ptr<LargeWorkspace> scratch_;  ///< for a look at what could not be located
     std::optional<PictureFolder> pictures_;
     GreyImage image_;
     Options options_;

@@ -57,9 +57,8 @@ std::string doubt(const Record& record) {
         odds, fix.dots_seen);
 }
 
-}  // namespace
-
-std::string reason(const Record& record) {
+/// Of the status and its numbers.
+std::string plain_reason(const Record& record) {
     const Fix& fix = record.fix;
     switch (fix.status) {
         case Status::ok:
@@ -81,6 +80,13 @@ std::string reason(const Record& record) {
         default:
             return message(fix.status);
     }
+}
+
+}  // namespace
+
+std::string reason(const Record& record) {
+    const std::string plain = plain_reason(record);
+    return plain.empty() || record.advice.empty() ? plain : plain + "; " + record.advice;
 }
 
 std::vector<Field> fields(const Record& record) {

@@ -18,6 +18,7 @@ struct Record {
     bool has_sheets = false;  ///< sheets were searched: their fields are wanted
     std::optional<SheetPlace> place;  ///< on one of them
     double elapsed_us = 0;            ///< of `dotpose::locate` alone
+    std::string advice;               ///< on what would help where there is no fix; may be empty
     int width_px = 0;
     int height_px = 0;
     int min_dots = 0;          ///< fewest that are worth a try

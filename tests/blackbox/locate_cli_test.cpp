@@ -142,6 +142,29 @@ TEST_F(LocateCommand, a_position_that_is_not_certain_says_what_was_missing) {
     EXPECT_THAT(records().at(0)["message"], HasSubstr("show more of the sheet"));
 }
 
+/// Without blur and noise.
+Shot clean_shot(double px_per_spacing) {
+    Setup setup;
+    setup.seed = 9;
+    setup.preset = Preset::clean;
+    setup.camera.mm_per_px = kDefaultSpacing_mm / px_per_spacing;
+    return draw_shot(setup, 0);
+}
+
+TEST_F(LocateCommand, a_picture_that_is_too_coarse_or_too_dark_says_so) {
+    write_pgm(directory_ / "coarse.pgm", render(clean_shot(3.5)).view());
+    run("coarse.pgm");
+    EXPECT_NE(records().at(0)["status"], "ok");
+    EXPECT_THAT(records().at(0)["message"], HasSubstr("its dots are 3.5 px apart and at least 6"));
+    Shot dark = clean_shot(11);
+    dark.imperfections.paper_level = 4;
+    dark.imperfections.noise_sigma = 1;
+    write_pgm(directory_ / "dark.pgm", render(dark).view());
+    run("dark.pgm");
+    EXPECT_NE(records().at(0)["status"], "ok") << output_;
+    EXPECT_THAT(records().at(0)["message"], HasSubstr("too dark"));
+}
+
 Shot wide_shot() {
     Setup setup;
     setup.seed = 8;
