@@ -12,6 +12,7 @@
 #include <qpdf/QUtil.hh>
 
 #include "pdf_colours.hpp"
+#include "pdf_cross_references.hpp"
 #include "pdf_file.hpp"
 #include "pdf_limits.hpp"
 #include "pdf_page_frame.hpp"
@@ -47,11 +48,26 @@ std::set<std::string> small_faults(QPDF& pdf, const fs::path& path) {
     return faults;
 }
 
-void open(QPDF& pdf, const fs::path& path, const std::string& password) {
+/// Runs `work`; its errors then begin with `name`.
+template <typename Work>
+void with_name(const std::string& name, const Work& work) {
+    try {
+        work();
+    } catch (const BadArgument& error) {
+        throw BadArgument(fmt::format("{}: {}", name, error.what()));
+    } catch (const Error& error) {
+        throw Error(fmt::format("{}: {}", name, error.what()));
+    }
+}
+
+void open(QPDF& pdf, const fs::path& path, const std::string& password,
+          print::UnpackedBytes& unpacked) {
     pdf.setSuppressWarnings(true);
     pdf.setAttemptRecovery(false);
     try {
-        pdf.processInputSource(print::open_pdf(path), password.c_str());
+        const auto file = print::open_pdf(path);
+        with_name(path.string(), [&] { print::count_cross_references(path, unpacked); });
+        pdf.processInputSource(file, password.c_str());
     } catch (const QPDFSystemError& error) {
         throw Error(fmt::format("cannot read {}: {}", path.string(),
                                 std::generic_category().message(error.getErrno())));
@@ -88,18 +104,6 @@ std::string page_list(const std::vector<int>& numbers) {
     const auto shown = std::span(numbers).first(std::min(kShown, numbers.size()));
     return fmt::format("page{} {}{}", numbers.size() > 1 ? "s" : "", fmt::join(shown, ", "),
                        numbers.size() > kShown ? " ..." : "");
-}
-
-/// Runs `work`; its errors then begin with `name`.
-template <typename Work>
-void with_name(const std::string& name, const Work& work) {
-    try {
-        work();
-    } catch (const BadArgument& error) {
-        throw BadArgument(fmt::format("{}: {}", name, error.what()));
-    } catch (const Error& error) {
-        throw Error(fmt::format("{}: {}", name, error.what()));
-    }
 }
 
 /// Runs `work`; where qpdf is at a loss, the document is damaged.
@@ -142,7 +146,7 @@ class Overlay {
           unpacked_(options.max_content_mb),
           colours_(change_, unpacked_) {
         rows_->progress = options.progress;
-        open(pdf_, in, options.password);
+        open(pdf_, in, options.password, unpacked_);
         understood(in_, [&] {
             with_name(in_.string(), [&] {
                 unpacked_.count_object_streams(pdf_);

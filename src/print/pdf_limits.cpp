@@ -50,7 +50,7 @@ class ByteCount : public Pipeline {
 
     void write(unsigned char const* /*data*/, std::size_t size) override {
         bytes_ += size;
-        // The library makes a warning of it, so the caller has to look at the count.
+        // The library may make a warning of it, so the caller has to look at the count.
         if (bytes_ > most_) throw std::runtime_error("too many bytes");
     }
     void finish() override {}
@@ -158,7 +158,11 @@ void UnpackedBytes::count(QPDFObjectHandle stream) {
     ByteCount bytes(std::min(most - page_, most_of_document - document_));
     bool attempted = false;
     constexpr bool kSuppressWarnings = true;
-    stream.pipeStreamData(&bytes, &attempted, 0, qpdf_dl_specialized, kSuppressWarnings);
+    try {
+        stream.pipeStreamData(&bytes, &attempted, 0, qpdf_dl_specialized, kSuppressWarnings);
+    } catch (const std::runtime_error&) {
+        // Too many bytes, which the count tells, or damage, which is told by whoever reads them.
+    }
     page_ += bytes.bytes();
     document_ += bytes.bytes();
     if (page_ > most) {

@@ -1,5 +1,6 @@
 // Documents that are made to exhaust stack, memory or patience.
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <string>
 #include <vector>
@@ -172,6 +173,45 @@ TEST_F(HostileDocument, the_content_of_all_pages_is_bounded) {
                    "in.pdf, page 9: the content up to here takes more than 8 MB when it is "
                    "unpacked",
                    options);
+}
+
+/// A document whose objects are listed by a stream with these keys and data.
+std::string with_cross_reference_stream(const std::string& keys, const std::string& data) {
+    const std::string catalogue = "%PDF-1.5\n1 0 obj\n<< /Type /Catalog >>\nendobj\n";
+    return fmt::format(
+        "{}2 0 obj\n<< /Type /XRef /Size 3 /Root 1 0 R /W [1 2 1] {} /Length {} >>\n"
+        "stream\n{}\nendstream\nendobj\nstartxref\n{}\n%%EOF\n",
+        catalogue, keys, data.size(), data, catalogue.size());
+}
+
+TEST_F(HostileDocument, lists_of_objects_are_bounded) {
+    const auto write = [&](const std::string& text) {
+        std::ofstream(in_, std::ios::binary) << text;
+    };
+    const auto expect = [&](const std::string& reason) {
+        OverlayOptions options;
+        options.max_content_mb = 2;
+        EXPECT_THAT([&] { overlay_pdf(in_, out_, options); },
+                    testing::ThrowsMessage<Error>(HasSubstr(reason)));
+    };
+    const std::string too_much = "in.pdf: its content takes more than 2 MB when it is unpacked";
+    const std::string zeros(3 << 20, '\0');
+    write(with_cross_reference_stream("/Filter /FlateDecode", packed(zeros)));
+    expect(too_much);
+    const std::string twice =
+        with_cross_reference_stream("/Filter [/FlateDecode /FlateDecode]", packed(zeros, 2));
+    write("junk in front\n" + twice);
+    expect(too_much);
+    // An older list, that a table leads to.
+    for (const char* key : {"Prev", "XRefStm"}) {
+        const std::size_t place = twice.find("2 0 obj");
+        write(twice + fmt::format("xref\n0 1\n0000000000 65535 f \ntrailer\n<< /Size 3 /Root 1 0 R "
+                                  "/{} {} >>\nstartxref\n{}\n%%EOF\n",
+                                  key, place, twice.size()));
+        expect(too_much);
+    }
+    write(with_cross_reference_stream("/Filter /FlateDecode", packed(std::string(12, '\0'))));
+    expect("in.pdf");
 }
 
 TEST_F(HostileDocument, filters_and_their_rows_are_bounded) {
