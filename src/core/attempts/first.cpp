@@ -5,6 +5,7 @@
 #include "core/attempts/confirm.hpp"
 #include "core/attempts/rows.hpp"
 #include "core/attempts/steps.hpp"
+#include "core/attempts/tracked.hpp"
 #include "core/decode/bit_lines.hpp"
 #include "core/detect/patch.hpp"
 #include "core/lattice/outwards.hpp"
@@ -166,7 +167,11 @@ Fix make_first_attempt(const ImageView& image, const Options& options, Workspace
     const bool is_wanted = options.decoder == Decoder::all && w.patch != nullptr;
     if (is_wanted && locate_outwards(kernels(), image, options, w)) return w.fix;
     detect_image(image, options, w);
-    return finish_rows(options, w);
+    const Fix fix = finish_rows(options, w);
+    if (is_wanted && fix.status == Status::ok && !is_rough(fix)) {
+        measure_again(kernels(), image, options, w);
+    }
+    return w.fix;
 }
 
 }  // namespace dotpose::core
