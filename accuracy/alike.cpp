@@ -1,6 +1,6 @@
-// How exact is a frame whose dots all fall on the pixels alike? Spacings of whole pixels, no printing
-// errors, and angles of 0, 45 and 90 degrees, against 7 degrees, where biases average out. The table
-// of docs/accuracy.md, in Markdown.
+// How exact is a frame whose dots all fall on the pixels alike? Spacings of whole pixels, no
+// printing errors, and angles of 0, 45 and 90 degrees, against 7 degrees, where biases average out.
+// The table of docs/accuracy.md, in Markdown.
 //
 //   dotpose_alike [--frames N] [--seed S] [--threads N]
 #include <algorithm>
@@ -101,9 +101,8 @@ int print_row(Condition condition, const Arguments& arguments) {
     const Score apart = score_of_condition(condition, arguments);
     const double apart_px = median_px(apart, condition);
     int wrong = apart.wrong;
-    std::string row =
-        fmt::format("| {} | {:.2f} | {} | {:.4f} |", condition.spacing_px, condition.dot,
-                    condition.blur_px, apart_px);
+    std::string row = fmt::format("| {} | {:.2f} | {} | {:.4f} |", condition.spacing_px,
+                                  condition.dot, condition.blur_px, apart_px);
     for (const double angle_deg : kAlike_deg) {
         condition.angle_deg = angle_deg;
         const Score score = score_of_condition(condition, arguments);
@@ -119,9 +118,10 @@ int print_row(Condition condition, const Arguments& arguments) {
 }
 
 int run(const Arguments& arguments) {
-    fmt::print("| spacing, px | dots, spacings | blur, px | 7 degrees: median error, px "
-               "| 0 degrees: the same, and error^2 / variance of x, y, theta | 45 degrees "
-               "| 90 degrees |\n|--:|--:|--:|--:|---|---|---|\n");
+    fmt::print(
+        "| spacing, px | dots, spacings | blur, px | 7 degrees: median error, px "
+        "| 0 degrees: the same, and error^2 / variance of x, y, theta | 45 degrees "
+        "| 90 degrees |\n|--:|--:|--:|--:|---|---|---|\n");
     int wrong = 0;
     for (const int spacing_px : {8, 10, 11, 12, 16, 20, 24}) {
         for (const double dot : kDots) {

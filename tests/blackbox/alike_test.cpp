@@ -52,8 +52,8 @@ TEST_P(DotsAlike, ErrorsAreAsLargeAsTheyAreSaidToBe) {
     const Score score = score_of(outcomes);
     EXPECT_EQ(score.wrong, 0);
     EXPECT_GE(score.located, kFrames * 9 / 10);
-    // Means of so many squares of a normal distribution of deviation 1 lie below this but for one in
-    // 20,000.
+    // Means of so many squares of a normal distribution of deviation 1 lie below this but for one
+    // in 20,000.
     for (const double normalised : score.normalised)
         EXPECT_LT(normalised, 1.85);
     const double px = kDefaultSpacing_mm / spacing_px;

@@ -351,7 +351,8 @@ Confirmation confirm(const Kernels& kernels, const ImageView& image, const Optio
             block = {};
             bits = read(kernels, sight, dots, &block);
         }
-        if (decides && !sight.is_certain && !is_certain(kernels, options, sight, view, block, bits, w)) {
+        if (decides && !sight.is_certain &&
+            !is_certain(kernels, options, sight, view, block, bits, w)) {
             return Confirmation::uncertain;
         }
         const bool is_last = reach.now >= reach.full;
