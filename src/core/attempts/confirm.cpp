@@ -221,6 +221,17 @@ void write_fix(const ImageView& image, const Options& options, const Sight& sigh
     w.fix.status = Status::ok;
 }
 
+/// How far the bell reaches that dots are weighed with: little, for noise, but as far as a dot's
+/// edge is seen, and not so little that it, too, would depend on how dots fall on the pixels.
+/// `typical_mass` is that of dots as dark as the sight's, beyond the cut.
+float bell_reach_px(const Sight& sight, float typical_mass) {
+    constexpr float kRadii = 2.4F;
+    constexpr float kPi = 3.14159265F;
+    const float beyond_cut = static_cast<float>(sight.depth_q8 * (256 - kCutOfDepth_q8)) / 65536;
+    const float radius_px = std::sqrt(typical_mass / (kPi * std::max(beyond_cut, 1.0F / 256)));
+    return std::clamp(kRadii * radius_px, 3.3F, static_cast<float>(kMostBellReach_px));
+}
+
 /// How far is looked, round by round, px.
 struct Reach {
     float full;      ///< the whole image
@@ -340,11 +351,14 @@ Confirmation confirm(const Kernels& kernels, const ImageView& image, const Optio
             block = {};
             bits = read(kernels, sight, dots, &block);
         }
-        if (decides && !is_certain(kernels, options, sight, view, block, bits, w)) {
+        if (decides && !sight.is_certain &&
+            !is_certain(kernels, options, sight, view, block, bits, w)) {
             return Confirmation::uncertain;
         }
+        const bool is_last = reach.now >= reach.full;
+        if (is_last) kernels.refine_centres(image, view, bell_reach_px(sight, typical_mass), dots);
         if (!fit_to_dots(kernels, dots, bits, image, sight, fit)) return Confirmation::implausible;
-        if (reach.now >= reach.full) break;
+        if (is_last) break;
     }
     if (!is_plausible(image, plane)) return Confirmation::implausible;
     if (is_far_fetched(fit, 2 * bits.read, bits.wrong_x + bits.wrong_y))

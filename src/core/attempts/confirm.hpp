@@ -16,6 +16,7 @@ struct Sight {
     FloatVec from_centre;           ///< px, from the image centre
     Place place;                    ///< of the plane's cell (0, 0)
     float displacement = 0;         ///< of the typical dot, spacings
+    bool is_certain = false;        ///< the place needs no confirmation
     bool shows_part = false;  ///< the pattern may cover any part of the image around `from_centre`
     int depth_q8 = 0;         ///< how much darker than paper a typical dot is, smoothed, in 1/256
 };

@@ -1,10 +1,12 @@
 #include "core/attempts/first.hpp"
 
 #include <cmath>
+#include <cstdlib>
 
 #include "core/attempts/confirm.hpp"
 #include "core/attempts/rows.hpp"
 #include "core/attempts/steps.hpp"
+#include "core/attempts/tracked.hpp"
 #include "core/decode/bit_lines.hpp"
 #include "core/detect/patch.hpp"
 #include "core/lattice/outwards.hpp"
@@ -105,8 +107,8 @@ bool find_sight_around(const Kernels& kernels, const ImageView& image, const Opt
 }
 
 /// Looks once in a patch around a point of the image, and once more around where its dots are
-/// densest. Every look that the bits do not bear out is one more chance to be deceived, of which
-/// `looks_left` are left.
+/// densest, if that is elsewhere. Every look that the bits do not bear out is one more chance to be
+/// deceived, of which `looks_left` are left.
 bool locate_around(const Kernels& kernels, const ImageView& image, const Options& options,
                    Vec around_px, int scale, int& looks_left, Workspace& w) {
     for (int round = 0; round < 2 && looks_left > 0; ++round) {
@@ -118,7 +120,10 @@ bool locate_around(const Kernels& kernels, const ImageView& image, const Options
             looks_left -= confirmation == Confirmation::uncertain ? 1 : 0;
             return confirmation == Confirmation::ok;
         }
-        if (densest_px == around_px) return false;
+        const bool is_other_patch =
+            4 * std::abs(densest_px.x - around_px.x) > kPatchWidth_px * scale ||
+            4 * std::abs(densest_px.y - around_px.y) > kPatchHeight_px * scale;
+        if (!is_other_patch) return false;
         around_px = densest_px;
     }
     return false;
@@ -166,7 +171,11 @@ Fix make_first_attempt(const ImageView& image, const Options& options, Workspace
     const bool is_wanted = options.decoder == Decoder::all && w.patch != nullptr;
     if (is_wanted && locate_outwards(kernels(), image, options, w)) return w.fix;
     detect_image(image, options, w);
-    return finish_rows(options, w);
+    const Fix fix = finish_rows(options, w);
+    if (is_wanted && fix.status == Status::ok && !is_rough(fix)) {
+        measure_again(kernels(), image, options, w);
+    }
+    return w.fix;
 }
 
 }  // namespace dotpose::core

@@ -113,6 +113,20 @@ bool take(const Prediction& prediction, const ImageView& image, const Options& o
     return true;
 }
 
+/// The dots where the sight has them, corrected by those near one point of the image after the
+/// other, until those near one bear it out.
+bool confirm_corrected(const Kernels& kernels, const ImageView& image, const Options& options,
+                       const Sight& sight, int most_px, Workspace& w) {
+    for (const FloatVec share : kPoints) {
+        const FloatVec from{share.x * static_cast<float>(image.width_px),
+                            share.y * static_cast<float>(image.height_px)};
+        Sight there = sight;
+        if (!correct(kernels, image, options, from, most_px, there, w)) continue;
+        if (confirm(kernels, image, options, there, w) == Confirmation::ok) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 bool locate_tracked(const Kernels& kernels, const ImageView& image, const Options& options,
@@ -121,16 +135,17 @@ bool locate_tracked(const Kernels& kernels, const ImageView& image, const Option
     Sight sight;
     if (!take(prediction, image, options, sight)) return false;
     const int most_px = most_shift_px(prediction, spacing_px(sight.pattern_from_image));
-    for (const FloatVec share : kPoints) {
-        const FloatVec from{share.x * static_cast<float>(image.width_px),
-                            share.y * static_cast<float>(image.height_px)};
-        Sight there = sight;
-        if (!correct(kernels, image, options, from, most_px, there, w)) continue;
-        if (confirm(kernels, image, options, there, w) != Confirmation::ok) continue;
-        w.fix.attempt = Attempt::tracked;
-        return true;
-    }
-    return false;
+    if (!confirm_corrected(kernels, image, options, sight, most_px, w)) return false;
+    w.fix.attempt = Attempt::tracked;
+    return true;
+}
+
+void measure_again(const Kernels& kernels, const ImageView& image, const Options& options,
+                   Workspace& w) {
+    Sight sight;
+    if (!take(Prediction::like(w.fix), image, options, sight)) return;
+    sight.is_certain = true;
+    confirm_corrected(kernels, image, options, sight, 1, w);
 }
 
 }  // namespace dotpose::core

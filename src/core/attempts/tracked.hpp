@@ -13,4 +13,10 @@ namespace dotpose::core {
 bool locate_tracked(const Kernels& kernels, const ImageView& image, const Options& options,
                     const Prediction& prediction, Workspace& w);
 
+/// Measures the dots once more where the workspace's fix, which is certain of its place, has them,
+/// as exactly as dots are that were predicted. Leaves the fix as it is where they do not bear it
+/// out.
+void measure_again(const Kernels& kernels, const ImageView& image, const Options& options,
+                   Workspace& w);
+
 }  // namespace dotpose::core

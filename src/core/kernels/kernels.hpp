@@ -99,6 +99,7 @@ struct WindowLook {
     float typical_mass = 0;  ///< of a dot over the paper's level; 0: that of most windows
 };
 inline constexpr int kMostHalfWindow_px = 24;
+inline constexpr int kMostBellReach_px = 24;
 
 /// Sums for the nine-parameter fit; see Normal.
 struct FitSums {
@@ -183,6 +184,11 @@ struct Kernels {
     /// a typical one, whose mass is returned.
     float (*measure_windows)(const ImageView& image, const CellsInView& view,
                              const WindowLook& look, MeasuredDots& dots);
+    /// The centres without the bias of a threshold: where the darkness around each is balanced,
+    /// weighted by a bell of such a reach, at most kMostBellReach_px, or as far as the image has
+    /// it.
+    void (*refine_centres)(const ImageView& image, const CellsInView& view, float reach_px,
+                           MeasuredDots& dots);
     /// Bits of the dots as measured, against those that the code has there. Adds them to empty
     /// lines, where these are asked for, by the cell counted from (-32, -32); each cell may have
     /// one dot.

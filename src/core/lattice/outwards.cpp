@@ -190,9 +190,12 @@ bool count_from_densest(Patch& patch, PatchView& view, FloatVec& from_middle_px)
     PatchDots& dots = patch.dots;
     const int count = dots.count;
     if (count < kFewestDots) return false;
-    // Some of them stand for all.
+    // Some of them stand for all; of many, as noise has, fewer.
     constexpr int kMostCandidates = 64;
-    const int step = count / kMostCandidates + 1;
+    constexpr int kFewestCandidates = 16;
+    constexpr int kMostDistances = 32768;
+    const int candidates = std::clamp(kMostDistances / count, kFewestCandidates, kMostCandidates);
+    const int step = count / candidates + 1;
     float least = kNoDot_px;
     for (int i = 0; i < count; i += step) {
         const auto k = static_cast<std::size_t>(i);

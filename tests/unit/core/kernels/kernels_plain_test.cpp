@@ -1,7 +1,10 @@
 // Kernels against plain computations of the same. `kernels_test.cpp` says that all forms agree.
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <memory>
 #include <set>
+#include <vector>
 
 #include "core/detect/patch.hpp"
 #include "core/kernels/kernels.hpp"
@@ -191,6 +194,71 @@ TEST(KernelsPlain, WindowsAreSummedUpToTheBorder) {
             if (testing::Test::HasFatalFailure()) return;
         }
     });
+}
+
+/// One dot on an image, with what `measure_windows` might say of it.
+struct OneDot {
+    static constexpr int kSide_px = 80;
+    static constexpr double kPaper = 200;
+    std::vector<std::uint8_t> pixels;
+    ImageView view{nullptr, kSide_px, kSide_px, kSide_px};
+    CellsInView cells;
+    DotTable table{8};
+
+    /// A Gaussian dot at (u, v), believed to be `off_px` to the right of that and below.
+    OneDot(double u, double v, double sigma_px, double off_px) {
+        for (int y = 0; y < kSide_px; ++y) {
+            for (int x = 0; x < kSide_px; ++x) {
+                const double squared = (x - u) * (x - u) + (y - v) * (y - v);
+                const double dark = 160 * std::exp(-squared / (2 * sigma_px * sigma_px));
+                pixels.push_back(static_cast<std::uint8_t>(std::lround(kPaper - dark)));
+            }
+        }
+        view.pixels = pixels.data();
+        MeasuredDots& dots = table.dots;
+        dots.count = 1;
+        dots.window_u[0] = static_cast<int>(u);
+        dots.window_v[0] = static_cast<int>(v);
+        dots.mass[0] = 10000;
+        dots.sum_u[0] = static_cast<int>(std::lround(10000 * (u + off_px - dots.window_u[0])));
+        dots.sum_v[0] = static_cast<int>(std::lround(10000 * (v + off_px - dots.window_v[0])));
+        dots.paper[0] = static_cast<int>(kPaper);
+        dots.x[0] = static_cast<float>(u + off_px);
+        dots.y[0] = static_cast<float>(v + off_px);
+    }
+};
+
+TEST(KernelsPlain, CentresAreFoundWhereDotsAre) {
+    repeat(200, [](const Kernels& kernels, Rng& rng) {
+        constexpr double kMargin_px = 2;
+        const double sigma_px = rng.uniform(0.7, 4);
+        const auto reach_px = static_cast<float>(rng.uniform(3.3, 12));
+        const auto anywhere = [&] { return rng.uniform(20, OneDot::kSide_px - 21); };
+        const auto at_border = [&] { return rng.uniform(kMargin_px, kMargin_px + 1); };
+        // A dot at the border is seen in part where it is large.
+        const bool is_inside = sigma_px > 0.8 || rng.below(2) == 0;
+        const double u = is_inside ? anywhere() : at_border();
+        const double v = anywhere();
+        OneDot dot(u, v, sigma_px, rng.uniform(-0.15, 0.15));
+        kernels.refine_centres(dot.view, dot.cells, reach_px, dot.table.dots);
+        // Half of what rounding to grey levels leaves of a dot, seldom more.
+        const double most_px = is_inside ? 0.01 : 0.04;
+        EXPECT_NEAR(dot.table.dots.x[0], u, most_px) << sigma_px << ' ' << reach_px;
+        EXPECT_NEAR(dot.table.dots.y[0], v, most_px) << sigma_px << ' ' << reach_px;
+    });
+}
+
+TEST(KernelsPlain, CentresFarFromTheirDotsStay) {
+    for (const Kernels* kernels : forms()) {
+        OneDot dot(40.3, 41.2, 1, 0.9);
+        const float x = dot.table.dots.x[0];
+        kernels->refine_centres(dot.view, dot.cells, 3.3F, dot.table.dots);
+        EXPECT_EQ(dot.table.dots.x[0], x);
+        OneDot none(40.3, 41.2, 1, 0.1);
+        none.table.dots.x[0] = kNoDot_px;
+        kernels->refine_centres(none.view, none.cells, 3.3F, none.table.dots);
+        EXPECT_EQ(none.table.dots.x[0], kNoDot_px);
+    }
 }
 
 TEST(KernelsPlain, BitsStandInTheirLines) {

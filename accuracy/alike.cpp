@@ -1,0 +1,143 @@
+// How exact is a frame whose dots all fall on the pixels alike? Spacings of whole pixels, no
+// printing errors, and angles of 0, 45 and 90 degrees, against 7 degrees, where biases average out.
+// The table of docs/accuracy.md, in Markdown.
+//
+//   dotpose_alike [--frames N] [--seed S] [--threads N]
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <numbers>
+#include <string>
+
+#include <fmt/core.h>
+
+#include "counting.hpp"
+#include "dotpose/evaluate.hpp"
+#include "dotpose/simulate.hpp"
+
+namespace {
+
+using namespace dotpose;
+
+constexpr double kNoise = 3;
+constexpr double kApart_deg = 7;
+constexpr std::array kAlike_deg{0.0, 45.0, 90.0};
+constexpr std::array kDots{0.10, 1.0 / 6, 0.25, 0.35};
+constexpr std::array kBlurs_px{0.3, 0.5, 0.7, 1.0, 1.5};
+/// What is asked for.
+constexpr double kMostOfError = 2;
+constexpr std::array kNormalised{0.7, 1.5};
+
+struct Arguments {
+    Counting counting;
+    std::uint64_t frames = 200;
+};
+
+struct Condition {
+    int spacing_px = 11;
+    double dot = 1.0 / 6;  ///< diameter, spacings
+    double blur_px = 0.7;
+    double angle_deg = 0;
+};
+
+CameraModel camera_of(int spacing_px) {
+    CameraModel camera;
+    if (spacing_px >= 16) {
+        camera.width_px = 640;
+        camera.height_px = 480;
+    }
+    camera.mm_per_px = kDefaultSpacing_mm / spacing_px;
+    return camera;
+}
+
+Shot shot_of(const Condition& condition, const Arguments& arguments, int index) {
+    Setup setup;
+    setup.camera = camera_of(condition.spacing_px);
+    setup.seed = arguments.counting.seed;
+    Shot shot = draw_shot(setup, static_cast<std::uint64_t>(index));
+    shot.pose.theta_rad = condition.angle_deg * std::numbers::pi / 180;
+    shot.pose.tilt_x_rad = shot.pose.tilt_y_rad = 0;
+    shot.imperfections = {};
+    shot.imperfections.noise_sigma = kNoise;
+    shot.imperfections.blur_sigma_px = condition.blur_px;
+    shot.page.pattern.dot_mm = condition.dot * kDefaultSpacing_mm;
+    return shot;
+}
+
+/// At the first attempt.
+Score score_of_condition(const Condition& condition, const Arguments& arguments) {
+    cli::ProgressLine progress(fmt::format("{} px, dots of {:.2f}, blur {}", condition.spacing_px,
+                                           condition.dot, condition.blur_px));
+    FrameRun run;
+    run.frames = static_cast<int>(arguments.frames);
+    run.threads = static_cast<int>(arguments.counting.threads);
+    run.frame_at = [&](int index) {
+        const Shot shot = shot_of(condition, arguments, index);
+        return KnownFrame{render(shot), truth_of(shot), {}, {}};
+    };
+    run.progress = [&](int done, int total) {
+        progress.update(done, total);
+        return !cli::interrupted();
+    };
+    run.options.front().effort = Effort::once;
+    return score_of(evaluate(run).front());
+}
+
+double median_px(const Score& score, const Condition& condition) {
+    return score.position_um.median / 1000 / camera_of(condition.spacing_px).mm_per_px;
+}
+
+bool is_within_claims(const Score& score) {
+    return std::ranges::all_of(score.normalised, [](double value) {
+        return value >= kNormalised[0] && value <= kNormalised[1];
+    });
+}
+
+/// Prints a row; returns how many fixes are wrong.
+int print_row(Condition condition, const Arguments& arguments) {
+    condition.angle_deg = kApart_deg;
+    const Score apart = score_of_condition(condition, arguments);
+    const double apart_px = median_px(apart, condition);
+    int wrong = apart.wrong;
+    std::string row = fmt::format("| {} | {:.2f} | {} | {:.4f} |", condition.spacing_px,
+                                  condition.dot, condition.blur_px, apart_px);
+    for (const double angle_deg : kAlike_deg) {
+        condition.angle_deg = angle_deg;
+        const Score score = score_of_condition(condition, arguments);
+        const double error_px = median_px(score, condition);
+        const bool is_met = is_within_claims(score) && error_px <= kMostOfError * apart_px;
+        row += fmt::format(" {:.4f}, {:.2f} {:.2f} {:.2f}{} |", error_px, score.normalised[0],
+                           score.normalised[1], score.normalised[2], is_met ? "" : " **!**");
+        wrong += score.wrong;
+    }
+    fmt::print("{}\n", row);
+    std::fflush(stdout);
+    return wrong;
+}
+
+int run(const Arguments& arguments) {
+    fmt::print(
+        "| spacing, px | dots, spacings | blur, px | 7 degrees: median error, px "
+        "| 0 degrees: the same, and error^2 / variance of x, y, theta | 45 degrees "
+        "| 90 degrees |\n|--:|--:|--:|--:|---|---|---|\n");
+    int wrong = 0;
+    for (const int spacing_px : {8, 10, 11, 12, 16, 20, 24}) {
+        for (const double dot : kDots) {
+            for (const double blur_px : kBlurs_px)
+                wrong += print_row({spacing_px, dot, blur_px}, arguments);
+        }
+    }
+    return wrong == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Arguments arguments;
+    CLI::App app("How exact is a frame whose dots fall on the pixels alike?", "dotpose_alike");
+    add_count(app, "--frames", arguments.frames, "How many for each condition");
+    arguments.counting.add_to(app);
+    return run_program(app, argc, argv, [&] { return run(arguments); });
+}
