@@ -312,8 +312,8 @@ inline AdversarialFrame make_adversarial(Adversary adversary, std::uint64_t seed
         }
         case Adversary::other_profile: {
             const bool prints_anoto = rng.below(2) == 0;
-            shot.page.pattern.profile = prints_anoto ? Profile::anoto : Profile::published;
-            frame.options.profile = prints_anoto ? Profile::published : Profile::anoto;
+            shot.page.pattern.profile = prints_anoto ? Profile::anoto : Profile::libdots;
+            frame.options.profile = prints_anoto ? Profile::libdots : Profile::anoto;
             frame.printed = shot.page.pattern;
             frame.image = render(shot);
             frame.answers = {{shot.pose, shot.page.pattern.section}};

@@ -41,11 +41,11 @@ std::array<std::array<float, 3>, 3> turned(const std::array<std::array<float, 3>
 
 FrameLocator::FrameLocator(const LocatorOptions& options)
     : options_(options),
-      profiles_{options.locate.profile},
       used_(options.locate),
       workspace_(std::make_unique<LargeWorkspace>()),
       tracker_(options.track) {
     used_.show_stages = true;  // for window and recording
+    if (options.code) profiles_ = {*options.code};
     if (!options.sheets.empty()) use_sheets();
 }
 
@@ -79,8 +79,9 @@ std::optional<Prediction> FrameLocator::predict(std::int64_t time_us) const {
 /// profile told.
 FrameLocator::Found FrameLocator::find(ImageView image, int max_p_wrong_log2,
                                        const std::optional<Prediction>& expected) {
-    Found best;
     used_.integrity.max_p_wrong_log2 = max_p_wrong_log2;
+    if (profiles_.empty()) return look_in_any_code(image, expected);
+    Found best;
     for (const Profile profile : profiles_) {
         used_.profile = profile;
         const bool is_expected = expected && seen_ && seen_->profile == profile;
@@ -102,7 +103,17 @@ FrameLocator::Found FrameLocator::look(ImageView image, const Options& options,
         fix = locate(image, options, *workspace_);
         place = find_sheet(sheets_, options.profile, fix);
     }
-    return {fix, place, options.profile};
+    return {fix, place, {}, options.profile};
+}
+
+FrameLocator::Found FrameLocator::look_in_any_code(ImageView image,
+                                                   const std::optional<Prediction>& expected) {
+    if (seen_) used_.profile = seen_->profile;
+    const CodeReading reading =
+        expected && seen_ ? locate_in_any_code(image, used_, *expected, evidence_, *workspace_)
+                          : locate_in_any_code(image, used_, evidence_, *workspace_);
+    used_.profile = reading.code;
+    return {reading.fix, {}, reading, reading.code};
 }
 
 /// A frame across the edge of a page: once more without what lies beside it, if that leaves enough.
@@ -167,12 +178,21 @@ Reading FrameLocator::operator()(video::Frame& frame) {
     const bool is_fix = strict.status == Status::ok || reading.track.verdict == Verdict::with_prior;
     if (is_fix) {
         seen_ = Seen{found.fix, found.profile, sighting};
-        std::ranges::iter_swap(profiles_.begin(), std::ranges::find(profiles_, found.profile));
+        if (profiles_.empty()) {
+            evidence_ = found.reading.evidence;
+        } else {
+            std::ranges::iter_swap(profiles_.begin(), std::ranges::find(profiles_, found.profile));
+        }
     } else if (!tracker_.has_prior()) {
         seen_.reset();
     }
     Record& record = reading.record;
     record.fix = is_fix ? found.fix : strict;
+    record.code_is_given = !profiles_.empty();
+    record.reading = found.reading;
+    record.reading.fix = record.fix;
+    record.reading.code = found.profile;
+    record.reading.evidence = evidence_;
     if (reading.track.verdict == Verdict::with_prior) {
         record.fix.p_wrong_log2 = reading.track.p_wrong_log2;
     }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "dotpose/code_evidence.hpp"
 #include "dotpose/locate.hpp"
 #include "dotpose/sheet.hpp"
 #include "dotpose/sheet_file.hpp"
@@ -18,7 +19,8 @@ namespace dotpose::cli {
 
 struct LocatorOptions {
     Options locate;
-    std::string sheets;  ///< sheet file; empty: none
+    std::optional<Profile> code;  ///< none: found out
+    std::string sheets;           ///< sheet file; empty: none
     double spacing_mm = kDefaultSpacing_mm;
     bool is_inverted = false;
     TrackOptions track;
@@ -54,6 +56,7 @@ class FrameLocator {
     struct Found {
         Fix fix;
         std::optional<SheetPlace> place;
+        CodeReading reading;
         Profile profile = Profile::anoto;
     };
     /// The newest frame with a fix.
@@ -67,13 +70,16 @@ class FrameLocator {
     Found find(ImageView image, int max_p_wrong_log2, const std::optional<Prediction>& expected);
     Found look(ImageView image, const Options& options,
                const std::optional<Prediction>& expected = {});
+    Found look_in_any_code(ImageView image, const std::optional<Prediction>& expected);
     Found without_neighbours(const Found& found, ImageView image);
     std::optional<Sighting> sighting_of(const Found& found, std::int64_t time_us) const;
     double spacing_mm(const Found& found) const;
 
     LocatorOptions options_;
     std::vector<SheetEntry> sheets_;
-    std::vector<Profile> profiles_;  ///< to try, in this order; first the one seen last
+    /// To try, in this order; first the one seen last. None: all are in question.
+    std::vector<Profile> profiles_;
+    CodeEvidence evidence_;  ///< of the frames before
     Plane plane_ = Plane::pattern;
     Options used_;  ///< for the newest frame
     std::unique_ptr<LargeWorkspace> workspace_;

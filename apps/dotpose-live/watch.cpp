@@ -220,7 +220,7 @@ void add_watch(CLI::App& app, int& exit_code) {
     add_source_options(*command, arguments->source);
     LocatorOptions& locator = arguments->locator;
     add_spacing_option(*command, locator.spacing_mm);
-    add_code_option(*command, locator.locate.profile);
+    add_code_option(*command, locator.code);
     add_sheets_option(*command, locator.sheets,
                       "Sheet file: also tell the sheet, and track the robot in the world")
         ->excludes(command->get_option("--spacing"), command->get_option("--code"));

@@ -42,6 +42,7 @@ struct CalibrateArguments {
     std::string out;
     std::string picture;
     std::string spin_picture;
+    std::optional<Profile> code;  ///< none: found out
     CalibrateOptions options;
 };
 
@@ -210,8 +211,12 @@ void add_calibrate(CLI::App& app, int& exit_code) {
     sheets->needs(stitch);
     stitch->excludes(command->get_option("--out"));
     add_spacing_option(*command, arguments->options.pattern.spacing_mm);
-    add_code_option(*command, arguments->options.pattern.profile);
-    command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+    add_code_option(*command, arguments->code);
+    command->callback([arguments, &exit_code] {
+        arguments->options.any_code = !arguments->code;
+        arguments->options.pattern.profile = arguments->code.value_or(Profile::anoto);
+        exit_code = run(*arguments);
+    });
 }
 
 }  // namespace dotpose::cli

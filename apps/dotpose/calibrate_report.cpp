@@ -61,6 +61,7 @@ std::string lens_report(const LensCalibration& calibration) {
         calibration.duplicates > 0 ? fmt::format(", {} the same as others", calibration.duplicates)
                                    : "",
         calibration.dots, calibration.outliers);
+    add(text, "code        {}", name(calibration.code));
     add(text, "lens        k {:.4e} +- {:.1e} per px^2: {:+.2f} % in the corner", camera.k_per_px2,
         camera.sigma.at("k_per_px2"), corner_displacement(camera));
     add(text, "centre      {:.3f} +- {:.3f}, {:.3f} +- {:.3f} px", camera.centre_px.u,

@@ -80,26 +80,26 @@ std::string fit_sheets(const std::string& path, const std::vector<SheetEntry>& s
     return done;
 }
 
-/// The profile that all sheets have; crops are read with one alone.
-Profile common_profile(const std::string& path, const std::vector<SheetEntry>& sheets) {
+/// The profile that all sheets have; none if they differ.
+std::optional<Profile> common_profile(const std::string& path,
+                                      const std::vector<SheetEntry>& sheets) {
     if (sheets.empty()) throw Error(fmt::format("{} has no sheets", path));
     const Profile profile = sheets.front().sheet.pattern.profile;
     const bool is_common = std::ranges::all_of(
         sheets, [&](const SheetEntry& entry) { return entry.sheet.pattern.profile == profile; });
-    if (!is_common) {
-        throw BadArgument(
-            fmt::format("{} has sheets of several codes: give the --code of this one", path));
-    }
-    return profile;
+    return is_common ? std::optional(profile) : std::nullopt;
 }
 
 CheckPrintOptions options_of(const CheckPrintArguments& arguments,
                              const std::vector<SheetEntry>& sheets) {
     CheckPrintOptions options;
     options.pattern = arguments.pattern.pattern();
+    std::optional<Profile> code = arguments.pattern.expected_code();
     if (!arguments.sheets.empty() && !arguments.code_given) {
-        options.pattern.profile = common_profile(arguments.sheets, sheets);
+        code = common_profile(arguments.sheets, sheets);
     }
+    options.any_code = !code;
+    if (code) options.pattern.profile = *code;
     for (const SheetEntry& entry : sheets)
         options.sheets.push_back(entry.sheet);
     options.resolution = arguments.dpi ? Resolution{*arguments.dpi, *arguments.dpi}

@@ -150,13 +150,28 @@ ordered_json json_of(const Pattern& pattern) {
 
 }  // namespace
 
+namespace {
+
+/// What is said of a code that was found out, and may be another one.
+std::string doubt_of_code(const PrintCheck& check) {
+    constexpr double kDoubtful = 0.01;
+    if (check.code_p_wrong < kDoubtful) return "";
+    return fmt::format(" (or another one: so few dots do not tell; probability {:.2g})",
+                       check.code_p_wrong);
+}
+
+}  // namespace
+
 std::string text_report(const CheckedScan& scan, const PrintCheck& check) {
     std::string text;
     add(text, "{}: {} x {} px{}", printable(scan.file), scan.width_px, scan.height_px,
         check.resolution ? fmt::format(", {:g} dpi", std::round(check.resolution->x_dpi)) : "");
     if (check.fields.empty()) {
         add(text, "no pattern was found in this image");
-    } else if (check.is_test_page) {
+    } else {
+        add(text, "code        {}{}", name(check.code), doubt_of_code(check));
+    }
+    if (check.is_test_page) {
         add_patches(text, check);
     } else {
         for (const PrintField& field : check.fields)
@@ -178,6 +193,10 @@ std::string json_report(const CheckedScan& scan, const PrintCheck& check) {
         {"height_px", scan.height_px},
         {"test_page", check.is_test_page},
     };
+    if (!check.fields.empty()) {
+        object["code"] = name(check.code);
+        object["code_p_wrong"] = rounded(check.code_p_wrong, 9);
+    }
     if (check.resolution) {
         object["x_dpi"] = rounded(check.resolution->x_dpi, 3);
         object["y_dpi"] = rounded(check.resolution->y_dpi, 3);

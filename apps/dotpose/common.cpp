@@ -69,6 +69,12 @@ std::string require_spacing(const std::string& text) {
                        kLeast_mm, kMost_mm, kDefaultSpacing_mm);
 }
 
+Profile parse_code(const std::string& asked, const char* names) {
+    const auto found = profile_by_name(asked);
+    if (!found) throw CLI::ValidationError("--code", fmt::format("'{}' is not {}", asked, names));
+    return *found;
+}
+
 }  // namespace
 
 void add_code_option(CLI::App& command, Profile& profile) {
@@ -76,16 +82,26 @@ void add_code_option(CLI::App& command, Profile& profile) {
         .add_option_function<std::string>(
             "--code",
             [&profile](const std::string& asked) {
-                const auto found = profile_by_name(asked);
-                if (!found) {
-                    throw CLI::ValidationError(
-                        "--code", fmt::format("'{}' is not anoto, published or microdots", asked));
-                }
-                profile = *found;
+                profile = parse_code(asked, "anoto, libdots or microdots");
             },
-            "Code profile: anoto, published or microdots")
+            "Code profile: anoto, libdots or microdots")
         ->type_name("NAME")
         ->default_str(profile_name(profile));
+}
+
+void add_code_option(CLI::App& command, std::optional<Profile>& code) {
+    command
+        .add_option_function<std::string>(
+            "--code",
+            [&code](const std::string& asked) {
+                code.reset();
+                if (asked != "auto") {
+                    code = parse_code(asked, "auto, anoto, libdots or microdots");
+                }
+            },
+            "Code profile that was printed: anoto, libdots or microdots; auto: found out")
+        ->type_name("NAME")
+        ->default_str("auto");
 }
 
 void add_section_option(CLI::App& command, Section& section) {
@@ -272,8 +288,12 @@ std::string command_line() {
 }
 
 void PatternArguments::add_to(CLI::App& command, Use use) {
-    add_code_option(command, given_.profile);
-    if (use == Use::made) add_section_option(command, given_.section);
+    if (use == Use::made) {
+        add_code_option(command, given_.profile);
+        add_section_option(command, given_.section);
+    } else {
+        add_code_option(command, expected_code_);
+    }
     add_spacing_option(command, given_.spacing_mm);
     command.add_option("--displacement", displacement_mm_, "From intersection to dot centre")
         ->type_name("MM")
@@ -287,6 +307,7 @@ void PatternArguments::add_to(CLI::App& command, Use use) {
 
 Pattern PatternArguments::pattern() const {
     Pattern pattern = given_;
+    pattern.profile = expected_code_.value_or(given_.profile);
     pattern.displacement_mm = displacement_mm_.value_or(pattern.spacing_mm / 6);
     pattern.dot_mm = dot_mm_.value_or(pattern.spacing_mm / 6);
     return pattern;

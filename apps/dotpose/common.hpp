@@ -19,8 +19,11 @@
 
 namespace dotpose::cli {
 
-/// --code anoto|published|microdots. The default stays what `profile` holds.
+/// --code anoto|libdots|microdots, of what is made. The default stays what `profile` holds.
 void add_code_option(CLI::App& command, Profile& profile);
+
+/// --code auto|anoto|libdots|microdots, of what is read; none: auto, the default.
+void add_code_option(CLI::App& command, std::optional<Profile>& code);
 
 /// --section U,V; each 0 to 62.
 void add_section_option(CLI::App& command, Section& section);
@@ -90,8 +93,12 @@ class PatternArguments {
     /// unless they were given.
     Pattern pattern() const;
 
+    /// The profile that is expected; none: it is found out.
+    std::optional<Profile> expected_code() const { return expected_code_; }
+
   private:
     Pattern given_;
+    std::optional<Profile> expected_code_;
     std::optional<double> displacement_mm_;
     std::optional<double> dot_mm_;
 };

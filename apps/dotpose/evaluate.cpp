@@ -59,7 +59,8 @@ struct EvaluateArguments {
     TruthOf truth_of = TruthOf::image;
     double spacing_mm = kDefaultSpacing_mm;
     bool spacing_given = false;
-    bool code_given = false;
+    std::optional<Profile> code;     ///< that all frames are read in
+    bool code_is_found_out = false;  ///< of all frames; else of those that do not tell it
     int threads = 0;
     bool json = false;
 };
@@ -122,6 +123,14 @@ int report(const std::vector<Outcome>& outcomes, bool as_json) {
 int evaluate_run(const EvaluateArguments& arguments, const std::string& what, FrameRun& run) {
     ProgressLine line("evaluating " + what);
     run.options = {arguments.options};
+    run.any_code = !arguments.code;
+    if (arguments.code_is_found_out) {
+        run.frame_at = [read = run.frame_at](int index) {
+            KnownFrame frame = read(index);
+            frame.profile.reset();
+            return frame;
+        };
+    }
     run.threads = arguments.threads;
     run.progress = progress_on(line);
     return report(evaluate(run).front(), arguments.json);
@@ -151,7 +160,7 @@ int evaluate_folder(const EvaluateArguments& arguments) {
     const auto spacing_mm =
         arguments.spacing_given ? std::optional(arguments.spacing_mm) : std::nullopt;
     std::vector<TruthRow> rows = read_truth(folder / "truth.csv", spacing_mm);
-    if (arguments.code_given) {
+    if (arguments.code) {
         for (TruthRow& row : rows)
             row.profile = arguments.options.profile;
     }
@@ -274,7 +283,7 @@ void add_evaluate(CLI::App& app, int& exit_code) {
     command->footer(kExamples);
     add_jobs(*command, arguments);
     add_attempt_options(*command, arguments->options);
-    add_code_option(*command, arguments->options.profile);
+    add_code_option(*command, arguments->code);
     add_spacing_option(*command, arguments->spacing_mm);
     CLI::Option* camera = add_camera_option(
         *command, arguments->camera, "Camera file that DIR is located with, as by locate --camera");
@@ -284,7 +293,7 @@ void add_evaluate(CLI::App& app, int& exit_code) {
               "of the camera file's reference_px and theta_offset_rad",
               [arguments](TruthOf truth) { arguments->truth_of = truth; })
         ->needs(camera);
-    command->get_option("--code")->default_str("as in truth.csv, or anoto");
+    command->get_option("--code")->default_str("as in truth.csv, or auto");
     command->get_option("--spacing")->default_str("as in truth.csv, or 0.508");
     command
         ->add_option("--threads", arguments->threads, "Results do not depend on it; 0: all cores")
@@ -294,7 +303,8 @@ void add_evaluate(CLI::App& app, int& exit_code) {
     command->add_flag("--json", arguments->json, "Print one JSON object");
     command->callback([arguments, command, &exit_code] {
         arguments->spacing_given = command->count("--spacing") > 0;
-        arguments->code_given = command->count("--code") > 0;
+        arguments->code_is_found_out = command->count("--code") > 0 && !arguments->code;
+        arguments->options.profile = arguments->code.value_or(Profile::anoto);
         exit_code = run(*arguments);
     });
 }

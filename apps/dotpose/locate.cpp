@@ -6,8 +6,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iostream>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -18,14 +16,15 @@
 
 #include "commands.hpp"
 #include "common.hpp"
+#include "dotpose/code_evidence.hpp"
 #include "dotpose/frame_file.hpp"
 #include "dotpose/sheet_file.hpp"
+#include "image_names.hpp"
 #include "lines.hpp"
 #include "locate_record.hpp"
 #include "page_cut.hpp"
 #include "picture_advice.hpp"
 #include "picture_folder.hpp"
-#include "print/input_file.hpp"
 #include "reduced_image.hpp"
 #include "run_files.hpp"
 #include "terminal_text.hpp"
@@ -58,57 +57,10 @@ struct LocateArguments {
     std::string sheets;  ///< sheet file; empty: none
     double spacing_mm = kDefaultSpacing_mm;
     bool is_inverted = false;
+    std::optional<Profile> code;  ///< none: found out
     Options options;
     CameraArgument camera;
     std::optional<PixelPoint> reference_px;
-};
-
-/// All names in turn: those on the command line and of a list in a file, which are known from the
-/// start, then those of a list in a pipe, read as they come.
-class Names {
-  public:
-    explicit Names(const LocateArguments& arguments)
-        : known_(arguments.images), list_name_(arguments.list) {
-        if (arguments.list.empty()) return;
-        if (arguments.list == "-") {
-            list_ = &std::cin;
-            return;
-        }
-        file_.open(arguments.list);
-        list_ = &file_;
-        require_good();
-        if (!std::filesystem::is_regular_file(arguments.list)) return;
-        while (const auto name = next_of_list())
-            known_.push_back(*name);
-    }
-
-    const std::vector<std::string>& known() const { return known_; }
-
-    std::optional<std::string> next() {
-        return next_known_ < known_.size() ? known_[next_known_++] : next_of_list();
-    }
-
-  private:
-    std::optional<std::string> next_of_list() {
-        std::string line;
-        try {
-            while (list_ != nullptr && print::next_line(*list_, line)) {
-                if (!line.empty()) return line;
-            }
-        } catch (const Error& error) {
-            throw Error("the list " + list_name_ + ": " + error.what());
-        }
-        return std::nullopt;
-    }
-    void require_good() const {
-        if (!*list_) throw Error("cannot read the list " + list_name_);
-    }
-
-    std::vector<std::string> known_;
-    std::string list_name_;
-    std::size_t next_known_ = 0;
-    std::ifstream file_;
-    std::istream* list_ = nullptr;
 };
 
 void invert(GreyImage& image) {
@@ -121,9 +73,9 @@ class Locator {
   public:
     Locator(const LocateArguments& arguments, RunFiles& files)
         : arguments_(arguments),
-          profiles_{arguments.options.profile},
           unplaced_spacing_mm_(arguments.spacing_mm),
           workspace_(std::make_unique<LargeWorkspace>()) {
+        if (arguments.code) profiles_ = {*arguments.code};
         if (!arguments.sheets.empty()) use_sheets();
         if (!arguments.draw_folder.empty()) pictures_.emplace(arguments.draw_folder, files);
     }
@@ -146,13 +98,16 @@ class Locator {
         Record record;
         record.file = name;
         record.has_sheets = has_sheets();
+        record.code_is_given = !profiles_.empty();
         record.width_px = image_.width_px;
         record.height_px = image_.height_px;
         const int reduction = reduce_if_large(name);
         record.min_dots = options_.lattice.min_dots;
         record.max_p_wrong_log2 = options_.integrity.max_p_wrong_log2;
         const auto start = steady_clock::now();
-        record.fix = locate_with_any_profile();
+        const Found found = read();
+        record.reading = found.reading;
+        record.fix = found.fix;
         const std::chrono::duration<double, std::micro> elapsed = steady_clock::now() - start;
         record.elapsed_us = elapsed.count();
         record.fix = in_whole_pixels(record.fix, reduction);
@@ -221,28 +176,47 @@ class Locator {
         return by;
     }
 
+    struct Found {
+        CodeReading reading;
+        Fix fix;  ///< of the point that is asked for, by the camera file
+    };
+
+    /// Leaves the profile that was read in `options_`.
+    Found read() {
+        if (!profiles_.empty()) return locate_with_any_profile();
+        const CodeReading reading =
+            locate_in_any_code(image_.view(), options_, evidence_, *workspace_);
+        evidence_ = reading.evidence;
+        options_.profile = reading.code;
+        return {reading, corrected(reading.fix)};
+    }
+
     /// The first fix that lies on a sheet of its profile; if none does, the first fix; if there is
-    /// none, what the first profile told. Leaves its profile in `options_`.
-    Fix locate_with_any_profile() {
+    /// none, what the first profile told.
+    Found locate_with_any_profile() {
         Profile best = profiles_.front();
         bool is_found = false;
-        Fix fix;
+        Found found;
         for (const Profile profile : profiles_) {
-            fix = locate_with(profile);
-            if (profiles_.size() == 1 || find_sheet(sheets_, profile, fix)) return fix;
-            if (fix.status == Status::ok && !is_found) {
+            found = locate_with(profile);
+            if (profiles_.size() == 1 || find_sheet(sheets_, profile, found.fix)) return found;
+            if (found.fix.status == Status::ok && !is_found) {
                 best = profile;
                 is_found = true;
             }
         }
         // Once more if need be, so that fix and workspace belong together.
-        return options_.profile == best ? fix : locate_with(best);
+        return options_.profile == best ? found : locate_with(best);
     }
 
-    Fix locate_with(Profile profile) {
+    Found locate_with(Profile profile) {
         options_.profile = profile;
-        Fix fix = locate(image_.view(), options_, *workspace_);
-        const auto place = find_sheet(sheets_, profile, fix);
+        const CodeReading reading = locate_in_code(image_.view(), options_, *workspace_);
+        return {reading, corrected(reading.fix)};
+    }
+
+    Fix corrected(Fix fix) const {
+        const auto place = find_sheet(sheets_, options_.profile, fix);
         if (place) fix = without_surroundings(fix, *place);
         if (!arguments_.camera.camera) return fix;
         return with_camera(fix, *arguments_.camera.camera, options_, *workspace_,
@@ -283,7 +257,8 @@ class Locator {
 
     const LocateArguments& arguments_;
     std::vector<SheetEntry> sheets_;
-    std::vector<Profile> profiles_;  ///< to try, in this order
+    std::vector<Profile> profiles_;  ///< given, to try in this order; none: all are in question
+    CodeEvidence evidence_;          ///< of the images before
     double unplaced_spacing_mm_;     ///< for a fix on no sheet; not a number if sheets differ
     std::unique_ptr<LargeWorkspace> workspace_;
     std::unique_ptr<LargeWorkspace> scratch_;  ///< for a look at what could not be located
@@ -293,7 +268,7 @@ class Locator {
     double spacing_mm_ = 0;
 };
 
-RunFiles files_of(const LocateArguments& arguments, const Names& names) {
+RunFiles files_of(const LocateArguments& arguments, const ImageNames& names) {
     RunFiles files;
     files.reads("--sheets", arguments.sheets);
     files.reads("--camera", arguments.camera.path);
@@ -309,7 +284,7 @@ int run(const LocateArguments& arguments) {
         throw BadArgument("no images given: name some, or use --list");
     }
     const bool is_csv = arguments.format == RecordFormat::csv;
-    Names names(arguments);
+    ImageNames names(arguments.images, arguments.list);
     RunFiles files = files_of(arguments, names);
     Locator locator(arguments, files);
     Lines lines(arguments.out);
@@ -383,7 +358,7 @@ void add_locate(CLI::App& app, int& exit_code) {
                      "Read names from a file, or from - (standard input)")
         ->type_name("FILE|-");
     add_spacing_option(*command, arguments->spacing_mm);
-    add_code_option(*command, arguments->options.profile);
+    add_code_option(*command, arguments->code);
     add_sheets_option(*command, arguments->sheets,
                       "Sheet file: also tell the sheet, and the place on it and in the world")
         ->excludes(command->get_option("--spacing"), command->get_option("--code"));

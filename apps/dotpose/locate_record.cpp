@@ -1,5 +1,6 @@
 #include "locate_record.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -57,6 +58,56 @@ std::string doubt(const Record& record) {
         odds, fix.dots_seen);
 }
 
+double mm(std::uint32_t cell, std::uint16_t fraction_q16, double spacing_mm) {
+    return (cell + fraction_q16 / 65536.0) * spacing_mm;
+}
+
+/// What is to be said of a profile that was given.
+std::string warning(const Record& record) {
+    const CodeReading& reading = record.reading;
+    if (!record.code_is_given || !reading.has_other) return {};
+    const std::string place =
+        reading.fix.status == Status::ok
+            ? (reading.other_cell == reading.fix.cell ? "at this place" : "at another place")
+            : "where this one has nothing certain";
+    return fmt::format(
+        "code {} explains the dots {} without a contradiction; is the sheet of code "
+        "{}?",
+        name(reading.other_code), place, name(reading.other_code));
+}
+
+/// The profile, and the places of two profiles that are in question.
+std::vector<Field> code_fields(const Record& record) {
+    const CodeReading& reading = record.reading;
+    const Fix& fix = reading.fix;
+    const bool is_ok = fix.status == Status::ok;
+    const bool is_ambiguous = fix.status == Status::ambiguous_code;
+    const bool has_other = reading.has_other && (is_ok || is_ambiguous || record.code_is_given);
+    const auto if_other = [has_other](std::string text) {
+        return has_other ? std::move(text) : std::string();
+    };
+    const auto place = [&](bool is_known, Cell cell) {
+        const double spacing_mm = record.spacing_mm;
+        return std::array{
+            is_known ? decimal(mm(cell.x, fix.fraction_x_q16, spacing_mm), 6) : std::string(),
+            is_known ? decimal(mm(cell.y, fix.fraction_y_q16, spacing_mm), 6) : std::string()};
+    };
+    const auto [x_mm, y_mm] = place(is_ambiguous, fix.cell);
+    const auto [other_x_mm, other_y_mm] = place(has_other, reading.other_cell);
+    const bool is_judged = is_ok && !record.code_is_given;
+    return {
+        {"code", is_ok || is_ambiguous ? name(reading.code) : "", true},
+        {"code_p_wrong",
+         is_judged ? fmt::format("{:.3g}", reading.evidence.p_wrong(reading.code)) : ""},
+        {"code_x_mm", x_mm},
+        {"code_y_mm", y_mm},
+        {"other_code", if_other(name(reading.other_code)), true},
+        {"other_x_mm", other_x_mm},
+        {"other_y_mm", other_y_mm},
+        {"warning", warning(record), true},
+    };
+}
+
 /// Of the status and its numbers.
 std::string plain_reason(const Record& record) {
     const Fix& fix = record.fix;
@@ -77,6 +128,11 @@ std::string plain_reason(const Record& record) {
                                record.min_dots);
         case Status::not_certain:
             return fmt::format("{}: {}", message(fix.status), doubt(record));
+        case Status::ambiguous_code:
+            return fmt::format(
+                "codes {} and {} explain the dots about equally well, at different places: name "
+                "the --code, or show more of the sheet",
+                name(record.reading.code), name(record.reading.other_code));
         default:
             return message(fix.status);
     }
@@ -120,6 +176,8 @@ std::vector<Field> fields(const Record& record) {
         {"spacing_px", if_ok(decimal(fix.spacing_px(), 4))},
         {"elapsed_us", decimal(record.elapsed_us, 1)},
     };
+    for (Field& field : code_fields(record))
+        all.push_back(std::move(field));
     if (record.has_sheets) {
         for (Field& field : sheet_fields(record.place))
             all.push_back(std::move(field));

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "dotpose/code_evidence.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/sheet_file.hpp"
 #include "fields.hpp"
@@ -14,8 +15,10 @@ namespace dotpose::cli {
 struct Record {
     std::string file;
     Fix fix;
-    double spacing_mm = 0;    ///< not a number if it is not known; then nothing is given in mm
-    bool has_sheets = false;  ///< sheets were searched: their fields are wanted
+    CodeReading reading;         ///< profile and other places; its fix is that of the image centre
+    bool code_is_given = false;  ///< by the user or the sheets
+    double spacing_mm = 0;       ///< not a number if it is not known; then nothing is given in mm
+    bool has_sheets = false;     ///< sheets were searched: their fields are wanted
     std::optional<SheetPlace> place;  ///< on one of them
     double elapsed_us = 0;            ///< of `dotpose::locate` alone
     std::string advice;               ///< on what would help where there is no fix; may be empty

@@ -34,9 +34,15 @@ using FrameAt = std::function<GreyImage(int index)>;
 struct CalibrateOptions {
     /// What was printed; only profile and spacing matter. True lengths follow the true spacing.
     Pattern pattern;
+    /// The profile is found out from the frames, whatever `pattern` says. Not when stitching:
+    /// sheets have theirs.
+    bool any_code = false;
     /// Told after each part of the work; return false to give up (throws Error).
     std::function<bool(int done, int total)> progress;
 };
+
+/// The profile, if it is given.
+std::optional<Profile> given_code(const CalibrateOptions& options);
 
 /// Frames that are asked for; with fewer the verdict is `too_few_frames`.
 inline constexpr int kWantedFrames = 5;
@@ -64,6 +70,7 @@ struct LensCalibration {
     /// Whether the camera is mounted: all frames share height and tilt. Otherwise it was moved by
     /// hand, and each frame has its own; `camera.paper` and `camera.tilt` are then not known.
     bool is_mounted = true;
+    Profile code = Profile::anoto;  ///< given, or found out
     int frames = 0;                 ///< given
     int located = 0;                ///< of these: with a fix
     int duplicates = 0;             ///< of these: the same image as an earlier one; left out

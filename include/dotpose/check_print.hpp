@@ -33,6 +33,8 @@ struct CheckPrintOptions {
     /// What was printed. The section is found, not believed. Patches of a test page say themselves
     /// how they were printed; of them only the profile counts.
     Pattern pattern;
+    /// The profile is found out from the whole page, whatever `pattern` says.
+    bool any_code = false;
     /// Sheets that may be on the scan, such as those of a sheet file: what is found in the region
     /// of one of them is judged by its pattern. Only those of the profile of `pattern` are found.
     std::vector<Sheet> sheets;
@@ -135,6 +137,8 @@ struct Finding {
 struct PrintCheck {
     /// All fields, the largest first. Empty: there is no pattern in the image.
     std::vector<PrintField> fields;
+    Profile code = Profile::anoto;  ///< given, or found out
+    double code_p_wrong = 0;        ///< probability that it is another one, where it was found out
     std::optional<Resolution> resolution;  ///< as used; none for a photo
     bool is_test_page = false;
     /// Patches of the usual test page (make_test_page's defaults) that are not among the fields.

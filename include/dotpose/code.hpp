@@ -22,11 +22,13 @@ inline constexpr int kSections = 63;
 
 /// Which sequence a4 the sheet was printed with.
 enum class Profile : std::uint8_t {
-    anoto,      ///< restored a4: unambiguous on the whole plane; for everything new
-    published,  ///< misprinted a4 of the patent, as earlier open tools print it; needs 8 x 8
-                ///< symbols
-    microdots,  ///< another a4, as printed by py-microdots and its ports
+    anoto,    ///< restored a4: unambiguous on the whole plane; for everything new
+    libdots,  ///< misprinted a4 of the patent, as libdots and other open tools print it; needs 8 x
+              ///< 8 symbols
+    microdots,            ///< another a4, as printed by py-microdots and its ports
+    published = libdots,  ///< its earlier name
 };
+inline constexpr int kProfileCount = 3;
 
 /// A grid intersection; each coordinate in [0, kPositionsPerAxis).
 struct Cell {
@@ -99,7 +101,7 @@ Place moved(Profile profile, Place place, std::int32_t dx, std::int32_t dy) noex
 
 /// Decodes an error-free, upright window. Exact: `place` is set only if the code carries this very
 /// window there and nowhere else.
-/// Errors: bad_window (not 6 to 32 columns and rows), not_in_code, ambiguous (profile `published`
+/// Errors: bad_window (not 6 to 32 columns and rows), not_in_code, ambiguous (profile `libdots`
 /// only: windows under 8 x 8 may stand at several places).
 Status decode(Profile profile, const Window& window, Place& place) noexcept;
 

@@ -94,6 +94,8 @@ struct FrameRun {
     FrameSource frame_at;
     /// Every frame is located with each of these.
     std::vector<Options> options = {Options{}};
+    /// Frames that do not tell their profile are read in any, each by itself.
+    bool any_code = false;
     /// What else is known of a fix that was just made with these options and workspace, such as
     /// `with_camera` tells; none: nothing. Called from several threads; its time does not count.
     std::function<Fix(const Fix&, const Options&, const Workspace&)> refine;

@@ -40,7 +40,8 @@ inline constexpr int kSheetFileVersion = 1;
 /// the dots of one of them, is never taken for the other.
 inline constexpr std::uint32_t kSheetGap_cells = 1024;
 
-/// Name of a profile: anoto, published, microdots; and the way back.
+/// Name of a profile: anoto, libdots, microdots; and the way back, which also takes `published`,
+/// the earlier name of libdots.
 const char* name(Profile profile);
 std::optional<Profile> profile_by_name(std::string_view name);
 
@@ -75,7 +76,7 @@ struct SheetEntry {
 void validate(const SheetEntry& entry);
 
 /// Whether some cell belongs to both. Different sections never overlap. The profiles anoto and
-/// published agree on most of the plane, so they count as one; microdots is another.
+/// libdots agree on most of the plane, so they count as one; microdots is another.
 bool overlap(const Sheet& a, const Sheet& b);
 
 /// Reads a sheet file. Throws Error, naming the file and the key concerned: the file cannot be

@@ -29,10 +29,11 @@ enum class [[nodiscard]] Status : std::uint8_t{
     not_certain,
     // src/core/attempts
     not_tracked,
+    ambiguous_code,
 };
 
 /// Number of values of Status, for tables.
-inline constexpr int kStatusCount = 16;
+inline constexpr int kStatusCount = 17;
 
 /// The identifier of a status as written in output lines, for example "too_few_dots".
 const char* name(Status status) noexcept;

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "dotpose/fix.hpp"
+#include "dotpose/other_codes.hpp"
 #include "dotpose/patch.hpp"
 #include "dotpose/stages.hpp"
 
@@ -22,6 +23,7 @@ struct Workspace {
     MeasuredDots measured;
     std::span<std::uint8_t> column_rolls;
     std::span<std::uint8_t> row_rolls;
+    OtherCodes* other_codes = nullptr;
     bool has_second_attempt = false;  ///< has the memory that it takes
     bool keeps_every_stage = false;   ///< each has memory of its own, so all of them can be shown
     // detect
@@ -81,6 +83,7 @@ class WorkspaceOf : public Workspace {
         measured.paper = ints_[6];
         column_rolls = rolls_[0];
         row_rolls = rolls_[1];
+        other_codes = &other_codes_;
         smoothing.lines = smooth_lines_;
         smoothing.row = smooth_row_;
         smoothing.paper.levels = papers_;
@@ -125,6 +128,7 @@ class WorkspaceOf : public Workspace {
     std::array<std::array<float, MaxDots + 40>, 4> floats_;
     std::array<std::array<std::int32_t, MaxDots + 40>, 7> ints_;
     std::array<std::array<std::uint8_t, kRolls>, 2> rolls_;
+    OtherCodes other_codes_;
     std::array<std::uint16_t, 5 * MaxWidth> smooth_lines_{};
     std::array<std::uint8_t, MaxWidth> smooth_row_{};
     // Blocks are a tenth of the shorter side, so at least 6 px: at most 11 x 683 of them.

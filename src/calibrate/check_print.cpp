@@ -126,16 +126,41 @@ double PrintField::bad_share() const {
     return std::min(covered_share() + missing_share() + merged_share() + wrong_share(), 1.0);
 }
 
-PrintCheck check_print(const ImageView& scan, const CheckPrintOptions& options) {
-    validate(options);
+namespace {
+
+/// Where bits contradict the profile that was given: whether the page is of another one.
+void look_for_another_code(const ImageView& scan, const CropDone& done, PrintCheck& check) {
+    constexpr double kSuspicious = 0.002;
+    constexpr float kSure = 1e-3F;
+    const bool is_suspicious = std::ranges::any_of(
+        check.fields, [](const PrintField& field) { return field.wrong_share() > kSuspicious; });
+    if (!is_suspicious) return;
+    CropLocator locator(scan, std::nullopt);
+    static_cast<void>(locator.choose_tiling(done));
+    const Profile code = locator.code().code();
+    if (code == check.code || locator.code().evidence().p_wrong(code) > kSure) return;
+    check.findings.push_back({FindingKind::bits_wrong, false, std::nullopt,
+                              fmt::format("the page is of code {}, not {}: check it with --code {}",
+                                          name(code), name(check.code), name(code))});
+}
+
+}  // namespace
+
+PrintCheck check_print(const ImageView& scan, const CheckPrintOptions& asked) {
+    validate(asked);
     PrintCheck check;
-    Work work(options);
+    CheckPrintOptions options = asked;
+    Work work(asked);
     const CropDone done = [&work] { work.step(); };
-    CropLocator locator(scan, options.pattern.profile);
+    CropLocator locator(scan, asked.any_code ? std::nullopt : std::optional(asked.pattern.profile));
     const auto tiling = locator.choose_tiling(done);
     if (tiling) {
+        const auto anchors = locator.find_anchors(*tiling, done);
+        check.code = options.pattern.profile = locator.code().code();
+        if (asked.any_code)
+            check.code_p_wrong = double(locator.code().evidence().p_wrong(check.code));
         check.resolution = options.resolution;
-        for (Field& field : group_anchors(locator.find_anchors(*tiling, done), *tiling)) {
+        for (Field& field : group_anchors(anchors, *tiling)) {
             PrintField result;
             identify(field, options, result);
             field.code.profile = result.pattern.profile;
@@ -154,6 +179,7 @@ PrintCheck check_print(const ImageView& scan, const CheckPrintOptions& options) 
     check.is_test_page = std::ranges::any_of(check.fields, &PrintField::is_patch);
     if (check.is_test_page) rank_patches(options.pattern.profile, check);
     add_findings(options, check);
+    if (!asked.any_code) look_for_another_code(scan, done, check);
     return check;
 }
 

@@ -306,6 +306,10 @@ const char* name(CalibrationVerdict verdict) {
     }
 }
 
+std::optional<Profile> given_code(const CalibrateOptions& options) {
+    return options.any_code ? std::nullopt : std::optional(options.pattern.profile);
+}
+
 LensCalibration calibrate_lens(int frames, const FrameAt& frame_at,
                                const CalibrateOptions& options) {
     if (frames < 1) throw BadArgument("no frames were given");
@@ -318,14 +322,15 @@ LensCalibration calibrate_lens(int frames, const FrameAt& frame_at,
     LensCalibration result;
     result.frames = frames;
     Series series(frames, frame_at, options);
-    Sighter sighter(options.pattern.profile);
+    Sighter sighter(given_code(options));
     const auto first = sight_first(frames, series, sighter, result);
     const FitSetting setting{series.width_px, series.height_px, options.pattern.spacing_mm};
     // Only with the lens known are dots found out to the corners.
     sighter.use_lens(lens_of(camera_of(fit_all(first, setting).after, setting)));
     auto sightings = sight_again(first, series, sighter);
-    take_all_dots(fit_all(sightings, setting).after, setting, options.pattern.profile, sightings);
+    take_all_dots(fit_all(sightings, setting).after, setting, sighter.profile(), sightings);
     const Fits fits = fit_all(sightings, setting);
+    result.code = sighter.profile();
     result.located = static_cast<int>(sightings.size());
     result.camera = camera_of(fits.after, setting);
     describe(sightings, fits, result);

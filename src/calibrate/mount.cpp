@@ -10,6 +10,7 @@
 #include <fmt/core.h>
 
 #include "dotpose/calibrate.hpp"
+#include "dotpose/code_evidence.hpp"
 #include "dotpose/locate.hpp"
 
 namespace dotpose {
@@ -68,6 +69,7 @@ Stations locate_stations(int frames, const FrameAt& frame_at, const std::optiona
                          const CalibrateOptions& options) {
     Stations result;
     const auto workspace = std::make_unique<LargeWorkspace>();
+    CodeReader reader(given_code(options));
     std::optional<Cell> first;
     for (int i = 0; i < frames; ++i) {
         const GreyImage image = frame_at(i);
@@ -75,10 +77,9 @@ Stations locate_stations(int frames, const FrameAt& frame_at, const std::optiona
         result.camera.reference_px.reset();
         result.camera.theta_offset_rad = 0;
         Options how;
-        how.profile = options.pattern.profile;
         use_camera(result.camera, image.width_px, image.height_px, how);
-        const Fix fix =
-            with_camera(locate(image.view(), how, *workspace), result.camera, how, *workspace);
+        const Fix fix = with_camera(reader.locate(image.view(), how, *workspace), result.camera,
+                                    how, *workspace);
         if (options.progress && !options.progress(i + 1, frames)) {
             throw Error("stopped; nothing was written");
         }

@@ -25,10 +25,8 @@ constexpr std::array kProbes = {Probe{256, 1}, Probe{160, 2}, Probe{768, 1}};
 
 }  // namespace
 
-CropLocator::CropLocator(const ImageView& scan, Profile profile)
-    : scan_(scan), workspace_(std::make_unique<LargeWorkspace>()) {
-    options_.profile = profile;
-}
+CropLocator::CropLocator(const ImageView& scan, std::optional<Profile> profile)
+    : scan_(scan), reader_(profile), workspace_(std::make_unique<LargeWorkspace>()) {}
 
 std::optional<Tiling> CropLocator::choose_tiling(const CropDone& done) {
     for (const bool thorough : {true, false}) {
@@ -85,7 +83,7 @@ std::vector<Anchor> CropLocator::find_anchors(const Tiling& tiling, const CropDo
 }
 
 std::optional<Anchor> CropLocator::locate_in(const PixelRect& rect) {
-    const Fix fix = locate(magnified(rect), options_, *workspace_);
+    const Fix fix = reader_.locate(magnified(rect), options_, *workspace_);
     if (fix.status != Status::ok) return std::nullopt;
     constexpr double kQ24 = 1 << 24;
     const PlaneFromImage& plane = workspace_->pattern_from_image;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "calibrate/print_map.hpp"
+#include "dotpose/code_evidence.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/locate.hpp"
 
@@ -24,7 +25,8 @@ using CropDone = std::function<void()>;
 /// Runs `locate` on crops of a scan.
 class CropLocator {
   public:
-    CropLocator(const ImageView& scan, Profile profile);
+    /// Without a profile, it is found out from all crops.
+    CropLocator(const ImageView& scan, std::optional<Profile> profile);
 
     /// Side of tiles that hold some 24 x 24 cells; nothing if no crop of any size shows a pattern.
     /// The crops may be magnified: `locate` needs 6 px from dot to dot.
@@ -34,12 +36,15 @@ class CropLocator {
     /// chessboard; the tiles between are quicker followed than located in.
     std::vector<Anchor> find_anchors(const Tiling& tiling, const CropDone& done);
 
+    const CodeReader& code() const { return reader_; }
+
   private:
     double probe_spacing_px(const Tiling& tiling, int step, const CropDone& done);
     std::optional<Anchor> locate_in(const PixelRect& rect);
     ImageView magnified(const PixelRect& rect);
 
     ImageView scan_;
+    CodeReader reader_;
     Options options_;
     int zoom_ = 1;
     std::unique_ptr<LargeWorkspace> workspace_;

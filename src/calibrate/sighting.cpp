@@ -67,8 +67,8 @@ std::vector<SightedDot> dots_read(const Workspace& w, Profile profile) {
     return result;
 }
 
-Sighter::Sighter(Profile profile) : workspace_(std::make_unique<LargeWorkspace>()) {
-    options_.profile = profile;
+Sighter::Sighter(std::optional<Profile> profile)
+    : reader_(profile), workspace_(std::make_unique<LargeWorkspace>()) {
     options_.show_stages = true;
 }
 
@@ -87,7 +87,7 @@ std::optional<Sighting> Sighter::sight(const ImageView& image) {
 
 bool Sighter::locate_with(const ImageView& image, const Lens& lens) {
     options_.lens = lens;
-    return locate(image, options_, *workspace_).status == Status::ok;
+    return reader_.locate(image, options_, *workspace_).status == Status::ok;
 }
 
 Sighting Sighter::read_workspace(const ImageView& image) const {

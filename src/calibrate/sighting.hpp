@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dotpose/camera_file.hpp"
+#include "dotpose/code_evidence.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/locate.hpp"
 
@@ -32,13 +33,16 @@ struct Sighting {
 /// Locates frames with a lens that may be known or not.
 class Sighter {
   public:
-    explicit Sighter(Profile profile);
+    /// Without a profile, it is found out from the frames.
+    explicit Sighter(std::optional<Profile> profile);
 
     /// From now on the lens is known.
     void use_lens(const Lens& lens) {
         lens_ = lens;
         is_known_ = true;
     }
+    /// That of the frames, as far as is known by now.
+    Profile profile() const { return reader_.code(); }
     /// Nothing if the frame cannot be located.
     std::optional<Sighting> sight(const ImageView& image);
 
@@ -46,6 +50,7 @@ class Sighter {
     bool locate_with(const ImageView& image, const Lens& lens);
     Sighting read_workspace(const ImageView& image) const;
 
+    CodeReader reader_;
     Options options_;
     Lens lens_;
     bool is_known_ = false;

@@ -11,7 +11,7 @@ namespace dotpose::code {
 
 constexpr const Basis& basis(Profile profile) {
     switch (profile) {
-        case Profile::published:
+        case Profile::libdots:
             return kBasis<kA4Published>;
         case Profile::microdots:
             return kBasis<kA4Microdots>;
@@ -23,7 +23,7 @@ constexpr const Basis& basis(Profile profile) {
 
 constexpr const Twins& twins(Profile profile) {
     switch (profile) {
-        case Profile::published:
+        case Profile::libdots:
             return kTwins<kA4Published>;
         case Profile::microdots:
             return kTwins<kA4Microdots>;

@@ -36,6 +36,8 @@ constexpr std::array<Text, kStatusCount> kTexts{{
     {Status::not_certain, "not_certain",
      "a position was found, but it may be wrong with more than the allowed probability"},
     {Status::not_tracked, "not_tracked", "the pattern is not where it was predicted"},
+    {Status::ambiguous_code, "ambiguous_code",
+     "places of two codes explain the dots about equally well; name the code, or show more dots"},
 }};
 
 constexpr bool in_order() {

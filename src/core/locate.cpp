@@ -1,6 +1,7 @@
 // The public calls: whether the arguments can be used, and which attempt is made.
 #include "dotpose/locate.hpp"
 
+#include "core/attempts/any_code.hpp"
 #include "core/attempts/device.hpp"
 #include "core/attempts/device_tracked.hpp"
 #include "core/attempts/first.hpp"
@@ -8,6 +9,7 @@
 #include "core/attempts/second.hpp"
 #include "core/attempts/steps.hpp"
 #include "core/attempts/tracked.hpp"
+#include "dotpose/code_evidence.hpp"
 
 namespace dotpose {
 namespace {
@@ -47,6 +49,14 @@ Status check(int width_px, int height_px, const Options& options, const Workspac
     }
     if (width_px > w.max_width_px || height_px > kMaxFrameSide_px) return Status::image_too_large;
     return Status::ok;
+}
+
+/// Whether an image can be located in any profile, or why not.
+Status check(const ImageView& image, const Options& options, const Workspace& w) {
+    const Status status = check(image.width_px, image.height_px, options, w);
+    if (status != Status::ok) return status;
+    const bool has_room = w.other_codes != nullptr && w.patch != nullptr;
+    return image.pixels != nullptr && has_room ? Status::ok : Status::bad_argument;
 }
 
 Fix refused(Status status, Workspace& w) {
@@ -95,6 +105,27 @@ Fix locate(const ImageView& image, const Options& options, const Prediction& pre
         is_of_device ? track_as_device(image, options, prediction, w)
                      : core::locate_tracked(core::kernels(), image, options, prediction, w);
     return is_tracked ? w.fix : locate(image, options, w);
+}
+
+CodeReading locate_in_any_code(const ImageView& image, const Options& options,
+                               const CodeEvidence& evidence, Workspace& w) {
+    const Status status = check(image, options, w);
+    if (status != Status::ok) return {refused(status, w), options.profile, evidence};
+    return core::locate_in_any_code(image, options, nullptr, evidence, w);
+}
+
+CodeReading locate_in_any_code(const ImageView& image, const Options& options,
+                               const Prediction& prediction, const CodeEvidence& evidence,
+                               Workspace& w) {
+    const Status status = check(image, options, w);
+    if (status != Status::ok) return {refused(status, w), options.profile, evidence};
+    return core::locate_in_any_code(image, options, &prediction, evidence, w);
+}
+
+CodeReading locate_in_code(const ImageView& image, const Options& options, Workspace& w) {
+    const Status status = check(image, options, w);
+    if (status != Status::ok) return {refused(status, w), options.profile, {}};
+    return core::locate_in_code(image, options, w);
 }
 
 Status begin(int width_px, int height_px, const Options& options, Workspace& w) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <thread>
 
+#include "dotpose/code_evidence.hpp"
 #include "dotpose/evaluate.hpp"
 #include "dotpose/frame_file.hpp"
 #include "dotpose/locate.hpp"
@@ -56,7 +57,12 @@ class Crew {
             Options options = run_.options[k];
             options.profile = frame.profile.value_or(options.profile);
             const auto start = std::chrono::steady_clock::now();
-            outcome.fix = locate(frame.image.view(), options, workspace);
+            if (run_.any_code && !frame.profile) {
+                CodeReader reader;
+                outcome.fix = reader.locate(frame.image.view(), options, workspace);
+            } else {
+                outcome.fix = locate(frame.image.view(), options, workspace);
+            }
             const std::chrono::duration<double, std::micro> elapsed =
                 std::chrono::steady_clock::now() - start;
             outcome.elapsed_us = elapsed.count();

@@ -110,9 +110,9 @@ class TruthReader {
         const std::string cell = text("profile");
         if (cell.empty()) return std::nullopt;
         if (cell == "anoto") return Profile::anoto;
-        if (cell == "published") return Profile::published;
+        if (cell == "libdots" || cell == "published") return Profile::libdots;
         if (cell == "microdots") return Profile::microdots;
-        fail(fmt::format("profile is '{}', not anoto, published or microdots", cell));
+        fail(fmt::format("profile is '{}', not anoto, libdots or microdots", cell));
     }
 
     double spacing_mm() const {

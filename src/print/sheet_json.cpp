@@ -119,8 +119,7 @@ Sheet sheet_of(const Node& node) {
     const std::string code = node.text("code");
     const auto profile = profile_by_name(code);
     if (!profile) {
-        node.fail_at("code",
-                     fmt::format("is '{}'; it must be anoto, published or microdots", code));
+        node.fail_at("code", fmt::format("is '{}'; it must be anoto, libdots or microdots", code));
     }
     sheet.pattern.profile = *profile;
     sheet.pattern.section = {section("section_u"), section("section_v")};

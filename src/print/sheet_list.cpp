@@ -74,8 +74,8 @@ const char* name(Profile profile) {
     switch (profile) {
         case Profile::anoto:
             return "anoto";
-        case Profile::published:
-            return "published";
+        case Profile::libdots:
+            return "libdots";
         case Profile::microdots:
             return "microdots";
     }
@@ -83,9 +83,11 @@ const char* name(Profile profile) {
 }
 
 std::optional<Profile> profile_by_name(std::string_view asked) {
-    for (const Profile profile : {Profile::anoto, Profile::published, Profile::microdots}) {
+    for (const Profile profile : {Profile::anoto, Profile::libdots, Profile::microdots}) {
         if (asked == name(profile)) return profile;
     }
+    // As sheet files and scripts of earlier versions name it.
+    if (asked == "published") return Profile::libdots;
     return std::nullopt;
 }
 

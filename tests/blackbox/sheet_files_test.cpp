@@ -59,9 +59,9 @@ GreyImage frame_of(const json& sheet, double x_mm, double y_mm, double theta_rad
     setup.random_section = false;
     Shot shot = draw_shot(setup, 0);
     Pattern& pattern = shot.page.pattern;
-    pattern.profile = sheet["code"] == "microdots"   ? Profile::microdots
-                      : sheet["code"] == "published" ? Profile::published
-                                                     : Profile::anoto;
+    pattern.profile = sheet["code"] == "microdots" ? Profile::microdots
+                      : sheet["code"] == "libdots" ? Profile::libdots
+                                                   : Profile::anoto;
     pattern.section = {sheet["section_u"], sheet["section_v"]};
     pattern.spacing_mm = sheet["spacing_mm"];
     pattern.displacement_mm = sheet["displacement_mm"];

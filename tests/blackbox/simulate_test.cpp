@@ -61,7 +61,7 @@ TEST_F(SimulateCommand, OptionsFixWhatIsOtherwiseDrawn) {
               0)
         << errors_;
     const std::string expected =
-        ",3000.1500000,4200.3000000,-160.000000000,5000.25000000,7000.50000000,3,4,published,0.6,"
+        ",3000.1500000,4200.3000000,-160.000000000,5000.25000000,7000.50000000,3,4,libdots,0.6,"
         "12,nominal,1";
     for (int i = 0; i < 3; ++i) {
         const std::string name = "frame_00000" + std::to_string(i) + ".pgm";

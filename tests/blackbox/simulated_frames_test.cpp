@@ -115,7 +115,7 @@ TEST(SimulatedFrames, FramesInDoubtAreLookedAtOnceMore) {
 }
 
 TEST(SimulatedFrames, AllProfilesAreRead) {
-    for (const Profile profile : {Profile::published, Profile::microdots}) {
+    for (const Profile profile : {Profile::libdots, Profile::microdots}) {
         dotpose::Setup setup = setup_of(Preset::nominal, kSeed + 1);
         setup.pattern.profile = profile;
         Options options;

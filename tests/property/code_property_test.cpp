@@ -49,7 +49,7 @@ Draw random_draw(std::uint64_t seed) {
     draw.place.cell = {random_position(rng), random_position(rng)};
     draw.quarter_turns = random_int(rng, 0, 3);
     // Below 8 x 8, windows of profile `published` may be ambiguous: see decode_test.cpp.
-    const int smallest = draw.profile == Profile::published ? 8 : 6;
+    const int smallest = draw.profile == Profile::libdots ? 8 : 6;
     const int kind = random_int(rng, 0, 15);
     draw.columns = draw.rows = kind < 8 ? smallest : 8;
     if (kind == 15) {

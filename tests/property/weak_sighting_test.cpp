@@ -22,7 +22,7 @@ constexpr int kMaxSide = 16;
 /// Two places inside a gate of less than 15 cells to either side are at most so far apart.
 constexpr int kReach = 29;
 constexpr std::uint64_t kSeed = 20;
-constexpr std::array kProfiles{Profile::anoto, Profile::published, Profile::microdots};
+constexpr std::array kProfiles{Profile::anoto, Profile::libdots, Profile::microdots};
 
 /// Bits read upright from a part of the pattern.
 struct View {

@@ -9,6 +9,7 @@
 #include "core/decode/bit_lines.hpp"
 #include "core/decode/certainty.hpp"
 #include "core/decode/coded_block.hpp"
+#include "core/decode/codes_in_view.hpp"
 #include "core/decode/window.hpp"
 #include "core/pose/covariance.hpp"
 #include "core/pose/float_fit.hpp"
@@ -112,24 +113,26 @@ Confidence confidence_in(int bits, int wrong) {
     return confidence;
 }
 
+std::array<Confidence, 2> confidences_in(const BitsRead& bits) {
+    return {confidence_in(bits.read, bits.wrong_x), confidence_in(bits.read, bits.wrong_y)};
+}
+
 /// Whether the bits of all dots near the centre leave no doubt.
 bool is_certain(const Kernels& kernels, const Options& options, const Sight& sight,
                 const CellsInView& view, const BitBlock& block, const BitsRead& bits,
                 Workspace& w) {
     w.decoding.bits = 2 * bits.read;
-    const std::array confidences{confidence_in(bits.read, bits.wrong_x),
-                                 confidence_in(bits.read, bits.wrong_y)};
+    const auto confidences = confidences_in(bits);
+    OtherCodes* others = wanted_codes(w);
     const CodedBlock coded(options.profile, sight.place, view, block);
     if (is_plainly_certain(
             kernels, {coded.axis(Axis::x, confidences[0]), coded.axis(Axis::y, confidences[1])},
-            options.profile, options.integrity, w.fix)) {
+            options.profile, options.integrity, w.fix, others)) {
         return true;
     }
-    const BlockLines lines = score_block(kernels, block, w.line_scores);
-    const Place corner = moved(options.profile, sight.place, lines.first_column - BitBlock::kMiddle,
-                               lines.first_row - BitBlock::kMiddle);
-    return core::is_certain(kernels, {corner, confidences, lines.columns, lines.rows},
-                            options.profile, options.integrity, w.fix);
+    const Evidence evidence =
+        evidence_of(kernels, options.profile, sight.place, block, confidences, w.line_scores);
+    return core::is_certain(kernels, evidence, options.profile, options.integrity, w.fix, others);
 }
 
 /// What is to be seen of the fix: dots and the bits read from them.
@@ -325,6 +328,7 @@ Confirmation confirm(const Kernels& kernels, const ImageView& image, const Optio
     const float spacing = spacing_px(plane);
     WindowLook look{spacing, 0.36F, sight.depth_q8 * kCutOfDepth_q8 >> 8};
     const int most_dots = std::min(std::max(options.most_dots, 64), dots.capacity());
+    OtherCodes* const codes = sight.is_certain ? nullptr : wanted_codes(w);
     PoseFit fit;
     BitsRead bits;
     float paper = 0;
@@ -341,8 +345,10 @@ Confirmation confirm(const Kernels& kernels, const ImageView& image, const Optio
             look.typical_mass = typical_mass;
             leave_out_table(dots, paper);
         }
+        const bool is_last = reach.now >= reach.full;
         BitBlock block;
-        bits = read(kernels, sight, dots, decides ? &block : nullptr);
+        const bool has_block = decides || (is_last && codes != nullptr);
+        bits = read(kernels, sight, dots, has_block ? &block : nullptr);
         if (!is_plausible(bits, dots, options, sight.shows_part)) return Confirmation::implausible;
         if (decides && !is_clean(bits)) {
             // Through a plane that is fitted to all dots, fewer bits are misread.
@@ -355,7 +361,10 @@ Confirmation confirm(const Kernels& kernels, const ImageView& image, const Optio
             !is_certain(kernels, options, sight, view, block, bits, w)) {
             return Confirmation::uncertain;
         }
-        const bool is_last = reach.now >= reach.full;
+        if (is_last && codes != nullptr) {
+            weigh_codes_in_view(kernels, options.profile, sight.place, block, confidences_in(bits),
+                                !decides, w.line_scores, *codes);
+        }
         if (is_last) kernels.refine_centres(image, view, bell_reach_px(sight, typical_mass), dots);
         if (!fit_to_dots(kernels, dots, bits, image, sight, fit)) return Confirmation::implausible;
         if (is_last) break;

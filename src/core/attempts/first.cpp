@@ -149,6 +149,10 @@ bool locate_elsewhere(const Kernels& kernels, const ImageView& image, const Opti
 
 }  // namespace
 
+bool looks_outwards(const Options& options, const Workspace& w) {
+    return options.decoder == Decoder::all && w.patch != nullptr;
+}
+
 bool locate_outwards(const Kernels& kernels, const ImageView& image, const Options& options,
                      Workspace& w) {
     for (const int scale : {1, 2, 4}) {
@@ -166,14 +170,19 @@ bool locate_outwards(const Kernels& kernels, const ImageView& image, const Optio
     return locate_elsewhere(kernels, image, options, w);
 }
 
-Fix make_first_attempt(const ImageView& image, const Options& options, Workspace& w) {
-    forget_frame(w);
-    const bool is_wanted = options.decoder == Decoder::all && w.patch != nullptr;
-    if (is_wanted && locate_outwards(kernels(), image, options, w)) return w.fix;
+bool locate_by_rows(const Kernels& kernels, const ImageView& image, const Options& options,
+                    Workspace& w) {
     detect_image(image, options, w);
     const Fix fix = finish_rows(options, w);
-    if (is_wanted && fix.status == Status::ok && !is_rough(fix)) {
-        measure_again(kernels(), image, options, w);
+    if (fix.status != Status::ok) return false;
+    if (looks_outwards(options, w) && !is_rough(fix)) measure_again(kernels, image, options, w);
+    return true;
+}
+
+Fix make_first_attempt(const ImageView& image, const Options& options, Workspace& w) {
+    forget_frame(w);
+    if (!looks_outwards(options, w) || !locate_outwards(kernels(), image, options, w)) {
+        locate_by_rows(kernels(), image, options, w);
     }
     return w.fix;
 }

@@ -12,7 +12,15 @@ namespace dotpose::core {
 bool locate_outwards(const Kernels& kernels, const ImageView& image, const Options& options,
                      Workspace& w);
 
-/// The same; what it does not settle is located from the blobs of all rows.
+/// Whether it is asked for, and there is memory for it.
+bool looks_outwards(const Options& options, const Workspace& w);
+
+/// Locates from the blobs of all rows, and measures the dots once more where that is how they are
+/// measured otherwise. Leaves the fix in the workspace; false if there is none.
+bool locate_by_rows(const Kernels& kernels, const ImageView& image, const Options& options,
+                    Workspace& w);
+
+/// Outwards; what that does not settle, by rows.
 Fix make_first_attempt(const ImageView& image, const Options& options, Workspace& w);
 
 }  // namespace dotpose::core

@@ -6,6 +6,7 @@
 #include "core/decode/position.hpp"
 #include "core/decode/verify.hpp"
 #include "core/decode/window.hpp"
+#include "core/kernels/select.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -28,8 +29,8 @@ Status read_position(const Options& options, Workspace& w) {
 
 /// Whether all dots in view agree with the position.
 Status verify_position(const Options& options, Workspace& w) {
-    const Status status =
-        verify(w.grid, options.profile, w.decoding, options.integrity, w.line_scores, w.fix);
+    const Status status = verify_among_codes(w.grid, options.profile, wanted_codes(w), w.decoding,
+                                             options.integrity, w.line_scores, w.fix);
     return status == Status::ok ? status : refused(status, w);
 }
 
@@ -44,6 +45,10 @@ Fix finish_rows(const Options& options, Workspace& w) {
     if (status == Status::ok) status = read_position(options, w);  // II-B.5-7
     if (status == Status::ok) status = verify_position(options, w);
     if (status == Status::ok) status = measure_pose(options, nullptr, w);  // II-B.8
+    if (status == Status::ok) {
+        weigh_other_codes(kernels(), w.grid, options.profile, w.decoding, w.line_scores,
+                          wanted_codes(w));
+    }
     w.fix.status = status;
     return w.fix;
 }

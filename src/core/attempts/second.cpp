@@ -8,6 +8,7 @@
 #include "core/decode/verify.hpp"
 #include "core/decode/window.hpp"
 #include "core/detect/smooth.hpp"
+#include "core/kernels/select.hpp"
 #include "core/lattice/climb.hpp"
 #include "core/lattice/refine.hpp"
 
@@ -69,8 +70,8 @@ Status read_position(const Options& options, Workspace& w) {
     choose_region(w);
     Status status = decode(options, w);  // II-B.6-7
     if (status == Status::ok) {
-        status =
-            verify(w.grid, options.profile, w.decoding, options.integrity, w.line_scores, w.fix);
+        status = verify_among_codes(w.grid, options.profile, wanted_codes(w), w.decoding,
+                                    options.integrity, w.line_scores, w.fix);
     }
     return status == Status::ok ? status : refused(status, w);
 }
@@ -122,6 +123,10 @@ Status locate_filtered(const ImageView& image, const Options& options, Workspace
     status = read_position(options, w);  // II-B.5-7
     if (status == Status::not_certain) status = look_until_certain(image, options, w);
     if (status == Status::ok) status = measure_pose(options, &image, w);  // II-B.8
+    if (status == Status::ok) {
+        weigh_other_codes(kernels(), w.grid, options.profile, w.decoding, w.line_scores,
+                          wanted_codes(w));
+    }
     return status;
 }
 

@@ -19,6 +19,11 @@ Vec image_centre_q8(const Light& light);
 /// The point whose pose is wanted, in an image whose centre is given.
 Vec reference_q8(Vec centre_q8, const Options& options);
 
+/// What is asked for of other profiles; null: nothing.
+inline OtherCodes* wanted_codes(const Workspace& w) {
+    return w.other_codes != nullptr && w.other_codes->are_wanted ? w.other_codes : nullptr;
+}
+
 /// Nothing of the frame before is to be seen any more.
 void forget_frame(Workspace& w);
 

@@ -7,6 +7,7 @@
 #include "code/rolls.hpp"
 #include "code/unshared_lines.hpp"
 #include "core/decode/least_losses.hpp"
+#include "core/decode/other_codes.hpp"
 #include "core/decode/quick_rivals.hpp"
 #include "core/decode/rival_sets.hpp"
 #include "core/decode/rivals.hpp"
@@ -206,30 +207,68 @@ float seam_rivals(const Kernels& kernels, const Contest& contest) {
     return power_of_two(std::max(seam_rivals_log2_q8(kernels, contest), -100 * 256));
 }
 
+/// What is asked of an axis.
+struct Asked {
+    Profile profile;
+    Axis axis;
+    int odds_per_bit_q8;
+    int limit_log2;
+    OtherCodes* others;  ///< null: nobody asks
+};
+
+void weigh_others(const Kernels& kernels, const Contest& contest, const Asked& asked) {
+    if (asked.others == nullptr) return;
+    weigh_other_codes(kernels, contest, asked.profile, asked.axis, *asked.others);
+}
+
+bool is_code_in_question(const Asked& asked) {
+    return asked.others != nullptr && asked.others->log2_in_question_q8 >= 0;
+}
+
+/// Probability that chance agrees as well.
+float chance_of(const Confidence& bits, const Asked& asked) {
+    if (!is_code_in_question(asked))
+        return std::ldexp(1.0F, chance_log2(bits, asked.odds_per_bit_q8));
+    return power_of_two(
+        chance_log2_q8(bits, asked.odds_per_bit_q8, asked.others->log2_in_question_q8));
+}
+
+/// How many profiles may have such rivals.
+float codes_in_question(const Asked& asked) {
+    return !is_code_in_question(asked) ? 1 : power_of_two(asked.others->log2_in_question_q8);
+}
+
 /// Probability that one axis is wrong; where it is above the limit, no more than that.
 float axis_wrong(const Kernels& kernels, const Confidence& bits, const Lines& lines,
-                 Profile profile, const AxisReading& reading, int odds_per_bit_q8, int limit_log2) {
+                 const AxisReading& reading, const Asked& asked) {
+    const int limit_log2 = asked.limit_log2;
     const float limit = std::ldexp(1.0F, limit_log2);
-    const float chance = std::ldexp(1.0F, chance_log2(bits, odds_per_bit_q8));
+    const float chance = chance_of(bits, asked);
     if (chance > limit || lines.count() <= kMostShared) return 1;
-    const Contest contest(profile, lines, reading, odds_per_bit_q8);
-    float sum = chance + rivals(kernels, contest, limit);
-    if (sum > limit) sum = chance + power_of_two(quick_rivals_log2_q8(contest, 256 * limit_log2));
-    if (sum > limit) sum = chance + std::ldexp(1.0F, rivals_log2(profile, contest, limit_log2));
+    const Contest contest(asked.profile, lines, reading, asked.odds_per_bit_q8);
+    const float codes = codes_in_question(asked);
+    const auto with = [&](float rivals) { return chance + codes * rivals; };
+    float sum = with(rivals(kernels, contest, limit));
+    if (sum > limit) sum = with(power_of_two(quick_rivals_log2_q8(contest, 256 * limit_log2)));
+    if (sum > limit) {
+        sum = with(std::ldexp(1.0F, rivals_log2(asked.profile, contest, limit_log2)));
+    }
     if (sum > limit) return 1;
+    weigh_others(kernels, contest, asked);
     return sum + seam_rivals(kernels, contest);
 }
 
 /// Probability that one axis is wrong, by bits alone, without scores of lines. It is never less
 /// than by scores.
-float axis_wrong(const Kernels& kernels, const AxisBits& axis, Profile profile, int odds_per_bit_q8,
-                 int limit_log2) {
-    const float limit = std::ldexp(1.0F, limit_log2);
-    const float chance = std::ldexp(1.0F, chance_log2(axis.confidence, odds_per_bit_q8));
+float axis_wrong(const Kernels& kernels, const AxisBits& axis, const Asked& asked) {
+    const float limit = std::ldexp(1.0F, asked.limit_log2);
+    const float chance = chance_of(axis.confidence, asked);
     if (chance > limit || axis.lines.size() <= kMostShared) return 1;
-    const Contest contest(profile, axis.lines, axis.reading, odds_per_bit_q8);
-    const float sum = chance + rivals(kernels, contest, limit);
-    return sum > limit ? 1 : sum + seam_rivals(kernels, contest);
+    const Contest contest(asked.profile, axis.lines, axis.reading, asked.odds_per_bit_q8);
+    const float sum = chance + codes_in_question(asked) * rivals(kernels, contest, limit);
+    if (sum > limit) return 1;
+    weigh_others(kernels, contest, asked);
+    return sum + seam_rivals(kernels, contest);
 }
 
 /// Odds of a bit, by both axes: they are read from the same dots, and so are misread alike. 0 where
@@ -253,35 +292,66 @@ bool is_within_limit(float wrong, int limit_log2, Fix& fix) {
     return fix.p_wrong_log2 <= limit_log2;
 }
 
+/// What the first column and the first row were read as.
+std::array<AxisReading, 2> readings_at(const Place& corner, Profile profile) {
+    const auto& [cell, section] = corner;
+    const auto roll = [&](std::uint32_t position, int own_section, std::uint32_t cross) {
+        return static_cast<std::uint8_t>(code::roll_from(profile, position, own_section, cross));
+    };
+    return {AxisReading{cell.x, roll(cell.x, section.u, cell.y), 0, 0},
+            AxisReading{cell.y, roll(cell.y, section.v, cell.x), 0, 0}};
+}
+
 }  // namespace
 
 bool is_plainly_certain(const Kernels& kernels, const std::array<AxisBits, 2>& axes,
-                        Profile profile, const IntegrityOptions& options, Fix& fix) {
+                        Profile profile, const IntegrityOptions& options, Fix& fix,
+                        OtherCodes* others) {
     const auto& [x, y] = axes;
     const int odds_q8 = odds_of_bits_q8(x.confidence, y.confidence, options, fix);
     if (odds_q8 == 0) return false;
     const int limit = options.max_p_wrong_log2;
-    const float x_wrong = axis_wrong(kernels, x, profile, odds_q8, limit);
+    const float x_wrong = axis_wrong(kernels, x, {profile, Axis::x, odds_q8, limit, others});
     if (x_wrong >= 1) return false;
-    return is_within_limit(x_wrong + axis_wrong(kernels, y, profile, odds_q8, limit), limit, fix);
+    const float y_wrong = axis_wrong(kernels, y, {profile, Axis::y, odds_q8, limit, others});
+    return is_within_limit(x_wrong + y_wrong, limit, fix);
+}
+
+Evidence evidence_of(const Kernels& kernels, Profile profile, const Place& place,
+                     const BitBlock& block, const std::array<Confidence, 2>& bits,
+                     std::span<ScoredLine> storage) {
+    const BlockLines lines = score_block(kernels, block, storage);
+    const Place corner = moved(profile, place, lines.first_column - BitBlock::kMiddle,
+                               lines.first_row - BitBlock::kMiddle);
+    return {corner, bits, lines.columns, lines.rows};
 }
 
 bool is_certain(const Kernels& kernels, const Evidence& evidence, Profile profile,
-                const IntegrityOptions& options, Fix& fix) {
+                const IntegrityOptions& options, Fix& fix, OtherCodes* others) {
     const auto& [x_bits, y_bits] = evidence.bits;
     const int odds_q8 = odds_of_bits_q8(x_bits, y_bits, options, fix);
     if (odds_q8 == 0) return false;
-    const auto& [cell, section] = evidence.corner;
-    const auto roll = [&](std::uint32_t position, int own_section, std::uint32_t cross) {
-        return static_cast<std::uint8_t>(code::roll_from(profile, position, own_section, cross));
-    };
-    const AxisReading x{cell.x, roll(cell.x, section.u, cell.y), 0, 0};
-    const AxisReading y{cell.y, roll(cell.y, section.v, cell.x), 0, 0};
+    const auto [x, y] = readings_at(evidence.corner, profile);
     const int limit = options.max_p_wrong_log2;
-    const float x_wrong = axis_wrong(kernels, x_bits, evidence.columns, profile, x, odds_q8, limit);
+    const float x_wrong = axis_wrong(kernels, x_bits, evidence.columns, x,
+                                     {profile, Axis::x, odds_q8, limit, others});
     if (x_wrong >= 1) return false;
-    const float y_wrong = axis_wrong(kernels, y_bits, evidence.rows, profile, y, odds_q8, limit);
+    const float y_wrong =
+        axis_wrong(kernels, y_bits, evidence.rows, y, {profile, Axis::y, odds_q8, limit, others});
     return is_within_limit(x_wrong + y_wrong, limit, fix);
+}
+
+void weigh_other_codes(const Kernels& kernels, const Evidence& evidence, Profile profile,
+                       OtherCodes& others) {
+    Confidence both = evidence.bits[0];
+    both.add(evidence.bits[1]);
+    const int odds_q8 = odds_per_bit_q8(both);
+    if (odds_q8 == 0) return;
+    const auto [x, y] = readings_at(evidence.corner, profile);
+    weigh_other_codes(kernels, Contest(profile, evidence.columns, x, odds_q8), profile, Axis::x,
+                      others);
+    weigh_other_codes(kernels, Contest(profile, evidence.rows, y, odds_q8), profile, Axis::y,
+                      others);
 }
 
 }  // namespace dotpose::core

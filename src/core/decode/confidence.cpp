@@ -30,6 +30,19 @@ std::uint32_t wrong_share_q16(int log_odds_q8) {
     return UINT32_MAX / (65536 + static_cast<std::uint32_t>(exp2_q16(log_odds_q8)));
 }
 
+/// Chernoff's bound for one hypothesis.
+std::int64_t agreement_log2_q16(const Confidence& axis, int odds_per_bit_q8) {
+    std::int64_t sum_q16 = 0;
+    for (int level = 0; level < Confidence::kLevels; ++level) {
+        const int bits = axis.bits(level);
+        if (bits == 0) continue;
+        const int y_q8 = log_odds_q8(odds_per_bit_q8, level);
+        sum_q16 += std::int64_t{bits} * (log2_of_one_and_q16(y_q8) - 65536) +
+                   std::int64_t{axis.wrong(level)} * (y_q8 * 256);
+    }
+    return sum_q16;
+}
+
 }  // namespace
 
 int odds_per_bit_q8(const Confidence& confidence) {
@@ -56,16 +69,18 @@ int odds_per_bit_q8(const Confidence& confidence) {
     return odds_q8;
 }
 
+int chance_log2_q8(const Confidence& axis, int odds_per_bit_q8, int log2_times_q8) {
+    constexpr int kBeyondDoubt_q8 = 16 * 256;
+    // log2(410815348 * 63 * 4) = 36.59
+    constexpr int kHypotheses_q8 = 9368;
+    const std::int64_t best_q16 = std::min(agreement_log2_q16(axis, odds_per_bit_q8),
+                                           agreement_log2_q16(axis, kBeyondDoubt_q8));
+    return static_cast<int>(best_q16 >> 8) + 1 + kHypotheses_q8 + log2_times_q8;
+}
+
 int chance_log2(const Confidence& axis, int odds_per_bit_q8) {
     // log2(410815348 * 63 * 4) = 36.6
-    std::int64_t sum_q16 = 37 * 65536;
-    for (int level = 0; level < Confidence::kLevels; ++level) {
-        const int bits = axis.bits(level);
-        if (bits == 0) continue;
-        const int y_q8 = log_odds_q8(odds_per_bit_q8, level);
-        sum_q16 += std::int64_t{bits} * (log2_of_one_and_q16(y_q8) - 65536) +
-                   std::int64_t{axis.wrong(level)} * (y_q8 * 256);
-    }
+    const std::int64_t sum_q16 = 37 * 65536 + agreement_log2_q16(axis, odds_per_bit_q8);
     return static_cast<int>(std::min<std::int64_t>(sum_q16 >> 16, 36)) + 1;
 }
 

@@ -58,4 +58,8 @@ int odds_per_bit_q8(const Confidence& confidence);
 /// bound with the weights scaled to log odds. Valid for any odds, and best for the true ones.
 int chance_log2(const Confidence& axis, int odds_per_bit_q8);
 
+/// The same in 2^-8, for so many times as many hypotheses, and at the better of these odds and
+/// those of bits beyond doubt.
+int chance_log2_q8(const Confidence& axis, int odds_per_bit_q8, int log2_times_q8);
+
 }  // namespace dotpose::core

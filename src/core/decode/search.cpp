@@ -155,7 +155,7 @@ int clearest_run(const Lines& lines, int length, const std::array<bool, kMaxLine
 /// Lines that carry a position: the misprinted sequence tells positions apart only by 7
 /// differences.
 int run_length(Profile profile) {
-    return profile == Profile::published ? 8 : 6;
+    return profile == Profile::libdots ? 8 : 6;
 }
 
 /// How many readings are tried before the best of them is taken.

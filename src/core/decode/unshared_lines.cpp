@@ -42,4 +42,12 @@ int UnsharedLines::least_loss(std::size_t sequence, Sharing sharing) const {
     return least_[unshared];
 }
 
+int UnsharedLines::least_loss(const std::array<std::string_view, 3>& unshared_in_other) const {
+    if (row_ == SIZE_MAX) return 0;
+    const std::string_view row = unshared_in_other[row_];
+    const std::size_t ahead = contest_.places[3] + first_line_;
+    const char unshared = row[ahead < row.size() ? ahead : ahead - row.size()];
+    return least_[static_cast<std::size_t>(unshared - '0')];
+}
+
 }  // namespace dotpose::core

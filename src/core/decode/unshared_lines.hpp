@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <string_view>
 
 #include "core/decode/contest.hpp"
 
@@ -28,6 +29,8 @@ class UnsharedLines {
     }
     /// What they lose at least; 0 where no table tells.
     int least_loss(std::size_t sequence, Sharing sharing) const;
+    /// The same of those that stand in another a4, by the rows of `code::kUnsharedInOther`.
+    int least_loss(const std::array<std::string_view, 3>& unshared_in_other) const;
 
   private:
     const Contest& contest_;

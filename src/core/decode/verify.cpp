@@ -4,6 +4,7 @@
 #include "code/tables.hpp"
 #include "core/decode/confidence.hpp"
 #include "core/decode/lines.hpp"
+#include "core/decode/other_codes.hpp"
 #include "core/decode/quick_rivals.hpp"
 #include "core/decode/rivals.hpp"
 #include "core/decode/seam_rivals.hpp"
@@ -229,14 +230,66 @@ Status verify_tracked(Profile profile, const Tracking& tracking, const Integrity
     return judge(doubt, options, decoding, fix);
 }
 
+namespace {
+
+/// The bits of both axes, of all lines, against the code.
+std::array<Confidence, 2> compare_both(const Grid& grid, Profile profile,
+                                       const Decoding& decoding) {
+    const Upright all(grid, {grid.i0, grid.j0, grid.columns, grid.rows},
+                      decoding.pattern_from_grid);
+    const Place corner = corner_place(profile, decoding, all);
+    return {compare(profile, all, Axis::x, reading_of(profile, corner, Axis::x)),
+            compare(profile, all, Axis::y, reading_of(profile, corner, Axis::y))};
+}
+
+/// Chance has the hypotheses of so many profiles.
+void count_hypotheses_of(int log2_codes_q8, const Grid& grid, Profile profile,
+                         const Decoding& decoding, Doubt& doubt) {
+    const auto agreements = compare_both(grid, profile, decoding);
+    for (std::size_t i = 0; i < agreements.size(); ++i) {
+        doubt.by_chance_q8[i] = chance_log2_q8(agreements[i], doubt.odds_per_bit_q8, log2_codes_q8);
+    }
+}
+
+}  // namespace
+
+void weigh_other_codes(const Kernels& kernels, const Grid& grid, Profile profile,
+                       const Decoding& decoding, std::span<ScoredLine> storage,
+                       OtherCodes* others) {
+    if (others == nullptr) return;
+    auto [both, of_y] = compare_both(grid, profile, decoding);
+    both.add(of_y);
+    const int odds_q8 = odds_per_bit_q8(both);
+    if (odds_q8 == 0) return;
+    const Upright upright(grid, decoding.region, decoding.pattern_from_grid);
+    const Place corner = corner_place(profile, decoding, upright);
+    for (const Axis axis : {Axis::x, Axis::y}) {
+        const Lines lines = score_lines(upright, axis, scores_of(axis, storage));
+        const Contest contest(profile, lines, reading_of(profile, corner, axis), odds_q8);
+        weigh_other_codes(kernels, contest, profile, axis, *others);
+    }
+}
+
 Status verify(const Grid& grid, Profile profile, Decoding& decoding,
               const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix) {
+    return verify_among_codes(grid, profile, nullptr, decoding, options, storage, fix);
+}
+
+Status verify_among_codes(const Grid& grid, Profile profile, const OtherCodes* others,
+                          Decoding& decoding, const IntegrityOptions& options,
+                          std::span<ScoredLine> storage, Fix& fix) {
     decoding.p_wrong_log2_q8 = {};
     const int limit_q8 = 256 * options.max_p_wrong_log2;
-    const Doubt doubt = compare_with_chance(grid, profile, options, decoding, fix);
+    Doubt doubt = compare_with_chance(grid, profile, options, decoding, fix);
     if (doubt.odds_per_bit_q8 == 0) return judge(doubt, options, decoding, fix);
+    const bool is_code_given = others == nullptr || others->log2_in_question_q8 < 0;
+    const int codes_q8 = is_code_given ? 0 : others->log2_in_question_q8;
+    if (!is_code_given) count_hypotheses_of(codes_q8, grid, profile, decoding, doubt);
     std::array<int, 2>& p_wrong_q8 = decoding.p_wrong_log2_q8;
-    p_wrong_q8 = estimate_quickly(grid, profile, decoding, limit_q8, storage, doubt);
+    p_wrong_q8 = with_rivals(grid, profile, decoding, storage, doubt, limit_q8,
+                             [&](std::size_t, const Contest& contest) {
+                                 return quick_rivals_log2_q8(contest, limit_q8) + codes_q8;
+                             });
     // Whoever accepts more doubt than usual wants to know how much there is.
     const int doubtful_q8 = std::min(limit_q8, -30 * 256);
     if (sum(p_wrong_q8) > doubtful_q8) {
@@ -244,8 +297,8 @@ Status verify(const Grid& grid, Profile profile, Decoding& decoding,
             grid, profile, decoding, storage, doubt, limit_q8,
             [&](std::size_t axis, const Contest& contest) {
                 const bool is_in_doubt = p_wrong_q8[axis] > doubtful_q8 - 4 * 256;
-                return is_in_doubt ? 256 * rivals_log2(profile, contest, options.max_p_wrong_log2)
-                                   : 0;
+                if (!is_in_doubt) return 0;
+                return 256 * rivals_log2(profile, contest, options.max_p_wrong_log2) + codes_q8;
             });
         for (std::size_t i = 0; i < counted_q8.size(); ++i)
             p_wrong_q8[i] = std::min(p_wrong_q8[i], counted_q8[i]);

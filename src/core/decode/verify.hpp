@@ -6,8 +6,10 @@
 #include <optional>
 
 #include "core/decode/lines.hpp"
+#include "core/kernels/kernels.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/options.hpp"
+#include "dotpose/other_codes.hpp"
 #include "dotpose/stages.hpp"
 #include "dotpose/status.hpp"
 
@@ -18,6 +20,11 @@ namespace dotpose::core {
 Status verify(const Grid& grid, Profile profile, Decoding& decoding,
               const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix);
 
+/// The same with as many profiles in question as `others` say; null: one.
+Status verify_among_codes(const Grid& grid, Profile profile, const OtherCodes* others,
+                          Decoding& decoding, const IntegrityOptions& options,
+                          std::span<ScoredLine> storage, Fix& fix);
+
 /// The same in integers only, and in bounded time: what quick_rivals leaves in doubt is refused.
 Status verify_quickly(const Grid& grid, Profile profile, Decoding& decoding,
                       const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix);
@@ -25,6 +32,11 @@ Status verify_quickly(const Grid& grid, Profile profile, Decoding& decoding,
 /// The same of bits that are all equally sure, of a tracked frame, whose place is known.
 Status verify_tracked(Profile profile, const Tracking& tracking, const IntegrityOptions& options,
                       Decoding& decoding, Fix& fix);
+
+/// What the bits of a grid say of other profiles than the one that it was read in. `others` are
+/// null if nobody asks.
+void weigh_other_codes(const Kernels& kernels, const Grid& grid, Profile profile,
+                       const Decoding& decoding, std::span<ScoredLine> storage, OtherCodes* others);
 
 /// Whether two places show the same bits of this axis around them.
 bool share_line(Axis axis, Profile profile, const Place& a, const Place& b);

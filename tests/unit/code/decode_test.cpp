@@ -46,7 +46,7 @@ TEST(Decode, FindsTheVectors) {
 void expect_run(Profile profile, std::span<const std::uint8_t> rolls, std::uint32_t first) {
     for (std::size_t i = 0; i + 6 <= rolls.size(); ++i) {
         std::uint32_t position = 0;
-        const bool twin = profile == Profile::published && first + i == 1134;
+        const bool twin = profile == Profile::libdots && first + i == 1134;
         const Status status = position_from_rolls(profile, rolls.subspan(i, 6), position);
         EXPECT_EQ(status, twin ? Status::ambiguous : Status::ok) << "window " << i;
         EXPECT_EQ(position, twin ? 0 : first + i) << "window " << i;
@@ -60,8 +60,8 @@ TEST(Decode, RollsFromRealPaperAreOneStraightRun) {
 
 TEST(Decode, RollsFromRealPaperShowTheMisprint) {
     // 1134 = 1117 + 17 is the eighteenth window, at place 170 of a4, where the misprint has a twin.
-    expect_run(Profile::published, kPaperRollsFrom1117, 1117);
-    expect_run(Profile::published, kPaperRollsFrom1097, 1097);
+    expect_run(Profile::libdots, kPaperRollsFrom1117, 1117);
+    expect_run(Profile::libdots, kPaperRollsFrom1097, 1097);
 }
 
 TEST(Decode, RollsFromRealPaperAreNotTheMicrodotsCode) {
@@ -75,7 +75,7 @@ TEST(Decode, RollsFromRealPaperAreNotTheMicrodotsCode) {
 }
 
 TEST(Decode, AllThePaperRollsTogetherGiveTheFirstPosition) {
-    for (const Profile profile : {Profile::anoto, Profile::published}) {
+    for (const Profile profile : {Profile::anoto, Profile::libdots}) {
         std::uint32_t position = 0;
         EXPECT_EQ(position_from_rolls(profile, kPaperRollsFrom1117, position), Status::ok);
         EXPECT_EQ(position, 1117U);
@@ -160,9 +160,9 @@ std::set<std::uint32_t> ambiguous_places(int columns, int rows, bool along_x) {
     for (std::uint32_t p = 0; p < 241; ++p) {
         const std::uint32_t far = 241 * 1'234'567 + p;
         const Place truth{along_x ? Cell{far, 100} : Cell{100, far}, {9, 33}};
-        const Grid grid = reference_window(Profile::published, truth, columns, rows);
+        const Grid grid = reference_window(Profile::libdots, truth, columns, rows);
         Place place = kUntouched;
-        const Status status = decode(Profile::published, grid.window(), place);
+        const Status status = decode(Profile::libdots, grid.window(), place);
         if (status == Status::ambiguous) {
             result.insert(p);
             EXPECT_EQ(place, kUntouched) << p;
@@ -320,7 +320,7 @@ TEST(Decode, RefusesElevenColumnsAcrossTwoSections) {
 TEST(Decode, TheOtherProfileReadsSomeWindowsWrong) {
     using Pair = std::pair<Profile, Profile>;
     for (const auto& [printed, read] :
-         {Pair{Profile::anoto, Profile::published}, Pair{Profile::published, Profile::anoto}}) {
+         {Pair{Profile::anoto, Profile::libdots}, Pair{Profile::libdots, Profile::anoto}}) {
         SCOPED_TRACE(static_cast<int>(read));
         int right = 0;
         int wrong = 0;

@@ -192,7 +192,7 @@ TEST(Encode, SectionIsWhatIsLeftOfTheRoll) {
 TEST(Encode, PublishedAndRestoredDifferInFewColumns) {
     std::set<std::uint32_t> differing;
     for (std::uint32_t p = 0; p < 5 * 241; ++p) {
-        if (roll(Profile::anoto, p) != roll(Profile::published, p)) differing.insert(p % 241);
+        if (roll(Profile::anoto, p) != roll(Profile::libdots, p)) differing.insert(p % 241);
     }
     EXPECT_EQ(differing, (std::set<std::uint32_t>{222, 223, 224, 225, 227, 228, 230, 231, 233, 234,
                                                   235, 236, 237, 238}));

@@ -16,7 +16,7 @@
 
 namespace dotpose::code_test {
 
-inline constexpr std::array kProfiles{Profile::anoto, Profile::published, Profile::microdots};
+inline constexpr std::array kProfiles{Profile::anoto, Profile::libdots, Profile::microdots};
 inline constexpr std::uint32_t kL = 236U * 233U * 31U * 241U;
 
 inline constexpr std::string_view kMainText =
@@ -48,7 +48,7 @@ inline std::array<std::string_view, 4> secondary_texts(Profile profile) {
     switch (profile) {
         case Profile::anoto:
             return {kA1Text, kA2Text, kA3Text, kA4RestoredText};
-        case Profile::published:
+        case Profile::libdots:
             return {kA1Text, kA2Text, kA3Text, kA4PublishedText};
         case Profile::microdots:
             return {kA1Text, kA2Text, kA3Text, kA4MicrodotsText};

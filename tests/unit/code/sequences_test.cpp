@@ -170,7 +170,7 @@ TEST(MainSequence, TheNearestStringIsTheRightOneIn38Percent) {
 }
 
 TEST(A4, ThePublishedOneIsMisprinted) {
-    const std::string a4 = a4_of(Profile::published);
+    const std::string a4 = a4_of(Profile::libdots);
     std::set<std::vector<int>> places;
     for (const auto& [s, where] : doubled(a4, 5))
         places.insert(where);
@@ -195,7 +195,7 @@ TEST(A4, TheMicrodotsOneIsSound) {
 
 // The patent prints 240 digits; the 241st, a 1, was appended by open implementations.
 TEST(A4, OnlyOneInsertedDigitRestoresThePatents) {
-    const std::string printed = a4_of(Profile::published).substr(0, 240);
+    const std::string printed = a4_of(Profile::libdots).substr(0, 240);
     std::set<std::string> sound;
     for (std::size_t i = 0; i <= printed.size(); ++i) {
         for (const char digit : {'0', '1', '2'}) {

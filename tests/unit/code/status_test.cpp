@@ -32,6 +32,7 @@ constexpr std::pair<Status, const char*> kNames[] = {
     NAMED(ambiguous),
     NAMED(not_certain),
     NAMED(not_tracked),
+    NAMED(ambiguous_code),
 };
 #undef NAMED
 static_assert(std::size(kNames) == kStatusCount, "a status without a name in this test");

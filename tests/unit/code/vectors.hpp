@@ -38,7 +38,7 @@ inline constexpr std::array<CodeVector, 7> kCodeVectors{{
      {{123456789, 400000000}, {10, 2}},
      {"lddruddd", "ldluudlr", "uddddull", "llruldrr", "ddrdlulr", "lrrllull", "rllulddr",
       "uulluuru"}},
-    {Profile::published,
+    {Profile::libdots,
      {{122, 3219}, {0, 0}},
      {"ruldrdrr", "rdruudlr", "dllruuul", "lrlllrld", "dluruull", "luudlrrl", "lllulrll",
       "ulddurlr"}},

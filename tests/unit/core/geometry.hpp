@@ -16,7 +16,7 @@
 
 namespace dotpose::core_test {
 
-inline constexpr std::array kProfiles{Profile::anoto, Profile::published, Profile::microdots};
+inline constexpr std::array kProfiles{Profile::anoto, Profile::libdots, Profile::microdots};
 
 inline double radians(double degrees) {
     return degrees * std::numbers::pi / 180;

@@ -256,10 +256,10 @@ TEST(PosePacket, CarriesAFix) {
     fix.p_wrong_log2 = -90;
     fix.covariance[0][0] = 4e-6F;  // 0.002 spacings, 8.19 steps
     fix.covariance[1][1] = 1e-6F;
-    const PosePacket packet = make_packet(fix, Profile::published, 3, 4);
+    const PosePacket packet = make_packet(fix, Profile::libdots, 3, 4);
     EXPECT_EQ(packet.sequence, 3);
     EXPECT_EQ(packet.time_us, 4U);
-    EXPECT_EQ(packet.profile, Profile::published);
+    EXPECT_EQ(packet.profile, Profile::libdots);
     EXPECT_EQ(packet.x_grid(), 5.5);
     EXPECT_EQ(packet.y_grid(), 6);
     EXPECT_EQ(packet.theta_bam16, -16384);

@@ -49,7 +49,7 @@ TEST(overlap, means_a_common_cell_in_the_same_section_of_the_same_code) {
     const Sheet a = page();
     Sheet b = a;
     EXPECT_TRUE(overlap(a, b));
-    b.pattern.profile = Profile::published;  // agrees with anoto on most of the plane
+    b.pattern.profile = Profile::libdots;  // agrees with anoto on most of the plane
     EXPECT_TRUE(overlap(a, b));
     b.pattern.profile = Profile::microdots;
     EXPECT_FALSE(overlap(a, b));
@@ -235,7 +235,7 @@ TEST(SheetFile, what_is_saved_is_read_back_exactly) {
     const TemporaryDirectory directory;
     SheetEntry full = entry("\"Tisch\" Nº 1", {123'456'789, 400'000'000});
     full.page = 7;
-    full.sheet.pattern.profile = Profile::published;
+    full.sheet.pattern.profile = Profile::libdots;
     full.sheet.pattern.section = {62, 1};
     full.print_scale_x = 1 + 1e-9 / 3;
     full.world = {1e-7 / 3, -12345.6789, -3.0 / 7};

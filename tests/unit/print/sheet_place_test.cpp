@@ -102,7 +102,7 @@ TEST(find_sheet, wants_a_fix_in_the_same_section_and_profile) {
     const std::vector<SheetEntry> sheets = {small_entry({1000, 2000})};
     Fix fix = fix_at({1004, 2004});
     EXPECT_TRUE(find_sheet(sheets, Profile::anoto, fix));
-    EXPECT_FALSE(find_sheet(sheets, Profile::published, fix));
+    EXPECT_FALSE(find_sheet(sheets, Profile::libdots, fix));
     EXPECT_FALSE(find_sheet({}, Profile::anoto, fix));
     fix.section.u = 11;
     EXPECT_FALSE(find_sheet(sheets, Profile::anoto, fix));

@@ -154,7 +154,7 @@ TEST(read_sheets, refuses_values_out_of_range) {
         {"name", "a\nb", "control characters"},
         {"page", 0, "sheets[0].page is 0"},
         {"page", 1.5, "sheets[0].page must be a whole number"},
-        {"code", "Anoto", "sheets[0].code is 'Anoto'; it must be anoto, published or microdots"},
+        {"code", "Anoto", "sheets[0].code is 'Anoto'; it must be anoto, libdots or microdots"},
         {"section_u", 63, "sheets[0].section_u is 63; it must be 0 to 62"},
         {"section_v", -1, "sheets[0].section_v is -1"},
         {"origin_x", 410'815'348, "sheets[0].origin_x is 410815348"},
@@ -212,9 +212,9 @@ TEST(read_sheets, says_why_a_file_cannot_be_read) {
 }
 
 TEST(profile_by_name, is_the_way_back) {
-    for (const Profile profile : {Profile::anoto, Profile::published, Profile::microdots})
+    for (const Profile profile : {Profile::anoto, Profile::libdots, Profile::microdots})
         EXPECT_EQ(profile_by_name(name(profile)), profile);
-    EXPECT_EQ(profile_by_name("published"), Profile::published);
+    EXPECT_EQ(profile_by_name("published"), Profile::libdots);
     EXPECT_EQ(profile_by_name(""), std::nullopt);
     EXPECT_EQ(profile_by_name("Anoto"), std::nullopt);
 }

@@ -41,7 +41,7 @@ const std::vector<Vector> kVectors = {
      {10, 2},
      {"lddruddd", "ldluudlr", "uddddull", "llruldrr", "ddrdlulr", "lrrllull", "rllulddr",
       "uulluuru"}},
-    {Profile::published,
+    {Profile::libdots,
      {122, 3219},
      {0, 0},
      {"ruldrdrr", "rdruudlr", "dllruuul", "lrlllrld", "dluruull", "luudlrrl", "lllulrll",

@@ -117,6 +117,23 @@ TEST(Chance, ChanceIsBoundedFromAboveAndNotFarOff) {
     EXPECT_GE(chance_log2({}, 8 * 256), 36);
 }
 
+TEST(Chance, InFineStepsOfThreeTimesAsManyHypothesesIsABoundToo) {
+    constexpr int kThree_q8 = 406;
+    for (const int n : {20, 70, 170, 400}) {
+        const auto exact = exact_chance_log2(n);
+        for (int e = 0; 3 * e < n; ++e) {
+            SCOPED_TRACE(testing::Message() << n << " bits, " << e << " errors");
+            const Confidence bits = confidence(n, 127, e);
+            const int odds = odds_per_bit_q8(bits);
+            const double fine = chance_log2_q8(bits, odds, kThree_q8) / 256.0;
+            ASSERT_GE(fine, exact[static_cast<std::size_t>(e)] + std::log2(3.0L) - 1e-9L);
+            ASSERT_LE(fine, chance_log2(bits, odds) + kThree_q8 / 256.0);
+            // Without errors the best odds are those of bits beyond doubt.
+            if (e == 0) ASSERT_LE(fine, exact[0] + std::log2(3.0L) + 0.05L);
+        }
+    }
+}
+
 TEST(Chance, EachBitThatAgreesHasItsFactor) {
     // So many bits that the sum tells the logarithm of one factor, (1 + 2^-y) / 2, to 2^-20.
     constexpr int kDoublings = 20;

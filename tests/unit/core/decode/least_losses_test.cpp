@@ -60,7 +60,7 @@ TEST(LeastLosses, AreTheLeastOverAllPatternsOfSharedRuns) {
     for (int i = 0; i < 60; ++i) {
         SCOPED_TRACE(testing::Message() << "case " << i << ", seed " << kSeed);
         const Profile profile = code_test::kProfiles[static_cast<std::size_t>(i % 3)];
-        const int most_shared = profile == Profile::published ? 7 : 5;
+        const int most_shared = profile == Profile::libdots ? 7 : 5;
         const ContestCase c = random_case(1 + i % 12, profile, rng);
         const std::vector<int> losses = losses_of(c);
         const std::vector<int> backwards(losses.rbegin(), losses.rend());
@@ -83,7 +83,7 @@ TEST(LeastLosses, ABorderSeparatesTwoPatterns) {
     for (int i = 0; i < 40; ++i) {
         SCOPED_TRACE(testing::Message() << "case " << i << ", seed " << kSeed);
         const Profile profile = code_test::kProfiles[static_cast<std::size_t>(i % 3)];
-        const int most_shared = profile == Profile::published ? 7 : 5;
+        const int most_shared = profile == Profile::libdots ? 7 : 5;
         const ContestCase c = random_case(2 + i % 11, profile, rng);
         const std::vector<int> losses = losses_of(c);
         int least = INT32_MAX;

@@ -138,7 +138,7 @@ TEST(SeamRivals, ASeamExplainsTenLinesAsWell) {
                    std::count(rival.growth.begin() + kBorder, rival.growth.end(),
                               rival.growth.back()) == kLines - kBorder;
         });
-        if (count == 0 || c.profile == Profile::published) continue;
+        if (count == 0 || c.profile == Profile::libdots) continue;
         ++seams;
         EXPECT_NEAR(seam_rivals_log2_q8(c.contest()) / 256.0,
                     kSeamLog2 + std::log2(static_cast<double>(count)), 0.1);

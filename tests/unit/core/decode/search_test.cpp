@@ -97,9 +97,9 @@ TEST(FindAxis, FindsThePositionAmongWrongBits) {
 
 TEST(FindAxis, HoldsForThePublishedCode) {
     // Its runs have eight lines.
-    EXPECT_EQ(found_of_200(Profile::published, 12, 0), 200) << "seed " << kSeed;
-    EXPECT_GE(found_of_200(Profile::published, 12, 0.05), 198) << "seed " << kSeed;
-    EXPECT_GE(found_of_200(Profile::published, 30, 0.2), 198) << "seed " << kSeed;
+    EXPECT_EQ(found_of_200(Profile::libdots, 12, 0), 200) << "seed " << kSeed;
+    EXPECT_GE(found_of_200(Profile::libdots, 12, 0.05), 198) << "seed " << kSeed;
+    EXPECT_GE(found_of_200(Profile::libdots, 30, 0.2), 198) << "seed " << kSeed;
 }
 
 TEST(FindAxis, CleanLinesGiveAllThatThereIsToBeHad) {
@@ -174,9 +174,9 @@ TEST(FindAxis, FewerLinesThanCarryAPositionAreNotInTheCode) {
     }
     // The misprinted sequence takes two more.
     const Place place = random_place(rng);
-    EXPECT_EQ(window(Profile::published, place, 7, 12, 0, rng).find(Profile::published, reading),
+    EXPECT_EQ(window(Profile::libdots, place, 7, 12, 0, rng).find(Profile::libdots, reading),
               Status::not_in_code);
-    EXPECT_EQ(window(Profile::published, place, 8, 12, 0, rng).find(Profile::published, reading),
+    EXPECT_EQ(window(Profile::libdots, place, 8, 12, 0, rng).find(Profile::libdots, reading),
               Status::ok);
     EXPECT_EQ(reading.position, place.cell.x);
 }

@@ -1,0 +1,309 @@
+#include "core/attempts/any_code.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "core/attempts/device.hpp"
+#include "core/attempts/first.hpp"
+#include "core/attempts/other_place.hpp"
+#include "core/attempts/rows.hpp"
+#include "core/attempts/second.hpp"
+#include "core/attempts/steps.hpp"
+#include "core/attempts/tracked.hpp"
+#include "core/decode/verify.hpp"
+#include "core/odds.hpp"
+
+namespace dotpose::core {
+namespace {
+
+enum class Step { tracked, outwards, rows, second, device };
+
+/// Below that, other places are doubts like others, which a closer look may dispel.
+constexpr float kAsWell = 1e-3F;
+/// From that on a frame is read again in the profile that explains it better.
+constexpr float kBetter = 2;
+/// Odds of profiles in which no attempt is made: other frames speak against them.
+constexpr float kRuledOut = 1e-9F;
+
+/// Sums are rounded up by more than that.
+constexpr float kRoundings = 1.01F;
+
+constexpr std::size_t index(Profile profile) {
+    return static_cast<std::size_t>(profile);
+}
+
+/// Whether another profile may read what this one does not: its dots lie on a grid.
+bool is_for_code(Status status) {
+    return status == Status::not_in_code || status == Status::ambiguous ||
+           status == Status::not_certain;
+}
+
+/// What speaks against a fix beside its own doubts.
+struct Judgement {
+    bool is_certain = false;
+    bool is_ambiguous = false;       ///< by a place in the other code
+    int p_wrong_log2 = 0;            ///< with all profiles' places
+    Profile other = Profile::anoto;  ///< the likeliest but the one read
+    float other_odds = 0;            ///< of that code, against the one read
+};
+
+class AnyCode {
+  public:
+    AnyCode(const ImageView& image, const Options& options, const CodeEvidence& evidence,
+            Workspace& w)
+        : image_(image), options_(options), evidence_(evidence), w_(w) {
+        for (std::size_t i = 0; i < order_.size(); ++i)
+            order_[i] = static_cast<Profile>(i);
+        weigh_codes(evidence);
+        // Sorted by insertion: there are three.
+        for (std::size_t i = 1; i < order_.size(); ++i) {
+            for (std::size_t k = i; k > 0 && weight(order_[k]) > weight(order_[k - 1]); --k)
+                std::swap(order_[k], order_[k - 1]);
+        }
+        w_.other_codes->are_wanted = true;
+    }
+    ~AnyCode() { w_.other_codes->are_wanted = false; }
+    AnyCode(const AnyCode&) = delete;
+    AnyCode& operator=(const AnyCode&) = delete;
+
+    CodeReading locate(const Prediction* prediction) {
+        CodeReading reading = read(prediction);
+        if (is_for_code(reading.fix.status)) learn_of_another_sheet(reading);
+        return reading;
+    }
+
+  private:
+    CodeReading read(const Prediction* prediction) {
+        if (options_.effort == Effort::device) return locate_by({Step::device});
+        if (prediction != nullptr) {
+            prediction_ = prediction;
+            const Profile code = options_.profile;
+            if (attempt(Step::tracked, code) && judge(code).is_certain) return accepted(code);
+        }
+        if (options_.effort == Effort::once || !w_.has_second_attempt) {
+            return locate_by({Step::outwards, Step::rows});
+        }
+        return locate_by({Step::outwards, Step::rows, Step::second});
+    }
+
+    /// What speaks for one profile can be so much that no frame of another one is certain. Such a
+    /// frame still tells that the sheet is another one.
+    void learn_of_another_sheet(CodeReading& reading) {
+        if (options_.effort == Effort::device || weight(order_[1]) == 1) return;
+        weigh_codes({});
+        for (std::size_t i = 1; i < order_.size(); ++i) {
+            if (!attempt(Step::outwards, order_[i]) || !judge(order_[i]).is_certain) continue;
+            reading.evidence.add(w_.fix.cell, likelihoods(order_[i]));
+            break;
+        }
+        weigh_codes(evidence_);
+        w_.fix = reading.fix;
+    }
+
+    /// Of a fix in the profile `read`.
+    Judgement judge(Profile read) const {
+        const OtherCodes& others = *w_.other_codes;
+        Judgement result;
+        float elsewhere = 0;
+        for (const Profile other : order_) {
+            if (other == read) continue;
+            const OtherCode& there = others.of[index(other)];
+            const float prior = weight(other) / weight(read);
+            const float odds = prior * (there.here() + there.elsewhere());
+            elsewhere += prior * there.elsewhere();
+            if (odds <= result.other_odds) continue;
+            result.other_odds = odds;
+            result.other = other;
+        }
+        result.is_ambiguous = elsewhere > kAsWell;
+        const float own = std::ldexp(1.0F, w_.fix.p_wrong_log2);
+        result.p_wrong_log2 = std::min(rounded_up(w_.fix.p_wrong_log2, 1 + elsewhere / own), 0);
+        result.is_certain = result.p_wrong_log2 <= options_.integrity.max_p_wrong_log2;
+        return result;
+    }
+
+    /// Odds of the profiles against the likeliest, before the frame.
+    void weigh_codes(const CodeEvidence& evidence) {
+        for (const Profile profile : order_)
+            weights_[index(profile)] = power_of_two(evidence.log2_q8(profile));
+    }
+    float weight(Profile profile) const { return weights_[index(profile)]; }
+
+    /// log2 of so many times 2^log2, as a whole number. What is less than roundings does not count.
+    static int rounded_up(int log2, float times) {
+        if (times <= kRoundings) return log2;
+        int exponent = 0;
+        const float mantissa = std::frexp(times, &exponent);
+        return log2 + exponent - (mantissa == 0.5F ? 1 : 0);
+    }
+
+    /// How many profiles there are, each by how likely it is against the one read.
+    float codes(Profile read) const {
+        float sum = 0;
+        for (const Profile profile : order_)
+            sum += weight(profile);
+        return sum / weight(read);
+    }
+
+    CodeReading locate_by(std::initializer_list<Step> steps) {
+        bool is_doubtful = false;
+        CodeReading doubtful;
+        Fix failure;
+        for (const Step step : steps) {
+            for (const Profile code : worth_trying(step)) {
+                if (!attempt(step, code)) {
+                    if (code == order_[0]) failure = w_.fix;
+                    if (step != Step::outwards && !is_for_code(w_.fix.status)) break;
+                    continue;
+                }
+                const Judgement judgement = judge(code);
+                if (judgement.is_certain) return best_of(step, code, judgement);
+                if (is_doubtful) continue;
+                is_doubtful = true;
+                doubtful = in_doubt(code, judgement);
+            }
+            if (is_doubtful && doubtful.fix.status == Status::ambiguous_code) break;
+        }
+        if (!is_doubtful) {
+            doubtful = {failure, order_[0], evidence_};
+        }
+        w_.fix = doubtful.fix;
+        return doubtful;
+    }
+
+    /// The profiles that an attempt is made in.
+    std::span<const Profile> worth_trying(Step step) const {
+        // What rows show in another profile, the second attempt shows as well.
+        if (step == Step::rows && options_.effort == Effort::twice && w_.has_second_attempt) {
+            return std::span(order_).first(1);
+        }
+        std::size_t count = 1;
+        while (count < order_.size() && weight(order_[count]) > kRuledOut)
+            ++count;
+        return std::span(order_).first(count);
+    }
+
+    /// Leaves fix and other codes in the workspace. False if there is no fix.
+    bool attempt(Step step, Profile code) {
+        options_.profile = code;
+        // What has to do with no place near by is as probable in each profile.
+        const float in_question = codes(code);
+        w_.other_codes->log2_in_question_q8 =
+            in_question <= kRoundings ? 0 : log2_of_odds_q8(in_question);
+        w_.other_codes->of = {};
+        switch (step) {
+            case Step::tracked:
+                return locate_tracked(kernels(), image_, options_, *prediction_, w_);
+            case Step::outwards:
+                forget_frame(w_);
+                return looks_outwards(options_, w_) &&
+                       locate_outwards(kernels(), image_, options_, w_);
+            case Step::rows:
+                return locate_by_rows(kernels(), image_, options_, w_);
+            case Step::second:
+                return make_second_attempt(image_, options_, w_).status == Status::ok;
+            case Step::device:
+                detect_image(image_, options_, w_);
+                if (finish_device_attempt(options_, w_).status != Status::ok) return false;
+                w_.fix.p_wrong_log2 = rounded_up(w_.fix.p_wrong_log2, codes(code));
+                weigh_other_codes(kernels(), w_.grid, code, w_.decoding, w_.line_scores,
+                                  w_.other_codes);
+                return true;
+        }
+        return false;
+    }
+
+    /// The fix that is certain, or a better one: of a profile that explains the same place better,
+    /// or of the second attempt.
+    CodeReading best_of(Step step, Profile code, const Judgement& judgement) {
+        if (judgement.other_odds > kBetter) {
+            if (attempt(step, judgement.other) && judge(judgement.other).is_certain) {
+                code = judgement.other;
+            } else {
+                attempt(step, code);
+            }
+        }
+        const bool may_be_improved = step == Step::outwards || step == Step::rows;
+        if (may_be_improved && is_rough(w_.fix) && options_.effort == Effort::twice &&
+            w_.has_second_attempt) {
+            if (!attempt(Step::second, code) || !judge(code).is_certain) attempt(step, code);
+        }
+        return accepted(code);
+    }
+
+    CodeReading accepted(Profile code) {
+        w_.fix.p_wrong_log2 = judge(code).p_wrong_log2;
+        CodeReading reading{w_.fix, code, evidence_};
+        reading.evidence.add(w_.fix.cell, likelihoods(code));
+        return reading;
+    }
+
+    /// Of the bits in each profile, against that of the fix.
+    CodeEvidence::LogOdds likelihoods(Profile code) const {
+        const OtherCodes& others = *w_.other_codes;
+        CodeEvidence::LogOdds log2_q8{};
+        for (std::size_t i = 0; i < log2_q8.size(); ++i) {
+            if (i == index(code)) continue;
+            log2_q8[i] = log2_of_odds_q8(others.of[i].here() + others.of[i].elsewhere());
+        }
+        return log2_q8;
+    }
+
+    CodeReading in_doubt(Profile code, const Judgement& judgement) {
+        CodeReading reading{w_.fix, code, evidence_};
+        reading.fix.p_wrong_log2 = judgement.p_wrong_log2;
+        reading.fix.status = judgement.is_ambiguous ? Status::ambiguous_code : Status::not_certain;
+        if (judgement.is_ambiguous) {
+            name_other_place(code, judgement.other, *w_.other_codes, reading);
+        }
+        return reading;
+    }
+
+    const ImageView& image_;
+    Options options_;
+    const CodeEvidence& evidence_;
+    std::array<float, kProfileCount> weights_;
+    Workspace& w_;
+    const Prediction* prediction_ = nullptr;
+    std::array<Profile, kProfileCount> order_;  ///< the likeliest first
+};
+
+}  // namespace
+
+CodeReading locate_in_any_code(const ImageView& image, const Options& options,
+                               const Prediction* prediction, const CodeEvidence& evidence,
+                               Workspace& w) {
+    return AnyCode(image, options, evidence, w).locate(prediction);
+}
+
+CodeReading locate_in_code(const ImageView& image, const Options& options, Workspace& w) {
+    w.other_codes->of = {};
+    w.other_codes->are_wanted = true;
+    w.other_codes->log2_in_question_q8 = -1;
+    CodeReading reading;
+    reading.fix = dotpose::locate(image, options, w);
+    reading.code = options.profile;
+    w.other_codes->are_wanted = false;
+    if (reading.fix.status == Status::ok) {
+        name_code_that_explains(*w.other_codes, reading);
+        return reading;
+    }
+    if (!is_for_code(reading.fix.status)) return reading;
+    const CodeReading any = locate_in_any_code(image, options, nullptr, {}, w);
+    const bool is_read = any.fix.status == Status::ok || any.fix.status == Status::ambiguous_code;
+    // Without a contradiction: but for bits misread, less than one in a hundred.
+    if (is_read && 50 * any.fix.bit_errors <= any.fix.dots_seen) {
+        const bool is_first = any.code != reading.code;
+        reading.has_other = is_first || any.has_other;
+        reading.other_code = is_first ? any.code : any.other_code;
+        reading.other_cell = is_first ? any.fix.cell : any.other_cell;
+        reading.other_section = is_first ? any.fix.section : any.other_section;
+    }
+    // The workspace must show what is returned.
+    static_cast<void>(dotpose::locate(image, options, w));
+    return reading;
+}
+
+}  // namespace dotpose::core

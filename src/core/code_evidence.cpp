@@ -1,0 +1,84 @@
+#include "dotpose/code_evidence.hpp"
+
+#include <algorithm>
+
+#include "core/odds.hpp"
+
+namespace dotpose {
+namespace {
+
+/// Frames nearer to each other show some of the same dots, or may.
+constexpr std::uint32_t kSamePlace_cells = 64;
+
+bool is_near(std::uint32_t a, std::uint32_t b) {
+    const std::uint32_t apart = a > b ? a - b : b - a;
+    return std::min(apart, kPositionsPerAxis - apart) < kSamePlace_cells;
+}
+
+/// Against the likeliest, and none less likely than that.
+CodeEvidence::LogOdds against_likeliest(CodeEvidence::LogOdds log2_q8, std::int32_t most_log2) {
+    const std::int32_t likeliest = *std::max_element(log2_q8.begin(), log2_q8.end());
+    for (std::int32_t& log2 : log2_q8)
+        log2 = std::max(log2 - likeliest, -256 * most_log2);
+    return log2_q8;
+}
+
+}  // namespace
+
+CodeEvidence::LogOdds CodeEvidence::sum() const {
+    LogOdds sum = before_log2_q8_;
+    if (frames_here_ == 0) return sum;
+    // Of so many frames the one that told most: it had as many chances to be wrong.
+    const std::int32_t chances_q8 =
+        core::log2_at_most_q8(std::min(frames_here_, std::uint32_t{1} << 23));
+    for (std::size_t i = 0; i < sum.size(); ++i)
+        sum[i] += std::min(here_log2_q8_[i] + chances_q8, 0);
+    return against_likeliest(sum, kMost_log2);
+}
+
+Profile CodeEvidence::likeliest() const {
+    const LogOdds all = sum();
+    return static_cast<Profile>(std::max_element(all.begin(), all.end()) - all.begin());
+}
+
+std::int32_t CodeEvidence::log2_q8(Profile profile) const {
+    return sum()[static_cast<std::size_t>(profile)];
+}
+
+float CodeEvidence::p_wrong(Profile profile) const {
+    const LogOdds all = sum();
+    float right = 0;
+    float wrong = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const float odds = core::power_of_two(all[i]);
+        (static_cast<Profile>(i) == profile ? right : wrong) += odds;
+    }
+    return wrong / (right + wrong);
+}
+
+void CodeEvidence::add(Cell cell, const LogOdds& log2_q8) {
+    const LogOdds frame = against_likeliest(log2_q8, kMostOfPlace_log2);
+    if (frames_here_ == 0 || !is_near(cell.x, here_.x) || !is_near(cell.y, here_.y)) {
+        before_log2_q8_ = sum();
+        here_log2_q8_ = frame;
+        here_ = cell;
+        frames_here_ = 1;
+        return;
+    }
+    for (std::size_t i = 0; i < frame.size(); ++i)
+        here_log2_q8_[i] = std::min(here_log2_q8_[i], frame[i]);
+    frames_here_ += frames_here_ < UINT32_MAX ? 1 : 0;
+}
+
+Fix CodeReader::locate(const ImageView& image, Options& options, Workspace& workspace) {
+    if (given_) {
+        options.profile = *given_;
+        return dotpose::locate(image, options, workspace);
+    }
+    const CodeReading reading = locate_in_any_code(image, options, evidence_, workspace);
+    evidence_ = reading.evidence;
+    options.profile = reading.code;
+    return reading.fix;
+}
+
+}  // namespace dotpose

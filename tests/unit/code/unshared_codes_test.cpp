@@ -1,0 +1,68 @@
+// The table of lines that places of other profiles do not share, against the reference's rolls.
+#include "code/unshared_codes.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include <gtest/gtest.h>
+
+#include "reference.hpp"
+
+namespace dotpose::code_test {
+namespace {
+
+/// What the digits of a4 before each line from `place` on add to the roll.
+std::vector<int> a4_rolls(Profile profile, std::size_t place, int lines) {
+    const std::string_view a4 = secondary_texts(profile)[3];
+    std::vector<int> rolls;
+    int sum = 0;
+    for (std::size_t p = 0; p < place; ++p)
+        sum += 18 * (a4[p] - '0');
+    for (std::size_t line = 0; line < static_cast<std::size_t>(lines); ++line) {
+        rolls.push_back(sum % 63);
+        sum += 18 * (a4[(place + line) % a4.size()] - '0');
+    }
+    return rolls;
+}
+
+int most_shared(Profile read, std::size_t own, Profile other, int lines) {
+    const std::vector<int> rolls = a4_rolls(read, own, lines);
+    const bool have_same_rolls = read != Profile::microdots && other != Profile::microdots;
+    int most = 0;
+    for (std::size_t place = 0; place < 241; ++place) {
+        const std::vector<int> theirs = a4_rolls(other, place, lines);
+        std::array<int, 63> shared{};
+        for (std::size_t line = 0; line < rolls.size(); ++line) {
+            const int shift = (theirs[line] - rolls[line] + 63) % 63;
+            if (have_same_rolls && place == own && shift == 0) continue;
+            most = std::max(most, ++shared[static_cast<std::size_t>(shift)]);
+        }
+    }
+    return most;
+}
+
+TEST(UnsharedInOther, IsWhatCountingGives) {
+    for (const Profile read : kProfiles) {
+        for (const Profile other : kProfiles) {
+            if (read == other) continue;
+            for (std::size_t i = 0; i < code::kUnsharedOf.size(); ++i) {
+                const std::string_view row =
+                    code::kUnsharedInOther[static_cast<std::size_t>(read)]
+                                          [static_cast<std::size_t>(other)][i];
+                ASSERT_EQ(row.size(), 241U);
+                const int lines = code::kUnsharedOf[i];
+                for (std::size_t place = 0; place < 241; place += 7)
+                    ASSERT_EQ(row[place] - '0', lines - most_shared(read, place, other, lines));
+            }
+        }
+    }
+}
+
+TEST(UnsharedInOther, TheSamePlaceHasTheSameRollsInAnotoAndLibdots) {
+    for (std::uint32_t position = 0; position < kPositionsPerAxis; position += 1'234'567)
+        if (position % 241 < 222)
+            EXPECT_EQ(roll(Profile::anoto, position), roll(Profile::libdots, position));
+}
+
+}  // namespace
+}  // namespace dotpose::code_test

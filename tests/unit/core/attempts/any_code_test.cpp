@@ -1,0 +1,80 @@
+// Frames in a profile that is not given, against those in the one that is.
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "dotpose/code_evidence.hpp"
+#include "dotpose/simulate.hpp"
+
+namespace dotpose {
+namespace {
+
+class AnyCodeTest : public testing::Test {
+  protected:
+    static dotpose::Setup setup_of(Preset preset) {
+        dotpose::Setup setup;
+        setup.preset = preset;
+        setup.seed = 41;
+        return setup;
+    }
+    std::unique_ptr<LargeWorkspace> workspace_ = std::make_unique<LargeWorkspace>();
+};
+
+void expect_equal(const Fix& a, const Fix& b) {
+    EXPECT_EQ(a.status, b.status);
+    EXPECT_EQ(a.attempt, b.attempt);
+    EXPECT_EQ(a.cell, b.cell);
+    EXPECT_EQ(a.section, b.section);
+    EXPECT_EQ(a.fraction_x_q16, b.fraction_x_q16);
+    EXPECT_EQ(a.fraction_y_q16, b.fraction_y_q16);
+    EXPECT_EQ(a.theta_bam, b.theta_bam);
+    EXPECT_EQ(a.bit_errors, b.bit_errors);
+    EXPECT_EQ(a.dots_used, b.dots_used);
+    EXPECT_EQ(a.p_wrong_log2, b.p_wrong_log2);
+}
+
+TEST_F(AnyCodeTest, GivenAProfileAllIsAsItWas) {
+    for (const Preset preset : {Preset::nominal, Preset::hard}) {
+        for (std::uint64_t i = 0; i < 12; ++i) {
+            SCOPED_TRACE(i);
+            const GreyImage image = render(draw_shot(setup_of(preset), i));
+            // What is left in the workspace makes no difference.
+            static_cast<void>(locate_in_any_code(image.view(), {}, {}, *workspace_));
+            const Fix fix = locate_in_code(image.view(), {}, *workspace_).fix;
+            expect_equal(fix, locate(image.view(), {}, *workspace_));
+        }
+    }
+}
+
+TEST_F(AnyCodeTest, OnceTheProfileIsKnownNothingIsLost) {
+    CodeEvidence evidence;
+    for (std::uint32_t i = 0; i < 4; ++i)
+        evidence.add({1000 * i, 0}, {0, -256 * 30, -256 * 30});
+    for (const Preset preset : {Preset::nominal, Preset::hard}) {
+        for (std::uint64_t i = 20; i < 32; ++i) {
+            SCOPED_TRACE(i);
+            const GreyImage image = render(draw_shot(setup_of(preset), i));
+            const Fix fix = locate(image.view(), {}, *workspace_);
+            const CodeReading reading = locate_in_any_code(image.view(), {}, evidence, *workspace_);
+            EXPECT_EQ(reading.fix.status, fix.status);
+            EXPECT_EQ(reading.fix.cell, fix.cell);
+            EXPECT_EQ(reading.code, Profile::anoto);
+        }
+    }
+}
+
+TEST_F(AnyCodeTest, RefusesWhatLocateRefuses) {
+    Options options;
+    options.threshold.extent_q8 = 0;
+    const GreyImage image = render(draw_shot(setup_of(Preset::nominal), 0));
+    EXPECT_EQ(locate_in_any_code(image.view(), options, {}, *workspace_).fix.status,
+              Status::bad_argument);
+    EXPECT_EQ(locate_in_any_code({nullptr, 188, 120, 188}, {}, {}, *workspace_).fix.status,
+              Status::bad_argument);
+    // It has no room to compare profiles.
+    const auto device = std::make_unique<DeviceWorkspace>();
+    EXPECT_EQ(locate_in_any_code(image.view(), {}, {}, *device).fix.status, Status::bad_argument);
+}
+
+}  // namespace
+}  // namespace dotpose
