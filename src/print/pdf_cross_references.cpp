@@ -27,6 +27,8 @@ class CrossReferences {
         file_->seek(0, SEEK_END);
         size_ = file_->tell();
         stray_.emptyPDF();
+        stray_.setSuppressWarnings(true);
+        tokenizer_.allowEOF();
     }
 
     void count() {

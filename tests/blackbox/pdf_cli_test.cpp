@@ -141,7 +141,7 @@ TEST_F(PdfCommands, a_refused_or_stopped_overlay_leaves_the_sheet_file_alone) {
         EXPECT_EQ(run(std::string("$T overlay -o out.pdf ") + arguments), exit_code) << arguments;
         EXPECT_THAT(output_, HasSubstr(message)) << arguments;
     }
-    run(std::string("$T print -o large.pdf --paper 8000x8000 --spacing 50 > /dev/null; "
+    run(std::string("$T print -o large.pdf --paper 3500x3500 --spacing 50 > /dev/null; "
                     "$T overlay large.pdf -o out.pdf --sheets sheets.json --name b & tool=$!; ") +
         kUntilItHandlesSignals + "kill $tool; wait $tool");
     EXPECT_EQ(exit_code_, 1);
@@ -184,7 +184,7 @@ TEST_F(PdfCommands, overlay_refuses_and_writes_nothing) {
 }
 
 TEST_F(PdfCommands, a_signal_stops_overlay_and_leaves_no_litter) {
-    run(std::string("$T print -o in.pdf --paper 8000x8000 --spacing 50 > /dev/null; "
+    run(std::string("$T print -o in.pdf --paper 3500x3500 --spacing 50 > /dev/null; "
                     "$T overlay in.pdf -o out.pdf & tool=$!; ") +
         kUntilItHandlesSignals + "kill $tool; wait $tool");
     EXPECT_EQ(exit_code_, 1);

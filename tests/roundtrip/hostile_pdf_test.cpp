@@ -212,6 +212,11 @@ TEST_F(HostileDocument, lists_of_objects_are_bounded) {
     }
     write(with_cross_reference_stream("/Filter /FlateDecode", packed(std::string(12, '\0'))));
     expect("in.pdf");
+    // Lists that end before they begin.
+    for (const char* cut : {"xref\n0 1\n", "2 0 obj\n", "2 0 obj\n<< /Type (", "trailer <<"}) {
+        write(std::string("%PDF-1.5\n") + cut + "\nstartxref\n9\n%%EOF\n");
+        expect("in.pdf: damaged PDF");
+    }
 }
 
 TEST_F(HostileDocument, filters_and_their_rows_are_bounded) {
