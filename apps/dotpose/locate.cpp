@@ -71,7 +71,7 @@ void invert(GreyImage& image) {
 /// Reads and locates one image after the other.
 class Locator {
   public:
-    Locator(const LocateArguments& arguments, RunFiles& files)
+    Locator(const LocateArguments& arguments, const RunFiles& files)
         : arguments_(arguments),
           unplaced_spacing_mm_(arguments.spacing_mm),
           workspace_(std::make_unique<LargeWorkspace>()) {
@@ -285,7 +285,7 @@ int run(const LocateArguments& arguments) {
     }
     const bool is_csv = arguments.format == RecordFormat::csv;
     ImageNames names(arguments.images, arguments.list);
-    RunFiles files = files_of(arguments, names);
+    const RunFiles files = files_of(arguments, names);
     Locator locator(arguments, files);
     Lines lines(arguments.out);
     int exit_code = 0;

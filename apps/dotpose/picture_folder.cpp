@@ -9,7 +9,7 @@ namespace dotpose::cli {
 
 namespace fs = std::filesystem;
 
-PictureFolder::PictureFolder(fs::path folder, RunFiles& files)
+PictureFolder::PictureFolder(fs::path folder, const RunFiles& files)
     : folder_(std::move(folder)), files_(files) {
     std::error_code error;
     // One folder only: more missing ones are a mistyped name.
@@ -26,7 +26,7 @@ void PictureFolder::add(const std::string& image_name, ImageView image, const Wo
     std::string file = stem + ".svg";
     for (int n = 2; !used_.insert(file).second; ++n)
         file = fmt::format("{}-{}.svg", stem, n);
-    files_.writes("--draw", (folder_ / file).string(), Content::svg);
+    files_.require_free("--draw", (folder_ / file).string());
     draw_frame(folder_ / file, image, workspace, options,
                {.spacing_mm = spacing_mm, .title = fs::path(image_name).filename().string()});
 }

@@ -14,8 +14,9 @@ namespace dotpose::cli {
 
 class PictureFolder {
   public:
-    /// Creates the folder, in one that exists. Throws Error. The pictures are outputs of the run.
-    PictureFolder(std::filesystem::path folder, RunFiles& files);
+    /// Creates the folder, in one that exists. Throws Error. The pictures are outputs of the run
+    /// that has `files`.
+    PictureFolder(std::filesystem::path folder, const RunFiles& files);
 
     /// Writes STEM.svg after the image's name, or STEM-2.svg and so on if an earlier image had the
     /// same stem. Throws Error.
@@ -24,7 +25,7 @@ class PictureFolder {
 
   private:
     std::filesystem::path folder_;
-    RunFiles& files_;
+    const RunFiles& files_;
     std::set<std::string> used_;
 };
 

@@ -126,16 +126,25 @@ void RunFiles::require_not_written(const std::string& path) const {
     if (output != outputs_.end()) refuse(output->second, path);
 }
 
+void RunFiles::require_free(const std::string& option, const std::string& path) const {
+    const auto identity = identity_of(path);
+    if (identity) require_free(label_of(option, path), *identity);
+}
+
 void RunFiles::add_output(const std::string& label, const std::string& path) {
     const auto identity = identity_of(path);
     if (!identity) return;
-    const auto input = inputs_.find(*identity);
+    require_free(label, *identity);
+    outputs_.emplace(*identity, label);
+}
+
+void RunFiles::require_free(const std::string& label, const FileIdentity& identity) const {
+    const auto input = inputs_.find(identity);
     if (input != inputs_.end()) refuse(label, input->second);
-    const auto [other, is_new] = outputs_.emplace(*identity, label);
-    if (!is_new) {
-        throw BadArgument(fmt::format("{} and {} are the same file: name another for one of them",
-                                      other->second, label));
-    }
+    const auto other = outputs_.find(identity);
+    if (other == outputs_.end()) return;
+    throw BadArgument(fmt::format("{} and {} are the same file: name another for one of them",
+                                  other->second, label));
 }
 
 }  // namespace dotpose::cli

@@ -56,8 +56,13 @@ class RunFiles {
     /// Refuses an input as `reads` does, and forgets it: for names without end.
     void require_not_written(const std::string& path) const;
 
+    /// Refuses an output as `writes` does, and forgets it: for names that are made up so that they
+    /// differ from each other.
+    void require_free(const std::string& option, const std::string& path) const;
+
   private:
     void add_output(const std::string& label, const std::string& path);
+    void require_free(const std::string& label, const FileIdentity& identity) const;
 
     std::map<FileIdentity, std::string> inputs_;  ///< and what the user called them
     std::map<FileIdentity, std::string> outputs_;

@@ -157,8 +157,8 @@ TEST_F(LocateCommand, a_picture_that_is_too_coarse_or_too_dark_says_so) {
     EXPECT_NE(records().at(0)["status"], "ok");
     EXPECT_THAT(records().at(0)["message"], HasSubstr("its dots are 3.5 px apart and at least 6"));
     Shot dark = clean_shot(11);
-    dark.imperfections.paper_level = 4;
-    dark.imperfections.noise_sigma = 1;
+    dark.imperfections.paper_level = 9;
+    dark.imperfections.noise_sigma = 3;
     write_pgm(directory_ / "dark.pgm", render(dark).view());
     run("dark.pgm");
     EXPECT_NE(records().at(0)["status"], "ok") << output_;
