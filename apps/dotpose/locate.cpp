@@ -85,7 +85,8 @@ class Locator {
     /// Throws Error if the image cannot be read.
     Record operator()(const std::string& name) {
         try {
-            image_ = read_frame(name);
+            // Larger ones are reduced, but for those that belong to a camera file.
+            image_ = arguments_.camera.camera ? read_frame(name) : read_image(name);
         } catch (const ImageTooLarge& large) {
             return too_large(name, large);
         }
