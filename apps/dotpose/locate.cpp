@@ -217,7 +217,7 @@ class Locator {
         return {reading, corrected(reading.fix)};
     }
 
-    Fix corrected(Fix fix) const {
+    Fix corrected(Fix fix) {
         const auto place = find_sheet(sheets_, options_.profile, fix);
         if (place) fix = without_surroundings(fix, *place);
         if (!arguments_.camera.camera) return fix;
@@ -235,9 +235,14 @@ class Locator {
         const bool is_better = place_again && place_again->entry == place.entry &&
                                again.bit_errors < fix.bit_errors &&
                                again.dots_used + fix.bit_errors >= fix.dots_used;
-        // The workspace must show what is returned.
-        if (!is_better) return locate(image_.view(), options_, *workspace_);
+        if (!is_better) {
+            // The workspace must show what is returned.
+            (void)locate(image_.view(), options_, *workspace_);
+            return fix;
+        }
         if (again.attempt == Attempt::tracked) again.attempt = fix.attempt;
+        // All codes were part of the doubt about the first one.
+        again.p_wrong_log2 = fix.p_wrong_log2;
         return again;
     }
 
