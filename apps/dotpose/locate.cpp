@@ -216,7 +216,7 @@ class Locator {
         return {reading, corrected(reading.fix)};
     }
 
-    Fix corrected(Fix fix) const {
+    Fix corrected(Fix fix) {
         const auto place = find_sheet(sheets_, options_.profile, fix);
         if (place) fix = without_surroundings(fix, *place);
         if (!arguments_.camera.camera) return fix;
