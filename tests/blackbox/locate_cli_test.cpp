@@ -27,7 +27,7 @@ TEST_F(LocateCommand, finds_the_true_poses) {
         write_frame(name, i);
         names += " " + name;
     }
-    run(names);
+    run("--code anoto" + names);
     EXPECT_EQ(exit_code_, 0);
     EXPECT_THAT(errors_, IsEmpty());
     const std::vector<json> found = records();
@@ -216,7 +216,7 @@ TEST_F(LocateCommand, sixteen_bits_and_transparency_change_nothing) {
     }
     write_as_png("deep.png", image, PNG_FORMAT_LINEAR_Y, deep.data());
     write_as_png("ink.png", image, PNG_FORMAT_GA, ink.data());
-    run("grey.pgm deep.png ink.png");
+    run("--code anoto grey.pgm deep.png ink.png");
     EXPECT_EQ(exit_code_, 0) << errors_;
     std::vector<json> found = records();
     ASSERT_EQ(found.size(), 3U);
