@@ -246,7 +246,10 @@ class AnyCode {
         CodeEvidence::LogOdds log2_q8{};
         for (std::size_t i = 0; i < log2_q8.size(); ++i) {
             if (i == index(code)) continue;
-            log2_q8[i] = log2_of_odds_q8(others.of[i].here() + others.of[i].elsewhere());
+            const float odds = others.of[i].here() + others.of[i].elsewhere();
+            // What explains the frame as well says nothing, and roundings must not add up.
+            const bool says_nothing = odds <= kRoundings && odds * kRoundings >= 1;
+            log2_q8[i] = says_nothing ? 0 : log2_of_odds_q8(odds);
         }
         return log2_q8;
     }

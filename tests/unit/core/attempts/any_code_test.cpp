@@ -63,6 +63,21 @@ TEST_F(AnyCodeTest, OnceTheProfileIsKnownNothingIsLost) {
     }
 }
 
+TEST_F(AnyCodeTest, FramesThatBothProfilesExplainSayNothing) {
+    CodeEvidence evidence;
+    for (std::uint32_t i = 0; i < 40; ++i) {
+        Shot shot = draw_shot(setup_of(Preset::nominal), i);
+        // In the middle of where anoto and libdots agree.
+        shot.pose.cell = {241 * (1000 + i) + 100, 241 * 2000 + 100};
+        const CodeReading reading =
+            locate_in_any_code(render(shot).view(), {}, evidence, *workspace_);
+        ASSERT_EQ(reading.fix.status, Status::ok);
+        evidence = reading.evidence;
+    }
+    EXPECT_EQ(evidence.log2_q8(Profile::anoto), evidence.log2_q8(Profile::libdots));
+    EXPECT_LT(evidence.log2_q8(Profile::microdots), -30 * 256);
+}
+
 TEST_F(AnyCodeTest, RefusesWhatLocateRefuses) {
     Options options;
     options.threshold.extent_q8 = 0;
