@@ -59,9 +59,11 @@ TEST(UnsharedInOther, IsWhatCountingGives) {
 }
 
 TEST(UnsharedInOther, TheSamePlaceHasTheSameRollsInAnotoAndLibdots) {
-    for (std::uint32_t position = 0; position < kPositionsPerAxis; position += 1'234'567)
-        if (position % 241 < 222)
+    for (std::uint32_t position = 0; position < kPositionsPerAxis; position += 1'234'567) {
+        if (position % 241 < 222) {
             EXPECT_EQ(roll(Profile::anoto, position), roll(Profile::libdots, position));
+        }
+    }
 }
 
 }  // namespace

@@ -129,7 +129,9 @@ TEST(Chance, InFineStepsOfThreeTimesAsManyHypothesesIsABoundToo) {
             ASSERT_GE(fine, exact[static_cast<std::size_t>(e)] + std::log2(3.0L) - 1e-9L);
             ASSERT_LE(fine, chance_log2(bits, odds) + kThree_q8 / 256.0);
             // Without errors the best odds are those of bits beyond doubt.
-            if (e == 0) ASSERT_LE(fine, exact[0] + std::log2(3.0L) + 0.05L);
+            if (e == 0) {
+                ASSERT_LE(fine, exact[0] + std::log2(3.0L) + 0.05L);
+            }
         }
     }
 }

@@ -101,7 +101,9 @@ TEST(WeighOtherCode, FindsThePlaceThatTheDecoderFinds) {
                 const Status status = position_from_rolls(other, rolls, found);
                 const bool is_elsewhere = status == Status::ok && found != position;
                 EXPECT_EQ(axis.best > 0.9F, is_elsewhere) << axis.best;
-                if (is_elsewhere) EXPECT_EQ(axis.position, found);
+                if (is_elsewhere) {
+                    EXPECT_EQ(axis.position, found);
+                }
                 const bool is_same = status == Status::ok && found == position &&
                                      roll(other, position) == roll(read, position);
                 EXPECT_EQ(axis.here > 0.9F, is_same) << axis.here;
