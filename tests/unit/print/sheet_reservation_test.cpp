@@ -46,7 +46,8 @@ TEST_F(SheetReservations, are_in_the_file_before_the_page_and_marked_until_it_is
     const auto sheets = read_sheets(path_);
     ASSERT_EQ(sheets.size(), 2U);
     EXPECT_FALSE(overlap(sheets[0].sheet, sheets[1].sheet));
-    for (const json& sheet : saved()["sheets"])
+    const json all = saved();
+    for (const json& sheet : all["sheets"])
         EXPECT_FALSE(sheet.contains("reserved"));
 }
 
