@@ -232,7 +232,10 @@ float bell_reach_px(const Sight& sight, float typical_mass) {
     constexpr float kPi = 3.14159265F;
     const float beyond_cut = static_cast<float>(sight.depth_q8 * (256 - kCutOfDepth_q8)) / 65536;
     const float radius_px = std::sqrt(typical_mass / (kPi * std::max(beyond_cut, 1.0F / 256)));
-    return std::clamp(kRadii * radius_px, 3.3F, static_cast<float>(kMostBellReach_px));
+    // Up to there dots are so small that quick bells are wide enough, however they are blurred.
+    constexpr float kFewPx = 13;
+    const bool is_quick = spacing_px(sight.pattern_from_image) < kFewPx;
+    return std::clamp(kRadii * radius_px, 3.3F, is_quick ? kQuickBellReach_px : kMostBellReach_px);
 }
 
 /// How far is looked, round by round, px.

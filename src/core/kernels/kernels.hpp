@@ -99,7 +99,8 @@ struct WindowLook {
     float typical_mass = 0;  ///< of a dot over the paper's level; 0: that of most windows
 };
 inline constexpr int kMostHalfWindow_px = 24;
-inline constexpr int kMostBellReach_px = 24;
+inline constexpr float kMostBellReach_px = 24;
+inline constexpr float kQuickBellReach_px = 4;  ///< a tenth of the instructions of wider ones
 
 /// Sums for the nine-parameter fit; see Normal.
 struct FitSums {
