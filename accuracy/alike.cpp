@@ -10,12 +10,12 @@
 #include <cstdlib>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include <fmt/core.h>
 
-#include "counting.hpp"
-#include "dotpose/evaluate.hpp"
 #include "dotpose/simulate.hpp"
+#include "evaluate_all.hpp"
 
 namespace {
 
@@ -26,7 +26,8 @@ constexpr double kApart_deg = 7;
 constexpr std::array kAlike_deg{0.0, 45.0, 90.0};
 constexpr std::array kDots{0.10, 1.0 / 6, 0.25, 0.35};
 constexpr std::array kBlurs_px{0.3, 0.5, 0.7, 1.0, 1.5};
-/// What is asked for.
+/// An error against that of the same frames at 7 degrees, and error^2 / variance: cells beyond
+/// these are marked.
 constexpr double kMostOfError = 2;
 constexpr std::array kNormalised{0.7, 1.5};
 
@@ -68,21 +69,16 @@ Shot shot_of(const Condition& condition, const Arguments& arguments, int index) 
 
 /// At the first attempt.
 Score score_of_condition(const Condition& condition, const Arguments& arguments) {
-    cli::ProgressLine progress(fmt::format("{} px, dots of {:.2f}, blur {}", condition.spacing_px,
-                                           condition.dot, condition.blur_px));
     FrameRun run;
     run.frames = static_cast<int>(arguments.frames);
-    run.threads = static_cast<int>(arguments.counting.threads);
     run.frame_at = [&](int index) {
         const Shot shot = shot_of(condition, arguments, index);
         return KnownFrame{render(shot), truth_of(shot), {}, {}};
     };
-    run.progress = [&](int done, int total) {
-        progress.update(done, total);
-        return !cli::interrupted();
-    };
     run.options.front().effort = Effort::once;
-    return score_of(evaluate(run).front());
+    const std::string what = fmt::format("{} px, dots of {:.2f}, blur {}", condition.spacing_px,
+                                         condition.dot, condition.blur_px);
+    return score_of(evaluate_all(what, std::move(run), arguments.counting).front());
 }
 
 double median_px(const Score& score, const Condition& condition) {

@@ -10,13 +10,13 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/core.h>
 
 #include "../tests/limit_frames.hpp"
-#include "counting.hpp"
-#include "dotpose/evaluate.hpp"
+#include "evaluate_all.hpp"
 
 namespace {
 
@@ -48,16 +48,10 @@ using Outcomes = std::vector<std::vector<Outcome>>;
 /// Locates all frames at the first attempt, and with both. Throws Error if interrupted.
 Outcomes locate_all(const std::string& what, FrameRun run, const Arguments& arguments,
                     const Options& options) {
-    cli::ProgressLine progress(what);
-    run.threads = static_cast<int>(arguments.counting.threads);
-    run.progress = [&progress](int done, int total) {
-        progress.update(done, total);
-        return !cli::interrupted();
-    };
     run.options.assign(2, options);
     run.options[0].effort = Effort::once;
     run.options[1].effort = Effort::twice;
-    return evaluate(run);
+    return evaluate_all(what, std::move(run), arguments.counting);
 }
 
 /// Prints the row of one condition; returns how many fixes are wrong.

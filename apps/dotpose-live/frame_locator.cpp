@@ -103,7 +103,7 @@ FrameLocator::Found FrameLocator::look(ImageView image, const Options& options,
         fix = locate(image, options, *workspace_);
         place = find_sheet(sheets_, options.profile, fix);
     }
-    return {fix, place, {}, options.profile};
+    return {fix, place, {fix, options.profile, {}}};
 }
 
 FrameLocator::Found FrameLocator::look_in_any_code(ImageView image,
@@ -113,7 +113,7 @@ FrameLocator::Found FrameLocator::look_in_any_code(ImageView image,
         expected && seen_ ? locate_in_any_code(image, used_, *expected, evidence_, *workspace_)
                           : locate_in_any_code(image, used_, evidence_, *workspace_);
     used_.profile = reading.code;
-    return {reading.fix, {}, reading, reading.code};
+    return {reading.fix, {}, reading};
 }
 
 /// A frame across the edge of a page: once more without what lies beside it, if that leaves enough.
@@ -177,11 +177,12 @@ Reading FrameLocator::operator()(video::Frame& frame) {
     // A weak fix counts only if the prior made it one.
     const bool is_fix = strict.status == Status::ok || reading.track.verdict == Verdict::with_prior;
     if (is_fix) {
-        seen_ = Seen{found.fix, found.profile, sighting};
+        seen_ = Seen{found.fix, found.reading.code, sighting};
         if (profiles_.empty()) {
             evidence_ = found.reading.evidence;
         } else {
-            std::ranges::iter_swap(profiles_.begin(), std::ranges::find(profiles_, found.profile));
+            std::ranges::iter_swap(profiles_.begin(),
+                                   std::ranges::find(profiles_, found.reading.code));
         }
     } else if (!tracker_.has_prior()) {
         seen_.reset();
@@ -191,7 +192,6 @@ Reading FrameLocator::operator()(video::Frame& frame) {
     record.code_is_given = !profiles_.empty();
     record.reading = found.reading;
     record.reading.fix = record.fix;
-    record.reading.code = found.profile;
     record.reading.evidence = evidence_;
     if (reading.track.verdict == Verdict::with_prior) {
         record.fix.p_wrong_log2 = reading.track.p_wrong_log2;

@@ -56,8 +56,7 @@ class FrameLocator {
     struct Found {
         Fix fix;
         std::optional<SheetPlace> place;
-        CodeReading reading;
-        Profile profile = Profile::anoto;
+        CodeReading reading;  ///< of which the profile alone counts where that is given
     };
     /// The newest frame with a fix.
     struct Seen {

@@ -148,11 +148,8 @@ ordered_json json_of(const Pattern& pattern) {
     return {{"spacing_mm", rounded(pattern.spacing_mm, 6)}, {"dot_mm", rounded(pattern.dot_mm, 6)}};
 }
 
-}  // namespace
-
-namespace {
-
-/// What is said of a code that was found out, and may be another one.
+/// A remark behind the name of a code that was found out, where another one may have been printed;
+/// empty where that is improbable.
 std::string doubt_of_code(const PrintCheck& check) {
     constexpr double kDoubtful = 0.01;
     if (check.code_p_wrong < kDoubtful) return "";

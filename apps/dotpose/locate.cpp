@@ -127,7 +127,7 @@ class Locator {
     }
 
   private:
-    /// What is told of an image whose pixels were not even decoded.
+    /// The record of an image that is refused by its header, without a look at its pixels.
     Record too_large(const std::string& name, const ImageTooLarge& image) {
         image_ = {};
         Record record;

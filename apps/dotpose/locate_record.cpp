@@ -35,7 +35,7 @@ std::vector<Field> sheet_fields(const std::optional<SheetPlace>& place) {
     return fields;
 }
 
-/// What is missing to a position that is not certain.
+/// Why a position that was found is refused as not certain, in words, with the numbers.
 std::string doubt(const Record& record) {
     const Fix& fix = record.fix;
     if (fix.p_wrong_log2 <= record.max_p_wrong_log2) {
@@ -62,7 +62,7 @@ double mm(std::uint32_t cell, std::uint16_t fraction_q16, double spacing_mm) {
     return (cell + fraction_q16 / 65536.0) * spacing_mm;
 }
 
-/// What is to be said of a profile that was given.
+/// A warning where the user gave a profile and another one explains the frame; else empty.
 std::string warning(const Record& record) {
     const CodeReading& reading = record.reading;
     if (!record.code_is_given || !reading.has_other) return {};
@@ -108,7 +108,7 @@ std::vector<Field> code_fields(const Record& record) {
     };
 }
 
-/// Of the status and its numbers.
+/// Why there is no fix, without the advice that follows; empty if there is one.
 std::string plain_reason(const Record& record) {
     const Fix& fix = record.fix;
     switch (fix.status) {

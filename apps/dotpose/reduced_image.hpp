@@ -15,7 +15,8 @@ int reduction_of(int width_px, int height_px);
 /// off.
 GreyImage reduced(const GreyImage& image, int by);
 
-/// The same options for the reduced image of `image`: lens and reference point stay where they are.
+/// Options for an image reduced by `by` that mean what `options` mean for `image`: lens and
+/// reference point stay on the same spots of the scene.
 Options reduced(const Options& options, const GreyImage& image, int by);
 
 /// The fix of a reduced image, with its pixels counted in those of the whole one.

@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 
 #include "dotpose/error.hpp"
+#include "print/lower_case.hpp"
 #include "print/output_file.hpp"
 
 namespace dotpose::cli {
@@ -20,12 +21,6 @@ constexpr std::array<std::string_view, 24> kImagesAndVideos = {
     ".pgm", ".ppm",  ".pbm", ".pnm",  ".png",  ".jpg",  ".jpeg", ".bmp",
     ".tif", ".tiff", ".gif", ".webp", ".heic", ".heif", ".svg",  ".pdf",
     ".mp4", ".m4v",  ".avi", ".mkv",  ".mov",  ".webm", ".mpg",  ".mpeg"};
-
-std::string lower(std::string text) {
-    std::ranges::transform(text, text.begin(),
-                           [](char c) { return 'A' <= c && c <= 'Z' ? char(c - 'A' + 'a') : c; });
-    return text;
-}
 
 const char* name(Content content) {
     switch (content) {
@@ -46,7 +41,7 @@ const char* name(Content content) {
 }
 
 void require_fitting_name(const std::string& label, const std::string& path, Content content) {
-    const std::string ending = lower(fs::path(path).extension().string());
+    const std::string ending = print::lower_case(fs::path(path).extension().string());
     if (content == Content::own || (content == Content::svg && ending == ".svg")) return;
     if (std::ranges::find(kImagesAndVideos, ending) == kImagesAndVideos.end()) return;
     throw BadArgument(fmt::format(
@@ -85,7 +80,7 @@ std::optional<FileIdentity> identity_of(const std::string& path) {
     const fs::path target = print::without_links(path);
     const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
     if (stat(folder.c_str(), &found) != 0) return std::nullopt;
-    return FileIdentity{found.st_dev, found.st_ino, lower(target.filename().string())};
+    return FileIdentity{found.st_dev, found.st_ino, print::lower_case(target.filename().string())};
 }
 
 void RunFiles::reads(const std::string& option, const std::string& path) {

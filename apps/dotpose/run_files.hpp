@@ -18,12 +18,13 @@
 
 namespace dotpose::cli {
 
-/// What an output holds; `own` where the name chooses it.
+/// The kind of data in an output file; `own`: the ending of its name chooses the format.
 enum class Content { json, csv, yaml, svg, packets, own };
 
 Content content_of(RecordFormat format);
 
-/// What makes two names one file: links, folders and upper or lower case do not matter.
+/// Two names with equal identities are one file, also if they differ in links or folders; names of
+/// new files also if they differ in upper and lower case.
 struct FileIdentity {
     dev_t device = 0;
     ino_t inode = 0;       ///< of the file, or of the folder of a file that does not exist yet

@@ -21,8 +21,8 @@
 
 namespace dotpose {
 
-/// What is known of the profile of a sheet. Frames of the same dots count once, since their faults
-/// are the same.
+/// How likely each profile is for one sheet, by all frames of it so far. Frames of the same dots
+/// count once, since their faults are the same.
 class CodeEvidence {
   public:
     /// Log odds of the profiles, log2 in 2^-8.
@@ -55,7 +55,7 @@ class CodeEvidence {
     std::uint32_t frames_here_ = 0;
 };
 
-/// What one frame tells in a profile that is not given.
+/// The result of locating one frame whose profile is not given.
 struct CodeReading {
     /// With status ambiguous_code, pose and counts are those of one of the two places.
     Fix fix;
@@ -69,13 +69,14 @@ struct CodeReading {
     Section other_section{};
 };
 
-/// As `locate`, whatever the profile; `options.profile` says nothing. Places in all profiles are
-/// alternatives, with the odds that `evidence` gives these. A frame that places of two profiles
-/// explain about equally well has the status ambiguous_code.
+/// Locates a frame as `locate` does, but in any profile; `options.profile` has no effect. Places in
+/// all profiles are alternatives, with the odds that `evidence` gives these. A frame that places of
+/// two profiles explain about equally well has the status ambiguous_code.
 CodeReading locate_in_any_code(const ImageView& image, const Options& options,
                                const CodeEvidence& evidence, Workspace& workspace);
 
-/// The same, beginning with a prediction, which was made in `options.profile`.
+/// Locates a frame in any profile, beginning with a prediction, which was made in
+/// `options.profile`.
 CodeReading locate_in_any_code(const ImageView& image, const Options& options,
                                const Prediction& prediction, const CodeEvidence& evidence,
                                Workspace& workspace);

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <optional>
 #include <string>
@@ -8,6 +7,7 @@
 #include <fmt/core.h>
 
 #include "dotpose/print.hpp"
+#include "lower_case.hpp"
 
 namespace dotpose {
 namespace {
@@ -31,13 +31,6 @@ constexpr std::array<NamedPaper, 10> kPapers = {{
     {"tabloid", {279.4, 431.8}},
 }};
 
-std::string lower_case(std::string_view text) {
-    std::string lower(text);
-    std::ranges::transform(lower, lower.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return lower;
-}
-
 std::optional<double> parse_length_mm(std::string_view text) {
     double value = 0;
     const char* end = text.data() + text.size();
@@ -49,7 +42,7 @@ std::optional<double> parse_length_mm(std::string_view text) {
 }  // namespace
 
 Paper paper_by_name(std::string_view name) {
-    const std::string lower = lower_case(name);
+    const std::string lower = print::lower_case(name);
     for (const NamedPaper& known : kPapers) {
         if (known.name == lower) return known.paper;
     }

@@ -1,19 +1,17 @@
 #include <algorithm>
-#include <cctype>
 #include <string>
 
 #include <fmt/core.h>
 
 #include "dotpose/print.hpp"
+#include "lower_case.hpp"
 #include "output_file.hpp"
 #include "writers.hpp"
 
 namespace dotpose {
 
 PrintFormat print_format(const std::filesystem::path& path) {
-    std::string ending = path.extension().string();
-    std::ranges::transform(ending, ending.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string ending = print::lower_case(path.extension().string());
     if (ending == ".txt") return PrintFormat::text;
     if (ending == ".svg") return PrintFormat::svg;
     if (ending == ".png") return PrintFormat::png;

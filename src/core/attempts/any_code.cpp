@@ -82,11 +82,11 @@ class AnyCode {
             const Profile code = options_.profile;
             if (attempt(Step::tracked, code) && judge(code).is_certain) return accepted(code);
         }
-        if (options_.effort == Effort::once || !w_.has_second_attempt) {
-            return locate_by({Step::outwards, Step::rows});
-        }
+        if (!may_try_twice()) return locate_by({Step::outwards, Step::rows});
         return locate_by({Step::outwards, Step::rows, Step::second});
     }
+
+    bool may_try_twice() const { return options_.effort == Effort::twice && w_.has_second_attempt; }
 
     /// What speaks for one profile can be so much that no frame of another one is certain. Such a
     /// frame still tells that the sheet is another one.
@@ -176,9 +176,7 @@ class AnyCode {
     /// The profiles that an attempt is made in.
     std::span<const Profile> worth_trying(Step step) const {
         // What rows show in another profile, the second attempt shows as well.
-        if (step == Step::rows && options_.effort == Effort::twice && w_.has_second_attempt) {
-            return std::span(order_).first(1);
-        }
+        if (step == Step::rows && may_try_twice()) return std::span(order_).first(1);
         std::size_t count = 1;
         while (count < order_.size() && weight(order_[count]) > kRuledOut)
             ++count;
@@ -226,8 +224,7 @@ class AnyCode {
             }
         }
         const bool may_be_improved = step == Step::outwards || step == Step::rows;
-        if (may_be_improved && is_rough(w_.fix) && options_.effort == Effort::twice &&
-            w_.has_second_attempt) {
+        if (may_be_improved && is_rough(w_.fix) && may_try_twice()) {
             if (!attempt(Step::second, code) || !judge(code).is_certain) attempt(step, code);
         }
         return accepted(code);
