@@ -147,11 +147,9 @@ class Overlay {
           colours_(change_, unpacked_) {
         rows_->progress = options.progress;
         open(pdf_, in, options.password, unpacked_);
-        understood(in_, [&] {
-            with_name(in_.string(), [&] {
-                unpacked_.count_object_streams(pdf_);
-                print::require_shallow_page_tree(pdf_);
-            });
+        with_name(in_.string(), [&] {
+            unpacked_.count_object_streams(pdf_);
+            print::require_shallow_page_tree(pdf_);
         });
     }
 
@@ -181,17 +179,15 @@ class Overlay {
 
   private:
     std::vector<QPDFPageObjectHelper> all_pages() {
-        return understood(in_, [&] {
-            std::vector<QPDFPageObjectHelper> pages = QPDFPageDocumentHelper(pdf_).getAllPages();
-            small_faults(pdf_, in_);
-            return pages;
-        });
+        std::vector<QPDFPageObjectHelper> pages = QPDFPageDocumentHelper(pdf_).getAllPages();
+        small_faults(pdf_, in_);
+        return pages;
     }
 
     /// Runs `work`; its errors then name the page.
     template <typename Work>
     void on_page(int number, const Work& work) {
-        understood(in_, [&] { with_name(fmt::format("{}, page {}", in_.string(), number), work); });
+        with_name(fmt::format("{}, page {}", in_.string(), number), work);
     }
 
     void lay_out(int number, const QPDFPageObjectHelper& page) {
@@ -304,10 +300,12 @@ OverlayReport overlay_pdf(const fs::path& in, const fs::path& out, const Overlay
         throw BadArgument(
             fmt::format("{} is the document itself; give the result another name", out.string()));
     }
-    Overlay overlay(in, options);
-    overlay.add_dots();
-    overlay.write(out);
-    return std::move(overlay).report();
+    return understood(in, [&] {
+        Overlay overlay(in, options);
+        overlay.add_dots();
+        overlay.write(out);
+        return std::move(overlay).report();
+    });
 }
 
 }  // namespace dotpose

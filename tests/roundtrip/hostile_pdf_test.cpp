@@ -217,6 +217,9 @@ TEST_F(HostileDocument, lists_of_objects_are_bounded) {
         write(std::string("%PDF-1.5\n") + cut + "\nstartxref\n9\n%%EOF\n");
         expect("in.pdf: damaged PDF");
     }
+    // A place that no integer holds.
+    write("%PDF-1.5\nxref\n0 1\nstartxref\n" + std::string(60, '7') + "\n%%EOF\n");
+    expect("in.pdf: damaged PDF");
 }
 
 TEST_F(HostileDocument, filters_and_their_rows_are_bounded) {
