@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "core/attempts/device.hpp"
@@ -18,7 +19,7 @@
 namespace dotpose::core {
 namespace {
 
-enum class Step { tracked, outwards, rows, second, device };
+enum class Step { tracked, outwards, rows, second, closer, device };
 
 /// Below that, other places are doubts like others, which a closer look may dispel.
 constexpr float kAsWell = 1e-3F;
@@ -26,6 +27,9 @@ constexpr float kAsWell = 1e-3F;
 constexpr float kBetter = 2;
 /// Odds of profiles in which no attempt is made: other frames speak against them.
 constexpr float kRuledOut = 1e-9F;
+
+/// More than any frame has.
+constexpr int kMostErrors = std::numeric_limits<int>::max();
 
 /// Sums are rounded up by more than that.
 constexpr float kRoundings = 1.01F;
@@ -83,7 +87,7 @@ class AnyCode {
             if (attempt(Step::tracked, code) && judge(code).is_certain) return accepted(code);
         }
         if (!may_try_twice()) return locate_by({Step::outwards, Step::rows});
-        return locate_by({Step::outwards, Step::rows, Step::second});
+        return locate_by({Step::outwards, Step::rows, Step::second, Step::closer});
     }
 
     bool may_try_twice() const { return options_.effort == Effort::twice && w_.has_second_attempt; }
@@ -175,6 +179,8 @@ class AnyCode {
 
     /// The profiles that an attempt is made in.
     std::span<const Profile> worth_trying(Step step) const {
+        // A closer look costs thrice the rest: only where the fewest bits contradict.
+        if (step == Step::closer) return {&closer_, fewest_errors_ == kMostErrors ? 0U : 1U};
         // What rows show in another profile, the second attempt shows as well.
         if (step == Step::rows && may_try_twice()) return std::span(order_).first(1);
         std::size_t count = 1;
@@ -201,7 +207,9 @@ class AnyCode {
             case Step::rows:
                 return locate_by_rows(kernels(), image_, options_, w_);
             case Step::second:
-                return make_second_attempt(image_, options_, w_).status == Status::ok;
+                return attempt_filtered(code, false);
+            case Step::closer:
+                return attempt_filtered(code, true);
             case Step::device:
                 detect_image(image_, options_, w_);
                 if (finish_device_attempt(options_, w_).status != Status::ok) return false;
@@ -211,6 +219,31 @@ class AnyCode {
                 return true;
         }
         return false;
+    }
+
+    /// The second attempt, without or with the closer look. The profiles share what they do not
+    /// differ in: what was seen in the frame.
+    bool attempt_filtered(Profile code, bool looks_closer) {
+        if (!is_seen_) {
+            w_.fix.status = see_filtered(image_, options_, w_);
+            w_.fix.attempt = Attempt::second;
+            seen_ = w_.fix;
+            is_seen_ = true;
+        }
+        w_.fix = seen_;
+        if (seen_.status != Status::ok) return false;
+        w_.decoding = {};
+        Status& status = w_.fix.status;
+        status = read_position(options_, w_);
+        if (status == Status::not_certain && looks_closer) {
+            status = look_until_certain(image_, options_, w_);
+            is_seen_ = false;
+        } else if (status == Status::not_certain && w_.fix.bit_errors < fewest_errors_) {
+            fewest_errors_ = w_.fix.bit_errors;
+            closer_ = code;
+        }
+        if (status == Status::ok) status = measure_and_weigh(image_, options_, w_);
+        return status == Status::ok;
     }
 
     /// The fix that is certain, or a better one: of a profile that explains the same place better,
@@ -225,7 +258,7 @@ class AnyCode {
         }
         const bool may_be_improved = step == Step::outwards || step == Step::rows;
         if (may_be_improved && is_rough(w_.fix) && may_try_twice()) {
-            if (!attempt(Step::second, code) || !judge(code).is_certain) attempt(step, code);
+            if (!attempt(Step::closer, code) || !judge(code).is_certain) attempt(step, code);
         }
         return accepted(code);
     }
@@ -268,6 +301,11 @@ class AnyCode {
     Workspace& w_;
     const Prediction* prediction_ = nullptr;
     std::array<Profile, kProfileCount> order_;  ///< the likeliest first
+    // Of the second attempt:
+    bool is_seen_ = false;             ///< whether the workspace holds what the frame shows
+    Fix seen_;                         ///< as it was then, without a position
+    Profile closer_ = Profile::anoto;  ///< that may gain from a closer look
+    int fewest_errors_ = kMostErrors;  ///< of it
 };
 
 }  // namespace

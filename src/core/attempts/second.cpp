@@ -64,18 +64,6 @@ Status decode(const Options& options, Workspace& w) {
     return decode_all(w.grid, options.profile, w.line_scores, w.decoding);
 }
 
-/// Bits -> position in the code, and whether it is certain.
-Status read_position(const Options& options, Workspace& w) {
-    w.decoding.window = choose_window(w.grid, kWindowSide);  // II-B.5
-    choose_region(w);
-    Status status = decode(options, w);  // II-B.6-7
-    if (status == Status::ok) {
-        status = verify_among_codes(w.grid, options.profile, wanted_codes(w), w.decoding,
-                                    options.integrity, w.line_scores, w.fix);
-    }
-    return status == Status::ok ? status : refused(status, w);
-}
-
 /// One axis of the position is beyond doubt: each bit of the other has only two places left.
 Status look_knowing(Axis known, const ImageView& image, const Options& options, Workspace& w) {
     const Place place = w.decoding.place;
@@ -101,8 +89,31 @@ Status look_again(const ImageView& image, const Options& options, bool may_presu
     return shows_one_pattern(image, options, w) ? read_position(options, w) : Status::not_certain;
 }
 
-/// Looks through one grid after the other. What presumed an axis is no ground to presume the other:
-/// every second look presumes none.
+}  // namespace
+
+Status see_filtered(const ImageView& image, const Options& options, Workspace& w) {
+    const Options filtered = for_filtered(options);
+    detect_filtered(image, filtered, w);
+    Status status = find_dots(filtered, w);                                // II-B.1
+    if (status == Status::ok) status = find_grid_thoroughly(filtered, w);  // II-B.2-3
+    if (status == Status::ok) {
+        status = assign_likelihoods(w.found_dots(), w.grid_from_image, w.grid);  // II-B.4
+    }
+    if (status != Status::ok) return status;
+    return shows_one_pattern(image, filtered, w) ? Status::ok : Status::not_certain;
+}
+
+Status read_position(const Options& options, Workspace& w) {
+    w.decoding.window = choose_window(w.grid, kWindowSide);  // II-B.5
+    choose_region(w);
+    Status status = decode(options, w);  // II-B.6-7
+    if (status == Status::ok) {
+        status = verify_among_codes(w.grid, options.profile, wanted_codes(w), w.decoding,
+                                    options.integrity, w.line_scores, w.fix);
+    }
+    return status == Status::ok ? status : refused(status, w);
+}
+
 Status look_until_certain(const ImageView& image, const Options& options, Workspace& w) {
     for (const bool may_presume : {true, false, true}) {
         if (look_again(image, options, may_presume, w) == Status::ok) return Status::ok;
@@ -110,19 +121,9 @@ Status look_until_certain(const ImageView& image, const Options& options, Worksp
     return Status::not_certain;
 }
 
-/// The steps of the attempt.
-Status locate_filtered(const ImageView& image, const Options& options, Workspace& w) {
-    detect_filtered(image, options, w);
-    Status status = find_dots(options, w);                                // II-B.1
-    if (status == Status::ok) status = find_grid_thoroughly(options, w);  // II-B.2-3
-    if (status == Status::ok) {
-        status = assign_likelihoods(w.found_dots(), w.grid_from_image, w.grid);  // II-B.4
-    }
-    if (status != Status::ok) return status;
-    if (!shows_one_pattern(image, options, w)) return Status::not_certain;
-    status = read_position(options, w);  // II-B.5-7
-    if (status == Status::not_certain) status = look_until_certain(image, options, w);
-    if (status == Status::ok) status = measure_pose(options, &image, w);  // II-B.8
+Status measure_and_weigh(const ImageView& image, const Options& options, Workspace& w) {
+    const Status status = measure_pose(options, &image, w);  // II-B.8
+    w.fix.attempt = Attempt::second;
     if (status == Status::ok) {
         weigh_other_codes(kernels(), w.grid, options.profile, w.decoding, w.line_scores,
                           wanted_codes(w));
@@ -130,10 +131,14 @@ Status locate_filtered(const ImageView& image, const Options& options, Workspace
     return status;
 }
 
-}  // namespace
-
 Fix make_second_attempt(const ImageView& image, const Options& options, Workspace& w) {
-    w.fix.status = locate_filtered(image, for_filtered(options), w);
+    Status status = see_filtered(image, options, w);
+    if (status == Status::ok) {
+        status = read_position(options, w);
+        if (status == Status::not_certain) status = look_until_certain(image, options, w);
+        if (status == Status::ok) status = measure_and_weigh(image, options, w);
+    }
+    w.fix.status = status;
     w.fix.attempt = Attempt::second;
     return w.fix;
 }
