@@ -1,14 +1,14 @@
 // How often is `locate` deceived?
 //
-//   dotpose_adversarial [--frames N] [--class NAME] [--seed S] [--threads N]
+//   dotpose_adversarial [--frames N] [--class NAME] [--code given|auto] [--seed S] [--threads N]
 //
 // N frames, evenly over the classes of tests/adversarial_frames.hpp, or all of one class. Exits 1
 // if any fix is wrong.
-// Ctrl-C prints the table of the frames seen so far. The times are wall time on one thread.
+// Ctrl-C prints the table of the frames seen so far. The times are those of the processor.
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdlib>
+#include <ctime>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -21,6 +21,7 @@
 
 #include "../tests/adversarial_frames.hpp"
 #include "counting.hpp"
+#include "dotpose/code_evidence.hpp"
 #include "dotpose/locate.hpp"
 
 namespace {
@@ -33,19 +34,26 @@ constexpr std::array<std::string_view, 5> kVerdicts{"refused", "right", "second"
 using Counts = std::array<std::uint64_t, kVerdicts.size()>;
 constexpr std::size_t kClasses = test::kAdversaries.size();
 
-using Clock = std::chrono::steady_clock;
+/// Seconds that this thread has used the processor.
+double thread_seconds() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
 
 /// What became of the frames of one class, and the time that went into them.
 struct ClassTally {
     Counts verdicts{};
-    std::chrono::duration<double> rendering{};
-    std::chrono::duration<double> locating{};
+    double rendering_s = 0;
+    double locating_s = 0;
+    double longest_s = 0;  ///< of locating
 
     ClassTally& operator+=(const ClassTally& other) {
         for (std::size_t v = 0; v < verdicts.size(); ++v)
             verdicts[v] += other.verdicts[v];
-        rendering += other.rendering;
-        locating += other.locating;
+        rendering_s += other.rendering_s;
+        locating_s += other.locating_s;
+        longest_s = std::max(longest_s, other.longest_s);
         return *this;
     }
     std::uint64_t frames() const {
@@ -65,18 +73,31 @@ struct Tally {
     }
 };
 
-void try_frame(Adversary adversary, std::uint64_t seed, std::uint64_t index, Workspace& workspace,
-               Tally& tally) {
-    const auto start = Clock::now();
-    const test::AdversarialFrame frame = test::make_adversarial(adversary, seed, index);
-    const auto rendered = Clock::now();
-    const Fix fix = locate(frame.image.view(), frame.options, workspace);
-    const auto located = Clock::now();
+/// Whether the profile is one of the frame's options, or found out.
+enum class Code : std::uint8_t { given, automatic };
+
+/// The profile that was read is then the frame's.
+Fix locate(test::AdversarialFrame& frame, Code code, Workspace& workspace) {
+    if (code == Code::given) return locate(frame.image.view(), frame.options, workspace);
+    const CodeReading reading =
+        locate_in_any_code(frame.image.view(), frame.options, CodeEvidence{}, workspace);
+    frame.options.profile = reading.code;
+    return reading.fix;
+}
+
+void try_frame(Adversary adversary, Code code, std::uint64_t seed, std::uint64_t index,
+               Workspace& workspace, Tally& tally) {
+    const double start_s = thread_seconds();
+    test::AdversarialFrame frame = test::make_adversarial(adversary, seed, index);
+    const double rendered_s = thread_seconds();
+    const Fix fix = locate(frame, code, workspace);
+    const double locating_s = thread_seconds() - rendered_s;
     const Verdict verdict = test::judge(fix, frame);
     ClassTally& mine = tally.classes[static_cast<std::size_t>(adversary)];
     ++mine.verdicts[static_cast<std::size_t>(verdict)];
-    mine.rendering += rendered - start;
-    mine.locating += located - rendered;
+    mine.rendering_s += rendered_s - start_s;
+    mine.locating_s += locating_s;
+    mine.longest_s = std::max(mine.longest_s, locating_s);
     if (verdict == Verdict::wrong) {
         tally.wrong.push_back(fmt::format(
             "wrong: {}, seed {}, index {}: cell {}, {}, theta {:.3f}, section {}, {}, 2^{}, "
@@ -95,16 +116,14 @@ void print(Tally& tally) {
         fmt::print("{:<16} {:>9}", title, frames);
         for (const std::uint64_t n : counted.verdicts)
             fmt::print(" {:>9}", n);
-        for (const auto time : {counted.rendering, counted.locating}) {
-            fmt::print(" {:>9.2f}",
-                       frames == 0 ? 0 : 1e3 * time.count() / static_cast<double>(frames));
-        }
-        fmt::print("\n");
+        for (const double time_s : {counted.rendering_s, counted.locating_s})
+            fmt::print(" {:>9.2f}", frames == 0 ? 0 : 1e3 * time_s / static_cast<double>(frames));
+        fmt::print(" {:>10.1f}\n", 1e3 * counted.longest_s);
     };
     fmt::print("{:<16} {:>9}", "", "frames");
     for (const std::string_view verdict : kVerdicts)
         fmt::print(" {:>9}", verdict);
-    fmt::print(" {:>9} {:>9}\n", "render ms", "locate ms");
+    fmt::print(" {:>9} {:>9} {:>10}\n", "render ms", "locate ms", "longest ms");
     ClassTally all;
     for (std::size_t c = 0; c < kClasses; ++c) {
         if (tally.classes[c].frames() == 0) continue;
@@ -114,12 +133,13 @@ void print(Tally& tally) {
     line("all", all);
 }
 
-int run(const Counting& counting, std::uint64_t frames, std::span<const Adversary> adversaries) {
+int run(const Counting& counting, std::uint64_t frames, Code code,
+        std::span<const Adversary> adversaries) {
     Count<Tally> count = count_on_threads<Tally>(
         "adversarial frames", frames, counting.threads, [&](std::uint64_t i, Tally& mine) {
             thread_local const auto kWorkspace = std::make_unique<LargeWorkspace>();
-            try_frame(adversaries[i % adversaries.size()], counting.seed, i / adversaries.size(),
-                      *kWorkspace, mine);
+            try_frame(adversaries[i % adversaries.size()], code, counting.seed,
+                      i / adversaries.size(), *kWorkspace, mine);
         });
     print(count.tally);
     fmt::print("seed {}, {} threads: {}\n", counting.seed, counting.threads,
@@ -141,6 +161,10 @@ int main(int argc, char** argv) {
     std::vector<Adversary> adversaries(test::kAdversaries.begin(), test::kAdversaries.end());
     app.add_option("--class", adversaries, "Only frames of this class, given once or more")
         ->transform(CLI::CheckedTransformer(by_name));
+    Code code = Code::given;
+    app.add_option("--code", code, "The printed code: given, or found out (auto)")
+        ->transform(CLI::CheckedTransformer(
+            std::map<std::string, Code>{{"given", Code::given}, {"auto", Code::automatic}}));
     counting.add_to(app);
-    return run_program(app, argc, argv, [&] { return run(counting, frames, adversaries); });
+    return run_program(app, argc, argv, [&] { return run(counting, frames, code, adversaries); });
 }

@@ -119,8 +119,8 @@ class OtherPlaces {
         Growth growth;
         const std::uint8_t* own = contest_.basis[kA4].rolls + contest_.places[kA4];
         const std::uint8_t* rival = theirs_.rolls + place;
-        // Of all lines that the tables have, so that it is done in vectors. What is negative is large
-        // without a sign.
+        // Of all lines that the tables have, so that it is done in vectors. What is negative is
+        // large without a sign.
         for (std::size_t line = 0; line < growth.size(); ++line) {
             const auto grown = static_cast<std::uint8_t>(rival[line] - own[line]);
             growth[line] = std::min(grown, static_cast<std::uint8_t>(grown + kSections));
