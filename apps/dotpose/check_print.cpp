@@ -16,6 +16,7 @@
 #include "common.hpp"
 #include "dotpose/image_file.hpp"
 #include "dotpose/sheet_file.hpp"
+#include "exit_codes.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"
 #include "terminal_text.hpp"
@@ -30,7 +31,12 @@ constexpr const char* kExamples =
     "  dotpose check-print scan.png --fit --sheets sheets.json\n"
     "  dotpose print --test-page -o test.pdf    (print and scan it, then)\n"
     "  dotpose check-print test-scan.png\n\n"
-    "Scan the whole page at 600 dpi, without sharpening. Exit status 1 if there is no pattern.\n";
+    "Scan the whole page at 600 dpi, without sharpening. A photo tells bits and, from near, "
+    "missing\n"
+    "dots, but no scale: an image that shows perspective or a lens is a photo whatever its\n"
+    "resolution. --dpi says that the page lies in the image as in a scan.\n"
+    "Exit status: 0 no fault (with --fit, but for the scale that was written), 1 not checked, or\n"
+    "nothing to fit, 3 faults.\n";
 
 struct CheckPrintArguments {
     std::string scan;
@@ -48,6 +54,37 @@ void require_svg(const std::string& path) {
     const bool is_svg = path.size() > 4 && path.substr(path.size() - 4) == ".svg";
     if (is_svg) return;
     throw BadArgument(fmt::format("'{}': the name of the map must end in .svg", path));
+}
+
+/// The page is farther from its scale than drivers make it: the resolution is not true.
+bool is_believable(const PrintScale& scale) {
+    constexpr double kFarthest = 0.25;
+    return std::abs(scale.scale_x - 1) <= kFarthest && std::abs(scale.scale_y - 1) <= kFarthest;
+}
+
+/// Refuses what tells no scale that could be written.
+void require_scan(const std::string& scan, const PrintCheck& check) {
+    constexpr const char* kRemedy = "; nothing was written: --fit needs a scan from a flatbed";
+    if (check.camera) {
+        throw Error(fmt::format(
+            "{} is a photo, which has no scale of its own: lengths change by "
+            "{:.1f} % across the page, and the lens displaces its corners by "
+            "{:.1f} %{}",
+            scan, 100 * check.camera->perspective, 100 * std::abs(check.camera->lens), kRemedy));
+    }
+    if (!check.fields.empty() && !check.resolution) {
+        throw Error(
+            fmt::format("{} states no resolution that can be true, so that its scale is "
+                        "not known{}",
+                        scan, kRemedy));
+    }
+    for (const PrintField& field : check.fields) {
+        if (!field.scale || is_believable(*field.scale)) continue;
+        throw Error(
+            fmt::format("{}: a page at {:.0f} % of its size is not what was printed: the "
+                        "resolution or the spacing is not true; nothing was written",
+                        scan, 100 * std::sqrt(field.scale->scale_x * field.scale->scale_y)));
+    }
 }
 
 /// Writes the scale of every field into the sheet that it belongs to; returns what it did. `sheets`
@@ -107,6 +144,16 @@ CheckPrintOptions options_of(const CheckPrintArguments& arguments,
     return options;
 }
 
+int exit_status(const CheckPrintArguments& arguments, const PrintCheck& check) {
+    if (check.fields.empty()) return kExitFailed;
+    const bool has_fault = std::ranges::any_of(check.findings, [&](const Finding& finding) {
+        const bool is_scale =
+            finding.kind == FindingKind::scaled || finding.kind == FindingKind::uneven_scale;
+        return finding.is_fault && !(arguments.fit && is_scale);
+    });
+    return has_fault ? kExitFaults : 0;
+}
+
 void require_apart(const CheckPrintArguments& arguments) {
     RunFiles files;
     files.reads("", arguments.scan);
@@ -139,8 +186,11 @@ int run(const CheckPrintArguments& arguments) {
     const std::string report =
         arguments.as_json ? json_report(checked, check) : text_report(checked, check);
     std::fputs(report.c_str(), stdout);
-    if (arguments.fit) std::fputs(fit_sheets(arguments.sheets, sheets, check).c_str(), stderr);
-    return check.fields.empty() ? kExitFailed : 0;
+    if (arguments.fit) {
+        require_scan(arguments.scan, check);
+        std::fputs(fit_sheets(arguments.sheets, sheets, check).c_str(), stderr);
+    }
+    return exit_status(arguments, check);
 }
 
 }  // namespace

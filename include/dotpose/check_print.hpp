@@ -38,8 +38,8 @@ struct CheckPrintOptions {
     /// Sheets that may be on the scan, such as those of a sheet file: what is found in the region
     /// of one of them is judged by its pattern. Only those of the profile of `pattern` are found.
     std::vector<Sheet> sheets;
-    /// Of the scan. Without it the image is taken as a photo: perspective is allowed for, and
-    /// nothing is said about scale.
+    /// Of the scan. Without it the image is taken as a photo, and so is one that shows the page as
+    /// only a camera does: perspective and a lens are allowed for, and nothing is said about scale.
     std::optional<Resolution> resolution;
     /// How light solid ink is, relative to the paper, 0 to 0.9; dots smaller than a few pixels
     /// never show it. Diameters are those of discs of this ink with the darkness of the dots.
@@ -78,23 +78,25 @@ struct PrintField {
     bool is_patch = false;             ///< of a test page
     std::optional<std::size_t> sheet;  ///< whose region it is, in CheckPrintOptions::sheets
 
-    std::optional<PrintScale> scale;  ///< with a known resolution only
-    double spacing_px = 0;            ///< mean, in the scan
+    std::optional<PrintScale> scale;  ///< of scans only
+    double spacing_px = 0;            ///< in the middle of the field
     double residual_mm = 0;  ///< rms of the dots from their fitted places, per axis, on the paper
     double scatter_mm = 0;   ///< of single dots about their neighbours, per axis, on the paper
     std::vector<DistortionBin> distortion;
     double largest_distortion_mm = 0;  ///< of the bins
 
-    int covered = 0;          ///< cells with other print, such as text: not counted below
-    int cells = 0;            ///< of the region, in view and not covered
-    int missing = 0;          ///< cells without a dot
-    int merged = 0;           ///< dots that touch a neighbour
-    int dots = 0;             ///< dots found
-    int bits_wrong = 0;       ///< of two for each dot found
-    double dot_mm = 0;        ///< median equivalent diameter, see ink_reflectance
-    double dot_sigma_mm = 0;  ///< its spread, from the median absolute deviation
-    double paper_level = 0;   ///< median grey level of blank paper
-    double contrast = 0;      ///< darkness of the dots' middles relative to the paper, 0 to 1
+    int covered = 0;             ///< cells with other print, such as text: not counted below
+    int cells = 0;               ///< of the region, in view and not covered
+    int missing = 0;             ///< cells without a dot
+    int merged = 0;              ///< dots that touch a neighbour
+    int dots = 0;                ///< dots found
+    int bits_wrong = 0;          ///< of two for each dot found
+    double dot_mm = 0;           ///< median equivalent diameter, see ink_reflectance
+    double dot_sigma_mm = 0;     ///< its spread, from the median absolute deviation
+    double paper_level = 0;      ///< median grey level of blank paper
+    double contrast = 0;         ///< darkness of the dots' middles relative to the paper, 0 to 1
+    bool are_sizes_told = true;  ///< false: blur and tone curve of a photo hide sizes and contrast
+    bool are_dots_told = true;   ///< false: noise of a photo hides which dots are missing or wrong
 
     double covered_share() const { return covered > 0 ? double(covered) / (covered + cells) : 0; }
     double missing_share() const { return cells > 0 ? double(missing) / cells : 0; }
@@ -122,6 +124,7 @@ enum class FindingKind {
     too_coarse,     ///< the scan shows too little of each dot
     pale,           ///< little contrast
     no_resolution,  ///< scale could not be checked
+    unresolved,     ///< what a photo is too coarse to tell
     best_settings,  ///< of a test page
 };
 /// Identifier as written in output, for example "uneven_scale".
@@ -134,12 +137,19 @@ struct Finding {
     std::string text;  ///< one or two sentences for the user: what, the likely cause, what to do
 };
 
+/// How a page shows that a camera took it.
+struct CameraSigns {
+    double perspective = 0;  ///< by how much lengths change across the page, relative
+    double lens = 0;         ///< by how much the lens displaces the outermost dots, relative
+};
+
 struct PrintCheck {
     /// All fields, the largest first. Empty: there is no pattern in the image.
     std::vector<PrintField> fields;
     Profile code = Profile::anoto;  ///< given, or found out
     double code_p_wrong = 0;        ///< probability that it is another one, where it was found out
     std::optional<Resolution> resolution;  ///< as used; none for a photo
+    std::optional<CameraSigns> camera;     ///< why the stated resolution was not used, if so
     bool is_test_page = false;
     /// Patches of the usual test page (make_test_page's defaults) that are not among the fields.
     std::vector<Pattern> unread_patches;

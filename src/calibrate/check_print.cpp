@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -11,6 +13,7 @@
 #include "calibrate/print_field.hpp"
 #include "calibrate/print_findings.hpp"
 #include "calibrate/print_measures.hpp"
+#include "calibrate/print_view.hpp"
 #include "dotpose/sheet_file.hpp"
 #include "dotpose/test_page.hpp"
 
@@ -144,6 +147,63 @@ void look_for_another_code(const ImageView& scan, const CropDone& done, PrintChe
                                           name(code), name(check.code), name(code))});
 }
 
+/// A field with all its cells.
+struct CollectedField {
+    Field field;
+    CellGrid grid;
+    PrintField result;
+};
+
+/// Each part of the page once, the largest first.
+std::vector<CollectedField> collect_fields(const ImageView& scan, const Tiling& tiling,
+                                           const std::vector<Anchor>& anchors,
+                                           const CheckPrintOptions& options, const CropDone& done) {
+    std::vector<Field> fields = group_anchors(anchors, tiling);
+    const auto tiles = [](const Field& field) {
+        return std::ranges::count_if(field.maps, [](const auto& map) { return map.has_value(); });
+    };
+    std::ranges::stable_sort(fields, std::ranges::greater{}, tiles);
+    std::vector<CollectedField> collected;
+    for (auto field = fields.begin(); field != fields.end(); ++field) {
+        if (tiles(*field) == 0) continue;  // another one has taken them over
+        PrintField result;
+        identify(*field, options, result);
+        field->code.profile = result.pattern.profile;
+        field->code.displacement = result.pattern.displacement_mm / result.pattern.spacing_mm;
+        bool is_borne_out = follow(scan, tiling, *field);
+        for (auto other = std::next(field); is_borne_out && other != fields.end(); ++other) {
+            if (take_over(*field, *other)) is_borne_out = follow(scan, tiling, *field);
+        }
+        if (!is_borne_out) continue;
+        CellGrid grid = collect_cells(scan, tiling, *field);
+        collected.push_back({std::move(*field), std::move(grid), std::move(result)});
+        done();
+    }
+    return collected;
+}
+
+/// Measures all fields, on a scan or on a photo, as the largest of them tells.
+void measure_fields(const ImageView& scan, std::vector<CollectedField> collected,
+                    const CheckPrintOptions& options, PrintCheck& check) {
+    std::vector<Match> matches;
+    for (const CollectedField& part : collected) {
+        auto its = matches_of(part.grid, part.field, part.result.pattern);
+        if (its.size() > matches.size()) matches = std::move(its);
+    }
+    check.resolution = options.resolution;
+    if (options.resolution && matches.size() >= kLeastDots) {
+        const Eigen::Vector2d middle_px(0.5 * (scan.width_px - 1), 0.5 * (scan.height_px - 1));
+        check.camera = signs_of_camera(matches, middle_px);
+    }
+    for (CollectedField& part : collected) {
+        auto resolution = believable(options.resolution, part.result.pattern, part.field);
+        if (!resolution || check.camera) check.resolution.reset();
+        if (check.camera) resolution.reset();
+        const Measuring measuring{scan, part.field, part.grid, resolution, options.ink_reflectance};
+        if (measure_field(measuring, kLeastDots, part.result)) check.fields.push_back(part.result);
+    }
+}
+
 }  // namespace
 
 PrintCheck check_print(const ImageView& scan, const CheckPrintOptions& asked) {
@@ -153,26 +213,12 @@ PrintCheck check_print(const ImageView& scan, const CheckPrintOptions& asked) {
     Work work(asked);
     const CropDone done = [&work] { work.step(); };
     CropLocator locator(scan, asked.any_code ? std::nullopt : std::optional(asked.pattern.profile));
-    const auto tiling = locator.choose_tiling(done);
-    if (tiling) {
+    if (const auto tiling = locator.choose_tiling(done)) {
         const auto anchors = locator.find_anchors(*tiling, done);
         check.code = options.pattern.profile = locator.code().code();
         if (asked.any_code)
             check.code_p_wrong = double(locator.code().evidence().p_wrong(check.code));
-        check.resolution = options.resolution;
-        for (Field& field : group_anchors(anchors, *tiling)) {
-            PrintField result;
-            identify(field, options, result);
-            field.code.profile = result.pattern.profile;
-            field.code.displacement = result.pattern.displacement_mm / result.pattern.spacing_mm;
-            if (!follow(scan, *tiling, field)) continue;
-            const CellGrid grid = collect_cells(scan, *tiling, field);
-            done();
-            const auto resolution = believable(options.resolution, result.pattern, field);
-            if (!resolution) check.resolution.reset();
-            const Measuring measuring{scan, field, grid, resolution, options.ink_reflectance};
-            if (measure_field(measuring, kLeastDots, result)) check.fields.push_back(result);
-        }
+        measure_fields(scan, collect_fields(scan, *tiling, anchors, options, done), options, check);
     }
     if (check.fields.empty()) check.resolution.reset();
     std::ranges::stable_sort(check.fields, std::ranges::greater{}, &PrintField::dots);

@@ -156,8 +156,8 @@ CellGrid collect_cells(const ImageView& scan, const Tiling& tiling, const Field&
     std::vector<bool> seen(grid.cells.size());
     for (int t = 0; t < tiling.count(); ++t) {
         for (const View& view : views_of(t, tiling, field)) {
-            const SeenTile tile =
-                measure_tile(scan, view.rect, view.map, field.code, field.strength);
+            const SeenTile tile = measure_tile(scan, view.rect, view.map, field.code,
+                                               field.strengths[static_cast<std::size_t>(t)]);
             for (const SeenCell& cell : tile.cells) {
                 const std::int64_t i = std::int64_t{cell.x} - grid.origin.x;
                 const std::int64_t j = std::int64_t{cell.y} - grid.origin.y;

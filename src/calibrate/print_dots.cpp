@@ -20,8 +20,10 @@ constexpr double kLeastShare = 0.35;
 constexpr double kFloorShare = 0.15;
 /// Dots are summed up to half the way to the nearest neighbour there can be, in spacings.
 constexpr double kReach = 1.0 / 3;
-/// Print on a cell's border is no dot if it is darker than this share of one: text or pictures.
+/// Print on a cell's border is no dot if it is darker than this share of one, text or pictures, and
+/// than noise makes blank paper by chance.
 constexpr double kOtherPrintShare = 0.35;
+constexpr double kOtherPrint_sigmas = 6;
 constexpr int kCentrings = 4;
 constexpr double kCentred_px = 0.01;
 constexpr int kLeastToFit = 30;
@@ -124,8 +126,9 @@ class Meter {
             moved_px = (place_px - before).norm();
         }
         const Vector2d offset = cells_per_px_ * (place_px - intersection_px);
-        cell.has_dot = strength_at(place_px) >= kLeastShare * strength &&
-                       offset.cwiseAbs().maxCoeff() <= kFarthest;
+        cell.strength = static_cast<float>(strength_at(place_px) / strength);
+        cell.has_dot =
+            double(cell.strength) >= kLeastShare && offset.cwiseAbs().maxCoeff() <= kFarthest;
         if (!cell.has_dot) return;
         const bool is_horizontal = std::abs(offset.x()) > std::abs(offset.y());
         cell.read = is_horizontal ? (offset.x() > 0 ? Symbol::right : Symbol::left)
@@ -137,16 +140,16 @@ class Meter {
         cell.mass_px2 = static_cast<float>(mass(place_px));
     }
 
-    /// Whether the border of a cell is no blank paper: darker, or, where most of the tile is filled
-    /// with grey, lighter. Left out are the middles of its sides, where swollen dots may run
-    /// together.
-    bool is_covered(const Vector2d& cell, double strength) const {
+    /// Whether the border of a cell is no blank paper: by `least_darkness` darker or, where most of
+    /// the tile is filled with grey, lighter. Left out are the middles of its sides, where swollen
+    /// dots may run together.
+    bool is_covered(const Vector2d& cell, double least_darkness) const {
         for (const double along : {-0.5, -0.25, 0.25, 0.5}) {
             for (const double across : {-0.5, 0.5}) {
                 for (const Vector2d& step : {Vector2d(along, across), Vector2d(across, along)}) {
                     const Vector2d p = map_.pixel(cell + step);
                     const double darkness = darkness_at(scan_, p, paper_);
-                    if (std::abs(darkness) > kOtherPrintShare * strength) return true;
+                    if (std::abs(darkness) > least_darkness) return true;
                 }
             }
         }
@@ -216,8 +219,9 @@ class Meter {
     double per_paper_;
 };
 
-/// Level of the paper in the corners of the cells, which no dot comes near.
-double paper_level(const ImageView& scan, const PixelRect& rect, const LocalMap& map) {
+/// Level of the paper in the corners of the cells, which no dot comes near, and its noise.
+void measure_paper(const ImageView& scan, const PixelRect& rect, const LocalMap& map,
+                   SeenTile& tile) {
     const CellRange range = cells_in(rect, map);
     std::vector<double> levels;
     for (std::int64_t y = range.y_begin; y < range.y_end; ++y) {
@@ -226,7 +230,13 @@ double paper_level(const ImageView& scan, const PixelRect& rect, const LocalMap&
             if (rect.contains(corner, 0)) levels.push_back(level_at(scan, corner));
         }
     }
-    return middle_mean(levels);
+    tile.paper = middle_mean(levels);
+    if (tile.paper <= 0) return;
+    // Half of what is normally distributed lies within 0.6745 standard deviations.
+    constexpr double kSigmaPerQuartiles = 1 / (2 * 0.6745);
+    const std::size_t quarter = levels.size() / 4;
+    tile.noise =
+        kSigmaPerQuartiles * (levels[levels.size() - 1 - quarter] - levels[quarter]) / tile.paper;
 }
 
 }  // namespace
@@ -248,7 +258,7 @@ double darkness_at(const ImageView& scan, const Vector2d& pixel, double paper) {
 SeenTile measure_tile(const ImageView& scan, const PixelRect& rect, const LocalMap& map,
                       const Code& code, std::optional<double> strength) {
     SeenTile tile;
-    tile.paper = paper_level(scan, rect, map);
+    measure_paper(scan, rect, map, tile);
     if (tile.paper <= 0) return tile;
     const Meter meter(scan, map, code.displacement, tile.paper);
     const CellRange range = cells_in(rect, map);
@@ -268,36 +278,50 @@ SeenTile measure_tile(const ImageView& scan, const PixelRect& rect, const LocalM
         }
     }
     tile.strength = median(strengths);
+    const double expected = strength.value_or(tile.strength);
+    // Noise does not hide print that is as dark as a dot.
+    const double other_print =
+        std::max(kOtherPrintShare * expected, std::min(kOtherPrint_sigmas * tile.noise, expected));
     for (std::size_t i = 0; i < tile.cells.size(); ++i) {
         SeenCell& cell = tile.cells[i];
-        const double expected = strength.value_or(tile.strength);
         meter.measure(map.pixel(Vector2d(cell.x, cell.y)), places_px[i], expected, cell);
-        cell.is_covered = meter.is_covered(Vector2d(cell.x, cell.y), expected);
+        cell.is_covered = meter.is_covered(Vector2d(cell.x, cell.y), other_print);
         tile.dots += cell.has_dot ? 1 : 0;
         tile.right += cell.is_right() ? 1 : 0;
     }
     return tile;
 }
 
-std::optional<LocalMap> fit_map(const SeenTile& tile, const Code& code) {
+std::optional<LocalMap> fit_map(const SeenTile& tile, const Code& code,
+                                const Perspective& perspective) {
     if (tile.right < kLeastToFit) return std::nullopt;
-    LocalMap map;
+    Vector2d middle = Vector2d::Zero();
     for (const SeenCell& cell : tile.cells) {
-        if (!cell.is_right()) continue;
-        map.centre_px += cell.centre_px() / tile.right;
-        map.centre_cell += code.dot_cell(cell.x, cell.y, cell.nominal) / tile.right;
+        if (cell.is_right()) middle += code.dot_cell(cell.x, cell.y, cell.nominal) / tile.right;
     }
-    Eigen::Matrix2d cells = Eigen::Matrix2d::Zero();
-    Eigen::Matrix2d products = Eigen::Matrix2d::Zero();
+    LocalMap map;
+    map.centre_cell = middle;
+    map.perspective_per_cell = perspective.at(middle);
+    // With the perspective known, the rest is linear: in the cells as they would be without it.
+    const auto without = [&](const SeenCell& cell) {
+        const Vector2d d = code.dot_cell(cell.x, cell.y, cell.nominal) - middle;
+        return Vector2d(d / (1 + map.perspective_per_cell.dot(d)));
+    };
+    Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+    Eigen::Matrix<double, 3, 2> products = Eigen::Matrix<double, 3, 2>::Zero();
     for (const SeenCell& cell : tile.cells) {
         if (!cell.is_right()) continue;
-        const Vector2d c = code.dot_cell(cell.x, cell.y, cell.nominal) - map.centre_cell;
-        cells += c * c.transpose();
-        products += (cell.centre_px() - map.centre_px) * c.transpose();
+        const Vector2d step = without(cell);
+        const Eigen::Vector3d c(step.x(), step.y(), 1);
+        squares += c * c.transpose();
+        products += c * cell.centre_px().transpose();
     }
     // A single line of dots says nothing across it.
-    if (cells.determinant() < 1e-3 * cells.trace() * cells.trace()) return std::nullopt;
-    map.px_per_cell = products * cells.inverse();
+    const Eigen::Matrix2d spread = squares.topLeftCorner<2, 2>();
+    if (spread.determinant() < 1e-3 * spread.trace() * spread.trace()) return std::nullopt;
+    const Eigen::Matrix<double, 3, 2> solution = squares.ldlt().solve(products);
+    map.px_per_cell = solution.topRows<2>().transpose();
+    map.centre_px = solution.row(2).transpose();
     return map;
 }
 

@@ -31,6 +31,7 @@ struct SeenCell {
     bool has_dot = false;
     float u_px = 0;  ///< centre
     float v_px = 0;
+    float strength = 0;  ///< mean darkness around its middle over that to be expected; always known
     float mass_px2 = 0;  ///< darkness summed over the dot
     float peak = 0;      ///< darkness of its middle
     float paper = 0;     ///< grey level of the blank paper around
@@ -42,6 +43,7 @@ struct SeenCell {
 struct SeenTile {
     std::vector<SeenCell> cells;
     double paper = 0;     ///< grey level of the blank paper between dots; 0: none to be seen
+    double noise = 0;     ///< standard deviation of the darkness of blank paper
     double strength = 0;  ///< median over the cells of the darkness of the likeliest place
     int dots = 0;
     int right = 0;  ///< dots that read as they should
@@ -56,6 +58,7 @@ SeenTile measure_tile(const ImageView& scan, const PixelRect& rect, const LocalM
 double darkness_at(const ImageView& scan, const Eigen::Vector2d& pixel, double paper);
 
 /// The map fitted to the dots that read right; nothing if there are too few of them.
-std::optional<LocalMap> fit_map(const SeenTile& tile, const Code& code);
+std::optional<LocalMap> fit_map(const SeenTile& tile, const Code& code,
+                                const Perspective& perspective);
 
 }  // namespace dotpose::calibrate

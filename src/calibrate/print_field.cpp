@@ -5,6 +5,9 @@
 #include <cstddef>
 #include <deque>
 
+#include "calibrate/print_fit.hpp"
+#include "calibrate/print_light.hpp"
+
 namespace dotpose::calibrate {
 namespace {
 
@@ -30,15 +33,13 @@ const LocalMap* nearest_map(const Field& field, const Vector2d& pixel) {
     return nearest;
 }
 
-bool continues(const Field& field, const Anchor& anchor) {
-    if (!(field.code.section.u == anchor.section.u && field.code.section.v == anchor.section.v)) {
-        return false;
-    }
-    const LocalMap* map = nearest_map(field, anchor.map.centre_px);
+bool continues(const Field& field, const Section& section, const LocalMap& other) {
+    if (!(field.code.section.u == section.u && field.code.section.v == section.v)) return false;
+    const LocalMap* map = nearest_map(field, other.centre_px);
     if (map == nullptr) return false;
-    const Vector2d expected = map->cell(anchor.map.centre_px);
+    const Vector2d expected = map->cell(other.centre_px);
     const double distance = (expected - map->centre_cell).norm();
-    return (expected - anchor.map.centre_cell).norm() <= kAgree_cells + kAgreeShare * distance;
+    return (expected - other.centre_cell).norm() <= kAgree_cells + kAgreeShare * distance;
 }
 
 bool belongs(const SeenTile& tile) {
@@ -63,40 +64,84 @@ std::vector<int> neighbours_of(int tile, const Tiling& tiling) {
     return neighbours;
 }
 
-/// Fits the anchors' maps to the dots, and learns how dark dots and how light the paper are.
-void refine_anchors(const ImageView& scan, const Tiling& tiling, Field& field) {
-    std::vector<double> strengths;
+/// Fits the maps that there are to the dots, and learns how dark dots and how light the paper are.
+void refine_maps(const ImageView& scan, const Tiling& tiling, Field& field) {
     std::vector<double> papers;
     for (int t = 0; t < tiling.count(); ++t) {
         auto& map = field.maps[static_cast<std::size_t>(t)];
         if (!map) continue;
         const SeenTile tile = measure_tile(scan, tiling.rect(t), *map, field.code, std::nullopt);
-        auto fitted = fit_map(tile, field.code);
+        auto fitted = fit_map(tile, field.code, field.perspective);
         if (!belongs(tile) || !fitted) {
             map.reset();
             continue;
         }
         map = *fitted;
-        strengths.push_back(tile.strength);
+        field.strengths[static_cast<std::size_t>(t)] = tile.strength;
         papers.push_back(tile.paper);
     }
-    field.strength = median_of(strengths);
     field.paper = median_of(papers);
 }
 
-/// The map of a tile, continued from that of its neighbour; nothing if the tile shows no part of
-/// the field. First from the dots next to the neighbour, because perspective bends the grid away
-/// from where its map leads. With few dots, the neighbour's map is the better one.
-std::optional<LocalMap> continued(const ImageView& scan, const Tiling& tiling, const Field& field,
-                                  int t, const LocalMap& from) {
+/// Gives a tile the map of its neighbour, continued; false if the tile shows no part of the field.
+/// First from the dots next to the neighbour, because a camera that is tilted or bends lines leads
+/// the grid away from where that map has it. With few dots, the neighbour's map is the better one.
+bool continue_into(int t, int from, const ImageView& scan, const Tiling& tiling, Field& field) {
     const PixelRect rect = tiling.rect(t);
+    const LocalMap& beside = *field.maps[static_cast<std::size_t>(from)];
+    double& strength = field.strengths[static_cast<std::size_t>(t)];
+    strength = field.strengths[static_cast<std::size_t>(from)];
     const SeenTile part =
-        measure_tile(scan, part_near(rect, tiling, from), from, field.code, field.strength);
-    if (!belongs(part)) return std::nullopt;
-    const LocalMap map = fit_map(part, field.code).value_or(from);
-    const SeenTile whole = measure_tile(scan, rect, map, field.code, field.strength);
-    if (!belongs(whole)) return map;
-    return fit_map(whole, field.code).value_or(map);
+        measure_tile(scan, part_near(rect, tiling, beside), beside, field.code, strength);
+    if (!belongs(part)) return false;
+    LocalMap map = fit_map(part, field.code, field.perspective).value_or(beside);
+    const SeenTile whole = measure_tile(scan, rect, map, field.code, strength);
+    if (belongs(whole)) {
+        map = fit_map(whole, field.code, field.perspective).value_or(map);
+        strength = whole.strength;
+    }
+    field.maps[static_cast<std::size_t>(t)] = map;
+    return true;
+}
+
+/// Carries the grid from tile to tile.
+void spread(const ImageView& scan, const Tiling& tiling, Field& field) {
+    std::deque<int> queue;
+    for (int t = 0; t < tiling.count(); ++t) {
+        if (field.maps[static_cast<std::size_t>(t)]) queue.push_back(t);
+    }
+    while (!queue.empty()) {
+        const int from = queue.front();
+        queue.pop_front();
+        for (const int t : neighbours_of(from, tiling)) {
+            if (field.maps[static_cast<std::size_t>(t)]) continue;
+            if (continue_into(t, from, scan, tiling, field)) queue.push_back(t);
+        }
+    }
+}
+
+/// The perspective in which the maps see the page; none if lengths hardly differ across it.
+Perspective perspective_of(const Field& field) {
+    constexpr double kNotable = 0.003;
+    std::vector<Match> places;
+    Vector2d low = Vector2d::Constant(1e18);
+    Vector2d high = -low;
+    for (const auto& map : field.maps) {
+        if (!map) continue;
+        low = low.cwiseMin(map->centre_cell);
+        high = high.cwiseMax(map->centre_cell);
+        constexpr double kStep_cells = 6;
+        for (const Vector2d& step :
+             {Vector2d(1, 1), Vector2d(1, -1), Vector2d(-1, 1), Vector2d(-1, -1)}) {
+            const Vector2d cell = map->centre_cell + kStep_cells * step;
+            places.push_back({cell, map->pixel(cell)});
+        }
+    }
+    constexpr std::size_t kLeastPlaces = 12;
+    if (places.size() < kLeastPlaces) return {};
+    const PlaneFit fit = fit_plane(places, ViewModel::perspective);
+    if (fit.perspective_per_mm.norm() * (high - low).norm() < kNotable) return {};
+    return {fit.centre_mm, fit.perspective_per_mm};
 }
 
 }  // namespace
@@ -117,12 +162,14 @@ PixelRect part_near(const PixelRect& rect, const Tiling& tiling, const LocalMap&
 std::vector<Field> group_anchors(const std::vector<Anchor>& anchors, const Tiling& tiling) {
     std::vector<Field> fields;
     for (const Anchor& anchor : anchors) {
-        auto field = std::ranges::find_if(
-            fields, [&](const Field& candidate) { return continues(candidate, anchor); });
+        auto field = std::ranges::find_if(fields, [&](const Field& candidate) {
+            return continues(candidate, anchor.section, anchor.map);
+        });
         if (field == fields.end()) {
             Field& fresh = fields.emplace_back();
             fresh.code.section = anchor.section;
             fresh.maps.resize(static_cast<std::size_t>(tiling.count()));
+            fresh.strengths.resize(fresh.maps.size());
             field = fields.end() - 1;
         }
         field->maps[static_cast<std::size_t>(anchor.tile)] = anchor.map;
@@ -130,25 +177,36 @@ std::vector<Field> group_anchors(const std::vector<Anchor>& anchors, const Tilin
     return fields;
 }
 
-bool follow(const ImageView& scan, const Tiling& tiling, Field& field) {
-    refine_anchors(scan, tiling, field);
-    std::deque<int> queue;
-    for (int t = 0; t < tiling.count(); ++t) {
-        if (field.maps[static_cast<std::size_t>(t)]) queue.push_back(t);
-    }
-    const bool is_borne_out = !queue.empty();
-    while (!queue.empty()) {
-        const int from = queue.front();
-        queue.pop_front();
-        const LocalMap map = *field.maps[static_cast<std::size_t>(from)];
-        for (const int t : neighbours_of(from, tiling)) {
-            auto& there = field.maps[static_cast<std::size_t>(t)];
-            if (there) continue;
-            there = continued(scan, tiling, field, t, map);
-            if (there) queue.push_back(t);
+bool take_over(Field& field, Field& other) {
+    bool has_gained = false;
+    for (std::size_t t = 0; t < other.maps.size(); ++t) {
+        auto& map = other.maps[t];
+        if (!map || !continues(field, other.code.section, *map)) continue;
+        if (!field.maps[t]) {
+            field.maps[t] = map;
+            has_gained = true;
         }
+        map.reset();
     }
-    return is_borne_out;
+    return has_gained;
+}
+
+bool follow(const ImageView& scan, const Tiling& tiling, Field& field) {
+    refine_maps(scan, tiling, field);
+    if (std::ranges::none_of(field.maps, [](const auto& map) { return map.has_value(); })) {
+        return false;
+    }
+    spread(scan, tiling, field);
+    field.perspective = perspective_of(field);
+    if (field.perspective.per_cell.norm() > 0) {
+        for (auto& map : field.maps) {
+            if (map) map->perspective_per_cell = field.perspective.at(map->centre_cell);
+        }
+        refine_maps(scan, tiling, field);
+        spread(scan, tiling, field);
+    }
+    field.strengths = smooth_strengths(field, tiling);
+    return true;
 }
 
 }  // namespace dotpose::calibrate

@@ -68,7 +68,13 @@ class Findings {
         const bool has_fault =
             std::any_of(findings_.begin() + static_cast<std::ptrdiff_t>(first_finding),
                         findings_.end(), [](const Finding& finding) { return finding.is_fault; });
-        if (!has_fault) remark(FindingKind::good, "the print can be used as it is");
+        if (has_fault) return;
+        const bool is_all_told =
+            check_.is_test_page || !field_ ||
+            (check_.fields[*field_].are_sizes_told && check_.fields[*field_].are_dots_told);
+        remark(FindingKind::good,
+               is_all_told ? "the print can be used as it is"
+                           : "as far as this photo tells, the print can be used as it is");
     }
 
     void judge_nothing_found() {
@@ -86,9 +92,7 @@ class Findings {
 
     void judge_scale(const PrintField& field) {
         if (!field.scale) {
-            remark(FindingKind::no_resolution,
-                   "scale was not checked, because the image states no resolution that can be "
-                   "true: scan on a flatbed, or give --dpi");
+            remark(FindingKind::no_resolution, why_no_scale());
             return;
         }
         const PrintScale& s = *field.scale;
@@ -122,15 +126,19 @@ class Findings {
     }
 
     void judge_dots(const PrintField& field) {
-        if (is_too_coarse(field)) {
+        const bool is_photo = !field.scale;
+        const bool is_coarse = is_too_coarse(field);
+        if (is_coarse && !is_photo) {
             fault(FindingKind::too_coarse,
                   fmt::format("the image is too coarse to judge single dots: {:.1f} pixels from "
                               "dot to dot, whose places scatter by {:.3f} mm; scan at 600 dpi, as "
                               "PNG or TIFF",
                               field.spacing_px, field.scatter_mm));
         } else {
-            judge_size(field);
-            judge_faulty_dots(field);
+            const bool are_dots_told = field.are_dots_told && !is_coarse;
+            if (field.are_sizes_told && !is_coarse) judge_size(field);
+            if (are_dots_told) judge_faulty_dots(field);
+            remark_untold(field, are_dots_told);
         }
         if (field.covered_share() > kNotableShare) {
             remark(FindingKind::covered,
@@ -140,9 +148,11 @@ class Findings {
         }
         if (field.largest_distortion_mm > kNotableDistortion_mm) {
             remark(FindingKind::distorted,
-                   fmt::format("parts of the page are off by up to {:.2f} mm: the paper or the "
-                               "scanner's carriage moved unevenly, or the sheet did not lie flat",
-                               field.largest_distortion_mm));
+                   fmt::format("parts of the page are off by up to {:.2f} mm: {}",
+                               field.largest_distortion_mm,
+                               is_photo ? "the sheet did not lie flat, or the lens bends lines"
+                                        : "the paper or the scanner's carriage moved unevenly, or "
+                                          "the sheet did not lie flat"));
         }
     }
 
@@ -166,6 +176,33 @@ class Findings {
         return field.spacing_px < kCoarse_px &&
                (field.scatter_mm > kCoarseScatter * field.pattern.spacing_mm ||
                 field.wrong_share() > kCoarseWrongShare || is_blurred_together);
+    }
+
+    std::string why_no_scale() const {
+        if (const auto& camera = check_.camera) {
+            return fmt::format(
+                "scale was not checked, because this is a photo, which has none of its own: "
+                "lengths change by {} across the page, and the lens displaces its corners by {}; "
+                "scan it on a flatbed",
+                percent(camera->perspective), percent(std::abs(camera->lens)));
+        }
+        return fmt::format(
+            "scale was not checked, because the image states no resolution{}: scan on a flatbed, "
+            "or give --dpi if the page lies in the image as in a scan",
+            options_.resolution ? " that can be true" : "");
+    }
+
+    /// What a photo does not show of the dots.
+    void remark_untold(const PrintField& field, bool are_dots_told) {
+        if (field.are_sizes_told && are_dots_told) return;
+        const double dot_px = field.dot_mm * field.spacing_px / field.pattern.spacing_mm;
+        remark(FindingKind::unresolved,
+               fmt::format("the dots are {:.1f} pixels across in this photo: it does not tell {}; "
+                           "scan at 600 dpi, or come closer",
+                           dot_px,
+                           are_dots_told ? "their size and how black they are"
+                                         : "how large and black they are, and which of them are "
+                                           "missing or misplaced"));
     }
 
     void judge_size(const PrintField& field) {
@@ -327,6 +364,8 @@ const char* name(FindingKind kind) {
             return "pale";
         case FindingKind::no_resolution:
             return "no_resolution";
+        case FindingKind::unresolved:
+            return "unresolved";
         case FindingKind::best_settings:
             return "best_settings";
     }

@@ -1,7 +1,6 @@
 // One map for a whole field, fitted to all its dots.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include <Eigen/Core>
@@ -14,19 +13,32 @@ struct Match {
     Eigen::Vector2d seen;  ///< px, or mm of a scan of known resolution
 };
 
-/// seen = offset + (linear * d) / (1 + perspective . d), with d = nominal - centre.
+/// How an image may have come about.
+enum class ViewModel {
+    flat,         ///< on a scanner: lengths in the image are those on the paper, along each axis
+    perspective,  ///< by a camera without distortion
+    camera,       ///< by a camera whose lens distorts radially
+};
+
+/// seen = lens_centre + q (1 + lens q^2), with
+/// q = offset + (linear * d) / (1 + perspective . d), d = nominal - centre.
 struct PlaneFit {
     Eigen::Vector2d centre_mm = Eigen::Vector2d::Zero();
     Eigen::Vector2d offset = Eigen::Vector2d::Zero();
     Eigen::Matrix2d linear = Eigen::Matrix2d::Identity();
     Eigen::Vector2d perspective_per_mm = Eigen::Vector2d::Zero();
+    Eigen::Vector2d lens_centre = Eigen::Vector2d::Zero();
+    double lens = 0;      ///< per squared unit of `seen`
     double residual = 0;  ///< rms per axis, without outliers
 
     Eigen::Vector2d seen(const Eigen::Vector2d& nominal_mm) const;
+    /// Units of `seen` per mm of the paper at a place: the root of the ratio of areas.
+    double units_per_mm(const Eigen::Vector2d& nominal_mm) const;
 };
 
 /// Least squares, twice: the second time without dots that lie more than four standard deviations
-/// off. Needs at least 8 matches that are not on one line.
-PlaneFit fit_plane(const std::vector<Match>& matches, bool with_perspective);
+/// off. Needs at least 8 matches that are not on one line. `lens_centre` counts for cameras only.
+PlaneFit fit_plane(const std::vector<Match>& matches, ViewModel model,
+                   const Eigen::Vector2d& lens_centre = Eigen::Vector2d::Zero());
 
 }  // namespace dotpose::calibrate

@@ -1,4 +1,4 @@
-// Where the cells of the code are seen in a scan: to first order around one place.
+// Where the cells of the code are seen in a scan, around one place.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,18 +9,32 @@
 namespace dotpose::calibrate {
 
 /// Maps between the code plane, in cells, and the scan, in px. Good for some tens of cells.
+/// pixel = centre + (px_per_cell * d) / (1 + perspective . d), with d = cell - centre.
 struct LocalMap {
     Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
     Eigen::Vector2d centre_cell = Eigen::Vector2d::Zero();
     Eigen::Matrix2d px_per_cell = Eigen::Matrix2d::Identity();
+    Eigen::Vector2d perspective_per_cell = Eigen::Vector2d::Zero();
 
     Eigen::Vector2d pixel(const Eigen::Vector2d& cell) const {
-        return centre_px + px_per_cell * (cell - centre_cell);
+        const Eigen::Vector2d d = cell - centre_cell;
+        return centre_px + px_per_cell * d / (1 + perspective_per_cell.dot(d));
     }
     Eigen::Vector2d cell(const Eigen::Vector2d& pixel) const {
-        return centre_cell + px_per_cell.inverse() * (pixel - centre_px);
+        const Eigen::Vector2d q = px_per_cell.inverse() * (pixel - centre_px);
+        return centre_cell + q / (1 - perspective_per_cell.dot(q));
     }
     double spacing_px() const { return std::sqrt(std::abs(px_per_cell.determinant())); }
+};
+
+/// How a camera sees the paper as a whole: the perspective of the map around any place.
+struct Perspective {
+    Eigen::Vector2d centre_cell = Eigen::Vector2d::Zero();
+    Eigen::Vector2d per_cell = Eigen::Vector2d::Zero();
+
+    Eigen::Vector2d at(const Eigen::Vector2d& cell) const {
+        return per_cell / (1 + per_cell.dot(cell - centre_cell));
+    }
 };
 
 /// A rectangle of pixels, ends exclusive.

@@ -7,8 +7,6 @@
 #include <numbers>
 #include <utility>
 
-#include "calibrate/print_fit.hpp"
-
 namespace dotpose::calibrate {
 namespace {
 
@@ -43,9 +41,13 @@ struct Units {
 };
 
 /// Places on the paper from the first cell of the region: small numbers.
+Vector2d nominal_mm(const CellGrid& grid, const Field& field, const Pattern& pattern,
+                    const SeenCell& cell) {
+    const Vector2d origin(grid.origin.x, grid.origin.y);
+    return pattern.spacing_mm * (field.code.dot_cell(cell.x, cell.y, cell.nominal) - origin);
+}
 Vector2d nominal_mm(const Measuring& m, const Pattern& pattern, const SeenCell& cell) {
-    const Vector2d origin(m.grid.origin.x, m.grid.origin.y);
-    return pattern.spacing_mm * (m.field.code.dot_cell(cell.x, cell.y, cell.nominal) - origin);
+    return nominal_mm(m.grid, m.field, pattern, cell);
 }
 
 PrintScale scale_of(const Eigen::Matrix2d& linear) {
@@ -59,20 +61,36 @@ PrintScale scale_of(const Eigen::Matrix2d& linear) {
     return scale;
 }
 
+/// Where the dots of a field should be seen.
+struct Fitted {
+    PlaneFit fit;
+    Units units;
+    bool is_photo = false;  ///< how large a mm is seen depends on the place
+
+    double mm_per_unit(const Vector2d& place_mm) const {
+        return is_photo ? 1 / fit.units_per_mm(place_mm) : 1;
+    }
+    double mm_per_px(const Vector2d& place_mm) const {
+        return mm_per_unit(place_mm) * std::sqrt(units.per_px.x() * units.per_px.y());
+    }
+    /// How far a dot is from there, on the paper.
+    Vector2d off_mm(const Vector2d& place_mm, const Vector2d& seen_px) const {
+        return mm_per_unit(place_mm) * (units.from_px(seen_px) - fit.seen(place_mm));
+    }
+};
+
 /// From the differences of neighbours, which distortion moves together.
-/// `mm_per_unit`: paper per unit of the fit.
-double measure_scatter_mm(const Measuring& m, const PlaneFit& fit, const Units& units,
-                          double mm_per_unit, const Pattern& pattern) {
+double measure_scatter_mm(const Measuring& m, const Fitted& fitted, const Pattern& pattern) {
     std::vector<double> steps_mm;
-    const auto off = [&](const SeenCell& cell) {
-        return Vector2d(units.from_px(cell.centre_px()) - fit.seen(nominal_mm(m, pattern, cell)));
+    const auto off_mm = [&](const SeenCell& cell) {
+        return fitted.off_mm(nominal_mm(m, pattern, cell), cell.centre_px());
     };
     for (int j = 0; j < m.grid.rows; ++j) {
         for (int i = 0; i + 1 < m.grid.columns; ++i) {
             const SeenCell& cell = m.grid.at(i, j);
             const SeenCell& next = m.grid.at(i + 1, j);
             if (!cell.is_right() || !next.is_right()) continue;
-            const Vector2d step = mm_per_unit * (off(next) - off(cell));
+            const Vector2d step = off_mm(next) - off_mm(cell);
             steps_mm.push_back(std::abs(step.x()));
             steps_mm.push_back(std::abs(step.y()));
         }
@@ -80,16 +98,14 @@ double measure_scatter_mm(const Measuring& m, const PlaneFit& fit, const Units& 
     return kSigmaPerDeviation * quantile(steps_mm, 0.5) / std::numbers::sqrt2;
 }
 
-/// `mm_per_unit`: paper per unit of the fit.
-void measure_distortion(const Measuring& m, const PlaneFit& fit, const Units& units,
-                        double mm_per_unit, PrintField& result) {
+void measure_distortion(const Measuring& m, const Fitted& fitted, PrintField& result) {
     std::map<std::pair<int, int>, DistortionBin> bins;
     for (int j = 0; j < m.grid.rows; ++j) {
         for (int i = 0; i < m.grid.columns; ++i) {
             const SeenCell& cell = m.grid.at(i, j);
             if (!cell.is_right()) continue;
-            const Vector2d off = mm_per_unit * (units.from_px(cell.centre_px()) -
-                                                fit.seen(nominal_mm(m, result.pattern, cell)));
+            const Vector2d off =
+                fitted.off_mm(nominal_mm(m, result.pattern, cell), cell.centre_px());
             DistortionBin& bin = bins[{j / kDistortionCells, i / kDistortionCells}];
             ++bin.dots;
             bin.u_px += double(cell.u_px);
@@ -116,13 +132,14 @@ bool have_merged(const Measuring& m, const SeenCell& a, const SeenCell& b) {
     return between > kMergedShare * double(std::min(a.peak, b.peak));
 }
 
-void count_cells(const Measuring& m, const PlaneFit& fit, const Units& units, PrintField& result) {
+void count_cells(const Measuring& m, const Fitted& fitted, PrintField& result) {
     const PixelRect whole{0, 0, m.scan.width_px, m.scan.height_px};
     std::vector<bool> merged(m.grid.cells.size());
     for (int j = 0; j < m.grid.rows; ++j) {
         for (int i = 0; i < m.grid.columns; ++i) {
             const SeenCell& cell = m.grid.at(i, j);
-            const Vector2d p = units.to_px(fit.seen(nominal_mm(m, result.pattern, cell)));
+            const Vector2d p =
+                fitted.units.to_px(fitted.fit.seen(nominal_mm(m, result.pattern, cell)));
             const bool is_in_view = whole.contains(p, -result.spacing_px);
             if (!is_in_view && !cell.has_dot) continue;
             if (cell.is_covered) {
@@ -152,8 +169,7 @@ void count_cells(const Measuring& m, const PlaneFit& fit, const Units& units, Pr
     result.merged = static_cast<int>(std::ranges::count(merged, true));
 }
 
-/// `mm_per_px`: paper per pixel.
-void measure_dots(const Measuring& m, double mm_per_px, PrintField& result) {
+void measure_dots(const Measuring& m, const Fitted& fitted, PrintField& result) {
     std::vector<double> peaks;
     for (const SeenCell& cell : m.grid.cells) {
         if (cell.is_right()) peaks.push_back(double(cell.peak));
@@ -165,6 +181,7 @@ void measure_dots(const Measuring& m, double mm_per_px, PrintField& result) {
     for (const SeenCell& cell : m.grid.cells) {
         if (!cell.is_right()) continue;
         const double area_px2 = std::max(double(cell.mass_px2), 0.0) / ink;
+        const double mm_per_px = fitted.mm_per_px(nominal_mm(m, result.pattern, cell));
         diameters_mm.push_back(mm_per_px * 2 * std::sqrt(area_px2 / std::numbers::pi));
     }
     result.dot_mm = quantile(diameters_mm, 0.5);
@@ -173,31 +190,58 @@ void measure_dots(const Measuring& m, double mm_per_px, PrintField& result) {
     result.dot_sigma_mm = kSigmaPerDeviation * quantile(diameters_mm, 0.5);
 }
 
+/// Whether what a photo shows of its dots is more than noise, blur, and the tone curves of cameras.
+void judge_photo_of_dots(const Measuring& m, PrintField& result) {
+    // A dot's edge is uncertain by about a pixel.
+    constexpr double kLeastDot_px = 6;
+    // A place without a dot has to be told from one with a dot of a third of the usual darkness.
+    constexpr double kLargestSpread = 0.12;
+    const double mm_per_px = result.pattern.spacing_mm / result.spacing_px;
+    result.are_sizes_told = result.dot_mm / mm_per_px >= kLeastDot_px;
+    std::vector<double> strengths;
+    for (const SeenCell& cell : m.grid.cells) {
+        if (cell.has_dot && !cell.is_covered) strengths.push_back(double(cell.strength));
+    }
+    const double middle = quantile(strengths, 0.5);
+    for (double& strength : strengths)
+        strength = std::abs(strength - middle);
+    result.are_dots_told = kSigmaPerDeviation * quantile(strengths, 0.5) <= kLargestSpread * middle;
+}
+
 }  // namespace
 
-bool measure_field(const Measuring& m, std::size_t least_dots, PrintField& result) {
-    const Units units(m.resolution);
+std::vector<Match> matches_of(const CellGrid& grid, const Field& field, const Pattern& pattern) {
     std::vector<Match> matches;
-    for (const SeenCell& cell : m.grid.cells) {
+    for (const SeenCell& cell : grid.cells) {
         if (!cell.is_right()) continue;
-        matches.push_back({nominal_mm(m, result.pattern, cell), units.from_px(cell.centre_px())});
+        matches.push_back({nominal_mm(grid, field, pattern, cell), cell.centre_px()});
     }
+    return matches;
+}
+
+bool measure_field(const Measuring& m, std::size_t least_dots, PrintField& result) {
+    std::vector<Match> matches = matches_of(m.grid, m.field, result.pattern);
     if (m.grid.columns < 2 || m.grid.rows < 2 || matches.size() < least_dots) return false;
     result.origin = m.grid.origin;
     result.columns = m.grid.columns;
     result.rows = m.grid.rows;
 
-    const PlaneFit fit = fit_plane(matches, !m.resolution);
-    const double units_per_mm = std::sqrt(std::abs(fit.linear.determinant()));
-    const double px_per_unit = 1 / std::sqrt(units.per_px.x() * units.per_px.y());
-    const double mm_per_unit = m.resolution ? 1 : 1 / units_per_mm;
+    Fitted fitted{{}, Units(m.resolution), !m.resolution};
+    for (Match& match : matches)
+        match.seen = fitted.units.from_px(match.seen);
+    const Vector2d middle_px(0.5 * (m.scan.width_px - 1), 0.5 * (m.scan.height_px - 1));
+    fitted.fit = fit_plane(matches, m.resolution ? ViewModel::flat : ViewModel::camera, middle_px);
+    const PlaneFit& fit = fitted.fit;
+    const double units_per_mm = fit.units_per_mm(fit.centre_mm);
+    const double px_per_unit = 1 / std::sqrt(fitted.units.per_px.prod());
     result.spacing_px = result.pattern.spacing_mm * units_per_mm * px_per_unit;
-    result.residual_mm = fit.residual * mm_per_unit;
+    result.residual_mm = fit.residual * fitted.mm_per_unit(fit.centre_mm);
     if (m.resolution) result.scale = scale_of(fit.linear);
-    result.scatter_mm = measure_scatter_mm(m, fit, units, mm_per_unit, result.pattern);
-    measure_distortion(m, fit, units, mm_per_unit, result);
-    count_cells(m, fit, units, result);
-    measure_dots(m, mm_per_unit / px_per_unit, result);
+    result.scatter_mm = measure_scatter_mm(m, fitted, result.pattern);
+    measure_distortion(m, fitted, result);
+    count_cells(m, fitted, result);
+    measure_dots(m, fitted, result);
+    if (!m.resolution) judge_photo_of_dots(m, result);
     return true;
 }
 

@@ -12,6 +12,7 @@
 #include "dotpose/image_file.hpp"
 #include "dotpose/print.hpp"
 #include "dotpose/sheet_file.hpp"
+#include "dotpose/simulate.hpp"
 #include "dotpose/test_page.hpp"
 #include "tool_command.hpp"
 
@@ -48,7 +49,7 @@ TEST_F(CheckPrintCommand, tells_people_what_is_wrong_and_why) {
     settings.missing = 0.05;
     write_jpeg("scan.jpg", scan_of_60_x_50_mm(settings), 600);
     run("check-print scan.jpg -o map.svg");
-    EXPECT_EQ(exit_code_, 0) << errors_;
+    EXPECT_EQ(exit_code_, 3) << errors_;
     EXPECT_THAT(errors_, IsEmpty());
     EXPECT_THAT(output_, StartsWith("scan.jpg: 1417 x 1181 px, 600 dpi\n"));
     EXPECT_THAT(output_, HasSubstr("cells 700,800 to "));
@@ -104,6 +105,41 @@ TEST_F(CheckPrintCommand, fit_makes_the_millimetres_of_the_sheet_file_true) {
     EXPECT_EQ(run("check-print other.jpg --fit"), 2);
 }
 
+TEST_F(CheckPrintCommand, fit_refuses_what_has_no_scale) {
+    ASSERT_EQ(run("print --paper 60x50 -o a.svg --sheets sheets.json --name a"), 0);
+    const std::string before = file("sheets.json");
+    const Sheet sheet = read_sheets(directory_ / "sheets.json")[0].sheet;
+    CameraModel camera;
+    camera.width_px = 800;
+    camera.height_px = 640;
+    camera.mm_per_px = 0.06;
+    camera.working_distance_mm = 60;
+    CameraPose pose;
+    pose.cell = {sheet.origin.x + 50, sheet.origin.y + 40};
+    pose.tilt_x_rad = 0.1;
+    write_jpeg("photo.jpg", render(page_of(sheet), camera, pose, {}, 1), 423);
+    for (const char* dpi : {"", " --dpi 423"}) {
+        run(std::string("check-print photo.jpg --fit --sheets sheets.json") + dpi);
+        EXPECT_EQ(exit_code_, 1);
+        EXPECT_THAT(errors_, StartsWith("dotpose: photo.jpg is a photo, which has no scale of its "
+                                        "own: lengths change by "));
+        EXPECT_EQ(file("sheets.json"), before);
+    }
+    run("check-print photo.jpg");
+    EXPECT_EQ(exit_code_, 0) << output_;
+    EXPECT_THAT(output_, HasSubstr("note:  scale was not checked, because this is a photo"));
+
+    // A scan that states no resolution, and one that states a wrong one.
+    const GreyImage scan = test::scan_page(sheet, {});
+    write_jpeg("scan.jpg", scan, 0);
+    EXPECT_EQ(run("check-print scan.jpg --fit --sheets sheets.json"), 1);
+    EXPECT_THAT(errors_, HasSubstr("scan.jpg states no resolution that can be true"));
+    EXPECT_EQ(run("check-print scan.jpg --fit --sheets sheets.json --dpi 400"), 1);
+    EXPECT_THAT(errors_, HasSubstr("scan.jpg: a page at 150 % of its size is not what was"));
+    EXPECT_EQ(file("sheets.json"), before);
+    EXPECT_EQ(run("check-print scan.jpg --fit --sheets sheets.json --dpi 600"), 0) << errors_;
+}
+
 TEST_F(CheckPrintCommand, judges_every_sheet_on_the_scan_by_what_the_sheet_file_says) {
     ASSERT_EQ(run("print --paper 50x50 -o a.svg --sheets sheets.json --name a --section 3,4"), 0);
     ASSERT_EQ(run("print --paper 50x50 -o b.svg --sheets sheets.json --name b --spacing 0.6"), 0);
@@ -122,7 +158,7 @@ TEST_F(CheckPrintCommand, judges_every_sheet_on_the_scan_by_what_the_sheet_file_
     write_jpeg("scan.jpg", test::scan_page(on_table, {}), 600);
 
     run("check-print scan.jpg --sheets sheets.json");
-    EXPECT_EQ(exit_code_, 0) << errors_;
+    EXPECT_EQ(exit_code_, 3) << errors_;
     EXPECT_THAT(output_, HasSubstr("FAULT: sheet 'b': the driver scaled the page to 96.0 %"));
     EXPECT_THAT(output_, HasSubstr("FAULT: sheet 'b': dots are swollen"));
     EXPECT_THAT(output_, HasSubstr("note:  sheet 'a': the print can be used as it is"));

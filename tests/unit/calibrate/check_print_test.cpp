@@ -196,6 +196,59 @@ TEST(CheckPrint, sees_a_photo_without_scale) {
     EXPECT_THAT(remarks(result), Contains("no_resolution"));
 }
 
+/// A photo of a flawless print of 110 x 90 mm from near, with so much perspective as phones see of
+/// a page that fills their view.
+GreyImage phone_photo(double tilt_rad, double mm_per_px = 0.06, double missing = 0) {
+    SheetOptions options;
+    options.paper = {110, 90};
+    const Sheet sheet = make_sheet(options);
+    CameraModel camera;
+    camera.width_px = 1600;
+    camera.height_px = 1200;
+    camera.mm_per_px = mm_per_px;
+    camera.working_distance_mm = 100 * mm_per_px / 0.06;
+    CameraPose pose;
+    pose.cell = {sheet.origin.x + 95, sheet.origin.y + 75};
+    pose.theta_rad = 0.1;
+    pose.tilt_x_rad = 0.8 * tilt_rad;
+    pose.tilt_y_rad = 0.6 * tilt_rad;
+    Imperfections imperfections;
+    imperfections.blur_sigma_px = 0.8;
+    imperfections.noise_sigma = 3;
+    imperfections.vignetting = 0.3;
+    imperfections.fall = 0.3;
+    imperfections.missing = missing;
+    return through_jpeg(render(page_of(sheet), camera, pose, imperfections, 1), 85);
+}
+
+TEST(CheckPrint, photos_of_a_flawless_print_have_no_faults_and_no_scale) {
+    for (const double tilt_degrees : {1.0, 10.0, 25.0}) {
+        // The resolution that the middle of the view has.
+        const PrintCheck result = check(phone_photo(tilt_degrees * kDegree_rad), 25.4 / 0.06);
+        ASSERT_EQ(result.fields.size(), 1U) << tilt_degrees;
+        const PrintField& field = result.fields[0];
+        EXPECT_TRUE(result.camera) << tilt_degrees;
+        EXPECT_FALSE(result.resolution) << tilt_degrees;
+        EXPECT_FALSE(field.scale) << tilt_degrees;
+        EXPECT_THAT(faults(result), IsEmpty()) << tilt_degrees;
+        EXPECT_THAT(remarks(result), ElementsAre("no_resolution", "unresolved", "good"))
+            << tilt_degrees;
+        EXPECT_LT(field.wrong_share(), 0.001) << tilt_degrees;
+        EXPECT_LT(field.missing_share(), 0.001) << tilt_degrees;
+        EXPECT_LT(field.covered_share(), 0.001) << tilt_degrees;
+        EXPECT_LT(field.largest_distortion_mm, 0.02) << tilt_degrees;
+    }
+}
+
+TEST(CheckPrint, photos_tell_missing_dots) {
+    const PrintCheck result = check(phone_photo(10 * kDegree_rad, 0.04, 0.04), 72);
+    ASSERT_EQ(result.fields.size(), 1U);
+    EXPECT_TRUE(result.fields[0].are_dots_told);
+    EXPECT_FALSE(result.fields[0].are_sizes_told);
+    EXPECT_NEAR(result.fields[0].missing_share(), 0.04, 0.006);
+    EXPECT_THAT(faults(result), ElementsAre("missing"));
+}
+
 TEST(CheckPrint, scan_without_a_pattern) {
     GreyImage blank{std::vector<std::uint8_t>(800 * 600, 230), 800, 600};
     EXPECT_THAT(check(blank, 300).fields, IsEmpty());

@@ -1,0 +1,87 @@
+#include "calibrate/print_light.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <Eigen/Cholesky>
+
+namespace dotpose::calibrate {
+namespace {
+
+using Terms = Eigen::Matrix<double, 6, 1>;
+
+/// A surface of second degree takes so many tiles, a plane so many; with fewer, the edges of the
+/// field, where tiles show other print as well, weigh too much.
+constexpr int kEnoughForCurves = 60;
+constexpr int kEnoughForSlopes = 25;
+
+/// Constant, slopes and curves at the middle of a tile, as far as `count` of them are asked for.
+Terms terms_of(int tile, const Tiling& tiling, int count) {
+    const double u = 2.0 * (tile % tiling.columns + 0.5) / tiling.columns - 1;
+    const double v = 2.0 * (tile / tiling.columns + 0.5) / tiling.rows - 1;
+    Terms terms;
+    terms << 1, u, v, u * u, u * v, v * v;
+    terms.tail(6 - count).setZero();
+    return terms;
+}
+
+struct Sample {
+    Terms terms;
+    double strength = 0;
+    double off = 0;  ///< from the surface
+};
+
+double median(std::vector<Sample>& samples, double Sample::*value) {
+    const auto middle = samples.begin() + static_cast<long>(samples.size() / 2);
+    std::ranges::nth_element(samples, middle, {}, value);
+    return (*middle).*value;
+}
+
+/// Least squares from the median on, again and again without what lies far off.
+Terms surface_through(std::vector<Sample>& samples) {
+    constexpr int kRounds = 5;
+    constexpr double kOutlier = 4;  // medians
+    Terms surface = Terms::Zero();
+    surface[0] = median(samples, &Sample::strength);
+    for (int round = 0; round < kRounds; ++round) {
+        for (Sample& sample : samples)
+            sample.off = std::abs(sample.strength - surface.dot(sample.terms));
+        const double limit = kOutlier * median(samples, &Sample::off);
+        Eigen::Matrix<double, 6, 6> squares = Eigen::Matrix<double, 6, 6>::Identity() * 1e-9;
+        Terms products = Terms::Zero();
+        for (const Sample& sample : samples) {
+            if (sample.off > limit) continue;
+            squares += sample.terms * sample.terms.transpose();
+            products += sample.strength * sample.terms;
+        }
+        surface = squares.ldlt().solve(products);
+    }
+    return surface;
+}
+
+}  // namespace
+
+std::vector<double> smooth_strengths(const Field& field, const Tiling& tiling) {
+    const auto known =
+        std::ranges::count_if(field.maps, [](const auto& map) { return map.has_value(); });
+    std::vector<Sample> samples;
+    for (int t = 0; t < tiling.count(); ++t) {
+        if (!field.maps[static_cast<std::size_t>(t)]) continue;
+        const int count = known >= kEnoughForCurves ? 6 : known >= kEnoughForSlopes ? 3 : 1;
+        samples.push_back(
+            {terms_of(t, tiling, count), field.strengths[static_cast<std::size_t>(t)]});
+    }
+    std::vector<double> result(field.strengths.size());
+    if (samples.empty()) return result;
+    const Terms surface = surface_through(samples);
+    // Where no tile is known, a surface leads anywhere.
+    const auto [least, most] = std::ranges::minmax(samples, {}, &Sample::strength);
+    for (int t = 0; t < tiling.count(); ++t) {
+        result[static_cast<std::size_t>(t)] =
+            std::clamp(surface.dot(terms_of(t, tiling, 6)), least.strength, most.strength);
+    }
+    return result;
+}
+
+}  // namespace dotpose::calibrate
