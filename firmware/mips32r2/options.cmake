@@ -5,7 +5,8 @@ compile_core(-Os code/basis.cpp code/decode.cpp code/encode.cpp core/locate.cpp 
              core/decode/position.cpp core/decode/seam_rivals.cpp
              core/decode/unshared_lines.cpp core/decode/verify.cpp
              core/decode/window.cpp core/detect/undistort.cpp core/lattice/neighbours.cpp
-             core/lattice/predicted.cpp core/lattice/turn.cpp core/pose/subgrid.cpp)
+             core/lattice/predicted.cpp core/lattice/turn.cpp core/pose/subgrid.cpp
+             core/pose/tracked_pose.cpp)
 compile_core(-O3 core/decode/correlation.cpp core/detect/blobs.cpp core/detect/runs.cpp)
 # Constants stay in registers.
 compile_core(-fno-tree-pre core/detect/tiles.cpp)

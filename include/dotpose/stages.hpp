@@ -259,11 +259,18 @@ struct TrackedLine {
     std::uint32_t wrong = 0;  ///< of those, whether it contradicts
 };
 
-/// A row of cells of a tracked frame, and the next one of it that the image's rows will show.
+/// A row of cells of a tracked frame: the next one that the image's rows will show, and sums over
+/// the dots measured so far, each weighted with its mass.
 struct TrackedRow {
-    Vec next_q16;          ///< where it lies in the image, px
-    std::int8_t i = 0;     ///< its column
-    std::int8_t left = 0;  ///< cells from it on; 0 where none is in view
+    Vec next_q16;           ///< where it lies in the image, px
+    std::int32_t i = 0;     ///< its column
+    std::int32_t left = 0;  ///< cells from it on; 0 where none is in view
+    // Columns are counted from the middle one.
+    std::int32_t mass = 0;
+    std::int32_t mass_i = 0;
+    std::int32_t mass_ii = 0;
+    Vec off_q8;  ///< from where the cells have the dots, px
+    Vec off_i_q8;
 };
 
 /// A frame of which dots are measured where a prediction has them, as its rows come in.
@@ -280,10 +287,11 @@ struct Tracking {
     int cut_q8 = 0;                ///< pixels are dark that lack this share of the paper's level
     std::int32_t least_mass = 0;
     std::int32_t most_mass = 0;
-    std::int32_t along_q16 = 0;    ///< of the dots kept: off their places, times their displacement
-    std::int32_t spacing_q8 = 0;   ///< px
-    std::span<TrackedLine> lines;  ///< the columns, and in the second half the rows
+    int dots_measured = 0;
+    std::int32_t spacing_q8 = 0;         ///< px
+    std::span<TrackedLine> lines;        ///< the columns, and in the second half the rows
     std::array<Vec, 4> displaced_q16{};  ///< by Symbol: of a dot from its intersection, px
+    std::array<Vec, 4> off_q8{};         ///< by Symbol: as of the rows, of all of them
     /// By the quarter of its pixel in which an intersection lies, and Symbol: the first of the four
     /// pixels about a dot, in bytes from the intersection's.
     std::array<std::array<std::int16_t, 4>, 4> dot_pixels{};
@@ -301,7 +309,6 @@ struct Tracking {
     int first_cell = 0;    ///< per axis, of those that may be in view
     int last_cell = 0;
     std::span<TrackedRow> grid_rows;
-    std::span<std::uint16_t> dot_cells;  ///< of each dot kept: column, and row times kMostTracked
 };
 
 /// What the grid was read as.

@@ -107,7 +107,6 @@ class WorkspaceOf : public Workspace {
         tracking.rows = tracked_rows_;
         tracking.lines = tracked_lines_;
         tracking.grid_rows = grid_rows_;
-        tracking.dot_cells = dot_cells_;
     }
     WorkspaceOf(const WorkspaceOf&) = delete;
     WorkspaceOf& operator=(const WorkspaceOf&) = delete;
@@ -153,7 +152,6 @@ class WorkspaceOf : public Workspace {
     std::array<std::uint8_t, 36 * std::min(MaxWidth, 376)> tracked_rows_{};
     std::array<TrackedLine, 2 * kMostTracked> tracked_lines_{};
     std::array<TrackedRow, kMostTracked> grid_rows_{};
-    std::array<std::uint16_t, std::min(MaxDots, kMostTracked* kMostTracked)> dot_cells_{};
 };
 
 /// For `finish_device` on a small microcontroller and a 188 x 120 px sensor: some 12 KB.
@@ -163,29 +161,28 @@ class DeviceWorkspace : public Workspace {
   public:
     DeviceWorkspace() {
         max_width_px = kWidth_px;
-        dots = dots_;
-        auto& pixels = memory_of<PixelStages>();
+        dots = memory_of<FreshDots>(dot_memory_).dots;
+        auto& pixels = memory_of<PixelStages>(memory_);
         light.rows = pixels.rows;
         light.tiles = pixels.tiles;
         light.half_extents = pixels.half_extents;
         light.cores = pixels.cores;
         open.blobs = pixels.blobs;
         open.runs = pixels.runs;
-        auto& lattices = memory_of<LatticeStages>();
+        auto& lattices = memory_of<LatticeStages>(memory_);
         seeds = lattices.seeds;
         buckets = lattices.buckets;
         neighbours = lattices.neighbours;
         edges = lattices.edges;
         edge_values = lattices.edge_values;
-        auto& decoders = memory_of<DecodeStages>();
+        auto& decoders = memory_of<DecodeStages>(memory_);
         grid.storage = decoders.cells;
         line_scores = decoders.line_scores;
         grid.side = kGridSide;
-        auto& tracked = memory_of<TrackedStages>();
+        auto& tracked = memory_of<TrackedStages>(memory_);
         tracking.rows = tracked.rows;
         tracking.lines = tracked.lines;
-        tracking.grid_rows = tracked.grid_rows;
-        tracking.dot_cells = tracked.dot_cells;
+        tracking.grid_rows = memory_of<TrackedDots>(dot_memory_).grid_rows;
         open.most_runs = kMostRuns;
     }
     DeviceWorkspace(const DeviceWorkspace&) = delete;
@@ -228,16 +225,21 @@ class DeviceWorkspace : public Workspace {
     struct TrackedStages {
         std::array<std::uint8_t, 36 * kWidth_px> rows;
         std::array<TrackedLine, 2 * kMostTracked> lines;
+    };
+    struct FreshDots {
+        std::array<Dot, kDots> dots;
+    };
+    struct TrackedDots {
         std::array<TrackedRow, kMostTracked> grid_rows;
-        std::array<std::uint16_t, kDots> dot_cells;
     };
 
-    template <typename Stages>
-    Stages& memory_of() {
-        return *static_cast<Stages*>(static_cast<void*>(memory_.data()));
+    template <typename Stages, std::size_t Size>
+    static Stages& memory_of(std::array<std::byte, Size>& memory) {
+        static_assert(sizeof(Stages) <= Size);
+        return *static_cast<Stages*>(static_cast<void*>(memory.data()));
     }
 
-    std::array<Dot, kDots> dots_{};
+    alignas(8) std::array<std::byte, sizeof(FreshDots)> dot_memory_{};
     alignas(
         8) std::array<std::byte, std::max({sizeof(PixelStages), sizeof(LatticeStages),
                                            sizeof(DecodeStages), sizeof(TrackedStages)})> memory_{};

@@ -9,6 +9,28 @@ namespace dotpose::core {
 
 class CellFit {
   public:
+    template <typename Int>
+    struct Products {
+        Int xx = 0, xy = 0, yy = 0;
+        Int ix = 0, iy = 0, jx = 0, jy = 0;
+
+        /// `weighted` is p, as often as it counts.
+        [[gnu::always_inline]] void add(const Vec& p, const Vec& weighted, const Vec& target) {
+            xx += weighted.x * p.x;
+            xy += weighted.x * p.y;
+            yy += weighted.y * p.y;
+            ix += target.x * p.x;
+            iy += target.x * p.y;
+            jx += target.y * p.x;
+            jy += target.y * p.y;
+        }
+    };
+
+    CellFit() = default;
+    /// Of points that were counted and added up elsewhere.
+    CellFit(std::int32_t count, const Vec& p, const Vec& target, const Products<std::int32_t>& sums)
+        : changes_(count), p_(p), target_(target), recent_(sums) {}
+
     /// Image points in 1/8 px from the plane's centre, within 2048 px; targets within 2^15.
     [[gnu::always_inline]] void add(const Vec& p, const Vec& target) { change(p, p, target); }
     /// Adds it (weight 1), or takes it away again (-1).
@@ -28,22 +50,6 @@ class CellFit {
     static constexpr int kMostRecent = 32;
     static std::uint32_t offset(std::int32_t a) { return static_cast<std::uint32_t>(a) + kNear; }
 
-    template <typename Int>
-    struct Products {
-        Int xx = 0, xy = 0, yy = 0;
-        Int ix = 0, iy = 0, jx = 0, jy = 0;
-
-        /// `weighted` is p, as often as it counts.
-        [[gnu::always_inline]] void add(const Vec& p, const Vec& weighted, const Vec& target) {
-            xx += weighted.x * p.x;
-            xy += weighted.x * p.y;
-            yy += weighted.y * p.y;
-            ix += target.x * p.x;
-            iy += target.x * p.y;
-            jx += target.y * p.x;
-            jy += target.y * p.y;
-        }
-    };
     [[gnu::always_inline]] void change(const Vec& p, const Vec& weighted, const Vec& target) {
         p_ = p_ + weighted;
         target_ = target_ + target;

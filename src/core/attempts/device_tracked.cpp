@@ -48,7 +48,7 @@ Status read_rows(Workspace& w) {
         return Status::ok;
     }
     t.next_reading = t.rows_taken + kRowsAtOnce;
-    read_ready_dots(t, w.dots, w.dot_count);
+    read_ready_dots(t);
     make_room(kRowsAtOnce, t);
     return Status::ok;
 }
@@ -61,8 +61,7 @@ Status confirm(const Options& options, Workspace& w) {
     w.decoding.place = t.corner;
     const Status status = verify_tracked(options.profile, t, options.integrity, w.decoding, w.fix);
     if (status != Status::ok) return Status::not_tracked;
-    w.fix.dots_used =
-        fit_tracked_pose(w.found_dots(), t, w.pattern_from_image, w.fix.displacement_q16);
+    w.fix.dots_used = fit_tracked_pose(t, w.pattern_from_image, w.fix.displacement_q16);
     if (w.fix.dots_used == 0) return Status::not_tracked;
     write_affine_pose(w.pattern_from_image, reference_q8(w.pattern_from_image.centre_q8, options),
                       options.profile, t.corner, w.fix);
@@ -80,7 +79,8 @@ Status begin_device_tracked(int width_px, int height_px, const Options& options,
     t.width_px = width_px;
     t.height_px = height_px;
     t.rows_taken = t.first_kept = 0;
-    t.along_q16 = 0;
+    t.dots_measured = 0;
+    t.off_q8 = {};
     // Lenses that bend are left to fresh fixes.
     t.status = options.lens.k_q40 == 0 ? lay_predicted_cells(prediction, options.profile, t)
                                        : Status::not_tracked;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "code/unshared_lines.hpp"
 #include "core/decode/least_losses.hpp"
 #include "core/decode/rival_sets.hpp"
 #include "core/decode/similar_places.hpp"
@@ -15,6 +16,8 @@ namespace {
 constexpr int kSingles_q8 = 2441;
 /// Nobody wants to know odds like these more exactly.
 constexpr int kSmallOdds_q8 = -36 * 256;
+/// Whoever accepts more doubt than usual wants to know how much there is.
+constexpr int kUsualLimit_q8 = -30 * 256;
 /// Odds, as a power of two, at which single rivals are counted that have less, known or not.
 constexpr int kPassedOver_q8 = -52 * 256;
 
@@ -239,9 +242,39 @@ ByShift::ByShift(const Contest& contest, int enough)
     return sum;
 }
 
-/// Rivals that differ in one sequence: those that have surely lost enough are passed over; the
-/// others, few, are looked at one by one.
-int singles_log2_q8(const Contest& contest) {
+/// Odds of the rivals in one sequence that share a line, at most, by what all of them lose. They
+/// may share one at as many shifts as there are lines.
+int by_table_log2_q8(const Contest& contest, const UnsharedLines& unshared, std::size_t sequence) {
+    const int lost = unshared.least_loss(sequence, Sharing::at_one_shift) - contest.most_regained();
+    const int rivals = contest.count() * static_cast<int>(contest.basis[sequence].length);
+    return log2_at_most_q8(static_cast<std::uint32_t>(rivals)) +
+           contest.log2_odds_q8(std::max(lost, 0));
+}
+
+/// Sequences, one in each bit.
+using Sequences = unsigned;
+constexpr Sequences kAllSequences = 15;
+
+/// Adds what tables tell of the rivals that differ in one of these sequences, where that is less
+/// than `little_q8`; shows which are left.
+Sequences add_by_tables(const Contest& contest, int little_q8, Sequences sequences, int& sum) {
+    for (std::size_t table = code::kUnsharedOf.size(); table-- > 0 && sequences != 0;) {
+        if (code::kUnsharedOf[table] > contest.count()) continue;
+        const UnsharedLines unshared(contest, code::kUnsharedOf[table]);
+        for (std::size_t k = 0; k < contest.basis.size(); ++k) {
+            if ((sequences >> k & 1) == 0) continue;
+            const int by_table = by_table_log2_q8(contest, unshared, k);
+            if (by_table >= little_q8) continue;
+            sum = add_log2(sum, by_table);
+            sequences ^= 1U << k;
+        }
+    }
+    return sequences;
+}
+
+/// Rivals that differ in one of these sequences: those that have surely lost enough are passed
+/// over; the others, few, are looked at one by one.
+int singles_log2_q8(const Contest& contest, Sequences sequences) {
     const int lines = contest.count();
     const int enough = contest.loss_for(kPassedOver_q8) + contest.most_regained();
     int sum = kSingles_q8 + kPassedOver_q8 +
@@ -252,7 +285,8 @@ int singles_log2_q8(const Contest& contest) {
     visit_similar_places(
         contest, Steps(contest, enough, Excused::none),
         [&](std::size_t sequence) {
-            return unshared.all_lose(sequence, Sharing::at_one_shift, enough);
+            return (sequences >> sequence & 1) == 0 ||
+                   unshared.all_lose(sequence, Sharing::at_one_shift, enough);
         },
         [&](std::size_t sequence, std::uint32_t place) {
             sum = by_shift.add(sequence, place, sum);
@@ -274,9 +308,21 @@ int quick_rivals_log2_q8(const Contest& contest, int limit_q8) {
     const bool is_last = contest.is_of_bits();
     int far = far_log2_q8(contest, true, is_last ? limit_q8 : kSmallOdds_q8);
     if (far > kSmallOdds_q8 && !is_last) far = far_log2_q8(contest, false, limit_q8);
-    const int sum = add_log2(other_sections_log2_q8(contest), far);
+    const int other_sections = other_sections_log2_q8(contest);
+    const int sum = add_log2(other_sections, far);
     if (sum >= limit_q8) return 0;
-    return std::min(add_log2(sum, singles_log2_q8(contest)), 0);
+    Sequences sequences = kAllSequences;
+    int singles = kNever_q8;
+    if (is_last) {
+        // What tables tell is more than is true, but saves most of the work.
+        constexpr int kLittle_q8 = -5 * 256;
+        const int little_q8 = std::min(limit_q8, kUsualLimit_q8) + kLittle_q8;
+        sequences = add_by_tables(contest, little_q8, sequences, singles);
+        // Those that share no line have lost as much as those of other sections.
+        singles = add_log2(singles, kSingles_q8 + other_sections);
+    }
+    if (sequences != 0) singles = add_log2(singles, singles_log2_q8(contest, sequences));
+    return std::min(add_log2(sum, singles), 0);
 }
 
 }  // namespace dotpose::core

@@ -14,11 +14,72 @@ namespace {
 /// The way along a row of cells on which the image's rows come later.
 struct Way {
     Vec step_q16;
-    std::int8_t i_step;
+    int i_step;
 };
 Way way_of(const Tracking& tracking) {
     const Vec along = tracking.cells.along_x_q16;
     return along.y < 0 ? Way{-along, -1} : Way{along, 1};
+}
+
+/// Where intersections have to lie in the image: all pixels that are looked at for them are in it.
+struct View {
+    Vec least_q16;
+    std::uint32_t width_q16;
+    std::uint32_t height_q16;
+
+    bool has(Vec at_q16) const {
+        const Vec from_least = at_q16 - least_q16;
+        return static_cast<std::uint32_t>(from_least.x) < width_q16 &&
+               static_cast<std::uint32_t>(from_least.y) < height_q16;
+    }
+};
+View view_of(const Tracking& tracking) {
+    std::int32_t displaced_q16 = 0;
+    for (const Vec displaced : tracking.displaced_q16)
+        displaced_q16 = std::max(displaced_q16, larger_component(displaced));
+    // The pixel next to a dot, to which it is rounded, has so many on each side.
+    const std::int32_t of_dot_q16 = kDotHalf_px * 65536 - 32768 + displaced_q16;
+    // The corners of squares are counted from the pixel that an intersection is in.
+    const std::int32_t least_q16 = std::max(kHalf_px * 65536, of_dot_q16);
+    const auto extent_q16 = [&](int side_px) {
+        const std::int32_t end_q16 =
+            std::min((side_px - kHalf_px) * 65536, (side_px - 1) * 65536 - of_dot_q16);
+        return static_cast<std::uint32_t>(end_q16 - least_q16);
+    };
+    return {{least_q16, least_q16}, extent_q16(tracking.width_px), extent_q16(tracking.height_px)};
+}
+
+/// Lays the rows of cells from `j` on, as far as some of them are in view. Cells in view stand side
+/// by side, and not far from those of the row before.
+void lay_rows(Tracking& tracking, const View& view, int j, int j_step) {
+    const Way way = way_of(tracking);
+    const Vec along = tracking.cells.along_y_q16;
+    const Vec to_next_q16 = j_step > 0 ? along : -along;
+    const int most = (tracking.last_cell - tracking.first_cell) / 2;
+    Vec at_q16 = place_q16(tracking.cells, kMiddleCell, j);
+    int first = 0;  // in steps from the middle
+    const auto step_to = [&](int steps) {
+        first += steps;
+        at_q16 = at_q16 + Vec{steps * way.step_q16.x, steps * way.step_q16.y};
+    };
+    for (; j >= tracking.first_cell && j <= tracking.last_cell; j += j_step) {
+        const int before = first;
+        while (first < most && !view.has(at_q16))
+            step_to(1);
+        if (first == most) step_to(before - first);
+        while (first > -most && !view.has(at_q16))
+            step_to(-1);
+        if (first == -most) return;
+        while (first > -most && view.has(at_q16 - way.step_q16))
+            step_to(-1);
+        TrackedRow& row = tracking.grid_rows[static_cast<std::size_t>(j)];
+        row.next_q16 = at_q16;
+        row.i = kMiddleCell + way.i_step * first;
+        Vec end_q16 = at_q16;
+        for (; first + row.left < most && view.has(end_q16); ++row.left)
+            end_q16 = end_q16 + way.step_q16;
+        at_q16 = at_q16 + to_next_q16;
+    }
 }
 
 /// Notes what is read; whether the code has it there.
@@ -37,77 +98,64 @@ DOTPOSE_BY_ITSELF bool note(const Tracking& tracking, int i, int j, int symbol) 
     return false;
 }
 
-/// Measures the dot that the code has at an intersection; whether it is where it should be.
-DOTPOSE_BY_ITSELF bool measure_dot(Tracking& tracking, Vec at_q16, const ReadSymbol& read,
-                                   Dot& dot) {
-    const Vec displaced_q16 = tracking.displaced_q16[static_cast<std::size_t>(read.symbol)];
-    const Vec place_q16 = at_q16 + displaced_q16;
-    NearDot near;
-    if (!measure_square<kDotHalf_px>(tracking, place_q16, read.level, near)) return false;
+/// Adds the dot that the code has at the next intersection of a row, if it is about where it should
+/// be. Bounds: masses are below 2^12, places in the squares at most 2 px off, and so sums over a
+/// row of 32 dots below 2^30.
+DOTPOSE_BY_ITSELF void add_dot(Tracking& tracking, ReadSymbol read, TrackedRow& row) {
+    const auto symbol = static_cast<std::size_t>(read.symbol());
+    const Vec place_q16 = row.next_q16 + tracking.displaced_q16[symbol];
+    const Vec pixel = pixel_at(place_q16);
+    const std::uint8_t* const first =
+        kept_row(tracking, pixel.y - kDotHalf_px) + pixel.x - kDotHalf_px;
+    const DarkSums sums = dark_sums<kDotHalf_px>(first, tracking.stride_px, read.level());
+    const std::int32_t mass = sums.mass;
+    if (mass < tracking.least_mass || mass > tracking.most_mass) return;
+    // From the middle of the pixel.
+    const auto in_pixel_q8 = [](std::int32_t a_q16) {
+        return static_cast<std::int16_t>(a_q16) >> 8;
+    };
+    const Vec off_q8{sums.x * 256 - mass * in_pixel_q8(place_q16.x),
+                     sums.y * 256 - mass * in_pixel_q8(place_q16.y)};
     // Printers and lenses rarely move a dot by more than an eighth of the spacing; dirt does.
-    if (!is_within(near.off_q8, tracking.spacing_q8 >> 3)) return false;
-    tracking.along_q16 +=
-        near.off_q8.x * (displaced_q16.x >> 8) + near.off_q8.y * (displaced_q16.y >> 8);
-    dot = {near.off_q8 + Vec{place_q16.x >> 8, place_q16.y >> 8},
-           static_cast<std::uint16_t>(near.mass), 0};
-    return true;
+    if (!is_within(off_q8, mass * (tracking.spacing_q8 >> 3))) return;
+    ++tracking.dots_measured;
+    Vec& of_symbol = tracking.off_q8[symbol];
+    of_symbol = of_symbol + off_q8;
+    const int i = row.i - kMiddleCell;
+    row.mass += mass;
+    row.mass_i += mass * i;
+    row.mass_ii += mass * i * i;
+    row.off_q8 = row.off_q8 + off_q8;
+    row.off_i_q8 = row.off_i_q8 + Vec{off_q8.x * i, off_q8.y * i};
 }
 
 }  // namespace
 
 bool begin_reading(Tracking& tracking) {
     if (!lay_dot_pixels(tracking)) return false;
-    const Way way = way_of(tracking);
-    constexpr int half = kHalf_px;
-    const std::int32_t least_q16 = half * 65536;
-    const auto width_q16 = static_cast<std::uint32_t>(tracking.width_px - 2 * half) << 16;
-    const auto height_q16 = static_cast<std::uint32_t>(tracking.height_px - 2 * half) << 16;
-    const int first = way.i_step > 0 ? tracking.first_cell : tracking.last_cell;
-    const int cells = tracking.last_cell - tracking.first_cell + 1;
-    for (int j = tracking.first_cell; j <= tracking.last_cell; ++j) {
-        // Those in view stand side by side.
-        Vec at_q16 = place_q16(tracking.cells, first, j) - Vec{least_q16, least_q16};
-        const auto is_in_view = [&] {
-            return static_cast<std::uint32_t>(at_q16.x) < width_q16 &&
-                   static_cast<std::uint32_t>(at_q16.y) < height_q16;
-        };
-        int before = 0;
-        for (; before < cells && !is_in_view(); ++before)
-            at_q16 = at_q16 + way.step_q16;
-        TrackedRow& row = tracking.grid_rows[static_cast<std::size_t>(j)];
-        row.next_q16 = at_q16 + Vec{least_q16, least_q16};
-        row.i = static_cast<std::int8_t>(first + way.i_step * before);
-        row.left = 0;
-        for (; before < cells && is_in_view(); ++before) {
-            at_q16 = at_q16 + way.step_q16;
-            ++row.left;
-        }
-    }
+    std::ranges::fill(tracking.grid_rows, TrackedRow{});
+    const View view = view_of(tracking);
+    lay_rows(tracking, view, kMiddleCell, -1);
+    lay_rows(tracking, view, kMiddleCell + 1, 1);
     return true;
 }
 
-void read_ready_dots(Tracking& tracking, std::span<Dot> dots, int& dot_count) {
+void read_ready_dots(Tracking& tracking) {
     const Way way = way_of(tracking);
     // A dot may reach a row farther than its square; the last row of all is always ready.
     const int ahead = tracking.rows_taken == tracking.height_px ? 1 : 2;
     const std::int32_t ready_q16 = (tracking.rows_taken - ahead - kHalf_px) * 65536 + 32767;
-    const auto room = std::min(dots.size(), tracking.dot_cells.size());
-    auto count = static_cast<std::size_t>(dot_count);
     TrackedRow* row = &tracking.grid_rows[static_cast<std::size_t>(tracking.first_cell)];
     for (int j = tracking.first_cell; j <= tracking.last_cell; ++j, ++row) {
-        for (; row->left > 0 && row->next_q16.y <= ready_q16 && count < room; --row->left) {
-            const Vec at_q16 = row->next_q16;
-            const int i = row->i;
-            row->next_q16 = at_q16 + way.step_q16;
-            row->i = static_cast<std::int8_t>(i + way.i_step);
-            const ReadSymbol read = read_symbol(tracking, at_q16);
-            if (read.symbol < 0 || !note(tracking, i, j, read.symbol) ||
-                !measure_dot(tracking, at_q16, read, dots[count]))
-                continue;
-            tracking.dot_cells[count++] = static_cast<std::uint16_t>(j * kMostTracked + i);
-        }
+        if (row->left == 0 || row->next_q16.y > ready_q16) continue;
+        do {
+            const ReadSymbol read = read_symbol(tracking, row->next_q16);
+            if (read.is_clear() && note(tracking, row->i, j, read.symbol()))
+                add_dot(tracking, read, *row);
+            row->next_q16 = row->next_q16 + way.step_q16;
+            row->i += way.i_step;
+        } while (--row->left > 0 && row->next_q16.y <= ready_q16);
     }
-    dot_count = static_cast<int>(count);
 }
 
 }  // namespace dotpose::core

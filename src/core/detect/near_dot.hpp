@@ -43,17 +43,28 @@ constexpr Vec pixel_at(Vec place_q16) {
 /// Where `read_symbol` looks from now on; false where that is beyond the squares.
 bool lay_dot_pixels(Tracking& tracking);
 
-/// What was read of a dot: -1 where none of the four places is clearly darkest; and the level below
-/// which pixels belong to it.
-struct ReadSymbol {
-    int symbol;
-    std::int32_t level;
+/// What was read of a dot, in one register.
+class ReadSymbol {
+  public:
+    static constexpr ReadSymbol unclear() { return ReadSymbol(-1); }
+    /// The symbol, and the level, from 0 to 255, below which pixels belong to the dot.
+    constexpr ReadSymbol(int symbol, std::int32_t level) : bits_(level * 4 + symbol) {}
+
+    /// Whether one of the four places is clearly darkest.
+    bool is_clear() const { return bits_ >= 0; }
+    int symbol() const { return bits_ & 3; }
+    std::int32_t level() const { return bits_ >> 2; }
+
+  private:
+    constexpr explicit ReadSymbol(std::int32_t bits) : bits_(bits) {}
+    std::int32_t bits_;
 };
 
 /// Looks at the four places around an intersection in a pixel that is kept, as is all of its square
 /// and a pixel around it.
 // By itself, so that small processors can keep all it needs in registers.
-DOTPOSE_BY_ITSELF inline ReadSymbol read_symbol(const Tracking& tracking, Vec intersection_q16) {
+DOTPOSE_BY_ITSELF inline ReadSymbol read_symbol(const Tracking& tracking,
+                                                const Vec& intersection_q16) {
     const std::int32_t stride = tracking.stride_px;
     const std::uint8_t* const at =
         kept_row(tracking, intersection_q16.y >> 16) + (intersection_q16.x >> 16);
@@ -80,7 +91,7 @@ DOTPOSE_BY_ITSELF inline ReadSymbol read_symbol(const Tracking& tracking, Vec in
     // Dots lack some 6 depths in four pixels, and 2 of them at the places beside their own.
     const bool is_clear =
         paper * 4 - (darkest >> 2) >= 2 * depth && (second >> 2) - (darkest >> 2) >= depth;
-    return {is_clear ? darkest & 3 : -1, paper - depth};
+    return is_clear ? ReadSymbol(darkest & 3, paper - depth) : ReadSymbol::unclear();
 }
 
 struct NearDot {

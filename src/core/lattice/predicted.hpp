@@ -10,12 +10,15 @@
 namespace dotpose::core {
 
 /// Dots are looked for every few rows.
-inline constexpr int kRowsAtOnce = 6;
+inline constexpr int kRowsAtOnce = 12;
 
 /// Sets corner, cells, and what depends on the spacing. The size of the image, at most 4096 px per
 /// side, and the memory stand in `tracking`. Errors: not_tracked, if no such view of the pattern
 /// can be tracked; any bits are safe.
 Status lay_predicted_cells(const Prediction& prediction, Profile profile, Tracking& tracking);
+
+/// The middle of the image is about here, along both axes.
+inline constexpr int kMiddleCell = kMostTracked / 2;
 
 /// Where a cell's intersection lies.
 inline Vec place_q16(const CellMap& cells, int i, int j) {
