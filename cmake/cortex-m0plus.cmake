@@ -9,9 +9,7 @@ set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE NEVER)
 
 set(machine "-mcpu=cortex-m0plus -mthumb -mfloat-abi=soft")
 set(CMAKE_ASM_FLAGS_INIT "${machine}")
-# newlib's std::int32_t is long. As int it is the type that it is on all other targets, and what
-# compiles there, such as std::max(int32, int), compiles here.
-set(CMAKE_CXX_FLAGS_INIT "${machine} -U__INT32_TYPE__ -D__INT32_TYPE__=int -U__UINT32_TYPE__ -D__UINT32_TYPE__=unsigned")
+set(CMAKE_CXX_FLAGS_INIT "${machine}")
 
 set(DOTPOSE_FIRMWARE cortex-m0plus)
 # No C library, and so no mathematical function.

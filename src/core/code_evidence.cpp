@@ -32,7 +32,7 @@ CodeEvidence::LogOdds CodeEvidence::sum() const {
     const std::int32_t chances_q8 =
         core::log2_at_most_q8(std::min(frames_here_, std::uint32_t{1} << 23));
     for (std::size_t i = 0; i < sum.size(); ++i)
-        sum[i] += std::min(here_log2_q8_[i] + chances_q8, 0);
+        sum[i] += std::min<std::int32_t>(here_log2_q8_[i] + chances_q8, 0);
     return against_likeliest(sum, kMost_log2);
 }
 

@@ -72,7 +72,8 @@ template <typename Visit>
 bool fit_plane(const PlaneFromImage& estimate, Terms most, Visit visit, FittedPlane& best) {
     int reach_px = 1;
     visit([&](Vec point_q8, Vec) {
-        reach_px = std::max(reach_px, larger_component(point_q8 - estimate.centre_q8) / 256 + 1);
+        reach_px = std::max<std::int32_t>(
+            reach_px, larger_component(point_q8 - estimate.centre_q8) / 256 + 1);
     });
     bool found = false;
     for (const Terms terms : {Terms::affine, Terms::perspective, Terms::lens}) {

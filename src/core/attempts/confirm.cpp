@@ -169,7 +169,7 @@ void show(const Sight& sight, Workspace& w) {
         dot.centre_q8 =
             centre_q8 + Vec{static_cast<std::int32_t>(std::floor(dots.x[k] * 256 + 0.5F)),
                             static_cast<std::int32_t>(std::floor(dots.y[k] * 256 + 0.5F))};
-        dot.mass = static_cast<std::uint16_t>(std::min(dots.mass[k], 65535));
+        dot.mass = static_cast<std::uint16_t>(std::min<std::int32_t>(dots.mass[k], 65535));
         dot.area_px = 0;
         const FloatVec at = plane_point(sight.pattern_from_image, {dots.x[k], dots.y[k]});
         const float off_x = at.x - dots.column[k];

@@ -137,7 +137,7 @@ void Eye::visit(const Grid& grid, Use use) const {
 void Eye::look_at(CellView& view) const {
     const auto spacing_q8 =
         static_cast<std::int32_t>(square_root(static_cast<std::uint64_t>(squared(view.u_q8))));
-    view.half_px = std::max((spacing_q8 / 5 + 128) >> 8, 1);
+    view.half_px = std::max<std::int32_t>((spacing_q8 / 5 + 128) >> 8, 1);
     for (std::size_t i = 0; i < view.places.size(); ++i) {
         PlaceView& place = view.places[i];
         if (!place.is_seen) continue;
@@ -204,8 +204,8 @@ PlaceView typical_place(const Eye& eye, const Grid& grid) {
         darkness[count] = darkest.darkness_q8;
         shade[count++] = darkest.shade_q8;
     });
-    return {true, std::max(median(std::span(darkness).first(count)), 1),
-            std::max(median(std::span(shade).first(count)), 1)};
+    return {true, std::max<std::int32_t>(median(std::span(darkness).first(count)), 1),
+            std::max<std::int32_t>(median(std::span(shade).first(count)), 1)};
 }
 
 /// How dark dots and graphics are in this image, and what a cell's darkness says of its bits.

@@ -40,10 +40,10 @@ View view_of(const Tracking& tracking) {
     // The pixel next to a dot, to which it is rounded, has so many on each side.
     const std::int32_t of_dot_q16 = kDotHalf_px * 65536 - 32768 + displaced_q16;
     // The corners of squares are counted from the pixel that an intersection is in.
-    const std::int32_t least_q16 = std::max(kHalf_px * 65536, of_dot_q16);
+    const std::int32_t least_q16 = std::max<std::int32_t>(kHalf_px * 65536, of_dot_q16);
     const auto extent_q16 = [&](int side_px) {
-        const std::int32_t end_q16 =
-            std::min((side_px - kHalf_px) * 65536, (side_px - 1) * 65536 - of_dot_q16);
+        const std::int32_t end_q16 = std::min<std::int32_t>((side_px - kHalf_px) * 65536,
+                                                            (side_px - 1) * 65536 - of_dot_q16);
         return static_cast<std::uint32_t>(end_q16 - least_q16);
     };
     return {{least_q16, least_q16}, extent_q16(tracking.width_px), extent_q16(tracking.height_px)};

@@ -145,10 +145,10 @@ void even_out(const ImageView& image, int v, Smoothing& smoothing) {
     std::uint32_t sum = 0;
     const auto even = [&](int u, int columns_in_sum) {
         const std::uint32_t area = rows * static_cast<std::uint32_t>(columns_in_sum);
-        const std::uint32_t mean = std::max(divider.quotient(sum, area), 1U);
+        const std::uint32_t mean = std::max<std::uint32_t>(divider.quotient(sum, area), 1U);
         const std::uint64_t evened = std::uint64_t{pixels[u]} * kEvened_q24[mean] >> 24;
         pixels[u] = static_cast<std::uint8_t>(
-            std::clamp(static_cast<std::uint32_t>(evened), kDarkest, 255U));
+            std::clamp<std::uint32_t>(static_cast<std::uint32_t>(evened), kDarkest, 255U));
     };
     int begin = 0;
     int end = 0;

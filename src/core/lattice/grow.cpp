@@ -33,7 +33,7 @@ Square cells_within(int limit) {
 /// Of such points' fractions, times 2^16, where rounding moves neither by more than `limit`.
 Square offsets_within(std::int32_t limit_q16) {
     return {static_cast<std::uint32_t>(32768 - limit_q16) << 16,
-            static_cast<std::uint32_t>(std::min(2 * limit_q16, 65535)) << 16};
+            static_cast<std::uint32_t>(std::min<std::int32_t>(2 * limit_q16, 65535)) << 16};
 }
 bool is_near(Vec rounding_q16, const Square& offsets) {
     return offsets.holds(static_cast<std::uint32_t>(rounding_q16.x) << 16,

@@ -72,8 +72,8 @@ bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     tracking.rows_kept = static_cast<int>(tracking.rows.size()) / tracking.stride_px;
     tracking.rows_needed = 2 * kHalf_px + 3;
     if (2 * tracking.rows_needed + kRowsAtOnce > tracking.rows_kept) return false;
-    tracking.first_rows =
-        std::min({13 * spacing_q8 / (4 * 256), tracking.rows_kept, tracking.height_px});
+    tracking.first_rows = std::min<std::int32_t>(
+        {13 * spacing_q8 / (4 * 256), tracking.rows_kept, tracking.height_px});
     return tracking.first_rows * 256 >= 5 * spacing_q8 / 2;
 }
 

@@ -106,10 +106,11 @@ void Shifts::divide_by_dots() {
 /// What was shown is not shown again.
 void Shifts::forget_around(Vec at) {
     constexpr int kFar = 2;
-    for (int y = std::max(at.y - kFar, 0); y <= std::min(at.y + kFar, 2 * steps_.y); ++y) {
+    for (int y = std::max<std::int32_t>(at.y - kFar, 0);
+         y <= std::min<std::int32_t>(at.y + kFar, 2 * steps_.y); ++y) {
         std::uint16_t* const row = row_of(y);
-        std::fill(row + std::max(at.x - kFar, 0), row + std::min(at.x + kFar, 2 * steps_.x) + 1,
-                  std::uint16_t{0});
+        std::fill(row + std::max<std::int32_t>(at.x - kFar, 0),
+                  row + std::min<std::int32_t>(at.x + kFar, 2 * steps_.x) + 1, std::uint16_t{0});
     }
 }
 

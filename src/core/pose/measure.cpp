@@ -37,8 +37,9 @@ struct Window {
 
     /// For dots that blur has made about a tenth of the spacing wide (one sigma).
     explicit Window(std::int32_t spacing_q8)
-        : half_px(std::min(std::max(spacing_q8 * 9 / 32 + 255, 768) / 256, kMostHalf_px)),
-          sigma_q8(std::max(spacing_q8 * 12 / 128, 230)) {}
+        : half_px(std::min<std::int32_t>(
+              std::max<std::int32_t>(spacing_q8 * 9 / 32 + 255, 768) / 256, kMostHalf_px)),
+          sigma_q8(std::max<std::int32_t>(spacing_q8 * 12 / 128, 230)) {}
 
     /// What of it lies in the image around a pixel, the neighbours of each included; nothing where
     /// the pixel itself does not. Dots at the border tell most of angle and tilt.
@@ -265,8 +266,8 @@ int measure_dots(const ImageView& image, const Lens& lens, const PlaneFromImage&
                  const Nominal& nominal, Grid& grid, std::span<Dot> dots) {
     const auto length_q24 =
         square_root(static_cast<std::uint64_t>(squared(pattern_from_image.du_q24)));
-    const Window window(
-        static_cast<std::int32_t>((std::int64_t{1} << 32) / std::max(length_q24, 1U)));
+    const Window window(static_cast<std::int32_t>((std::int64_t{1} << 32) /
+                                                  std::max<std::uint32_t>(length_q24, 1U)));
     std::size_t count = 0;
     for (int j = grid.j0; j < grid.j0 + grid.rows; ++j) {
         for (int i = grid.i0; i < grid.i0 + grid.columns; ++i) {

@@ -29,7 +29,8 @@ void write_pose(const PlaneFromImage& there, Profile profile, const Place& place
     // px per spacing: the inverse of the length of du. Far outside of the image, where the map may
     // fold, that is next to nothing.
     const auto du_length_q24 = square_root(static_cast<std::uint64_t>(squared(du)));
-    const std::int64_t spacing_q16 = (std::int64_t{1} << 40) / std::max(du_length_q24, 1U);
+    const std::int64_t spacing_q16 =
+        (std::int64_t{1} << 40) / std::max<std::uint32_t>(du_length_q24, 1U);
     fix.spacing_px_q16 = static_cast<std::int32_t>(std::min<std::int64_t>(spacing_q16, INT32_MAX));
 }
 

@@ -17,7 +17,7 @@ Survey::Survey(const Observations& observations, Vec centre_q8)
     int reach_q8 = 0;
     int wait = 0;
     observations.visit([&](const Observation& o) {
-        reach_q8 = std::max(reach_q8, larger_component(o.image_point_q8 - centre_q8));
+        reach_q8 = std::max<std::int32_t>(reach_q8, larger_component(o.image_point_q8 - centre_q8));
         if (wait == 0) add(o, sample_);
         wait = wait == 0 ? every - 1 : wait - 1;
     });
