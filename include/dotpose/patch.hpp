@@ -62,8 +62,9 @@ struct MeasuredDots {
     std::span<std::int32_t> sum_u;  ///< times px from its left
     std::span<std::int32_t> sum_v;  ///< times px from its top
     std::span<std::int32_t> paper;  ///< level around the dot
-    std::span<float>
-        x;  ///< as measured, px from the plane's centre, without the lens; far away if none
+    /// As measured, px from the plane's centre, without the lens; far away if none. Before that,
+    /// where it is expected in the image.
+    std::span<float> x;
     std::span<float> y;
 
     int capacity() const { return static_cast<int>(column.size()) - 8; }

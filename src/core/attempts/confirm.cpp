@@ -92,13 +92,6 @@ bool is_plausible(const BitsRead& bits, const MeasuredDots& dots, const Options&
            !share_is_wrong(bits.wrong_x) && !share_is_wrong(bits.wrong_y);
 }
 
-BitsRead read(const Kernels& kernels, const Sight& sight, const MeasuredDots& dots,
-              BitBlock* block) {
-    return kernels.read_bits(dots, sight.pattern_from_image, sight.displacement,
-                             block != nullptr ? &block->columns : nullptr,
-                             block != nullptr ? &block->rows : nullptr);
-}
-
 /// Nearly all dots are clear, and hardly a bit is wrong.
 bool is_clean(const BitsRead& bits) {
     return 100 * bits.read >= 97 * bits.seen && bits.wrong_x + bits.wrong_y <= 1;
@@ -226,16 +219,79 @@ void write_fix(const ImageView& image, const Options& options, const Sight& sigh
 
 /// How far the bell reaches that dots are weighed with: little, for noise, but as far as a dot's
 /// edge is seen, and not so little that it, too, would depend on how dots fall on the pixels.
-/// `typical_mass` is that of dots as dark as the sight's, beyond the cut.
-float bell_reach_px(const Sight& sight, float typical_mass) {
+float bell_reach_px(const Sight& sight) {
     constexpr float kRadii = 2.4F;
     constexpr float kPi = 3.14159265F;
     const float beyond_cut = static_cast<float>(sight.depth_q8 * (256 - kCutOfDepth_q8)) / 65536;
-    const float radius_px = std::sqrt(typical_mass / (kPi * std::max(beyond_cut, 1.0F / 256)));
+    const float radius_px =
+        std::sqrt(sight.typical_mass / (kPi * std::max(beyond_cut, 1.0F / 256)));
     // Up to there dots are so small that quick bells are wide enough, however they are blurred.
     constexpr float kFewPx = 13;
     const bool is_quick = spacing_px(sight.pattern_from_image) < kFewPx;
     return std::clamp(kRadii * radius_px, 3.3F, is_quick ? kQuickBellReach_px : kMostBellReach_px);
+}
+
+/// Reads the dots listed, and measures them: exactly where they are, if that is known, or around
+/// the intersections.
+class DotReader {
+  public:
+    DotReader(const Kernels& kernels, const ImageView& image, float spacing_px, MeasuredDots& dots)
+        : kernels_(kernels), image_(image), spacing_px_(spacing_px), dots_(dots) {}
+
+    BitsRead read(const CellsInView& view, Sight& sight, BitBlock* block) {
+        BitLines* const columns = block != nullptr ? &block->columns : nullptr;
+        BitLines* const rows = block != nullptr ? &block->rows : nullptr;
+        if (sight.is_exact)
+            return kernels_.read_levels(image_, view, sight.depth_q8, dots_, columns, rows);
+        const WindowLook look{spacing_px_, 0.36F, sight.depth_q8 * kCutOfDepth_q8 >> 8,
+                              // Farther out, most windows may be empty.
+                              sight.shows_part ? typical_mass_ : 0};
+        typical_mass_ = sight.typical_mass = kernels_.measure_windows(image_, view, look, dots_);
+        if (sight.shows_part) leave_out_table(dots_, paper_);
+        return kernels_.read_bits(dots_, sight.pattern_from_image, sight.displacement, columns,
+                                  rows);
+    }
+    /// Through another plane.
+    BitsRead read_again(const Sight& sight, BitBlock& block) const {
+        block = {};
+        return kernels_.read_bits(dots_, sight.pattern_from_image, sight.displacement,
+                                  &block.columns, &block.rows);
+    }
+    /// Of an exact sight, also how far dots are off.
+    void find_centres(const CellsInView& view, const Sight& sight, bool is_last, BitsRead& bits) {
+        if (sight.is_exact) {
+            constexpr float kMostOff_px = 1;
+            const float off =
+                kernels_.find_centres(image_, view, bell_reach_px(sight), kMostOff_px, dots_);
+            const auto right = static_cast<float>(bits.right);
+            bits.projected = right * sight.displacement;
+            bits.squares = right * off / (spacing_px_ * spacing_px_);
+        } else if (is_last) {
+            kernels_.refine_centres(image_, view, bell_reach_px(sight), dots_);
+        }
+    }
+
+  private:
+    const Kernels& kernels_;
+    const ImageView& image_;
+    const float spacing_px_;
+    MeasuredDots& dots_;
+    float typical_mass_ = 0;
+    float paper_ = 0;
+};
+
+/// Whether a plane was fitted so far from where dots were looked for that quick bells do not see
+/// all of their distance.
+bool is_far_from(const FloatPlane& before, const FloatPlane& now, const ImageView& image) {
+    constexpr float kFar = 0.055F;
+    const FloatVec half = centre_px(image);
+    for (const FloatVec corner : {FloatVec{-half.x, -half.y}, FloatVec{half.x, -half.y},
+                                  FloatVec{-half.x, half.y}, FloatVec{half.x, half.y}}) {
+        const FloatVec was = plane_point(before, corner);
+        const FloatVec is = plane_point(now, corner);
+        if (std::max(std::abs(was.x - is.x), std::abs(was.y - is.y)) > kFar) return true;
+    }
+    return false;
 }
 
 /// How far is looked, round by round, px.
@@ -324,41 +380,50 @@ void count_from_centre(Profile profile, Sight& sight) {
                         static_cast<std::int32_t>(row));
 }
 
+bool needs_one_look(const Sight& sight) {
+    // Of a finer grid, the places of a cell are too near to each other to be told apart at a look.
+    constexpr float kFinest_px = 8;
+    return spacing_px(sight.pattern_from_image) >= kFinest_px &&
+           bell_reach_px(sight) <= kQuickBellReach_px;
+}
+
 Confirmation confirm(const Kernels& kernels, const ImageView& image, const Options& options,
                      Sight sight, Workspace& w) {
     FloatPlane& plane = sight.pattern_from_image;
     MeasuredDots& dots = w.measured;
     const float spacing = spacing_px(plane);
-    WindowLook look{spacing, 0.36F, sight.depth_q8 * kCutOfDepth_q8 >> 8};
     const int most_dots = std::min(std::max(options.most_dots, 64), dots.capacity());
     OtherCodes* const codes = sight.is_certain ? nullptr : wanted_codes(w);
+    DotReader reader(kernels, image, spacing, dots);
     PoseFit fit;
     BitsRead bits;
-    float paper = 0;
-    for (Reach reach(image, sight, spacing);; reach.grow()) {
+    bool is_second_look = false;
+    for (Reach reach(image, sight, spacing);;) {
         const bool decides = reach.decides();
         if (!is_plausible(image, plane)) return Confirmation::implausible;
         count_from_centre(options.profile, sight);
         const CellsInView view = cells_in_view(image, options, sight, reach.now,
                                                decides ? dots.capacity() : most_dots, w);
         kernels.list_cells(view, dots);
-        const float typical_mass = kernels.measure_windows(image, view, look, dots);
-        if (sight.shows_part) {
-            // Farther out, most windows may be empty.
-            look.typical_mass = typical_mass;
-            leave_out_table(dots, paper);
-        }
         const bool is_last = reach.now >= reach.full;
         BitBlock block;
-        const bool has_block = decides || (is_last && codes != nullptr);
-        bits = read(kernels, sight, dots, has_block ? &block : nullptr);
+        bits =
+            reader.read(view, sight, decides || (is_last && codes != nullptr) ? &block : nullptr);
         if (!is_plausible(bits, dots, options, sight.shows_part)) return Confirmation::implausible;
-        if (decides && !is_clean(bits)) {
+        if (!is_clean(bits)) {
+            if (sight.is_exact) return Confirmation::implausible;
             // Through a plane that is fitted to all dots, fewer bits are misread.
-            if (!fit_to_dots(kernels, dots, bits, image, sight, fit))
+            if (decides && !fit_to_dots(kernels, dots, bits, image, sight, fit))
                 return Confirmation::implausible;
-            block = {};
-            bits = read(kernels, sight, dots, &block);
+            if (decides) bits = reader.read_again(sight, block);
+        }
+        reader.find_centres(view, sight, is_last, bits);
+        const FloatPlane before = plane;
+        if (!fit_to_dots(kernels, dots, bits, image, sight, fit)) return Confirmation::implausible;
+        if (sight.is_exact && is_far_from(before, plane, image)) {
+            if (is_second_look) return Confirmation::implausible;
+            is_second_look = true;
+            continue;
         }
         if (decides && !sight.is_certain &&
             !is_certain(kernels, options, sight, view, block, bits, w)) {
@@ -368,9 +433,8 @@ Confirmation confirm(const Kernels& kernels, const ImageView& image, const Optio
             weigh_codes_in_view(kernels, options.profile, sight.place, block, confidences_in(bits),
                                 !decides, w.line_scores, *codes);
         }
-        if (is_last) kernels.refine_centres(image, view, bell_reach_px(sight, typical_mass), dots);
-        if (!fit_to_dots(kernels, dots, bits, image, sight, fit)) return Confirmation::implausible;
         if (is_last) break;
+        reach.grow();
     }
     if (!is_plausible(image, plane)) return Confirmation::implausible;
     if (is_far_fetched(fit, 2 * bits.read, bits.wrong_x + bits.wrong_y))

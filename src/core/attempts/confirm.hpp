@@ -17,8 +17,12 @@ struct Sight {
     Place place;                    ///< of the plane's cell (0, 0)
     float displacement = 0;         ///< of the typical dot, spacings
     bool is_certain = false;        ///< the place needs no confirmation
+    /// Dots are known to lie nearer to where they are predicted than to another place of their
+    /// cell.
+    bool is_exact = false;
     bool shows_part = false;  ///< the pattern may cover any part of the image around `from_centre`
     int depth_q8 = 0;         ///< how much darker than paper a typical dot is, smoothed, in 1/256
+    float typical_mass = 0;   ///< of a dot beyond the cut, over the paper's level; 0: not known yet
 };
 
 /// Windows count what is darker than the paper by this share, in 1/256, of a typical dot's
@@ -44,7 +48,11 @@ enum class Confirmation : std::uint8_t {
     uncertain,    ///< they are, but their bits leave doubts
 };
 
-/// Measures, compares, fits. Sets the workspace's fix and what there is to see of it.
+/// Whether dots need one look only, by quick bells at the places where an exact sight has them.
+bool needs_one_look(const Sight& sight);
+
+/// Measures, compares, fits. An exact sight is implausible where that takes more than one look.
+/// Sets the workspace's fix and what there is to see of it.
 Confirmation confirm(const Kernels& kernels, const ImageView& image, const Options& options,
                      Sight sight, Workspace& w);
 

@@ -65,8 +65,8 @@ bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Optio
         dots.window_v[i] += shift.y;
     }
     plane = recentred(plane, {static_cast<float>(-shift.x), static_cast<float>(-shift.y)});
-    kernels.measure_windows(image, view, {spacing, 0.3F, sight.depth_q8 * kCutOfDepth_q8 >> 8},
-                            dots);
+    sight.typical_mass = kernels.measure_windows(
+        image, view, {spacing, 0.3F, sight.depth_q8 * kCutOfDepth_q8 >> 8}, dots);
     return fit_similarity(kernels, dots, reach, sight.displacement, 0.30F, plane) &&
            fit_similarity(kernels, dots, reach, sight.displacement, 0.15F, plane);
 }
@@ -122,6 +122,10 @@ bool confirm_corrected(const Kernels& kernels, const ImageView& image, const Opt
                             share.y * static_cast<float>(image.height_px)};
         Sight there = sight;
         if (!correct(kernels, image, options, from, most_px, there, w)) continue;
+        there.is_exact = needs_one_look(there);
+        if (there.is_exact && confirm(kernels, image, options, there, w) == Confirmation::ok)
+            return true;
+        there.is_exact = false;
         if (confirm(kernels, image, options, there, w) == Confirmation::ok) return true;
     }
     return false;

@@ -175,7 +175,8 @@ struct Kernels {
                        BitLines& columns, BitLines& rows);
     /// Scores of 64 cells in a line against the main sequence from each of its offsets.
     void (*score_line)(std::uint64_t bits, std::uint64_t valid, ScoredLine& line);
-    /// Cells in view, with where their windows lie and where the dots are printed.
+    /// Cells in view, with where their windows lie, where the dots are printed, and where these are
+    /// predicted, in `x` and `y`, as a camera with its lens sees them.
     void (*list_cells)(const CellsInView& view, MeasuredDots& dots);
     /// Mean of the surroundings of places in the image: where it is darkest, all dots are shifted
     /// to.
@@ -190,6 +191,17 @@ struct Kernels {
     /// it.
     void (*refine_centres)(const ImageView& image, const CellsInView& view, float reach_px,
                            MeasuredDots& dots);
+    /// Bits of cells whose dots are predicted to a fraction of their displacement: of the four
+    /// places of each, the darkest has the dot. `depth_q8` is how much darker than paper a typical
+    /// one is. Against the code's, and added to lines, as `read_bits` does; dots that are not right
+    /// are no dots from there on.
+    BitsRead (*read_levels)(const ImageView& image, const CellsInView& view, int depth_q8,
+                            MeasuredDots& dots, BitLines* columns, BitLines* rows);
+    /// Centres as `refine_centres` finds them, of dots that are predicted, by bells at most
+    /// kQuickBellReach_px wide; none where that is too far off. Returns the mean of the squared
+    /// distances, px^2.
+    float (*find_centres)(const ImageView& image, const CellsInView& view, float reach_px,
+                          float most_off_px, MeasuredDots& dots);
     /// Bits of the dots as measured, against those that the code has there. Adds them to empty
     /// lines, where these are asked for, by the cell counted from (-32, -32); each cell may have
     /// one dot.

@@ -263,6 +263,71 @@ TEST(KernelsPlain, CentresFarFromTheirDotsStay) {
     }
 }
 
+TEST(KernelsPlain, PredictedCentresAreFoundHoweverFarDotsAreOff) {
+    repeat(100, [](const Kernels& kernels, Rng& rng) {
+        // The same dot several times, predicted here and there: how fast a bell's moments grow with
+        // the distance is learnt from those that lie near.
+        const double u = rng.uniform(20, OneDot::kSide_px - 21);
+        const double v = rng.uniform(20, OneDot::kSide_px - 21);
+        OneDot dot(u, v, rng.uniform(0.9, 1.5), 0);
+        MeasuredDots& dots = dot.table.dots;
+        dots.count = 8;
+        std::vector<double> off;
+        for (std::size_t k = 0; k < 8; ++k) {
+            off.push_back(k < 4 ? rng.uniform(-0.1, 0.1) : rng.uniform(-0.6, 0.6));
+            dots.paper[k] = static_cast<int>(OneDot::kPaper);
+            dots.x[k] = static_cast<float>(u + off[k]);
+            dots.y[k] = static_cast<float>(v - off[k]);
+        }
+        dots.x[5] = kNoDot_px;
+        kernels.find_centres(dot.view, dot.cells, static_cast<float>(rng.uniform(3.3, 4)), 1, dots);
+        for (std::size_t k = 0; k < 8; ++k) {
+            if (k == 5) continue;
+            EXPECT_NEAR(dots.x[k], u, 0.02) << off[k];
+            EXPECT_NEAR(dots.y[k], v, 0.02) << off[k];
+        }
+        EXPECT_EQ(dots.x[5], kNoDot_px);
+    });
+}
+
+TEST(KernelsPlain, PredictedDotsAreReadByTheDarkestPlace) {
+    repeat(40, [](const Kernels& kernels, Rng& rng) {
+        // A dot below the intersection at (40, 40), which is symbol 3; the grid stands upright.
+        const OneDot dot(40, 41.8, 1, 0);
+        CellsInView view = dot.cells;
+        view.plane = {0, 0, 1 / 11.0F, 0, 0, 1 / 11.0F, 0, 0, 0};
+        view.displacement = 1.8F / 11;
+        const float by[4][2] = {{0, -1.8F}, {-1.8F, 0}, {1.8F, 0}, {0, 1.8F}};
+        const int expected = whole(rng, 0, 3);
+        DotTable table(8);
+        MeasuredDots& dots = table.dots;
+        dots.count = 1;
+        dots.column[0] = static_cast<float>(whole(rng, -32, 31));
+        dots.row[0] = static_cast<float>(whole(rng, -32, 31));
+        dots.bits[0] = expected;
+        dots.x[0] = 40 + by[expected][0];
+        dots.y[0] = 40 + by[expected][1];
+        BitLines columns;
+        BitLines rows;
+        const BitsRead read = kernels.read_levels(dot.view, view, 100, dots, &columns, &rows);
+        EXPECT_EQ(read.seen, 1);
+        EXPECT_EQ(read.read, 1);
+        EXPECT_EQ(read.wrong_x, (expected & 1) == 0 ? 1 : 0);
+        EXPECT_EQ(read.wrong_y, expected < 2 ? 1 : 0);
+        EXPECT_EQ(read.right, expected == 3 ? 1 : 0);
+        EXPECT_EQ(dots.x[0] < kNoDot_px, expected == 3);
+        const auto i = static_cast<std::size_t>(dots.column[0] + 32);
+        const auto j = static_cast<std::size_t>(dots.row[0] + 32);
+        EXPECT_EQ(columns.valid[i], std::uint64_t{1} << j);
+        EXPECT_EQ(columns.bits[i], columns.valid[i]);
+        EXPECT_EQ(rows.valid[j], std::uint64_t{1} << i);
+        EXPECT_EQ(rows.bits[j], rows.valid[j]);
+        // Where a dot would be far darker, there is none.
+        dots.x[0] = 20;
+        EXPECT_EQ(kernels.read_levels(dot.view, view, 100, dots, nullptr, nullptr).seen, 0);
+    });
+}
+
 TEST(KernelsPlain, BitsStandInTheirLines) {
     repeat(40, [](const Kernels& kernels, Rng& rng) {
         const FloatPlane plane = random_plane(rng, 11, 0, 0);

@@ -241,6 +241,32 @@ TEST_F(KernelsTest, WindowsAreTheSame) {
     });
 }
 
+TEST_F(KernelsTest, LevelsAndCentresOfPredictedDotsAreTheSame) {
+    repeat(80, [](Rng& rng) {
+        Picture picture(whole(rng, 64, 400), whole(rng, 64, 300), whole(rng, 0, 9), rng);
+        const double spacing_px = rng.uniform(8, 13);
+        if (rng.below(4) != 0) picture.draw_dots(spacing_px, rng);
+        RandomView random(picture.view.width_px, picture.view.height_px, spacing_px,
+                          rng.below(2) * 0.03, rng);
+        random.view.first_column = random.view.first_row = -60;
+        const int depth_q8 = whole(rng, 0, 256);
+        const float reach_px = number(rng, 3.3, kQuickBellReach_px);
+        DotTable listed(4096);
+        portable_kernels().list_cells(random.view, listed.dots);
+        expect_same([&](const Kernels& kernels, Record& all) {
+            DotTable table(listed);
+            BitLines columns;
+            BitLines rows;
+            all.add(kernels.read_levels(picture.view, random.view, depth_q8, table.dots, &columns,
+                                        &rows));
+            record(columns, all);
+            record(rows, all);
+            all.add(kernels.find_centres(picture.view, random.view, reach_px, 1, table.dots));
+            table.record_measures(all);
+        });
+    });
+}
+
 TEST_F(KernelsTest, BitsReadAreTheSame) {
     repeat(100, [](Rng& rng) {
         const double spacing_px = rng.uniform(5, 30);
