@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "code/rolls.hpp"
+#include "core/attempts/dot_reader.hpp"
 #include "core/attempts/fitted_pose.hpp"
 #include "core/attempts/steps.hpp"
 #include "core/decode/bit_lines.hpp"
@@ -63,22 +64,6 @@ void follow_code(Profile profile, const Place& place, const CellsInView& view, W
     };
     follow(corner.cell.x, corner.section.u, corner.cell.y, view.columns, w.column_rolls);
     follow(corner.cell.y, corner.section.v, corner.cell.x, view.rows, w.row_rolls);
-}
-
-/// Leaves out windows so much darker than paper that they show the table beyond the sheet, where
-/// noise is as dark as dots. `paper` is the mean level around dots, once it is known.
-void leave_out_table(MeasuredDots& dots, float& paper) {
-    constexpr float kDarkest = 0.4F;
-    float sum = 0;
-    float count = 0;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(dots.count); ++k) {
-        const auto level = static_cast<float>(dots.paper[k]);
-        if (level < kDarkest * paper) dots.x[k] = kNoDot_px;
-        if (dots.x[k] >= kNoDot_px) continue;
-        sum += level;
-        count += 1;
-    }
-    if (paper == 0 && count > 0) paper = sum / count;
 }
 
 /// Whether what was measured bears out the bits expected, by and large.
@@ -217,69 +202,6 @@ void write_fix(const ImageView& image, const Options& options, const Sight& sigh
     w.fix.status = Status::ok;
 }
 
-/// How far the bell reaches that dots are weighed with: little, for noise, but as far as a dot's
-/// edge is seen, and not so little that it, too, would depend on how dots fall on the pixels.
-float bell_reach_px(const Sight& sight) {
-    constexpr float kRadii = 2.4F;
-    constexpr float kPi = 3.14159265F;
-    const float beyond_cut = static_cast<float>(sight.depth_q8 * (256 - kCutOfDepth_q8)) / 65536;
-    const float radius_px =
-        std::sqrt(sight.typical_mass / (kPi * std::max(beyond_cut, 1.0F / 256)));
-    // Up to there dots are so small that quick bells are wide enough, however they are blurred.
-    constexpr float kFewPx = 13;
-    const bool is_quick = spacing_px(sight.pattern_from_image) < kFewPx;
-    return std::clamp(kRadii * radius_px, 3.3F, is_quick ? kQuickBellReach_px : kMostBellReach_px);
-}
-
-/// Reads the dots listed, and measures them: exactly where they are, if that is known, or around
-/// the intersections.
-class DotReader {
-  public:
-    DotReader(const Kernels& kernels, const ImageView& image, float spacing_px, MeasuredDots& dots)
-        : kernels_(kernels), image_(image), spacing_px_(spacing_px), dots_(dots) {}
-
-    BitsRead read(const CellsInView& view, Sight& sight, BitBlock* block) {
-        BitLines* const columns = block != nullptr ? &block->columns : nullptr;
-        BitLines* const rows = block != nullptr ? &block->rows : nullptr;
-        if (sight.is_exact)
-            return kernels_.read_levels(image_, view, sight.depth_q8, dots_, columns, rows);
-        const WindowLook look{spacing_px_, 0.36F, sight.depth_q8 * kCutOfDepth_q8 >> 8,
-                              // Farther out, most windows may be empty.
-                              sight.shows_part ? typical_mass_ : 0};
-        typical_mass_ = sight.typical_mass = kernels_.measure_windows(image_, view, look, dots_);
-        if (sight.shows_part) leave_out_table(dots_, paper_);
-        return kernels_.read_bits(dots_, sight.pattern_from_image, sight.displacement, columns,
-                                  rows);
-    }
-    /// Through another plane.
-    BitsRead read_again(const Sight& sight, BitBlock& block) const {
-        block = {};
-        return kernels_.read_bits(dots_, sight.pattern_from_image, sight.displacement,
-                                  &block.columns, &block.rows);
-    }
-    /// Of an exact sight, also how far dots are off.
-    void find_centres(const CellsInView& view, const Sight& sight, bool is_last, BitsRead& bits) {
-        if (sight.is_exact) {
-            constexpr float kMostOff_px = 1;
-            const float off =
-                kernels_.find_centres(image_, view, bell_reach_px(sight), kMostOff_px, dots_);
-            const auto right = static_cast<float>(bits.right);
-            bits.projected = right * sight.displacement;
-            bits.squares = right * off / (spacing_px_ * spacing_px_);
-        } else if (is_last) {
-            kernels_.refine_centres(image_, view, bell_reach_px(sight), dots_);
-        }
-    }
-
-  private:
-    const Kernels& kernels_;
-    const ImageView& image_;
-    const float spacing_px_;
-    MeasuredDots& dots_;
-    float typical_mass_ = 0;
-    float paper_ = 0;
-};
-
 /// Whether a plane was fitted so far from where dots were looked for that quick bells do not see
 /// all of their distance.
 bool is_far_from(const FloatPlane& before, const FloatPlane& now, const ImageView& image) {
@@ -378,13 +300,6 @@ void count_from_centre(Profile profile, Sight& sight) {
     plane.at_y -= row;
     sight.place = moved(profile, sight.place, static_cast<std::int32_t>(column),
                         static_cast<std::int32_t>(row));
-}
-
-bool needs_one_look(const Sight& sight) {
-    // Of a finer grid, the places of a cell are too near to each other to be told apart at a look.
-    constexpr float kFinest_px = 8;
-    return spacing_px(sight.pattern_from_image) >= kFinest_px &&
-           bell_reach_px(sight) <= kQuickBellReach_px;
 }
 
 Confirmation confirm(const Kernels& kernels, const ImageView& image, const Options& options,

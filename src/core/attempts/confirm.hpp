@@ -48,9 +48,6 @@ enum class Confirmation : std::uint8_t {
     uncertain,    ///< they are, but their bits leave doubts
 };
 
-/// Whether dots need one look only, by quick bells at the places where an exact sight has them.
-bool needs_one_look(const Sight& sight);
-
 /// Measures, compares, fits. An exact sight is implausible where that takes more than one look.
 /// Sets the workspace's fix and what there is to see of it.
 Confirmation confirm(const Kernels& kernels, const ImageView& image, const Options& options,

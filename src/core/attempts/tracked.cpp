@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/attempts/confirm.hpp"
+#include "core/attempts/dot_reader.hpp"
 #include "core/attempts/steps.hpp"
 #include "core/fixed.hpp"
 #include "core/pose/refine.hpp"
@@ -26,16 +27,25 @@ bool fit_similarity(const Kernels& kernels, const MeasuredDots& dots, float reac
     const FitSums sums =
         kernels.sum_similarity(dots, plane, displacement, reach_px, most_off * most_off);
     if (sums.points < static_cast<float>(kFewestNear)) return false;
-    Normal normal(sums);
-    if (!normal.decompose()) return false;
-    const Parameters step = normal.unwhitened(normal.whitened(normal.right()));
+    // Residual = shift + turn * place, as complex numbers: least squares in closed form.
+    const float share = 1 / sums.points;
+    const float right_x = sums.right[0];
+    const float right_y = sums.right[1];
+    const float along = sums.right[2];
+    const float across = sums.right[3];
+    const float u = sums.matrix[2][0] * share;  // the mean place
+    const float v = sums.matrix[2][1] * share;
+    const float spread = sums.matrix[3][3] - sums.points * (u * u + v * v);
+    if (!(spread > 0)) return false;
+    const float scale = (along - right_x * u - right_y * v) / spread;
+    const float turn = (across - right_y * u + right_x * v) / spread;
     const float unit = 1 / reach_px;
-    plane.at_x += step[0];
-    plane.at_y += step[1];
-    plane.du_x += step[2] * unit;
-    plane.du_y += step[3] * unit;
-    plane.dv_x -= step[3] * unit;
-    plane.dv_y += step[2] * unit;
+    plane.at_x += right_x * share - scale * u + turn * v;
+    plane.at_y += right_y * share - scale * v - turn * u;
+    plane.du_x += scale * unit;
+    plane.du_y += turn * unit;
+    plane.dv_x -= turn * unit;
+    plane.dv_y += scale * unit;
     return true;
 }
 

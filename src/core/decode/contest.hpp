@@ -55,9 +55,7 @@ class Contest {
     }
     /// log2 of how many rolls lose about as little, in 2^-8, rounded up: the odds of the best, so
     /// often, are at least those of all. Of bits only.
-    int log2_of_nearest_q8(int line) const {
-        return log2_of_nearest_q8_[static_cast<std::size_t>(line)];
-    }
+    int log2_of_nearest_q8(int line) const;
     /// The most that it may win back in lines that another roll suits better.
     int most_regained() const { return most_regained_; }
     /// Lines in a row that a rival shares at most.
@@ -108,7 +106,6 @@ class Contest {
     int hopeless_score_ = 0;
     std::array<std::uint8_t, kMaxLines> rolls_{};
     std::array<std::int16_t, kMaxLines> least_losses_{};
-    std::array<std::int16_t, kMostTracked> log2_of_nearest_q8_;
 };
 
 /// By how much the roll of a rival exceeds that of the reading in each line, but for a shift of all

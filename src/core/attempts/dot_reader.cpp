@@ -1,0 +1,81 @@
+#include "core/attempts/dot_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dotpose::core {
+namespace {
+
+/// Leaves out windows so much darker than paper that they show the table beyond the sheet, where
+/// noise is as dark as dots. `paper` is the mean level around dots, once it is known.
+void leave_out_table(MeasuredDots& dots, float& paper) {
+    constexpr float kDarkest = 0.4F;
+    float sum = 0;
+    float count = 0;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(dots.count); ++k) {
+        const auto level = static_cast<float>(dots.paper[k]);
+        if (level < kDarkest * paper) dots.x[k] = kNoDot_px;
+        if (dots.x[k] >= kNoDot_px) continue;
+        sum += level;
+        count += 1;
+    }
+    if (paper == 0 && count > 0) paper = sum / count;
+}
+
+/// How far the bell reaches that dots are weighed with: little, for noise, but as far as a dot's
+/// edge is seen, and not so little that it, too, would depend on how dots fall on the pixels.
+float bell_reach_px(const Sight& sight) {
+    constexpr float kRadii = 2.4F;
+    constexpr float kPi = 3.14159265F;
+    const float beyond_cut = static_cast<float>(sight.depth_q8 * (256 - kCutOfDepth_q8)) / 65536;
+    const float radius_px =
+        std::sqrt(sight.typical_mass / (kPi * std::max(beyond_cut, 1.0F / 256)));
+    // Up to there dots are so small that quick bells are wide enough, however they are blurred.
+    constexpr float kFewPx = 13;
+    const bool is_quick = spacing_px(sight.pattern_from_image) < kFewPx;
+    return std::clamp(kRadii * radius_px, 3.3F, is_quick ? kQuickBellReach_px : kMostBellReach_px);
+}
+
+}  // namespace
+
+bool needs_one_look(const Sight& sight) {
+    // Of a finer grid, the places of a cell are too near to each other to be told apart at a look.
+    constexpr float kFinest_px = 8;
+    return spacing_px(sight.pattern_from_image) >= kFinest_px &&
+           bell_reach_px(sight) <= kQuickBellReach_px;
+}
+
+BitsRead DotReader::read(const CellsInView& view, Sight& sight, BitBlock* block) {
+    BitLines* const columns = block != nullptr ? &block->columns : nullptr;
+    BitLines* const rows = block != nullptr ? &block->rows : nullptr;
+    if (sight.is_exact)
+        return kernels_.read_levels(image_, view, sight.depth_q8, dots_, columns, rows);
+    const WindowLook look{spacing_px_, 0.36F, sight.depth_q8 * kCutOfDepth_q8 >> 8,
+                          // Farther out, most windows may be empty.
+                          sight.shows_part ? typical_mass_ : 0};
+    typical_mass_ = sight.typical_mass = kernels_.measure_windows(image_, view, look, dots_);
+    if (sight.shows_part) leave_out_table(dots_, paper_);
+    return kernels_.read_bits(dots_, sight.pattern_from_image, sight.displacement, columns, rows);
+}
+
+BitsRead DotReader::read_again(const Sight& sight, BitBlock& block) const {
+    block = {};
+    return kernels_.read_bits(dots_, sight.pattern_from_image, sight.displacement, &block.columns,
+                              &block.rows);
+}
+
+void DotReader::find_centres(const CellsInView& view, const Sight& sight, bool is_last,
+                             BitsRead& bits) const {
+    if (sight.is_exact) {
+        constexpr float kMostOff_px = 1;
+        const float off =
+            kernels_.find_centres(image_, view, bell_reach_px(sight), kMostOff_px, dots_);
+        const auto right = static_cast<float>(bits.right);
+        bits.projected = right * sight.displacement;
+        bits.squares = right * off / (spacing_px_ * spacing_px_);
+    } else if (is_last) {
+        kernels_.refine_centres(image_, view, bell_reach_px(sight), dots_);
+    }
+}
+
+}  // namespace dotpose::core

@@ -1,0 +1,36 @@
+// Dot reader: the bits and the centres of dots that are listed, as well as the sight is known.
+#pragma once
+
+#include "core/attempts/confirm.hpp"
+#include "core/decode/bit_lines.hpp"
+
+namespace dotpose::core {
+
+/// Whether dots need one look only, by quick bells at the places where an exact sight has them.
+bool needs_one_look(const Sight& sight);
+
+/// Reads the dots listed, and measures them: exactly where they are, if that is known, or around
+/// the intersections.
+class DotReader {
+  public:
+    DotReader(const Kernels& kernels, const ImageView& image, float spacing_px, MeasuredDots& dots)
+        : kernels_(kernels), image_(image), spacing_px_(spacing_px), dots_(dots) {}
+
+    /// Adds what it reads to an empty block, unless that is null.
+    BitsRead read(const CellsInView& view, Sight& sight, BitBlock* block);
+    /// Through another plane.
+    BitsRead read_again(const Sight& sight, BitBlock& block) const;
+    /// Of an exact sight, also how far dots are off.
+    void find_centres(const CellsInView& view, const Sight& sight, bool is_last,
+                      BitsRead& bits) const;
+
+  private:
+    const Kernels& kernels_;
+    const ImageView& image_;
+    const float spacing_px_;
+    MeasuredDots& dots_;
+    float typical_mass_ = 0;
+    float paper_ = 0;  ///< the mean level around dots, once it is known
+};
+
+}  // namespace dotpose::core
