@@ -262,15 +262,29 @@ struct TrackedLine {
 /// A row of cells of a tracked frame: the next one that the image's rows will show, and sums over
 /// the dots measured so far, each weighted with its mass.
 struct TrackedRow {
-    Vec next_q16;           ///< where it lies in the image, px
-    std::int32_t i = 0;     ///< its column
-    std::int32_t left = 0;  ///< cells from it on; 0 where none is in view
+    static constexpr std::int32_t kNever_q16 = INT32_MAX;
+
+    Vec next_q16{0,
+                 kNever_q16};  ///< where it lies in the image, px; y: kNever_q16 if there is none
+    std::int32_t i = 0;        ///< its column
     // Columns are counted from the middle one.
     std::int32_t mass = 0;
     std::int32_t mass_i = 0;
     std::int32_t mass_ii = 0;
     Vec off_q8;  ///< from where the cells have the dots, px
     Vec off_i_q8;
+};
+
+/// Where intersections lie of which all pixels that are looked at are in the image.
+struct TrackedView {
+    Vec least_q16;
+    std::uint32_t width_q16 = 0;
+    std::uint32_t height_q16 = 0;
+
+    bool has(Vec at_q16) const {
+        return static_cast<std::uint32_t>(at_q16.x - least_q16.x) < width_q16 &&
+               static_cast<std::uint32_t>(at_q16.y - least_q16.y) < height_q16;
+    }
 };
 
 /// A frame of which dots are measured where a prediction has them, as its rows come in.
@@ -309,6 +323,7 @@ struct Tracking {
     int first_cell = 0;    ///< per axis, of those that may be in view
     int last_cell = 0;
     std::span<TrackedRow> grid_rows;
+    TrackedView view;
 };
 
 /// What the grid was read as.

@@ -110,9 +110,11 @@ Orientation rank_turns(const Grid& grid, const Region& region) {
                                              turned_columns + turned_rows, columns + turned_rows};
     std::array<Turn, 4> turns{Turn{0}, Turn{1}, Turn{2}, Turn{3}};
     const auto score = [&](Turn t) { return scores[static_cast<std::size_t>(t.quarters)]; };
-    std::sort(turns.begin(), turns.end(), [&](Turn a, Turn b) {
-        return score(a) != score(b) ? score(a) > score(b) : a.quarters < b.quarters;
-    });
+    // The best first, and of equal ones the first: a library's sort would be long for so few.
+    for (std::size_t n = 1; n < turns.size(); ++n) {
+        for (std::size_t i = n; i > 0 && score(turns[i]) > score(turns[i - 1]); --i)
+            std::swap(turns[i], turns[i - 1]);
+    }
     return {turns, score(turns[0])};
 }
 

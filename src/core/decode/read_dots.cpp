@@ -21,19 +21,7 @@ Way way_of(const Tracking& tracking) {
     return along.y < 0 ? Way{-along, -1} : Way{along, 1};
 }
 
-/// Where intersections have to lie in the image: all pixels that are looked at for them are in it.
-struct View {
-    Vec least_q16;
-    std::uint32_t width_q16;
-    std::uint32_t height_q16;
-
-    bool has(Vec at_q16) const {
-        const Vec from_least = at_q16 - least_q16;
-        return static_cast<std::uint32_t>(from_least.x) < width_q16 &&
-               static_cast<std::uint32_t>(from_least.y) < height_q16;
-    }
-};
-View view_of(const Tracking& tracking) {
+TrackedView view_of(const Tracking& tracking) {
     std::int32_t displaced_q16 = 0;
     for (const Vec displaced : tracking.displaced_q16)
         displaced_q16 = std::max(displaced_q16, larger_component(displaced));
@@ -51,33 +39,31 @@ View view_of(const Tracking& tracking) {
 
 /// Lays the rows of cells from `j` on, as far as some of them are in view. Cells in view stand side
 /// by side, and not far from those of the row before.
-void lay_rows(Tracking& tracking, const View& view, int j, int j_step) {
+void lay_rows(Tracking& tracking, int j, int j_step) {
+    const TrackedView view = tracking.view;
     const Way way = way_of(tracking);
     const Vec along = tracking.cells.along_y_q16;
     const Vec to_next_q16 = j_step > 0 ? along : -along;
     const int most = (tracking.last_cell - tracking.first_cell) / 2;
     Vec at_q16 = place_q16(tracking.cells, kMiddleCell, j);
     int first = 0;  // in steps from the middle
-    const auto step_to = [&](int steps) {
-        first += steps;
-        at_q16 = at_q16 + Vec{steps * way.step_q16.x, steps * way.step_q16.y};
-    };
     for (; j >= tracking.first_cell && j <= tracking.last_cell; j += j_step) {
+        const Vec before_q16 = at_q16;
         const int before = first;
-        while (first < most && !view.has(at_q16))
-            step_to(1);
-        if (first == most) step_to(before - first);
-        while (first > -most && !view.has(at_q16))
-            step_to(-1);
+        for (; first < most && !view.has(at_q16); ++first)
+            at_q16 = at_q16 + way.step_q16;
+        if (first == most) {
+            first = before;
+            at_q16 = before_q16;
+        }
+        for (; first > -most && !view.has(at_q16); --first)
+            at_q16 = at_q16 - way.step_q16;
         if (first == -most) return;
-        while (first > -most && view.has(at_q16 - way.step_q16))
-            step_to(-1);
+        for (; first > -most && view.has(at_q16 - way.step_q16); --first)
+            at_q16 = at_q16 - way.step_q16;
         TrackedRow& row = tracking.grid_rows[static_cast<std::size_t>(j)];
         row.next_q16 = at_q16;
         row.i = kMiddleCell + way.i_step * first;
-        Vec end_q16 = at_q16;
-        for (; first + row.left < most && view.has(end_q16); ++row.left)
-            end_q16 = end_q16 + way.step_q16;
         at_q16 = at_q16 + to_next_q16;
     }
 }
@@ -134,9 +120,9 @@ DOTPOSE_BY_ITSELF void add_dot(Tracking& tracking, ReadSymbol read, TrackedRow& 
 bool begin_reading(Tracking& tracking) {
     if (!lay_dot_pixels(tracking)) return false;
     std::ranges::fill(tracking.grid_rows, TrackedRow{});
-    const View view = view_of(tracking);
-    lay_rows(tracking, view, kMiddleCell, -1);
-    lay_rows(tracking, view, kMiddleCell + 1, 1);
+    tracking.view = view_of(tracking);
+    lay_rows(tracking, kMiddleCell, -1);
+    lay_rows(tracking, kMiddleCell + 1, 1);
     return true;
 }
 
@@ -147,14 +133,15 @@ void read_ready_dots(Tracking& tracking) {
     const std::int32_t ready_q16 = (tracking.rows_taken - ahead - kHalf_px) * 65536 + 32767;
     TrackedRow* row = &tracking.grid_rows[static_cast<std::size_t>(tracking.first_cell)];
     for (int j = tracking.first_cell; j <= tracking.last_cell; ++j, ++row) {
-        if (row->left == 0 || row->next_q16.y > ready_q16) continue;
-        do {
+        while (row->next_q16.y <= ready_q16) {
             const ReadSymbol read = read_symbol(tracking, row->next_q16);
             if (read.is_clear() && note(tracking, row->i, j, read.symbol()))
                 add_dot(tracking, read, *row);
-            row->next_q16 = row->next_q16 + way.step_q16;
+            const Vec next_q16 = row->next_q16 + way.step_q16;
+            row->next_q16.x = next_q16.x;
+            row->next_q16.y = tracking.view.has(next_q16) ? next_q16.y : TrackedRow::kNever_q16;
             row->i += way.i_step;
-        } while (--row->left > 0 && row->next_q16.y <= ready_q16);
+        }
     }
 }
 

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstring>
 
+#include "core/detect/inverses.hpp"
 #include "core/detect/tiles.hpp"
 #include "core/detect/words.hpp"
 
@@ -84,14 +85,6 @@ void join_neighbours(std::uint8_t* number, std::size_t count) {
     *last = static_cast<std::uint8_t>(of_two);
 }
 
-/// 1 / (paper + 1), to tell contrasts relative to the paper's level in `kContrastBins`-ths.
-constexpr auto kInverses_q16 = [] {
-    std::array<std::uint32_t, 256> inverses{};
-    for (std::uint32_t paper = 0; paper < inverses.size(); ++paper)
-        inverses[paper] = (kContrastBins << 16) / (paper + 1);
-    return inverses;
-}();
-
 /// Sets the columns of a tile to a level; returns where those of the next one are.
 inline std::uint8_t* fill(std::uint8_t* column, unsigned level) {
     const Word word = in_all_bytes(1) * level;
@@ -112,8 +105,9 @@ int take_contrasts(std::uint8_t* means, const std::uint8_t* darknesses, std::siz
         const int mean = means[t];
         const int contrast = mean + darknesses[t] - 255;
         if (contrast >= min_contrast) {
-            const std::uint32_t inverse_q16 = kInverses_q16[static_cast<std::size_t>(mean)];
-            ++histogram[(static_cast<std::uint32_t>(contrast) * inverse_q16) >> 16];
+            static_assert(kContrastBins == 64);
+            const std::uint32_t bins_q16 = kInverses_q22[static_cast<std::size_t>(mean)];
+            ++histogram[(static_cast<std::uint32_t>(contrast) * bins_q16) >> 16];
         } else {
             means[t] = 0;
             ++blank;

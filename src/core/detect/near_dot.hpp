@@ -6,6 +6,7 @@
 #include <array>
 
 #include "core/by_itself.hpp"
+#include "core/detect/inverses.hpp"
 #include "core/detect/newest_rows.hpp"
 #include "core/kernels/portable/dark_sums.hpp"
 #include "dotpose/code.hpp"
@@ -99,40 +100,6 @@ struct NearDot {
     std::int32_t mass = 0;
 };
 
-/// 2^21 / n for n from 256 to 511: processors without a divider multiply.
-inline constexpr auto kInverses_q21 = [] {
-    std::array<std::uint16_t, 256> all{};
-    for (std::size_t n = 0; n < all.size(); ++n)
-        all[n] = static_cast<std::uint16_t>(((1U << 21) + 128 + n / 2) / (256 + n));
-    return all;
-}();
-
-/// Divides by a mass, from 16 to 2^16, to half a percent.
-class Inverse {
-  public:
-    explicit Inverse(std::int32_t mass) {
-        while (mass >= 512) {
-            mass >>= 1;
-            ++shift_;
-        }
-        while (mass < 256) {
-            mass <<= 1;
-            --shift_;
-        }
-        inverse_q21_ = kInverses_q21[static_cast<std::size_t>(mass - 256)];
-    }
-    /// sum / mass in 2^-8, of a sum at most 8 times the mass.
-    std::int32_t quotient_q8(std::int32_t sum) const {
-        // The sum has the bits of the mass, 9, and 3 more.
-        const std::int32_t n = shift_ > 3 ? sum >> (shift_ - 3) : sum * (1 << (3 - shift_));
-        return (n * inverse_q21_) >> 16;
-    }
-
-  private:
-    int shift_ = 0;
-    std::int32_t inverse_q21_ = 0;
-};
-
 /// The centre of what is darker than `level` in the square of 2 Half + 1 px around a place. False
 /// where that is no dot, or leaves the image or the rows that are kept.
 template <int Half>
@@ -143,8 +110,8 @@ template <int Half>
     const std::uint8_t* const first = kept_row(tracking, pixel.y - Half) + pixel.x - Half;
     const DarkSums sums = dark_sums<Half>(first, tracking.stride_px, level);
     if (sums.mass < tracking.least_mass || sums.mass > tracking.most_mass) return false;
-    const Inverse inverse(sums.mass);
     dot.mass = sums.mass;
+    const Inverse inverse(sums.mass);
     dot.off_q8 = {inverse.quotient_q8(sums.x) + pixel.x * 256 - (place_q16.x >> 8),
                   inverse.quotient_q8(sums.y) + pixel.y * 256 - (place_q16.y >> 8)};
     return true;

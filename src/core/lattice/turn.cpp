@@ -61,7 +61,8 @@ class SimilarityFit {
 };
 
 /// v stretched and turned, less v.
-Vec change(const SimilarityFit::Similarity& s, Vec v) {
+// By itself: products of 64 bits are long.
+[[gnu::noinline]] Vec change(const SimilarityFit::Similarity& s, Vec v) {
     const auto part = [](std::int64_t a_q20) { return static_cast<std::int32_t>(a_q20 >> 20); };
     return {part(std::int64_t{s.stretch_q20} * v.x - std::int64_t{s.turn_q20} * v.y),
             part(std::int64_t{s.stretch_q20} * v.y + std::int64_t{s.turn_q20} * v.x)};
@@ -127,6 +128,8 @@ void Rounds::recentre(Vec middle) {
 
 void Rounds::measure(int i, int j) {
     const Vec at_q16 = place_q16(tracking_.cells, i, j);
+    // Most cells around are beyond the first rows.
+    if (!is_kept(tracking_, pixel_at(at_q16), kHalf_px)) return;
     NearDot dot;
     if (!measure_around(tracking_, at_q16, dot)) return;
     ++seen_;

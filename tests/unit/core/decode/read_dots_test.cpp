@@ -48,13 +48,12 @@ TEST(ReadDots, LooksAtAllCellsInView) {
         const int way = x.y < 0 ? -1 : 1;
         for (int j = 0; j < kMostTracked; ++j) {
             const TrackedRow& row = rows[static_cast<std::size_t>(j)];
-            for (int n = 0; n < row.left; ++n)
-                looked_at.emplace(row.i + way * n, j);
-            if (row.left > 0) {
-                const Vec first_q16 = place_q16(tracking.cells, row.i, j);
-                EXPECT_EQ(row.next_q16.x, first_q16.x);
-                EXPECT_EQ(row.next_q16.y, first_q16.y);
-            }
+            if (row.next_q16.y == TrackedRow::kNever_q16) continue;
+            const Vec first_q16 = place_q16(tracking.cells, row.i, j);
+            EXPECT_EQ(row.next_q16.x, first_q16.x);
+            EXPECT_EQ(row.next_q16.y, first_q16.y);
+            for (int i = row.i; tracking.view.has(place_q16(tracking.cells, i, j)); i += way)
+                looked_at.emplace(i, j);
         }
         for (int j = 0; j < kMostTracked; ++j) {
             for (int i = 0; i < kMostTracked; ++i) {

@@ -1,0 +1,40 @@
+// Inverses: for processors without a divider, which multiply instead.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace dotpose::core {
+
+/// 1 / (n + 1) in 2^-22.
+inline constexpr auto kInverses_q22 = [] {
+    std::array<std::uint32_t, 256> all{};
+    for (std::uint32_t n = 0; n < all.size(); ++n)
+        all[n] = (1U << 22) / (n + 1);
+    return all;
+}();
+
+/// Divides by a mass, from 16 to 2^16, to a percent.
+class Inverse {
+  public:
+    explicit Inverse(std::int32_t mass) {
+        for (; mass > 256; mass >>= 1)
+            ++shift_;
+        for (; mass <= 128; mass <<= 1)
+            --shift_;
+        inverse_q22_ = static_cast<std::int32_t>(kInverses_q22[static_cast<std::size_t>(mass - 1)]);
+    }
+    /// sum / mass in 2^-8, of a sum at most 8 times the mass.
+    std::int32_t quotient_q8(std::int32_t sum) const {
+        // The sum gets the bits of the mass, 9, and 3 more.
+        const std::int32_t n = shift_ > 0 ? sum >> shift_ : sum * (1 << -shift_);
+        return (n * inverse_q22_) >> 14;
+    }
+
+  private:
+    int shift_ = 0;
+    std::int32_t inverse_q22_ = 0;
+};
+
+}  // namespace dotpose::core
