@@ -35,9 +35,9 @@ void detect_filtered(const ImageView& image, const Options& filtered, Workspace&
 /// Dots -> the grid they lie on, with more patience than `find_grid`, and for tilted cameras and
 /// lenses that bend.
 Status find_grid_thoroughly(const Options& options, Workspace& w) {
-    Status status = find_axes(kMaxSeeds, w);
-    if (status != Status::ok) return status;
     const Vec centre_q8 = image_centre_q8(w.light);
+    Status status = find_axes(centre_q8, kMaxSeeds, w);
+    if (status != Status::ok) return status;
     const Lattice estimate = w.lattice;
     // Between graphics, the connections of what is left of the dots may point anywhere.
     for (const int most_turn_deg : {12, 45}) {

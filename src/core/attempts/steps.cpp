@@ -8,6 +8,7 @@
 #include "core/lattice/grow.hpp"
 #include "core/lattice/neighbours.hpp"
 #include "core/lattice/origin.hpp"
+#include "core/plane.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -67,10 +68,29 @@ Status find_dots(const Options& options, Workspace& w) {
     return Status::ok;
 }
 
-Status find_axes(int most_seeds, Workspace& w) {
+namespace {
+
+/// Where the grid is looked for: at the image centre, or in the middle of the dots if that is far
+/// from it, as at the edge of a sheet.
+Vec start_q8(const Workspace& w) {
+    const Vec centre_q8 = image_centre_q8(w.light);
+    Vec sum_q4;
+    for (const Dot& dot : w.found_dots())
+        sum_q4 = sum_q4 + Vec{dot.centre_q8.x >> 4, dot.centre_q8.y >> 4};
+    const Vec mean_q8{sum_q4.x / w.dot_count * 16, sum_q4.y / w.dot_count * 16};
+    // A pattern that fills the view has its middle within a few hundredths of the centre.
+    constexpr int kFar = 4;
+    const bool is_far = magnitude(mean_q8.x - centre_q8.x) * kFar > centre_q8.x ||
+                        magnitude(mean_q8.y - centre_q8.y) * kFar > centre_q8.y;
+    return is_far ? mean_q8 : centre_q8;
+}
+
+}  // namespace
+
+Status find_axes(Vec start_q8, int most_seeds, Workspace& w) {
     const auto dots = w.found_dots();
     const int room = std::min(most_seeds, static_cast<int>(w.seeds.size()));
-    w.seed_count = choose_seeds(dots, image_centre_q8(w.light), first(w.seeds, room));
+    w.seed_count = choose_seeds(dots, start_q8, first(w.seeds, room));
     const std::span<const std::uint16_t> seeds = first(w.seeds, w.seed_count);
     find_neighbours(dots, seeds, w.buckets, w.neighbours);  // II-B.2, Fig. 3
     w.edge_count = connect_symmetric(dots, seeds, w.neighbours, w.edges);
@@ -79,12 +99,15 @@ Status find_axes(int most_seeds, Workspace& w) {
 
 Status find_grid(const Options& options, Workspace& w) {
     constexpr int kSeeds = 64;
-    const Status status = find_axes(kSeeds, w);
+    const Vec start = start_q8(w);
+    const Status status = find_axes(start, kSeeds, w);
     if (status != Status::ok) return status;
-    const Vec centre_q8 = image_centre_q8(w.light);
-    find_origin(w.found_dots(), first(w.seeds, w.seed_count), centre_q8, w.lattice);
-    return grow_grid(w.found_dots(), options.lattice, centre_q8, w.lattice,
-                     w.grid_from_image);  // II-B.3
+    find_origin(w.found_dots(), first(w.seeds, w.seed_count), start, w.lattice);
+    const Status grown = grow_grid(w.found_dots(), options.lattice, start, w.lattice,
+                                   w.grid_from_image);  // II-B.3
+    // Maps are counted from the image centre.
+    w.grid_from_image = affine_tangent(w.grid_from_image, image_centre_q8(w.light));
+    return grown;
 }
 
 void choose_region(Workspace& w) {
