@@ -302,8 +302,11 @@ void count_from_centre(Profile profile, Sight& sight) {
                         static_cast<std::int32_t>(row));
 }
 
-Confirmation confirm(const Kernels& kernels, const ImageView& image, const Options& options,
-                     Sight sight, Workspace& w) {
+namespace {
+
+/// An exact sight is implausible where dots need more than one look.
+Confirmation look(const Kernels& kernels, const ImageView& image, const Options& options,
+                  Sight sight, Workspace& w) {
     FloatPlane& plane = sight.pattern_from_image;
     MeasuredDots& dots = w.measured;
     const float spacing = spacing_px(plane);
@@ -319,6 +322,7 @@ Confirmation confirm(const Kernels& kernels, const ImageView& image, const Optio
         count_from_centre(options.profile, sight);
         const CellsInView view = cells_in_view(image, options, sight, reach.now,
                                                decides ? dots.capacity() : most_dots, w);
+        if (sight.is_exact && sight.typical_mass == 0) reader.look_at_some(view, sight);
         kernels.list_cells(view, dots);
         const bool is_last = reach.now >= reach.full;
         BitBlock block;
@@ -357,6 +361,21 @@ Confirmation confirm(const Kernels& kernels, const ImageView& image, const Optio
     write_fix(image, options, sight, bits, fit, w);
     if (options.show_stages) show(sight, w);
     return Confirmation::ok;
+}
+
+}  // namespace
+
+Confirmation confirm(const Kernels& kernels, const ImageView& image, const Options& options,
+                     Sight sight, Workspace& w) {
+    if (!sight.shows_part && suits_one_look(sight)) {
+        OtherCodes* const codes = wanted_codes(w);
+        const OtherCodes before = codes != nullptr ? *codes : OtherCodes{};
+        sight.is_exact = true;
+        if (look(kernels, image, options, sight, w) == Confirmation::ok) return Confirmation::ok;
+        sight.is_exact = false;
+        if (codes != nullptr) *codes = before;  // What did not count has told nothing of them.
+    }
+    return look(kernels, image, options, sight, w);
 }
 
 }  // namespace dotpose::core

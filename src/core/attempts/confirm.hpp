@@ -48,8 +48,8 @@ enum class Confirmation : std::uint8_t {
     uncertain,    ///< they are, but their bits leave doubts
 };
 
-/// Measures, compares, fits. An exact sight is implausible where that takes more than one look.
-/// Sets the workspace's fix and what there is to see of it.
+/// Measures, compares, fits: at one look at each dot, where that is enough. Sets the workspace's
+/// fix and what there is to see of it.
 Confirmation confirm(const Kernels& kernels, const ImageView& image, const Options& options,
                      Sight sight, Workspace& w);
 

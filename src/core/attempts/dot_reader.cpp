@@ -22,6 +22,10 @@ void leave_out_table(MeasuredDots& dots, float& paper) {
     if (paper == 0 && count > 0) paper = sum / count;
 }
 
+/// Up to such spacings dots are so small that quick bells are wide enough, however they are
+/// blurred.
+constexpr float kQuickBells_px = 13;
+
 /// How far the bell reaches that dots are weighed with: little, for noise, but as far as a dot's
 /// edge is seen, and not so little that it, too, would depend on how dots fall on the pixels.
 float bell_reach_px(const Sight& sight) {
@@ -30,19 +34,29 @@ float bell_reach_px(const Sight& sight) {
     const float beyond_cut = static_cast<float>(sight.depth_q8 * (256 - kCutOfDepth_q8)) / 65536;
     const float radius_px =
         std::sqrt(sight.typical_mass / (kPi * std::max(beyond_cut, 1.0F / 256)));
-    // Up to there dots are so small that quick bells are wide enough, however they are blurred.
-    constexpr float kFewPx = 13;
-    const bool is_quick = spacing_px(sight.pattern_from_image) < kFewPx;
+    const bool is_quick = spacing_px(sight.pattern_from_image) < kQuickBells_px;
     return std::clamp(kRadii * radius_px, 3.3F, is_quick ? kQuickBellReach_px : kMostBellReach_px);
 }
 
 }  // namespace
 
-bool needs_one_look(const Sight& sight) {
+bool suits_one_look(const Sight& sight) {
     // Of a finer grid, the places of a cell are too near to each other to be told apart at a look.
     constexpr float kFinest_px = 8;
-    return spacing_px(sight.pattern_from_image) >= kFinest_px &&
-           bell_reach_px(sight) <= kQuickBellReach_px;
+    const float spacing = spacing_px(sight.pattern_from_image);
+    return spacing >= kFinest_px && spacing < kQuickBells_px;
+}
+
+void DotReader::look_at_some(CellsInView view, Sight& sight) {
+    constexpr float kSome = 30;
+    const float cells = view.width_px * view.height_px / (spacing_px_ * spacing_px_);
+    view.step = std::max(static_cast<int>(cells / kSome), 1);
+    kernels_.list_cells(view, dots_);
+    sight.typical_mass = kernels_.measure_windows(image_, view, window_look(sight), dots_);
+}
+
+WindowLook DotReader::window_look(const Sight& sight) const {
+    return {spacing_px_, 0.36F, sight.depth_q8 * kCutOfDepth_q8 >> 8};
 }
 
 BitsRead DotReader::read(const CellsInView& view, Sight& sight, BitBlock* block) {
@@ -50,9 +64,9 @@ BitsRead DotReader::read(const CellsInView& view, Sight& sight, BitBlock* block)
     BitLines* const rows = block != nullptr ? &block->rows : nullptr;
     if (sight.is_exact)
         return kernels_.read_levels(image_, view, sight.depth_q8, dots_, columns, rows);
-    const WindowLook look{spacing_px_, 0.36F, sight.depth_q8 * kCutOfDepth_q8 >> 8,
-                          // Farther out, most windows may be empty.
-                          sight.shows_part ? typical_mass_ : 0};
+    WindowLook look = window_look(sight);
+    // Farther out, most windows may be empty.
+    if (sight.shows_part) look.typical_mass = typical_mass_;
     typical_mass_ = sight.typical_mass = kernels_.measure_windows(image_, view, look, dots_);
     if (sight.shows_part) leave_out_table(dots_, paper_);
     return kernels_.read_bits(dots_, sight.pattern_from_image, sight.displacement, columns, rows);
@@ -68,11 +82,12 @@ void DotReader::find_centres(const CellsInView& view, const Sight& sight, bool i
                              BitsRead& bits) const {
     if (sight.is_exact) {
         constexpr float kMostOff_px = 1;
-        const float off =
-            kernels_.find_centres(image_, view, bell_reach_px(sight), kMostOff_px, dots_);
-        const auto right = static_cast<float>(bits.right);
-        bits.projected = right * sight.displacement;
-        bits.squares = right * off / (spacing_px_ * spacing_px_);
+        kernels_.find_centres(image_, view, bell_reach_px(sight), kMostOff_px, dots_);
+        const BitsRead found = kernels_.read_bits(dots_, sight.pattern_from_image,
+                                                  sight.displacement, nullptr, nullptr);
+        bits.right = found.right;
+        bits.projected = found.projected;
+        bits.squares = found.squares;
     } else if (is_last) {
         kernels_.refine_centres(image_, view, bell_reach_px(sight), dots_);
     }

@@ -6,8 +6,8 @@
 
 namespace dotpose::core {
 
-/// Whether dots need one look only, by quick bells at the places where an exact sight has them.
-bool needs_one_look(const Sight& sight);
+/// Whether dots that are where they are thought to be can be read at one look, by quick bells.
+bool suits_one_look(const Sight& sight);
 
 /// Reads the dots listed, and measures them: exactly where they are, if that is known, or around
 /// the intersections.
@@ -16,15 +16,19 @@ class DotReader {
     DotReader(const Kernels& kernels, const ImageView& image, float spacing_px, MeasuredDots& dots)
         : kernels_(kernels), image_(image), spacing_px_(spacing_px), dots_(dots) {}
 
+    /// Learns how dark dots are, from a few all over the view.
+    void look_at_some(CellsInView view, Sight& sight);
     /// Adds what it reads to an empty block, unless that is null.
     BitsRead read(const CellsInView& view, Sight& sight, BitBlock* block);
     /// Through another plane.
     BitsRead read_again(const Sight& sight, BitBlock& block) const;
-    /// Of an exact sight, also how far dots are off.
+    /// Of an exact sight, also how far dots are displaced and off.
     void find_centres(const CellsInView& view, const Sight& sight, bool is_last,
                       BitsRead& bits) const;
 
   private:
+    WindowLook window_look(const Sight& sight) const;
+
     const Kernels& kernels_;
     const ImageView& image_;
     const float spacing_px_;

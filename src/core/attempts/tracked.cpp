@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/attempts/confirm.hpp"
-#include "core/attempts/dot_reader.hpp"
 #include "core/attempts/steps.hpp"
 #include "core/fixed.hpp"
 #include "core/pose/refine.hpp"
@@ -132,10 +131,6 @@ bool confirm_corrected(const Kernels& kernels, const ImageView& image, const Opt
                             share.y * static_cast<float>(image.height_px)};
         Sight there = sight;
         if (!correct(kernels, image, options, from, most_px, there, w)) continue;
-        there.is_exact = needs_one_look(there);
-        if (there.is_exact && confirm(kernels, image, options, there, w) == Confirmation::ok)
-            return true;
-        there.is_exact = false;
         if (confirm(kernels, image, options, there, w) == Confirmation::ok) return true;
     }
     return false;

@@ -119,7 +119,8 @@ Contest::Nearest Contest::nearest(int line) const {
     const int own = own_roll(line);
     const int first = std::countr_zero(bits.seen);
     const int length = static_cast<int>(std::bit_width(bits.seen)) - first;
-    if (bits.wrong == 0 && bits_in(bits.seen) == length) {
+    const std::uint32_t stretch = bits.seen >> first;
+    if (bits.wrong == 0 && (stretch & (stretch + 1)) == 0) {
         const int begin = own + first < kSections ? own + first : own + first - kSections;
         const unsigned both =
             kLeastDistances[static_cast<std::size_t>(begin)][static_cast<std::size_t>(length / 2)];

@@ -198,10 +198,9 @@ struct Kernels {
     BitsRead (*read_levels)(const ImageView& image, const CellsInView& view, int depth_q8,
                             MeasuredDots& dots, BitLines* columns, BitLines* rows);
     /// Centres as `refine_centres` finds them, of dots that are predicted, by bells at most
-    /// kQuickBellReach_px wide; none where that is too far off. Returns the mean of the squared
-    /// distances, px^2.
-    float (*find_centres)(const ImageView& image, const CellsInView& view, float reach_px,
-                          float most_off_px, MeasuredDots& dots);
+    /// kQuickBellReach_px wide; none where that is too far off.
+    void (*find_centres)(const ImageView& image, const CellsInView& view, float reach_px,
+                         float most_off_px, MeasuredDots& dots);
     /// Bits of the dots as measured, against those that the code has there. Adds them to empty
     /// lines, where these are asked for, by the cell counted from (-32, -32); each cell may have
     /// one dot.
