@@ -51,6 +51,10 @@ void add_field(std::string& text, const CheckedScan& scan, const PrintField& fie
         add(text, "rotation    {:.3f} degrees, skew {:.3f} degrees",
             rounded(degrees(scale.rotation_rad), 3), rounded(degrees(scale.skew_rad), 3));
     }
+    if (const auto& ratio = field.scale_ratio) {
+        add(text, "scale x/y   {:.2f} %, give or take {:.2f} %", 100 * ratio->x_over_y,
+            100 * ratio->uncertainty);
+    }
     add(text,
         "places      off by {:.4f} mm (rms per axis): single dots by {:.4f} mm, parts of the page "
         "by up to {:.3f} mm",
@@ -132,6 +136,10 @@ ordered_json json_of(const CheckedScan& scan, const PrintField& field) {
         object["scale_y"] = rounded(field.scale->scale_y, 7);
         object["rotation_deg"] = rounded(degrees(field.scale->rotation_rad), 5);
         object["skew_deg"] = rounded(degrees(field.scale->skew_rad), 5);
+    }
+    if (field.scale_ratio) {
+        object["scale_x_over_y"] = rounded(field.scale_ratio->x_over_y, 5);
+        object["scale_x_over_y_uncertainty"] = rounded(field.scale_ratio->uncertainty, 5);
     }
     object["residual_mm"] = rounded(field.residual_mm, 6);
     object["scatter_mm"] = rounded(field.scatter_mm, 6);

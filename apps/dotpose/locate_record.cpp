@@ -3,11 +3,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <vector>
 
 #include <fmt/core.h>
 
+#include "dotpose/image_file.hpp"
 #include "dotpose/locate.hpp"
 
 namespace dotpose::cli {
@@ -120,6 +122,11 @@ std::string plain_reason(const Record& record) {
                                record.width_px, record.height_px, kMinFrameSide_px,
                                kMinFrameSide_px);
         case Status::image_too_large:
+            if (std::int64_t{record.width_px} * record.height_px > kDefaultImagePixels) {
+                return fmt::format("the image is {} x {} px; at most {} million px are read",
+                                   record.width_px, record.height_px,
+                                   kDefaultImagePixels / 1'000'000);
+            }
             return fmt::format("the image is {} x {} px; at most {} x {} can be located",
                                record.width_px, record.height_px, kMaxFrameSide_px,
                                kMaxFrameSide_px);

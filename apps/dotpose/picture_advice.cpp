@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <optional>
 
 #include <fmt/core.h>
 
+#include "dotpose/camera_file.hpp"
 #include "dotpose/grey_image.hpp"
 #include "dotpose/locate.hpp"
 
@@ -69,6 +73,110 @@ std::optional<double> too_small_spacing_px(ImageView image, const Options& optio
     return std::nullopt;
 }
 
+/// A stretch of the image along one direction, which undoes the foreshortening of a tilted sheet.
+struct Stretch {
+    double angle_rad = 0;
+    double by = 1;
+
+    /// Where a step from the middle of the stretched image leads in the image.
+    PixelPoint in_image(PixelPoint step) const {
+        const double c = std::cos(angle_rad);
+        const double s = std::sin(angle_rad);
+        const double shrink = (c * step.u + s * step.v) * (1 / by - 1);
+        return {step.u + shrink * c, step.v + shrink * s};
+    }
+};
+
+/// The middle of an image, stretched: a square of at most `side_px`, whose corners may lie outside
+/// of the image and then show its border.
+GreyImage stretched_middle(ImageView image, int side_px, const Stretch& stretch) {
+    const int side = std::min({image.width_px, image.height_px, side_px});
+    GreyImage result{{}, side, side};
+    for (int k = 0; k < side * side; ++k) {
+        const PixelPoint step =
+            stretch.in_image({k % side - 0.5 * (side - 1), k / side - 0.5 * (side - 1)});
+        const double u =
+            std::clamp(0.5 * (image.width_px - 1) + step.u, 0.0, image.width_px - 1.001);
+        const double v =
+            std::clamp(0.5 * (image.height_px - 1) + step.v, 0.0, image.height_px - 1.001);
+        const std::uint8_t* upper = image.row(static_cast<int>(v)) + static_cast<int>(u);
+        const std::uint8_t* lower = upper + image.stride_bytes;
+        const double right = u - std::floor(u);
+        const double down = v - std::floor(v);
+        const double level = (upper[0] * (1 - right) + upper[1] * right) * (1 - down) +
+                             (lower[0] * (1 - right) + lower[1] * right) * down;
+        result.pixels.push_back(static_cast<std::uint8_t>(std::lround(level)));
+    }
+    return result;
+}
+
+/// The tilt of the sheet, if the pattern can be read once that is undone.
+std::optional<double> large_tilt_degrees(ImageView image, const Options& options,
+                                         Workspace& scratch) {
+    constexpr int kMiddle_px = 480;
+    constexpr int kDirections = 8;
+    Options once;
+    once.profile = options.profile;
+    once.effort = Effort::once;
+    for (const double by : {2.0, 3.0}) {
+        for (int k = 0; k < kDirections; ++k) {
+            const Stretch stretch{k * std::numbers::pi / kDirections, by};
+            const GreyImage straight = stretched_middle(image, kMiddle_px, stretch);
+            if (locate(straight.view(), once, scratch).status != Status::ok) continue;
+            // Cells per px of the image, by stretching first.
+            const double c = std::cos(stretch.angle_rad);
+            const double s = std::sin(stretch.angle_rad);
+            const auto& plane = scratch.pattern_from_image;
+            const auto seen = [&](double u, double v) {
+                const double more = (c * u + s * v) * (by - 1);
+                const double x = u + more * c;
+                const double y = v + more * s;
+                return std::array{plane.du_q24.x * x + plane.dv_q24.x * y,
+                                  plane.du_q24.y * x + plane.dv_q24.y * y};
+            };
+            const auto a = seen(1, 0);
+            const auto b = seen(0, 1);
+            // The singular values of (a b): the lengths that one px has along and across the tilt.
+            const double sum = a[0] * a[0] + a[1] * a[1] + b[0] * b[0] + b[1] * b[1];
+            const double area = std::abs(a[0] * b[1] - a[1] * b[0]);
+            const double root = std::sqrt(std::max(sum * sum - 4 * area * area, 0.0));
+            const double cosine = std::sqrt((sum - root) / (sum + root));
+            return std::acos(std::min(cosine, 1.0)) * 180 / std::numbers::pi;
+        }
+    }
+    return std::nullopt;
+}
+
+/// How much grey levels bend over a distance: the mean square of the difference between a pixel and
+/// the mean of those beside it on both sides. Noise adds the same at every distance, and the fall
+/// of light nothing.
+double bend(ImageView image, int step_px) {
+    std::int64_t squares = 0;
+    for (int v = step_px; v + step_px < image.height_px; ++v) {
+        for (int u = step_px; u + step_px < image.width_px; ++u) {
+            const int twice = 2 * image.row(v)[u];
+            const int along = image.row(v)[u - step_px] + image.row(v)[u + step_px] - twice;
+            const int down = image.row(v - step_px)[u] + image.row(v + step_px)[u] - twice;
+            squares += along * along + down * down;
+        }
+    }
+    const double samples = 2.0 * (image.width_px - 2 * step_px) * (image.height_px - 2 * step_px);
+    return static_cast<double>(squares) / (4 * samples);
+}
+
+/// Whether the image has details, but none as small as those of a picture in focus, of whose bends
+/// over 8 or 16 px a sixth and more show over 2 px already (70 degrees of tilt); of those of dots
+/// that cannot be read for blur it is less than a twentieth.
+bool is_out_of_focus(ImageView image) {
+    constexpr double kLeastDetail = 0.4;
+    constexpr double kFocused = 0.06;
+    constexpr int kFarthest_px = 16;
+    if (std::min(image.width_px, image.height_px) <= 2 * kFarthest_px) return false;
+    const double noise = bend(image, 1);
+    const double detail = std::max(bend(image, 8), bend(image, kFarthest_px)) - noise;
+    return detail > kLeastDetail && bend(image, 2) - noise < kFocused * detail;
+}
+
 }  // namespace
 
 std::string advice_on(ImageView image, Status status, const Options& options, Workspace& scratch) {
@@ -85,6 +193,14 @@ std::string advice_on(ImageView image, Status status, const Options& options, Wo
             "the picture is too coarse, its dots are {:.1f} px apart and at least 6 "
             "are needed: come closer, or take more pixels",
             *spacing_px);
+    }
+    if (const auto tilt_degrees = large_tilt_degrees(image, options, scratch)) {
+        return fmt::format(
+            "the sheet is tilted too much, by about {:.0f} degrees: look more straight down on it",
+            *tilt_degrees);
+    }
+    if (is_out_of_focus(image)) {
+        return "the picture is out of focus, or shaken: focus, change the distance, or hold still";
     }
     if (status != Status::no_grid) return {};
     return "a sheet that is out of focus, too far away (under 6 px from dot to dot) or strongly "

@@ -1,19 +1,14 @@
-/// Text of strangers (from files, file names and networks), made fit for a terminal.
+/// What the tool says on a terminal, with text of strangers in it.
 #pragma once
 
-#include <string>
 #include <string_view>
+
+#include "print/printable.hpp"
 
 namespace dotpose::cli {
 
-/// The text with U+FFFD in place of every byte that is no UTF-8 and of every character that moves
-/// the cursor, starts a terminal command, breaks the line or changes the direction of writing, so
-/// that it can neither act on a terminal nor pass for another line.
-std::string printable(std::string_view text);
-
-/// JSON text with the control characters that JSON may hold as they are (U+007F to U+009F) as \u
-/// escapes: the value stays the same, and a terminal does not act on it.
-std::string with_escaped_controls(std::string_view json);
+using print::printable;
+using print::with_escaped_controls;
 
 /// "dotpose: MESSAGE" on standard error, as one printable line.
 void tell(std::string_view message);

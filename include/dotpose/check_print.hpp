@@ -57,6 +57,13 @@ struct PrintScale {
     double skew_rad = 0;      ///< by how much the angle from the x to the y axis exceeds 90 degrees
 };
 
+/// What a photo tells of the two scales of a print: their ratio, where perspective and the unknown
+/// focal length of the camera leave it open by no more than half a percent.
+struct ScaleRatio {
+    double x_over_y = 1;
+    double uncertainty = 0;  ///< the ratio is at most so far off
+};
+
 /// Side of the parts of a page whose distortion is told, in cells.
 inline constexpr int kDistortionCells = 20;
 
@@ -78,8 +85,9 @@ struct PrintField {
     bool is_patch = false;             ///< of a test page
     std::optional<std::size_t> sheet;  ///< whose region it is, in CheckPrintOptions::sheets
 
-    std::optional<PrintScale> scale;  ///< of scans only
-    double spacing_px = 0;            ///< in the middle of the field
+    std::optional<PrintScale> scale;        ///< of scans only
+    std::optional<ScaleRatio> scale_ratio;  ///< of photos only
+    double spacing_px = 0;                  ///< in the middle of the field
     double residual_mm = 0;  ///< rms of the dots from their fitted places, per axis, on the paper
     double scatter_mm = 0;   ///< of single dots about their neighbours, per axis, on the paper
     std::vector<DistortionBin> distortion;

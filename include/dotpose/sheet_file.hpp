@@ -71,8 +71,9 @@ struct SheetEntry {
     bool is_reserved = false;
 };
 
-/// Checks one entry: name not empty, of UTF-8 without control characters; page at least 1; scales
-/// in their range; world finite; and `validate(sheet)` (print.hpp). Throws BadArgument.
+/// Checks one entry: name not empty, of UTF-8 without characters that act on a terminal; page at
+/// least 1; scales in their range; world finite; and `validate(sheet)` (print.hpp). Throws
+/// BadArgument.
 void validate(const SheetEntry& entry);
 
 /// Whether some cell belongs to both. Different sections never overlap. The profiles anoto and

@@ -93,6 +93,7 @@ class Findings {
     void judge_scale(const PrintField& field) {
         if (!field.scale) {
             remark(FindingKind::no_resolution, why_no_scale());
+            judge_scale_ratio(field);
             return;
         }
         const PrintScale& s = *field.scale;
@@ -190,6 +191,16 @@ class Findings {
             "scale was not checked, because the image states no resolution{}: scan on a flatbed, "
             "or give --dpi if the page lies in the image as in a scan",
             options_.resolution ? " that can be true" : "");
+    }
+
+    void judge_scale_ratio(const PrintField& field) {
+        if (!field.scale_ratio) return;
+        const double ratio = field.scale_ratio->x_over_y - 1;
+        if (std::abs(ratio) < kUnevenScale + field.scale_ratio->uncertainty) return;
+        fault(FindingKind::uneven_scale,
+              fmt::format("horizontal and vertical scale differ by {}, give or take {}: the "
+                          "printer's feed is off; a scan tells more",
+                          percent(std::abs(ratio), 2), percent(field.scale_ratio->uncertainty, 2)));
     }
 
     /// What a photo does not show of the dots.

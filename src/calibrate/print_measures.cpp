@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "calibrate/print_view.hpp"
+
 namespace dotpose::calibrate {
 namespace {
 
@@ -236,7 +238,11 @@ bool measure_field(const Measuring& m, std::size_t least_dots, PrintField& resul
     const double px_per_unit = 1 / std::sqrt(fitted.units.per_px.prod());
     result.spacing_px = result.pattern.spacing_mm * units_per_mm * px_per_unit;
     result.residual_mm = fit.residual * fitted.mm_per_unit(fit.centre_mm);
-    if (m.resolution) result.scale = scale_of(fit.linear);
+    if (m.resolution) {
+        result.scale = scale_of(fit.linear);
+    } else {
+        result.scale_ratio = scale_ratio_of(fit, std::max(m.scan.width_px, m.scan.height_px));
+    }
     result.scatter_mm = measure_scatter_mm(m, fitted, result.pattern);
     measure_distortion(m, fitted, result);
     count_cells(m, fitted, result);

@@ -1,6 +1,7 @@
 #include "calibrate/print_view.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace dotpose::calibrate {
 namespace {
@@ -14,7 +15,54 @@ constexpr double kLeastSign = 0.003;
 /// runs unevenly moves dots along one axis only.
 constexpr double kLargestResidual = 0.8;
 
+/// The plane that a camera of one focal length and principal point sees.
+struct Plane {
+    double x_over_y = 1;   ///< lengths along the two axes of the paper
+    double cos_angle = 0;  ///< between them
+};
+
+/// With lengths in focal lengths, the homography's columns are the axes of the paper, turned and
+/// scaled; `principal`: where the camera looks, px from the middle of the image.
+Plane plane_seen(const PlaneFit& fit, double focal_px, const Vector2d& principal) {
+    const Vector2d& p = fit.perspective_per_mm;
+    const Vector2d offset = fit.offset - principal;
+    const auto axis = [&](int i) {
+        const Vector2d across = (fit.linear.col(i) + offset * p[i]) / focal_px;
+        return Eigen::Vector3d(across.x(), across.y(), p[i]);
+    };
+    const Eigen::Vector3d x = axis(0);
+    const Eigen::Vector3d y = axis(1);
+    return {x.norm() / y.norm(), x.dot(y) / (x.norm() * y.norm())};
+}
+
 }  // namespace
+
+std::optional<ScaleRatio> scale_ratio_of(const PlaneFit& fit, double longer_side_px) {
+    // From wide angles to short telephoto lenses, such as phones have.
+    constexpr double kShortestFocal = 0.5;
+    constexpr double kLongestFocal = 2;
+    constexpr double kFocalStep = 1.02;
+    // How far off the middle cameras look, and how far from right angles printers are.
+    constexpr double kPrincipalShift = 0.01;
+    constexpr double kLargestCos = 0.002;
+    constexpr double kLargestUncertainty = 0.005;
+    double least = 1e9;
+    double most = -1e9;
+    for (double focal = kShortestFocal; focal < kLongestFocal; focal *= kFocalStep) {
+        for (const Vector2d& shift :
+             {Vector2d(0, 0), Vector2d(1, 0), Vector2d(-1, 0), Vector2d(0, 1), Vector2d(0, -1)}) {
+            const Plane plane =
+                plane_seen(fit, focal * longer_side_px, kPrincipalShift * longer_side_px * shift);
+            if (std::abs(plane.cos_angle) > kLargestCos) continue;
+            least = std::min(least, plane.x_over_y);
+            most = std::max(most, plane.x_over_y);
+        }
+    }
+    if (least > most || most - least > 2 * kLargestUncertainty) return std::nullopt;
+    // What the lens does besides the term that is fitted.
+    constexpr double kLensUncertainty = 0.0005;
+    return ScaleRatio{0.5 * (least + most), 0.5 * (most - least) + kLensUncertainty};
+}
 
 std::optional<CameraSigns> signs_of_camera(const std::vector<Match>& matches,
                                            const Vector2d& middle_px) {

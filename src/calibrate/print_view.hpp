@@ -13,4 +13,8 @@ namespace dotpose::calibrate {
 std::optional<CameraSigns> signs_of_camera(const std::vector<Match>& matches,
                                            const Eigen::Vector2d& middle_px);
 
+/// The ratio of the scales of a page in a photo of square pixels, by a fit of ViewModel::camera
+/// whose `lens_centre` is the middle of the image. `longer_side_px`: of the image.
+std::optional<ScaleRatio> scale_ratio_of(const PlaneFit& fit, double longer_side_px);
+
 }  // namespace dotpose::calibrate

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "dotpose/print.hpp"
+#include "printable.hpp"
 
 namespace dotpose {
 namespace {
@@ -39,14 +40,15 @@ Range with_gap(Range range) {
 
 void validate_name(const std::string& name) {
     if (name.empty()) throw BadArgument("a sheet needs a name that is not empty");
-    const auto is_control = [](unsigned char c) { return c < ' ' || c == 0x7f; };
-    if (std::ranges::any_of(name, is_control)) {
-        throw BadArgument("the name of a sheet may not contain control characters");
-    }
     try {
         (void)nlohmann::json(name).dump();
     } catch (const nlohmann::json::exception&) {
         throw BadArgument("the name of a sheet must be text in UTF-8");
+    }
+    if (print::printable(name) != name) {
+        throw BadArgument(
+            "the name of a sheet may not contain control characters, nor such as break the line "
+            "or turn the direction of writing");
     }
 }
 

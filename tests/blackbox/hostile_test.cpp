@@ -118,7 +118,7 @@ TEST_F(Hostile, TheHeaderOfAnImageIsLookedAtFirst) {
         EXPECT_EQ(run(std::string("locate ") + bomb), 0);
         EXPECT_THAT(output_,
                     HasSubstr("\"status\":\"image_too_large\",\"message\":\"the image is 16000 "
-                              "x 16000 px; at most 4096 x 4096 can be located\""));
+                              "x 16000 px; at most 100 million px are read\""));
         EXPECT_EQ(run(std::string("check-print --dpi 600 ") + bomb), 1);
         EXPECT_THAT(errors_, HasSubstr("the image is too large: 16000 x 16000 px; at most 100 "
                                        "million px are read"));

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -163,6 +164,34 @@ TEST_F(LocateCommand, a_picture_that_is_too_coarse_or_too_dark_says_so) {
     run("dark.pgm");
     EXPECT_NE(records().at(0)["status"], "ok") << output_;
     EXPECT_THAT(records().at(0)["message"], HasSubstr("too dark"));
+}
+
+TEST_F(LocateCommand, a_picture_that_is_tilted_out_of_focus_or_shaken_says_so) {
+    Shot tilted = clean_shot(14);
+    tilted.camera.width_px = 480;
+    tilted.camera.height_px = 360;
+    tilted.camera.working_distance_mm = 60;
+    tilted.pose.tilt_x_rad = 65 * std::numbers::pi / 180;
+    write_pgm(directory_ / "tilted.pgm", render(tilted).view());
+    run("tilted.pgm");
+    EXPECT_NE(records().at(0)["status"], "ok") << output_;
+    EXPECT_THAT(records().at(0)["message"], HasSubstr("the sheet is tilted too much, by about 6"));
+    EXPECT_THAT(records().at(0)["message"], HasSubstr("degrees: look more straight down on it"));
+    Shot blurred = clean_shot(14);
+    blurred.camera.width_px = 480;
+    blurred.camera.height_px = 360;
+    blurred.imperfections.blur_sigma_px = 4;
+    blurred.imperfections.noise_sigma = 2;
+    write_pgm(directory_ / "blurred.pgm", render(blurred).view());
+    run("blurred.pgm");
+    EXPECT_NE(records().at(0)["status"], "ok") << output_;
+    EXPECT_THAT(records().at(0)["message"], HasSubstr("the picture is out of focus, or shaken"));
+    // Sharp pictures of something else are told neither.
+    write_pgm(directory_ / "text.pgm", render_scene(Scene::text, clean_shot(14)).view());
+    run("text.pgm");
+    EXPECT_NE(records().at(0)["status"], "ok") << output_;
+    EXPECT_THAT(records().at(0)["message"], Not(HasSubstr("the picture is out of focus")));
+    EXPECT_THAT(records().at(0)["message"], Not(HasSubstr("tilted too much")));
 }
 
 Shot wide_shot() {

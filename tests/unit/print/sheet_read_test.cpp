@@ -152,6 +152,14 @@ TEST(read_sheets, refuses_values_out_of_range) {
     } wrong[] = {
         {"name", "", "a name that is not empty"},
         {"name", "a\nb", "control characters"},
+        {"name",
+         "a\xC2\x9B"
+         "2J",
+         "control characters"},
+        {"name",
+         "a\xE2\x80\xAE"
+         "b",
+         "turn the direction of writing"},
         {"page", 0, "sheets[0].page is 0"},
         {"page", 1.5, "sheets[0].page must be a whole number"},
         {"code", "Anoto", "sheets[0].code is 'Anoto'; it must be anoto, libdots or microdots"},
