@@ -7,6 +7,13 @@ file(RELATIVE_PATH DOTPOSE_PREFIX_FROM_PC
      /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
 string(REGEX REPLACE "/$" "" DOTPOSE_PREFIX_FROM_PC "${DOTPOSE_PREFIX_FROM_PC}")
 
+# Who links the static library links what it uses; a shared one brings that along.
+if(NOT BUILD_SHARED_LIBS)
+    set(DOTPOSE_PC_REQUIRES
+        ", libpng, libtiff-4, fmt, GraphicsMagick, librsvg-2.0, libqpdf, yaml-cpp")
+    set(DOTPOSE_PC_LIBS " -lceres -lglog -pthread")
+endif()
+
 # A header without its library would only fail when the user links.
 set(tools_headers)
 if(NOT DOTPOSE_BUILD_TOOLS)
@@ -17,7 +24,9 @@ install(DIRECTORY include/dotpose TYPE INCLUDE FILES_MATCHING PATTERN "*.hpp" ${
 # Two export sets: who only wants the core must not need libpng to be found.
 foreach(target IN ITEMS dotpose dotpose_tools)
     if(TARGET ${target})
-        install(TARGETS ${target} EXPORT ${target} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+        install(TARGETS ${target} EXPORT ${target}
+                ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+                LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
         install(EXPORT ${target} NAMESPACE dotpose:: DESTINATION ${config_dir}
                 FILE ${target}Targets.cmake)
         string(REPLACE _ - pc_name ${target})

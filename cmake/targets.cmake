@@ -13,6 +13,15 @@ function(dotpose_layer name)
     add_library(${target} OBJECT ${sources})
     target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/include
                                                 ${PROJECT_SOURCE_DIR}/src)
+    if(NOT DOTPOSE_FIRMWARE)
+        # For shared libraries, and for modules that others link the static ones into. They show what
+        # include/dotpose declares; calls within them are direct.
+        set_target_properties(${target} PROPERTIES
+            POSITION_INDEPENDENT_CODE ON
+            CXX_VISIBILITY_PRESET hidden
+            VISIBILITY_INLINES_HIDDEN ON)
+        target_compile_options(${target} PRIVATE -fno-semantic-interposition)
+    endif()
     foreach(used IN LISTS arg_USES)
         target_link_libraries(${target} PUBLIC $<TARGET_NAME_IF_EXISTS:${used}>)
     endforeach()
@@ -26,10 +35,13 @@ function(dotpose_layer name)
     endif()
 endfunction()
 
-# dotpose_library(NAME layer...): the installed static library NAME, exported under dotpose::.
+# dotpose_library(NAME LAYERS layer... [PUBLIC target...] [PRIVATE target...]): the installed library
+# NAME, exported under dotpose::, a shared one with BUILD_SHARED_LIBS. NAME_inside is what the
+# project's own programs link, which look inside: static, as a shared library hides its internals.
 function(dotpose_library name)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LAYERS;PUBLIC;PRIVATE")
     set(objects)
-    foreach(layer IN LISTS ARGN)
+    foreach(layer IN LISTS arg_LAYERS)
         if(TARGET dotpose_${layer})
             list(APPEND objects $<TARGET_OBJECTS:dotpose_${layer}>)
         endif()
@@ -37,11 +49,28 @@ function(dotpose_library name)
     if(NOT objects)
         return()
     endif()
-    add_library(${name} STATIC ${objects})
+    add_library(${name} ${objects})
+    dotpose_set_up_library(${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+    if(BUILD_SHARED_LIBS)
+        # Until 1.0, minor versions may change what programs were compiled against.
+        set_target_properties(${name} PROPERTIES
+            VERSION ${PROJECT_VERSION}
+            SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+        add_library(${name}_inside STATIC EXCLUDE_FROM_ALL ${objects})
+        list(TRANSFORM arg_PUBLIC APPEND _inside)
+        dotpose_set_up_library(${name}_inside PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+    else()
+        add_library(${name}_inside ALIAS ${name})
+    endif()
+endfunction()
+
+function(dotpose_set_up_library name)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "PUBLIC;PRIVATE")
     target_compile_features(${name} PUBLIC cxx_std_20)
     target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
                                               $<INSTALL_INTERFACE:include>)
-    # The archive holds objects only; without a language of its own CMake could not link it.
+    target_link_libraries(${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+    # The library holds objects only; without a language of its own CMake could not link it.
     set_target_properties(${name} PROPERTIES LINKER_LANGUAGE CXX)
 endfunction()
 
@@ -80,6 +109,6 @@ endfunction()
 function(dotpose_use_internals name)
     target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/include
                                                ${PROJECT_SOURCE_DIR}/src)
-    target_link_libraries(${name} PRIVATE $<TARGET_NAME_IF_EXISTS:dotpose_tools>
-                                          $<TARGET_NAME_IF_EXISTS:dotpose>)
+    target_link_libraries(${name} PRIVATE $<TARGET_NAME_IF_EXISTS:dotpose_tools_inside>
+                                          $<TARGET_NAME_IF_EXISTS:dotpose_inside>)
 endfunction()

@@ -26,7 +26,7 @@
 #include "dotpose/sheet.hpp"
 #include "dotpose/sheet_file.hpp"
 
-namespace dotpose {
+namespace [[gnu::visibility("default")]] dotpose {
 
 /// Frame `index` of the series, from 0. May throw Error.
 using FrameAt = std::function<GreyImage(int index)>;
@@ -234,4 +234,4 @@ void draw_spin(const std::filesystem::path& path, const SpinCalibration& calibra
 void draw_stitching(const std::filesystem::path& path, std::span<const SheetEntry> before,
                     const Stitching& stitching);
 
-}  // namespace dotpose
+}  // namespace gnu::visibility("default")]]dotpose

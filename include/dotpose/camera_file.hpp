@@ -24,7 +24,7 @@
 #include "dotpose/sheet.hpp"
 #include "dotpose/workspace.hpp"
 
-namespace dotpose {
+namespace [[gnu::visibility("default")]] dotpose {
 
 /// Version of the format that is written, and the only one that is read.
 inline constexpr int kCameraFileVersion = 1;
@@ -136,4 +136,4 @@ void use_camera(const Camera& camera, int width_px, int height_px, Options& opti
 Fix with_camera(const Fix& fix, const Camera& camera, const Options& options,
                 const Workspace& workspace, const AxisScale& print = {});
 
-}  // namespace dotpose
+}  // namespace gnu::visibility("default")]]dotpose

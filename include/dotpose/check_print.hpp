@@ -27,7 +27,7 @@
 #include "dotpose/image_file.hpp"
 #include "dotpose/sheet.hpp"
 
-namespace dotpose {
+namespace [[gnu::visibility("default")]] dotpose {
 
 struct CheckPrintOptions {
     /// What was printed. The section is found, not believed. Patches of a test page say themselves
@@ -176,4 +176,4 @@ PrintCheck check_print(const ImageView& scan, const CheckPrintOptions& options);
 void draw_distortion(const std::filesystem::path& path, const ImageView& scan,
                      const PrintCheck& check);
 
-}  // namespace dotpose
+}  // namespace gnu::visibility("default")]]dotpose

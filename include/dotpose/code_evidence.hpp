@@ -19,7 +19,7 @@
 #include "dotpose/fix.hpp"
 #include "dotpose/locate.hpp"
 
-namespace dotpose {
+namespace [[gnu::visibility("default")]] dotpose {
 
 /// How likely each profile is for one sheet, by all frames of it so far. Frames of the same dots
 /// count once, since their faults are the same.
@@ -103,4 +103,4 @@ class CodeReader {
     CodeEvidence evidence_;
 };
 
-}  // namespace dotpose
+}  // namespace gnu::visibility("default")]]dotpose

@@ -19,7 +19,7 @@
 #include "dotpose/sheet.hpp"
 #include "dotpose/workspace.hpp"
 
-namespace dotpose {
+namespace [[gnu::visibility("default")]] dotpose {
 
 /// What the caption of `draw_frame` says besides the fix.
 struct DrawOptions {
@@ -59,4 +59,4 @@ void draw_path(std::ostream& out, const Sheet& sheet, std::span<const PathPoint>
 void draw_path(const std::filesystem::path& file, const Sheet& sheet,
                std::span<const PathPoint> path, const std::string& title = {});
 
-}  // namespace dotpose
+}  // namespace gnu::visibility("default")]]dotpose

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-namespace dotpose {
+namespace [[gnu::visibility("default")]] dotpose {
 
 /// Something could not be done; `what()` is one sentence for the user, without a full stop, that
 /// names the file or value concerned.
@@ -20,4 +20,4 @@ class BadArgument : public Error {
     using Error::Error;
 };
 
-}  // namespace dotpose
+}  // namespace gnu::visibility("default")]]dotpose

@@ -33,7 +33,7 @@
 #include "dotpose/simulate.hpp"
 #include "dotpose/workspace.hpp"
 
-namespace dotpose {
+namespace [[gnu::visibility("default")]] dotpose {
 
 // ---- What is true ----
 
@@ -279,4 +279,4 @@ void write_protocol(const std::filesystem::path& folder, const Protocol& protoco
 /// Writes sweep-KIND.csv, .svg and .png.
 void write_sweep(const std::filesystem::path& folder, const Sweep& sweep);
 
-}  // namespace dotpose
+}  // namespace gnu::visibility("default")]]dotpose

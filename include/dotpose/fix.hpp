@@ -9,7 +9,7 @@
 #include "dotpose/stages.hpp"
 #include "dotpose/status.hpp"
 
-namespace dotpose {
+namespace [[gnu::visibility("default")]] dotpose {
 
 /// The attempt of `locate` that made a fix: src/core/attempts has one file for each.
 enum class Attempt : std::uint8_t {
@@ -67,4 +67,4 @@ struct Fix {
     double p_wrong() const { return std::ldexp(1.0, p_wrong_log2); }
 };
 
-}  // namespace dotpose
+}  // namespace gnu::visibility("default")]]dotpose

@@ -15,7 +15,7 @@
 
 #include "dotpose/fix.hpp"
 
-namespace dotpose {
+namespace [[gnu::visibility("default")]] dotpose {
 
 struct PacerOptions {
     /// Without movement for this long, the device counts as stationary. Longer costs energy,
@@ -58,4 +58,4 @@ class FramePacer {
     std::int64_t rest_since_us_ = 0;
 };
 
-}  // namespace dotpose
+}  // namespace gnu::visibility("default")]]dotpose

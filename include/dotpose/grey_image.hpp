@@ -7,7 +7,7 @@
 
 #include "dotpose/image.hpp"
 
-namespace dotpose {
+namespace [[gnu::visibility("default")]] dotpose {
 
 /// Rows from the top, without padding: pixel (u, v) is `pixels[v * width_px + u]`; 0 is black.
 struct GreyImage {
@@ -21,4 +21,4 @@ struct GreyImage {
     }
 };
 
-}  // namespace dotpose
+}  // namespace gnu::visibility("default")]]dotpose

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace dotpose {
+namespace [[gnu::visibility("default")]] dotpose {
 
 /// Row `v` starts at `pixels + v * stride_bytes`; dark dots on light paper, 0 is black.
 struct ImageView {
@@ -16,4 +16,4 @@ struct ImageView {
     const std::uint8_t* row(int v) const { return pixels + v * stride_bytes; }
 };
 
-}  // namespace dotpose
+}  // namespace gnu::visibility("default")]]dotpose

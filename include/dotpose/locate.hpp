@@ -19,7 +19,7 @@
 #include "dotpose/prediction.hpp"
 #include "dotpose/workspace.hpp"
 
-namespace dotpose {
+namespace [[gnu::visibility("default")]] dotpose {
 
 /// Images this size can be located, in pixels per side.
 inline constexpr int kMinFrameSide_px = 64;
@@ -55,4 +55,4 @@ Fix finish(const Options& options, Workspace& workspace);
 /// not_certain.
 Fix finish_device(const Options& options, Workspace& workspace);
 
-}  // namespace dotpose
+}  // namespace gnu::visibility("default")]]dotpose

@@ -14,7 +14,7 @@
 #include "dotpose/error.hpp"
 #include "dotpose/sheet.hpp"
 
-namespace dotpose {
+namespace [[gnu::visibility("default")]] dotpose {
 
 /// A device. All lengths above 0.
 struct Optics {
@@ -81,4 +81,4 @@ struct OpticsReport {
 
 OpticsReport design_optics(const Optics& optics);
 
-}  // namespace dotpose
+}  // namespace gnu::visibility("default")]]dotpose

@@ -5,7 +5,7 @@
 
 #include "dotpose/code.hpp"
 
-namespace dotpose {
+namespace [[gnu::visibility("default")]] dotpose {
 
 /// Radial distortion, paper eq. 1-2: p_u = m + r_d / (1 + k |r_d|^2), m the distortion centre.
 struct Lens {
@@ -96,4 +96,4 @@ struct Options {
     std::int32_t reference_dy_q8 = 0;
 };
 
-}  // namespace dotpose
+}  // namespace gnu::visibility("default")]]dotpose

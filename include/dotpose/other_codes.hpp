@@ -7,7 +7,7 @@
 
 #include "dotpose/code.hpp"
 
-namespace dotpose {
+namespace [[gnu::visibility("default")]] dotpose {
 
 /// Of one axis. Odds are those of the bits, against the place read; 1: they explain them as well.
 struct OtherAxis {
@@ -38,4 +38,4 @@ struct OtherCodes {
     std::array<OtherCode, kProfileCount> of;  ///< by profile; that read stays as it is
 };
 
-}  // namespace dotpose
+}  // namespace gnu::visibility("default")]]dotpose

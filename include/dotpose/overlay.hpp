@@ -16,7 +16,7 @@
 
 #include "dotpose/print.hpp"
 
-namespace dotpose {
+namespace [[gnu::visibility("default")]] dotpose {
 
 /// One page with dots. Its sheet's frame begins at the top left corner of the page as it is shown.
 struct OverlaidPage {
@@ -65,4 +65,4 @@ struct OverlayReport {
 OverlayReport overlay_pdf(const std::filesystem::path& in, const std::filesystem::path& out,
                           const OverlayOptions& options = {});
 
-}  // namespace dotpose
+}  // namespace gnu::visibility("default")]]dotpose

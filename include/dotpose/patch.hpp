@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-namespace dotpose {
+namespace [[gnu::visibility("default")]] dotpose {
 
 /// Dots in a patch, from its middle, in px of the image.
 struct PatchDots {
@@ -73,4 +73,4 @@ struct MeasuredDots {
 /// Far away.
 inline constexpr float kNoDot_px = 1e6F;
 
-}  // namespace dotpose
+}  // namespace gnu::visibility("default")]]dotpose

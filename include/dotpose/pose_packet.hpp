@@ -20,7 +20,7 @@
 #include "dotpose/code.hpp"
 #include "dotpose/fix.hpp"
 
-namespace dotpose {
+namespace [[gnu::visibility("default")]] dotpose {
 
 inline constexpr int kPacketVersion = 1;
 
@@ -79,4 +79,4 @@ class PacketReader {
     PosePacket packet_;
 };
 
-}  // namespace dotpose
+}  // namespace gnu::visibility("default")]]dotpose

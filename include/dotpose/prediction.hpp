@@ -14,7 +14,7 @@
 #include "dotpose/fix.hpp"
 #include "dotpose/stages.hpp"
 
-namespace dotpose {
+namespace [[gnu::visibility("default")]] dotpose {
 
 struct Prediction {
     /// The map from the image to the pattern, counted in spacings from `place`.
@@ -36,4 +36,4 @@ struct Prediction {
 Prediction moved(const Prediction& prediction, Profile profile, Vec by_q16, std::int32_t turn_bam,
                  Vec pivot_q8);
 
-}  // namespace dotpose
+}  // namespace gnu::visibility("default")]]dotpose

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace dotpose {
+namespace [[gnu::visibility("default")]] dotpose {
 
 /// Scrambles 64 bits so that every input bit affects every output bit.
 /// Source: the finalizer of splitmix64 (Steele, Lea, Flood, OOPSLA 2014).
@@ -71,4 +71,4 @@ class Rng {
     std::uint64_t state_;
 };
 
-}  // namespace dotpose
+}  // namespace gnu::visibility("default")]]dotpose

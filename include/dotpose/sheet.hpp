@@ -7,7 +7,7 @@
 
 #include "dotpose/code.hpp"
 
-namespace dotpose {
+namespace [[gnu::visibility("default")]] dotpose {
 
 /// Grid spacing at which dots fall on printer pixels at 300, 600 and 1200 dpi (paper III-A.1).
 inline constexpr double kDefaultSpacing_mm = 0.508;
@@ -40,4 +40,4 @@ struct Sheet {
     double origin_y_mm = 0;
 };
 
-}  // namespace dotpose
+}  // namespace gnu::visibility("default")]]dotpose

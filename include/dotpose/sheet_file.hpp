@@ -30,7 +30,7 @@
 #include "dotpose/fix.hpp"
 #include "dotpose/sheet.hpp"
 
-namespace dotpose {
+namespace [[gnu::visibility("default")]] dotpose {
 
 /// Version of the format that is written, and the only one that is read.
 inline constexpr int kSheetFileVersion = 1;
@@ -204,4 +204,4 @@ std::optional<SheetPlace> find_sheet(std::span<const SheetEntry> sheets, Profile
 /// image x axis. None if the sheet's own pose is not known.
 std::optional<WorldPose> world_pose(const SheetPlace& place);
 
-}  // namespace dotpose
+}  // namespace gnu::visibility("default")]]dotpose

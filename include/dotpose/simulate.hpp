@@ -29,7 +29,7 @@
 #include "dotpose/random.hpp"
 #include "dotpose/sheet.hpp"
 
-namespace dotpose {
+namespace [[gnu::visibility("default")]] dotpose {
 
 /// A point or vector; the unit and frame stand in the variable's name.
 struct Vec2 {
@@ -251,4 +251,4 @@ const char* name(Scene scene);
 /// density: 0 to 1; means something for `noise` and `scattered_dots` only.
 GreyImage render_scene(Scene scene, const Shot& shot, double density = 0.5);
 
-}  // namespace dotpose
+}  // namespace gnu::visibility("default")]]dotpose

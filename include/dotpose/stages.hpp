@@ -12,7 +12,7 @@
 #include "dotpose/code.hpp"
 #include "dotpose/status.hpp"
 
-namespace dotpose {
+namespace [[gnu::visibility("default")]] dotpose {
 
 /// Width of the tiles in which light is measured; their height, for images whose shorter side is at
 /// most `kLargestWithLowTiles_px`, and for larger ones. Three tiles must reach over a dot: an image
@@ -341,4 +341,4 @@ struct Decoding {
     std::array<int, 2> p_wrong_log2_q8{};
 };
 
-}  // namespace dotpose
+}  // namespace gnu::visibility("default")]]dotpose

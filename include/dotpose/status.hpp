@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace dotpose {
+namespace [[gnu::visibility("default")]] dotpose {
 
 enum class [[nodiscard]] Status : std::uint8_t{
     ok,
@@ -41,4 +41,4 @@ const char* name(Status status) noexcept;
 /// One plain sentence for the user, without a full stop; it holds for every frame of this status.
 const char* message(Status status) noexcept;
 
-}  // namespace dotpose
+}  // namespace gnu::visibility("default")]]dotpose

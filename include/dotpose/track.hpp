@@ -29,7 +29,7 @@
 #include "dotpose/options.hpp"
 #include "dotpose/prediction.hpp"
 
-namespace dotpose {
+namespace [[gnu::visibility("default")]] dotpose {
 
 /// Sums and gains over (x, y, theta, their velocities), in mm, rad and seconds.
 using Covariance6 = std::array<std::array<float, 6>, 6>;
@@ -210,4 +210,4 @@ class Tracker {
     TrackedPose rest_;  ///< from where movement is counted
 };
 
-}  // namespace dotpose
+}  // namespace gnu::visibility("default")]]dotpose
