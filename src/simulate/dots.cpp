@@ -43,6 +43,11 @@ bool printed(const Page& page, std::int64_t x, std::int64_t y) {
     return column >= 0 && row >= 0 && column < page.columns && row < page.rows;
 }
 
+Vec2 shift_of(const Page& page, Cell cell) {
+    if (!page.shift_mm) return {};
+    return page.shift_mm({static_cast<double>(cell.x), static_cast<double>(cell.y)});
+}
+
 /// Of the ink in which the dots of a direction are printed: right, down, left, up from the darkest
 /// to the palest.
 double reflectance_of(Vec2 displacement, const Imperfections& imperfections) {
@@ -140,9 +145,10 @@ void add_dots(Ink& ink, const View& view, const Page& page, const Imperfections&
                 return (static_cast<double>(i) - fraction) * pattern.spacing_mm +
                        moved * pattern.displacement_mm;
             };
-            const Vec2 offset{scale.x * meant_mm(x, pose.fraction_x, displacement.x) +
+            const Vec2 shift_mm = shift_of(page, cell);
+            const Vec2 offset{scale.x * meant_mm(x, pose.fraction_x, displacement.x) + shift_mm.x +
                                   errors.jitter.x * imperfections.jitter_mm,
-                              scale.y * meant_mm(y, pose.fraction_y, displacement.y) +
+                              scale.y * meant_mm(y, pose.fraction_y, displacement.y) + shift_mm.y +
                                   errors.jitter.y * imperfections.jitter_mm};
             const double reflectance = reflectance_of(displacement, imperfections) +
                                        imperfections.ink_variation * errors.ink;

@@ -1,0 +1,106 @@
+/// Frames of sheets that are not one plane: one half slipped against the other, in a printer that
+/// fed the paper badly or where two sheets are butted, and wrinkled paper. The shot's pose stays the
+/// truth: that of the part of the paper under the image centre.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "dotpose/random.hpp"
+#include "dotpose/simulate.hpp"
+
+namespace dotpose::test {
+
+/// Beyond a line the dots are displaced and turned against the others.
+struct Slip {
+    double distance_grid = 0;  ///< of the line from the pose point
+    double direction_rad = 0;  ///< in which the line lies, from +x towards +y
+    Vec2 shift_grid;           ///< where the line is nearest to the pose point
+    double turn_rad = 0;
+};
+
+/// Half the length of the view along a direction of the pattern, in grid units.
+inline double half_extent_grid(const Shot& shot, double direction_rad) {
+    const double from_u_axis = direction_rad - shot.pose.theta_rad;
+    return (std::abs(std::cos(from_u_axis)) * shot.camera.width_px +
+            std::abs(std::sin(from_u_axis)) * shot.camera.height_px) *
+           shot.camera.mm_per_px / (2 * shot.page.pattern.spacing_mm);
+}
+
+/// The line anywhere in view, in any direction; displaced by 0.05 to 0.5 spacings in any direction,
+/// turned by up to one degree.
+inline Slip draw_slip(const Shot& shot) {
+    Rng rng(shot.seed, 3);
+    Slip slip;
+    slip.direction_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
+    slip.distance_grid = rng.uniform(0, half_extent_grid(shot, slip.direction_rad));
+    const double length = rng.uniform(0.05, 0.5);
+    const double angle_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
+    slip.shift_grid = {length * std::cos(angle_rad), length * std::sin(angle_rad)};
+    slip.turn_rad = rng.uniform(-1, 1) * std::numbers::pi / 180;
+    return slip;
+}
+
+inline void apply(const Slip& slip, Shot& shot) {
+    const Vec2 normal{std::cos(slip.direction_rad), std::sin(slip.direction_rad)};
+    const Vec2 hinge{x_grid(shot.pose) + slip.distance_grid * normal.x,
+                     y_grid(shot.pose) + slip.distance_grid * normal.y};
+    const double spacing_mm = shot.page.pattern.spacing_mm;
+    shot.page.shift_mm = [=](Vec2 place_grid) {
+        const Vec2 from{place_grid.x - hinge.x, place_grid.y - hinge.y};
+        if (from.x * normal.x + from.y * normal.y <= 0) return Vec2{};
+        const double c = std::cos(slip.turn_rad) - 1;
+        const double s = std::sin(slip.turn_rad);
+        return Vec2{spacing_mm * (slip.shift_grid.x + c * from.x - s * from.y),
+                    spacing_mm * (slip.shift_grid.y + s * from.x + c * from.y)};
+    };
+}
+
+/// Paper that is bent to and fro: waves of 8 to 40 spacings in any direction, which shift dots by up
+/// to `amplitude_grid` each.
+inline void wrinkle(double amplitude_grid, Shot& shot) {
+    struct Wave {
+        Vec2 per_grid;  ///< radians
+        double phase_rad;
+        Vec2 amplitude_mm;
+    };
+    Rng rng(shot.seed, 4);
+    const Vec2 pose{x_grid(shot.pose), y_grid(shot.pose)};
+    std::array<Wave, 3> waves{};
+    for (Wave& wave : waves) {
+        const double turns = 2 * std::numbers::pi / std::exp(rng.uniform(std::log(8), std::log(40)));
+        const double direction_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
+        const double moves_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
+        const double amplitude_mm = amplitude_grid * shot.page.pattern.spacing_mm;
+        wave = {{turns * std::cos(direction_rad), turns * std::sin(direction_rad)},
+                rng.uniform(0, 2 * std::numbers::pi),
+                {amplitude_mm * std::cos(moves_rad), amplitude_mm * std::sin(moves_rad)}};
+    }
+    // At the pose point the paper is not shifted, nor is the image x axis turned against it.
+    const Vec2 axis{std::cos(shot.pose.theta_rad), std::sin(shot.pose.theta_rad)};
+    Vec2 shift_there_mm;
+    double turn_mm = 0;  // per grid unit
+    for (const Wave& wave : waves) {
+        const double s = std::sin(wave.phase_rad);
+        shift_there_mm.x += s * wave.amplitude_mm.x;
+        shift_there_mm.y += s * wave.amplitude_mm.y;
+        turn_mm += std::cos(wave.phase_rad) *
+                   (wave.per_grid.x * axis.x + wave.per_grid.y * axis.y) *
+                   (wave.amplitude_mm.y * axis.x - wave.amplitude_mm.x * axis.y);
+    }
+    shot.page.shift_mm = [=](Vec2 place_grid) {
+        const Vec2 from{place_grid.x - pose.x, place_grid.y - pose.y};
+        Vec2 shift_mm{turn_mm * from.y - shift_there_mm.x, -turn_mm * from.x - shift_there_mm.y};
+        for (const Wave& wave : waves) {
+            const double s = std::sin(wave.per_grid.x * from.x + wave.per_grid.y * from.y +
+                                      wave.phase_rad);
+            shift_mm.x += s * wave.amplitude_mm.x;
+            shift_mm.y += s * wave.amplitude_mm.y;
+        }
+        return shift_mm;
+    };
+}
+
+}  // namespace dotpose::test
