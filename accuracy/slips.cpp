@@ -86,16 +86,20 @@ int print_row(const Condition& condition, const Arguments& arguments) {
     std::erase_if(fixes, [](const Outcome& outcome) { return !outcome.is_fix(); });
     const double within =
         share(fixes, [](const Outcome& outcome) { return sigmas_off(outcome) <= kMostSigmas; });
+    const auto share_that_is = [&](Surface surface) {
+        return share(fixes, [=](const Outcome& outcome) { return outcome.fix.surface == surface; });
+    };
     std::vector<double> sigmas_um;
     for (const Outcome& fix : fixes) {
         sigmas_um.push_back(1000 * fix.truth.spacing_mm *
                             std::sqrt(static_cast<double>(fix.fix.covariance[0][0])));
     }
-    fmt::print("| {} | {} | {} | {:.1f} | {:.2f} | {:.2f} / {:.2f} / {:.1f} | {:.2f} | {:.3f} / {:.2f} | {} |\n",
+    fmt::print("| {} | {} | {} | {:.1f} | {:.1f} / {:.1f} | {:.2f} | {:.2f} / {:.2f} / {:.1f} | {:.2f} / {:.2f} | {:.3f} / {:.2f} | {} |\n",
                condition.what, view, score.frames,
-               100.0 * static_cast<double>(fixes.size()) / std::max(score.frames, 1), within,
+               100.0 * static_cast<double>(fixes.size()) / std::max(score.frames, 1), share_that_is(Surface::divided),
+               share_that_is(Surface::uneven), within,
                score.position_um.median, score.position_um.p95, score.position_um.max,
-               quantiles_of(sigmas_um).median, score.angle_deg.median, score.angle_deg.max,
+               quantiles_of(sigmas_um).median, quantiles_of(sigmas_um).p95, score.angle_deg.median, score.angle_deg.max,
                score.wrong);
     std::fflush(stdout);
     return score.wrong;
@@ -120,9 +124,9 @@ std::vector<Condition> all_conditions() {
 
 int run(const Arguments& arguments) {
     fmt::print(
-        "| sheet | view | frames | located, % | within 4 sigma, % "
-        "| error, µm: median / 95 % / max | sigma claimed, µm | angle, degrees: median / max "
-        "| wrong |\n|---|---|--:|--:|--:|---|--:|---|--:|\n");
+        "| sheet | view | frames | located, % | divided / uneven, % "
+        "| within 4 sigma, % | error, µm: median / 95 % / max | sigma, µm: median / 95 % | angle, degrees: median / max "
+        "| wrong |\n|---|---|--:|--:|---|--:|---|---|---|--:|\n");
     int wrong = 0;
     for (const Condition& condition : all_conditions())
         wrong += print_row(condition, arguments);

@@ -21,6 +21,16 @@ enum class Attempt : std::uint8_t {
 /// The identifier, such as "tracked".
 const char* name(Attempt attempt) noexcept;
 
+/// What the dots tell of the paper in view.
+enum class Surface : std::uint8_t {
+    even,     ///< one plane explains where they are
+    divided,  ///< a part is displaced against the rest; the pose is that of the part with the
+              ///< reference point
+    uneven,   ///< neighbouring dots are off alike, as on wrinkled paper; the covariance is widened
+};
+/// The identifier, such as "divided".
+const char* name(Surface surface) noexcept;
+
 /// Result of `locate`. Unless `status` is ok only `status`, `dots_seen` and, as far as the frame
 /// got, the counts below it mean anything.
 ///
@@ -30,6 +40,7 @@ const char* name(Attempt attempt) noexcept;
 struct Fix {
     Status status = Status::no_contrast;
     Attempt attempt = Attempt::first;
+    Surface surface = Surface::even;  ///< devices do not look at it
 
     Cell cell;                         ///< intersection to the upper left of the reference point
     std::uint16_t fraction_x_q16 = 0;  ///< from there to the right, in 1/65536 spacing

@@ -41,6 +41,18 @@ Prediction moved(const Prediction& prediction, Profile profile, Vec by_q16, std:
     return next;
 }
 
+const char* name(Surface surface) noexcept {
+    switch (surface) {
+        case Surface::even:
+            return "even";
+        case Surface::divided:
+            return "divided";
+        case Surface::uneven:
+            return "uneven";
+    }
+    return "?";
+}
+
 const char* name(Attempt attempt) noexcept {
     switch (attempt) {
         case Attempt::tracked:

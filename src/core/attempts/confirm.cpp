@@ -15,6 +15,7 @@
 #include "core/pose/covariance.hpp"
 #include "core/pose/float_fit.hpp"
 #include "core/pose/subgrid.hpp"
+#include "core/pose/uneven.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -216,6 +217,12 @@ bool is_far_from(const FloatPlane& before, const FloatPlane& now, const ImageVie
     return false;
 }
 
+/// The point whose pose is wanted, counted as the sight's plane counts.
+FloatVec reference_px(const Options& options, const Sight& sight) {
+    return {static_cast<float>(options.reference_dx_q8) / 256 - sight.from_centre.x,
+            static_cast<float>(options.reference_dy_q8) / 256 - sight.from_centre.y};
+}
+
 /// How far is looked, round by round, px.
 struct Reach {
     float full;      ///< the whole image
@@ -355,6 +362,7 @@ Confirmation look(const Kernels& kernels, const ImageView& image, const Options&
         if (is_last) break;
         reach.grow();
     }
+    fit_uneven(kernels, dots, reference_px(options, sight), plane, fit);
     if (!is_plausible(image, plane)) return Confirmation::implausible;
     if (is_far_fetched(fit, 2 * bits.read, bits.wrong_x + bits.wrong_y))
         return Confirmation::uncertain;

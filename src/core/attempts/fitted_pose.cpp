@@ -5,9 +5,11 @@
 #include "core/attempts/steps.hpp"
 #include "core/decode/nominal.hpp"
 #include "core/detect/undistort.hpp"
+#include "core/kernels/select.hpp"
 #include "core/pose/covariance.hpp"
 #include "core/pose/measure.hpp"
 #include "core/pose/subgrid.hpp"
+#include "core/pose/uneven.hpp"
 
 namespace dotpose::core {
 
@@ -38,6 +40,9 @@ Status measure_pose(const Options& options, const ImageView* image, Workspace& w
     PoseFit fit;
     if (!fit_pattern(options, image, w, fit)) return Status::no_grid;
     const Vec reference = reference_q8(image_centre_q8(w.light), options);
+    const Nominal nominal(w.grid, options.profile, w.decoding);
+    fit_uneven(kernels(), {w.found_dots(), w.grid, nominal}, reference, w.measured,
+               w.pattern_from_image, fit);
     w.fix.displacement_q16 = static_cast<std::int32_t>(fit.displacement * 65536.0F);
     write_pose(w.pattern_from_image, reference, options.profile, w.decoding.place, w.fix);
     estimate_covariance(fit, w.pattern_from_image, reference, w.fix);

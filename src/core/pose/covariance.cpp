@@ -44,6 +44,7 @@ float inner_product(const Parameters& a, const Parameters& b) {
 void estimate_covariance(const PoseFit& fit, const PlaneFromImage& pattern_from_image,
                          Vec reference_q8, Fix& fix) {
     fix.dots_used = fit.dots;
+    fix.surface = fit.surface;
     // Dots that were measured where the code has them were seen, though not as blobs of their own.
     fix.dots_seen = std::max(fix.dots_seen, fix.dots_used);
     fix.residual_px = std::sqrt(fit.variance) * static_cast<float>(fix.spacing_px_q16) / 65536.0F;
@@ -60,7 +61,8 @@ void estimate_covariance(const PoseFit& fit, const PlaneFromImage& pattern_from_
     for (std::size_t j = 0; j < 3; ++j) {
         const Parameters product = times(fit.covariance, gradients[j]);
         for (std::size_t i = j; i < 3; ++i)
-            fix.covariance[i][j] = fix.covariance[j][i] = inner_product(gradients[i], product);
+            fix.covariance[i][j] = fix.covariance[j][i] =
+                inner_product(gradients[i], product) + fit.uneven[i][j];
     }
 }
 

@@ -7,6 +7,7 @@
 #include "core/pose/belief.hpp"
 #include "core/pose/normal.hpp"
 #include "core/pose/observations.hpp"
+#include "dotpose/fix.hpp"
 #include "dotpose/stages.hpp"
 
 namespace dotpose::core {
@@ -19,6 +20,9 @@ struct PoseFit {
     float displacement = 0;  ///< of the typical dot from its intersection, spacings
     Normal normal;           ///< of the parameters of `jacobian`, decomposed
     std::array<Parameters, kPoseParameters> covariance;  ///< of the parameters whitened
+    Surface surface = Surface::even;
+    /// Of x, y and theta, besides what each dot's scatter makes of them.
+    std::array<std::array<float, 3>, 3> uneven{};
 };
 
 /// The step to the plane of least squares, by the normal equations of `fit`, with as much of the

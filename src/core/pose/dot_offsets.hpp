@@ -1,0 +1,27 @@
+// Dot offsets: where dots lie in the pattern, and how far from where the code has them.
+#pragma once
+
+#include "core/float_plane.hpp"
+
+namespace dotpose::core {
+
+/// In spacings.
+struct DotOffset {
+    FloatVec at;   ///< as measured
+    FloatVec off;  ///< from there to where the code has it
+    float squared() const { return off.x * off.x + off.y * off.y; }
+};
+
+/// Of a dot that was measured.
+inline DotOffset dot_offset(const MeasuredDots& dots, std::size_t k, const FloatPlane& plane,
+                            float displacement) {
+    const FloatVec at = plane_point(plane, {dots.x[k], dots.y[k]});
+    const std::int32_t x_bit = dots.bits[k] & 1;
+    const std::int32_t y_bit = dots.bits[k] >> 1;
+    const auto way_x = static_cast<float>(y_bit - x_bit);
+    const auto way_y = static_cast<float>(x_bit + y_bit - 1);
+    return {at,
+            {dots.column[k] + displacement * way_x - at.x, dots.row[k] + displacement * way_y - at.y}};
+}
+
+}  // namespace dotpose::core
