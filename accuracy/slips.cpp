@@ -1,5 +1,5 @@
-// Does a fix tell how exact it is where the sheet is not one plane? Halves that slipped against each
-// other, and wrinkled paper. The table of docs/integrity.md, in Markdown.
+// Does a fix tell how exact it is where the sheet is not one plane? Halves that slipped against
+// each other, and wrinkled paper. The table of docs/integrity.md, in Markdown.
 //
 //   dotpose_slips [--frames N] [--seed S] [--threads N]
 //
@@ -75,9 +75,7 @@ double share(std::span<const Outcome> outcomes, const std::function<bool(const O
 int print_row(const Condition& condition, const Arguments& arguments) {
     FrameRun run;
     run.frames = static_cast<int>(arguments.frames);
-    run.frame_at = [&](int index) {
-        return frame_of(condition, arguments.counting.seed, index);
-    };
+    run.frame_at = [&](int index) { return frame_of(condition, arguments.counting.seed, index); };
     run.options.front().effort = condition.effort;
     const std::string view = condition.is_large ? "640 x 480" : "188 x 120";
     std::vector<Outcome> fixes =
@@ -94,13 +92,15 @@ int print_row(const Condition& condition, const Arguments& arguments) {
         sigmas_um.push_back(1000 * fix.truth.spacing_mm *
                             std::sqrt(static_cast<double>(fix.fix.covariance[0][0])));
     }
-    fmt::print("| {} | {} | {} | {:.1f} | {:.1f} / {:.1f} | {:.2f} | {:.2f} / {:.2f} / {:.1f} | {:.2f} / {:.2f} | {:.3f} / {:.2f} | {} |\n",
-               condition.what, view, score.frames,
-               100.0 * static_cast<double>(fixes.size()) / std::max(score.frames, 1), share_that_is(Surface::divided),
-               share_that_is(Surface::uneven), within,
-               score.position_um.median, score.position_um.p95, score.position_um.max,
-               quantiles_of(sigmas_um).median, quantiles_of(sigmas_um).p95, score.angle_deg.median, score.angle_deg.max,
-               score.wrong);
+    fmt::print(
+        "| {} | {} | {} | {:.1f} | {:.1f} / {:.1f} | {:.2f} | {:.2f} / {:.2f} / {:.1f} | {:.2f} / "
+        "{:.2f} | {:.3f} / {:.2f} | {} |\n",
+        condition.what, view, score.frames,
+        100.0 * static_cast<double>(fixes.size()) / std::max(score.frames, 1),
+        share_that_is(Surface::divided), share_that_is(Surface::uneven), within,
+        score.position_um.median, score.position_um.p95, score.position_um.max,
+        quantiles_of(sigmas_um).median, quantiles_of(sigmas_um).p95, score.angle_deg.median,
+        score.angle_deg.max, score.wrong);
     std::fflush(stdout);
     return score.wrong;
 }
@@ -111,7 +111,8 @@ std::vector<Condition> all_conditions() {
     for (const bool is_large : {false, true}) {
         conditions.push_back({"whole", [](Shot&) {}, Preset::nominal, is_large});
         conditions.push_back({"slipped", slip, Preset::nominal, is_large});
-        conditions.push_back({"slipped, first attempt alone", slip, Preset::nominal, is_large, Effort::once});
+        conditions.push_back(
+            {"slipped, first attempt alone", slip, Preset::nominal, is_large, Effort::once});
         conditions.push_back({"slipped, hard", slip, Preset::hard, is_large});
         for (const double amplitude : {0.02, 0.05, 0.10}) {
             conditions.push_back({fmt::format("wrinkled by {:.2f}", amplitude),
@@ -125,7 +126,8 @@ std::vector<Condition> all_conditions() {
 int run(const Arguments& arguments) {
     fmt::print(
         "| sheet | view | frames | located, % | divided / uneven, % "
-        "| within 4 sigma, % | error, µm: median / 95 % / max | sigma, µm: median / 95 % | angle, degrees: median / max "
+        "| within 4 sigma, % | error, µm: median / 95 % / max | sigma, µm: median / 95 % | angle, "
+        "degrees: median / max "
         "| wrong |\n|---|---|--:|--:|---|--:|---|---|---|--:|\n");
     int wrong = 0;
     for (const Condition& condition : all_conditions())

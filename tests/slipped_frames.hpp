@@ -1,6 +1,6 @@
 /// Frames of sheets that are not one plane: one half slipped against the other, in a printer that
-/// fed the paper badly or where two sheets are butted, and wrinkled paper. The shot's pose stays the
-/// truth: that of the part of the paper under the image centre.
+/// fed the paper badly or where two sheets are butted, and wrinkled paper. The shot's pose stays
+/// the truth: that of the part of the paper under the image centre.
 #pragma once
 
 #include <array>
@@ -58,8 +58,8 @@ inline void apply(const Slip& slip, Shot& shot) {
     };
 }
 
-/// Paper that is bent to and fro: waves of 8 to 40 spacings in any direction, which shift dots by up
-/// to `amplitude_grid` each.
+/// Paper that is bent to and fro: waves of 8 to 40 spacings in any direction, which shift dots by
+/// up to `amplitude_grid` each.
 inline void wrinkle(double amplitude_grid, Shot& shot) {
     struct Wave {
         Vec2 per_grid;  ///< radians
@@ -70,7 +70,8 @@ inline void wrinkle(double amplitude_grid, Shot& shot) {
     const Vec2 pose{x_grid(shot.pose), y_grid(shot.pose)};
     std::array<Wave, 3> waves{};
     for (Wave& wave : waves) {
-        const double turns = 2 * std::numbers::pi / std::exp(rng.uniform(std::log(8), std::log(40)));
+        const double turns =
+            2 * std::numbers::pi / std::exp(rng.uniform(std::log(8), std::log(40)));
         const double direction_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
         const double moves_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
         const double amplitude_mm = amplitude_grid * shot.page.pattern.spacing_mm;
@@ -94,8 +95,8 @@ inline void wrinkle(double amplitude_grid, Shot& shot) {
         const Vec2 from{place_grid.x - pose.x, place_grid.y - pose.y};
         Vec2 shift_mm{turn_mm * from.y - shift_there_mm.x, -turn_mm * from.x - shift_there_mm.y};
         for (const Wave& wave : waves) {
-            const double s = std::sin(wave.per_grid.x * from.x + wave.per_grid.y * from.y +
-                                      wave.phase_rad);
+            const double s =
+                std::sin(wave.per_grid.x * from.x + wave.per_grid.y * from.y + wave.phase_rad);
             shift_mm.x += s * wave.amplitude_mm.x;
             shift_mm.y += s * wave.amplitude_mm.y;
         }

@@ -174,6 +174,7 @@ std::vector<Field> fields(const Record& record) {
         {"dots_seen", fmt::format("{}", fix.dots_seen)},
         {"dots_used", if_ok(fmt::format("{}", fix.dots_used))},
         {"attempt", if_ok(name(fix.attempt)), true},
+        {"surface", fix.has_covariance() ? if_ok(name(fix.surface)) : std::string(), true},
         {"bit_errors", if_ok(fmt::format("{}", fix.bit_errors))},
         {"p_wrong", if_ok(p_wrong_text(fix.p_wrong()))},
         {"sigma_x_mm", if_judged(sigma(fix, 0) * spacing_mm, 6)},

@@ -134,8 +134,8 @@ struct Page {
     /// Where the paper ends, if it does, and what the table beyond reflects, relative to paper.
     std::optional<PageArea> paper;
     double table_reflectance = 0.2;
-    /// By how much a dot is printed beside its place, or lies beside it because the paper is bent, by
-    /// that place in grid units; none: nowhere. Called from several threads.
+    /// By how much a dot is printed beside its place, or lies beside it because the paper is bent,
+    /// by that place in grid units; none: nowhere. Called from several threads.
     std::function<Vec2(Vec2 place_grid)> shift_mm;
 };
 

@@ -20,8 +20,9 @@ inline DotOffset dot_offset(const MeasuredDots& dots, std::size_t k, const Float
     const std::int32_t y_bit = dots.bits[k] >> 1;
     const auto way_x = static_cast<float>(y_bit - x_bit);
     const auto way_y = static_cast<float>(x_bit + y_bit - 1);
-    return {at,
-            {dots.column[k] + displacement * way_x - at.x, dots.row[k] + displacement * way_y - at.y}};
+    return {
+        at,
+        {dots.column[k] + displacement * way_x - at.x, dots.row[k] + displacement * way_y - at.y}};
 }
 
 }  // namespace dotpose::core

@@ -50,32 +50,29 @@ struct PartSums {
         return *this;
     }
     PartSums less(const PartSums& o) const {
-        return {seen - o.seen,   on_plane - o.on_plane, dots - o.dots,
-                x - o.x,         y - o.y,               off_x - o.off_x,
-                off_y - o.off_y, squares - o.squares,   off_squares - o.off_squares,
+        return {seen - o.seen,
+                on_plane - o.on_plane,
+                dots - o.dots,
+                x - o.x,
+                y - o.y,
+                off_x - o.off_x,
+                off_y - o.off_y,
+                squares - o.squares,
+                off_squares - o.off_squares,
                 turned - o.turned};
     }
 };
 
-/// How a part lies if it moved as a whole.
-struct Move {
-    FloatVec shift;  ///< at the reference point
-    float turn = 0;
-    float left = 0;  ///< squared distances that it does not explain
-};
-
-Move move_of(const PartSums& part) {
-    if (part.dots < 3) return {{}, 0, part.off_squares};
+/// The squared distances that are left if a part moved and turned as a whole.
+float left_of(const PartSums& part) {
+    if (part.dots < 3) return part.off_squares;
     const float by = 1 / part.dots;
     const FloatVec middle{part.x * by, part.y * by};
     const FloatVec off{part.off_x * by, part.off_y * by};
-    const float spread =
-        part.squares - part.dots * (middle.x * middle.x + middle.y * middle.y);
+    const float spread = part.squares - part.dots * (middle.x * middle.x + middle.y * middle.y);
     const float turned = part.turned - part.dots * (middle.x * off.y - middle.y * off.x);
-    const float turn = spread > 1e-3F ? turned / spread : 0;
-    return {{off.x + turn * middle.y, off.y - turn * middle.x},
-            turn,
-            part.off_squares - part.dots * (off.x * off.x + off.y * off.y) - turn * turned};
+    const float by_turn = spread > 1e-3F ? turned * turned / spread : 0;
+    return part.off_squares - part.dots * (off.x * off.x + off.y * off.y) - by_turn;
 }
 
 class Search {
@@ -114,11 +111,9 @@ class Search {
         for (std::size_t line = kLines; --line > 0;) {
             beyond += strips[line];
             if (beyond.seen < kFewestBeyond) continue;
-            const Slip slip = slip_of(beyond, all.less(beyond));
-            if (slip.gain <= best.gain) continue;
-            best = slip;
-            best.direction = direction;
-            best.distance = static_cast<float>(line) / per_spacing - kBehind;
+            const float gain = gain_of(beyond, all.less(beyond));
+            if (gain <= best.gain) continue;
+            best = {direction, static_cast<float>(line) / per_spacing - kBehind, gain};
         }
     }
 
@@ -127,35 +122,24 @@ class Search {
         const float squared = dot.squared();
         const float on_plane = std::max(kOnPlane - squared / (2 * variance_), kOffPlane);
         if (squared > kTogether * variance_) return {1, on_plane};
-        return {1,
-                on_plane,
-                1,
-                dot.at.x,
-                dot.at.y,
-                dot.off.x,
-                dot.off.y,
-                dot.at.x * dot.at.x + dot.at.y * dot.at.y,
-                squared,
-                dot.at.x * dot.off.y - dot.at.y * dot.off.x};
+        return {1,         on_plane,
+                1,         dot.at.x,
+                dot.at.y,  dot.off.x,
+                dot.off.y, dot.at.x * dot.at.x + dot.at.y * dot.at.y,
+                squared,   dot.at.x * dot.off.y - dot.at.y * dot.off.x};
     }
 
-    float explained(const PartSums& part, const Move& move) const {
-        return kOnPlane * part.dots - move.left / (2 * variance_) +
+    /// What the dots of a part say for a plane of its own.
+    float on_own_plane(const PartSums& part) const {
+        return kOnPlane * part.dots - left_of(part) / (2 * variance_) +
                kOffPlane * (part.seen - part.dots);
     }
 
-    Slip slip_of(const PartSums& beyond, const PartSums& here) const {
-        Slip slip;
-        const Move there = move_of(beyond);
-        const Move moved = move_of(here);
-        const float by_move = explained(beyond, there);
-        slip.knows_shift = by_move > 0;
-        // The plane as it is may lie between the two parts.
-        const float of_here = std::max(explained(here, moved) - here.on_plane, 0.0F);
-        slip.gain = weight_ * (std::max(by_move, 0.0F) - beyond.on_plane + of_here);
-        slip.shift = {there.shift.x - moved.shift.x, there.shift.y - moved.shift.y};
-        slip.turn = there.turn - moved.turn;
-        return slip;
+    /// By how much two parts explain the dots better than the plane as it is. What lies beyond may
+    /// be anywhere; the plane may lie between the two.
+    float gain_of(const PartSums& beyond, const PartSums& here) const {
+        return weight_ * (std::max(on_own_plane(beyond), 0.0F) - beyond.on_plane +
+                          std::max(on_own_plane(here) - here.on_plane, 0.0F));
     }
 
     std::array<DotOffset, kMostDots> dots_;

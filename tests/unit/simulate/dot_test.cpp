@@ -277,5 +277,30 @@ TEST(Dot, MissingAndJitterHaveTheirStatistics) {
     EXPECT_NEAR(kept, 0.97, 0.008);
 }
 
+TEST(Dots, LieWhereThePageShiftsThem) {
+    Page page = one_dot_page();
+    CameraModel camera;
+    CameraPose pose;
+    pose.cell = kDotCell;
+    pose.theta_rad = radians(90);  // +x of the pattern is up in the image, +y to the right
+    const auto centre_px = [&] {
+        const simulate::View view(camera, pose, {});
+        simulate::Ink ink;
+        add_dots(ink, view, page, {}, [](Cell) { return Vec2{}; });
+        return ink.ellipses.at(0).centre_px;
+    };
+    EXPECT_NEAR(centre_px().x, (camera.width_px - 1) / 2.0, 1e-9);
+    EXPECT_NEAR(centre_px().y, (camera.height_px - 1) / 2.0, 1e-9);
+    Vec2 asked;
+    page.shift_mm = [&](Vec2 place_grid) {
+        asked = place_grid;
+        return Vec2{2 * camera.mm_per_px, -3 * camera.mm_per_px};
+    };
+    EXPECT_NEAR(centre_px().x, (camera.width_px - 1) / 2.0 - 3, 1e-9);
+    EXPECT_NEAR(centre_px().y, (camera.height_px - 1) / 2.0 - 2, 1e-9);
+    EXPECT_EQ(asked.x, kDotCell.x);
+    EXPECT_EQ(asked.y, kDotCell.y);
+}
+
 }  // namespace
 }  // namespace dotpose::simulate_test

@@ -1,0 +1,95 @@
+// Sheets that are not one plane, seen through `locate` and through the tool.
+#include "../slipped_frames.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "dotpose/evaluate.hpp"
+#include "dotpose/locate.hpp"
+#include "locate_command.hpp"
+
+namespace dotpose::test {
+namespace {
+
+constexpr std::uint64_t kSeed = 229;
+
+Shot nominal_shot(std::uint64_t index) {
+    Setup setup;
+    setup.seed = kSeed;
+    return draw_shot(setup, index);
+}
+
+/// The largest error of x, y and theta in units of their sigmas.
+double sigmas_off(const Fix& fix, const Shot& shot) {
+    const Deviation off = deviation_of(fix, truth_of(shot));
+    const double errors[] = {off.x_grid, off.y_grid, off.theta_rad};
+    double most = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        most = std::max(most, std::abs(errors[i]) / std::sqrt(double{fix.covariance[i][i]}));
+    return most;
+}
+
+TEST(SlippedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {
+    constexpr int kFrames = 150;
+    const auto workspace = std::make_unique<LargeWorkspace>();
+    int fixes = 0;
+    int claim_too_much = 0;
+    int divided = 0;
+    for (std::uint64_t i = 0; i < kFrames; ++i) {
+        SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", frame " << i);
+        Shot shot = nominal_shot(i);
+        apply(draw_slip(shot), shot);
+        const GreyImage image = render(shot);
+        Outcome outcome;
+        outcome.truth = truth_of(shot);
+        outcome.fix = locate(image.view(), {}, *workspace);
+        if (!outcome.is_fix()) continue;
+        ++fixes;
+        EXPECT_FALSE(outcome.is_wrong());
+        claim_too_much += sigmas_off(outcome.fix, shot) > 4 ? 1 : 0;
+        divided += outcome.fix.surface == Surface::divided ? 1 : 0;
+    }
+    EXPECT_GE(fixes, kFrames * 9 / 10);
+    EXPECT_LE(claim_too_much, fixes * 2 / 100);
+    // Many lines cut off a corner only, or displace by less than dots scatter.
+    EXPECT_GE(divided, fixes / 2);
+}
+
+/// A third of the view is displaced by a fifth of a spacing.
+Shot slipped_shot() {
+    Shot shot = nominal_shot(0);
+    apply({half_extent_grid(shot, 1) / 3, 1, {0.2, -0.05}, 0.005}, shot);
+    return shot;
+}
+
+TEST(SlippedSheet, PredictionsAreNoHelpToTheOtherSide) {
+    const auto workspace = std::make_unique<LargeWorkspace>();
+    const Shot shot = slipped_shot();
+    const GreyImage image = render(shot);
+    const Fix fix = locate(image.view(), {}, *workspace);
+    ASSERT_EQ(fix.status, Status::ok);
+    const Fix tracked = locate(image.view(), {}, Prediction::like(fix), *workspace);
+    ASSERT_EQ(tracked.status, Status::ok);
+    EXPECT_EQ(tracked.attempt, Attempt::tracked);
+    EXPECT_EQ(tracked.surface, Surface::divided);
+    EXPECT_LT(sigmas_off(tracked, shot), 4);
+}
+
+class SlippedSheetCommand : public LocateCommand {};
+
+TEST_F(SlippedSheetCommand, TheToolSaysWhichSurfaceItSaw) {
+    write_pgm(directory_ / "even.pgm", render(nominal_shot(0)).view());
+    write_pgm(directory_ / "slipped.pgm", render(slipped_shot()).view());
+    run("even.pgm slipped.pgm");
+    const std::vector<json> found = records();
+    ASSERT_EQ(found.size(), 2U);
+    EXPECT_EQ(found[0]["surface"], "even");
+    EXPECT_EQ(found[1]["surface"], "divided");
+    EXPECT_LT(found[1]["dots_used"], found[0]["dots_used"]);
+}
+
+}  // namespace
+}  // namespace dotpose::test

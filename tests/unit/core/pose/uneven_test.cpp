@@ -1,0 +1,145 @@
+// Dots of sheets that are not one plane, put where a plane in double precision and a displacement
+// that is known have them.
+#include "core/pose/uneven.hpp"
+
+#include <functional>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "../float_planes.hpp"
+#include "core/kernels/select.hpp"
+#include "core/pose/covariance.hpp"
+#include "core/pose/float_fit.hpp"
+#include "owned_dots.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+using core::FloatPlane;
+
+constexpr std::uint64_t kSeed = 229;
+constexpr double kDisplacement = 1 / 6.0;
+constexpr int kReach_px = 95;
+constexpr double kJitter = 0.02;
+constexpr double kMostSigmas = 4.5;
+
+/// In spacings, by the place, which is counted from the image centre.
+using Shift = std::function<Vec2(Vec2)>;
+
+/// What 188 x 120 px show of a printed sheet.
+struct Sheet {
+    FloatPlane truth;
+    OwnedDots owned;
+    FloatPlane plane;
+    core::PoseFit fit;
+    Fix fix;
+    std::vector<float> columns;
+    bool is_fitted = false;
+
+    Sheet(const Shift& shift, Rng& rng) : truth(random_float_plane(11, 2e-4, rng)) {
+        const Vec2 centre = formula(truth, {});
+        for (int j = -14; j <= 14; ++j) {
+            for (int i = -14; i <= 14; ++i) {
+                const auto symbol = static_cast<Symbol>(rng.below(4));
+                const Vec2 meant{i + kDisplacement * dx(symbol), j + kDisplacement * dy(symbol)};
+                const Vec2 place =
+                    meant + shift(meant - centre) + kJitter * Vec2{rng.normal(), rng.normal()};
+                const Vec2 px = image_of(truth, place);
+                if (std::abs(px.x) < 92 && std::abs(px.y) < 58) owned.add({i, j}, symbol, px);
+            }
+        }
+        columns.assign(owned.dots.column.begin(), owned.dots.column.end());
+        plane = truth;
+        constexpr auto kLimit = static_cast<float>(0.25 * 0.25);
+        is_fitted = core::fit_plane(core::kernels(), owned.dots, kReach_px, kLimit,
+                                    static_cast<float>(kDisplacement), plane, fit);
+        if (!is_fitted) return;
+        core::fit_uneven(core::kernels(), owned.dots, {}, plane, fit);
+        core::estimate_covariance(fit, core::fixed_plane(plane, {}), {}, fix);
+    }
+
+    bool is_as_it_was() const {
+        return std::equal(columns.begin(), columns.end(), owned.dots.column.begin());
+    }
+    Vec2 off() const { return formula(plane, {}) - formula(truth, {}); }
+    /// The larger of the errors of x and y, in units of their sigmas.
+    double sigmas_off() const {
+        return std::max(std::abs(off().x) / std::sqrt(double{fix.covariance[0][0]}),
+                        std::abs(off().y) / std::sqrt(double{fix.covariance[1][1]}));
+    }
+};
+
+/// Dots farther than `distance` along a direction are displaced.
+Shift slip(double distance, double direction_rad, Vec2 by) {
+    return [=](Vec2 place) {
+        const double t = std::cos(direction_rad) * place.x + std::sin(direction_rad) * place.y;
+        return t > distance ? by : Vec2{};
+    };
+}
+
+TEST(FitUneven, LeavesFitsOfFlatSheetsAlone) {
+    Rng rng(kSeed);
+    int uneven = 0;
+    for (int trial = 0; trial < 100; ++trial) {
+        SCOPED_TRACE(testing::Message() << trial << ", seed " << kSeed);
+        const Sheet sheet([](Vec2) { return Vec2{}; }, rng);
+        ASSERT_TRUE(sheet.is_fitted);
+        uneven += sheet.fix.surface != Surface::even ? 1 : 0;
+        EXPECT_LT(sheet.sigmas_off(), kMostSigmas);
+    }
+    EXPECT_LE(uneven, 1);
+}
+
+TEST(FitUneven, FitsTheSideOfTheReferencePoint) {
+    Rng rng(kSeed);
+    for (int trial = 0; trial < 60; ++trial) {
+        SCOPED_TRACE(testing::Message() << trial << ", seed " << kSeed);
+        const double moves_rad = rng.uniform(0, 6.283);
+        const double by = rng.uniform(0.10, 0.5);
+        const Sheet sheet(slip(rng.uniform(1.6, 3), rng.uniform(0, 6.283),
+                               {by * std::cos(moves_rad), by * std::sin(moves_rad)}),
+                          rng);
+        ASSERT_TRUE(sheet.is_fitted);
+        EXPECT_EQ(sheet.fix.surface, Surface::divided);
+        EXPECT_LT(sheet.sigmas_off(), kMostSigmas);
+        EXPECT_LT(length(sheet.off()), 0.02);
+        EXPECT_LT(sheet.fix.dots_used, sheet.owned.dots.count * 9 / 10);
+        EXPECT_TRUE(sheet.is_as_it_was());
+    }
+}
+
+TEST(FitUneven, LeavesOpenWhichSideAReferencePointAtTheLineIsOn) {
+    Rng rng(kSeed);
+    for (int trial = 0; trial < 30; ++trial) {
+        SCOPED_TRACE(testing::Message() << trial << ", seed " << kSeed);
+        const Sheet sheet(slip(rng.uniform(-0.2, 0.2), rng.uniform(0, 6.283), {0.3, -0.2}), rng);
+        ASSERT_TRUE(sheet.is_fitted);
+        EXPECT_EQ(sheet.fix.surface, Surface::divided);
+        EXPECT_LT(sheet.sigmas_off(), 2);
+        EXPECT_GT(sheet.fix.covariance[0][0], 0.2 * 0.2);
+        EXPECT_GT(sheet.fix.covariance[1][1], 0.13 * 0.13);
+    }
+}
+
+TEST(FitUneven, WidensTheCovarianceOnWrinkledPaper) {
+    Rng rng(kSeed);
+    for (int trial = 0; trial < 30; ++trial) {
+        SCOPED_TRACE(testing::Message() << trial << ", seed " << kSeed);
+        const double phase = rng.uniform(0, 6.283);
+        // At the reference point the paper is not displaced.
+        const Sheet sheet(
+            [=](Vec2 place) {
+                constexpr double kTurns = 6.283 / 10;
+                return 0.08 * Vec2{std::sin(kTurns * place.x + phase) - std::sin(phase),
+                                   std::sin(kTurns * place.y + phase) - std::sin(phase)};
+            },
+            rng);
+        ASSERT_TRUE(sheet.is_fitted);
+        EXPECT_NE(sheet.fix.surface, Surface::even);
+        EXPECT_LT(sheet.sigmas_off(), kMostSigmas);
+    }
+}
+
+}  // namespace
+}  // namespace dotpose::core_test
