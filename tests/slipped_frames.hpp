@@ -58,7 +58,7 @@ inline void apply(const Slip& slip, Shot& shot) {
     };
 }
 
-/// Paper that is bent to and fro: waves of 8 to 40 spacings in any direction, which shift dots by
+/// Paper that is bent to and fro: waves of 16 to 60 spacings in any direction, which shift dots by
 /// up to `amplitude_grid` each.
 inline void wrinkle(double amplitude_grid, Shot& shot) {
     struct Wave {
@@ -71,7 +71,7 @@ inline void wrinkle(double amplitude_grid, Shot& shot) {
     std::array<Wave, 3> waves{};
     for (Wave& wave : waves) {
         const double turns =
-            2 * std::numbers::pi / std::exp(rng.uniform(std::log(8), std::log(40)));
+            2 * std::numbers::pi / std::exp(rng.uniform(std::log(16), std::log(60)));
         const double direction_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
         const double moves_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
         const double amplitude_mm = amplitude_grid * shot.page.pattern.spacing_mm;
