@@ -99,7 +99,8 @@ Page page_of(const Sheet& sheet, std::uint64_t seed) {
             {},
             {},
             {},
-            Page{}.table_reflectance};
+            Page{}.table_reflectance,
+            {}};
 }
 
 Shot draw_shot(const Setup& setup, std::uint64_t index) {

@@ -112,6 +112,20 @@ struct FitSums {
     std::array<float, 9> right{};
 };
 
+/// What dots of square blocks of the image are off together.
+struct BlockSums {
+    static constexpr std::size_t kMostAlong = 9;
+    struct Block {
+        float dots = 0;  ///< that count
+        float off_x = 0;
+        float off_y = 0;
+    };
+    std::array<Block, kMostAlong * kMostAlong> all;
+    float dots = 0;      ///< that count
+    float outliers = 0;  ///< dots that do not
+    float squares = 0;   ///< of what each is off
+};
+
 /// What dots say of the bits.
 struct BitsRead {
     int seen = 0;  ///< dots of a dot's darkness
@@ -215,6 +229,10 @@ struct Kernels {
     /// The sums of at, scale and turn only; all else is 0.
     FitSums (*sum_similarity)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                               float reach_px, float limit);
+    /// Sums over the dots of `side` x `side` blocks, which reach from the plane's centre as far
+    /// along both axes, of those that are at most `limit` (spacings^2) off.
+    void (*sum_blocks)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
+                       float limit, float reach_px, int side, BlockSums& sums);
     /// The other places of a sequence that may lose less than enough, as far as steps tell.
     PlaceBits (*find_similar_places)(const code::Secondary& sequence, std::uint32_t own,
                                      const StepLosses& steps);

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "core/pose/dot_offsets.hpp"
 #include "core/pose/sides.hpp"
 
 namespace dotpose::core {
@@ -14,98 +13,74 @@ namespace {
 constexpr float kOutlier = 16.6F;
 
 /// What blocks of dots are off in common.
-struct Blocks {
-    static constexpr int kMostColumns = 9;
-    static constexpr int kMostRows = 6;
-    struct Block {
-        float dots = 0;
-        float off_x = 0;
-        float off_y = 0;
-    };
-    std::array<Block, kMostColumns * kMostRows> all{};
-    float dots = 0;
-    float outliers = 0;
-    float squares = 0;
-    float side = 1;  ///< of a block, spacings
-
-    float between() const {
-        float sum = 0;
-        for (const Block& b : all) {
-            if (b.dots > 0) sum += (b.off_x * b.off_x + b.off_y * b.off_y) / b.dots;
+class Blocks {
+  public:
+    Blocks(const Kernels& kernels, const MeasuredDots& dots, const FloatPlane& plane,
+           const PoseFit& fit) {
+        constexpr int kManyDots = 1000;
+        const int side = fit.dots > kManyDots ? static_cast<int>(BlockSums::kMostAlong) : 6;
+        const auto reach_px = static_cast<float>(fit.reach_px);
+        kernels.sum_blocks(dots, plane, fit.displacement, kOutlier * fit.variance, reach_px, side,
+                           sums_);
+        side_ = 2 * reach_px / (static_cast<float>(side) * spacing_px(plane));
+        for (int b = 0; b < side * side; ++b) {
+            const BlockSums::Block& block = sums_.all[static_cast<std::size_t>(b)];
+            if (block.dots == 0) continue;
+            between_ += (block.off_x * block.off_x + block.off_y * block.off_y) / block.dots;
+            used_ += 1;
         }
-        return sum;
     }
-    float freedom() const {
-        constexpr float kFitted = 6;
-        const auto used = std::ranges::count_if(all, [](const Block& b) { return b.dots > 0; });
-        return std::max(2 * static_cast<float>(used) - kFitted, 1.0F);
-    }
-    /// Of one coordinate of a dot about the mean of its block.
-    float variance_within() const {
-        const auto used = std::ranges::count_if(all, [](const Block& b) { return b.dots > 0; });
-        return std::max(squares - between(), 0.0F) /
-                   std::max(2 * (dots - static_cast<float>(used)), 1.0F) +
-               1e-12F;
-    }
+
+    float dots() const { return sums_.dots; }
+    float outliers() const { return sums_.outliers; }
+    float side() const { return side_; }  ///< of a block, spacings
+
     /// By how many deviations blocks are off more than chance explains.
     float excess() const {
-        const float f = freedom();
-        return (between() / (f * variance_within()) - 1) * std::sqrt(f / 2);
+        return (between_ / (freedom() * variance_within()) - 1) * std::sqrt(freedom() / 2);
     }
     /// Of what the dots of a block are off in common, along one axis.
     float variance_between() const {
-        return std::max(between() - freedom() * variance_within(), 0.0F) / std::max(2 * dots, 1.0F);
+        return std::max(between_ - freedom() * variance_within(), 0.0F) /
+               std::max(2 * dots(), 1.0F);
     }
+
+  private:
+    /// Of the blocks' means, both coordinates, less what the fit takes of it.
+    float freedom() const {
+        constexpr float kFitted = 6;
+        return std::max(2 * used_ - kFitted, 1.0F);
+    }
+    /// Of one coordinate of a dot about the mean of its block.
+    float variance_within() const {
+        constexpr float kExact = 1e-12F;
+        return std::max(sums_.squares - between_, 0.0F) / std::max(2 * (dots() - used_), 1.0F) +
+               kExact;
+    }
+
+    BlockSums sums_;
+    float side_;
+    float between_ = 0;
+    float used_ = 0;
 };
 
-Blocks blocks_of(const MeasuredDots& dots, const FloatPlane& plane, const PoseFit& fit) {
-    Blocks blocks;
-    const auto count = static_cast<std::size_t>(dots.count);
-    FloatVec least{kNoDot_px, kNoDot_px};
-    FloatVec most{-kNoDot_px, -kNoDot_px};
-    for (std::size_t k = 0; k < count; ++k) {
-        if (dots.x[k] >= kNoDot_px) continue;
-        least = {std::min(least.x, dots.x[k]), std::min(least.y, dots.y[k])};
-        most = {std::max(most.x, dots.x[k]), std::max(most.y, dots.y[k])};
-    }
-    const int columns = fit.dots > 1000 ? 9 : 6;
-    const int rows = columns * 2 / 3;
-    const float per_x = static_cast<float>(columns) / (most.x - least.x + 1);
-    const float per_y = static_cast<float>(rows) / (most.y - least.y + 1);
-    blocks.side = 1 / (std::max(per_x, per_y) * spacing_px(plane));
-    for (std::size_t k = 0; k < count; ++k) {
-        if (dots.x[k] >= kNoDot_px) continue;
-        const DotOffset dot = dot_offset(dots, k, plane, fit.displacement);
-        if (dot.squared() > kOutlier * fit.variance) {
-            blocks.outliers += 1;
-            continue;
-        }
-        const auto column = static_cast<int>((dots.x[k] - least.x) * per_x);
-        const auto row = static_cast<int>((dots.y[k] - least.y) * per_y);
-        Blocks::Block& block = blocks.all[static_cast<std::size_t>(row * columns + column)];
-        block.dots += 1;
-        block.off_x += dot.off.x;
-        block.off_y += dot.off.y;
-        blocks.dots += 1;
-        blocks.squares += dot.squared();
-    }
-    return blocks;
+/// Of the dots on this side of a line.
+Blocks blocks_here(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
+                   const Sides& sides) {
+    const OneSide only(OneSide::Side::here, dots, sides.plane, reference_px, sides.slip);
+    return {kernels, dots, sides.plane, sides.fit};
 }
 
-/// By so many deviations blocks may be off more than chance explains. Of honest frames 3 % exceed
-/// the one, and hardly one in 1,000 the other.
+/// By so many deviations neighbours may be off alike more than chance explains. Of honest frames 3
+/// % exceed the one, and hardly one in 1,000 the other.
 constexpr float kSuspect = 2.5F;
 constexpr float kUneven = 5;
 
 bool may_be_uneven(const Blocks& blocks) {
+    constexpr float kFewOutliers = 3;
+    constexpr float kShareOfOutliers = 0.02F;
     return blocks.excess() > kSuspect ||
-           blocks.outliers > 3 + 0.02F * (blocks.dots + blocks.outliers);
-}
-
-/// Of the dots on this side of a line.
-Blocks blocks_here(MeasuredDots& dots, FloatVec reference_px, const Sides& sides) {
-    const OneSide only(OneSide::Side::here, dots, sides.plane, reference_px, sides.slip);
-    return blocks_of(dots, sides.plane, sides.fit);
+           blocks.outliers() > kFewOutliers + kShareOfOutliers * blocks.dots();
 }
 
 /// What it leaves open that the pose may be that of either plane.
@@ -135,7 +110,7 @@ void widen_by_blocks(const Blocks& blocks, PoseFit& fit) {
     const float variance = blocks.variance_between();
     add(kOfPlace * variance, 0, fit);
     add(kOfPlace * variance, 1, fit);
-    add(kOfTurn * variance / (blocks.side * blocks.side), 2, fit);
+    add(kOfTurn * variance / (blocks.side() * blocks.side()), 2, fit);
     fit.surface = Surface::uneven;
 }
 
@@ -160,7 +135,7 @@ void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
     Sides sides{plane, fit};
     const bool has_line = fit_this_side(kernels, dots, reference_px, sides);
     const bool is_divided = has_line && sides.slip.gain > Slip::kCertain;
-    if (is_divided && blocks_here(dots, reference_px, sides).excess() < kSuspect) {
+    if (is_divided && blocks_here(kernels, dots, reference_px, sides).excess() < kSuspect) {
         plane = sides.plane;
         fit = sides.fit;
         fit.surface = Surface::divided;
@@ -180,7 +155,7 @@ void fit_uneven(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_p
                 FloatPlane& plane, PoseFit& fit) {
     fit.surface = Surface::even;
     fit.uneven = {};
-    const Blocks blocks = blocks_of(dots, plane, fit);
+    const Blocks blocks(kernels, dots, plane, fit);
     if (may_be_uneven(blocks)) consider_line(kernels, dots, reference_px, blocks, plane, fit);
 }
 
