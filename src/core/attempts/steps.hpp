@@ -48,7 +48,8 @@ Status find_dots(const Options& options, Workspace& w);
 /// Dots about a point -> their connections -> directions and spacings of the grid.
 Status find_axes(Vec start_q8, int most_seeds, Workspace& w);
 
-/// Dots -> the grid they lie on, wherever in the view that is, for a camera that looks straight at the paper.
+/// Dots -> the grid they lie on, wherever in the view that is, for a camera that looks straight at
+/// the paper.
 Status find_grid(const Options& options, Workspace& w);
 
 /// Grid -> the region that is decoded, of as many lines as there is room for.
