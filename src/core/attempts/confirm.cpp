@@ -375,7 +375,7 @@ Confirmation look(const Kernels& kernels, const ImageView& image, const Options&
 
 Confirmation confirm(const Kernels& kernels, const ImageView& image, const Options& options,
                      Sight sight, Workspace& w) {
-    if (!sight.shows_part && suits_one_look(sight)) {
+    if (sight.is_predicted && suits_one_look(sight)) {
         OtherCodes* const codes = wanted_codes(w);
         const OtherCodes before = codes != nullptr ? *codes : OtherCodes{};
         sight.is_exact = true;

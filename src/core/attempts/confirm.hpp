@@ -17,6 +17,7 @@ struct Sight {
     Place place;                    ///< of the plane's cell (0, 0)
     float displacement = 0;         ///< of the typical dot, spacings
     bool is_certain = false;        ///< the place needs no confirmation
+    bool is_predicted = false;      ///< one look at each dot may do
     /// Dots are known to lie nearer to where they are predicted than to another place of their
     /// cell.
     bool is_exact = false;
@@ -48,8 +49,8 @@ enum class Confirmation : std::uint8_t {
     uncertain,    ///< they are, but their bits leave doubts
 };
 
-/// Measures, compares, fits: at one look at each dot, where that is enough. Sets the workspace's
-/// fix and what there is to see of it.
+/// Measures, compares, fits: of a prediction at one look at each dot, where that is enough. Sets
+/// the workspace's fix and what there is to see of it.
 Confirmation confirm(const Kernels& kernels, const ImageView& image, const Options& options,
                      Sight sight, Workspace& w);
 

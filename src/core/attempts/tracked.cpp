@@ -113,6 +113,7 @@ bool take(const Prediction& prediction, const ImageView& image, const Options& o
         float_plane(plane),
         {from_q8(image.width_px, plane.centre_q8.x), from_q8(image.height_px, plane.centre_q8.y)});
     sight.place = prediction.place;
+    sight.is_predicted = true;
     sight.displacement = static_cast<float>(prediction.displacement_q16) / 65536;
     const float spacing = spacing_px(sight.pattern_from_image);
     if (!is_in_code(sight.place) || !is_plausible(image, sight.pattern_from_image)) return false;
