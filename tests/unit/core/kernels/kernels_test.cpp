@@ -294,6 +294,13 @@ TEST_F(KernelsTest, SumsOfFitsAreTheSame) {
             record.add(kernels.sum_fit(table.dots, plane, 0.167F, reach, limit));
             record.add(kernels.count_fitting(table.dots, plane, 0.167F, limit));
             record.add(kernels.sum_similarity(table.dots, plane, 0.167F, reach, limit));
+            BlockSums blocks;
+            kernels.sum_blocks(table.dots, plane, 0.167F, limit, reach, 6, blocks);
+            for (std::size_t b = 0; b < 36; ++b)
+                record.add(blocks.all[b]);
+            record.add(blocks.dots);
+            record.add(blocks.outliers);
+            record.add(blocks.squares);
         });
     });
 }
