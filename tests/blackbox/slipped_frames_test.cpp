@@ -53,7 +53,8 @@ TEST(SlippedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {
         divided += outcome.fix.surface == Surface::divided ? 1 : 0;
     }
     EXPECT_GE(fixes, kFrames * 9 / 10);
-    EXPECT_LE(claim_too_much, fixes * 2 / 100);
+    // So few frames exceed 3 % by chance once in 70 runs where 1 % is true.
+    EXPECT_LE(claim_too_much, fixes * 3 / 100);
     // Many lines cut off a corner only, or displace by less than dots scatter.
     EXPECT_GE(divided, fixes / 2);
 }
