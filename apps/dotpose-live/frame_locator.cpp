@@ -95,6 +95,11 @@ FrameLocator::Found FrameLocator::find(ImageView image, int max_p_wrong_log2,
 
 FrameLocator::Found FrameLocator::look(ImageView image, const Options& options,
                                        const std::optional<Prediction>& expected) {
+    // A code that was named may be the wrong one; frames that follow others need not ask again.
+    if (!expected && sheets_.empty()) {
+        const CodeReading reading = locate_in_code(image, options, *workspace_);
+        return {reading.fix, {}, reading};
+    }
     Fix fix = expected ? locate(image, options, *expected, *workspace_)
                        : locate(image, options, *workspace_);
     auto place = find_sheet(sheets_, options.profile, fix);

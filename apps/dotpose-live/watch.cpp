@@ -11,6 +11,7 @@
 #include "dotpose/error.hpp"
 #include "dotpose/image_file.hpp"
 #include "exit_codes.hpp"
+#include "failure_hint.hpp"
 #include "frame_locator.hpp"
 #include "mqtt_arguments.hpp"
 #include "progress.hpp"
@@ -63,6 +64,17 @@ void require_apart(const WatchArguments& arguments) {
     files.writes("--packets", outputs.packets, Content::packets);
 }
 
+/// What its user should know of the frames, apart from their lines.
+void tell_once_in_a_while(const Reading& reading, ImageView image, const FrameLocator& locator,
+                          FailureHint& hint, bool& is_warned) {
+    const std::string advice = hint.after(reading, image, locator.options());
+    if (!advice.empty()) tell(advice);
+    const std::string doubt = is_warned ? std::string() : warning(reading.record);
+    if (doubt.empty()) return;
+    tell(fmt::format("frame {}: {}", reading.index, doubt));
+    is_warned = true;
+}
+
 /// Returns the exit status.
 int run(WatchArguments& arguments) {
     require_apart(arguments);
@@ -79,9 +91,12 @@ int run(WatchArguments& arguments) {
     int exit_code = 0;
     try {
         video::Frame frame;
+        FailureHint hint;
+        bool is_warned = false;
         bool goes_on = true;
         while (goes_on && source->next(frame)) {
             const Reading reading = locator(frame);
+            tell_once_in_a_while(reading, frame.image.view(), locator, hint, is_warned);
             goes_on = outputs.take(frame, reading, source->dropped());
             if (arguments.frames > 0 && outputs.tally().frames >= arguments.frames) break;
         }

@@ -156,11 +156,7 @@ class Locator {
     }
 
     std::string advice(Status status) {
-        if (status == Status::ok || status == Status::image_too_small ||
-            status == Status::image_too_large || status == Status::no_contrast ||
-            status == Status::ambiguous_code) {
-            return {};
-        }
+        if (status == Status::ok) return {};
         if (!scratch_) scratch_ = std::make_unique<LargeWorkspace>();
         return advice_on(image_.view(), status, options_, *scratch_);
     }

@@ -64,20 +64,6 @@ double mm(std::uint32_t cell, std::uint16_t fraction_q16, double spacing_mm) {
     return (cell + fraction_q16 / 65536.0) * spacing_mm;
 }
 
-/// A warning where the user gave a profile and another one explains the frame; else empty.
-std::string warning(const Record& record) {
-    const CodeReading& reading = record.reading;
-    if (!record.code_is_given || !reading.has_other) return {};
-    const std::string place =
-        reading.fix.status == Status::ok
-            ? (reading.other_cell == reading.fix.cell ? "at this place" : "at another place")
-            : "where this one has nothing certain";
-    return fmt::format(
-        "code {} explains the dots {} without a contradiction; is the sheet of code "
-        "{}?",
-        name(reading.other_code), place, name(reading.other_code));
-}
-
 /// The profile, and the places of two profiles that are in question.
 std::vector<Field> code_fields(const Record& record) {
     const CodeReading& reading = record.reading;
@@ -146,6 +132,19 @@ std::string plain_reason(const Record& record) {
 }
 
 }  // namespace
+
+std::string warning(const Record& record) {
+    const CodeReading& reading = record.reading;
+    if (!record.code_is_given || !reading.has_other) return {};
+    const std::string place =
+        reading.fix.status == Status::ok
+            ? (reading.other_cell == reading.fix.cell ? "at this place" : "at another place")
+            : "where this one has nothing certain";
+    return fmt::format(
+        "code {} explains the dots {} without a contradiction; is the sheet of code "
+        "{}?",
+        name(reading.other_code), place, name(reading.other_code));
+}
 
 std::string reason(const Record& record) {
     const std::string plain = plain_reason(record);

@@ -28,6 +28,9 @@ struct Record {
     int max_p_wrong_log2 = 0;  ///< what may be wrong with more than 2^this is refused
 };
 
+/// A warning where the user gave a profile and another one explains the frame; else empty.
+std::string warning(const Record& record);
+
 /// Why there is no fix, with the numbers that matter; empty if there is one.
 std::string reason(const Record& record);
 

@@ -180,6 +180,11 @@ bool is_out_of_focus(ImageView image) {
 }  // namespace
 
 std::string advice_on(ImageView image, Status status, const Options& options, Workspace& scratch) {
+    if (status == Status::ok || status == Status::image_too_small ||
+        status == Status::image_too_large || status == Status::no_contrast ||
+        status == Status::ambiguous_code) {
+        return {};
+    }
     // Dots that blur spreads to a quarter of their contrast have to differ by min_contrast.
     const int darkest_paper = 4 * options.threshold.min_contrast;
     if (const int level = paper_level(image); level < darkest_paper) {

@@ -21,6 +21,7 @@ namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
+using testing::Not;
 
 std::vector<json> parsed(const std::string& text) {
     std::vector<json> lines;
@@ -280,6 +281,38 @@ TEST_F(Watch, BelievesWeakFramesThatThePriorSupports) {
               0);
     for (const json& line : parsed(output_))
         EXPECT_NE(line["verdict"], "with_prior");
+}
+
+/// How often a text occurs in another one.
+int count(const std::string& text, const std::string& part) {
+    int found = 0;
+    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+        ++found;
+    return found;
+}
+
+TEST_F(Watch, SaysOnceWhyMostFramesFail) {
+    const DriveCamera camera(188, 120);
+    // Noise of a camera in the dark.
+    GreyImage dark{{}, 188, 120};
+    for (std::uint32_t i = 0; i < 188 * 120; ++i)
+        dark.pixels.push_back(static_cast<std::uint8_t>((i * 2654435761U >> 20) % 2 * 2));
+    const auto put = [&](int i, const GreyImage& image) {
+        write_pgm(directory_ / ("c" + std::to_string(100 + i) + ".pgm"), image.view());
+    };
+    for (int i = 0; i < 40; ++i)
+        put(i, i == 3 || i >= 25 ? camera.frame(drive_, i) : dark);
+    ASSERT_EQ(run("watch 'c*.pgm' --fps 10 --code anoto"), 0);
+    EXPECT_EQ(count(errors_, "most frames of the last second were not located"), 1) << errors_;
+}
+
+TEST_F(Watch, WarnsWhenAnotherCodeExplainsTheFrames) {
+    put_raw(10);
+    ASSERT_EQ(run(std::string("watch - --code microdots <drive.raw ") + kRaw), 0);
+    EXPECT_EQ(count(errors_, "code anoto explains the dots"), 1) << errors_;
+    EXPECT_THAT(parsed(output_).at(0)["warning"].dump(), HasSubstr("code anoto explains"));
+    ASSERT_EQ(run(std::string("watch - --code anoto <drive.raw ") + kRaw), 0);
+    EXPECT_THAT(errors_, Not(HasSubstr("explains the dots")));
 }
 
 TEST_F(Watch, LooksAtAPartOfTheFrame) {
