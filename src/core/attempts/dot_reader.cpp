@@ -38,13 +38,24 @@ float bell_reach_px(const Sight& sight) {
     return std::clamp(kRadii * radius_px, 3.3F, is_quick ? kQuickBellReach_px : kMostBellReach_px);
 }
 
+/// Whether all dots in view fall on the pixels alike, along u or v: the grid's steps are whole
+/// pixels. What one look is off does not average out then.
+bool falls_on_pixels_alike(const FloatPlane& p) {
+    constexpr float kDrift_px = 0.05F;  // A view's dots drift through all of a pixel.
+    const float by = 1 / (p.du_x * p.dv_y - p.dv_x * p.du_y);
+    const auto is_whole = [](float px) { return std::abs(px - std::floor(px + 0.5F)) < kDrift_px; };
+    return (is_whole(by * p.dv_y) && is_whole(by * p.dv_x)) ||
+           (is_whole(by * p.du_y) && is_whole(by * p.du_x));
+}
+
 }  // namespace
 
 bool suits_one_look(const Sight& sight) {
     // Of a finer grid, the places of a cell are too near to each other to be told apart at a look.
     constexpr float kFinest_px = 8;
     const float spacing = spacing_px(sight.pattern_from_image);
-    return spacing >= kFinest_px && spacing < kQuickBells_px;
+    return spacing >= kFinest_px && spacing < kQuickBells_px &&
+           !falls_on_pixels_alike(sight.pattern_from_image);
 }
 
 void DotReader::look_at_some(CellsInView view, Sight& sight) {

@@ -112,6 +112,19 @@ struct FitSums {
     std::array<float, 9> right{};
 };
 
+/// Dots that lie where a plane has them, and what they are off; dots listed one after the other are
+/// neighbours.
+struct FittingDots {
+    int points = 0;
+    int outliers = 0;           ///< dots that lie too far off
+    float squares = 0;          ///< of what each is off
+    float squares_of_runs = 0;  ///< of what each run is off together, by its dots
+    int runs = 0;
+
+    /// Of many dots, longer runs tell more.
+    static constexpr int vectors_of_run(int dots) { return dots > 1000 ? 4 : 1; }
+};
+
 /// What dots of square blocks of the image are off together.
 struct BlockSums {
     static constexpr std::size_t kMostAlong = 9;
@@ -223,9 +236,8 @@ struct Kernels {
     /// Sums over the dots that are at most `limit` (spacings^2) off.
     FitSums (*sum_fit)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                        float reach_px, float limit);
-    /// How many dots these are.
-    int (*count_fitting)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
-                         float limit);
+    FittingDots (*count_fitting)(const MeasuredDots& dots, const FloatPlane& plane,
+                                 float displacement, float limit);
     /// The sums of at, scale and turn only; all else is 0.
     FitSums (*sum_similarity)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                               float reach_px, float limit);

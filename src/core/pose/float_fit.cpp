@@ -47,6 +47,20 @@ float settled(const FloatPlane& p, float reach) {
     return std::clamp(0.04F / (bent * bent + 1e-6F), kLeast, kMost);
 }
 
+/// Whether dots one beside the other are off each by itself, as those of flat paper are. Where they
+/// are not, blocks of them tell more (pose/uneven).
+bool is_plainly_even(const FittingDots& fitting) {
+    constexpr float kFitted = 6;
+    constexpr float kSuspect = 1.5F;  ///< deviations; one in 15 honest frames exceeds it
+    if (fitting.outliers > 3 + fitting.points / 50) return false;
+    const auto runs = static_cast<float>(fitting.runs);
+    const float within = (fitting.squares - fitting.squares_of_runs) /
+                         std::max(2 * (static_cast<float>(fitting.points) - runs), 1.0F);
+    const float freedom = std::max(2 * runs - kFitted, 1.0F);
+    const float excess = fitting.squares_of_runs - freedom * within;
+    return excess <= kSuspect * within * std::sqrt(2 * freedom);
+}
+
 }  // namespace
 
 bool fit_plane(const Kernels& kernels, const MeasuredDots& dots, int reach_px, float limit,
@@ -58,6 +72,7 @@ bool fit_plane(const Kernels& kernels, const MeasuredDots& dots, int reach_px, f
     constexpr float kExact = 6e-8F;
     const auto reach = static_cast<float>(reach_px);
     fit.reach_px = reach_px;
+    fit.is_plainly_even = false;
     for (int round = 0; round < kMostRounds; ++round) {
         const FitSums sums = kernels.sum_fit(dots, plane, displacement, reach, limit);
         if (sums.points < kFewestDots) return false;
@@ -73,10 +88,10 @@ bool fit_plane(const Kernels& kernels, const MeasuredDots& dots, int reach_px, f
         const bool is_settled = moved < std::min(bent_before, settled(plane, reach));
         limit = next_limit;
         // Until the same dots would count again.
-        if (is_settled &&
-            kernels.count_fitting(dots, plane, displacement, limit) == fit.normal.points()) {
-            return true;
-        }
+        if (!is_settled) continue;
+        const FittingDots fitting = kernels.count_fitting(dots, plane, displacement, limit);
+        fit.is_plainly_even = is_plainly_even(fitting);
+        if (fitting.points == fit.normal.points()) return true;
     }
     return true;
 }

@@ -20,6 +20,8 @@ struct PoseFit {
     float displacement = 0;  ///< of the typical dot from its intersection, spacings
     Normal normal;           ///< of the parameters of `jacobian`, decomposed
     std::array<Parameters, kPoseParameters> covariance;  ///< of the parameters whitened
+    /// Whether a glance found nothing that neighbouring dots are off in common.
+    bool is_plainly_even = false;
     Surface surface = Surface::even;
     /// Of x, y and theta, besides what each dot's scatter makes of them.
     std::array<std::array<float, 3>, 3> uneven{};

@@ -20,7 +20,7 @@ constexpr float kTogether = 36;
 constexpr std::size_t kMostDots = 1024;
 constexpr std::size_t kLines = 48;  ///< in each direction
 constexpr int kLastLine = static_cast<int>(kLines) - 1;
-constexpr int kDirections = 16;
+constexpr int kDirections = 8;
 /// Spacings by which the reference point may lie beyond the line.
 constexpr float kBehind = 0.5F;
 constexpr float kFewestBeyond = 12;
@@ -144,17 +144,16 @@ Slip find_slip(const MeasuredDots& dots, const FloatPlane& plane, const PoseFit&
                FloatVec reference_px) {
     const Search search(dots, plane, fit, reference_px);
     Slip best;
-    constexpr float kCos = 0.92387953F;  // of a 16th of a turn
-    constexpr float kSin = 0.38268343F;
+    constexpr float kSin = 0.70710678F;  // of an 8th of a turn, and its cosine
     FloatVec direction{1, 0};
     for (int i = 0; i < kDirections; ++i) {
         search.try_direction(direction, best);
-        direction = turned(direction, kCos, kSin);
+        direction = turned(direction, kSin, kSin);
     }
-    // Turned a little, it may explain more, but not twice as much.
-    if (best.gain < Slip::kPossible / 2) return best;
+    // Turned a little, it may explain more, but not four times as much.
+    if (best.gain < Slip::kPossible / 4) return best;
     float s = kSin;
-    for (int halving = 0; halving < 4; ++halving) {
+    for (int halving = 0; halving < 5; ++halving) {
         s /= 2;
         const float c = std::sqrt(1 - s * s);
         const FloatVec around = best.direction;

@@ -155,6 +155,7 @@ void fit_uneven(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_p
                 FloatPlane& plane, PoseFit& fit) {
     fit.surface = Surface::even;
     fit.uneven = {};
+    if (fit.is_plainly_even) return;
     const Blocks blocks(kernels, dots, plane, fit);
     if (may_be_uneven(blocks)) consider_line(kernels, dots, reference_px, blocks, plane, fit);
 }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <set>
 #include <vector>
@@ -475,10 +476,13 @@ TEST(KernelsPlain, SimilarityIsSummedOverDotsNearTheirPlaces) {
         double points = 0;
         double squares = 0;
         double right_x = 0;
+        int seen = 0;
+        std::map<std::size_t, std::array<double, 3>> runs;  // dots, and how far off
         for (std::size_t k = 0; k < static_cast<std::size_t>(table.dots.count); ++k) {
             const auto x = static_cast<double>(table.dots.x[k]);
             const auto y = static_cast<double>(table.dots.y[k]);
             if (table.dots.x[k] >= kNoDot_px) continue;
+            ++seen;
             const int x_bit = table.dots.bits[k] & 1;
             const int y_bit = table.dots.bits[k] >> 1;
             const auto [at_x, at_y] = exactly(plane, x, y);
@@ -490,9 +494,21 @@ TEST(KernelsPlain, SimilarityIsSummedOverDotsNearTheirPlaces) {
             ++points;
             squares += left_x * left_x + left_y * left_y;
             right_x += left_x;
+            auto& [of_run, off_x, off_y] = runs[k / 8];
+            of_run += 1;
+            off_x += left_x;
+            off_y += left_y;
         }
-        EXPECT_EQ(kernels.count_fitting(table.dots, plane, 0.167F, static_cast<float>(limit)),
-                  points);
+        double squares_of_runs = 0;
+        for (const auto& [index, run] : runs)
+            squares_of_runs += (run[1] * run[1] + run[2] * run[2]) / run[0];
+        const FittingDots fitting =
+            kernels.count_fitting(table.dots, plane, 0.167F, static_cast<float>(limit));
+        EXPECT_EQ(fitting.points, points);
+        EXPECT_EQ(fitting.outliers, seen - points);
+        EXPECT_EQ(fitting.runs, runs.size());
+        EXPECT_NEAR(fitting.squares, squares, 1e-4);
+        EXPECT_NEAR(fitting.squares_of_runs, squares_of_runs, 1e-4);
         for (const FitSums& sums :
              {kernels.sum_fit(table.dots, plane, 0.167F, 100, static_cast<float>(limit)),
               kernels.sum_similarity(table.dots, plane, 0.167F, 100, static_cast<float>(limit))}) {
