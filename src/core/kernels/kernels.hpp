@@ -112,17 +112,14 @@ struct FitSums {
     std::array<float, 9> right{};
 };
 
-/// Dots that lie where a plane has them, and what they are off; dots listed one after the other are
-/// neighbours.
+/// Dots that lie where a plane has them, and what they are off. Four dots listed one after the
+/// other are a run of neighbours.
 struct FittingDots {
     int points = 0;
     int outliers = 0;           ///< dots that lie too far off
     float squares = 0;          ///< of what each is off
     float squares_of_runs = 0;  ///< of what each run is off together, by its dots
     int runs = 0;
-
-    /// Of many dots, longer runs tell more.
-    static constexpr int vectors_of_run(int dots) { return dots > 1000 ? 4 : 1; }
 };
 
 /// What dots of square blocks of the image are off together.

@@ -51,7 +51,7 @@ float settled(const FloatPlane& p, float reach) {
 /// are not, blocks of them tell more (pose/uneven).
 bool is_plainly_even(const FittingDots& fitting) {
     constexpr float kFitted = 6;
-    constexpr float kSuspect = 1.5F;  ///< deviations; one in 15 honest frames exceeds it
+    constexpr float kSuspect = 2.2F;  ///< deviations; few honest frames exceed it
     if (fitting.outliers > 3 + fitting.points / 50) return false;
     const auto runs = static_cast<float>(fitting.runs);
     const float within = (fitting.squares - fitting.squares_of_runs) /

@@ -494,7 +494,7 @@ TEST(KernelsPlain, SimilarityIsSummedOverDotsNearTheirPlaces) {
             ++points;
             squares += left_x * left_x + left_y * left_y;
             right_x += left_x;
-            auto& [of_run, off_x, off_y] = runs[k / 8];
+            auto& [of_run, off_x, off_y] = runs[k / 4];
             of_run += 1;
             off_x += left_x;
             off_y += left_y;
