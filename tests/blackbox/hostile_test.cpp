@@ -204,8 +204,10 @@ TEST_F(Hostile, AReaderThatLeavesEndsNeitherMapNorLog) {
     EXPECT_EQ(std::ranges::count(output_, '\n'), 1);
     EXPECT_EQ(std::ranges::count(file("log.csv"), '\n'), 41);
     EXPECT_THAT(file("map.svg"), HasSubstr("40 frames"));
-    EXPECT_EQ(shell("mkfifo packets; (head -c 30 packets > got) & "
-                    "\"$T\" watch frames --packets packets -o lines; wait"),
+    // Frames come when the reader has left.
+    EXPECT_EQ(shell("mkfifo packets; (exec 3< packets; exec 3<&-; : > left) & "
+                    "(until [ -e left ]; do sleep 0.01; done; tail -q -c 22560 frames/*.pgm) |"
+                    "\"$T\" watch - --size 188x120 --packets packets -o lines; wait"),
               0);
     EXPECT_THAT(errors_, HasSubstr("cannot write packets: Broken pipe"));
     EXPECT_EQ(std::ranges::count(file("lines"), '\n'), 40);
