@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <set>
 #include <vector>
 
 #include "core/detect/patch.hpp"
@@ -17,8 +16,6 @@ namespace {
 
 using namespace core;
 
-constexpr std::uint64_t kSeed = 20262;
-
 /// Where a plane without perspective has a point of the image, in double precision.
 std::array<double, 2> exactly(const FloatPlane& plane, double x, double y) {
     const auto along = [&](float at, float du, float dv) {
@@ -27,25 +24,12 @@ std::array<double, 2> exactly(const FloatPlane& plane, double x, double y) {
     return {along(plane.at_x, plane.du_x, plane.dv_x), along(plane.at_y, plane.du_y, plane.dv_y)};
 }
 
-/// Calls `use(kernels, rng)` so many times for each form, each time with numbers of its own.
-template <typename Use>
-void repeat(int times, Use use) {
-    for (const Kernels* form : forms()) {
-        for (int i = 0; i < times && !testing::Test::HasFailure(); ++i) {
-            SCOPED_TRACE(std::string(form->name) + ", seed " + std::to_string(kSeed) + ", case " +
-                         std::to_string(i));
-            Rng rng(kSeed, static_cast<std::uint64_t>(i));
-            use(*form, rng);
-        }
-    }
-}
-
 int mean(int a, int b) {
     return (a + b + 1) / 2;
 }
 
 TEST(KernelsPlain, PatchIsSmoothedByMeansOfMeans) {
-    repeat(10, [](const Kernels& kernels, Rng& rng) {
+    repeat_with_each_form(10, [](const Kernels& kernels, Rng& rng) {
         const Picture picture(whole(rng, 48, 250), whole(rng, 48, 190), 3, rng);
         auto patch = std::make_unique<Patch>();
         ASSERT_TRUE(place_patch(picture.view, picture.view.width_px / 2, picture.view.height_px / 2,
@@ -76,7 +60,7 @@ TEST(KernelsPlain, PatchIsSmoothedByMeansOfMeans) {
 }
 
 TEST(KernelsPlain, MinimaAreDarkerThanTheirNeighbours) {
-    repeat(10, [](const Kernels& kernels, Rng& rng) {
+    repeat_with_each_form(10, [](const Kernels& kernels, Rng& rng) {
         Picture picture(whole(rng, 100, 250), whole(rng, 80, 190), 0, rng);
         picture.draw_dots(rng.uniform(8, 14), rng);
         auto patch = std::make_unique<Patch>();
@@ -115,7 +99,7 @@ TEST(KernelsPlain, MinimaAreDarkerThanTheirNeighbours) {
 }
 
 TEST(KernelsPlain, LinesAreScoredAgainstTheMainSequence) {
-    repeat(100, [](const Kernels& kernels, Rng& rng) {
+    repeat_with_each_form(100, [](const Kernels& kernels, Rng& rng) {
         const std::uint64_t bits = rng.bits();
         const std::uint64_t valid = rng.bits() | (rng.below(2) == 0 ? rng.bits() : 0);
         ScoredLine line;
@@ -167,7 +151,7 @@ void expect_sums(const Picture& picture, int half_px, int cut_q8, const Measured
 }
 
 TEST(KernelsPlain, WindowsAreSummedUpToTheBorder) {
-    repeat(40, [](const Kernels& kernels, Rng& rng) {
+    repeat_with_each_form(40, [](const Kernels& kernels, Rng& rng) {
         Picture picture(whole(rng, 64, 200), whole(rng, 64, 200), whole(rng, 0, 3), rng);
         const int half_px = whole(rng, 2, kMostHalfWindow_px);
         CellsInView view;
@@ -231,7 +215,7 @@ struct OneDot {
 };
 
 TEST(KernelsPlain, CentresAreFoundWhereDotsAre) {
-    repeat(200, [](const Kernels& kernels, Rng& rng) {
+    repeat_with_each_form(200, [](const Kernels& kernels, Rng& rng) {
         constexpr double kMargin_px = 2;
         const double sigma_px = rng.uniform(0.7, 4);
         // Narrower bells see hardly more than the flat top of a dot, in whole grey levels.
@@ -265,7 +249,7 @@ TEST(KernelsPlain, CentresFarFromTheirDotsStay) {
 }
 
 TEST(KernelsPlain, PredictedCentresAreFoundHoweverFarDotsAreOff) {
-    repeat(100, [](const Kernels& kernels, Rng& rng) {
+    repeat_with_each_form(100, [](const Kernels& kernels, Rng& rng) {
         // The same dot several times, predicted here and there: how fast a bell's moments grow with
         // the distance is learnt from those that lie near.
         const double u = rng.uniform(20, OneDot::kSide_px - 21);
@@ -292,7 +276,7 @@ TEST(KernelsPlain, PredictedCentresAreFoundHoweverFarDotsAreOff) {
 }
 
 TEST(KernelsPlain, PredictedDotsAreReadByTheDarkestPlace) {
-    repeat(40, [](const Kernels& kernels, Rng& rng) {
+    repeat_with_each_form(40, [](const Kernels& kernels, Rng& rng) {
         // A dot below the intersection at (40, 40), which is symbol 3; the grid stands upright.
         const OneDot dot(40, 41.8, 1, 0);
         CellsInView view = dot.cells;
@@ -330,7 +314,7 @@ TEST(KernelsPlain, PredictedDotsAreReadByTheDarkestPlace) {
 }
 
 TEST(KernelsPlain, BitsStandInTheirLines) {
-    repeat(40, [](const Kernels& kernels, Rng& rng) {
+    repeat_with_each_form(40, [](const Kernels& kernels, Rng& rng) {
         const FloatPlane plane = random_plane(rng, 11, 0, 0);
         const DotTable table = random_measures(plane, whole(rng, 0, 6000), 0.167F, rng);
         BitLines columns;
@@ -367,109 +351,8 @@ TEST(KernelsPlain, BitsStandInTheirLines) {
     });
 }
 
-/// Places of the four sequences, and a rival's growth in one of them.
-struct OwnPlaces {
-    const code::Basis& basis;
-    std::array<std::uint32_t, 4> own;
-
-    explicit OwnPlaces(Rng& rng) : basis(code::basis(static_cast<Profile>(rng.below(3)))) {
-        for (std::size_t k = 0; k < own.size(); ++k)
-            own[k] = rng.below(basis[k].length);
-    }
-    int growth(std::size_t k, std::uint32_t place, int line) const {
-        return (basis[k].rolls[place + static_cast<std::uint32_t>(line)] -
-                basis[k].rolls[own[k] + static_cast<std::uint32_t>(line)] + 63) %
-               63;
-    }
-};
-
-TEST(KernelsPlain, SimilarPlacesLoseTooLittleByTheirSteps) {
-    int count = 0;
-    repeat(50, [&](const Kernels& kernels, Rng& rng) {
-        const OwnPlaces places(rng);
-        StepLosses steps;
-        steps.count = whole(rng, 0, 63);
-        for (std::uint8_t& parts : steps.parts)
-            parts = static_cast<std::uint8_t>(std::min(whole(rng, 0, 9), StepLosses::kEnough));
-        for (std::size_t k = 0; k < 4; ++k) {
-            const code::Secondary& a = places.basis[k];
-            const PlaceBits similar = kernels.find_similar_places(a, places.own[k], steps);
-            for (std::uint32_t place = 0; place < 256; ++place) {
-                const bool is_similar = (similar[place / 32] >> place % 32 & 1) != 0;
-                if (place >= a.length || place == places.own[k]) {
-                    ASSERT_FALSE(is_similar);
-                    continue;
-                }
-                // All steps that differ, though no two in a row: more than that cannot be counted.
-                int most = 0;
-                int most_before = 0;
-                for (int step = 0; step < steps.count; ++step) {
-                    const auto at = static_cast<std::uint32_t>(step);
-                    const bool differ = a.digits[(place + at) % a.length] !=
-                                        a.digits[(places.own[k] + at) % a.length];
-                    const int with_this = most_before + (differ ? steps.parts[at] : 0);
-                    most_before = most;
-                    most = std::max(most, with_this);
-                }
-                if (most >= StepLosses::kEnough) continue;
-                ASSERT_TRUE(is_similar) << k << ' ' << place;
-                ++count;
-            }
-        }
-    });
-    EXPECT_GT(count, 1000);
-}
-
-TEST(KernelsPlain, ListHasAllPlacesThatLoseTooLittle) {
-    int listed = 0;
-    repeat(50, [&](const Kernels& kernels, Rng& rng) {
-        const OwnPlaces places(rng);
-        std::vector<LineLoss> lines;
-        const int count = whole(rng, 8, 40);
-        for (int line = 0; line < count; ++line)
-            lines.push_back(
-                {static_cast<std::uint8_t>(line), static_cast<std::uint8_t>(whole(rng, 1, 4))});
-        std::stable_sort(lines.begin(), lines.end(),
-                         [](LineLoss a, LineLoss b) { return a.loss > b.loss; });
-        const int enough = whole(rng, 4, 14);
-        SimilarPlaceList list;
-        const auto sequences = static_cast<unsigned>(whole(rng, 1, 15));
-        if (!kernels.list_similar_places(places.basis, places.own, sequences, lines, enough, list))
-            return;
-        std::set<std::array<int, 3>>
-            found;  // sequence, place and the shift at which it is like the reading
-        for (const auto& [k, place, line] :
-             std::span(list.places).first(static_cast<std::size_t>(list.count)))
-            found.insert({k, place, places.growth(k, place, line)});
-        for (std::size_t k = 0; k < 4; ++k) {
-            if ((sequences >> k & 1) == 0) {
-                const auto is_of_it = [&](const auto& rival) {
-                    return rival[0] == static_cast<int>(k);
-                };
-                ASSERT_TRUE(std::ranges::none_of(found, is_of_it)) << k;
-                continue;
-            }
-            for (std::uint32_t place = 0; place < places.basis[k].length; ++place) {
-                if (place == places.own[k]) continue;
-                for (int shift = 0; shift < 63; ++shift) {
-                    int lost = 0;
-                    for (const auto& [line, loss] : lines)
-                        lost += places.growth(k, place, line) == shift ? 0 : loss;
-                    const std::array<int, 3> rival{static_cast<int>(k), static_cast<int>(place),
-                                                   shift};
-                    // It may have others, too: a shift is looked at from its own line on.
-                    if (lost >= enough) continue;
-                    ASSERT_TRUE(found.count(rival) > 0) << k << ' ' << place << ' ' << shift;
-                    ++listed;
-                }
-            }
-        }
-    });
-    EXPECT_GT(listed, 100);
-}
-
 TEST(KernelsPlain, SimilarityIsSummedOverDotsNearTheirPlaces) {
-    repeat(30, [](const Kernels& kernels, Rng& rng) {
+    repeat_with_each_form(30, [](const Kernels& kernels, Rng& rng) {
         const FloatPlane plane = random_plane(rng, 11, 0, 0);
         const DotTable table = random_measures(plane, whole(rng, 20, 300), 0.167F, rng);
         const double limit = 0.012;

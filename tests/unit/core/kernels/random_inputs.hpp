@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <span>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -53,6 +55,21 @@ void expect_same(Run run) {
         Record found;
         run(*form, found);
         EXPECT_TRUE(found == expected) << form->name;
+    }
+}
+
+inline constexpr std::uint64_t kPlainSeed = 20262;
+
+/// Calls `use(kernels, rng)` so many times for each form, each time with numbers of its own.
+template <typename Use>
+void repeat_with_each_form(int times, Use use) {
+    for (const core::Kernels* form : forms()) {
+        for (int i = 0; i < times && !testing::Test::HasFailure(); ++i) {
+            SCOPED_TRACE(std::string(form->name) + ", seed " + std::to_string(kPlainSeed) +
+                         ", case " + std::to_string(i));
+            Rng rng(kPlainSeed, static_cast<std::uint64_t>(i));
+            use(*form, rng);
+        }
     }
 }
 
