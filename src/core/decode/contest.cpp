@@ -89,16 +89,18 @@ Contest::Contest(Profile profile, std::span<const TrackedLine> lines_, const Axi
       odds_per_bit_q8_(odds_q8) {
     follow_rolls(profile, reading);
     for (int i = 0; i < count_; ++i) {
-        const bool is_seen = bits_[static_cast<std::size_t>(i)].seen != 0;
-        set_least_loss(i, is_seen ? kScoreOfBit * nearest(i).lost_bits : 0);
+        const auto line = static_cast<std::size_t>(i);
+        const Nearest others = bits_[line].seen != 0 ? nearest(i) : Nearest{0, kOtherRolls_q8};
+        set_least_loss(i, kScoreOfBit * others.lost_bits);
+        log2_of_nearest_q8_[line] = static_cast<std::int16_t>(others.log2_count_q8);
     }
     hopeless_score_ = most_regained_ + -kNegligible_q8 * 2 * 127 / odds_q8;
 }
 
 int Contest::log2_of_nearest_q8(int line) const {
-    if (bits_[static_cast<std::size_t>(line)].seen == 0) return kOtherRolls_q8;
     // All others lose a bit more.
-    const int log2_q8 = add_log2(nearest(line).log2_count_q8, kOtherRolls_q8 - odds_per_bit_q8_);
+    const int log2_q8 = add_log2(log2_of_nearest_q8_[static_cast<std::size_t>(line)],
+                                 kOtherRolls_q8 - odds_per_bit_q8_);
     return std::min(log2_q8, kOtherRolls_q8);
 }
 

@@ -106,6 +106,7 @@ class Contest {
     int hopeless_score_ = 0;
     std::array<std::uint8_t, kMaxLines> rolls_{};
     std::array<std::int16_t, kMaxLines> least_losses_{};
+    std::array<std::int16_t, kMostTracked> log2_of_nearest_q8_;  ///< how many lose least; of bits
 };
 
 /// By how much the roll of a rival exceeds that of the reading in each line, but for a shift of all
