@@ -26,7 +26,9 @@
 #include "dotpose/sheet.hpp"
 #include "dotpose/sheet_file.hpp"
 
-namespace [[gnu::visibility("default")]] dotpose {
+#pragma GCC visibility push(default)
+
+namespace dotpose {
 
 /// Frame `index` of the series, from 0. May throw Error.
 using FrameAt = std::function<GreyImage(int index)>;
@@ -234,4 +236,6 @@ void draw_spin(const std::filesystem::path& path, const SpinCalibration& calibra
 void draw_stitching(const std::filesystem::path& path, std::span<const SheetEntry> before,
                     const Stitching& stitching);
 
-}  // namespace gnu::visibility("default")]]dotpose
+}  // namespace dotpose
+
+#pragma GCC visibility pop

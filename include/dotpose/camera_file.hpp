@@ -24,7 +24,9 @@
 #include "dotpose/sheet.hpp"
 #include "dotpose/workspace.hpp"
 
-namespace [[gnu::visibility("default")]] dotpose {
+#pragma GCC visibility push(default)
+
+namespace dotpose {
 
 /// Version of the format that is written, and the only one that is read.
 inline constexpr int kCameraFileVersion = 1;
@@ -136,4 +138,6 @@ void use_camera(const Camera& camera, int width_px, int height_px, Options& opti
 Fix with_camera(const Fix& fix, const Camera& camera, const Options& options,
                 const Workspace& workspace, const AxisScale& print = {});
 
-}  // namespace gnu::visibility("default")]]dotpose
+}  // namespace dotpose
+
+#pragma GCC visibility pop

@@ -27,7 +27,9 @@
 #include "dotpose/image_file.hpp"
 #include "dotpose/sheet.hpp"
 
-namespace [[gnu::visibility("default")]] dotpose {
+#pragma GCC visibility push(default)
+
+namespace dotpose {
 
 struct CheckPrintOptions {
     /// What was printed. The section is found, not believed. Patches of a test page say themselves
@@ -176,4 +178,6 @@ PrintCheck check_print(const ImageView& scan, const CheckPrintOptions& options);
 void draw_distortion(const std::filesystem::path& path, const ImageView& scan,
                      const PrintCheck& check);
 
-}  // namespace gnu::visibility("default")]]dotpose
+}  // namespace dotpose
+
+#pragma GCC visibility pop

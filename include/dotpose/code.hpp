@@ -13,7 +13,9 @@
 
 #include "dotpose/status.hpp"
 
-namespace [[gnu::visibility("default")]] dotpose {
+#pragma GCC visibility push(default)
+
+namespace dotpose {
 
 /// Positions per axis before the four difference sequences line up again: 236 * 233 * 31 * 241.
 inline constexpr std::uint32_t kPositionsPerAxis = 410'815'348;
@@ -114,4 +116,6 @@ Status position_from_rolls(Profile profile, std::span<const std::uint8_t> rolls,
 int section_of(Profile profile, int roll_seen, std::uint32_t position,
                std::uint32_t cross_position) noexcept;
 
-}  // namespace gnu::visibility("default")]]dotpose
+}  // namespace dotpose
+
+#pragma GCC visibility pop

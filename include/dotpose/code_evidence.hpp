@@ -19,7 +19,9 @@
 #include "dotpose/fix.hpp"
 #include "dotpose/locate.hpp"
 
-namespace [[gnu::visibility("default")]] dotpose {
+#pragma GCC visibility push(default)
+
+namespace dotpose {
 
 /// How likely each profile is for one sheet, by all frames of it so far. Frames of the same dots
 /// count once, since their faults are the same.
@@ -103,4 +105,6 @@ class CodeReader {
     CodeEvidence evidence_;
 };
 
-}  // namespace gnu::visibility("default")]]dotpose
+}  // namespace dotpose
+
+#pragma GCC visibility pop

@@ -19,7 +19,9 @@
 #include "dotpose/sheet.hpp"
 #include "dotpose/workspace.hpp"
 
-namespace [[gnu::visibility("default")]] dotpose {
+#pragma GCC visibility push(default)
+
+namespace dotpose {
 
 /// What the caption of `draw_frame` says besides the fix.
 struct DrawOptions {
@@ -59,4 +61,6 @@ void draw_path(std::ostream& out, const Sheet& sheet, std::span<const PathPoint>
 void draw_path(const std::filesystem::path& file, const Sheet& sheet,
                std::span<const PathPoint> path, const std::string& title = {});
 
-}  // namespace gnu::visibility("default")]]dotpose
+}  // namespace dotpose
+
+#pragma GCC visibility pop

@@ -4,7 +4,9 @@
 
 #include <stdexcept>
 
-namespace [[gnu::visibility("default")]] dotpose {
+#pragma GCC visibility push(default)
+
+namespace dotpose {
 
 /// Something could not be done; `what()` is one sentence for the user, without a full stop, that
 /// names the file or value concerned.
@@ -20,4 +22,6 @@ class BadArgument : public Error {
     using Error::Error;
 };
 
-}  // namespace gnu::visibility("default")]]dotpose
+}  // namespace dotpose
+
+#pragma GCC visibility pop

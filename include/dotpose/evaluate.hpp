@@ -33,7 +33,9 @@
 #include "dotpose/simulate.hpp"
 #include "dotpose/workspace.hpp"
 
-namespace [[gnu::visibility("default")]] dotpose {
+#pragma GCC visibility push(default)
+
+namespace dotpose {
 
 // ---- What is true ----
 
@@ -279,4 +281,6 @@ void write_protocol(const std::filesystem::path& folder, const Protocol& protoco
 /// Writes sweep-KIND.csv, .svg and .png.
 void write_sweep(const std::filesystem::path& folder, const Sweep& sweep);
 
-}  // namespace gnu::visibility("default")]]dotpose
+}  // namespace dotpose
+
+#pragma GCC visibility pop

@@ -9,7 +9,9 @@
 #include "dotpose/stages.hpp"
 #include "dotpose/status.hpp"
 
-namespace [[gnu::visibility("default")]] dotpose {
+#pragma GCC visibility push(default)
+
+namespace dotpose {
 
 /// The attempt of `locate` that made a fix: src/core/attempts has one file for each.
 enum class Attempt : std::uint8_t {
@@ -78,4 +80,6 @@ struct Fix {
     double p_wrong() const { return std::ldexp(1.0, p_wrong_log2); }
 };
 
-}  // namespace gnu::visibility("default")]]dotpose
+}  // namespace dotpose
+
+#pragma GCC visibility pop

@@ -6,11 +6,15 @@
 #include "dotpose/image_file.hpp"
 #include "dotpose/locate.hpp"
 
-namespace [[gnu::visibility("default")]] dotpose {
+#pragma GCC visibility push(default)
+
+namespace dotpose {
 
 /// As `read_image`; what is larger than `locate` takes is not decoded: ImageTooLarge.
 inline GreyImage read_frame(const std::filesystem::path& path) {
     return read_image(path, kMaxFrameSide_px * kMaxFrameSide_px);
 }
 
-}  // namespace gnu::visibility("default")]]dotpose
+}  // namespace dotpose
+
+#pragma GCC visibility pop

@@ -15,7 +15,9 @@
 
 #include "dotpose/fix.hpp"
 
-namespace [[gnu::visibility("default")]] dotpose {
+#pragma GCC visibility push(default)
+
+namespace dotpose {
 
 struct PacerOptions {
     /// Without movement for this long, the device counts as stationary. Longer costs energy,
@@ -58,4 +60,6 @@ class FramePacer {
     std::int64_t rest_since_us_ = 0;
 };
 
-}  // namespace gnu::visibility("default")]]dotpose
+}  // namespace dotpose
+
+#pragma GCC visibility pop

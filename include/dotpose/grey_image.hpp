@@ -7,7 +7,9 @@
 
 #include "dotpose/image.hpp"
 
-namespace [[gnu::visibility("default")]] dotpose {
+#pragma GCC visibility push(default)
+
+namespace dotpose {
 
 /// Rows from the top, without padding: pixel (u, v) is `pixels[v * width_px + u]`; 0 is black.
 struct GreyImage {
@@ -21,4 +23,6 @@ struct GreyImage {
     }
 };
 
-}  // namespace gnu::visibility("default")]]dotpose
+}  // namespace dotpose
+
+#pragma GCC visibility pop

@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace [[gnu::visibility("default")]] dotpose {
+#pragma GCC visibility push(default)
+
+namespace dotpose {
 
 /// Row `v` starts at `pixels + v * stride_bytes`; dark dots on light paper, 0 is black.
 struct ImageView {
@@ -16,4 +18,6 @@ struct ImageView {
     const std::uint8_t* row(int v) const { return pixels + v * stride_bytes; }
 };
 
-}  // namespace gnu::visibility("default")]]dotpose
+}  // namespace dotpose
+
+#pragma GCC visibility pop

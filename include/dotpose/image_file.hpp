@@ -21,7 +21,9 @@
 #include "dotpose/error.hpp"
 #include "dotpose/grey_image.hpp"
 
-namespace [[gnu::visibility("default")]] dotpose {
+#pragma GCC visibility push(default)
+
+namespace dotpose {
 
 /// Largest image that can be read, and what is read unless more is asked for.
 inline constexpr int kMaxImageSide_px = 100'000;
@@ -62,4 +64,6 @@ void write_pgm(const std::filesystem::path& path, ImageView image);
 /// Writes 8-bit grey PNG, replacing the file; equal images give equal files. Throws Error as above.
 void write_png(const std::filesystem::path& path, ImageView image);
 
-}  // namespace gnu::visibility("default")]]dotpose
+}  // namespace dotpose
+
+#pragma GCC visibility pop

@@ -19,7 +19,9 @@
 #include "dotpose/prediction.hpp"
 #include "dotpose/workspace.hpp"
 
-namespace [[gnu::visibility("default")]] dotpose {
+#pragma GCC visibility push(default)
+
+namespace dotpose {
 
 /// Images this size can be located, in pixels per side.
 inline constexpr int kMinFrameSide_px = 64;
@@ -55,4 +57,6 @@ Fix finish(const Options& options, Workspace& workspace);
 /// not_certain.
 Fix finish_device(const Options& options, Workspace& workspace);
 
-}  // namespace gnu::visibility("default")]]dotpose
+}  // namespace dotpose
+
+#pragma GCC visibility pop

@@ -14,7 +14,9 @@
 #include "dotpose/error.hpp"
 #include "dotpose/sheet.hpp"
 
-namespace [[gnu::visibility("default")]] dotpose {
+#pragma GCC visibility push(default)
+
+namespace dotpose {
 
 /// A device. All lengths above 0.
 struct Optics {
@@ -81,4 +83,6 @@ struct OpticsReport {
 
 OpticsReport design_optics(const Optics& optics);
 
-}  // namespace gnu::visibility("default")]]dotpose
+}  // namespace dotpose
+
+#pragma GCC visibility pop

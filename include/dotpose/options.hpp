@@ -5,7 +5,9 @@
 
 #include "dotpose/code.hpp"
 
-namespace [[gnu::visibility("default")]] dotpose {
+#pragma GCC visibility push(default)
+
+namespace dotpose {
 
 /// Radial distortion, paper eq. 1-2: p_u = m + r_d / (1 + k |r_d|^2), m the distortion centre.
 struct Lens {
@@ -96,4 +98,6 @@ struct Options {
     std::int32_t reference_dy_q8 = 0;
 };
 
-}  // namespace gnu::visibility("default")]]dotpose
+}  // namespace dotpose
+
+#pragma GCC visibility pop

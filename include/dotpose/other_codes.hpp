@@ -7,7 +7,9 @@
 
 #include "dotpose/code.hpp"
 
-namespace [[gnu::visibility("default")]] dotpose {
+#pragma GCC visibility push(default)
+
+namespace dotpose {
 
 /// Of one axis. Odds are those of the bits, against the place read; 1: they explain them as well.
 struct OtherAxis {
@@ -38,4 +40,6 @@ struct OtherCodes {
     std::array<OtherCode, kProfileCount> of;  ///< by profile; that read stays as it is
 };
 
-}  // namespace gnu::visibility("default")]]dotpose
+}  // namespace dotpose
+
+#pragma GCC visibility pop

@@ -16,7 +16,9 @@
 
 #include "dotpose/print.hpp"
 
-namespace [[gnu::visibility("default")]] dotpose {
+#pragma GCC visibility push(default)
+
+namespace dotpose {
 
 /// One page with dots. Its sheet's frame begins at the top left corner of the page as it is shown.
 struct OverlaidPage {
@@ -65,4 +67,6 @@ struct OverlayReport {
 OverlayReport overlay_pdf(const std::filesystem::path& in, const std::filesystem::path& out,
                           const OverlayOptions& options = {});
 
-}  // namespace gnu::visibility("default")]]dotpose
+}  // namespace dotpose
+
+#pragma GCC visibility pop

@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <span>
 
-namespace [[gnu::visibility("default")]] dotpose {
+#pragma GCC visibility push(default)
+
+namespace dotpose {
 
 /// Dots in a patch, from its middle, in px of the image.
 struct PatchDots {
@@ -73,4 +75,6 @@ struct MeasuredDots {
 /// Far away.
 inline constexpr float kNoDot_px = 1e6F;
 
-}  // namespace gnu::visibility("default")]]dotpose
+}  // namespace dotpose
+
+#pragma GCC visibility pop

@@ -20,7 +20,9 @@
 #include "dotpose/code.hpp"
 #include "dotpose/fix.hpp"
 
-namespace [[gnu::visibility("default")]] dotpose {
+#pragma GCC visibility push(default)
+
+namespace dotpose {
 
 inline constexpr int kPacketVersion = 1;
 
@@ -79,4 +81,6 @@ class PacketReader {
     PosePacket packet_;
 };
 
-}  // namespace gnu::visibility("default")]]dotpose
+}  // namespace dotpose
+
+#pragma GCC visibility pop

@@ -14,7 +14,9 @@
 #include "dotpose/fix.hpp"
 #include "dotpose/stages.hpp"
 
-namespace [[gnu::visibility("default")]] dotpose {
+#pragma GCC visibility push(default)
+
+namespace dotpose {
 
 struct Prediction {
     /// The map from the image to the pattern, counted in spacings from `place`.
@@ -36,4 +38,6 @@ struct Prediction {
 Prediction moved(const Prediction& prediction, Profile profile, Vec by_q16, std::int32_t turn_bam,
                  Vec pivot_q8);
 
-}  // namespace gnu::visibility("default")]]dotpose
+}  // namespace dotpose
+
+#pragma GCC visibility pop

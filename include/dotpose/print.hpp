@@ -21,7 +21,9 @@
 #include "dotpose/error.hpp"
 #include "dotpose/sheet.hpp"
 
-namespace [[gnu::visibility("default")]] dotpose {
+#pragma GCC visibility push(default)
+
+namespace dotpose {
 
 /// Largest width and height of a page, in mm.
 inline constexpr double kMaxPage_mm = 100'000;
@@ -165,4 +167,6 @@ std::vector<InkRectangle> ink_text(std::string_view text, double x_mm, double y_
 void write_page(const PrintPage& page, const std::filesystem::path& path,
                 const PrintOptions& options = {});
 
-}  // namespace gnu::visibility("default")]]dotpose
+}  // namespace dotpose
+
+#pragma GCC visibility pop

@@ -4,7 +4,9 @@
 
 #include <cstdint>
 
-namespace [[gnu::visibility("default")]] dotpose {
+#pragma GCC visibility push(default)
+
+namespace dotpose {
 
 /// Scrambles 64 bits so that every input bit affects every output bit.
 /// Source: the finalizer of splitmix64 (Steele, Lea, Flood, OOPSLA 2014).
@@ -71,4 +73,6 @@ class Rng {
     std::uint64_t state_;
 };
 
-}  // namespace gnu::visibility("default")]]dotpose
+}  // namespace dotpose
+
+#pragma GCC visibility pop

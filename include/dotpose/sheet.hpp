@@ -7,7 +7,9 @@
 
 #include "dotpose/code.hpp"
 
-namespace [[gnu::visibility("default")]] dotpose {
+#pragma GCC visibility push(default)
+
+namespace dotpose {
 
 /// Grid spacing at which dots fall on printer pixels at 300, 600 and 1200 dpi (paper III-A.1).
 inline constexpr double kDefaultSpacing_mm = 0.508;
@@ -40,4 +42,6 @@ struct Sheet {
     double origin_y_mm = 0;
 };
 
-}  // namespace gnu::visibility("default")]]dotpose
+}  // namespace dotpose
+
+#pragma GCC visibility pop

@@ -30,7 +30,9 @@
 #include "dotpose/fix.hpp"
 #include "dotpose/sheet.hpp"
 
-namespace [[gnu::visibility("default")]] dotpose {
+#pragma GCC visibility push(default)
+
+namespace dotpose {
 
 /// Version of the format that is written, and the only one that is read.
 inline constexpr int kSheetFileVersion = 1;
@@ -204,4 +206,6 @@ std::optional<SheetPlace> find_sheet(std::span<const SheetEntry> sheets, Profile
 /// image x axis. None if the sheet's own pose is not known.
 std::optional<WorldPose> world_pose(const SheetPlace& place);
 
-}  // namespace gnu::visibility("default")]]dotpose
+}  // namespace dotpose
+
+#pragma GCC visibility pop

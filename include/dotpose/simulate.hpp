@@ -30,7 +30,9 @@
 #include "dotpose/random.hpp"
 #include "dotpose/sheet.hpp"
 
-namespace [[gnu::visibility("default")]] dotpose {
+#pragma GCC visibility push(default)
+
+namespace dotpose {
 
 /// A point or vector; the unit and frame stand in the variable's name.
 struct Vec2 {
@@ -255,4 +257,6 @@ const char* name(Scene scene);
 /// density: 0 to 1; means something for `noise` and `scattered_dots` only.
 GreyImage render_scene(Scene scene, const Shot& shot, double density = 0.5);
 
-}  // namespace gnu::visibility("default")]]dotpose
+}  // namespace dotpose
+
+#pragma GCC visibility pop

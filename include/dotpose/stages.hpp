@@ -12,7 +12,9 @@
 #include "dotpose/code.hpp"
 #include "dotpose/status.hpp"
 
-namespace [[gnu::visibility("default")]] dotpose {
+#pragma GCC visibility push(default)
+
+namespace dotpose {
 
 /// Width of the tiles in which light is measured; their height, for images whose shorter side is at
 /// most `kLargestWithLowTiles_px`, and for larger ones. Three tiles must reach over a dot: an image
@@ -341,4 +343,6 @@ struct Decoding {
     std::array<int, 2> p_wrong_log2_q8{};
 };
 
-}  // namespace gnu::visibility("default")]]dotpose
+}  // namespace dotpose
+
+#pragma GCC visibility pop

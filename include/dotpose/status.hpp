@@ -3,7 +3,9 @@
 
 #include <cstdint>
 
-namespace [[gnu::visibility("default")]] dotpose {
+#pragma GCC visibility push(default)
+
+namespace dotpose {
 
 enum class [[nodiscard]] Status : std::uint8_t{
     ok,
@@ -41,4 +43,6 @@ const char* name(Status status) noexcept;
 /// One plain sentence for the user, without a full stop; it holds for every frame of this status.
 const char* message(Status status) noexcept;
 
-}  // namespace gnu::visibility("default")]]dotpose
+}  // namespace dotpose
+
+#pragma GCC visibility pop

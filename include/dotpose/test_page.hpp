@@ -18,7 +18,9 @@
 #include "dotpose/print.hpp"
 #include "dotpose/sheet.hpp"
 
-namespace [[gnu::visibility("default")]] dotpose {
+#pragma GCC visibility push(default)
+
+namespace dotpose {
 
 inline constexpr std::uint32_t kTestPageCell = 410'000'000;
 /// Cells between the patches of neighbouring settings; a patch has at most half as many per axis.
@@ -42,4 +44,6 @@ PrintPage make_test_page(const TestPageOptions& options);
 /// How the patch that holds this cell was printed; nothing for cells that belong to no test page.
 std::optional<Pattern> test_patch_at(Profile profile, Cell cell);
 
-}  // namespace gnu::visibility("default")]]dotpose
+}  // namespace dotpose
+
+#pragma GCC visibility pop

@@ -29,7 +29,9 @@
 #include "dotpose/options.hpp"
 #include "dotpose/prediction.hpp"
 
-namespace [[gnu::visibility("default")]] dotpose {
+#pragma GCC visibility push(default)
+
+namespace dotpose {
 
 /// Sums and gains over (x, y, theta, their velocities), in mm, rad and seconds.
 using Covariance6 = std::array<std::array<float, 6>, 6>;
@@ -210,4 +212,6 @@ class Tracker {
     TrackedPose rest_;  ///< from where movement is counted
 };
 
-}  // namespace gnu::visibility("default")]]dotpose
+}  // namespace dotpose
+
+#pragma GCC visibility pop

@@ -13,7 +13,9 @@
 #include "dotpose/patch.hpp"
 #include "dotpose/stages.hpp"
 
-namespace [[gnu::visibility("default")]] dotpose {
+#pragma GCC visibility push(default)
+
+namespace dotpose {
 
 /// All stages' memory and results. Use one of the aliases below; the stages see spans only.
 struct Workspace {
@@ -252,4 +254,6 @@ using SmallWorkspace = WorkspaceOf<188, 384, 32>;
 /// For everything up to 4096 x 4096 px.
 using LargeWorkspace = WorkspaceOf<4096, 16384, 192>;
 
-}  // namespace gnu::visibility("default")]]dotpose
+}  // namespace dotpose
+
+#pragma GCC visibility pop
