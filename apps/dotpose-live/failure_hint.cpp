@@ -11,9 +11,9 @@ namespace dotpose::cli {
 namespace {
 
 constexpr std::int64_t kWindow_us = 1'000'000;
-/// So many frames of a second are enough, where the camera is slow.
+/// Fewest frames of the last second that are judged; slow cameras have no more.
 constexpr std::size_t kLeastFrames = 3;
-/// And so many are kept, where times stand still.
+/// Most frames that are kept, for sources whose times stand still.
 constexpr std::size_t kMostFrames = 2000;
 
 }  // namespace

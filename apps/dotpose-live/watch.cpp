@@ -64,7 +64,7 @@ void require_apart(const WatchArguments& arguments) {
     files.writes("--packets", outputs.packets, Content::packets);
 }
 
-/// What its user should know of the frames, apart from their lines.
+/// Tells on standard error why most frames fail, and that another code explains them.
 void tell_once_in_a_while(const Reading& reading, ImageView image, const FrameLocator& locator,
                           FailureHint& hint, bool& is_warned) {
     const std::string advice = hint.after(reading, image, locator.options());

@@ -23,7 +23,7 @@ enum class Attempt : std::uint8_t {
 /// The identifier, such as "tracked".
 const char* name(Attempt attempt) noexcept;
 
-/// What the dots tell of the paper in view.
+/// Whether the paper in view is one plane, as far as the dots show.
 enum class Surface : std::uint8_t {
     even,     ///< one plane explains where they are
     divided,  ///< a part is displaced against the rest; the pose is that of the part with the

@@ -31,7 +31,7 @@ struct Free {
     bool lens = false;
 };
 
-/// What a lens does to a step away from the place `q`, measured from its centre.
+/// The derivative of the lens's displacement at the place `q`, counted from its centre.
 Matrix2d lens_slope(const PlaneFit& fit, const Vector2d& q) {
     return (1 + fit.lens * q.squaredNorm()) * Matrix2d::Identity() +
            2 * fit.lens * q * q.transpose();

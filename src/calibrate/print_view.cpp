@@ -59,7 +59,7 @@ std::optional<ScaleRatio> scale_ratio_of(const PlaneFit& fit, double longer_side
         }
     }
     if (least > most || most - least > 2 * kLargestUncertainty) return std::nullopt;
-    // What the lens does besides the term that is fitted.
+    // Lenses have more terms than the one that is fitted.
     constexpr double kLensUncertainty = 0.0005;
     return ScaleRatio{0.5 * (least + most), 0.5 * (most - least) + kLensUncertainty};
 }

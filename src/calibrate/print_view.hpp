@@ -9,7 +9,7 @@
 
 namespace dotpose::calibrate {
 
-/// What only a camera does to a page; nothing if it lies as on a scanner.
+/// Perspective and lens that no scanner has; nothing if the page lies as on a scanner.
 std::optional<CameraSigns> signs_of_camera(const std::vector<Match>& matches,
                                            const Eigen::Vector2d& middle_px);
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/pose/group_scatter.hpp"
+
 namespace dotpose::core {
 namespace {
 
@@ -50,15 +52,11 @@ float settled(const FloatPlane& p, float reach) {
 /// Whether dots one beside the other are off each by itself, as those of flat paper are. Where they
 /// are not, blocks of them tell more (pose/uneven).
 bool is_plainly_even(const FittingDots& fitting) {
-    constexpr float kFitted = 6;
     constexpr float kSuspect = 2.2F;  ///< deviations; few honest frames exceed it
     if (fitting.outliers > 3 + fitting.points / 50) return false;
-    const auto runs = static_cast<float>(fitting.runs);
-    const float within = (fitting.squares - fitting.squares_of_runs) /
-                         std::max(2 * (static_cast<float>(fitting.points) - runs), 1.0F);
-    const float freedom = std::max(2 * runs - kFitted, 1.0F);
-    const float excess = fitting.squares_of_runs - freedom * within;
-    return excess <= kSuspect * within * std::sqrt(2 * freedom);
+    const GroupScatter runs{fitting.squares, fitting.squares_of_runs,
+                            static_cast<float>(fitting.points), static_cast<float>(fitting.runs)};
+    return runs.excess() <= kSuspect;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/pose/group_scatter.hpp"
 #include "core/pose/sides.hpp"
 
 namespace dotpose::core {
@@ -26,42 +27,24 @@ class Blocks {
         for (int b = 0; b < side * side; ++b) {
             const BlockSums::Block& block = sums_.all[static_cast<std::size_t>(b)];
             if (block.dots == 0) continue;
-            between_ += (block.off_x * block.off_x + block.off_y * block.off_y) / block.dots;
-            used_ += 1;
+            scatter_.between +=
+                (block.off_x * block.off_x + block.off_y * block.off_y) / block.dots;
+            scatter_.groups += 1;
         }
+        scatter_.squares = sums_.squares;
+        scatter_.dots = sums_.dots;
     }
 
     float dots() const { return sums_.dots; }
     float outliers() const { return sums_.outliers; }
     float side() const { return side_; }  ///< of a block, spacings
-
-    /// By how many deviations blocks are off more than chance explains.
-    float excess() const {
-        return (between_ / (freedom() * variance_within()) - 1) * std::sqrt(freedom() / 2);
-    }
-    /// Of what the dots of a block are off in common, along one axis.
-    float variance_between() const {
-        return std::max(between_ - freedom() * variance_within(), 0.0F) /
-               std::max(2 * dots(), 1.0F);
-    }
+    float excess() const { return scatter_.excess(); }
+    float variance_between() const { return scatter_.variance_between(); }
 
   private:
-    /// Of the blocks' means, both coordinates, less what the fit takes of it.
-    float freedom() const {
-        constexpr float kFitted = 6;
-        return std::max(2 * used_ - kFitted, 1.0F);
-    }
-    /// Of one coordinate of a dot about the mean of its block.
-    float variance_within() const {
-        constexpr float kExact = 1e-12F;
-        return std::max(sums_.squares - between_, 0.0F) / std::max(2 * (dots() - used_), 1.0F) +
-               kExact;
-    }
-
     BlockSums sums_;
     float side_;
-    float between_ = 0;
-    float used_ = 0;
+    GroupScatter scatter_;
 };
 
 /// Of the dots on this side of a line.

@@ -1,0 +1,37 @@
+// Group scatter: whether dots that are neighbours are off their places in common. A one-way
+// analysis of variance, of both coordinates at once.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace dotpose::core {
+
+/// Dots in groups of neighbours, about a plane that was fitted to all of them; in spacings^2.
+struct GroupScatter {
+    float squares = 0;  ///< of what each dot is off
+    float between = 0;  ///< of what each group is off in common, times its dots
+    float dots = 0;
+    float groups = 0;
+
+    /// Of the groups' means, both coordinates, less what the fit takes of it.
+    float freedom() const {
+        constexpr float kFitted = 6;
+        return std::max(2 * groups - kFitted, 1.0F);
+    }
+    /// Of one coordinate of a dot about the mean of its group.
+    float variance_within() const {
+        constexpr float kExact = 1e-12F;
+        return std::max(squares - between, 0.0F) / std::max(2 * (dots - groups), 1.0F) + kExact;
+    }
+    /// By how many deviations groups are off more than chance explains.
+    float excess() const {
+        return (between / (freedom() * variance_within()) - 1) * std::sqrt(freedom() / 2);
+    }
+    /// Of what the dots of a group are off in common, along one axis.
+    float variance_between() const {
+        return std::max(between - freedom() * variance_within(), 0.0F) / std::max(2 * dots, 1.0F);
+    }
+};
+
+}  // namespace dotpose::core
