@@ -19,7 +19,7 @@ constexpr float kOffPlane = -4.5F;
 constexpr float kTogether = 36;
 constexpr std::size_t kMostDots = 1024;
 constexpr std::size_t kLines = 48;  ///< in each direction
-constexpr int kLastLine = static_cast<int>(kLines) - 1;
+constexpr auto kLastLine = static_cast<std::int32_t>(kLines) - 1;
 constexpr int kDirections = 8;
 /// Spacings by which the reference point may lie beyond the line.
 constexpr float kBehind = 0.5F;
