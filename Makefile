@@ -62,7 +62,8 @@ format: setup
 check: setup $(RELEASE)/build.ninja
 	scripts/format --check
 	scripts/check-layers
-	$(BUILD) release -j $(JOBS) --target dotpose
+	$(BUILD) release -j $(JOBS) --target dotpose dotpose_golden
+	scripts/golden-frames
 	scripts/check-core-symbols $(RELEASE)/src/libdotpose.a
 
 # No setup here: `sudo make install` after `make` only copies.

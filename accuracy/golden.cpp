@@ -1,0 +1,213 @@
+// Do frames still give the same poses, to the bit? Locates sets of simulated frames with every
+// attempt and prints one line for each set: a checksum of the pixels, how many frames were located,
+// and a checksum of all integers of their fixes.
+//
+//   dotpose_golden [--threads N]
+//
+// scripts/golden-frames compares the lines with accuracy/golden.txt. Covariances and residuals are
+// floating-point numbers that may differ between processors, and are left out.
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <fmt/core.h>
+
+#include "../tests/limit_frames.hpp"
+#include "counting.hpp"
+#include "dotpose/code_evidence.hpp"
+#include "dotpose/locate.hpp"
+
+namespace {
+
+using namespace dotpose;
+
+constexpr std::uint64_t kSeed = 2424;
+
+/// FNV-1a, 64 bits (Fowler, Noll and Vo).
+class Checksum {
+  public:
+    void add(std::int64_t value) {
+        for (int shift = 0; shift < 64; shift += 8) {
+            sum_ ^= static_cast<std::uint64_t>(value) >> shift & 255;
+            sum_ *= 1099511628211ULL;
+        }
+    }
+    std::uint64_t value() const { return sum_; }
+
+  private:
+    std::uint64_t sum_ = 14695981039346656037ULL;
+};
+
+void add(Checksum& sum, Vec vec) {
+    sum.add(vec.x);
+    sum.add(vec.y);
+}
+
+void add(Checksum& sum, const PlaneFromImage& plane) {
+    for (const Vec vec :
+         {plane.centre_q8, plane.at_centre_q16, plane.du_q24, plane.dv_q24, plane.perspective_q30})
+        add(sum, vec);
+    sum.add(plane.lens_q40);
+}
+
+/// All integers of a fix; of one that is none, those that mean anything.
+void add(Checksum& sum, const Fix& fix) {
+    sum.add(static_cast<std::int64_t>(fix.status));
+    sum.add(fix.dots_seen);
+    if (fix.status != Status::ok) return;
+    sum.add(static_cast<std::int64_t>(fix.attempt));
+    sum.add(static_cast<std::int64_t>(fix.surface));
+    for (const std::int64_t value :
+         {std::int64_t{fix.cell.x}, std::int64_t{fix.cell.y}, std::int64_t{fix.fraction_x_q16},
+          std::int64_t{fix.fraction_y_q16}, std::int64_t{fix.theta_bam},
+          std::int64_t{fix.section.u}, std::int64_t{fix.section.v},
+          std::int64_t{fix.spacing_px_q16}, std::int64_t{fix.dots_used},
+          std::int64_t{fix.bit_errors}, std::int64_t{fix.p_wrong_log2},
+          std::int64_t{fix.displacement_q16}})
+        sum.add(value);
+    add(sum, fix.pattern_from_image);
+}
+
+/// Sums over frames, in any order.
+struct Tally {
+    std::uint64_t pixels = 0;
+    std::uint64_t fixes = 0;
+    std::uint64_t located = 0;
+
+    Tally& operator+=(const Tally& other) {
+        pixels += other.pixels;
+        fixes += other.fixes;
+        located += other.located;
+        return *this;
+    }
+};
+
+/// A frame, and the one after it, which a prediction made from its fix awaits.
+struct Frames {
+    GreyImage image;
+    GreyImage next;
+    Options options;
+};
+
+/// Locates a frame in some way.
+using Way = std::function<Fix(const Frames&, Workspace&)>;
+
+struct Set {
+    std::string name;
+    std::uint64_t frames = 0;
+    std::function<Frames(std::uint64_t)> frames_at;
+    Way locate;
+};
+
+void add(Tally& tally, const Set& set, std::uint64_t index) {
+    const Frames frames = set.frames_at(index);
+    Checksum pixels;
+    pixels.add(static_cast<std::int64_t>(index));
+    for (const GreyImage* image : {&frames.image, &frames.next}) {
+        for (const std::uint8_t grey : image->pixels)
+            pixels.add(grey);
+    }
+    const auto workspace = std::make_unique<LargeWorkspace>();
+    const Fix fix = set.locate(frames, *workspace);
+    Checksum sum;
+    sum.add(static_cast<std::int64_t>(index));
+    add(sum, fix);
+    tally += {pixels.value(), sum.value(), fix.status == Status::ok ? 1U : 0U};
+}
+
+/// The frame of a camera that has moved by a quarter of a spacing and turned by 2 degrees since.
+Shot moved(Shot shot) {
+    constexpr double kStep = 0.25;
+    constexpr double kTurn_rad = 0.035;
+    shot.pose.fraction_x += kStep;
+    shot.pose.fraction_y -= kStep;
+    shot.pose.theta_rad += kTurn_rad;
+    ++shot.seed;
+    return shot;
+}
+
+std::function<Frames(std::uint64_t)> frames_of(Preset preset, int width_px, int height_px) {
+    Setup setup;
+    setup.preset = preset;
+    setup.seed = kSeed;
+    setup.camera.width_px = width_px;
+    setup.camera.height_px = height_px;
+    return [setup](std::uint64_t index) {
+        const Shot shot = draw_shot(setup, index);
+        return Frames{render(shot), render(moved(shot)), {}};
+    };
+}
+
+Way with_effort(Effort effort) {
+    return [effort](const Frames& frames, Workspace& workspace) {
+        Options options = frames.options;
+        options.effort = effort;
+        return locate(frames.image.view(), options, workspace);
+    };
+}
+
+Way tracked(Effort effort) {
+    return [effort](const Frames& frames, Workspace& workspace) {
+        Options options = frames.options;
+        const Fix fix = locate(frames.image.view(), options, workspace);
+        options.effort = effort;
+        if (fix.status != Status::ok) return fix;
+        return locate(frames.next.view(), options, Prediction::like(fix), workspace);
+    };
+}
+
+Fix in_any_code(const Frames& frames, Workspace& workspace) {
+    return locate_in_any_code(frames.image.view(), frames.options, {}, workspace).fix;
+}
+
+std::vector<Set> all_sets() {
+    const auto nominal = frames_of(Preset::nominal, 188, 120);
+    const auto hard = frames_of(Preset::hard, 188, 120);
+    const auto vga = frames_of(Preset::nominal, 640, 480);
+    std::vector<Set> sets{
+        {"nominal, one attempt", 200, nominal, with_effort(Effort::once)},
+        {"nominal, as a device", 200, nominal, with_effort(Effort::device)},
+        {"nominal, tracked", 200, nominal, tracked(Effort::once)},
+        {"nominal, tracked by a device", 200, nominal, tracked(Effort::device)},
+        {"nominal, in any code", 100, nominal, in_any_code},
+        {"hard, two attempts", 150, hard, with_effort(Effort::twice)},
+        {"hard, as a device", 150, hard, with_effort(Effort::device)},
+        {"hard, tracked", 150, hard, tracked(Effort::twice)},
+        {"640 x 480, two attempts", 40, vga, with_effort(Effort::twice)},
+        {"640 x 480, tracked", 40, vga, tracked(Effort::once)},
+    };
+    for (const test::Limit& limit : test::all_limits()) {
+        const auto frames_at = [limit](std::uint64_t index) {
+            const Shot shot = test::shot_at(limit, kSeed, index);
+            return Frames{test::picture_of(limit, shot), {}, test::options_of(limit)};
+        };
+        sets.push_back({"limit: " + limit.condition, 3, frames_at, with_effort(Effort::twice)});
+    }
+    return sets;
+}
+
+int run(unsigned threads) {
+    for (const Set& set : all_sets()) {
+        const auto count = count_on_threads<Tally>(
+            set.name, set.frames, threads,
+            [&set](std::uint64_t index, Tally& tally) { add(tally, set, index); });
+        if (count.done < count.asked) return EXIT_FAILURE;
+        fmt::print("{:016x} {:016x} {} of {} located: {}\n", count.tally.pixels, count.tally.fixes,
+                   count.tally.located, set.frames, set.name);
+        std::fflush(stdout);
+    }
+    return EXIT_SUCCESS;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    unsigned threads = Counting{}.threads;
+    CLI::App app("Checksums of frames and fixes, for scripts/golden-frames.", "dotpose_golden");
+    app.add_option("--threads", threads, "How many frames at once")->check(CLI::Range(1, 256));
+    return run_program(app, argc, argv, [&] { return run(threads); });
+}
