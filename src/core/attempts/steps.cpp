@@ -63,7 +63,8 @@ Status find_dots(const Options& options, Workspace& w) {
     sift_dots(options.blobs, dot_list(w));
     w.fix.dots_seen = w.dot_count;
     if (!w.light.has_contrast) return Status::no_contrast;
-    if (w.dot_count < options.lattice.min_dots) return Status::too_few_dots;
+    // The options may ask for no dot at all, but the stages that follow take means over them.
+    if (w.dot_count < std::max(options.lattice.min_dots, 1)) return Status::too_few_dots;
     undistort(options.lens, image_centre_q8(w.light), first(w.dots, w.dot_count));  // eq. 1-2
     return Status::ok;
 }

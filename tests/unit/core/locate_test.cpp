@@ -344,6 +344,22 @@ TEST(Locate, UsesNoMoreDotsThanItSaw) {
     EXPECT_GT(by_second, 10);
 }
 
+TEST(Locate, AFrameWithoutAnyDotIsRefusedEvenIfNoDotIsAskedFor) {
+    // One dark corner: contrast, and a blob that is too large for a dot.
+    GreyImage image{std::vector<std::uint8_t>(64 * 64, 255), 64, 64};
+    for (std::size_t v = 0; v < 32; ++v)
+        std::fill_n(image.pixels.begin() + static_cast<std::ptrdiff_t>(64 * v), 32,
+                    std::uint8_t{0});
+    SmallWorkspace workspace;
+    Options options;
+    options.lattice.min_dots = 0;
+    options.blobs.min_area_px = 1 << 20;
+    for (const Effort effort : {Effort::device, Effort::once, Effort::twice}) {
+        options.effort = effort;
+        EXPECT_EQ(locate(image.view(), options, workspace).status, Status::too_few_dots);
+    }
+}
+
 TEST(Locate, EveryStageCanRefuse) {
     // A frame of the pattern, made worse step by step until each stage has had its say.
     SmallWorkspace workspace;
