@@ -10,7 +10,7 @@ BUILD = env -u MAKEFLAGS cmake --build --preset
 RELEASE = build/release
 
 .DEFAULT_GOAL := release
-.PHONY: release setup demo test asan fuzz bench accuracy budget format check install clean
+.PHONY: release setup demo test asan fuzz bench accuracy budget portable format check install clean
 
 release: setup $(RELEASE)/build.ninja
 	$(BUILD) release -j $(JOBS)
@@ -55,6 +55,11 @@ budget: setup $(RELEASE)/build.ninja build/cortex-m0plus/build.ninja build/mips3
 	$(BUILD) cortex-m0plus -j $(JOBS)
 	$(BUILD) mips32r2 -j $(JOBS)
 	firmware/budget $(ARGS)
+
+portable: SETUP += --firmware
+portable: setup
+	scripts/check-portable
+	tests/checks/portable_selftest scripts
 
 format: setup
 	scripts/format
