@@ -67,6 +67,7 @@ format: setup
 check: setup $(RELEASE)/build.ninja
 	scripts/format --check
 	scripts/check-layers
+	scripts/check-names
 	$(BUILD) release -j $(JOBS) --target dotpose dotpose_golden
 	scripts/golden-frames
 	scripts/check-core-symbols $(RELEASE)/src/libdotpose.a

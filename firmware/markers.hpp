@@ -1,4 +1,4 @@
-/// Instructions without effect between which firmware/count.c counts.
+/// Instructions without effect between which firmware/count.cpp counts.
 #pragma once
 
 namespace markers {

@@ -14,7 +14,7 @@
 
 namespace dotpose::calibrate {
 
-/// How one frame's camera lies on one sheet: `on_sheet = place + axes * (in_camera - middle)`, in
+/// How one frame's camera lies on one sheet: on sheet = place + axes * (in camera - middle), in
 /// mm of the sheet as it was meant to be printed, from its first intersection. A camera whose view
 /// is known measures in mm of its own; of any other one only the direction of its x axis and where
 /// its image centre lies are known, and `middle` is that centre.

@@ -174,7 +174,7 @@ Status estimate_axes(std::span<const Edge> edges, Values memory, Lattice& lattic
     const Clusters clusters({along, Vec{-along.y, along.x}});
     const auto [u, v] = medians(edges, clusters, memory);
     // Symmetric edges are 4 % too short on average, because each dot chose its nearest: the
-    // displacements along an edge that shorten it favour it. Measured in docs/pipeline.md.
+    // displacements along an edge that shorten it favour it.
     constexpr std::int32_t kLengthening_q8 = 267;
     if (!is_nearly_square(u, v)) return Status::no_grid;
     // differs: the paper keeps both. Between them, what is not square is the scatter of the medians

@@ -107,8 +107,8 @@ int contradictions(const Block& block, bool is_x, const std::vector<int>& rolls)
     return wrong;
 }
 
-/// Rolls of the lines of an axis, in which one sequence stands `shift_of_place` further than at the
-/// position and all lines `shift` further.
+/// Rolls of the lines of an axis, in which one sequence stands `further` digits ahead of where the
+/// position has it, and all rolls are `shift` larger.
 std::vector<int> rolls_of(const Block& block, bool is_x, std::size_t sequence, int further,
                           int shift) {
     const Place& p = block.place;
