@@ -46,21 +46,29 @@ std::int64_t agreement_log2_q16(const Confidence& axis, int odds_per_bit_q8) {
 }  // namespace
 
 int odds_per_bit_q8(const Confidence& confidence) {
+    struct Weighted {
+        std::uint8_t level;
+        std::uint32_t weight;  ///< of all bits of the level
+    };
+    std::array<Weighted, Confidence::kLevels> levels;
+    std::size_t count = 0;
     std::uint32_t allowed = 2 * 127;
-    for (int level = 0; level < Confidence::kLevels; ++level) {
-        allowed +=
-            static_cast<std::uint32_t>(Confidence::weight_of(level) * confidence.wrong(level));
+    // From where most is expected to be wrong, so that it is soon too much.
+    for (int level = Confidence::kLevels; level-- > 0;) {
+        const int bits = confidence.bits(level);
+        if (bits == 0) continue;
+        const int weight = Confidence::weight_of(level);
+        levels[count++] = {static_cast<std::uint8_t>(level),
+                           static_cast<std::uint32_t>(bits * weight)};
+        allowed += static_cast<std::uint32_t>(weight * confidence.wrong(level));
     }
     const std::uint64_t allowed_q16 = std::uint64_t{allowed} << 16;
     int odds_q8 = 0;
     // Bisection: the larger the odds, the less is expected to be wrong.
     for (int step_q8 = 8 * 256; step_q8 >= 8; step_q8 /= 2) {
         std::uint64_t expected_q16 = 0;
-        // From where most is expected, so that it is soon too much.
-        for (int level = Confidence::kLevels; level-- > 0 && expected_q16 <= allowed_q16;) {
-            const int bits = confidence.bits(level);
-            if (bits == 0) continue;
-            const auto weight = static_cast<std::uint32_t>(bits * Confidence::weight_of(level));
+        for (std::size_t i = 0; i < count && expected_q16 <= allowed_q16; ++i) {
+            const auto [level, weight] = levels[i];
             expected_q16 +=
                 std::uint64_t{weight} * wrong_share_q16(log_odds_q8(odds_q8 + step_q8, level));
         }
