@@ -14,7 +14,7 @@
 
 #include <fmt/core.h>
 
-#include "dotpose/simulate.hpp"
+#include "dotpose/tools/simulate.hpp"
 #include "evaluate_all.hpp"
 
 namespace {

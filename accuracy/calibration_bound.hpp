@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "dotpose/calibrate.hpp"
-#include "dotpose/simulate.hpp"
+#include "dotpose/tools/calibrate.hpp"
+#include "dotpose/tools/simulate.hpp"
 
 namespace dotpose {
 

@@ -11,8 +11,8 @@
 #include "calibration_bound.hpp"
 #include "calibration_measures.hpp"
 #include "calibration_tally.hpp"
-#include "dotpose/evaluate.hpp"
 #include "dotpose/locate.hpp"
+#include "dotpose/tools/evaluate.hpp"
 
 namespace dotpose {
 namespace {

@@ -7,7 +7,7 @@
 #include "../tests/unit/calibrate/frames.hpp"
 #include "calibration_measures.hpp"
 #include "calibration_tally.hpp"
-#include "dotpose/calibrate.hpp"
+#include "dotpose/tools/calibrate.hpp"
 
 namespace dotpose {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "counting.hpp"
-#include "dotpose/evaluate.hpp"
+#include "dotpose/tools/evaluate.hpp"
 
 namespace dotpose {
 

@@ -21,7 +21,7 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
-#include <dotpose/evaluate.hpp>
+#include <dotpose/tools/evaluate.hpp>
 
 #include "document.hpp"
 

@@ -13,7 +13,7 @@
 
 #include "dotpose/fix.hpp"
 #include "dotpose/locate.hpp"
-#include "dotpose/simulate.hpp"
+#include "dotpose/tools/simulate.hpp"
 
 namespace dotpose {
 

@@ -6,7 +6,7 @@
 
 #include <apriltag/apriltag.h>
 
-#include <dotpose/simulate.hpp>
+#include <dotpose/tools/simulate.hpp>
 
 namespace dotpose::bench {
 

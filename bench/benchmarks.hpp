@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <dotpose/simulate.hpp>
+#include <dotpose/tools/simulate.hpp>
 
 #include "results.hpp"
 

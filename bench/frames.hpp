@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
-#include <dotpose/evaluate.hpp>
-#include <dotpose/simulate.hpp>
+#include <dotpose/tools/evaluate.hpp>
+#include <dotpose/tools/simulate.hpp>
 
 namespace dotpose::bench {
 

@@ -4,9 +4,9 @@
 #include <memory>
 #include <vector>
 
-#include <dotpose/evaluate.hpp>
 #include <dotpose/locate.hpp>
-#include <dotpose/simulate.hpp>
+#include <dotpose/tools/evaluate.hpp>
+#include <dotpose/tools/simulate.hpp>
 
 namespace {
 

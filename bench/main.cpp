@@ -18,7 +18,7 @@
 
 #include <fmt/core.h>
 
-#include <dotpose/error.hpp>
+#include <dotpose/tools/error.hpp>
 
 #include "../accuracy/document.hpp"
 #include "benchmarks.hpp"

@@ -4,7 +4,7 @@
 
 #include <unistd.h>
 
-#include <dotpose/error.hpp>
+#include <dotpose/tools/error.hpp>
 
 namespace dotpose::bench {
 namespace {

@@ -13,7 +13,7 @@
 #include <fmt/core.h>
 
 #include <dotpose/locate.hpp>
-#include <dotpose/random.hpp>
+#include <dotpose/tools/random.hpp>
 
 #include "apriltag.hpp"
 #include "core/attempts/first.hpp"

@@ -17,7 +17,7 @@ endif()
 # A header without its library would only fail when the user links.
 set(tools_headers)
 if(NOT DOTPOSE_BUILD_TOOLS)
-    set(tools_headers REGEX "/(print|overlay|simulate|draw|evaluate|check_print|calibrate|camera_file|optics|test_page|sheet|sheet_file|image_file|grey_image|error|random)\\.hpp$" EXCLUDE)
+    set(tools_headers PATTERN tools EXCLUDE)
 endif()
 install(DIRECTORY include/dotpose TYPE INCLUDE FILES_MATCHING PATTERN "*.hpp" ${tools_headers})
 

@@ -13,11 +13,11 @@
 
 #include <fmt/core.h>
 
-#include <dotpose/draw.hpp>
-#include <dotpose/image_file.hpp>
 #include <dotpose/locate.hpp>
-#include <dotpose/print.hpp>
-#include <dotpose/simulate.hpp>
+#include <dotpose/tools/draw.hpp>
+#include <dotpose/tools/image_file.hpp>
+#include <dotpose/tools/print.hpp>
+#include <dotpose/tools/simulate.hpp>
 
 namespace {
 

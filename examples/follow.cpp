@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <memory>
 
-#include <dotpose/image_file.hpp>
 #include <dotpose/locate.hpp>
+#include <dotpose/tools/image_file.hpp>
 #include <dotpose/track.hpp>
 
 int main(int argc, char** argv) {

@@ -2,8 +2,8 @@
 #include <cstdio>
 #include <memory>
 
-#include <dotpose/image_file.hpp>
 #include <dotpose/locate.hpp>
+#include <dotpose/tools/image_file.hpp>
 
 int main(int argc, char** argv) {
     if (argc != 2) return 2;

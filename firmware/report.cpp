@@ -20,7 +20,7 @@
 
 #include <fmt/core.h>
 
-#include <dotpose/error.hpp>
+#include <dotpose/tools/error.hpp>
 
 #include "../accuracy/document.hpp"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "altered_pattern.hpp"
-#include "dotpose/simulate.hpp"
+#include "dotpose/tools/simulate.hpp"
 
 namespace dotpose::test::detail {
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "dotpose/simulate.hpp"
+#include "dotpose/tools/simulate.hpp"
 #include "simulate/ink.hpp"
 
 namespace dotpose::test {

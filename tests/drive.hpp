@@ -9,9 +9,9 @@
 #include <numbers>
 #include <vector>
 
-#include "dotpose/print.hpp"
-#include "dotpose/sheet_file.hpp"
-#include "dotpose/simulate.hpp"
+#include "dotpose/tools/print.hpp"
+#include "dotpose/tools/sheet_file.hpp"
+#include "dotpose/tools/simulate.hpp"
 
 namespace dotpose::test {
 

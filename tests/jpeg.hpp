@@ -8,7 +8,7 @@
 
 #include <jpeglib.h>
 
-#include "dotpose/grey_image.hpp"
+#include "dotpose/tools/grey_image.hpp"
 
 namespace dotpose::test {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "dotpose/options.hpp"
-#include "dotpose/simulate.hpp"
+#include "dotpose/tools/simulate.hpp"
 
 namespace dotpose::test {
 

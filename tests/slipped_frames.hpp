@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <numbers>
 
-#include "dotpose/random.hpp"
-#include "dotpose/simulate.hpp"
+#include "dotpose/tools/random.hpp"
+#include "dotpose/tools/simulate.hpp"
 
 namespace dotpose::test {
 

@@ -10,8 +10,8 @@
 
 #include "commands.hpp"
 #include "common.hpp"
-#include "dotpose/error.hpp"
-#include "dotpose/sheet_file.hpp"
+#include "dotpose/tools/error.hpp"
+#include "dotpose/tools/sheet_file.hpp"
 #include "fleet_state.hpp"
 #include "mqtt_arguments.hpp"
 #include "path_memory.hpp"

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "dotpose/error.hpp"
+#include "dotpose/tools/error.hpp"
 #include "page_cut.hpp"
 
 namespace dotpose::cli {

@@ -9,8 +9,8 @@
 
 #include "dotpose/code_evidence.hpp"
 #include "dotpose/locate.hpp"
-#include "dotpose/sheet.hpp"
-#include "dotpose/sheet_file.hpp"
+#include "dotpose/tools/sheet.hpp"
+#include "dotpose/tools/sheet_file.hpp"
 #include "dotpose/track.hpp"
 #include "locate_record.hpp"
 #include "video/frame_source.hpp"

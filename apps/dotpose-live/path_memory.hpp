@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "dotpose/sheet_file.hpp"
+#include "dotpose/tools/sheet_file.hpp"
 #include "dotpose/track.hpp"
 #include "draw/track_map.hpp"
 #include "frame_locator.hpp"

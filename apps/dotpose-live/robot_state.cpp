@@ -9,7 +9,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include "dotpose/error.hpp"
+#include "dotpose/tools/error.hpp"
 #include "print/input_file.hpp"
 #include "reading_fields.hpp"
 

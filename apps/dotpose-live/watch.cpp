@@ -8,8 +8,8 @@
 
 #include "commands.hpp"
 #include "common.hpp"
-#include "dotpose/error.hpp"
-#include "dotpose/image_file.hpp"
+#include "dotpose/tools/error.hpp"
+#include "dotpose/tools/image_file.hpp"
 #include "exit_codes.hpp"
 #include "failure_hint.hpp"
 #include "frame_locator.hpp"

@@ -10,8 +10,8 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
-#include "dotpose/error.hpp"
 #include "dotpose/pose_packet.hpp"
+#include "dotpose/tools/error.hpp"
 #include "print/output_file.hpp"
 #include "reading_fields.hpp"
 #include "robot_state.hpp"

@@ -1,4 +1,4 @@
-#include "dotpose/calibrate.hpp"
+#include "dotpose/tools/calibrate.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -13,7 +13,7 @@
 #include "calibrate_report.hpp"
 #include "commands.hpp"
 #include "common.hpp"
-#include "dotpose/frame_file.hpp"
+#include "dotpose/tools/frame_file.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"
 #include "terminal_text.hpp"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "dotpose/calibrate.hpp"
+#include "dotpose/tools/calibrate.hpp"
 
 namespace dotpose::cli {
 

@@ -1,4 +1,4 @@
-#include "dotpose/check_print.hpp"
+#include "dotpose/tools/check_print.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +14,8 @@
 #include "check_print_report.hpp"
 #include "commands.hpp"
 #include "common.hpp"
-#include "dotpose/image_file.hpp"
-#include "dotpose/sheet_file.hpp"
+#include "dotpose/tools/image_file.hpp"
+#include "dotpose/tools/sheet_file.hpp"
 #include "exit_codes.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"

@@ -11,9 +11,9 @@
 
 #include <fmt/core.h>
 
-#include "dotpose/evaluate.hpp"
-#include "dotpose/image_file.hpp"
-#include "dotpose/sheet_file.hpp"
+#include "dotpose/tools/evaluate.hpp"
+#include "dotpose/tools/image_file.hpp"
+#include "dotpose/tools/sheet_file.hpp"
 
 namespace dotpose::cli {
 namespace {

@@ -10,11 +10,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
-#include "dotpose/camera_file.hpp"
 #include "dotpose/options.hpp"
-#include "dotpose/print.hpp"
-#include "dotpose/sheet.hpp"
-#include "dotpose/simulate.hpp"
+#include "dotpose/tools/camera_file.hpp"
+#include "dotpose/tools/print.hpp"
+#include "dotpose/tools/sheet.hpp"
+#include "dotpose/tools/simulate.hpp"
 #include "fields.hpp"
 
 namespace dotpose::cli {

@@ -1,4 +1,4 @@
-#include "dotpose/evaluate.hpp"
+#include "dotpose/tools/evaluate.hpp"
 
 #include <array>
 #include <cstdint>

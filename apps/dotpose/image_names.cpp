@@ -4,7 +4,7 @@
 #include <iostream>
 #include <utility>
 
-#include "dotpose/error.hpp"
+#include "dotpose/tools/error.hpp"
 #include "print/input_file.hpp"
 
 namespace dotpose::cli {

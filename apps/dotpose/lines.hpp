@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "dotpose/error.hpp"
+#include "dotpose/tools/error.hpp"
 
 namespace dotpose::cli {
 

@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "commands.hpp"
-#include "dotpose/error.hpp"
+#include "dotpose/tools/error.hpp"
 
 namespace dotpose::cli {
 namespace {

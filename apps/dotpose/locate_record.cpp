@@ -9,8 +9,8 @@
 
 #include <fmt/core.h>
 
-#include "dotpose/image_file.hpp"
 #include "dotpose/locate.hpp"
+#include "dotpose/tools/image_file.hpp"
 
 namespace dotpose::cli {
 namespace {

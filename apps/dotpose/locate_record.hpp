@@ -7,7 +7,7 @@
 
 #include "dotpose/code_evidence.hpp"
 #include "dotpose/fix.hpp"
-#include "dotpose/sheet_file.hpp"
+#include "dotpose/tools/sheet_file.hpp"
 #include "fields.hpp"
 
 namespace dotpose::cli {

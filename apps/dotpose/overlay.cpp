@@ -1,4 +1,4 @@
-#include "dotpose/overlay.hpp"
+#include "dotpose/tools/overlay.hpp"
 
 #include <memory>
 #include <optional>

@@ -10,9 +10,9 @@
 
 #include <fmt/core.h>
 
-#include "dotpose/camera_file.hpp"
-#include "dotpose/grey_image.hpp"
 #include "dotpose/locate.hpp"
+#include "dotpose/tools/camera_file.hpp"
+#include "dotpose/tools/grey_image.hpp"
 
 namespace dotpose::cli {
 namespace {

@@ -1,4 +1,4 @@
-#include "dotpose/print.hpp"
+#include "dotpose/tools/print.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -10,7 +10,7 @@
 
 #include "commands.hpp"
 #include "common.hpp"
-#include "dotpose/test_page.hpp"
+#include "dotpose/tools/test_page.hpp"
 #include "print/output_file.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"

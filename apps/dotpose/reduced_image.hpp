@@ -2,8 +2,8 @@
 #pragma once
 
 #include "dotpose/fix.hpp"
-#include "dotpose/grey_image.hpp"
 #include "dotpose/options.hpp"
+#include "dotpose/tools/grey_image.hpp"
 
 namespace dotpose::cli {
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
-#include "dotpose/error.hpp"
+#include "dotpose/tools/error.hpp"
 #include "print/output_file.hpp"
 #include "run_files.hpp"
 #include "run_log.hpp"

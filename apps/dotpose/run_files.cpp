@@ -8,7 +8,7 @@
 #include <fmt/core.h>
 #include <sys/stat.h>
 
-#include "dotpose/error.hpp"
+#include "dotpose/tools/error.hpp"
 #include "print/lower_case.hpp"
 #include "print/output_file.hpp"
 

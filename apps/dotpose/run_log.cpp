@@ -9,7 +9,7 @@
 
 #include <fmt/core.h>
 
-#include "dotpose/error.hpp"
+#include "dotpose/tools/error.hpp"
 #include "evaluate/csv.hpp"
 #include "print/input_file.hpp"
 

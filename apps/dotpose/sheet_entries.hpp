@@ -7,7 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "dotpose/sheet_file.hpp"
+#include "dotpose/tools/sheet_file.hpp"
 
 namespace dotpose::cli {
 

@@ -1,4 +1,4 @@
-#include "dotpose/simulate.hpp"
+#include "dotpose/tools/simulate.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -17,7 +17,7 @@
 
 #include "commands.hpp"
 #include "common.hpp"
-#include "dotpose/image_file.hpp"
+#include "dotpose/tools/image_file.hpp"
 #include "progress.hpp"
 #include "terminal_text.hpp"
 

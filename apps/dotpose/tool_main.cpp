@@ -4,7 +4,7 @@
 #include <exception>
 
 #include "common.hpp"
-#include "dotpose/error.hpp"
+#include "dotpose/tools/error.hpp"
 #include "exit_codes.hpp"
 #include "terminal_text.hpp"
 

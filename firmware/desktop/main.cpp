@@ -6,9 +6,9 @@
 #include <cstring>
 #include <numbers>
 
-#include <dotpose/grey_image.hpp>
 #include <dotpose/locate.hpp>
-#include <dotpose/random.hpp>
+#include <dotpose/tools/grey_image.hpp>
+#include <dotpose/tools/random.hpp>
 
 #include "host.hpp"
 #include "locate_frames.hpp"

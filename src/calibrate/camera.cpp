@@ -5,8 +5,8 @@
 
 #include <fmt/core.h>
 
-#include "dotpose/camera_file.hpp"
 #include "dotpose/locate.hpp"
+#include "dotpose/tools/camera_file.hpp"
 
 namespace dotpose {
 namespace {

@@ -1,4 +1,4 @@
-#include "dotpose/camera_file.hpp"
+#include "dotpose/tools/camera_file.hpp"
 
 #include <fmt/core.h>
 

@@ -1,5 +1,5 @@
 // The check of a print: crops -> anchors -> fields -> dots -> scale, sizes, faults.
-#include "dotpose/check_print.hpp"
+#include "dotpose/tools/check_print.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +14,8 @@
 #include "calibrate/print_findings.hpp"
 #include "calibrate/print_measures.hpp"
 #include "calibrate/print_view.hpp"
-#include "dotpose/sheet_file.hpp"
-#include "dotpose/test_page.hpp"
+#include "dotpose/tools/sheet_file.hpp"
+#include "dotpose/tools/test_page.hpp"
 
 namespace dotpose {
 namespace {

@@ -13,8 +13,8 @@
 #include "calibrate/lens_fit.hpp"
 #include "calibrate/paper_view.hpp"
 #include "calibrate/sighting.hpp"
-#include "dotpose/calibrate.hpp"
-#include "dotpose/print.hpp"
+#include "dotpose/tools/calibrate.hpp"
+#include "dotpose/tools/print.hpp"
 
 namespace dotpose {
 namespace {

@@ -9,9 +9,9 @@
 #include <Eigen/Eigenvalues>
 #include <fmt/core.h>
 
-#include "dotpose/calibrate.hpp"
 #include "dotpose/code_evidence.hpp"
 #include "dotpose/locate.hpp"
+#include "dotpose/tools/calibrate.hpp"
 
 namespace dotpose {
 namespace {

@@ -1,4 +1,4 @@
-#include "dotpose/optics.hpp"
+#include "dotpose/tools/optics.hpp"
 
 #include <algorithm>
 #include <cmath>

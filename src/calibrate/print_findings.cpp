@@ -7,7 +7,7 @@
 
 #include <fmt/core.h>
 
-#include "dotpose/test_page.hpp"
+#include "dotpose/tools/test_page.hpp"
 
 namespace dotpose::calibrate {
 namespace {

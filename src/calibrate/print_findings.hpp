@@ -1,7 +1,7 @@
 // What the measures of a print mean for its user.
 #pragma once
 
-#include "dotpose/check_print.hpp"
+#include "dotpose/tools/check_print.hpp"
 
 namespace dotpose::calibrate {
 

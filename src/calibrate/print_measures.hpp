@@ -6,7 +6,7 @@
 
 #include "calibrate/print_cells.hpp"
 #include "calibrate/print_fit.hpp"
-#include "dotpose/check_print.hpp"
+#include "dotpose/tools/check_print.hpp"
 
 namespace dotpose::calibrate {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "calibrate/print_fit.hpp"
-#include "dotpose/check_print.hpp"
+#include "dotpose/tools/check_print.hpp"
 
 namespace dotpose::calibrate {
 

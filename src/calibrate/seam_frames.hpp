@@ -9,8 +9,8 @@
 #include <Eigen/Core>
 
 #include "calibrate/sighting.hpp"
-#include "dotpose/calibrate.hpp"
 #include "dotpose/locate.hpp"
+#include "dotpose/tools/calibrate.hpp"
 
 namespace dotpose::calibrate {
 

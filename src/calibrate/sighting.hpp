@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "dotpose/camera_file.hpp"
 #include "dotpose/code_evidence.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/locate.hpp"
+#include "dotpose/tools/camera_file.hpp"
 
 namespace dotpose::calibrate {
 

@@ -5,7 +5,7 @@
 
 #include <fmt/core.h>
 
-#include "dotpose/error.hpp"
+#include "dotpose/tools/error.hpp"
 #include "print/input_file.hpp"
 
 namespace dotpose::calibrate {

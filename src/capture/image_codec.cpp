@@ -8,7 +8,7 @@
 
 #include <magick/api.h>
 
-#include "dotpose/image_file.hpp"
+#include "dotpose/tools/image_file.hpp"
 
 namespace dotpose::capture {
 namespace {

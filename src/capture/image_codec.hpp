@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "capture/image_format.hpp"
-#include "dotpose/grey_image.hpp"
-#include "dotpose/image_file.hpp"
+#include "dotpose/tools/grey_image.hpp"
+#include "dotpose/tools/image_file.hpp"
 
 namespace dotpose::capture {
 

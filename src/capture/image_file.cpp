@@ -1,4 +1,4 @@
-#include "dotpose/image_file.hpp"
+#include "dotpose/tools/image_file.hpp"
 
 #include <algorithm>
 #include <cerrno>

@@ -6,7 +6,7 @@
 
 #include <fmt/core.h>
 
-#include "dotpose/image_file.hpp"
+#include "dotpose/tools/image_file.hpp"
 
 namespace dotpose::capture {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "capture/image_format.hpp"
-#include "dotpose/error.hpp"
-#include "dotpose/image_file.hpp"
+#include "dotpose/tools/error.hpp"
+#include "dotpose/tools/image_file.hpp"
 
 namespace dotpose::capture {
 namespace {

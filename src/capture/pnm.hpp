@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-#include "dotpose/grey_image.hpp"
+#include "dotpose/tools/grey_image.hpp"
 
 namespace dotpose::capture {
 

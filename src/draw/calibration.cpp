@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "dotpose/calibrate.hpp"
+#include "dotpose/tools/calibrate.hpp"
 #include "draw/svg.hpp"
 
 namespace dotpose {

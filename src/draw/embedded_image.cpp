@@ -7,7 +7,7 @@
 
 #include <png.h>
 
-#include "dotpose/error.hpp"
+#include "dotpose/tools/error.hpp"
 
 namespace dotpose::draw {
 namespace {

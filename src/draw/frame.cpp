@@ -4,7 +4,7 @@
 #include <ostream>
 #include <string>
 
-#include "dotpose/draw.hpp"
+#include "dotpose/tools/draw.hpp"
 #include "draw/embedded_image.hpp"
 #include "draw/frame_panels.hpp"
 

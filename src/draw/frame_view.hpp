@@ -1,7 +1,7 @@
 // Frame view: a frame on the drawing, and how far `locate` got with it.
 #pragma once
 
-#include "dotpose/draw.hpp"
+#include "dotpose/tools/draw.hpp"
 #include "draw/svg.hpp"
 
 namespace dotpose::draw {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "dotpose/draw.hpp"
+#include "dotpose/tools/draw.hpp"
 #include "draw/svg.hpp"
 
 namespace dotpose {

@@ -4,7 +4,7 @@
 #include <ostream>
 #include <string>
 
-#include "dotpose/check_print.hpp"
+#include "dotpose/tools/check_print.hpp"
 #include "draw/svg.hpp"
 
 namespace dotpose {

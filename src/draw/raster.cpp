@@ -9,7 +9,7 @@
 #include <fmt/core.h>
 #include <librsvg/rsvg.h>
 
-#include "dotpose/error.hpp"
+#include "dotpose/tools/error.hpp"
 #include "draw/svg.hpp"
 
 namespace dotpose::draw {

@@ -5,7 +5,7 @@
 #include <ostream>
 #include <string>
 
-#include "dotpose/calibrate.hpp"
+#include "dotpose/tools/calibrate.hpp"
 #include "draw/two_panels.hpp"
 
 namespace dotpose {

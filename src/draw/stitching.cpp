@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "dotpose/calibrate.hpp"
+#include "dotpose/tools/calibrate.hpp"
 #include "draw/two_panels.hpp"
 
 namespace dotpose {

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "dotpose/error.hpp"
+#include "dotpose/tools/error.hpp"
 
 namespace dotpose::draw {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "dotpose/evaluate.hpp"
+#include "dotpose/tools/evaluate.hpp"
 
 namespace dotpose::evaluate_detail {
 

@@ -7,9 +7,9 @@
 #include <thread>
 
 #include "dotpose/code_evidence.hpp"
-#include "dotpose/evaluate.hpp"
-#include "dotpose/frame_file.hpp"
 #include "dotpose/locate.hpp"
+#include "dotpose/tools/evaluate.hpp"
+#include "dotpose/tools/frame_file.hpp"
 
 namespace dotpose {
 namespace {

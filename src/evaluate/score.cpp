@@ -6,7 +6,7 @@
 
 #include <fmt/core.h>
 
-#include "dotpose/evaluate.hpp"
+#include "dotpose/tools/evaluate.hpp"
 
 namespace dotpose {
 namespace {

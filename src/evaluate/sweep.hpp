@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "dotpose/evaluate.hpp"
+#include "dotpose/tools/evaluate.hpp"
 
 namespace dotpose::evaluate_detail {
 

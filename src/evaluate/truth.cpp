@@ -8,7 +8,7 @@
 
 #include <fmt/core.h>
 
-#include "dotpose/evaluate.hpp"
+#include "dotpose/tools/evaluate.hpp"
 #include "evaluate/csv.hpp"
 
 namespace dotpose {

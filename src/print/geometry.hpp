@@ -1,7 +1,7 @@
 /// Small geometry that several writers share.
 #pragma once
 
-#include "dotpose/sheet.hpp"
+#include "dotpose/tools/sheet.hpp"
 
 namespace dotpose::print {
 

@@ -7,7 +7,7 @@
 
 #include <fmt/core.h>
 
-#include "dotpose/error.hpp"
+#include "dotpose/tools/error.hpp"
 #include "system_error.hpp"
 
 namespace dotpose::print {

@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "dotpose/error.hpp"
+#include "dotpose/tools/error.hpp"
 #include "system_error.hpp"
 
 namespace dotpose::print {

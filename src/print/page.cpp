@@ -6,7 +6,7 @@
 
 #include <fmt/core.h>
 
-#include "dotpose/print.hpp"
+#include "dotpose/tools/print.hpp"
 #include "geometry.hpp"
 #include "raster.hpp"
 #include "writers.hpp"

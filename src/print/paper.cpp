@@ -6,7 +6,7 @@
 
 #include <fmt/core.h>
 
-#include "dotpose/print.hpp"
+#include "dotpose/tools/print.hpp"
 #include "lower_case.hpp"
 
 namespace dotpose {

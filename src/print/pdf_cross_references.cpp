@@ -12,7 +12,7 @@
 #include <qpdf/QPDFExc.hh>
 #include <qpdf/QPDFTokenizer.hh>
 
-#include "dotpose/error.hpp"
+#include "dotpose/tools/error.hpp"
 
 namespace dotpose::print {
 namespace {

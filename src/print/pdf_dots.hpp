@@ -11,7 +11,7 @@
 #include <qpdf/QPDF.hh>
 #include <qpdf/QPDFObjectHandle.hh>
 
-#include "dotpose/print.hpp"
+#include "dotpose/tools/print.hpp"
 
 namespace dotpose::print {
 

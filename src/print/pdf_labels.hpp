@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "dotpose/print.hpp"
+#include "dotpose/tools/print.hpp"
 
 namespace dotpose::print {
 

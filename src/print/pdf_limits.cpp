@@ -14,7 +14,7 @@
 #include <qpdf/Pipeline.hh>
 #include <qpdf/QPDFXRefEntry.hh>
 
-#include "dotpose/error.hpp"
+#include "dotpose/tools/error.hpp"
 #include "system_error.hpp"
 
 namespace dotpose::print {

@@ -5,7 +5,7 @@
 
 #include <qpdf/QPDFPageObjectHelper.hh>
 
-#include "dotpose/print.hpp"
+#include "dotpose/tools/print.hpp"
 
 namespace dotpose::print {
 

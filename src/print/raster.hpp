@@ -5,7 +5,7 @@
 #include <functional>
 #include <span>
 
-#include "dotpose/print.hpp"
+#include "dotpose/tools/print.hpp"
 
 namespace dotpose::print {
 

@@ -4,7 +4,7 @@
 
 #include <fmt/core.h>
 
-#include "dotpose/print.hpp"
+#include "dotpose/tools/print.hpp"
 #include "geometry.hpp"
 #include "regions.hpp"
 

@@ -1,4 +1,4 @@
-#include "dotpose/sheet_file.hpp"
+#include "dotpose/tools/sheet_file.hpp"
 
 #include <algorithm>
 #include <cerrno>

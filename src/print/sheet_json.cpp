@@ -7,7 +7,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include "dotpose/print.hpp"
+#include "dotpose/tools/print.hpp"
 #include "input_file.hpp"
 #include "sheet_list.hpp"
 

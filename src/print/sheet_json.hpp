@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "dotpose/sheet_file.hpp"
+#include "dotpose/tools/sheet_file.hpp"
 
 namespace dotpose::print {
 

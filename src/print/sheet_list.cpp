@@ -9,7 +9,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include "dotpose/print.hpp"
+#include "dotpose/tools/print.hpp"
 #include "printable.hpp"
 
 namespace dotpose {

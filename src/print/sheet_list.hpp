@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "dotpose/sheet_file.hpp"
+#include "dotpose/tools/sheet_file.hpp"
 
 namespace dotpose::print {
 

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "dotpose/sheet_file.hpp"
+#include "dotpose/tools/sheet_file.hpp"
 
 namespace dotpose {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <fmt/core.h>
 
-#include "dotpose/sheet_file.hpp"
+#include "dotpose/tools/sheet_file.hpp"
 #include "output_file.hpp"
 
 namespace dotpose {

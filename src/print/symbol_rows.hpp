@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "dotpose/sheet.hpp"
+#include "dotpose/tools/sheet.hpp"
 
 namespace dotpose::print {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <system_error>
 
-#include "dotpose/error.hpp"
+#include "dotpose/tools/error.hpp"
 
 namespace dotpose::print {
 

@@ -1,4 +1,4 @@
-#include "dotpose/test_page.hpp"
+#include "dotpose/tools/test_page.hpp"
 
 #include <cmath>
 

@@ -3,7 +3,7 @@
 
 #include <fmt/core.h>
 
-#include "dotpose/print.hpp"
+#include "dotpose/tools/print.hpp"
 #include "lower_case.hpp"
 #include "output_file.hpp"
 #include "writers.hpp"

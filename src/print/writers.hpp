@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "dotpose/print.hpp"
+#include "dotpose/tools/print.hpp"
 #include "output_file.hpp"
 #include "raster.hpp"
 

@@ -13,7 +13,7 @@
 #include <string>
 #include <thread>
 
-#include "dotpose/error.hpp"
+#include "dotpose/tools/error.hpp"
 
 struct mosquitto;
 

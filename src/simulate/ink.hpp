@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "dotpose/simulate.hpp"
+#include "dotpose/tools/simulate.hpp"
 
 namespace dotpose::simulate {
 

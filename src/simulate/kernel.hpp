@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "dotpose/simulate.hpp"
+#include "dotpose/tools/simulate.hpp"
 
 namespace dotpose::simulate {
 

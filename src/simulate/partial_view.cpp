@@ -4,7 +4,7 @@
 #include <numbers>
 #include <vector>
 
-#include "dotpose/simulate.hpp"
+#include "dotpose/tools/simulate.hpp"
 
 namespace dotpose {
 namespace {

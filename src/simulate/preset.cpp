@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "dotpose/simulate.hpp"
+#include "dotpose/tools/simulate.hpp"
 
 namespace dotpose {
 namespace {

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "dotpose/simulate.hpp"
+#include "dotpose/tools/simulate.hpp"
 
 namespace dotpose {
 namespace {

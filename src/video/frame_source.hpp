@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "dotpose/error.hpp"
-#include "dotpose/grey_image.hpp"
+#include "dotpose/tools/error.hpp"
+#include "dotpose/tools/grey_image.hpp"
 
 namespace dotpose::video {
 

@@ -8,7 +8,7 @@
 #include <fmt/core.h>
 #include <glob.h>
 
-#include "dotpose/frame_file.hpp"
+#include "dotpose/tools/frame_file.hpp"
 #include "video/sources.hpp"
 
 namespace dotpose::video {

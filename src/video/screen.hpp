@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "dotpose/error.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/options.hpp"
+#include "dotpose/tools/error.hpp"
 #include "dotpose/workspace.hpp"
 #include "draw/track_map.hpp"
 

@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "dotpose/evaluate.hpp"
 #include "dotpose/locate.hpp"
-#include "dotpose/simulate.hpp"
+#include "dotpose/tools/evaluate.hpp"
+#include "dotpose/tools/simulate.hpp"
 
 namespace dotpose::test {
 namespace {

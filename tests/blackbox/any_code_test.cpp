@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "../scanned_page.hpp"
-#include "dotpose/print.hpp"
-#include "dotpose/sheet_file.hpp"
+#include "dotpose/tools/print.hpp"
+#include "dotpose/tools/sheet_file.hpp"
 #include "locate_command.hpp"
 
 namespace dotpose::test {

@@ -9,11 +9,11 @@
 
 #include "../jpeg.hpp"
 #include "../scanned_page.hpp"
-#include "dotpose/image_file.hpp"
-#include "dotpose/print.hpp"
-#include "dotpose/sheet_file.hpp"
-#include "dotpose/simulate.hpp"
-#include "dotpose/test_page.hpp"
+#include "dotpose/tools/image_file.hpp"
+#include "dotpose/tools/print.hpp"
+#include "dotpose/tools/sheet_file.hpp"
+#include "dotpose/tools/simulate.hpp"
+#include "dotpose/tools/test_page.hpp"
 #include "tool_command.hpp"
 
 namespace dotpose {

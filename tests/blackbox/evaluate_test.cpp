@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "dotpose/image_file.hpp"
+#include "dotpose/tools/image_file.hpp"
 #include "tool_command.hpp"
 
 namespace dotpose::test {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "../drive.hpp"
-#include "dotpose/image_file.hpp"
+#include "dotpose/tools/image_file.hpp"
 #include "locate_command.hpp"
 
 namespace dotpose::test {

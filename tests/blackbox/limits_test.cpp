@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "../limit_frames.hpp"
-#include "dotpose/evaluate.hpp"
 #include "dotpose/locate.hpp"
+#include "dotpose/tools/evaluate.hpp"
 
 namespace dotpose::test {
 namespace {

@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <png.h>
 
-#include "dotpose/image_file.hpp"
-#include "dotpose/simulate.hpp"
+#include "dotpose/tools/image_file.hpp"
+#include "dotpose/tools/simulate.hpp"
 #include "tool_command.hpp"
 
 namespace dotpose::test {

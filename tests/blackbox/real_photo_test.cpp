@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "dotpose/image_file.hpp"
 #include "dotpose/locate.hpp"
+#include "dotpose/tools/image_file.hpp"
 
 namespace dotpose {
 namespace {

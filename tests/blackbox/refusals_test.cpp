@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "dotpose/locate.hpp"
-#include "dotpose/simulate.hpp"
+#include "dotpose/tools/simulate.hpp"
 
 namespace dotpose {
 namespace {

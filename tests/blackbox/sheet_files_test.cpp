@@ -11,7 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "dotpose/image_file.hpp"
+#include "dotpose/tools/image_file.hpp"
 #include "locate_command.hpp"
 
 namespace dotpose::test {

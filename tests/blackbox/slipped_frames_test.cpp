@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "dotpose/evaluate.hpp"
 #include "dotpose/locate.hpp"
+#include "dotpose/tools/evaluate.hpp"
 #include "locate_command.hpp"
 
 namespace dotpose::test {

@@ -12,8 +12,8 @@
 #include <nlohmann/json.hpp>
 
 #include "../drive_errors.hpp"
-#include "dotpose/image_file.hpp"
 #include "dotpose/pose_packet.hpp"
+#include "dotpose/tools/image_file.hpp"
 #include "tool_command.hpp"
 
 namespace dotpose::test {

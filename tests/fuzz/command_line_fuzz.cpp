@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common.hpp"
-#include "dotpose/error.hpp"
+#include "dotpose/tools/error.hpp"
 
 namespace {
 

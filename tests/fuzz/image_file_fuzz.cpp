@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "dotpose/image_file.hpp"
+#include "dotpose/tools/image_file.hpp"
 #include "memory_file.hpp"
 
 using namespace dotpose;

@@ -4,7 +4,7 @@
 #include <sstream>
 #include <string>
 
-#include "dotpose/error.hpp"
+#include "dotpose/tools/error.hpp"
 #include "print/input_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <memory>
 
-#include "dotpose/simulate.hpp"
+#include "dotpose/tools/simulate.hpp"
 #include "locate_checks.hpp"
 
 namespace {

@@ -1,7 +1,7 @@
 // Any document: `overlay_pdf` lays dots over it, with its colours changed or not, or throws Error.
 #include <filesystem>
 
-#include "dotpose/overlay.hpp"
+#include "dotpose/tools/overlay.hpp"
 #include "reads_or_refuses.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "dotpose/error.hpp"
+#include "dotpose/tools/error.hpp"
 #include "memory_file.hpp"
 
 namespace dotpose::fuzz {

@@ -14,7 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "../drive.hpp"
-#include "dotpose/image_file.hpp"
+#include "dotpose/tools/image_file.hpp"
 #include "mqtt_fixture.hpp"
 
 namespace dotpose::test {

@@ -13,7 +13,7 @@
 #include "core/decode/position.hpp"
 #include "core/decode/verify.hpp"
 #include "core/decode/window.hpp"
-#include "dotpose/random.hpp"
+#include "dotpose/tools/random.hpp"
 
 namespace dotpose {
 namespace {

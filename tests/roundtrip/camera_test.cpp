@@ -14,8 +14,8 @@
 #include <nlohmann/json.hpp>
 
 #include "../temporary_directory.hpp"
-#include "dotpose/image_file.hpp"
-#include "dotpose/simulate.hpp"
+#include "dotpose/tools/image_file.hpp"
+#include "dotpose/tools/simulate.hpp"
 #include "rendered_page.hpp"
 
 namespace dotpose::roundtrip {

@@ -1,7 +1,7 @@
 /// Where the dots of a rendered sheet really are.
 #pragma once
 
-#include "dotpose/print.hpp"
+#include "dotpose/tools/print.hpp"
 #include "rendered_page.hpp"
 
 namespace dotpose::roundtrip {

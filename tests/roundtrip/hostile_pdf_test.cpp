@@ -11,7 +11,7 @@
 #include <zlib.h>
 
 #include "../temporary_directory.hpp"
-#include "dotpose/overlay.hpp"
+#include "dotpose/tools/overlay.hpp"
 #include "small_pdf.hpp"
 
 namespace dotpose::roundtrip {

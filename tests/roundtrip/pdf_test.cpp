@@ -8,7 +8,7 @@
 
 #include "../temporary_directory.hpp"
 #include "dot_places.hpp"
-#include "dotpose/print.hpp"
+#include "dotpose/tools/print.hpp"
 #include "rendered_page.hpp"
 
 namespace dotpose::roundtrip {

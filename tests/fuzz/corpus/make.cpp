@@ -6,7 +6,7 @@
 
 #include "../../unit/capture/encoders.hpp"
 #include "../locate_input.hpp"
-#include "dotpose/simulate.hpp"
+#include "dotpose/tools/simulate.hpp"
 #include "texts.hpp"
 
 namespace {

@@ -1,5 +1,5 @@
 // Camera files: their keys, their errors, their geometry; and those of ROS.
-#include "dotpose/camera_file.hpp"
+#include "dotpose/tools/camera_file.hpp"
 
 #include <cmath>
 #include <filesystem>
@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "../../temporary_directory.hpp"
-#include "dotpose/random.hpp"
+#include "dotpose/tools/random.hpp"
 #include "frames.hpp"
 
 namespace dotpose {

@@ -1,6 +1,6 @@
 // What is found on prints that were scanned by a renderer of the tests' own
 // (tests/scanned_page.hpp).
-#include "dotpose/check_print.hpp"
+#include "dotpose/tools/check_print.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,10 +17,10 @@
 #include "../../scanned_page.hpp"
 #include "../../temporary_directory.hpp"
 #include "../../xml_check.hpp"
-#include "dotpose/image_file.hpp"
-#include "dotpose/print.hpp"
-#include "dotpose/simulate.hpp"
-#include "dotpose/test_page.hpp"
+#include "dotpose/tools/image_file.hpp"
+#include "dotpose/tools/print.hpp"
+#include "dotpose/tools/simulate.hpp"
+#include "dotpose/tools/test_page.hpp"
 #include "print_checks.hpp"
 
 namespace dotpose::check_print_test {

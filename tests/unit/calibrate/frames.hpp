@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "dotpose/camera_file.hpp"
 #include "dotpose/locate.hpp"
-#include "dotpose/sheet_file.hpp"
-#include "dotpose/simulate.hpp"
+#include "dotpose/tools/camera_file.hpp"
+#include "dotpose/tools/sheet_file.hpp"
+#include "dotpose/tools/simulate.hpp"
 
 namespace dotpose::calibrate_test {
 

@@ -8,7 +8,7 @@
 
 #include "../../temporary_directory.hpp"
 #include "../../xml_check.hpp"
-#include "dotpose/calibrate.hpp"
+#include "dotpose/tools/calibrate.hpp"
 #include "frames.hpp"
 
 namespace dotpose {

@@ -9,8 +9,8 @@
 
 #include "../../temporary_directory.hpp"
 #include "../../xml_check.hpp"
-#include "dotpose/calibrate.hpp"
 #include "dotpose/locate.hpp"
+#include "dotpose/tools/calibrate.hpp"
 #include "frames.hpp"
 
 namespace dotpose {

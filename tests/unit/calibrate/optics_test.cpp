@@ -1,5 +1,5 @@
 // The numbers of the paper's section III-A, and those of a thin lens.
-#include "dotpose/optics.hpp"
+#include "dotpose/tools/optics.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "dotpose/check_print.hpp"
-#include "dotpose/print.hpp"
+#include "dotpose/tools/check_print.hpp"
+#include "dotpose/tools/print.hpp"
 
 namespace dotpose::check_print_test {
 

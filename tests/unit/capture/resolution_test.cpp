@@ -7,8 +7,8 @@
 #include <stdlib.h>
 
 #include "../../jpeg.hpp"
-#include "dotpose/image_file.hpp"
-#include "dotpose/print.hpp"
+#include "dotpose/tools/image_file.hpp"
+#include "dotpose/tools/print.hpp"
 #include "encoders.hpp"
 
 namespace dotpose {

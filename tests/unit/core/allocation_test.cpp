@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "dotpose/locate.hpp"
-#include "dotpose/simulate.hpp"
+#include "dotpose/tools/simulate.hpp"
 
 #ifndef __SANITIZE_ADDRESS__  // which has its own operator new, and must see what the tests do
 

@@ -8,7 +8,7 @@
 
 #include "core/detect/blobs.hpp"
 #include "core/detect/light.hpp"
-#include "dotpose/grey_image.hpp"
+#include "dotpose/tools/grey_image.hpp"
 #include "dotpose/workspace.hpp"
 #include "geometry.hpp"
 

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "dotpose/code.hpp"
-#include "dotpose/random.hpp"
-#include "dotpose/simulate.hpp"
 #include "dotpose/stages.hpp"
+#include "dotpose/tools/random.hpp"
+#include "dotpose/tools/simulate.hpp"
 
 namespace dotpose::core_test {
 

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "canvas.hpp"
-#include "dotpose/evaluate.hpp"
 #include "dotpose/locate.hpp"
+#include "dotpose/tools/evaluate.hpp"
 
 namespace dotpose::core_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "dotpose/draw.hpp"
+#include "dotpose/tools/draw.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -13,7 +13,7 @@
 
 #include "../../xml_check.hpp"
 #include "dotpose/locate.hpp"
-#include "dotpose/simulate.hpp"
+#include "dotpose/tools/simulate.hpp"
 
 namespace dotpose {
 namespace {

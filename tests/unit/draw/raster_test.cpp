@@ -11,8 +11,8 @@
 #include <gtest/gtest.h>
 
 #include "../../temporary_directory.hpp"
-#include "dotpose/error.hpp"
-#include "dotpose/image_file.hpp"
+#include "dotpose/tools/error.hpp"
+#include "dotpose/tools/image_file.hpp"
 #include "draw/svg.hpp"
 
 namespace dotpose {

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "dotpose/evaluate.hpp"
+#include "dotpose/tools/evaluate.hpp"
 
 namespace dotpose {
 namespace {

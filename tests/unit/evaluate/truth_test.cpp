@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
-#include "dotpose/evaluate.hpp"
+#include "dotpose/tools/evaluate.hpp"
 
 namespace dotpose {
 namespace {

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "dotpose/locate.hpp"
-#include "dotpose/simulate.hpp"
+#include "dotpose/tools/simulate.hpp"
 #include "host.hpp"
 
 namespace {

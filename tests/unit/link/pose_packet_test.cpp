@@ -10,7 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "dotpose/random.hpp"
+#include "dotpose/tools/random.hpp"
 #include "link/framing.hpp"
 
 namespace dotpose {

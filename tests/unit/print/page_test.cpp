@@ -7,8 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "dotpose/print.hpp"
-#include "dotpose/test_page.hpp"
+#include "dotpose/tools/print.hpp"
+#include "dotpose/tools/test_page.hpp"
 #include "files.hpp"
 
 namespace dotpose {

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "dotpose/print.hpp"
+#include "dotpose/tools/print.hpp"
 #include "files.hpp"
 #include "print/pdf_labels.hpp"
 

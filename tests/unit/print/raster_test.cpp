@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "dotpose/print.hpp"
+#include "dotpose/tools/print.hpp"
 #include "files.hpp"
 
 namespace dotpose {

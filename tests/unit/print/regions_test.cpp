@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "dotpose/print.hpp"
+#include "dotpose/tools/print.hpp"
 
 namespace dotpose::print {
 namespace {

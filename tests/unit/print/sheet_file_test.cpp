@@ -1,4 +1,4 @@
-#include "dotpose/sheet_file.hpp"
+#include "dotpose/tools/sheet_file.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "dotpose/print.hpp"
+#include "dotpose/tools/print.hpp"
 #include "files.hpp"
 #include "sheet_files.hpp"
 

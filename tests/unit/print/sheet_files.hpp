@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "dotpose/print.hpp"
-#include "dotpose/sheet_file.hpp"
+#include "dotpose/tools/print.hpp"
+#include "dotpose/tools/sheet_file.hpp"
 
 namespace dotpose::print_test {
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "dotpose/sheet_file.hpp"
+#include "dotpose/tools/sheet_file.hpp"
 
 namespace dotpose {
 namespace {

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "dotpose/print.hpp"
-#include "dotpose/sheet_file.hpp"
+#include "dotpose/tools/print.hpp"
+#include "dotpose/tools/sheet_file.hpp"
 #include "files.hpp"
 #include "sheet_files.hpp"
 

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "dotpose/print.hpp"
+#include "dotpose/tools/print.hpp"
 #include "files.hpp"
 
 namespace dotpose {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "dotpose/print.hpp"
+#include "dotpose/tools/print.hpp"
 #include "files.hpp"
 
 namespace dotpose {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "dotpose/simulate.hpp"
+#include "dotpose/tools/simulate.hpp"
 #include "simulate/ink.hpp"
 
 namespace dotpose::simulate_test {

@@ -1,4 +1,4 @@
-#include "dotpose/random.hpp"
+#include "dotpose/tools/random.hpp"
 
 #include <bitset>
 #include <cmath>

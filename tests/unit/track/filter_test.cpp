@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "../../drive.hpp"
-#include "dotpose/random.hpp"
+#include "dotpose/tools/random.hpp"
 
 namespace dotpose::track {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "dotpose/random.hpp"
+#include "dotpose/tools/random.hpp"
 
 namespace dotpose {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "dotpose/code_evidence.hpp"
-#include "dotpose/simulate.hpp"
+#include "dotpose/tools/simulate.hpp"
 
 namespace dotpose {
 namespace {

@@ -12,8 +12,8 @@
 #include "code/basis.hpp"
 #include "code/rolls.hpp"
 #include "dotpose/locate.hpp"
-#include "dotpose/random.hpp"
-#include "dotpose/simulate.hpp"
+#include "dotpose/tools/random.hpp"
+#include "dotpose/tools/simulate.hpp"
 
 namespace dotpose::core_test {
 namespace {

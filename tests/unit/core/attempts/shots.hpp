@@ -10,7 +10,7 @@
 
 #include "core/kernels/select.hpp"
 #include "dotpose/locate.hpp"
-#include "dotpose/simulate.hpp"
+#include "dotpose/tools/simulate.hpp"
 
 namespace dotpose::core_test {
 

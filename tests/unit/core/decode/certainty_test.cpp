@@ -9,7 +9,7 @@
 #include "core/decode/coded_block.hpp"
 #include "core/decode/verify.hpp"
 #include "core/kernels/select.hpp"
-#include "dotpose/random.hpp"
+#include "dotpose/tools/random.hpp"
 
 namespace dotpose::core_test {
 namespace {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "code/rolls.hpp"
-#include "dotpose/random.hpp"
+#include "dotpose/tools/random.hpp"
 
 namespace dotpose::core_test {
 namespace {

@@ -9,7 +9,7 @@
 #include "../../code/reference.hpp"
 #include "core/decode/contest.hpp"
 #include "core/decode/correlation.hpp"
-#include "dotpose/random.hpp"
+#include "dotpose/tools/random.hpp"
 
 namespace dotpose::core_test {
 

@@ -15,7 +15,7 @@
 #include "core/decode/rivals.hpp"
 #include "core/decode/unshared_lines.hpp"
 #include "core/fixed.hpp"
-#include "dotpose/random.hpp"
+#include "dotpose/tools/random.hpp"
 #include "dotpose/workspace.hpp"
 
 namespace dotpose::core_test {

@@ -6,7 +6,7 @@
 #include "../../code/reference.hpp"
 #include "core/decode/correlation.hpp"
 #include "core/decode/expected_double_rivals.hpp"
-#include "dotpose/random.hpp"
+#include "dotpose/tools/random.hpp"
 
 namespace dotpose::core_test {
 namespace {

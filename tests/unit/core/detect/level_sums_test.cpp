@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "../canvas.hpp"
-#include "dotpose/random.hpp"
+#include "dotpose/tools/random.hpp"
 
 namespace dotpose::core_test {
 namespace {

@@ -14,7 +14,7 @@
 
 #include "code/basis.hpp"
 #include "core/kernels/select.hpp"
-#include "dotpose/random.hpp"
+#include "dotpose/tools/random.hpp"
 
 namespace dotpose::core_test {
 

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "dotpose/random.hpp"
+#include "dotpose/tools/random.hpp"
 
 namespace dotpose::core_test {
 namespace {

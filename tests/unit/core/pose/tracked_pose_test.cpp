@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/lattice/predicted.hpp"
-#include "dotpose/random.hpp"
+#include "dotpose/tools/random.hpp"
 
 namespace dotpose::core_test {
 namespace {

@@ -20,11 +20,11 @@
 #include <string>
 #include <vector>
 
-#include "dotpose/camera_file.hpp"
-#include "dotpose/error.hpp"
-#include "dotpose/grey_image.hpp"
-#include "dotpose/sheet.hpp"
-#include "dotpose/sheet_file.hpp"
+#include "dotpose/tools/camera_file.hpp"
+#include "dotpose/tools/error.hpp"
+#include "dotpose/tools/grey_image.hpp"
+#include "dotpose/tools/sheet.hpp"
+#include "dotpose/tools/sheet_file.hpp"
 
 #pragma GCC visibility push(default)
 

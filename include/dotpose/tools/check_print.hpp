@@ -22,10 +22,10 @@
 #include <string>
 #include <vector>
 
-#include "dotpose/error.hpp"
 #include "dotpose/image.hpp"
-#include "dotpose/image_file.hpp"
-#include "dotpose/sheet.hpp"
+#include "dotpose/tools/error.hpp"
+#include "dotpose/tools/image_file.hpp"
+#include "dotpose/tools/sheet.hpp"
 
 #pragma GCC visibility push(default)
 

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "dotpose/print.hpp"
+#include "dotpose/tools/print.hpp"
 
 #pragma GCC visibility push(default)
 

@@ -25,10 +25,10 @@
 #include <vector>
 
 #include "dotpose/code.hpp"
-#include "dotpose/error.hpp"
-#include "dotpose/grey_image.hpp"
-#include "dotpose/random.hpp"
-#include "dotpose/sheet.hpp"
+#include "dotpose/tools/error.hpp"
+#include "dotpose/tools/grey_image.hpp"
+#include "dotpose/tools/random.hpp"
+#include "dotpose/tools/sheet.hpp"
 
 #pragma GCC visibility push(default)
 

@@ -25,12 +25,12 @@
 #include <utility>
 #include <vector>
 
-#include "dotpose/error.hpp"
 #include "dotpose/fix.hpp"
-#include "dotpose/grey_image.hpp"
 #include "dotpose/options.hpp"
-#include "dotpose/sheet.hpp"
-#include "dotpose/simulate.hpp"
+#include "dotpose/tools/error.hpp"
+#include "dotpose/tools/grey_image.hpp"
+#include "dotpose/tools/sheet.hpp"
+#include "dotpose/tools/simulate.hpp"
 #include "dotpose/workspace.hpp"
 
 #pragma GCC visibility push(default)

@@ -14,9 +14,9 @@
 #include <optional>
 #include <vector>
 
-#include "dotpose/error.hpp"
-#include "dotpose/print.hpp"
-#include "dotpose/sheet.hpp"
+#include "dotpose/tools/error.hpp"
+#include "dotpose/tools/print.hpp"
+#include "dotpose/tools/sheet.hpp"
 
 #pragma GCC visibility push(default)
 

@@ -13,10 +13,10 @@
 #include <span>
 #include <string>
 
-#include "dotpose/error.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/options.hpp"
-#include "dotpose/sheet.hpp"
+#include "dotpose/tools/error.hpp"
+#include "dotpose/tools/sheet.hpp"
 #include "dotpose/workspace.hpp"
 
 #pragma GCC visibility push(default)

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "dotpose/image_file.hpp"
 #include "dotpose/locate.hpp"
+#include "dotpose/tools/image_file.hpp"
 
 #pragma GCC visibility push(default)
 

@@ -18,8 +18,8 @@
 #include <string_view>
 #include <vector>
 
-#include "dotpose/error.hpp"
-#include "dotpose/sheet.hpp"
+#include "dotpose/tools/error.hpp"
+#include "dotpose/tools/sheet.hpp"
 
 #pragma GCC visibility push(default)
 

@@ -18,8 +18,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "dotpose/error.hpp"
-#include "dotpose/grey_image.hpp"
+#include "dotpose/tools/error.hpp"
+#include "dotpose/tools/grey_image.hpp"
 
 #pragma GCC visibility push(default)
 

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "dotpose/error.hpp"
-#include "dotpose/sheet.hpp"
+#include "dotpose/tools/error.hpp"
+#include "dotpose/tools/sheet.hpp"
 
 #pragma GCC visibility push(default)
 

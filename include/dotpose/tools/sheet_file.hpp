@@ -26,9 +26,9 @@
 #include <string_view>
 #include <vector>
 
-#include "dotpose/error.hpp"
 #include "dotpose/fix.hpp"
-#include "dotpose/sheet.hpp"
+#include "dotpose/tools/error.hpp"
+#include "dotpose/tools/sheet.hpp"
 
 #pragma GCC visibility push(default)
 
@@ -74,7 +74,7 @@ struct SheetEntry {
 };
 
 /// Checks one entry: name not empty, of UTF-8 without characters that act on a terminal; page at
-/// least 1; scales in their range; world finite; and `validate(sheet)` (print.hpp). Throws
+/// least 1; scales in their range; world finite; and `validate(sheet)` (tools/print.hpp). Throws
 /// BadArgument.
 void validate(const SheetEntry& entry);
 

@@ -18,10 +18,10 @@
 #include <optional>
 #include <string>
 
-#include "dotpose/error.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/options.hpp"
-#include "dotpose/sheet.hpp"
+#include "dotpose/tools/error.hpp"
+#include "dotpose/tools/sheet.hpp"
 #include "dotpose/workspace.hpp"
 
 #pragma GCC visibility push(default)
@@ -48,7 +48,7 @@ struct PaperScale {
     double perspective_v = 0;
 };
 
-/// Tilt of the paper against the image plane, as in simulate.hpp.
+/// Tilt of the paper against the image plane, as in tools/simulate.hpp.
 struct Tilt {
     double x_rad = 0;  ///< about the image x axis; above 0, the paper recedes towards the bottom
     double y_rad = 0;  ///< about the image y axis; above 0, it comes closer towards the right
