@@ -1,18 +1,19 @@
 // Do frames still give the same poses, to the bit? Locates sets of simulated frames with every
-// attempt and prints one line for each set: a checksum of the pixels, how many frames were located,
-// and a checksum of all integers of their fixes.
+// attempt and prints one line for each set and attempt: a checksum of the pixels, a checksum of all
+// integers of the fixes, and how many frames were located.
 //
 //   dotpose_golden [--threads N]
 //
 // scripts/golden-frames compares the lines with accuracy/golden.txt. Covariances and residuals are
 // floating-point numbers that may differ between processors, and are left out.
+#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
+#include <vector>
 
 #include <fmt/core.h>
 
@@ -72,20 +73,6 @@ void add(Checksum& sum, const Fix& fix) {
     add(sum, fix.pattern_from_image);
 }
 
-/// Sums over frames, in any order.
-struct Tally {
-    std::uint64_t pixels = 0;
-    std::uint64_t fixes = 0;
-    std::uint64_t located = 0;
-
-    Tally& operator+=(const Tally& other) {
-        pixels += other.pixels;
-        fixes += other.fixes;
-        located += other.located;
-        return *this;
-    }
-};
-
 /// A frame, and the one after it, which a prediction made from its fix awaits.
 struct Frames {
     GreyImage image;
@@ -93,14 +80,37 @@ struct Frames {
     Options options;
 };
 
-/// Locates a frame in some way.
-using Way = std::function<Fix(const Frames&, Workspace&)>;
-
-struct Set {
+/// A way to locate a frame.
+struct Way {
     std::string name;
+    std::function<Fix(const Frames&, Workspace&)> locate;
+};
+constexpr std::size_t kMostWays = 5;
+
+/// Frames that are drawn once and located in several ways.
+struct Set {
     std::uint64_t frames = 0;
     std::function<Frames(std::uint64_t)> frames_at;
-    Way locate;
+    std::vector<Way> ways;
+};
+
+/// Sums over frames, in any order.
+struct Tally {
+    struct Fixes {
+        std::uint64_t checksum = 0;
+        std::uint64_t located = 0;
+    };
+    std::uint64_t pixels = 0;
+    std::array<Fixes, kMostWays> fixes;  ///< by the number of the way
+
+    Tally& operator+=(const Tally& other) {
+        pixels += other.pixels;
+        for (std::size_t i = 0; i < kMostWays; ++i) {
+            fixes[i].checksum += other.fixes[i].checksum;
+            fixes[i].located += other.fixes[i].located;
+        }
+        return *this;
+    }
 };
 
 void add(Tally& tally, const Set& set, std::uint64_t index) {
@@ -111,12 +121,16 @@ void add(Tally& tally, const Set& set, std::uint64_t index) {
         for (const std::uint8_t grey : image->pixels)
             pixels.add(grey);
     }
-    const auto workspace = std::make_unique<LargeWorkspace>();
-    const Fix fix = set.locate(frames, *workspace);
-    Checksum sum;
-    sum.add(static_cast<std::int64_t>(index));
-    add(sum, fix);
-    tally += {pixels.value(), sum.value(), fix.status == Status::ok ? 1U : 0U};
+    tally.pixels += pixels.value();
+    for (std::size_t i = 0; i < set.ways.size(); ++i) {
+        const auto workspace = std::make_unique<LargeWorkspace>();
+        const Fix fix = set.ways[i].locate(frames, *workspace);
+        Checksum sum;
+        sum.add(static_cast<std::int64_t>(index));
+        add(sum, fix);
+        tally.fixes[i].checksum += sum.value();
+        tally.fixes[i].located += fix.status == Status::ok ? 1 : 0;
+    }
 }
 
 /// The frame of a camera that has moved by a quarter of a spacing and turned by 2 degrees since.
@@ -142,7 +156,7 @@ std::function<Frames(std::uint64_t)> frames_of(Preset preset, int width_px, int 
     };
 }
 
-Way with_effort(Effort effort) {
+auto with_effort(Effort effort) {
     return [effort](const Frames& frames, Workspace& workspace) {
         Options options = frames.options;
         options.effort = effort;
@@ -150,7 +164,7 @@ Way with_effort(Effort effort) {
     };
 }
 
-Way tracked(Effort effort) {
+auto tracked(Effort effort) {
     return [effort](const Frames& frames, Workspace& workspace) {
         Options options = frames.options;
         const Fix fix = locate(frames.image.view(), options, workspace);
@@ -165,27 +179,31 @@ Fix in_any_code(const Frames& frames, Workspace& workspace) {
 }
 
 std::vector<Set> all_sets() {
-    const auto nominal = frames_of(Preset::nominal, 188, 120);
-    const auto hard = frames_of(Preset::hard, 188, 120);
-    const auto vga = frames_of(Preset::nominal, 640, 480);
     std::vector<Set> sets{
-        {"nominal, one attempt", 200, nominal, with_effort(Effort::once)},
-        {"nominal, as a device", 200, nominal, with_effort(Effort::device)},
-        {"nominal, tracked", 200, nominal, tracked(Effort::once)},
-        {"nominal, tracked by a device", 200, nominal, tracked(Effort::device)},
-        {"nominal, in any code", 100, nominal, in_any_code},
-        {"hard, two attempts", 150, hard, with_effort(Effort::twice)},
-        {"hard, as a device", 150, hard, with_effort(Effort::device)},
-        {"hard, tracked", 150, hard, tracked(Effort::twice)},
-        {"640 x 480, two attempts", 40, vga, with_effort(Effort::twice)},
-        {"640 x 480, tracked", 40, vga, tracked(Effort::once)},
+        {200,
+         frames_of(Preset::nominal, 188, 120),
+         {{"nominal, one attempt", with_effort(Effort::once)},
+          {"nominal, as a device", with_effort(Effort::device)},
+          {"nominal, tracked", tracked(Effort::once)},
+          {"nominal, tracked by a device", tracked(Effort::device)},
+          {"nominal, in any code", in_any_code}}},
+        {150,
+         frames_of(Preset::hard, 188, 120),
+         {{"hard, two attempts", with_effort(Effort::twice)},
+          {"hard, as a device", with_effort(Effort::device)},
+          {"hard, tracked", tracked(Effort::twice)}}},
+        {40,
+         frames_of(Preset::nominal, 640, 480),
+         {{"640 x 480, two attempts", with_effort(Effort::twice)},
+          {"640 x 480, tracked", tracked(Effort::once)}}},
     };
     for (const test::Limit& limit : test::all_limits()) {
         const auto frames_at = [limit](std::uint64_t index) {
             const Shot shot = test::shot_at(limit, kSeed, index);
             return Frames{test::picture_of(limit, shot), {}, test::options_of(limit)};
         };
-        sets.push_back({"limit: " + limit.condition, 3, frames_at, with_effort(Effort::twice)});
+        const Way twice{"limit: " + limit.condition, with_effort(Effort::twice)};
+        sets.push_back({3, frames_at, {twice}});
     }
     return sets;
 }
@@ -193,11 +211,14 @@ std::vector<Set> all_sets() {
 int run(unsigned threads) {
     for (const Set& set : all_sets()) {
         const auto count = count_on_threads<Tally>(
-            set.name, set.frames, threads,
+            set.ways.front().name, set.frames, threads,
             [&set](std::uint64_t index, Tally& tally) { add(tally, set, index); });
         if (count.done < count.asked) return EXIT_FAILURE;
-        fmt::print("{:016x} {:016x} {} of {} located: {}\n", count.tally.pixels, count.tally.fixes,
-                   count.tally.located, set.frames, set.name);
+        for (std::size_t i = 0; i < set.ways.size(); ++i) {
+            const Tally::Fixes& fixes = count.tally.fixes[i];
+            fmt::print("{:016x} {:016x} {} of {} located: {}\n", count.tally.pixels, fixes.checksum,
+                       fixes.located, set.frames, set.ways[i].name);
+        }
         std::fflush(stdout);
     }
     return EXIT_SUCCESS;
