@@ -14,8 +14,9 @@
 
 namespace dotpose::calibrate {
 
-/// How one frame's camera lies on one sheet: on sheet = place + axes * (in camera - middle), in
-/// mm of the sheet as it was meant to be printed, from its first intersection. A camera whose view
+/// How one frame's camera lies on one sheet: the point q of the camera frame is seen at
+/// p = place + axes (q - middle), in mm of the sheet as it was meant to be printed, from its first
+/// intersection. A camera whose view
 /// is known measures in mm of its own; of any other one only the direction of its x axis and where
 /// its image centre lies are known, and `middle` is that centre.
 struct SheetView {

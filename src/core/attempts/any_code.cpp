@@ -301,7 +301,7 @@ class AnyCode {
     Workspace& w_;
     const Prediction* prediction_ = nullptr;
     std::array<Profile, kProfileCount> order_;  ///< the likeliest first
-    // What the second attempt found so far:
+    // The members below hold what the second attempt has found so far.
     bool is_seen_ = false;             ///< whether the workspace holds what the frame shows
     Fix seen_;                         ///< as it was then, without a position
     Profile closer_ = Profile::anoto;  ///< that may gain from a closer look

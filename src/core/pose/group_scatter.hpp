@@ -14,12 +14,13 @@ struct GroupScatter {
     float dots = 0;
     float groups = 0;
 
-    /// Of the groups' means, both coordinates, less what the fit takes of it.
+    /// Degrees of freedom of the groups' means: two coordinates each, less the parameters of the
+    /// fit.
     float freedom() const {
         constexpr float kFitted = 6;
         return std::max(2 * groups - kFitted, 1.0F);
     }
-    /// Of one coordinate of a dot about the mean of its group.
+    /// Variance of one coordinate of a dot about the mean of its group.
     float variance_within() const {
         constexpr float kExact = 1e-12F;
         return std::max(squares - between, 0.0F) / std::max(2 * (dots - groups), 1.0F) + kExact;
@@ -28,7 +29,7 @@ struct GroupScatter {
     float excess() const {
         return (between / (freedom() * variance_within()) - 1) * std::sqrt(freedom() / 2);
     }
-    /// Of what the dots of a group are off in common, along one axis.
+    /// Variance, along one axis, of the displacement that the dots of a group share.
     float variance_between() const {
         return std::max(between - freedom() * variance_within(), 0.0F) / std::max(2 * dots, 1.0F);
     }

@@ -21,30 +21,30 @@ class Blocks {
         constexpr int kManyDots = 1000;
         const int side = fit.dots > kManyDots ? static_cast<int>(BlockSums::kMostAlong) : 6;
         const auto reach_px = static_cast<float>(fit.reach_px);
+        BlockSums sums;
         kernels.sum_blocks(dots, plane, fit.displacement, kOutlier * fit.variance, reach_px, side,
-                           sums_);
+                           sums);
         side_ = 2 * reach_px / (static_cast<float>(side) * spacing_px(plane));
         for (int b = 0; b < side * side; ++b) {
-            const BlockSums::Block& block = sums_.all[static_cast<std::size_t>(b)];
+            const BlockSums::Block& block = sums.all[static_cast<std::size_t>(b)];
             if (block.dots == 0) continue;
             scatter_.between +=
                 (block.off_x * block.off_x + block.off_y * block.off_y) / block.dots;
             scatter_.groups += 1;
         }
-        scatter_.squares = sums_.squares;
-        scatter_.dots = sums_.dots;
+        scatter_.squares = sums.squares;
+        scatter_.dots = sums.dots;
+        outliers_ = sums.outliers;
     }
 
-    float dots() const { return sums_.dots; }
-    float outliers() const { return sums_.outliers; }
+    const GroupScatter& scatter() const { return scatter_; }
+    float outliers() const { return outliers_; }
     float side() const { return side_; }  ///< of a block, spacings
-    float excess() const { return scatter_.excess(); }
-    float variance_between() const { return scatter_.variance_between(); }
 
   private:
-    BlockSums sums_;
-    float side_;
     GroupScatter scatter_;
+    float outliers_;
+    float side_;
 };
 
 /// Of the dots on this side of a line.
@@ -62,8 +62,8 @@ constexpr float kUneven = 5;
 bool may_be_uneven(const Blocks& blocks) {
     constexpr float kFewOutliers = 3;
     constexpr float kShareOfOutliers = 0.02F;
-    return blocks.excess() > kSuspect ||
-           blocks.outliers() > kFewOutliers + kShareOfOutliers * blocks.dots();
+    return blocks.scatter().excess() > kSuspect ||
+           blocks.outliers() > kFewOutliers + kShareOfOutliers * blocks.scatter().dots;
 }
 
 /// What it leaves open that the pose may be that of either plane.
@@ -90,7 +90,7 @@ void add(float variance, std::size_t i, PoseFit& fit) {
 void widen_by_blocks(const Blocks& blocks, PoseFit& fit) {
     constexpr float kOfPlace = 2;
     constexpr float kOfTurn = 8;
-    const float variance = blocks.variance_between();
+    const float variance = blocks.scatter().variance_between();
     add(kOfPlace * variance, 0, fit);
     add(kOfPlace * variance, 1, fit);
     add(kOfTurn * variance / (blocks.side() * blocks.side()), 2, fit);
@@ -118,12 +118,13 @@ void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
     Sides sides{plane, fit};
     const bool has_line = fit_this_side(kernels, dots, reference_px, sides);
     const bool is_divided = has_line && sides.slip.gain > Slip::kCertain;
-    if (is_divided && blocks_here(kernels, dots, reference_px, sides).excess() < kSuspect) {
+    if (is_divided &&
+        blocks_here(kernels, dots, reference_px, sides).scatter().excess() < kSuspect) {
         plane = sides.plane;
         fit = sides.fit;
         fit.surface = Surface::divided;
     } else {
-        if (is_divided || blocks.excess() > kUneven) widen_by_blocks(blocks, fit);
+        if (is_divided || blocks.scatter().excess() > kUneven) widen_by_blocks(blocks, fit);
         if (!has_line) return;
         const float weight =
             (sides.slip.gain - Slip::kPossible) / (Slip::kCertain - Slip::kPossible);
