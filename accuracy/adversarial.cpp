@@ -77,20 +77,20 @@ struct Tally {
 enum class Code : std::uint8_t { given, automatic };
 
 /// The profile that was read is then the frame's.
-Fix locate(test::AdversarialFrame& frame, Code code, Workspace& workspace) {
-    if (code == Code::given) return locate(frame.image.view(), frame.options, workspace);
+Fix locate(test::AdversarialFrame& frame, Code code, LargeMemory& memory) {
+    if (code == Code::given) return Locator(memory, frame.options).locate(frame.image.view());
     const CodeReading reading =
-        locate_in_any_code(frame.image.view(), frame.options, CodeEvidence{}, workspace);
+        Locator(memory, frame.options).locate_in_any_code(frame.image.view(), CodeEvidence{});
     frame.options.profile = reading.code;
     return reading.fix;
 }
 
 void try_frame(Adversary adversary, Code code, std::uint64_t seed, std::uint64_t index,
-               Workspace& workspace, Tally& tally) {
+               LargeMemory& memory, Tally& tally) {
     const double start_s = thread_seconds();
     test::AdversarialFrame frame = test::make_adversarial(adversary, seed, index);
     const double rendered_s = thread_seconds();
-    const Fix fix = locate(frame, code, workspace);
+    const Fix fix = locate(frame, code, memory);
     const double locating_s = thread_seconds() - rendered_s;
     const Verdict verdict = test::judge(fix, frame);
     ClassTally& mine = tally.classes[static_cast<std::size_t>(adversary)];
@@ -137,9 +137,9 @@ int run(const Counting& counting, std::uint64_t frames, Code code,
         std::span<const Adversary> adversaries) {
     Count<Tally> count = count_on_threads<Tally>(
         "adversarial frames", frames, counting.threads, [&](std::uint64_t i, Tally& mine) {
-            thread_local const auto kWorkspace = std::make_unique<LargeWorkspace>();
+            thread_local const auto kMemory = std::make_unique<LargeMemory>();
             try_frame(adversaries[i % adversaries.size()], code, counting.seed,
-                      i / adversaries.size(), *kWorkspace, mine);
+                      i / adversaries.size(), *kMemory, mine);
         });
     print(count.tally);
     fmt::print("seed {}, {} threads: {}\n", counting.seed, counting.threads,

@@ -11,8 +11,8 @@
 #include "calibration_bound.hpp"
 #include "calibration_measures.hpp"
 #include "calibration_tally.hpp"
-#include "dotpose/locate.hpp"
 #include "dotpose/tools/evaluate.hpp"
+#include "dotpose/tools/heap_locator.hpp"
 
 namespace dotpose {
 namespace {
@@ -171,13 +171,15 @@ void judge_parameters(const Series& series, const LensCalibration& found,
 }
 
 void judge_residual(const LensCalibration& found, const std::vector<Shot>& shots,
-                    const std::vector<TrueDot>& dots, Workspace& workspace, Tally& tally) {
+                    const std::vector<TrueDot>& dots, Tally& tally) {
+    HeapLocator locator;
     // In the unit of the calibration: px at the middle of each frame.
     std::vector<double> mm_per_px(shots.size(), NAN);
     for (std::size_t i = 0; i < shots.size(); ++i) {
         Options options;
         use_camera(found.camera, shots[i].camera.width_px, shots[i].camera.height_px, options);
-        const Fix fix = locate(render(shots[i]).view(), options, workspace);
+        locator.set_options(options);
+        const Fix fix = locator.locate(render(shots[i]).view());
         if (fix.status == Status::ok) mm_per_px[i] = kDefaultSpacing_mm / fix.spacing_px();
     }
     double squares = 0;
@@ -192,8 +194,9 @@ void judge_residual(const LensCalibration& found, const std::vector<Shot>& shots
 }
 
 /// Locates more frames, with the calibrated camera and with one that has no distortion.
-void judge_positions(const Series& series, const Camera& camera, Workspace& workspace,
-                     Tally& tally) {
+void judge_positions(const Series& series, const Camera& camera, Tally& tally) {
+    HeapLocator locator;
+    HeapLocator undistorted;
     for (int i = kFrames; i < 2 * kFrames; ++i) {
         Shot shot = series.shot(i);
         const Truth truth = truth_of(shot);
@@ -206,11 +209,12 @@ void judge_positions(const Series& series, const Camera& camera, Workspace& work
         };
         Options options;
         use_camera(camera, shot.camera.width_px, shot.camera.height_px, options);
-        const Fix fix = locate(render(shot).view(), options, workspace);
-        const bool is_located = add(with_camera(fix, camera, options, workspace), tally.located);
+        locator.set_options(options);
+        const Fix fix = locator.locate(render(shot).view());
+        const bool is_located = add(with_camera(fix, camera, locator.trace()), tally.located);
         tally.not_located += is_located ? 0 : 1;
         shot.camera.k = 0;
-        add(locate(render(shot).view(), {}, workspace), tally.undistorted);
+        add(undistorted.locate(render(shot).view()), tally.undistorted);
     }
 }
 
@@ -221,10 +225,9 @@ void calibrate_once(const Series& series, Tally& tally) {
     const auto frame_at = [&](int i) { return render(shots[static_cast<std::size_t>(i)]); };
     const LensCalibration found = calibrate_lens(kFrames, frame_at, {});
     const std::vector<TrueDot> dots = true_dots(found, shots);
-    const auto workspace = std::make_unique<LargeWorkspace>();
     judge_parameters(series, found, dots, tally);
-    judge_residual(found, shots, dots, *workspace, tally);
-    judge_positions(series, found.camera, *workspace, tally);
+    judge_residual(found, shots, dots, tally);
+    judge_positions(series, found.camera, tally);
     tally.not_good += found.verdict != CalibrationVerdict::good ? 1 : 0;
     tally.wrong_kind += found.is_mounted != series.kind.is_mounted ? 1 : 0;
 }

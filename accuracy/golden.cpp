@@ -83,7 +83,7 @@ struct Frames {
 /// A way to locate a frame.
 struct Way {
     std::string name;
-    std::function<Fix(const Frames&, Workspace&)> locate;
+    std::function<Fix(const Frames&, LargeMemory&)> locate;
 };
 constexpr std::size_t kMostWays = 5;
 
@@ -123,8 +123,8 @@ void add(Tally& tally, const Set& set, std::uint64_t index) {
     }
     tally.pixels += pixels.value();
     for (std::size_t i = 0; i < set.ways.size(); ++i) {
-        const auto workspace = std::make_unique<LargeWorkspace>();
-        const Fix fix = set.ways[i].locate(frames, *workspace);
+        const auto memory = std::make_unique<LargeMemory>();
+        const Fix fix = set.ways[i].locate(frames, *memory);
         Checksum sum;
         sum.add(static_cast<std::int64_t>(index));
         add(sum, fix);
@@ -157,25 +157,25 @@ std::function<Frames(std::uint64_t)> frames_of(Preset preset, int width_px, int 
 }
 
 auto with_effort(Effort effort) {
-    return [effort](const Frames& frames, Workspace& workspace) {
+    return [effort](const Frames& frames, LargeMemory& memory) {
         Options options = frames.options;
         options.effort = effort;
-        return locate(frames.image.view(), options, workspace);
+        return Locator(memory, options).locate(frames.image.view());
     };
 }
 
 auto tracked(Effort effort) {
-    return [effort](const Frames& frames, Workspace& workspace) {
+    return [effort](const Frames& frames, LargeMemory& memory) {
         Options options = frames.options;
-        const Fix fix = locate(frames.image.view(), options, workspace);
+        const Fix fix = Locator(memory, options).locate(frames.image.view());
         options.effort = effort;
         if (fix.status != Status::ok) return fix;
-        return locate(frames.next.view(), options, Prediction::like(fix), workspace);
+        return Locator(memory, options).locate(frames.next.view(), Prediction::like(fix));
     };
 }
 
-Fix in_any_code(const Frames& frames, Workspace& workspace) {
-    return locate_in_any_code(frames.image.view(), frames.options, {}, workspace).fix;
+Fix in_any_code(const Frames& frames, LargeMemory& memory) {
+    return Locator(memory, frames.options).locate_in_any_code(frames.image.view(), {}).fix;
 }
 
 std::vector<Set> all_sets() {

@@ -30,7 +30,7 @@ using namespace dotpose;
 
 // ---- Frames ----
 
-void try_frame(std::uint64_t seed, std::uint64_t index, Workspace& workspace, Tally& tally) {
+void try_frame(std::uint64_t seed, std::uint64_t index, LargeMemory& memory, Tally& tally) {
     Setup setup;
     setup.preset = Preset::clean;
     setup.seed = seed;
@@ -48,7 +48,7 @@ void try_frame(std::uint64_t seed, std::uint64_t index, Workspace& workspace, Ta
     });
     Options options;
     options.integrity = kAcceptAll;
-    const Fix fix = locate(image.view(), options, workspace);
+    const Fix fix = Locator(memory, options).locate(image.view());
     if (fix.status != Status::ok) {
         ++tally.unread;
         return;
@@ -174,8 +174,8 @@ int run(const Arguments& arguments) {
         count_grids("doubtful grids", GridKind::doubtful, arguments.doubtful);
     const Count<Tally> frames = count_on_threads<Tally>(
         "frames", arguments.frames, threads, [&](std::uint64_t i, Tally& tally) {
-            thread_local const auto kWorkspace = std::make_unique<LargeWorkspace>();
-            try_frame(seed, i, *kWorkspace, tally);
+            thread_local const auto kMemory = std::make_unique<LargeMemory>();
+            try_frame(seed, i, *kMemory, tally);
         });
     bool all_hold = print("Grids of 8 to 13 lines", grids.tally, true);
     all_hold &= print("Doubtful grids of 8 to 13 lines", doubtful.tally, true);

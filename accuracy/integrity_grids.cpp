@@ -16,7 +16,7 @@ constexpr int kMaxSide = 16;
 /// Bits as read from a pattern.
 struct Reading {
     std::array<GridCell, kMaxSide * kMaxSide> cells;
-    Grid grid;
+    core::Grid grid;
     Profile profile = Profile::anoto;
     Turn turn;
     Place place;  ///< true place of grid cell (0, 0)
@@ -75,7 +75,7 @@ double draw_odds_of_doubt(double cells, Noise noise, Rng& rng) {
 
 /// Size, place and turn.
 void draw_frame(Rng& rng, Reading& reading) {
-    Grid& grid = reading.grid;
+    core::Grid& grid = reading.grid;
     grid.storage = reading.cells;
     const auto other = static_cast<Profile>(rng.below(3));
     if (rng.below(3) == 0) reading.profile = other;
@@ -92,7 +92,7 @@ void draw_frame(Rng& rng, Reading& reading) {
 
 void draw(GridKind kind, Rng& rng, Reading& reading) {
     draw_frame(rng, reading);
-    Grid& grid = reading.grid;
+    core::Grid& grid = reading.grid;
     Noise noise{rng.uniform(2.5, 9), rng.below(2) == 0 ? 0 : rng.uniform(0, 0.25),
                 rng.below(2) == 0 ? 127 : 8};
     // In some, blank paper beyond some column.
@@ -179,7 +179,7 @@ Wrong kind_of_error(const Reading& reading, const Decoding& decoding) {
 
 /// What the bits of a reading say, per axis, if its odds are those that `verify` takes for it: a
 /// cheap measure of how doubtful it is, from nothing but what the decoder sees.
-double apparent_information(const Grid& grid, const Decoding& decoding,
+double apparent_information(const core::Grid& grid, const Decoding& decoding,
                             const core::Nominal& nominal) {
     core::Confidence confidence;
     for (int j = grid.j0; j < grid.j0 + grid.rows; ++j) {
@@ -199,7 +199,8 @@ double apparent_information(const Grid& grid, const Decoding& decoding,
 
 /// Whether p_wrong is likely to be near 1e-5, the claim that takes the most cases; enough of those
 /// that look so are near 1e-4 and 1e-3. `verify` takes 20 times as long as all before it.
-bool looks_doubtful(const Grid& grid, const Decoding& decoding, const core::Nominal& nominal) {
+bool looks_doubtful(const core::Grid& grid, const Decoding& decoding,
+                    const core::Nominal& nominal) {
     const double bits = apparent_information(grid, decoding, nominal);
     return bits > 62 && bits < 75;
 }
@@ -213,7 +214,7 @@ void try_grid(GridKind kind, std::uint64_t seed, std::uint64_t index, Tally& tal
     Decoding decoding;
     decoding.window = core::choose_window(reading.grid, kWindowSide);
     decoding.region = core::choose_window(reading.grid, kMaxSide);
-    std::array<ScoredLine, 2 * kMaxSide> storage;
+    std::array<core::ScoredLine, 2 * kMaxSide> storage;
     if (core::decode_all(reading.grid, reading.profile, storage, decoding) != Status::ok) {
         ++tally.unread;
         return;

@@ -12,9 +12,9 @@ namespace {
 
 constexpr double kBam_per_degree = 4294967296.0 / 360;
 
-Workspace& workspace() {
-    thread_local const auto kWorkspace = std::make_unique<LargeWorkspace>();
-    return *kWorkspace;
+LargeMemory& memory() {
+    thread_local const auto kMemory = std::make_unique<LargeMemory>();
+    return *kMemory;
 }
 
 /// By how much a prediction is off.
@@ -49,7 +49,7 @@ Setup nominal(const Counting& counting) {
 /// The first row is that of frames without a prediction.
 void try_offsets(const Shot& shot, TrackedTallies& tallies) {
     const GreyImage image = render(shot);
-    const Fix fresh = locate(image.view(), {}, workspace());
+    const Fix fresh = Locator(memory()).locate(image.view());
     if (fresh.status != Status::ok) return;
     const Truth truth = Truth::of(shot);
     ++tallies[0].afresh;
@@ -57,7 +57,7 @@ void try_offsets(const Shot& shot, TrackedTallies& tallies) {
     Rng rng(shot.seed, 77);
     for (std::size_t i = 0; i < kOffsets.size(); ++i) {
         const Prediction prediction = displaced(fresh, kOffsets[i], rng);
-        tallies[i + 1].count(locate(image.view(), {}, prediction, workspace()), truth);
+        tallies[i + 1].count(Locator(memory()).locate(image.view(), prediction), truth);
     }
 }
 
@@ -142,7 +142,7 @@ void try_changes(const Counting& counting, std::uint64_t index, TrackedTallies& 
     const Shot first = draw_shot(setup, 2 * index);
     const Shot other = draw_shot(setup, 2 * index + 1);
     const GreyImage image = render(first);
-    const Fix seen = locate(image.view(), {}, workspace());
+    const Fix seen = Locator(memory()).locate(image.view());
     if (seen.status != Status::ok) return;
     Rng rng(first.seed, 78);
     for (const Change change : kChanges) {
@@ -150,7 +150,7 @@ void try_changes(const Counting& counting, std::uint64_t index, TrackedTallies& 
         const bool is_lifted = change == Change::lifted;
         const GreyImage next = is_lifted ? nothing_in_focus(shot, rng) : render(shot);
         tallies[static_cast<std::size_t>(change)].count(
-            locate(next.view(), {}, Prediction::like(seen), workspace()),
+            Locator(memory()).locate(next.view(), Prediction::like(seen)),
             is_lifted ? std::nullopt : std::optional(Truth::of(shot)));
     }
 }

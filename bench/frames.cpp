@@ -8,7 +8,6 @@
 #include <tuple>
 
 #include <dotpose/locate.hpp>
-#include <dotpose/workspace.hpp>
 
 namespace dotpose::bench {
 namespace {
@@ -22,11 +21,11 @@ int count_of(const CameraModel& camera) {
 
 /// Whether the first attempt finds a pose: without one it ends early, and would seem fast.
 bool is_located_at_once(const KnownFrame& frame) {
-    const auto workspace = std::make_unique<LargeWorkspace>();
+    const auto memory = std::make_unique<LargeMemory>();
     const auto locates = [&](Effort effort) {
         Options options;
         options.effort = effort;
-        return locate(frame.image.view(), options, *workspace).status == Status::ok;
+        return Locator(*memory, options).locate(frame.image.view()).status == Status::ok;
     };
     return locates(Effort::once) && locates(Effort::device);
 }

@@ -18,30 +18,31 @@ constexpr std::uint64_t kSeed = 606;
 }  // namespace
 
 /// By their names, the counter knows them.
-extern "C" [[gnu::noinline]] void count_fresh_frame(const ImageView& image, Workspace& workspace) {
-    locate(image, {}, workspace);
+extern "C" [[gnu::noinline]] void count_fresh_frame(const ImageView& image, Locator& locator) {
+    locator.locate(image);
 }
 extern "C" [[gnu::noinline]] void count_tracked_frame(const ImageView& image,
                                                       const Prediction& prediction,
-                                                      Workspace& workspace) {
-    locate(image, {}, prediction, workspace);
+                                                      Locator& locator) {
+    locator.locate(image, prediction);
 }
 
 int main() {
     Setup setup;
     setup.seed = kSeed;
-    const auto workspace = std::make_unique<SmallWorkspace>();
+    const auto memory = std::make_unique<SmallMemory>();
+    Locator locator(*memory);
     for (int i = 0; i < kFrames; ++i) {
         const GreyImage image = render(draw_shot(setup, static_cast<std::uint64_t>(i)));
-        count_fresh_frame(image.view(), *workspace);
-        if (workspace->fix.status != Status::ok) return 1;
+        count_fresh_frame(image.view(), locator);
+        const Fix fix = locator.trace().fix;
+        if (fix.status != Status::ok) return 1;
         // A robot that has gone on by a fifth of a spacing and turned by a degree.
         constexpr std::int32_t kDegree_bam = 11930465;
-        const Prediction prediction =
-            moved(Prediction::like(workspace->fix), Profile::anoto, {65536 / 5, 0}, kDegree_bam,
-                  workspace->fix.pattern_from_image.centre_q8);
-        count_tracked_frame(image.view(), prediction, *workspace);
-        if (workspace->fix.attempt != Attempt::tracked) return 1;
+        const Prediction prediction = moved(Prediction::like(fix), Profile::anoto, {65536 / 5, 0},
+                                            kDegree_bam, fix.pattern_from_image.centre_q8);
+        count_tracked_frame(image.view(), prediction, locator);
+        if (locator.trace().fix.attempt != Attempt::tracked) return 1;
     }
     std::printf("%d\n", kFrames);
 }

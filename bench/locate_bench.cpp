@@ -58,21 +58,26 @@ std::string name_of(const char* what, const CameraModel& camera) {
                        kDefaultSpacing_mm / camera.mm_per_px);
 }
 
-Workspace& workspace_for(const CameraModel& camera) {
-    static const auto small = std::make_unique<SmallWorkspace>();
-    static const auto large = std::make_unique<LargeWorkspace>();
-    if (camera.width_px <= small->max_width_px) return *small;
-    return *large;
+/// With as little memory as the camera's frames need.
+Locator& locator_for(const CameraModel& camera, Effort effort) {
+    static const auto small = std::make_unique<SmallMemory>();
+    static const auto large = std::make_unique<LargeMemory>();
+    static Locator for_small(*small);
+    static Locator for_large(*large);
+    constexpr int kSmall_px = 188;
+    Locator& locator = camera.width_px <= kSmall_px ? for_small : for_large;
+    Options options;
+    options.effort = effort;
+    locator.set_options(options);
+    return locator;
 }
 
 void locate_frames(benchmark::State& state, const CameraModel& camera, Effort effort) {
-    Options options;
-    options.effort = effort;
-    Workspace& workspace = workspace_for(camera);
+    Locator& locator = locator_for(camera, effort);
     const std::vector<KnownFrame>& frames = nominal_frames(camera);
     double dots = 0;
     for (const KnownFrame& frame : frames) {
-        const Fix fix = locate(frame.image.view(), options, workspace);
+        const Fix fix = locator.locate(frame.image.view());
         if (!is_right(fix, frame.truth)) {
             return state.SkipWithError("a frame was not located rightly");
         }
@@ -80,7 +85,7 @@ void locate_frames(benchmark::State& state, const CameraModel& camera, Effort ef
     }
     std::size_t next = 0;
     for (auto _ : state) {
-        benchmark::DoNotOptimize(locate(frames[next].image.view(), options, workspace));
+        benchmark::DoNotOptimize(locator.locate(frames[next].image.view()));
         next = (next + 1) % frames.size();
     }
     state.counters["dots"] = dots / static_cast<double>(frames.size());
@@ -88,12 +93,12 @@ void locate_frames(benchmark::State& state, const CameraModel& camera, Effort ef
 
 /// Each frame from its own fix.
 void track_frames(benchmark::State& state, const CameraModel& camera) {
-    Workspace& workspace = workspace_for(camera);
+    Locator& locator = locator_for(camera, Options{}.effort);
     const std::vector<KnownFrame>& frames = nominal_frames(camera);
     std::vector<Prediction> predictions;
     for (const KnownFrame& frame : frames) {
-        const auto like = Prediction::like(locate(frame.image.view(), {}, workspace));
-        const Fix fix = locate(frame.image.view(), {}, like, workspace);
+        const auto like = Prediction::like(locator.locate(frame.image.view()));
+        const Fix fix = locator.locate(frame.image.view(), like);
         if (fix.attempt != Attempt::tracked || !is_right(fix, frame.truth)) {
             return state.SkipWithError("a frame was not tracked rightly");
         }
@@ -101,8 +106,7 @@ void track_frames(benchmark::State& state, const CameraModel& camera) {
     }
     std::size_t next = 0;
     for (auto _ : state) {
-        benchmark::DoNotOptimize(
-            locate(frames[next].image.view(), {}, predictions[next], workspace));
+        benchmark::DoNotOptimize(locator.locate(frames[next].image.view(), predictions[next]));
         next = (next + 1) % frames.size();
     }
 }

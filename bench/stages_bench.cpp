@@ -6,8 +6,6 @@
 
 #include <fmt/core.h>
 
-#include <dotpose/locate.hpp>
-
 #include "benchmarks.hpp"
 #include "core/decode/likelihood.hpp"
 #include "core/decode/lines.hpp"
@@ -22,10 +20,12 @@
 #include "core/lattice/grow.hpp"
 #include "core/lattice/neighbours.hpp"
 #include "core/lattice/origin.hpp"
+#include "core/locate.hpp"
 #include "core/pose/affine_pose.hpp"
 #include "core/pose/covariance.hpp"
 #include "core/pose/refine.hpp"
 #include "core/pose/subgrid.hpp"
+#include "core/workspace.hpp"
 #include "frames.hpp"
 
 namespace dotpose::bench {
@@ -38,7 +38,7 @@ constexpr Profile kProfile = kOptions.profile;
 struct Located {
     const GreyImage* image = nullptr;
     std::vector<Dot> blobs;  ///< before the size filter
-    SmallWorkspace w;
+    core::SmallWorkspace w;
 
     std::span<const std::uint16_t> seeds() const { return w.seeds.first(size(w.seed_count)); }
     Vec centre_q8() const { return {(image->width_px - 1) * 128, (image->height_px - 1) * 128}; }
@@ -53,7 +53,7 @@ struct Located {
 using Stage = bool (*)(Located&);
 
 bool measure_light(Located& l) {
-    Light& light = l.w.light;
+    core::Light& light = l.w.light;
     core::begin_light(l.image->width_px, l.image->height_px, light);
     int band = 0;
     for (int v = 0; v < l.image->height_px; ++v) {
@@ -63,10 +63,10 @@ bool measure_light(Located& l) {
     return light.has_contrast;
 }
 
-bool push_rows(const GreyImage& image, Workspace& w) {
-    if (begin(image.width_px, image.height_px, kOptions, w) != Status::ok) return false;
+bool push_rows(const GreyImage& image, core::Workspace& w) {
+    if (core::begin(image.width_px, image.height_px, kOptions, w) != Status::ok) return false;
     for (int v = 0; v < image.height_px; ++v)
-        push_row(image.view().row(v), kOptions, w);
+        core::push_row(image.view().row(v), kOptions, w);
     return true;
 }
 
@@ -226,7 +226,8 @@ bool prepare(const KnownFrame& frame, Path path, Located& l) {
     l.image = &frame.image;
     if (!push_rows(frame.image, l.w)) return false;
     l.blobs.assign(l.w.found_dots().begin(), l.w.found_dots().end());
-    const Fix fix = path == Path::device ? finish_device(kOptions, l.w) : finish(kOptions, l.w);
+    const Fix fix =
+        path == Path::device ? core::finish_as_device(kOptions, l.w) : core::finish(kOptions, l.w);
     return is_right(fix, frame.truth);
 }
 

@@ -34,14 +34,14 @@ std::vector<KnownFrame> tilted_frames(const CameraModel& camera, int tilt_deg, i
 
 TiltTimes time_frames(const CameraModel& camera, int tilt_deg, int count, int passes) {
     const std::vector<KnownFrame> frames = tilted_frames(camera, tilt_deg, count);
-    const auto workspace = std::make_unique<LargeWorkspace>();
+    const auto memory = std::make_unique<LargeMemory>();
     std::vector<double> fastest_us(frames.size(), 1e9);
     TiltTimes times{camera, tilt_deg, count, 0, 0};
     for (int pass = 0; pass < passes; ++pass) {
         for (std::size_t i = 0; i < frames.size(); ++i) {
             using Clock = std::chrono::steady_clock;
             const auto start = Clock::now();
-            const Fix fix = locate(frames[i].image.view(), {}, *workspace);
+            const Fix fix = Locator(*memory).locate(frames[i].image.view());
             const std::chrono::duration<double, std::micro> time = Clock::now() - start;
             fastest_us[i] = std::min(fastest_us[i], time.count());
             if (pass > 0 || fix.status != Status::ok) continue;

@@ -17,6 +17,7 @@
 
 #include "apriltag.hpp"
 #include "core/attempts/first.hpp"
+#include "core/workspace.hpp"
 #include "floor.hpp"
 #include "frames.hpp"
 
@@ -42,14 +43,14 @@ Subject subject_on(const std::vector<Frame>& frames,
     return subject;
 }
 
-Subject locating(const std::vector<KnownFrame>& frames, Effort effort, Workspace& workspace) {
+Subject locating(const std::vector<KnownFrame>& frames, Effort effort, SmallMemory& memory) {
     Options options;
     options.effort = effort;
-    Subject subject = subject_on(frames, [options, &workspace](std::size_t, GreyImage& image) {
-        benchmark::DoNotOptimize(locate(image.view(), options, workspace));
+    Subject subject = subject_on(frames, [options, &memory](std::size_t, GreyImage& image) {
+        benchmark::DoNotOptimize(Locator(memory, options).locate(image.view()));
     });
     for (const KnownFrame& frame : frames) {
-        const Fix fix = locate(frame.image.view(), options, workspace);
+        const Fix fix = Locator(memory, options).locate(frame.image.view());
         if (fix.status != Status::ok) continue;
         if (!is_right(fix, frame.truth)) throw Error("a frame was located wrongly");
         ++subject.found;
@@ -58,8 +59,9 @@ Subject locating(const std::vector<KnownFrame>& frames, Effort effort, Workspace
 }
 
 /// As on a processor without AVX2; what it does not settle is not found.
-Subject locating_narrowly(const std::vector<KnownFrame>& frames, Workspace& workspace) {
-    const auto locates = [&workspace](const GreyImage& image) {
+Subject locating_narrowly(const std::vector<KnownFrame>& frames) {
+    static core::SmallWorkspace workspace;
+    const auto locates = [](const GreyImage& image) {
         workspace.fix = {};
         return core::locate_outwards(core::wide_kernels(), image.view(), {}, workspace);
     };
@@ -72,8 +74,8 @@ Subject locating_narrowly(const std::vector<KnownFrame>& frames, Workspace& work
 }
 
 /// From the frame's own fix, displaced.
-Prediction prediction_for(const KnownFrame& frame, Rng& rng, Workspace& workspace) {
-    const Fix fix = locate(frame.image.view(), {}, workspace);
+Prediction prediction_for(const KnownFrame& frame, Rng& rng, SmallMemory& memory) {
+    const Fix fix = Locator(memory).locate(frame.image.view());
     const double direction_rad = rng.uniform(0, 2 * std::numbers::pi);
     const double way = rng.uniform(0, 0.35);
     constexpr double kTurn = 4294967296.0;
@@ -84,17 +86,16 @@ Prediction prediction_for(const KnownFrame& frame, Rng& rng, Workspace& workspac
                  fix.pattern_from_image.centre_q8);
 }
 
-Subject tracking(const std::vector<KnownFrame>& frames, Workspace& workspace) {
+Subject tracking(const std::vector<KnownFrame>& frames, SmallMemory& memory) {
     Rng rng(kSeed);
     std::vector<Prediction> predictions;
     for (const KnownFrame& frame : frames)
-        predictions.push_back(prediction_for(frame, rng, workspace));
-    Subject subject =
-        subject_on(frames, [predictions, &workspace](std::size_t i, GreyImage& image) {
-            benchmark::DoNotOptimize(locate(image.view(), {}, predictions[i], workspace));
-        });
+        predictions.push_back(prediction_for(frame, rng, memory));
+    Subject subject = subject_on(frames, [predictions, &memory](std::size_t i, GreyImage& image) {
+        benchmark::DoNotOptimize(Locator(memory).locate(image.view(), predictions[i]));
+    });
     for (std::size_t i = 0; i < frames.size(); ++i) {
-        const Fix fix = locate(frames[i].image.view(), {}, predictions[i], workspace);
+        const Fix fix = Locator(memory).locate(frames[i].image.view(), predictions[i]);
         if (fix.status != Status::ok) continue;
         if (!is_right(fix, frames[i].truth)) throw Error("a frame was located wrongly");
         subject.found += fix.attempt == Attempt::tracked ? 1 : 0;
@@ -159,15 +160,15 @@ std::vector<KnownFrame> nominal_run(int count) {
 Varied time_varied_frames(int frame_count, int passes) {
     const std::vector<KnownFrame> frames = nominal_run(frame_count);
     std::vector<TagFrame> tags = render_tags({}, frame_count / 10);
-    const auto workspace = std::make_unique<SmallWorkspace>();
+    const auto memory = std::make_unique<SmallMemory>();
     TagDetector detector_1(1);
     TagDetector detector_2(2);
     std::array<Subject, kWays> subjects = {
-        locating(frames, Effort::twice, *workspace),
-        locating(frames, Effort::once, *workspace),
-        locating_narrowly(frames, *workspace),
-        tracking(frames, *workspace),
-        locating(frames, Effort::device, *workspace),
+        locating(frames, Effort::twice, *memory),
+        locating(frames, Effort::once, *memory),
+        locating_narrowly(frames),
+        tracking(frames, *memory),
+        locating(frames, Effort::device, *memory),
         passing_over(frames),
         detecting(tags, detector_1),
         detecting(tags, detector_2),

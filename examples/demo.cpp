@@ -13,8 +13,8 @@
 
 #include <fmt/core.h>
 
-#include <dotpose/locate.hpp>
 #include <dotpose/tools/draw.hpp>
+#include <dotpose/tools/heap_locator.hpp>
 #include <dotpose/tools/image_file.hpp>
 #include <dotpose/tools/print.hpp>
 #include <dotpose/tools/simulate.hpp>
@@ -120,21 +120,18 @@ void record(const Sheet& sheet, const Waypoint& truth, const Fix& fix, Drive& dr
     drive.path.push_back(point);
 }
 
-Fix timed_locate(const GreyImage& image, const Options& options, Workspace& workspace,
-                 double& time_us) {
+Fix timed_locate(const GreyImage& image, Locator& locator, double& time_us) {
     const auto start = std::chrono::steady_clock::now();
-    const Fix fix = locate(image.view(), options, workspace);
+    const Fix fix = locator.locate(image.view());
     const std::chrono::duration<double, std::micro> elapsed =
         std::chrono::steady_clock::now() - start;
     time_us = elapsed.count();
     return fix;
 }
 
-Drive drive_over(const Sheet& sheet, const fs::path& folder, Workspace& workspace) {
+Drive drive_over(const Sheet& sheet, const fs::path& folder, Locator& locator) {
     const Page page = page_of(sheet);
     const CameraModel camera;
-    Options options;
-    options.show_stages = true;
     Drive drive;
     for (int frame = 0; frame < kFrames; ++frame) {
         const Waypoint truth = waypoint(sheet, frame);
@@ -143,14 +140,14 @@ Drive drive_over(const Sheet& sheet, const fs::path& folder, Workspace& workspac
         const GreyImage image =
             render(page, camera, pose_at(sheet, truth), imperfections, rng.bits());
         double time_us = 0;
-        const Fix fix = timed_locate(image, options, workspace, time_us);
+        const Fix fix = timed_locate(image, locator, time_us);
         drive.times_us.push_back(time_us);
         record(sheet, truth, fix, drive);
         const bool is_first_lost = fix.status != Status::ok && ++drive.lost == 1;
         if (is_first_lost ||
             std::ranges::find(kPicturedFrames, frame) != std::end(kPicturedFrames)) {
             const fs::path picture = folder / fmt::format("frame-{:03}.svg", frame);
-            draw_frame(picture, image.view(), workspace, options,
+            draw_frame(picture, image.view(), locator.trace(),
                        {.spacing_mm = sheet.pattern.spacing_mm,
                         .title = fmt::format("frame {} of {}", frame, kFrames)});
             fmt::print(
@@ -185,22 +182,20 @@ void print_table(const Drive& drive) {
                1e6 / median(drive.times_us));
 }
 
-void locate_photo(const fs::path& photo, const fs::path& folder, Workspace& workspace) {
+void locate_photo(const fs::path& photo, const fs::path& folder, Locator& locator) {
     if (!fs::exists(photo)) {
         fmt::print("{}: not there, so the real photo is skipped (--photo names one)\n",
                    photo.string());
         return;
     }
     const GreyImage image = read_image(photo);
-    Options options;
-    options.show_stages = true;
-    const Fix fix = locate(image.view(), options, workspace);
+    const Fix fix = locator.locate(image.view());
     const fs::path picture = folder / "photo.svg";
-    draw_frame(picture, image.view(), workspace, options, {.title = "a real photo"});
+    draw_frame(picture, image.view(), locator.trace(), {.title = "a real photo"});
     fmt::print("{}: {}", picture.string(), message(fix.status));
     if (fix.status == Status::ok) {
-        fmt::print(" at x {:.3f} mm, y {:.3f} mm, {:.3f} deg", fix.x_mm(kDefaultSpacing_mm),
-                   fix.y_mm(kDefaultSpacing_mm), fix.theta_rad() * 180 / std::numbers::pi);
+        fmt::print(" at x {:.3f} mm, y {:.3f} mm, {:.3f} deg", fix.x_mm(), fix.y_mm(),
+                   fix.theta_rad() * 180 / std::numbers::pi);
     }
     fmt::print("\n");
 }
@@ -208,14 +203,16 @@ void locate_photo(const fs::path& photo, const fs::path& folder, Workspace& work
 /// True if nearly every frame was located, and none wrongly.
 bool run(const Arguments& arguments) {
     fs::create_directories(arguments.out);
-    const auto workspace = std::make_unique<LargeWorkspace>();
+    Options options;
+    options.show_stages = true;
+    HeapLocator locator(options);
     const Sheet sheet = print_sheet(arguments.out);
-    const Drive drive = drive_over(sheet, arguments.out, *workspace);
+    const Drive drive = drive_over(sheet, arguments.out, locator);
     const fs::path picture = arguments.out / "path.svg";
     draw_path(picture, sheet, drive.path, "A simulated drive over an A4 sheet");
     fmt::print("{}: the drive and its errors\n", picture.string());
     print_table(drive);
-    locate_photo(arguments.photo, arguments.out, *workspace);
+    locate_photo(arguments.photo, arguments.out, locator);
     return drive.wrong_fixes == 0 && drive.lost <= kFrames / 100;
 }
 

@@ -3,17 +3,15 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <memory>
 
-#include <dotpose/locate.hpp>
+#include <dotpose/tools/heap_locator.hpp>
 #include <dotpose/tools/image_file.hpp>
 #include <dotpose/track.hpp>
 
 int main(int argc, char** argv) {
     using namespace dotpose;
     if (argc < 3) return 2;
-    const auto workspace = std::make_unique<LargeWorkspace>();
-    const Options options;
+    HeapLocator locator;
     Tracker tracker;
     Fix seen;  // The newest fix, and what the tracker was told of it.
     Sighting sighting;
@@ -21,11 +19,11 @@ int main(int argc, char** argv) {
         const GreyImage image = read_image(argv[i]);
         const std::int64_t time_us = std::llround((i - 2) * 1e6 / std::atof(argv[1]));
         const Fix fix = tracker.has_prior()
-                            ? locate(image.view(), options,
-                                     tracker.predict(time_us, seen, sighting, options), *workspace)
-                            : locate(image.view(), options, *workspace);
+                            ? locator.locate(image.view(), tracker.predict(time_us, seen, sighting,
+                                                                           locator.options()))
+                            : locator.locate(image.view());
         const bool ok = fix.status == Status::ok;
-        if (ok) sighting = sighting_of(seen = fix, 508'000, time_us);
+        if (ok) sighting = sighting_of(seen = fix, time_us);
         const Track& track = tracker.update(time_us, ok ? &sighting : nullptr);
         const TrackedPose& pose = track.pose;
         if (track.is_lost) std::puts("lost");

@@ -16,15 +16,10 @@ using namespace dotpose;
 constexpr int kMaxWidth_px = 188;
 constexpr int kMaxHeight_px = 9999;
 
-DeviceWorkspace workspace;
+DeviceMemory memory;
+DeviceLocator locator(memory);
 // Cameras write rows to word boundaries, and rows so aligned are copied by words.
 alignas(4) std::array<std::uint8_t, kMaxWidth_px> row;
-
-constexpr Options kOptions = [] {
-    Options options;
-    options.effort = Effort::device;
-    return options;
-}();
 
 struct FrameHeader {
     int width_px = 0;
@@ -90,13 +85,12 @@ Header read_header(FrameHeader& header) {
 }
 
 Status begin_frame(const FrameHeader& frame) {
-    return frame.is_predicted
-               ? begin(frame.width_px, frame.height_px, kOptions, frame.prediction, workspace)
-               : begin(frame.width_px, frame.height_px, kOptions, workspace);
+    return frame.is_predicted ? locator.begin(frame.width_px, frame.height_px, frame.prediction)
+                              : locator.begin(frame.width_px, frame.height_px);
 }
 
 /// False if the file ends within the frame.
-bool locate_frame(const FrameHeader& frame) {
+bool locate_frame(const FrameHeader& frame, Fix& fix) {
     markers::resume();
     const Status status = begin_frame(frame);
     markers::pause();
@@ -104,14 +98,12 @@ bool locate_frame(const FrameHeader& frame) {
         if (!host::read(row.data(), static_cast<std::size_t>(frame.width_px))) return false;
         if (status != Status::ok) continue;
         markers::resume();
-        push_row(row.data(), kOptions, workspace);
+        locator.push_row(row.data());
         markers::pause();
     }
-    if (status == Status::ok) {
-        markers::resume();
-        finish_device(kOptions, workspace);
-        markers::pause();
-    }
+    markers::resume();
+    fix = locator.finish();
+    markers::pause();
     markers::end_frame();
     return true;
 }
@@ -140,11 +132,12 @@ int locate_frames(const char* path) {
     FrameHeader frame;
     Header header = Header::end;
     while ((header = read_header(frame)) == Header::frame) {
-        if (!locate_frame(frame)) {
+        Fix fix;
+        if (!locate_frame(frame, fix)) {
             host::print("the file ends within a frame\n");
             return 1;
         }
-        print_fix(workspace.fix);
+        print_fix(fix);
     }
     if (header == Header::bad) host::print("not a binary PGM of 8 bits, at most 188 px wide\n");
     return header == Header::end ? 0 : 1;

@@ -36,7 +36,7 @@ std::string FailureHint::after(const Reading& reading, ImageView image, const Op
     const bool is_time = is_long_enough && failed >= kLeastFrames && !is_told_;
     if (!is_time || record.fix.status == Status::ok) return {};
     is_told_ = true;
-    const auto scratch = std::make_unique<LargeWorkspace>();
+    const auto scratch = std::make_unique<LargeMemory>();
     Record newest = record;
     newest.advice = advice_on(image, record.fix.status, options, *scratch);
     return fmt::format("most frames of the last second were not located; the newest: {}",

@@ -40,10 +40,7 @@ std::array<std::array<float, 3>, 3> turned(const std::array<std::array<float, 3>
 }  // namespace
 
 FrameLocator::FrameLocator(const LocatorOptions& options)
-    : options_(options),
-      used_(options.locate),
-      workspace_(std::make_unique<LargeWorkspace>()),
-      tracker_(options.track) {
+    : options_(options), used_(options.locate), tracker_(options.track) {
     used_.show_stages = true;  // for window and recording
     if (options.code) profiles_ = {*options.code};
     if (!options.sheets.empty()) use_sheets();
@@ -75,6 +72,11 @@ std::optional<Prediction> FrameLocator::predict(std::int64_t time_us) const {
     return tracker_.predict(time_us, seen_->fix, *seen_->sighting, options);
 }
 
+Locator& FrameLocator::locator(const Options& options) {
+    locator_.set_options(options);
+    return locator_;
+}
+
 /// The first fix that lies on a sheet of its profile; otherwise the first fix, or what the last
 /// profile told.
 FrameLocator::Found FrameLocator::find(ImageView image, int max_p_wrong_log2,
@@ -97,15 +99,14 @@ FrameLocator::Found FrameLocator::look(ImageView image, const Options& options,
                                        const std::optional<Prediction>& expected) {
     // A code that was named may be the wrong one; frames that follow others need not ask again.
     if (!expected && sheets_.empty()) {
-        const CodeReading reading = locate_in_code(image, options, *workspace_);
+        const CodeReading reading = locator(options).locate_in_code(image);
         return {reading.fix, {}, reading};
     }
-    Fix fix = expected ? locate(image, options, *expected, *workspace_)
-                       : locate(image, options, *workspace_);
+    Fix fix = expected ? locator(options).locate(image, *expected) : locator(options).locate(image);
     auto place = find_sheet(sheets_, options.profile, fix);
     // The centre has left the page that was followed: another one may be seen there.
     if (fix.status == Status::ok && fix.attempt == Attempt::tracked && !place && !sheets_.empty()) {
-        fix = locate(image, options, *workspace_);
+        fix = locator(options).locate(image);
         place = find_sheet(sheets_, options.profile, fix);
     }
     return {fix, place, {fix, options.profile, {}}};
@@ -114,9 +115,9 @@ FrameLocator::Found FrameLocator::look(ImageView image, const Options& options,
 FrameLocator::Found FrameLocator::look_in_any_code(ImageView image,
                                                    const std::optional<Prediction>& expected) {
     if (seen_) used_.profile = seen_->profile;
-    const CodeReading reading =
-        expected && seen_ ? locate_in_any_code(image, used_, *expected, evidence_, *workspace_)
-                          : locate_in_any_code(image, used_, evidence_, *workspace_);
+    const CodeReading reading = expected && seen_
+                                    ? locator(used_).locate_in_any_code(image, *expected, evidence_)
+                                    : locator(used_).locate_in_any_code(image, evidence_);
     used_.profile = reading.code;
     return {reading.fix, {}, reading};
 }
@@ -147,8 +148,9 @@ double FrameLocator::spacing_mm(const Found& found) const {
 std::optional<Sighting> FrameLocator::sighting_of(const Found& found, std::int64_t time_us) const {
     const double spacing = spacing_mm(found);
     if (found.fix.status != Status::ok || !std::isfinite(spacing)) return std::nullopt;
-    Sighting sighting = dotpose::sighting_of(
-        found.fix, static_cast<std::int32_t>(std::lround(spacing * kNm_per_mm)), time_us);
+    Fix fix = found.fix;
+    fix.spacing_nm = static_cast<std::int32_t>(std::lround(spacing * kNm_per_mm));
+    Sighting sighting = dotpose::sighting_of(fix, time_us);
     if (plane_ == Plane::pattern) return sighting;
     const auto world = found.place ? world_pose(*found.place) : std::nullopt;
     if (!world) return std::nullopt;

@@ -2,13 +2,12 @@
 /// prior. Dots are looked for where the frames before lead to expect them.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "dotpose/code_evidence.hpp"
-#include "dotpose/locate.hpp"
+#include "dotpose/tools/heap_locator.hpp"
 #include "dotpose/tools/sheet.hpp"
 #include "dotpose/tools/sheet_file.hpp"
 #include "dotpose/track.hpp"
@@ -49,7 +48,7 @@ class FrameLocator {
     /// The world if the file says where the sheets lie; otherwise the pattern.
     Plane plane() const { return plane_; }
     const std::vector<SheetEntry>& sheets() const { return sheets_; }
-    const Workspace& workspace() const { return *workspace_; }
+    Trace trace() const { return locator_.trace(); }
     const Options& options() const { return used_; }
 
   private:
@@ -66,6 +65,7 @@ class FrameLocator {
     };
     void use_sheets();
     std::optional<Prediction> predict(std::int64_t time_us) const;
+    Locator& locator(const Options& options);
     Found find(ImageView image, int max_p_wrong_log2, const std::optional<Prediction>& expected);
     Found look(ImageView image, const Options& options,
                const std::optional<Prediction>& expected = {});
@@ -81,7 +81,7 @@ class FrameLocator {
     CodeEvidence evidence_;  ///< of the frames before
     Plane plane_ = Plane::pattern;
     Options used_;  ///< for the newest frame
-    std::unique_ptr<LargeWorkspace> workspace_;
+    HeapLocator locator_;
     Tracker tracker_;
     std::optional<Seen> seen_;  ///< none if that is too long ago to expect anything
 };

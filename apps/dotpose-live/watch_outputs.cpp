@@ -160,8 +160,7 @@ bool WatchOutputs::show(const video::Frame& frame, const Reading& reading, std::
     const TrackedPose& pose = reading.track.pose;
     video::Scene scene;
     scene.image = frame.image.view();
-    scene.workspace = &locator_.workspace();
-    scene.options = &locator_.options();
+    scene.trace = locator_.trace();
     scene.is_good = ok;
     scene.y_up = locator_.plane() == Plane::sheet_world;
     scene.path = path_.marks();

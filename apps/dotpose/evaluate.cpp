@@ -150,8 +150,8 @@ void locate_with(const Camera& camera, const std::vector<TruthRow>& rows, FrameR
         }
         return frame;
     };
-    run.refine = [camera](const Fix& fix, const Options& options, const Workspace& workspace) {
-        return with_camera(fix, camera, options, workspace);
+    run.refine = [camera](const Fix& fix, const Trace& trace) {
+        return with_camera(fix, camera, trace);
     };
 }
 

@@ -18,6 +18,7 @@
 #include "common.hpp"
 #include "dotpose/code_evidence.hpp"
 #include "dotpose/tools/frame_file.hpp"
+#include "dotpose/tools/heap_locator.hpp"
 #include "dotpose/tools/sheet_file.hpp"
 #include "image_names.hpp"
 #include "lines.hpp"
@@ -69,12 +70,10 @@ void invert(GreyImage& image) {
 }
 
 /// Reads and locates one image after the other.
-class Locator {
+class ImageLocator {
   public:
-    Locator(const LocateArguments& arguments, const RunFiles& files)
-        : arguments_(arguments),
-          unplaced_spacing_mm_(arguments.spacing_mm),
-          workspace_(std::make_unique<LargeWorkspace>()) {
+    ImageLocator(const LocateArguments& arguments, const RunFiles& files)
+        : arguments_(arguments), unplaced_spacing_mm_(arguments.spacing_mm) {
         if (arguments.code) profiles_ = {*arguments.code};
         if (!arguments.sheets.empty()) use_sheets();
         if (!arguments.draw_folder.empty()) pictures_.emplace(arguments.draw_folder, files);
@@ -123,7 +122,7 @@ class Locator {
     /// Draws the image just located, if pictures are wanted. Throws Error.
     void draw(const std::string& name) {
         if (!pictures_ || image_.pixels.empty()) return;
-        pictures_->add(name, image_.view(), *workspace_, options_, spacing_mm_);
+        pictures_->add(name, image_.view(), locator_.trace(), spacing_mm_);
     }
 
   private:
@@ -157,7 +156,7 @@ class Locator {
 
     std::string advice(Status status) {
         if (status == Status::ok) return {};
-        if (!scratch_) scratch_ = std::make_unique<LargeWorkspace>();
+        if (!scratch_) scratch_ = std::make_unique<LargeMemory>();
         return advice_on(image_.view(), status, options_, *scratch_);
     }
 
@@ -182,8 +181,7 @@ class Locator {
     /// Leaves the profile that was read in `options_`.
     Found read() {
         if (!profiles_.empty()) return locate_with_any_profile();
-        const CodeReading reading =
-            locate_in_any_code(image_.view(), options_, evidence_, *workspace_);
+        const CodeReading reading = locator().locate_in_any_code(image_.view(), evidence_);
         evidence_ = reading.evidence;
         options_.profile = reading.code;
         return {reading, corrected(reading.fix)};
@@ -203,13 +201,13 @@ class Locator {
                 is_found = true;
             }
         }
-        // Once more if need be, so that fix and workspace belong together.
+        // Once more if need be, so that fix and trace belong together.
         return options_.profile == best ? found : locate_with(best);
     }
 
     Found locate_with(Profile profile) {
         options_.profile = profile;
-        const CodeReading reading = locate_in_code(image_.view(), options_, *workspace_);
+        const CodeReading reading = locator().locate_in_code(image_.view());
         return {reading, corrected(reading.fix)};
     }
 
@@ -217,7 +215,7 @@ class Locator {
         const auto place = find_sheet(sheets_, options_.profile, fix);
         if (place) fix = without_surroundings(fix, *place);
         if (!arguments_.camera.camera) return fix;
-        return with_camera(fix, *arguments_.camera.camera, options_, *workspace_,
+        return with_camera(fix, *arguments_.camera.camera, locator_.trace(),
                            place ? place->entry->print_scale() : AxisScale{});
     }
 
@@ -226,20 +224,26 @@ class Locator {
         if (fix.bit_errors == 0) return fix;
         const auto cut = cut_to_dots(image_.view(), options_, fix, place.entry->sheet);
         if (!cut) return fix;
-        Fix again = locate(cut->view(), options_, Prediction::like(fix), *workspace_);
+        Fix again = locator().locate(cut->view(), Prediction::like(fix));
         const auto place_again = find_sheet(sheets_, options_.profile, again);
         const bool is_better = place_again && place_again->entry == place.entry &&
                                again.bit_errors < fix.bit_errors &&
                                again.dots_used + fix.bit_errors >= fix.dots_used;
         if (!is_better) {
-            // The workspace must show what is returned.
-            (void)locate(image_.view(), options_, *workspace_);
+            // The trace must show what is returned.
+            (void)locator().locate(image_.view());
             return fix;
         }
         if (again.attempt == Attempt::tracked) again.attempt = fix.attempt;
         // All codes were part of the doubt about the first one.
         again.p_wrong_log2 = fix.p_wrong_log2;
         return again;
+    }
+
+    /// With the options of the image.
+    Locator& locator() {
+        locator_.set_options(options_);
+        return locator_;
     }
 
     Options options_for(const GreyImage& image) const {
@@ -263,8 +267,8 @@ class Locator {
     std::vector<Profile> profiles_;  ///< given, to try in this order; none: all are in question
     CodeEvidence evidence_;          ///< of the images before
     double unplaced_spacing_mm_;     ///< for a fix on no sheet; not a number if sheets differ
-    std::unique_ptr<LargeWorkspace> workspace_;
-    std::unique_ptr<LargeWorkspace> scratch_;  ///< for a look at what could not be located
+    HeapLocator locator_;
+    std::unique_ptr<LargeMemory> scratch_;  ///< for a look at what could not be located
     std::optional<PictureFolder> pictures_;
     GreyImage image_;
     Options options_;
@@ -289,7 +293,7 @@ int run(const LocateArguments& arguments) {
     const bool is_csv = arguments.format == RecordFormat::csv;
     ImageNames names(arguments.images, arguments.list);
     const RunFiles files = files_of(arguments, names);
-    Locator locator(arguments, files);
+    ImageLocator locator(arguments, files);
     Lines lines(arguments.out);
     int exit_code = 0;
     // One bad file does not keep the others from being done.

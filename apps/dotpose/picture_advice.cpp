@@ -57,7 +57,7 @@ GreyImage enlarged_middle(ImageView image, int side_px, int by) {
 
 /// The spacing in the image, if the pattern can be read once the image is enlarged.
 std::optional<double> too_small_spacing_px(ImageView image, const Options& options,
-                                           Workspace& scratch) {
+                                           LargeMemory& scratch) {
     constexpr int kMiddle_px = 320;
     constexpr double kLeastSpacing_px = 6;
     Options once;
@@ -65,7 +65,7 @@ std::optional<double> too_small_spacing_px(ImageView image, const Options& optio
     once.effort = Effort::once;
     for (const int by : {2, 3}) {
         const GreyImage large = enlarged_middle(image, kMiddle_px, by);
-        const Fix fix = locate(large.view(), once, scratch);
+        const Fix fix = Locator(scratch, once).locate(large.view());
         if (fix.status != Status::ok) continue;
         const double spacing_px = fix.spacing_px() / by;
         if (spacing_px < kLeastSpacing_px) return spacing_px;
@@ -112,7 +112,7 @@ GreyImage stretched_middle(ImageView image, int side_px, const Stretch& stretch)
 
 /// The tilt of the sheet, if the pattern can be read once that is undone.
 std::optional<double> large_tilt_degrees(ImageView image, const Options& options,
-                                         Workspace& scratch) {
+                                         LargeMemory& scratch) {
     constexpr int kMiddle_px = 480;
     constexpr int kDirections = 8;
     Options once;
@@ -122,11 +122,12 @@ std::optional<double> large_tilt_degrees(ImageView image, const Options& options
         for (int k = 0; k < kDirections; ++k) {
             const Stretch stretch{k * std::numbers::pi / kDirections, by};
             const GreyImage straight = stretched_middle(image, kMiddle_px, stretch);
-            if (locate(straight.view(), once, scratch).status != Status::ok) continue;
+            const Fix fix = Locator(scratch, once).locate(straight.view());
+            if (fix.status != Status::ok) continue;
             // Cells per px of the image, by stretching first.
             const double c = std::cos(stretch.angle_rad);
             const double s = std::sin(stretch.angle_rad);
-            const auto& plane = scratch.pattern_from_image;
+            const PlaneFromImage& plane = fix.pattern_from_image;
             const auto seen = [&](double u, double v) {
                 const double more = (c * u + s * v) * (by - 1);
                 const double x = u + more * c;
@@ -179,7 +180,8 @@ bool is_out_of_focus(ImageView image) {
 
 }  // namespace
 
-std::string advice_on(ImageView image, Status status, const Options& options, Workspace& scratch) {
+std::string advice_on(ImageView image, Status status, const Options& options,
+                      LargeMemory& scratch) {
     if (status == Status::ok || status == Status::image_too_small ||
         status == Status::image_too_large || status == Status::no_contrast ||
         status == Status::ambiguous_code) {

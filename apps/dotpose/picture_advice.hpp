@@ -4,14 +4,14 @@
 #include <string>
 
 #include "dotpose/image.hpp"
+#include "dotpose/memory.hpp"
 #include "dotpose/options.hpp"
 #include "dotpose/status.hpp"
-#include "dotpose/workspace.hpp"
 
 namespace dotpose::cli {
 
 /// A sentence without a full stop; empty if the picture tells nothing. `status` is what `locate`
 /// said of it with `options`; `scratch` is overwritten.
-std::string advice_on(ImageView image, Status status, const Options& options, Workspace& scratch);
+std::string advice_on(ImageView image, Status status, const Options& options, LargeMemory& scratch);
 
 }  // namespace dotpose::cli

@@ -6,8 +6,7 @@
 #include <string>
 
 #include "dotpose/image.hpp"
-#include "dotpose/options.hpp"
-#include "dotpose/workspace.hpp"
+#include "dotpose/trace.hpp"
 #include "run_files.hpp"
 
 namespace dotpose::cli {
@@ -20,8 +19,7 @@ class PictureFolder {
 
     /// Writes STEM.svg after the image's name, or STEM-2.svg and so on if an earlier image had the
     /// same stem. Throws Error.
-    void add(const std::string& image_name, ImageView image, const Workspace& workspace,
-             const Options& options, double spacing_mm);
+    void add(const std::string& image_name, ImageView image, const Trace& trace, double spacing_mm);
 
   private:
     std::filesystem::path folder_;

@@ -45,9 +45,8 @@ class Predictor {
     /// Writes a prediction that is off by up to half a spacing and 4 degrees.
     void write(const dotpose::GreyImage& image) {
         using namespace dotpose;
-        Options options;
-        options.effort = Effort::device;
-        const Fix fix = locate(image.view(), options, workspace_);
+        const Options options;
+        const Fix fix = DeviceLocator(memory_, options).locate(image.view());
         if (fix.status != Status::ok) return;
         const double shift_q16 = 32768 * std::sqrt(rng_.uniform());
         const double direction_rad = rng_.uniform(-std::numbers::pi, std::numbers::pi);
@@ -69,7 +68,7 @@ class Predictor {
 
   private:
     dotpose::Rng rng_;
-    dotpose::DeviceWorkspace workspace_;
+    dotpose::DeviceMemory memory_;
 };
 
 /// Standard output: the frames of the file that are located, each after a prediction.

@@ -4,7 +4,7 @@
 ///
 ///     CodeEvidence evidence;
 ///     for (;;) {
-///         const CodeReading reading = locate_in_any_code(image, options, evidence, workspace);
+///         const CodeReading reading = locator.locate_in_any_code(image, evidence);
 ///         evidence = reading.evidence;
 ///     }
 ///
@@ -17,7 +17,7 @@
 
 #include "dotpose/code.hpp"
 #include "dotpose/fix.hpp"
-#include "dotpose/locate.hpp"
+#include "dotpose/image.hpp"
 
 #pragma GCC visibility push(default)
 
@@ -71,29 +71,15 @@ struct CodeReading {
     Section other_section{};
 };
 
-/// Locates a frame as `locate` does, but in any profile; `options.profile` has no effect. Places in
-/// all profiles are alternatives, with the odds that `evidence` gives these. A frame that places of
-/// two profiles explain about equally well has the status ambiguous_code.
-CodeReading locate_in_any_code(const ImageView& image, const Options& options,
-                               const CodeEvidence& evidence, Workspace& workspace);
-
-/// Locates a frame in any profile, beginning with a prediction, which was made in
-/// `options.profile`.
-CodeReading locate_in_any_code(const ImageView& image, const Options& options,
-                               const Prediction& prediction, const CodeEvidence& evidence,
-                               Workspace& workspace);
-
-/// As `locate` in `options.profile`, to the bit; and whether another profile explains the frame
-/// without a contradiction, at another place or where `options.profile` has none (`has_other`).
-CodeReading locate_in_code(const ImageView& image, const Options& options, Workspace& workspace);
+class Locator;
 
 /// Locates frames of one sheet, in a profile that is given, or else found out from all of them.
 class CodeReader {
   public:
     explicit CodeReader(std::optional<Profile> given = std::nullopt) : given_(given) {}
 
-    /// As `locate`. Afterwards `options.profile` is the profile that was read.
-    Fix locate(const ImageView& image, Options& options, Workspace& workspace);
+    /// As Locator::locate. Afterwards the locator's options have the profile that was read.
+    Fix locate(const ImageView& image, Locator& locator);
 
     bool is_given() const { return given_.has_value(); }
     Profile code() const { return given_.value_or(evidence_.likeliest()); }

@@ -3,10 +3,11 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 
 #include "dotpose/code.hpp"
-#include "dotpose/stages.hpp"
+#include "dotpose/geometry.hpp"
 #include "dotpose/status.hpp"
 
 #pragma GCC visibility push(default)
@@ -33,8 +34,8 @@ enum class Surface : std::uint8_t {
 /// The identifier, such as "divided".
 const char* name(Surface surface) noexcept;
 
-/// Result of `locate`. Unless `status` is ok only `status`, `dots_seen` and, as far as the frame
-/// got, the counts below it mean anything.
+/// Result of Locator::locate. Unless `status` is ok only `status`, `dots_seen` and, as far as the
+/// frame got, the counts below it mean anything.
 ///
 /// The pose: the pattern point under the reference point (by default the image centre) is
 /// `cell + fraction` in units of the spacing; `theta` is the angle of the image x axis in the
@@ -44,12 +45,13 @@ struct Fix {
     Attempt attempt = Attempt::first;
     Surface surface = Surface::even;  ///< devices do not look at it
 
-    Cell cell;                         ///< intersection to the upper left of the reference point
-    std::uint16_t fraction_x_q16 = 0;  ///< from there to the right, in 1/65536 spacing
-    std::uint16_t fraction_y_q16 = 0;  ///< from there down
-    std::int32_t theta_bam = 0;        ///< binary angle: 2^31 is half a turn, in [-2^31, 2^31)
-    Section section;                   ///< section in which `cell` was read
-    std::int32_t spacing_px_q16 = 0;   ///< grid spacing in the image
+    Cell cell;                          ///< intersection to the upper left of the reference point
+    std::uint16_t fraction_x_q16 = 0;   ///< from there to the right, in 1/65536 spacing
+    std::uint16_t fraction_y_q16 = 0;   ///< from there down
+    std::int32_t theta_bam = 0;         ///< binary angle: 2^31 is half a turn, in [-2^31, 2^31)
+    Section section;                    ///< section in which `cell` was read
+    std::int32_t spacing_px_q16 = 0;    ///< grid spacing in the image
+    std::int32_t spacing_nm = 508'000;  ///< of the printed grid, see Options
 
     int dots_seen = 0;     ///< blobs of a dot's size
     int dots_used = 0;     ///< dots the pose was fitted to
@@ -66,14 +68,18 @@ struct Fix {
 
     /// Covariance of (x, y, theta) in (spacing, spacing, radian) squared.
     float covariance[3][3] = {};
-    /// False from `finish_device`, which gives no residual either.
+    /// False from a DeviceLocator, which gives no residual either.
     bool has_covariance() const { return covariance[0][0] > 0; }
 
     // Double precision only here, outside the core's object code.
     double x_grid() const { return cell.x + fraction_x_q16 / 65536.0; }
     double y_grid() const { return cell.y + fraction_y_q16 / 65536.0; }
-    double x_mm(double spacing_mm) const { return x_grid() * spacing_mm; }
-    double y_mm(double spacing_mm) const { return y_grid() * spacing_mm; }
+    /// In the pattern, mm. Not a number if the spacing of the printed grid is not known.
+    double x_mm() const { return x_grid() * spacing_mm(); }
+    double y_mm() const { return y_grid() * spacing_mm(); }
+    double spacing_mm() const {
+        return spacing_nm > 0 ? spacing_nm / 1e6 : std::numeric_limits<double>::quiet_NaN();
+    }
     /// In [-pi, pi).
     double theta_rad() const { return theta_bam * (std::numbers::pi / 2147483648.0); }
     double spacing_px() const { return spacing_px_q16 / 65536.0; }

@@ -1,4 +1,4 @@
-/// Options of `locate`; the defaults suit any camera. [Ranges]; outside: Status::bad_argument.
+/// Options of a Locator; the defaults suit any camera. [Ranges]; outside: Status::bad_argument.
 #pragma once
 
 #include <cstdint>
@@ -62,7 +62,7 @@ struct IntegrityOptions {
 
 /// How hard `locate` tries.
 enum class Effort : std::uint8_t {
-    device,  ///< one attempt in integers, as `finish_device` does it
+    device,  ///< one attempt in integers, as a DeviceLocator makes it
     once,    ///< one attempt, as a device does that gets its frame row by row
     twice,   ///< a frame that could not be read is filtered and tried again
 };
@@ -85,11 +85,15 @@ struct Options {
 
     /// Most dots that the pose is fitted to, spread evenly over the frame: accuracy grows with the
     /// square root of their number, time with the number. Default: all of a VGA frame at 8 px per
-    /// spacing. [any; 64 to what the workspace holds are taken]
+    /// spacing. [any; 64 to what the memory holds are taken]
     int most_dots = 4096;
 
-    /// Leaves dots, grid and bits of the first and the tracked attempt in the workspace, for
-    /// whoever draws or calibrates; that takes time. Other attempts always do.
+    /// Spacing of the printed grid in nm, from which a fix has its millimetres. Default: that of
+    /// the paper. 0: not known. [any]
+    std::int32_t spacing_nm = 508'000;
+
+    /// Leaves dots, grid and bits of the first and the tracked attempt in the trace, for whoever
+    /// draws or calibrates; that takes time. Other attempts always do.
     bool show_stages = false;
 
     /// The point whose pose is wanted, in pixels from the image centre, times 256. Default: the

@@ -1,10 +1,10 @@
-/// Prediction: where the pattern is expected in the next frame. Whoever hands one to `locate` gets
+/// Prediction: where the pattern is expected in the next frame. Whoever hands one to a Locator gets
 /// the next fix in a fraction of the time: dots are measured where they are expected, and every bit
 /// is confirmed. A prediction never makes a fix less certain: what the frame does not confirm is
 /// refused, and the frame located afresh.
 ///
-///     Fix fix = locate(image, options, workspace);
-///     for (;;) fix = locate(image, options, Prediction::like(fix), workspace);
+///     Fix fix = locator.locate(image);
+///     for (;;) fix = locator.locate(image, Prediction::like(fix));
 ///
 /// A robot that moves by more than half a spacing between frames has `Tracker::predict` make it.
 #pragma once
@@ -12,7 +12,7 @@
 #include <cstdint>
 
 #include "dotpose/fix.hpp"
-#include "dotpose/stages.hpp"
+#include "dotpose/geometry.hpp"
 
 #pragma GCC visibility push(default)
 

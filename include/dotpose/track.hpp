@@ -5,9 +5,9 @@
 ///
 ///     Tracker tracker;
 ///     for (;;) {
-///         Fix fix = locate(image, options, workspace);
+///         const Fix fix = locator.locate(image);
 ///         const bool ok = fix.status == Status::ok;
-///         const Sighting sighting = sighting_of(fix, spacing_nm, time_us);
+///         const Sighting sighting = sighting_of(fix, time_us);
 ///         const Track& track = tracker.update(time_us, ok ? &sighting : nullptr);
 ///     }
 ///
@@ -52,9 +52,9 @@ struct Sighting {
     bool is_y_up = false;
 };
 
-/// A fix in the pattern frame, the plane being its section. `spacing_nm`: 508000 for 0.508 mm;
-/// above 0, at most 20 mm.
-Sighting sighting_of(const Fix& fix, std::int32_t spacing_nm, std::int64_t time_us);
+/// A fix in the pattern frame, the plane being its section. The fix must be ok and its spacing
+/// known, at most 20 mm.
+Sighting sighting_of(const Fix& fix, std::int64_t time_us);
 
 struct TrackOptions {
     /// Deviation of the robot's acceleration while it manoeuvres; while it does not, the filter

@@ -1,7 +1,6 @@
 // Where a camera sits on a robot: from a turn on the spot, and from a straight drive.
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numbers>
 
 #include <Eigen/Cholesky>
@@ -10,8 +9,8 @@
 #include <fmt/core.h>
 
 #include "dotpose/code_evidence.hpp"
-#include "dotpose/locate.hpp"
 #include "dotpose/tools/calibrate.hpp"
+#include "dotpose/tools/heap_locator.hpp"
 
 namespace dotpose {
 namespace {
@@ -68,7 +67,7 @@ Camera without_distortion(const GreyImage& image) {
 Stations locate_stations(int frames, const FrameAt& frame_at, const std::optional<Camera>& camera,
                          const CalibrateOptions& options) {
     Stations result;
-    const auto workspace = std::make_unique<LargeWorkspace>();
+    HeapLocator locator;
     CodeReader reader(given_code(options));
     std::optional<Cell> first;
     for (int i = 0; i < frames; ++i) {
@@ -78,8 +77,9 @@ Stations locate_stations(int frames, const FrameAt& frame_at, const std::optiona
         result.camera.theta_offset_rad = 0;
         Options how;
         use_camera(result.camera, image.width_px, image.height_px, how);
-        const Fix fix = with_camera(reader.locate(image.view(), how, *workspace), result.camera,
-                                    how, *workspace);
+        locator.set_options(how);
+        const Fix seen = reader.locate(image.view(), locator);
+        const Fix fix = with_camera(seen, result.camera, locator.trace());
         if (options.progress && !options.progress(i + 1, frames)) {
             throw Error("stopped; nothing was written");
         }

@@ -86,24 +86,24 @@ void write_covariance(const PoseFit& fit, double x, double y, const AxisScale& p
 
 }  // namespace
 
-Fix with_camera(const Fix& fix, const Camera& camera, const Options& options,
-                const Workspace& workspace, const AxisScale& print) {
+Fix with_camera(const Fix& fix, const Camera& camera, const Trace& trace, const AxisScale& print) {
     if (fix.status != Status::ok) return fix;
     Fix result = fix;
     // Of true lengths; nominal ones are turned a little where a print is longer one way.
     double theta_rad =
         std::atan2(std::sin(fix.theta_rad()) * print.y, std::cos(fix.theta_rad()) * print.x);
-    const auto dots = dots_read(workspace, options.profile);
+    const auto dots = dots_read(trace);
     if (camera.paper && dots.size() >= kLeastDots) {
         const PoseFit pose = fit_pose(dots, camera, print);
-        const PixelPoint reference{(camera.width_px - 1) / 2.0 + options.reference_dx_q8 / 256.0,
-                                   (camera.height_px - 1) / 2.0 + options.reference_dy_q8 / 256.0};
+        const PixelPoint reference{
+            (camera.width_px - 1) / 2.0 + trace.options.reference_dx_q8 / 256.0,
+            (camera.height_px - 1) / 2.0 + trace.options.reference_dy_q8 / 256.0};
         const CameraPoint at = on_paper(camera, reference);
         const double x = at.x_mm - pose.middle.x_mm;
         const double y = at.y_mm - pose.middle.y_mm;
         const Eigen::Vector2d place = rows_at(x, y) * pose.parameters.head<4>();
-        write_place(place.x() / print.x, place.y() / print.y, options.profile,
-                    workspace.decoding.place, result);
+        write_place(place.x() / print.x, place.y() / print.y, trace.options.profile,
+                    trace.decoding.place, result);
         write_covariance(pose, x, y, print, result);
         result.dots_used = pose.dots;
         result.dots_seen = std::max(result.dots_seen, result.dots_used);

@@ -26,12 +26,18 @@ constexpr std::array kProbes = {Probe{256, 1}, Probe{160, 2}, Probe{768, 1}};
 }  // namespace
 
 CropLocator::CropLocator(const ImageView& scan, std::optional<Profile> profile)
-    : scan_(scan), reader_(profile), workspace_(std::make_unique<LargeWorkspace>()) {}
+    : scan_(scan), reader_(profile) {}
+
+void CropLocator::use_effort(Effort effort) {
+    Options options = locator_.options();
+    options.effort = effort;
+    locator_.set_options(options);
+}
 
 std::optional<Tiling> CropLocator::choose_tiling(const CropDone& done) {
     for (const bool thorough : {true, false}) {
         // Few crops with all effort, and if they show nothing, every corner of the page with less.
-        options_.effort = thorough ? Effort::twice : Effort::once;
+        use_effort(thorough ? Effort::twice : Effort::once);
         for (const Probe& probe : kProbes) {
             zoom_ = probe.zoom;
             const Tiling tiling(scan_.width_px, scan_.height_px, probe.side_px);
@@ -40,7 +46,7 @@ std::optional<Tiling> CropLocator::choose_tiling(const CropDone& done) {
             const int step = thorough ? std::max(tiling.count() / first_look, 1) : 1;
             const double spacing_px = probe_spacing_px(tiling, step, done);
             if (spacing_px == 0) continue;
-            options_.effort = Effort::twice;
+            use_effort(Effort::twice);
             zoom_ = spacing_px < kSmallSpacing_px ? 2 : 1;
             const int side_px = static_cast<int>(std::lround(kTileCells * spacing_px));
             return Tiling(scan_.width_px, scan_.height_px, std::min(side_px, kLargestTile_px));
@@ -83,10 +89,10 @@ std::vector<Anchor> CropLocator::find_anchors(const Tiling& tiling, const CropDo
 }
 
 std::optional<Anchor> CropLocator::locate_in(const PixelRect& rect) {
-    const Fix fix = reader_.locate(magnified(rect), options_, *workspace_);
+    const Fix fix = reader_.locate(magnified(rect), locator_);
     if (fix.status != Status::ok) return std::nullopt;
     constexpr double kQ24 = 1 << 24;
-    const PlaneFromImage& plane = workspace_->pattern_from_image;
+    const PlaneFromImage plane = locator_.trace().pattern_from_image;
     Eigen::Matrix2d cells_per_px;
     cells_per_px << plane.du_q24.x, plane.dv_q24.x, plane.du_q24.y, plane.dv_q24.y;
     cells_per_px *= zoom_ / kQ24;

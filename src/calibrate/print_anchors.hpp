@@ -2,14 +2,13 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include "calibrate/print_map.hpp"
 #include "dotpose/code_evidence.hpp"
 #include "dotpose/image.hpp"
-#include "dotpose/locate.hpp"
+#include "dotpose/tools/heap_locator.hpp"
 
 namespace dotpose::calibrate {
 
@@ -39,15 +38,15 @@ class CropLocator {
     const CodeReader& code() const { return reader_; }
 
   private:
+    void use_effort(Effort effort);
     double probe_spacing_px(const Tiling& tiling, int step, const CropDone& done);
     std::optional<Anchor> locate_in(const PixelRect& rect);
     ImageView magnified(const PixelRect& rect);
 
     ImageView scan_;
     CodeReader reader_;
-    Options options_;
     int zoom_ = 1;
-    std::unique_ptr<LargeWorkspace> workspace_;
+    HeapLocator locator_;
     std::vector<std::uint8_t> magnified_;
 };
 

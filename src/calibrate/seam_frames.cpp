@@ -29,8 +29,8 @@ constexpr std::array kStretches = {Stretch{0, 1}, Stretch{0, 0.5}, Stretch{0.5, 
                                    Stretch{0, 0.66}, Stretch{0.34, 0.66}};
 
 /// The fix moved to another place, given in steps from where the pattern of the frame starts.
-Fix moved_to(const Fix& fix, const Workspace& w, Profile profile, Vec step) {
-    const Place place = moved(profile, w.decoding.place, step.x, step.y);
+Fix moved_to(const Fix& fix, const Trace& trace, Vec step) {
+    const Place place = moved(trace.options.profile, trace.decoding.place, step.x, step.y);
     Fix result = fix;
     result.cell = place.cell;
     result.section = place.section;
@@ -117,7 +117,7 @@ void see_without_scale(const Fix& fix, const NominalPlace& centre, double spacin
 }  // namespace
 
 SeamLocator::SeamLocator(const std::vector<SheetEntry>& sheets, const std::optional<Camera>& camera)
-    : sheets_(sheets), camera_(camera), workspace_(std::make_unique<LargeWorkspace>()) {
+    : sheets_(sheets), camera_(camera) {
     for (const SheetEntry& entry : sheets) {
         const Profile profile = entry.sheet.pattern.profile;
         if (std::ranges::find(profiles_, profile) == profiles_.end()) profiles_.push_back(profile);
@@ -155,7 +155,8 @@ std::vector<SheetView> SeamLocator::views_with(const GreyImage& image, Effort ef
     int dots_seen = 0;
     for (const Part& part : parts_of(image)) {
         const auto view = view_in(image, part, effort);
-        dots_seen = std::max(dots_seen, workspace_->fix.dots_seen);  // first of all in the whole
+        dots_seen =
+            std::max(dots_seen, locator_.trace().fix.dots_seen);  // first of all in the whole
         if (!view) continue;
         const auto same = std::ranges::find(views, view->sheet, &SheetView::sheet);
         if (same == views.end()) {
@@ -202,7 +203,8 @@ std::optional<SheetView> SeamLocator::view_in(const GreyImage& image, const Part
     use_camera(camera, part.width, part.height, options);
     for (const Profile profile : profiles_) {
         options.profile = profile;
-        const Fix fix = locate(pixels, options, *workspace_);
+        locator_.set_options(options);
+        const Fix fix = locator_.locate(pixels);
         if (fix.status != Status::ok) continue;
         if (auto view = view_of(fix, camera, profile)) return view;
     }
@@ -211,9 +213,9 @@ std::optional<SheetView> SeamLocator::view_in(const GreyImage& image, const Part
 
 std::optional<SheetView> SeamLocator::view_of(const Fix& fix, const Camera& camera,
                                               Profile profile) const {
-    const Workspace& w = *workspace_;
-    std::vector<SightedDot> dots = dots_read(w, profile);
-    const auto sheet = find_sheet(sheets_, profile, moved_to(fix, w, profile, mean_step(dots)));
+    const Trace trace = locator_.trace();
+    std::vector<SightedDot> dots = dots_read(trace);
+    const auto sheet = find_sheet(sheets_, profile, moved_to(fix, trace, mean_step(dots)));
     if (!sheet) return std::nullopt;
     const SheetEntry& entry = *sheet->entry;
     const double spacing_mm = entry.sheet.pattern.spacing_mm;
@@ -221,7 +223,7 @@ std::optional<SheetView> SeamLocator::view_of(const Fix& fix, const Camera& came
     view.sheet = static_cast<std::size_t>(&entry - sheets_.data());
     // What lies beyond the sheet's edge are dots of another one.
     std::erase_if(dots, [&](const SightedDot& dot) {
-        const Cell cell = moved(profile, w.decoding.place, dot.step.x, dot.step.y).cell;
+        const Cell cell = moved(profile, trace.decoding.place, dot.step.x, dot.step.y).cell;
         const bool is_on = cell.x - entry.sheet.origin.x < unsigned(entry.sheet.columns) &&
                            cell.y - entry.sheet.origin.y < unsigned(entry.sheet.rows);
         if (is_on) view.dots.push_back(std::uint64_t{cell.x} << 32 | cell.y);
@@ -229,7 +231,7 @@ std::optional<SheetView> SeamLocator::view_of(const Fix& fix, const Camera& came
     });
     if (dots.size() < kLeastDots) return std::nullopt;
     if (camera.paper) {
-        const auto first = place_beyond(entry, profile, moved_to(fix, w, profile, {0, 0}));
+        const auto first = place_beyond(entry, profile, moved_to(fix, trace, {0, 0}));
         if (!first) return std::nullopt;
         see_with_scale(dots, camera, first->mm, spacing_mm, view);
     } else {

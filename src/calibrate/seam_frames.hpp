@@ -2,15 +2,14 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "calibrate/sighting.hpp"
-#include "dotpose/locate.hpp"
 #include "dotpose/tools/calibrate.hpp"
+#include "dotpose/tools/heap_locator.hpp"
 
 namespace dotpose::calibrate {
 
@@ -58,7 +57,7 @@ class SeamLocator {
     const std::vector<SheetEntry>& sheets_;
     std::optional<Camera> camera_;
     std::vector<Profile> profiles_;
-    std::unique_ptr<LargeWorkspace> workspace_;
+    HeapLocator locator_;
 };
 
 }  // namespace dotpose::calibrate

@@ -49,16 +49,17 @@ double half_width(const ImageView& image, const std::vector<SightedDot>& dots, d
 
 }  // namespace
 
-std::vector<SightedDot> dots_read(const Workspace& w, Profile profile) {
+std::vector<SightedDot> dots_read(const Trace& trace) {
+    const Profile profile = trace.options.profile;
+    const Region& grid = trace.grid.region;
     std::vector<SightedDot> result;
-    const auto dots = w.found_dots();
-    for (int j = w.grid.j0; j < w.grid.j0 + w.grid.rows; ++j) {
-        for (int i = w.grid.i0; i < w.grid.i0 + w.grid.columns; ++i) {
-            const GridCell& cell = w.grid.at(i, j);
+    for (int j = grid.j0; j < grid.j0 + grid.rows; ++j) {
+        for (int i = grid.i0; i < grid.i0 + grid.columns; ++i) {
+            const GridCell& cell = trace.grid.at(i, j);
             if (!cell.has_dot()) continue;
-            const Vec centre_q8 = dots[cell.dot].centre_q8;
-            const Vec step = w.decoding.pattern_from_grid({i, j});
-            const Place place = moved(profile, w.decoding.place, step.x, step.y);
+            const Vec centre_q8 = trace.dots[cell.dot].centre_q8;
+            const Vec step = trace.decoding.pattern_from_grid({i, j});
+            const Place place = moved(profile, trace.decoding.place, step.x, step.y);
             result.push_back({{centre_q8.x / 256.0, centre_q8.y / 256.0},
                               step,
                               symbol_at(profile, place.cell, place.section)});
@@ -67,43 +68,47 @@ std::vector<SightedDot> dots_read(const Workspace& w, Profile profile) {
     return result;
 }
 
-Sighter::Sighter(std::optional<Profile> profile)
-    : reader_(profile), workspace_(std::make_unique<LargeWorkspace>()) {
-    options_.show_stages = true;
+Sighter::Sighter(std::optional<Profile> profile) : reader_(profile) {
+    Options options;
+    options.show_stages = true;
+    locator_.set_options(options);
 }
 
 std::optional<Sighting> Sighter::sight(const ImageView& image) {
-    if (locate_with(image, lens_)) return read_workspace(image);
+    if (locate_with(image, lens_)) return read_trace(image);
     if (is_known_) return std::nullopt;
     const double reach_px = std::hypot(image.width_px, image.height_px) / 2;
     for (const double stretch : kCornerStretches) {
         const Lens lens = Lens::from_k(stretch / (reach_px * reach_px));
         if (!locate_with(image, lens)) continue;
         lens_ = lens;  // the first to try with the next frame
-        return read_workspace(image);
+        return read_trace(image);
     }
     return std::nullopt;
 }
 
 bool Sighter::locate_with(const ImageView& image, const Lens& lens) {
-    options_.lens = lens;
-    return reader_.locate(image, options_, *workspace_).status == Status::ok;
+    Options options = locator_.options();
+    options.lens = lens;
+    locator_.set_options(options);
+    return reader_.locate(image, locator_).status == Status::ok;
 }
 
-Sighting Sighter::read_workspace(const ImageView& image) const {
-    const Workspace& w = *workspace_;
+Sighting Sighter::read_trace(const ImageView& image) const {
+    const Trace trace = locator_.trace();
+    const Lens& lens = trace.options.lens;
     // The lens that was used, as it was rounded.
     Camera used;
-    used.k_per_px2 = options_.lens.k_q40 * 0x1p-40;
-    used.centre_px = {(image.width_px - 1) / 2.0 + options_.lens.centre_dx_q8 / 256.0,
-                      (image.height_px - 1) / 2.0 + options_.lens.centre_dy_q8 / 256.0};
+    used.k_per_px2 = lens.k_q40 * 0x1p-40;
+    used.centre_px = {(image.width_px - 1) / 2.0 + lens.centre_dx_q8 / 256.0,
+                      (image.height_px - 1) / 2.0 + lens.centre_dy_q8 / 256.0};
     Sighting sighting;
-    sighting.place = w.decoding.place;
-    sighting.spacing_px = w.fix.spacing_px();
-    sighting.dots = dots_read(w, options_.profile);
+    sighting.place = trace.decoding.place;
+    sighting.spacing_px = trace.fix.spacing_px();
+    sighting.dots = dots_read(trace);
     for (SightedDot& dot : sighting.dots)
         dot.pixel = distorted(used, dot.pixel);
-    for (const Dot& dot : w.found_dots())
+    for (const Dot& dot : trace.dots)
         sighting.blobs.push_back(
             distorted(used, {dot.centre_q8.x / 256.0, dot.centre_q8.y / 256.0}));
     sighting.dot_width = 2 * half_width(image, sighting.dots, sighting.spacing_px);

@@ -1,14 +1,13 @@
 // Sightings: the dots of one frame as pixels, each with the place where the code has it printed.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include "dotpose/code_evidence.hpp"
 #include "dotpose/image.hpp"
-#include "dotpose/locate.hpp"
 #include "dotpose/tools/camera_file.hpp"
+#include "dotpose/tools/heap_locator.hpp"
 
 namespace dotpose::calibrate {
 
@@ -18,8 +17,8 @@ struct SightedDot {
     Symbol symbol = Symbol::up;
 };
 
-/// The dots that `locate` read, as undistorted pixels; they start at `workspace.decoding.place`.
-std::vector<SightedDot> dots_read(const Workspace& workspace, Profile profile);
+/// The dots that `locate` read, as undistorted pixels; they start at `trace.decoding.place`.
+std::vector<SightedDot> dots_read(const Trace& trace);
 
 struct Sighting {
     int frame = 0;                  ///< its index
@@ -48,13 +47,12 @@ class Sighter {
 
   private:
     bool locate_with(const ImageView& image, const Lens& lens);
-    Sighting read_workspace(const ImageView& image) const;
+    Sighting read_trace(const ImageView& image) const;
 
     CodeReader reader_;
-    Options options_;
     Lens lens_;
     bool is_known_ = false;
-    std::unique_ptr<LargeWorkspace> workspace_;
+    HeapLocator locator_;
 };
 
 }  // namespace dotpose::calibrate

@@ -20,7 +20,7 @@ constexpr std::array<Text, kStatusCount> kTexts{{
     {Status::bad_argument, "bad_argument",
      "an option is out of its range, or the image view has no pixels"},
     {Status::image_too_small, "image_too_small", "the image is too small to show 8 x 8 dots"},
-    {Status::image_too_large, "image_too_large", "the image is larger than the workspace"},
+    {Status::image_too_large, "image_too_large", "the image is larger than the memory is for"},
     {Status::no_contrast, "no_contrast", "the image has no dark marks on a lighter ground"},
     {Status::too_few_dots, "too_few_dots", "too few dots"},
     {Status::no_grid, "no_grid", "the dots do not lie on a regular grid"},

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/odds.hpp"
+#include "dotpose/locate.hpp"
 
 namespace dotpose {
 namespace {
@@ -70,14 +71,17 @@ void CodeEvidence::add(Cell cell, const LogOdds& log2_q8) {
     frames_here_ += frames_here_ < UINT32_MAX ? 1 : 0;
 }
 
-Fix CodeReader::locate(const ImageView& image, Options& options, Workspace& workspace) {
+Fix CodeReader::locate(const ImageView& image, Locator& locator) {
     if (given_) {
-        options.profile = *given_;
-        return dotpose::locate(image, options, workspace);
+        if (locator.options().profile != *given_) {
+            Options options = locator.options();
+            options.profile = *given_;
+            locator.set_options(options);
+        }
+        return locator.locate(image);
     }
-    const CodeReading reading = locate_in_any_code(image, options, evidence_, workspace);
+    const CodeReading reading = locator.locate_in_any_code(image, evidence_);
     evidence_ = reading.evidence;
-    options.profile = reading.code;
     return reading.fix;
 }
 

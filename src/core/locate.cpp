@@ -1,5 +1,5 @@
-// The public calls: whether the arguments can be used, and which attempt is made.
-#include "dotpose/locate.hpp"
+// Which attempt is made, once the arguments are such that none can do harm.
+#include "core/locate.hpp"
 
 #include "core/attempts/any_code.hpp"
 #include "core/attempts/device.hpp"
@@ -9,9 +9,10 @@
 #include "core/attempts/second.hpp"
 #include "core/attempts/steps.hpp"
 #include "core/attempts/tracked.hpp"
-#include "dotpose/code_evidence.hpp"
+#include "core/kernels/select.hpp"
+#include "dotpose/locate.hpp"
 
-namespace dotpose {
+namespace dotpose::core {
 namespace {
 
 constexpr bool is_within(int value, int low, int high) {
@@ -51,113 +52,103 @@ Status check(int width_px, int height_px, const Options& options, const Workspac
     return Status::ok;
 }
 
-/// Whether an image can be located in any profile, or why not.
+/// Whether an image can be located, or why not.
 Status check(const ImageView& image, const Options& options, const Workspace& w) {
     const Status status = check(image.width_px, image.height_px, options, w);
-    if (status != Status::ok) return status;
-    const bool has_room = w.other_codes != nullptr && w.patch != nullptr;
-    return image.pixels != nullptr && has_room ? Status::ok : Status::bad_argument;
-}
-
-Fix refused(Status status, Workspace& w) {
-    core::forget_frame(w);
-    w.fix.status = status;
-    return w.fix;
-}
-
-Fix attempt_as_device(const ImageView& image, const Options& options, Workspace& w) {
-    core::detect_image(image, options, w);
-    return core::finish_device_attempt(options, w);
-}
-
-bool track_as_device(const ImageView& image, const Options& options, const Prediction& prediction,
-                     Workspace& w) {
-    Status status =
-        core::begin_device_tracked(image.width_px, image.height_px, options, prediction, w);
-    for (int v = 0; v < image.height_px && status == Status::ok; ++v)
-        status = core::push_tracked_row(image.row(v), w);
-    return status == Status::ok && core::finish_device_tracked(options, w).status == Status::ok;
+    return status == Status::ok && image.pixels == nullptr ? Status::bad_argument : status;
 }
 
 }  // namespace
 
+Fix refuse(Status reason, Workspace& w) {
+    forget_frame(w);
+    w.fix.status = reason;
+    return w.fix;
+}
+
 Fix locate(const ImageView& image, const Options& options, Workspace& w) {
-    const Status status = check(image.width_px, image.height_px, options, w);
-    if (status != Status::ok) return refused(status, w);
-    if (image.pixels == nullptr) return refused(Status::bad_argument, w);
-    if (options.effort == Effort::device) return attempt_as_device(image, options, w);
-    const Fix fix = core::make_first_attempt(image, options, w);
-    const bool is_good = fix.status == Status::ok && !core::is_rough(fix);
+    const Status status = check(image, options, w);
+    if (status != Status::ok) return refuse(status, w);
+    if (options.effort == Effort::device) return locate_as_device(image, options, w);
+    const Fix fix = make_first_attempt(image, options, w);
+    const bool is_good = fix.status == Status::ok && !is_rough(fix);
     if (is_good || options.effort == Effort::once || !w.has_second_attempt) return fix;
-    const Fix second = core::make_second_attempt(image, options, w);
+    const Fix second = make_second_attempt(image, options, w);
     if (second.status == Status::ok || fix.status != Status::ok) return second;
-    return core::make_first_attempt(image, options,
-                                    w);  // The workspace must show what is returned.
+    return make_first_attempt(image, options, w);  // The workspace must show what is returned.
 }
 
 Fix locate(const ImageView& image, const Options& options, const Prediction& prediction,
            Workspace& w) {
-    const Status status = check(image.width_px, image.height_px, options, w);
-    if (status != Status::ok) return refused(status, w);
-    if (image.pixels == nullptr) return refused(Status::bad_argument, w);
-    const bool is_of_device = options.effort == Effort::device || w.patch == nullptr;
-    const bool is_tracked =
-        is_of_device ? track_as_device(image, options, prediction, w)
-                     : core::locate_tracked(core::kernels(), image, options, prediction, w);
+    const Status status = check(image, options, w);
+    if (status != Status::ok) return refuse(status, w);
+    if (options.effort == Effort::device) return locate_as_device(image, options, prediction, w);
+    const bool is_tracked = locate_tracked(kernels(), image, options, prediction, w);
     return is_tracked ? w.fix : locate(image, options, w);
 }
 
 CodeReading locate_in_any_code(const ImageView& image, const Options& options,
-                               const CodeEvidence& evidence, Workspace& w) {
-    const Status status = check(image, options, w);
-    if (status != Status::ok) return {refused(status, w), options.profile, evidence};
-    return core::locate_in_any_code(image, options, nullptr, evidence, w);
-}
-
-CodeReading locate_in_any_code(const ImageView& image, const Options& options,
-                               const Prediction& prediction, const CodeEvidence& evidence,
+                               const Prediction* prediction, const CodeEvidence& evidence,
                                Workspace& w) {
     const Status status = check(image, options, w);
-    if (status != Status::ok) return {refused(status, w), options.profile, evidence};
-    return core::locate_in_any_code(image, options, &prediction, evidence, w);
+    if (status != Status::ok) return {refuse(status, w), options.profile, evidence};
+    return read_in_any_code(image, options, prediction, evidence, w);
 }
 
 CodeReading locate_in_code(const ImageView& image, const Options& options, Workspace& w) {
     const Status status = check(image, options, w);
-    if (status != Status::ok) return {refused(status, w), options.profile, {}};
-    return core::locate_in_code(image, options, w);
+    if (status != Status::ok) return {refuse(status, w), options.profile, {}};
+    return read_in_code(image, options, w);
+}
+
+Fix locate_as_device(const ImageView& image, const Options& options, Workspace& w) {
+    const Status status = check(image, options, w);
+    if (status != Status::ok) return refuse(status, w);
+    detect_image(image, options, w);
+    return finish_device_attempt(options, w);
+}
+
+Fix locate_as_device(const ImageView& image, const Options& options, const Prediction& prediction,
+                     Workspace& w) {
+    Status status = check(image, options, w);
+    if (status != Status::ok) return refuse(status, w);
+    status = begin_device_tracked(image.width_px, image.height_px, options, prediction, w);
+    for (int v = 0; v < image.height_px && status == Status::ok; ++v)
+        status = push_tracked_row(image.row(v), w);
+    const bool is_tracked =
+        status == Status::ok && finish_device_tracked(options, w).status == Status::ok;
+    return is_tracked ? w.fix : locate_as_device(image, options, w);
 }
 
 Status begin(int width_px, int height_px, const Options& options, Workspace& w) {
     const Status status = check(width_px, height_px, options, w);
-    if (status != Status::ok) return refused(status, w).status;
-    core::begin_frame(width_px, height_px, w);
+    if (status != Status::ok) return refuse(status, w).status;
+    begin_frame(width_px, height_px, w);
     return Status::ok;
 }
 
 Status begin(int width_px, int height_px, const Options& options, const Prediction& prediction,
              Workspace& w) {
     const Status status = check(width_px, height_px, options, w);
-    if (status != Status::ok) return refused(status, w).status;
-    return core::begin_device_tracked(width_px, height_px, options, prediction, w);
+    if (status != Status::ok) return refuse(status, w).status;
+    return begin_device_tracked(width_px, height_px, options, prediction, w);
 }
 
 void push_row(const std::uint8_t* pixels, const Options& options, Workspace& w) {
     if (w.tracking.is_on) {
-        static_cast<void>(core::push_tracked_row(pixels, w));
+        static_cast<void>(push_tracked_row(pixels, w));
     } else {
-        core::detect_row(pixels, options, w);
+        detect_row(pixels, options, w);
     }
 }
 
 Fix finish(const Options& options, Workspace& w) {
-    return w.tracking.is_on ? core::finish_device_tracked(options, w)
-                            : core::finish_rows(options, w);
+    if (w.tracking.is_on || options.effort == Effort::device) return finish_as_device(options, w);
+    return finish_rows(options, w);
 }
 
-Fix finish_device(const Options& options, Workspace& w) {
-    return w.tracking.is_on ? core::finish_device_tracked(options, w)
-                            : core::finish_device_attempt(options, w);
+Fix finish_as_device(const Options& options, Workspace& w) {
+    return w.tracking.is_on ? finish_device_tracked(options, w) : finish_device_attempt(options, w);
 }
 
-}  // namespace dotpose
+}  // namespace dotpose::core

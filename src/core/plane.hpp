@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/fixed.hpp"
-#include "dotpose/stages.hpp"
+#include "core/stages.hpp"
 
 namespace dotpose::core {
 

@@ -105,13 +105,12 @@ void draw_failure(const Fix& fix, const Options& options, Svg& svg) {
 
 }  // namespace
 
-void draw_caption(const FrameView& view, const Options& options, const DrawOptions& draw_options,
-                  double width, Svg& svg) {
-    const Fix& fix = view.workspace().fix;
+void draw_caption(const FrameView& view, const DrawOptions& draw_options, double width, Svg& svg) {
+    const Fix& fix = view.trace().fix;
     if (view.reached().pose) {
         draw_pose(fix, draw_options, width, svg);
     } else {
-        draw_failure(fix, options, svg);
+        draw_failure(fix, view.trace().options, svg);
     }
 }
 

@@ -8,12 +8,8 @@
 namespace dotpose::draw {
 namespace {
 
-const Dot& dot_of_seed(const Workspace& workspace, int seed) {
-    return workspace.dots[workspace.seeds[static_cast<std::size_t>(seed)]];
-}
-
-std::span<const Edge> edges_of(const Workspace& workspace) {
-    return std::span(workspace.edges).first(static_cast<std::size_t>(workspace.edge_count));
+const Dot& dot_of_seed(const Trace& trace, int seed) {
+    return trace.dots[trace.seeds[static_cast<std::size_t>(seed)]];
 }
 
 /// On the drawing. A dot that was measured once more has no pixels of its own; blurred dots look
@@ -36,27 +32,27 @@ void draw_axis(Point from, Point to, std::string_view name, Svg& svg) {
 }  // namespace
 
 void draw_detection(const FrameView& view, Svg& svg) {
-    const Workspace& workspace = view.workspace();
+    const Trace& trace = view.trace();
     const double stroke = view.stroke();
     svg.add(R"(<g class="connections" stroke="{}" stroke-width="{:.2f}" )"
             R"(stroke-linecap="round" stroke-opacity="0.85">)",
             colour::kEdge, 3.5 * stroke);
     // Dots that were measured once more are others than those that were connected.
-    if (view.reached().edges && workspace.seed_count > 0) {
-        for (const Edge& edge : edges_of(workspace)) {
-            svg.line(view.at_dot(dot_of_seed(workspace, edge.from)),
-                     view.at_dot(dot_of_seed(workspace, edge.to)), {});
+    if (view.reached().edges && !trace.seeds.empty()) {
+        for (const Edge& edge : trace.edges) {
+            svg.line(view.at_dot(dot_of_seed(trace, edge.from)),
+                     view.at_dot(dot_of_seed(trace, edge.to)), {});
         }
     }
     svg.add("</g>");
     svg.add(R"(<g class="dots" fill="none" stroke="{}" stroke-width="{:.2f}">)", colour::kDot,
             3.5 * stroke);
-    for (const Dot& dot : workspace.found_dots()) {
+    for (const Dot& dot : trace.dots) {
         svg.circle(view.at_dot(dot), radius_of(dot, view) + 2 * stroke, {});
     }
     svg.add("</g>");
     if (view.reached().axes) {
-        svg.circle(view.at(from_q16(workspace.lattice.origin_q16)), 0.42 * view.spacing(),
+        svg.circle(view.at(from_q16(trace.lattice.origin_q16)), 0.42 * view.spacing(),
                    fmt::format(R"(class="origin" fill="none" stroke="{}" stroke-width="{:.2f}")",
                                colour::kBad, 7 * stroke));
     }
@@ -79,7 +75,7 @@ void draw_edges(const FrameView& view, double side, Svg& svg) {
     const double scale = side / 2 / (1.7 * view.spacing() / view.scale());
     svg.add(R"(<g class="edges" fill="{0}" stroke="{0}" stroke-width="1" stroke-opacity="0.25">)",
             colour::kEdge);
-    for (const Edge& edge : edges_of(view.workspace())) {
+    for (const Edge& edge : view.trace().edges) {
         const Point end = middle + scale * from_q8(edge.step_q8);
         if (end.x < 0 || end.x > side || end.y < 0 || end.y > side) continue;
         svg.line(middle, end, {});
@@ -87,8 +83,8 @@ void draw_edges(const FrameView& view, double side, Svg& svg) {
     }
     svg.add("</g>");
     if (!view.reached().axes) return;
-    const Point u = scale * from_q16(view.workspace().lattice.u_q16);
-    const Point v = scale * from_q16(view.workspace().lattice.v_q16);
+    const Point u = scale * from_q16(view.trace().lattice.u_q16);
+    const Point v = scale * from_q16(view.trace().lattice.v_q16);
     svg.add(R"(<g stroke="{}" stroke-width="3" stroke-dasharray="3 7">)", colour::kInk);
     svg.line(middle, middle - u, {});
     svg.line(middle, middle - v, {});

@@ -22,10 +22,8 @@ constexpr double kWidth = 2 * kPanelWidth + 3 * kMargin;
 
 class Sketch {
   public:
-    Sketch(ImageView image, const Workspace& workspace, const Options& options,
-           const DrawOptions& draw_options)
-        : view_(image, workspace, options, kPanelWidth),
-          options_(options),
+    Sketch(ImageView image, const Trace& trace, const DrawOptions& draw_options)
+        : view_(image, trace, kPanelWidth),
           draw_options_(draw_options),
           panel_height_(std::max(view_.height(), kLeastPanelHeight)),
           svg_(kWidth, height(), draw_options.title) {
@@ -37,7 +35,7 @@ class Sketch {
         draw_detection(view_, svg_);
         end_panel();
         begin_panel(2 * kMargin + kPanelWidth, "The code read from them", reading_note(), 0.3);
-        draw_reading(view_, options_, svg_);
+        draw_reading(view_, svg_);
         end_panel();
         draw_strip();
         return std::move(svg_).finish();
@@ -48,8 +46,8 @@ class Sketch {
 
     std::string reading_note() const {
         if (view_.reached().place) {
-            const Workspace& workspace = view_.workspace();
-            const Cell cell = place_of(workspace, options_.profile, window_corner(workspace)).cell;
+            const Trace& trace = view_.trace();
+            const Cell cell = place_of(trace, window_corner(trace)).cell;
             return fmt::format("window decoded at {}, {}", cell.x, cell.y);
         }
         return view_.reached().cells ? "turn unknown: letters as on the grid" : "";
@@ -95,7 +93,7 @@ class Sketch {
         const double x = 2.5 * kMargin + kStripHeight;
         const double width = kWidth - kMargin - x;
         svg_.add(R"svg(<g transform="translate({:.2f} {:.2f})">)svg", x, y);
-        draw_caption(view_, options_, draw_options_, width, svg_);
+        draw_caption(view_, draw_options_, width, svg_);
         svg_.add("</g>");
         svg_.add(R"svg(<g transform="translate({:.2f} {:.2f})">)svg", x, y + kStripHeight - 14);
         draw_legend();
@@ -154,7 +152,6 @@ class Sketch {
     }
 
     FrameView view_;
-    const Options& options_;
     const DrawOptions& draw_options_;
     double panel_height_;
     Svg svg_;
@@ -162,15 +159,14 @@ class Sketch {
 
 }  // namespace
 
-void draw_frame(std::ostream& out, ImageView image, const Workspace& workspace,
-                const Options& options, const DrawOptions& draw_options) {
-    out << Sketch(image, workspace, options, draw_options).draw();
+void draw_frame(std::ostream& out, ImageView image, const Trace& trace,
+                const DrawOptions& draw_options) {
+    out << Sketch(image, trace, draw_options).draw();
 }
 
-void draw_frame(const std::filesystem::path& path, ImageView image, const Workspace& workspace,
-                const Options& options, const DrawOptions& draw_options) {
-    draw::write_file(
-        path, [&](std::ostream& out) { draw_frame(out, image, workspace, options, draw_options); });
+void draw_frame(const std::filesystem::path& path, ImageView image, const Trace& trace,
+                const DrawOptions& draw_options) {
+    draw::write_file(path, [&](std::ostream& out) { draw_frame(out, image, trace, draw_options); });
 }
 
 }  // namespace dotpose

@@ -13,10 +13,9 @@ void draw_detection(const FrameView& view, Svg& svg);
 void draw_edges(const FrameView& view, double side, Svg& svg);
 
 /// Paper Fig. 9, drawn on the (faded) frame.
-void draw_reading(const FrameView& view, const Options& options, Svg& svg);
+void draw_reading(const FrameView& view, Svg& svg);
 
 /// The pose, or why there is none.
-void draw_caption(const FrameView& view, const Options& options, const DrawOptions& draw_options,
-                  double width, Svg& svg);
+void draw_caption(const FrameView& view, const DrawOptions& draw_options, double width, Svg& svg);
 
 }  // namespace dotpose::draw

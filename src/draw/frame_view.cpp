@@ -15,32 +15,31 @@ Point from_q16(Vec q16) {
     return {q16.x / 65536.0, q16.y / 65536.0};
 }
 
-Reached reached(const Workspace& workspace) {
-    const Status status = workspace.fix.status;
+Reached reached(const Trace& trace) {
+    const Status status = trace.fix.status;
     Reached result;
-    result.undistorted = workspace.dot_count > 0 && status != Status::too_few_dots;
-    result.edges = workspace.edge_count > 0;
-    result.axes = result.edges && workspace.lattice.u_q16 != Vec{};
-    result.cells = workspace.grid.columns > 0;
-    const Region& window = workspace.decoding.window;
+    result.undistorted = !trace.dots.empty() && status != Status::too_few_dots;
+    result.edges = !trace.edges.empty();
+    result.axes = result.edges && trace.lattice.u_q16 != Vec{};
+    result.cells = trace.grid.region.columns > 0;
+    const Region& window = trace.decoding.window;
     result.window = result.cells && window.columns > 0 && window.rows > 0 &&
-                    workspace.grid.contains(window.i0, window.j0) &&
-                    status != Status::grid_too_small;
+                    trace.grid.contains(window.i0, window.j0) && status != Status::grid_too_small;
     result.pose = result.window && status == Status::ok;
     result.place = result.pose || (result.window && status == Status::not_certain);
     return result;
 }
 
-Vec window_corner(const Workspace& workspace) {
-    const Region& window = workspace.decoding.window;
-    const int q = workspace.decoding.pattern_from_grid.quarters;
+Vec window_corner(const Trace& trace) {
+    const Region& window = trace.decoding.window;
+    const int q = trace.decoding.pattern_from_grid.quarters;
     return {q == 0 || q == 1 ? window.i0 : window.i0 + window.columns - 1,
             q == 0 || q == 3 ? window.j0 : window.j0 + window.rows - 1};
 }
 
-Place place_of(const Workspace& workspace, Profile profile, Vec grid_cell) {
-    const Vec step = workspace.decoding.pattern_from_grid(grid_cell);
-    return moved(profile, workspace.decoding.place, step.x, step.y);
+Place place_of(const Trace& trace, Vec grid_cell) {
+    const Vec step = trace.decoding.pattern_from_grid(grid_cell);
+    return moved(trace.options.profile, trace.decoding.place, step.x, step.y);
 }
 
 Plane::Plane(const PlaneFromImage& map)
@@ -79,19 +78,18 @@ double Plane::spacing_px() const {
     return area_ == 0 ? 0 : 1 / std::sqrt(std::abs(area_));
 }
 
-FrameView::FrameView(ImageView image, const Workspace& workspace, const Options& options,
-                     double side)
-    : workspace_(&workspace),
-      reached_(draw::reached(workspace)),
+FrameView::FrameView(ImageView image, const Trace& trace, double side)
+    : trace_(trace),
+      reached_(draw::reached(trace)),
       width_px_(std::max(image.width_px, 1)),
       height_px_(std::max(image.height_px, 1)),
       scale_(side / std::max(width_px_, height_px_)),
-      k_(options.lens.k_q40 * 0x1p-40),
+      k_(trace.options.lens.k_q40 * 0x1p-40),
       lens_centre_px_(Point{(width_px_ - 1) / 2, (height_px_ - 1) / 2} +
-                      from_q8({options.lens.centre_dx_q8, options.lens.centre_dy_q8})),
-      grid_(workspace.grid_from_image),
+                      from_q8({trace.options.lens.centre_dx_q8, trace.options.lens.centre_dy_q8})),
+      grid_(trace.grid_from_image),
       reference_px_(Point{(width_px_ - 1) / 2, (height_px_ - 1) / 2} +
-                    from_q8({options.reference_dx_q8, options.reference_dy_q8})) {
+                    from_q8({trace.options.reference_dx_q8, trace.options.reference_dy_q8})) {
     spacing_px_ = estimate_spacing_px();
     stroke_ = std::clamp(spacing() / 70, 0.2, 1.0);
 }
@@ -99,12 +97,12 @@ FrameView::FrameView(ImageView image, const Workspace& workspace, const Options&
 double FrameView::estimate_spacing_px() const {
     if (reached_.cells) return std::max(1.0, grid_.spacing_px());
     if (reached_.axes) {
-        const Point u_px = from_q16(workspace_->lattice.u_q16);
-        const Point v_px = from_q16(workspace_->lattice.v_q16);
+        const Point u_px = from_q16(trace_.lattice.u_q16);
+        const Point v_px = from_q16(trace_.lattice.v_q16);
         return std::max(1.0, (length(u_px) + length(v_px)) / 2);
     }
     std::vector<int> areas_px;
-    for (const Dot& dot : workspace_->found_dots())
+    for (const Dot& dot : trace_.dots)
         areas_px.push_back(dot.area_px);
     if (areas_px.empty()) return 10;
     const auto middle = areas_px.begin() + static_cast<std::ptrdiff_t>(areas_px.size() / 2);
@@ -137,7 +135,7 @@ Point FrameView::at_grid(double i, double j) const {
 }
 
 Point FrameView::ahead_of_reference() const {
-    const Plane pattern(workspace_->pattern_from_image);
+    const Plane pattern(trace_.pattern_from_image);
     constexpr double kShort = 0.1;  // spacings; a long way could bend
     const Point end_px = pattern.image_point(pattern.plane_point(reference_px_) + Point{kShort, 0});
     const Point ahead = at(end_px) - at(reference_px_);

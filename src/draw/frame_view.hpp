@@ -6,7 +6,7 @@
 
 namespace dotpose::draw {
 
-/// What the workspace holds after `locate`.
+/// How far `locate` got.
 struct Reached {
     bool undistorted = false;  ///< dot centres are where a camera without distortion sees them
     bool edges = false;        ///< connections between neighbours
@@ -16,7 +16,7 @@ struct Reached {
     bool place = false;        ///< a position and which way up, be it certain or not
     bool pose = false;         ///< a fix
 };
-Reached reached(const Workspace& workspace);
+Reached reached(const Trace& trace);
 
 /// A PlaneFromImage, both ways.
 class Plane {
@@ -44,9 +44,9 @@ class Plane {
 /// pixels those of the image.
 class FrameView {
   public:
-    FrameView(ImageView image, const Workspace& workspace, const Options& options, double side);
+    FrameView(ImageView image, const Trace& trace, double side);
 
-    const Workspace& workspace() const { return *workspace_; }
+    const Trace& trace() const { return trace_; }
     const Reached& reached() const { return reached_; }
     double width() const { return width_px_ * scale_; }
     double height() const { return height_px_ * scale_; }
@@ -72,7 +72,7 @@ class FrameView {
     Point image_from_ideal(Point ideal_px) const;
     double estimate_spacing_px() const;
 
-    const Workspace* workspace_;
+    Trace trace_;
     Reached reached_;
     double width_px_;
     double height_px_;
@@ -86,9 +86,9 @@ class FrameView {
 };
 
 /// The grid cell of the window's top left symbol, as the pattern stands; needs `place`.
-Vec window_corner(const Workspace& workspace);
+Vec window_corner(const Trace& trace);
 /// Where a cell of the grid stands in the code; needs `place`.
-Place place_of(const Workspace& workspace, Profile profile, Vec grid_cell);
+Place place_of(const Trace& trace, Vec grid_cell);
 
 /// Fixed point to pixels.
 Point from_q8(Vec q8);

@@ -45,8 +45,7 @@ Symbol turned(Symbol symbol, Turn pattern_from_grid) {
 /// The reading of one frame, drawn layer by layer.
 class Reading {
   public:
-    Reading(const FrameView& view, Profile profile, Svg& svg)
-        : view_(view), workspace_(view.workspace()), profile_(profile), svg_(svg) {}
+    Reading(const FrameView& view, Svg& svg) : view_(view), trace_(view.trace()), svg_(svg) {}
 
     void draw_grid() const;
     void draw_symbols() const;
@@ -55,17 +54,14 @@ class Reading {
     void draw_reference() const;
 
   private:
-    Turn turn() const {
-        return view_.reached().place ? workspace_.decoding.pattern_from_grid : Turn{};
-    }
+    Turn turn() const { return view_.reached().place ? trace_.decoding.pattern_from_grid : Turn{}; }
     void draw_axes() const;
     void draw_symbol(int i, int j, const GridCell& cell) const;
     /// A line of the grid; several strokes, because a lens may bend it.
     void draw_grid_line(double i, double j, int steps, Point step) const;
 
     const FrameView& view_;
-    const Workspace& workspace_;
-    Profile profile_;
+    const Trace& trace_;
     Svg& svg_;
 };
 
@@ -80,7 +76,7 @@ void Reading::draw_grid_line(double i, double j, int steps, Point step) const {
 
 void Reading::draw_grid() const {
     if (!view_.reached().cells) return;
-    const Grid& grid = workspace_.grid;
+    const Region& grid = trace_.grid.region;
     svg_.add(R"(<g class="grid" fill="none" stroke="#7f8c99" stroke-opacity="0.7" )"
              R"(stroke-width="{:.2f}">)",
              1.6 * view_.stroke());
@@ -94,13 +90,13 @@ void Reading::draw_grid() const {
 }
 
 void Reading::draw_symbol(int i, int j, const GridCell& cell) const {
-    const Point at = view_.at_dot(workspace_.dots[cell.dot]);
+    const Point at = view_.at_dot(trace_.dots[cell.dot]);
     const double radius = 0.27 * view_.spacing();
     const Symbol read = turned(make_symbol(cell.x > 0, cell.y > 0), turn());
     bool is_error = false;
     if (view_.reached().place) {
-        const Place place = place_of(workspace_, profile_, {i, j});
-        is_error = symbol_at(profile_, place.cell, place.section) != read;
+        const Place place = place_of(trace_, {i, j});
+        is_error = symbol_at(trace_.options.profile, place.cell, place.section) != read;
     }
     svg_.circle(at, radius,
                 fmt::format(R"(fill="{}"{})", quality_colour(quality(cell)),
@@ -112,7 +108,7 @@ void Reading::draw_symbol(int i, int j, const GridCell& cell) const {
     const double size = 1.45 * radius;
     // A letter stands upright on the pattern, so that it also shows which way up that is.
     const double angle_deg =
-        view_.reached().pose ? -workspace_.fix.theta_rad() * 180 / std::numbers::pi : 0;
+        view_.reached().pose ? -trace_.fix.theta_rad() * 180 / std::numbers::pi : 0;
     svg_.add(R"svg(<text transform="translate({:.2f} {:.2f}) rotate({:.2f})" y="{:.2f}" )svg"
              R"svg(font-size="{:.2f}">{}</text>)svg",
              at.x, at.y, angle_deg, 0.36 * size, size, is_legible ? capital : '?');
@@ -121,18 +117,18 @@ void Reading::draw_symbol(int i, int j, const GridCell& cell) const {
 void Reading::draw_symbols() const {
     if (!view_.reached().cells) {
         svg_.add(R"(<g class="dots" fill="{}">)", colour::kQuiet);
-        for (const Dot& dot : workspace_.found_dots()) {
+        for (const Dot& dot : trace_.dots) {
             svg_.circle(view_.at_dot(dot), 0.1 * view_.spacing(), {});
         }
         svg_.add("</g>");
         return;
     }
     svg_.add(R"(<g class="symbols" font-weight="bold" fill="#ffffff" text-anchor="middle">)");
-    std::vector<bool> is_read(static_cast<std::size_t>(workspace_.dot_count), false);
-    const Grid& grid = workspace_.grid;
+    std::vector<bool> is_read(trace_.dots.size(), false);
+    const Region& grid = trace_.grid.region;
     for (int j = grid.j0; j < grid.j0 + grid.rows; ++j) {
         for (int i = grid.i0; i < grid.i0 + grid.columns; ++i) {
-            const GridCell& cell = grid.at(i, j);
+            const GridCell& cell = trace_.grid.at(i, j);
             if (cell.dot >= is_read.size()) continue;
             is_read[cell.dot] = true;
             draw_symbol(i, j, cell);
@@ -143,14 +139,14 @@ void Reading::draw_symbols() const {
     svg_.add(R"(<g class="unread" fill="none" stroke="{}" stroke-width="{:.2f}">)", colour::kBad,
              4 * view_.stroke());
     for (std::size_t d = 0; d < is_read.size(); ++d) {
-        if (!is_read[d]) svg_.circle(view_.at_dot(workspace_.dots[d]), 0.2 * view_.spacing(), {});
+        if (!is_read[d]) svg_.circle(view_.at_dot(trace_.dots[d]), 0.2 * view_.spacing(), {});
     }
     svg_.add("</g>");
 }
 
 void Reading::draw_window() const {
     if (!view_.reached().window) return;
-    const Region& window = workspace_.decoding.window;
+    const Region& window = trace_.decoding.window;
     // Half a cell around the outer intersections; cell by cell, because a lens may bend it.
     const double left = window.i0 - 0.5;
     const double top = window.j0 - 0.5;
@@ -172,7 +168,7 @@ void Reading::draw_window() const {
 
 void Reading::draw_corner() const {
     if (!view_.reached().place) return;
-    const Vec cell = window_corner(workspace_);
+    const Vec cell = window_corner(trace_);
     svg_.circle(view_.at_grid(cell.x, cell.y), 0.44 * view_.spacing(),
                 fmt::format(R"(class="corner" fill="none" stroke="{}" stroke-width="{:.2f}")",
                             colour::kWindow, 7 * view_.stroke()));
@@ -181,7 +177,7 @@ void Reading::draw_corner() const {
 void Reading::draw_axes() const {
     const Point reference = view_.at(view_.reference_px());
     const double stroke = std::max(view_.stroke(), 0.35);
-    const Vec cell = window_corner(workspace_);
+    const Vec cell = window_corner(trace_);
     svg_.line(view_.at_grid(cell.x, cell.y), reference,  // t of eq. 10
               fmt::format(R"(stroke="{}" stroke-width="{:.2f}" stroke-dasharray="{:.2f}")",
                           colour::kWindow, 4 * stroke, 11 * stroke));
@@ -219,8 +215,8 @@ void Reading::draw_reference() const {
 
 }  // namespace
 
-void draw_reading(const FrameView& view, const Options& options, Svg& svg) {
-    const Reading reading(view, options.profile, svg);
+void draw_reading(const FrameView& view, Svg& svg) {
+    const Reading reading(view, svg);
     reading.draw_grid();
     reading.draw_symbols();
     reading.draw_window();

@@ -3,13 +3,12 @@
 #include <atomic>
 #include <chrono>
 #include <exception>
-#include <memory>
 #include <thread>
 
 #include "dotpose/code_evidence.hpp"
-#include "dotpose/locate.hpp"
 #include "dotpose/tools/evaluate.hpp"
 #include "dotpose/tools/frame_file.hpp"
+#include "dotpose/tools/heap_locator.hpp"
 
 namespace dotpose {
 namespace {
@@ -23,10 +22,10 @@ class Crew {
         : run_(run), outcomes_(outcomes), errors_(static_cast<std::size_t>(run.frames)) {}
 
     void work(bool reports) {
-        const auto workspace = std::make_unique<LargeWorkspace>();
+        HeapLocator locator;
         for (int index = next_++; index < run_.frames && !stopped_; index = next_++) {
             try {
-                locate_frame(index, *workspace);
+                locate_frame(index, locator);
             } catch (...) {
                 errors_[static_cast<std::size_t>(index)] = std::current_exception();
                 stopped_ = true;
@@ -47,7 +46,7 @@ class Crew {
     }
 
   private:
-    void locate_frame(int index, Workspace& workspace) {
+    void locate_frame(int index, Locator& locator) {
         const KnownFrame frame = run_.frame_at(index);
         for (std::size_t k = 0; k < run_.options.size(); ++k) {
             Outcome& outcome = outcomes_[k][static_cast<std::size_t>(index)];
@@ -56,17 +55,18 @@ class Crew {
             if (!frame.problem.empty()) continue;
             Options options = run_.options[k];
             options.profile = frame.profile.value_or(options.profile);
+            locator.set_options(options);
             const auto start = std::chrono::steady_clock::now();
             if (run_.any_code && !frame.profile) {
                 CodeReader reader;
-                outcome.fix = reader.locate(frame.image.view(), options, workspace);
+                outcome.fix = reader.locate(frame.image.view(), locator);
             } else {
-                outcome.fix = locate(frame.image.view(), options, workspace);
+                outcome.fix = locator.locate(frame.image.view());
             }
             const std::chrono::duration<double, std::micro> elapsed =
                 std::chrono::steady_clock::now() - start;
             outcome.elapsed_us = elapsed.count();
-            if (run_.refine) outcome.fix = run_.refine(outcome.fix, options, workspace);
+            if (run_.refine) outcome.fix = run_.refine(outcome.fix, locator.trace());
         }
     }
 

@@ -77,7 +77,8 @@ const char* name(Verdict verdict) noexcept {
     return kNames[static_cast<std::size_t>(verdict)];
 }
 
-Sighting sighting_of(const Fix& fix, std::int32_t spacing_nm, std::int64_t time_us) {
+Sighting sighting_of(const Fix& fix, std::int64_t time_us) {
+    const std::int32_t spacing_nm = fix.spacing_nm;
     const auto nm = [spacing_nm](std::uint32_t cell, std::uint16_t fraction_q16) {
         return std::int64_t{cell} * spacing_nm + ((std::int64_t{fraction_q16} * spacing_nm) >> 16);
     };

@@ -34,7 +34,7 @@ int even(double length) {
 
 /// All cells of the grid that was found, or every other one so that few hundred lines remain.
 void draw_grid(const draw::FrameView& view, cv::Mat& picture) {
-    const Grid& grid = view.workspace().grid;
+    const Region& grid = view.trace().grid.region;
     const int step = std::max({1, grid.columns / 64, grid.rows / 64});
     const auto line = [&](int i0, int j0, int i1, int j1) {
         cv::line(picture, pixel(view.at_grid(i0, j0)), pixel(view.at_grid(i1, j1)), kGrid, 1,
@@ -51,7 +51,7 @@ void draw_grid(const draw::FrameView& view, cv::Mat& picture) {
 
 void draw_dots(const draw::FrameView& view, cv::Mat& picture) {
     const int radius = std::max(2, static_cast<int>(view.spacing() * 0.2));
-    for (const Dot& dot : view.workspace().found_dots())
+    for (const Dot& dot : view.trace().dots)
         cv::circle(picture, pixel(view.at_dot(dot)), radius, kDot, 1, cv::LINE_AA);
 }
 
@@ -132,7 +132,7 @@ void draw_plan(const Scene& scene, const cv::Mat& panel) {
 }  // namespace
 
 cv::Mat overlay(const Scene& scene) {
-    const draw::FrameView view(scene.image, *scene.workspace, *scene.options, kLongerSide);
+    const draw::FrameView view(scene.image, scene.trace, kLongerSide);
     const int width = even(view.width());
     const int height = std::max(even(view.height()), 480);
     cv::Mat picture(height, width + kPanelWidth, CV_8UC3, kPaper);

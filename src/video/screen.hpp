@@ -10,7 +10,7 @@
 #include "dotpose/image.hpp"
 #include "dotpose/options.hpp"
 #include "dotpose/tools/error.hpp"
-#include "dotpose/workspace.hpp"
+#include "dotpose/trace.hpp"
 #include "draw/track_map.hpp"
 
 namespace dotpose::video {
@@ -25,8 +25,7 @@ struct PathMark {
 /// What the picture of one frame shows.
 struct Scene {
     ImageView image;
-    const Workspace* workspace = nullptr;  ///< after `locate` of this image
-    const Options* options = nullptr;
+    Trace trace;                             ///< of this image
     bool is_good = false;                    ///< colour of the captions
     std::vector<std::string> lines;          ///< captions: pose, rate, quality
     std::span<const PathMark> path;          ///< so far

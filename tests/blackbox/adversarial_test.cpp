@@ -18,10 +18,10 @@ class AdversarialClass : public testing::TestWithParam<Adversary> {};
 TEST_P(AdversarialClass, FramesGiveNoWrongFix) {
     constexpr std::uint64_t kSeed = 7;
     constexpr std::uint64_t kFrames = 24;
-    const auto workspace = std::make_unique<LargeWorkspace>();
+    const auto memory = std::make_unique<LargeMemory>();
     for (std::uint64_t index = 0; index < kFrames; ++index) {
         const test::AdversarialFrame frame = test::make_adversarial(GetParam(), kSeed, index);
-        const Fix fix = locate(frame.image.view(), frame.options, *workspace);
+        const Fix fix = Locator(*memory, frame.options).locate(frame.image.view());
         EXPECT_NE(test::judge(fix, frame), test::Verdict::wrong)
             << "index " << index << ", seed " << kSeed << ": cell " << fix.cell.x << ", "
             << fix.cell.y << ", 2^" << fix.p_wrong_log2;
@@ -31,7 +31,7 @@ TEST_P(AdversarialClass, FramesGiveNoWrongFix) {
 // Two patterns in the same direction, about a fifth of the spacing apart: the columns of one and
 // the rows of the other were once taken for a position in each of these.
 TEST(Adversarial, ColumnsAndRowsAreOfOnePattern) {
-    const auto workspace = std::make_unique<LargeWorkspace>();
+    const auto memory = std::make_unique<LargeMemory>();
     struct Overlay {
         std::uint64_t seed;
         std::uint64_t index;
@@ -40,7 +40,7 @@ TEST(Adversarial, ColumnsAndRowsAreOfOnePattern) {
          {Overlay{7001, 3375}, {31018, 255}, {33112, 148}, {33112, 1705}}) {
         const test::AdversarialFrame frame =
             test::make_adversarial(Adversary::overlay, overlay.seed, overlay.index);
-        const Fix fix = locate(frame.image.view(), frame.options, *workspace);
+        const Fix fix = Locator(*memory, frame.options).locate(frame.image.view());
         EXPECT_NE(test::judge(fix, frame), test::Verdict::wrong)
             << "index " << overlay.index << ", seed " << overlay.seed;
     }
@@ -49,7 +49,7 @@ TEST(Adversarial, ColumnsAndRowsAreOfOnePattern) {
 // A seam between two sections makes one step of one sequence another one, and elsewhere in that
 // sequence stand just the digits that come of it: each of these was once located there.
 TEST(Adversarial, WhatASeamExplainsBetterIsNoFix) {
-    const auto workspace = std::make_unique<LargeWorkspace>();
+    const auto memory = std::make_unique<LargeMemory>();
     struct Seam {
         std::uint64_t seed;
         std::uint64_t index;
@@ -60,7 +60,7 @@ TEST(Adversarial, WhatASeamExplainsBetterIsNoFix) {
         for (const Effort effort : {Effort::device, Effort::once, Effort::twice}) {
             Options options = frame.options;
             options.effort = effort;
-            const Fix fix = locate(frame.image.view(), options, *workspace);
+            const Fix fix = Locator(*memory, options).locate(frame.image.view());
             EXPECT_NE(test::judge(fix, frame), test::Verdict::wrong)
                 << "index " << seam.index << ", seed " << seam.seed;
         }

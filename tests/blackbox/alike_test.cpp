@@ -38,7 +38,7 @@ class DotsAlike : public testing::TestWithParam<Alike> {};
 TEST_P(DotsAlike, ErrorsAreAsLargeAsTheyAreSaidToBe) {
     const auto [spacing_px, angle_deg] = GetParam();
     SCOPED_TRACE(testing::Message() << "seed " << kSeed);
-    const auto workspace = std::make_unique<LargeWorkspace>();
+    const auto memory = std::make_unique<LargeMemory>();
     Options options;
     options.effort = Effort::once;
     std::vector<Outcome> outcomes(kFrames);
@@ -47,7 +47,7 @@ TEST_P(DotsAlike, ErrorsAreAsLargeAsTheyAreSaidToBe) {
         const GreyImage image = render(shot);
         Outcome& outcome = outcomes[static_cast<std::size_t>(i)];
         outcome.truth = truth_of(shot);
-        outcome.fix = locate(image.view(), options, *workspace);
+        outcome.fix = Locator(*memory, options).locate(image.view());
     }
     const Score score = score_of(outcomes);
     EXPECT_EQ(score.wrong, 0);

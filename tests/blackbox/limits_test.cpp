@@ -28,13 +28,13 @@ class Limits : public testing::TestWithParam<Limit> {};
 
 TEST_P(Limits, AllFramesAreLocated) {
     const Limit& limit = GetParam();
-    const auto workspace = std::make_unique<LargeWorkspace>();
+    const auto memory = std::make_unique<LargeMemory>();
     for (std::uint64_t i = 0; i < frames_of(limit.camera); ++i) {
         const Shot shot = shot_at(limit, kSeed, i);
         const GreyImage image = picture_of(limit, shot);
         Outcome outcome;
         outcome.truth = truth_of(shot);
-        outcome.fix = locate(image.view(), options_of(limit), *workspace);
+        outcome.fix = Locator(*memory, options_of(limit)).locate(image.view());
         EXPECT_EQ(outcome.fix.status, Status::ok)
             << limit.condition << ", seed " << kSeed << ", frame " << i << ": "
             << name(outcome.fix.status);
@@ -59,12 +59,12 @@ std::string test_name(const testing::TestParamInfo<Limit>& info) {
 INSTANTIATE_TEST_SUITE_P(Held, Limits, testing::ValuesIn(held_limits()), test_name);
 
 TEST(MirroredFrames, AreRefusedAsSuch) {
-    const auto workspace = std::make_unique<LargeWorkspace>();
+    const auto memory = std::make_unique<LargeMemory>();
     for (std::uint64_t i = 0; i < 3; ++i) {
         dotpose::Setup setup;
         setup.seed = kSeed;
         const GreyImage image = render_scene(Scene::mirrored, draw_shot(setup, i));
-        EXPECT_EQ(locate(image.view(), {}, *workspace).status, Status::mirrored)
+        EXPECT_EQ(Locator(*memory).locate(image.view()).status, Status::mirrored)
             << "seed " << kSeed << ", frame " << i;
     }
 }

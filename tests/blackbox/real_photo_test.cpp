@@ -43,8 +43,8 @@ TEST_P(RealPhoto, is_located_whatever_way_it_is_turned) {
     for (int i = 0; i < GetParam(); ++i)
         image = turned(image);
 
-    const auto workspace = std::make_unique<LargeWorkspace>();
-    const Fix fix = locate(image.view(), {}, *workspace);
+    const auto memory = std::make_unique<LargeMemory>();
+    const Fix fix = Locator(*memory).locate(image.view());
     ASSERT_EQ(fix.status, Status::ok) << message(fix.status);
     EXPECT_NEAR(fix.x_grid(), kX_grid, 0.1);
     EXPECT_NEAR(fix.y_grid(), kY_grid, 0.1);

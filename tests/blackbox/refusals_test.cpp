@@ -26,8 +26,8 @@ Shot shot_of(Preset preset, Size size, std::uint64_t index) {
 }
 
 /// A fix is wrong, and so is a status that speaks of the caller instead of the frame.
-void expect_refusal(const GreyImage& image, Workspace& workspace, const std::string& what) {
-    const Fix fix = locate(image.view(), {}, workspace);
+void expect_refusal(const GreyImage& image, LargeMemory& memory, const std::string& what) {
+    const Fix fix = Locator(memory).locate(image.view());
     switch (fix.status) {
         case Status::ok:
         case Status::bad_argument:
@@ -44,7 +44,7 @@ void expect_refusal(const GreyImage& image, Workspace& workspace, const std::str
 }
 
 void refuse_all(Size size, std::uint64_t shots) {
-    const auto workspace = std::make_unique<LargeWorkspace>();
+    const auto memory = std::make_unique<LargeMemory>();
     for (const Scene scene : kScenes) {
         const bool has_density = scene == Scene::noise || scene == Scene::scattered_dots;
         for (std::uint64_t i = 0; i < shots; ++i) {
@@ -54,7 +54,7 @@ void refuse_all(Size size, std::uint64_t shots) {
                 const std::string what = std::string(name(scene)) + ", shot " + std::to_string(i) +
                                          ", density " + std::to_string(density) + ", " +
                                          std::to_string(size.width_px) + " px wide";
-                expect_refusal(render_scene(scene, shot_of(preset, size, i), density), *workspace,
+                expect_refusal(render_scene(scene, shot_of(preset, size, i), density), *memory,
                                what);
             }
         }
@@ -72,21 +72,21 @@ TEST(Refusals, LargerFrames) {
 }
 
 TEST(Refusals, TheLargestFrame) {
-    const auto workspace = std::make_unique<LargeWorkspace>();
+    const auto memory = std::make_unique<LargeMemory>();
     const Shot shot = shot_of(Preset::clean, {4096, 4096}, 0);
     for (const Scene scene : {Scene::noise, Scene::random_symbols}) {
-        expect_refusal(render_scene(scene, shot, 0.3), *workspace, name(scene));
+        expect_refusal(render_scene(scene, shot, 0.3), *memory, name(scene));
     }
 }
 
 TEST(Refusals, TheSmallestImages) {
-    const auto workspace = std::make_unique<LargeWorkspace>();
+    const auto memory = std::make_unique<LargeMemory>();
     for (const Size size : {Size{1, 1}, Size{1, 4096}, Size{4096, 1}, Size{63, 63}, Size{0, 0}}) {
         GreyImage image{{}, size.width_px, size.height_px};
         image.pixels.assign(
             static_cast<std::size_t>(size.width_px) * static_cast<std::size_t>(size.height_px),
             128);
-        EXPECT_EQ(locate(image.view(), {}, *workspace).status, Status::image_too_small);
+        EXPECT_EQ(Locator(*memory).locate(image.view()).status, Status::image_too_small);
     }
 }
 

@@ -62,11 +62,11 @@ void judge(const Fix& fix, const Shot& shot, Tally& tally) {
 }
 
 Tally run(const Setup& setup, std::uint64_t frames, const Options& options = {}) {
-    const auto workspace = std::make_unique<LargeWorkspace>();
+    const auto memory = std::make_unique<LargeMemory>();
     Tally tally;
     for (std::uint64_t i = 0; i < frames; ++i) {
         const Shot shot = draw_shot(setup, i);
-        judge(locate(render(shot).view(), options, *workspace), shot, tally);
+        judge(Locator(*memory, options).locate(render(shot).view()), shot, tally);
     }
     return tally;
 }
@@ -104,12 +104,12 @@ TEST(SimulatedFrames, HardFramesAreLocated) {
 TEST(SimulatedFrames, FramesInDoubtAreLookedAtOnceMore) {
     // Dark and noisy, or with graphics along the grid: through the first grid a third of their bits
     // contradict. In the last, words turn the first estimate of the grid by 26 degrees.
-    const auto workspace = std::make_unique<LargeWorkspace>();
+    const auto memory = std::make_unique<LargeMemory>();
     Tally tally;
     for (const std::uint64_t index :
          {599u, 2270u, 3006u, 3468u, 4166u, 5006u, 5317u, 5590u, 5840u}) {
         const Shot shot = draw_shot(setup_of(Preset::hard, 777), index);
-        judge(locate(render(shot).view(), {}, *workspace), shot, tally);
+        judge(Locator(*memory).locate(render(shot).view()), shot, tally);
     }
     EXPECT_EQ(tally.located, tally.frames);
 }
@@ -138,7 +138,7 @@ TEST(SimulatedFrames, OtherProfilesAreNotTakenForOnesOwn) {
 }
 
 TEST(SimulatedFrames, BothEndsOfTheCodeAreReadAsTheMiddle) {
-    const auto workspace = std::make_unique<LargeWorkspace>();
+    const auto memory = std::make_unique<LargeMemory>();
     // All that the camera sees lies on the plane: it reaches 10 cells from its centre.
     constexpr std::uint32_t kNear = 12;
     constexpr std::uint32_t kFar = kPositionsPerAxis - 13;
@@ -149,7 +149,7 @@ TEST(SimulatedFrames, BothEndsOfTheCodeAreReadAsTheMiddle) {
                                 Cell{kFar, kFar}, Cell{kFar, kPositionsPerAxis / 2}}) {
             Shot shot = draw_shot(setup_of(Preset::nominal, kSeed + 3), index++);
             shot.pose.cell = cell;
-            judge(locate(render(shot).view(), {}, *workspace), shot, tally);
+            judge(Locator(*memory).locate(render(shot).view()), shot, tally);
         }
     }
     EXPECT_GE(tally.located_share(), 0.98) << "seed " << kSeed + 3;
@@ -157,13 +157,13 @@ TEST(SimulatedFrames, BothEndsOfTheCodeAreReadAsTheMiddle) {
 }
 
 TEST(SimulatedFrames, EveryDirectionIsRead) {
-    const auto workspace = std::make_unique<LargeWorkspace>();
+    const auto memory = std::make_unique<LargeMemory>();
     Tally tally;
     for (int degrees = -180; degrees < 180; degrees += 3) {
         Shot shot = draw_shot(setup_of(Preset::clean, kSeed + 4),
                               static_cast<std::uint64_t>(degrees + 180));
         shot.pose.theta_rad = degrees * std::numbers::pi / 180;
-        judge(locate(render(shot).view(), {}, *workspace), shot, tally);
+        judge(Locator(*memory).locate(render(shot).view()), shot, tally);
     }
     EXPECT_EQ(tally.located, tally.frames) << "seed " << kSeed + 4;
     EXPECT_EQ(tally.wrong, 0u);

@@ -34,7 +34,7 @@ double sigmas_off(const Fix& fix, const Shot& shot) {
 
 TEST(SlippedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {
     constexpr int kFrames = 150;
-    const auto workspace = std::make_unique<LargeWorkspace>();
+    const auto memory = std::make_unique<LargeMemory>();
     int fixes = 0;
     int claim_too_much = 0;
     int divided = 0;
@@ -45,7 +45,7 @@ TEST(SlippedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {
         const GreyImage image = render(shot);
         Outcome outcome;
         outcome.truth = truth_of(shot);
-        outcome.fix = locate(image.view(), {}, *workspace);
+        outcome.fix = Locator(*memory).locate(image.view());
         if (!outcome.is_fix()) continue;
         ++fixes;
         EXPECT_FALSE(outcome.is_wrong());
@@ -67,12 +67,12 @@ Shot slipped_shot() {
 }
 
 TEST(SlippedSheet, PredictionsAreNoHelpToTheOtherSide) {
-    const auto workspace = std::make_unique<LargeWorkspace>();
+    const auto memory = std::make_unique<LargeMemory>();
     const Shot shot = slipped_shot();
     const GreyImage image = render(shot);
-    const Fix fix = locate(image.view(), {}, *workspace);
+    const Fix fix = Locator(*memory).locate(image.view());
     ASSERT_EQ(fix.status, Status::ok);
-    const Fix tracked = locate(image.view(), {}, Prediction::like(fix), *workspace);
+    const Fix tracked = Locator(*memory).locate(image.view(), Prediction::like(fix));
     ASSERT_EQ(tracked.status, Status::ok);
     EXPECT_EQ(tracked.attempt, Attempt::tracked);
     EXPECT_EQ(tracked.surface, Surface::divided);

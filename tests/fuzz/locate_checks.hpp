@@ -36,14 +36,12 @@ inline void check(const Fix& fix, const Options& options) {
     }
 }
 
-/// With a workspace that other frames have left their marks in.
-inline Fix push_rows(const ImageView& image, const Options& options, Workspace& workspace) {
-    if (begin(image.width_px, image.height_px, options, workspace) != Status::ok) {
-        return workspace.fix;
-    }
+/// With memory that other frames have left their marks in.
+inline Fix push_rows(const ImageView& image, Locator& locator) {
+    static_cast<void>(locator.begin(image.width_px, image.height_px));
     for (int v = 0; v < image.height_px; ++v)
-        push_row(image.row(v), options, workspace);
-    return finish(options, workspace);
+        locator.push_row(image.row(v));
+    return locator.finish();
 }
 
 }  // namespace dotpose::fuzz

@@ -9,8 +9,8 @@
 using namespace dotpose;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    static const auto kWorkspace = std::make_unique<LargeWorkspace>();
-    static const auto kOther = std::make_unique<LargeWorkspace>();
+    static const auto kMemory = std::make_unique<LargeMemory>();
+    static const auto kOther = std::make_unique<LargeMemory>();
     fuzz::LocateHeader header;
     if (size < sizeof header) return -1;
     std::memcpy(&header, data, sizeof header);
@@ -18,12 +18,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::span<const std::uint8_t> rest{data + sizeof header, size - sizeof header};
     const fuzz::Pixels image = fuzz::pixels_of(header, rest);
 
-    const Fix fix = locate(image.view(), options, *kWorkspace);
+    Locator locator(*kMemory, options);
+    const Fix fix = locator.locate(image.view());
     fuzz::check(fix, options);
     const Prediction prediction = fuzz::prediction_of(header, rest, fix);
-    fuzz::check(locate(image.view(), options, prediction, *kWorkspace), options);
+    fuzz::check(locator.locate(image.view(), prediction), options);
     if (options.effort == Effort::once && (header.flags & fuzz::LocateHeader::rows_pushed) != 0) {
-        fuzz::check(fuzz::push_rows(image.view(), options, *kOther), options);
+        Locator other(*kOther, options);
+        fuzz::check(fuzz::push_rows(image.view(), other), options);
     }
     return 0;
 }

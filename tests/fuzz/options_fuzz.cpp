@@ -65,7 +65,7 @@ std::array<GreyImage, 3> make_frames() {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    static const auto kWorkspace = std::make_unique<LargeWorkspace>();
+    static const auto kMemory = std::make_unique<LargeMemory>();
     static const std::array<GreyImage, 3> kFrames = make_frames();
     if (size < 1) return -1;
     const ImageView image = kFrames[data[0] % kFrames.size()].view();
@@ -75,10 +75,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         std::memcpy(&change.value, data + at + 1, sizeof change.value);
         apply(change, options);
     }
-    const Fix usual = locate(image, {}, *kWorkspace);
-    fuzz::check(locate(image, options, *kWorkspace), options);
-    fuzz::check(locate(image, options, Prediction::like(usual), *kWorkspace), options);
-    if (options.effort == Effort::once)
-        fuzz::check(fuzz::push_rows(image, options, *kWorkspace), options);
+    const Fix usual = Locator(*kMemory).locate(image);
+    Locator locator(*kMemory, options);
+    fuzz::check(locator.locate(image), options);
+    fuzz::check(locator.locate(image, Prediction::like(usual)), options);
+    if (options.effort == Effort::once) fuzz::check(fuzz::push_rows(image, locator), options);
     return 0;
 }

@@ -3,7 +3,9 @@
 ///     const Camera camera = read_camera("camera.yaml");
 ///     Options options;
 ///     use_camera(camera, image.width_px, image.height_px, options);
-///     const Fix fix = with_camera(locate(image, options, workspace), camera, options, workspace);
+///     locator.set_options(options);
+///     const Fix seen = locator.locate(image);
+///     const Fix fix = with_camera(seen, camera, locator.trace());
 ///
 /// `read_camera` also reads the `camera_info` files of ROS (`plumb_bob`) and converts their lens.
 ///
@@ -22,7 +24,7 @@
 #include "dotpose/options.hpp"
 #include "dotpose/tools/error.hpp"
 #include "dotpose/tools/sheet.hpp"
-#include "dotpose/workspace.hpp"
+#include "dotpose/trace.hpp"
 
 #pragma GCC visibility push(default)
 
@@ -125,18 +127,18 @@ PixelPoint pixel_from_image_centre(const Camera& camera, CameraPoint point);
 std::optional<PixelPoint> reference_in(const Camera& other, const Camera& camera);
 
 /// Sets lens and reference point for images of this size, and if the camera's view is known, that
-/// the dots stay in the workspace for `with_camera`. Throws BadArgument if the camera's are of
+/// the dots stay in the trace for `with_camera`. Throws BadArgument if the camera's are of
 /// another size.
 void use_camera(const Camera& camera, int width_px, int height_px, Options& options);
 
-/// What else the camera file tells of a fix that `locate` has just made with these options. A
+/// What else the camera file tells of a fix, from the trace that it left. A
 /// camera that is mounted sees the paper always alike: its view is taken from the file, and only
 /// place, angle and one scale (sheets are printed differently) are fitted to the dots, which is
 /// more exact, above all far from the image centre. Theta becomes the heading of the robot.
 /// `print`: of the sheet that the fix lies on, as far as it is known; the fix stays in terms of the
 /// pattern as it was meant to be printed.
-Fix with_camera(const Fix& fix, const Camera& camera, const Options& options,
-                const Workspace& workspace, const AxisScale& print = {});
+Fix with_camera(const Fix& fix, const Camera& camera, const Trace& trace,
+                const AxisScale& print = {});
 
 }  // namespace dotpose
 

@@ -1,8 +1,8 @@
 /// Drawing: pictures (SVG, self-contained) of what `locate` saw in a frame, stage by stage, and of
-/// paths over a sheet. The stages themselves know nothing of it: all is read from the workspace.
+/// paths over a sheet. The stages themselves know nothing of it: all is read from the trace.
 ///
-///     const dotpose::Fix fix = locate(image.view(), options, *workspace);
-///     draw_frame("frame.svg", image.view(), *workspace, options);
+///     const dotpose::Fix fix = locator.locate(image.view());
+///     draw_frame("frame.svg", image.view(), locator.trace());
 ///
 /// Functions throw Error when a file cannot be written; they share no state. Texts are expected in
 /// UTF-8; what is not is replaced.
@@ -14,10 +14,9 @@
 #include <string>
 
 #include "dotpose/image.hpp"
-#include "dotpose/options.hpp"
 #include "dotpose/tools/error.hpp"
 #include "dotpose/tools/sheet.hpp"
-#include "dotpose/workspace.hpp"
+#include "dotpose/trace.hpp"
 
 #pragma GCC visibility push(default)
 
@@ -30,8 +29,8 @@ struct DrawOptions {
     std::string title;  ///< for example the file's name; default none
 };
 
-/// Draws the last frame of `workspace`, whatever stage it got to. `image` and `options` are those
-/// it was located with.
+/// Draws the last frame of a Locator, whatever stage it got to; `image` is the one it located, and
+/// `Options::show_stages` was set.
 ///
 /// Left, on the image (paper Fig. 2 and 3): a ring around each dot, the symmetric connections of
 /// the neighbour search, the centre of the intact neighbourhood. Below it the same connections from
@@ -40,10 +39,10 @@ struct DrawOptions {
 /// reference point and the angle theta. Below: the pose, or why there is none.
 ///
 /// With lens distortion everything is drawn where the image shows it, so grid lines bend.
-void draw_frame(std::ostream& out, ImageView image, const Workspace& workspace,
-                const Options& options, const DrawOptions& draw_options = {});
-void draw_frame(const std::filesystem::path& path, ImageView image, const Workspace& workspace,
-                const Options& options, const DrawOptions& draw_options = {});
+void draw_frame(std::ostream& out, ImageView image, const Trace& trace,
+                const DrawOptions& draw_options = {});
+void draw_frame(const std::filesystem::path& path, ImageView image, const Trace& trace,
+                const DrawOptions& draw_options = {});
 
 /// One frame of a drive over a sheet; sheet coordinates.
 struct PathPoint {

@@ -31,7 +31,7 @@
 #include "dotpose/tools/grey_image.hpp"
 #include "dotpose/tools/sheet.hpp"
 #include "dotpose/tools/simulate.hpp"
-#include "dotpose/workspace.hpp"
+#include "dotpose/trace.hpp"
 
 #pragma GCC visibility push(default)
 
@@ -98,9 +98,9 @@ struct FrameRun {
     std::vector<Options> options = {Options{}};
     /// Frames that do not tell their profile are read in any, each by itself.
     bool any_code = false;
-    /// What else is known of a fix that was just made with these options and workspace, such as
+    /// What else is known of a fix that was just made, from the trace that it left, such as
     /// `with_camera` tells; none: nothing. Called from several threads; its time does not count.
-    std::function<Fix(const Fix&, const Options&, const Workspace&)> refine;
+    std::function<Fix(const Fix&, const Trace&)> refine;
     int threads = 0;  ///< 0: one for each core
     Progress progress;
 };

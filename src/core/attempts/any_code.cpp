@@ -14,6 +14,7 @@
 #include "core/attempts/steps.hpp"
 #include "core/attempts/tracked.hpp"
 #include "core/decode/verify.hpp"
+#include "core/locate.hpp"
 #include "core/odds.hpp"
 
 namespace dotpose::core {
@@ -310,18 +311,18 @@ class AnyCode {
 
 }  // namespace
 
-CodeReading locate_in_any_code(const ImageView& image, const Options& options,
-                               const Prediction* prediction, const CodeEvidence& evidence,
-                               Workspace& w) {
+CodeReading read_in_any_code(const ImageView& image, const Options& options,
+                             const Prediction* prediction, const CodeEvidence& evidence,
+                             Workspace& w) {
     return AnyCode(image, options, evidence, w).locate(prediction);
 }
 
-CodeReading locate_in_code(const ImageView& image, const Options& options, Workspace& w) {
+CodeReading read_in_code(const ImageView& image, const Options& options, Workspace& w) {
     w.other_codes->of = {};
     w.other_codes->are_wanted = true;
     w.other_codes->log2_in_question_q8 = -1;
     CodeReading reading;
-    reading.fix = dotpose::locate(image, options, w);
+    reading.fix = core::locate(image, options, w);
     reading.code = options.profile;
     w.other_codes->are_wanted = false;
     if (reading.fix.status == Status::ok) {
@@ -329,7 +330,7 @@ CodeReading locate_in_code(const ImageView& image, const Options& options, Works
         return reading;
     }
     if (!is_for_code(reading.fix.status)) return reading;
-    const CodeReading any = locate_in_any_code(image, options, nullptr, {}, w);
+    const CodeReading any = read_in_any_code(image, options, nullptr, {}, w);
     const bool is_read = any.fix.status == Status::ok || any.fix.status == Status::ambiguous_code;
     // Without a contradiction: but for bits misread, less than one in a hundred.
     if (is_read && 50 * any.fix.bit_errors <= any.fix.dots_seen) {
@@ -340,7 +341,7 @@ CodeReading locate_in_code(const ImageView& image, const Options& options, Works
         reading.other_section = is_first ? any.fix.section : any.other_section;
     }
     // The workspace must show what is returned.
-    static_cast<void>(dotpose::locate(image, options, w));
+    static_cast<void>(core::locate(image, options, w));
     return reading;
 }
 

@@ -4,9 +4,9 @@
 
 #include "core/float_plane.hpp"
 #include "core/kernels/select.hpp"
+#include "core/workspace.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/options.hpp"
-#include "dotpose/workspace.hpp"
 
 namespace dotpose::core {
 

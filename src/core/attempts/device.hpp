@@ -1,8 +1,8 @@
 // The attempt of devices: rows come in one by one, everything is integers, and the time is bounded.
 #pragma once
 
+#include "core/workspace.hpp"
 #include "dotpose/options.hpp"
-#include "dotpose/workspace.hpp"
 
 namespace dotpose::core {
 

@@ -2,9 +2,9 @@
 // in, in integers and without the frame.
 #pragma once
 
+#include "core/workspace.hpp"
 #include "dotpose/options.hpp"
 #include "dotpose/prediction.hpp"
-#include "dotpose/workspace.hpp"
 
 namespace dotpose::core {
 

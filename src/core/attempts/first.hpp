@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/kernels/select.hpp"
+#include "core/workspace.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/options.hpp"
-#include "dotpose/workspace.hpp"
 
 namespace dotpose::core {
 

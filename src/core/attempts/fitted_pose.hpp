@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/pose/refine.hpp"
+#include "core/workspace.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/options.hpp"
-#include "dotpose/workspace.hpp"
 
 namespace dotpose::core {
 

@@ -1,6 +1,7 @@
 // The place in another profile that explains a frame.
 #pragma once
 
+#include "core/other_codes.hpp"
 #include "dotpose/code_evidence.hpp"
 
 namespace dotpose::core {

@@ -2,8 +2,8 @@
 // nothing: for a camera that looks rather straight at clean paper.
 #pragma once
 
+#include "core/workspace.hpp"
 #include "dotpose/options.hpp"
-#include "dotpose/workspace.hpp"
 
 namespace dotpose::core {
 

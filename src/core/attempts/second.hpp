@@ -1,9 +1,9 @@
 // The second attempt, for tilted cameras, lenses that bend, noise, uneven light and graphics.
 #pragma once
 
+#include "core/workspace.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/options.hpp"
-#include "dotpose/workspace.hpp"
 
 namespace dotpose::core {
 

@@ -3,9 +3,9 @@
 
 #include "core/detect/blobs.hpp"
 #include "core/detect/light.hpp"
+#include "core/workspace.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/options.hpp"
-#include "dotpose/workspace.hpp"
 
 namespace dotpose::core {
 

@@ -9,9 +9,9 @@
 #include "core/decode/confidence.hpp"
 #include "core/decode/lines.hpp"
 #include "core/kernels/kernels.hpp"
+#include "core/other_codes.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/options.hpp"
-#include "dotpose/other_codes.hpp"
 
 namespace dotpose::core {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "dotpose/stages.hpp"
+#include "core/stages.hpp"
 
 namespace dotpose::core {
 

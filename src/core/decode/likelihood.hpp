@@ -1,7 +1,7 @@
 // Likelihood: how likely each bit of each dot is 1 or 0. Paper section II-B.4, eq. 7-9, Fig. 7-8.
 #pragma once
 
-#include "dotpose/stages.hpp"
+#include "core/stages.hpp"
 #include "dotpose/status.hpp"
 
 namespace dotpose::core {

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "core/decode/upright.hpp"
-#include "dotpose/stages.hpp"
+#include "core/stages.hpp"
 
 namespace dotpose::core {
 

@@ -4,9 +4,9 @@
 #pragma once
 
 #include "core/decode/lines.hpp"
+#include "core/stages.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/options.hpp"
-#include "dotpose/stages.hpp"
 
 namespace dotpose::core {
 

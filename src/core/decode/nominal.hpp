@@ -4,8 +4,8 @@
 #include <array>
 
 #include "core/fixed.hpp"
+#include "core/stages.hpp"
 #include "dotpose/code.hpp"
-#include "dotpose/stages.hpp"
 
 namespace dotpose::core {
 

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "dotpose/stages.hpp"
+#include "core/stages.hpp"
 #include "dotpose/status.hpp"
 
 namespace dotpose::core {

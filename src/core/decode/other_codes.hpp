@@ -5,7 +5,7 @@
 
 #include "core/decode/contest.hpp"
 #include "core/kernels/kernels.hpp"
-#include "dotpose/other_codes.hpp"
+#include "core/other_codes.hpp"
 
 namespace dotpose::core {
 

@@ -1,8 +1,8 @@
 // Position: the turn and the place in the code. Paper section II-B.6 and II-B.7.
 #pragma once
 
+#include "core/stages.hpp"
 #include "dotpose/options.hpp"
-#include "dotpose/stages.hpp"
 #include "dotpose/status.hpp"
 
 namespace dotpose::core {

@@ -1,7 +1,7 @@
 // Read dots: the bits of a tracked frame, as its rows come in.
 #pragma once
 
-#include "dotpose/stages.hpp"
+#include "core/stages.hpp"
 
 namespace dotpose::core {
 

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "core/fixed.hpp"
-#include "dotpose/stages.hpp"
+#include "core/stages.hpp"
 
 namespace dotpose::core {
 

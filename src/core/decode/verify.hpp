@@ -7,10 +7,10 @@
 
 #include "core/decode/lines.hpp"
 #include "core/kernels/kernels.hpp"
+#include "core/other_codes.hpp"
+#include "core/stages.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/options.hpp"
-#include "dotpose/other_codes.hpp"
-#include "dotpose/stages.hpp"
 #include "dotpose/status.hpp"
 
 namespace dotpose::core {

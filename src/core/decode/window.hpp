@@ -1,7 +1,7 @@
 // Window: the square of cells that is read most clearly. Paper section II-B.5, with 8 x 8 cells.
 #pragma once
 
-#include "dotpose/stages.hpp"
+#include "core/stages.hpp"
 
 namespace dotpose::core {
 

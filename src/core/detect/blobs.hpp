@@ -2,8 +2,8 @@
 // Paper section II-B.1.
 #pragma once
 
+#include "core/stages.hpp"
 #include "dotpose/options.hpp"
-#include "dotpose/stages.hpp"
 
 namespace dotpose::core {
 

@@ -1,8 +1,8 @@
 // Level at: what an image shows at a point between its pixels, seen through a small window.
 #pragma once
 
+#include "core/stages.hpp"
 #include "dotpose/image.hpp"
-#include "dotpose/stages.hpp"
 
 namespace dotpose::core {
 

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/stages.hpp"
 #include "dotpose/image.hpp"
-#include "dotpose/stages.hpp"
 
 namespace dotpose::core {
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "core/stages.hpp"
 #include "dotpose/options.hpp"
-#include "dotpose/stages.hpp"
 
 namespace dotpose::core {
 

@@ -9,8 +9,8 @@
 #include "core/detect/inverses.hpp"
 #include "core/detect/newest_rows.hpp"
 #include "core/kernels/portable/dark_sums.hpp"
+#include "core/stages.hpp"
 #include "dotpose/code.hpp"
-#include "dotpose/stages.hpp"
 
 namespace dotpose::core {
 

@@ -1,7 +1,7 @@
 // Newest rows: all that is kept of a tracked frame.
 #pragma once
 
-#include "dotpose/stages.hpp"
+#include "core/stages.hpp"
 
 namespace dotpose::core {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "core/stages.hpp"
 #include "dotpose/image.hpp"
-#include "dotpose/stages.hpp"
 
 namespace dotpose::core {
 

@@ -2,8 +2,8 @@
 // II-B.1.
 #pragma once
 
+#include "core/patch.hpp"
 #include "dotpose/image.hpp"
-#include "dotpose/patch.hpp"
 
 namespace dotpose::core {
 

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "dotpose/stages.hpp"
+#include "core/stages.hpp"
 
 namespace dotpose::core {
 

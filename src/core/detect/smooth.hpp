@@ -3,8 +3,8 @@
 // differs: not in the paper; docs/differs-from-paper.md.
 #pragma once
 
+#include "core/stages.hpp"
 #include "dotpose/image.hpp"
-#include "dotpose/stages.hpp"
 
 namespace dotpose::core {
 

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "dotpose/stages.hpp"
+#include "core/stages.hpp"
 
 namespace dotpose::core {
 

@@ -1,8 +1,8 @@
 // Undistort: where a lens without distortion would have put the dots, and back. Paper eq. 1-2.
 #pragma once
 
+#include "core/stages.hpp"
 #include "dotpose/options.hpp"
-#include "dotpose/stages.hpp"
 
 namespace dotpose::core {
 

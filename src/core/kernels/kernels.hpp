@@ -9,9 +9,9 @@
 #include <span>
 
 #include "code/tables.hpp"
+#include "core/patch.hpp"
 #include "core/plane.hpp"
 #include "dotpose/image.hpp"
-#include "dotpose/patch.hpp"
 
 namespace dotpose::core {
 

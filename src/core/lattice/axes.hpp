@@ -2,7 +2,7 @@
 // II-B.2, Fig. 5 (constrained k-means).
 #pragma once
 
-#include "dotpose/stages.hpp"
+#include "core/stages.hpp"
 #include "dotpose/status.hpp"
 
 namespace dotpose::core {

@@ -3,7 +3,7 @@
 // direction. differs: the second attempt only; docs/differs-from-paper.md.
 #pragma once
 
-#include "dotpose/stages.hpp"
+#include "core/stages.hpp"
 
 namespace dotpose::core {
 

@@ -1,8 +1,8 @@
 // Tracked bits: what the code has around a predicted place, line by line, and what is read of it.
 #pragma once
 
+#include "core/stages.hpp"
 #include "dotpose/code.hpp"
-#include "dotpose/stages.hpp"
 
 namespace dotpose::core {
 

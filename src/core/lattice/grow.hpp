@@ -4,8 +4,8 @@
 // on from there.
 #pragma once
 
+#include "core/stages.hpp"
 #include "dotpose/options.hpp"
-#include "dotpose/stages.hpp"
 #include "dotpose/status.hpp"
 
 namespace dotpose::core {

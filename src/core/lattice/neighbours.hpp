@@ -4,7 +4,7 @@
 // The time stays bounded in any image.
 #pragma once
 
-#include "dotpose/stages.hpp"
+#include "core/stages.hpp"
 
 namespace dotpose::core {
 

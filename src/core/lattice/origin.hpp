@@ -4,7 +4,7 @@
 // transform.
 #pragma once
 
-#include "dotpose/stages.hpp"
+#include "core/stages.hpp"
 
 namespace dotpose::core {
 

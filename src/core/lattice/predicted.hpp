@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/fixed.hpp"
+#include "core/stages.hpp"
 #include "dotpose/options.hpp"
 #include "dotpose/prediction.hpp"
-#include "dotpose/stages.hpp"
 #include "dotpose/status.hpp"
 
 namespace dotpose::core {

@@ -1,8 +1,8 @@
 // Refine: the exact grid, from the first estimate outwards. Paper section II-B.3, eq. 6.
 #pragma once
 
+#include "core/stages.hpp"
 #include "dotpose/options.hpp"
-#include "dotpose/stages.hpp"
 #include "dotpose/status.hpp"
 
 namespace dotpose::core {

@@ -1,7 +1,7 @@
 // Turn: the cells of a prediction, shifted to where they are, are turned and stretched likewise.
 #pragma once
 
-#include "dotpose/stages.hpp"
+#include "core/stages.hpp"
 
 namespace dotpose::core {
 

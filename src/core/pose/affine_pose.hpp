@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/pose/observations.hpp"
-#include "dotpose/stages.hpp"
+#include "core/stages.hpp"
 
 namespace dotpose::core {
 

@@ -7,8 +7,8 @@
 #include "core/pose/belief.hpp"
 #include "core/pose/normal.hpp"
 #include "core/pose/observations.hpp"
+#include "core/stages.hpp"
 #include "dotpose/fix.hpp"
-#include "dotpose/stages.hpp"
 
 namespace dotpose::core {
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <cstddef>
 
+#include "core/stages.hpp"
 #include "core/vectors.hpp"
-#include "dotpose/stages.hpp"
 
 namespace dotpose::core {
 

@@ -2,8 +2,8 @@
 // II-B.8, eq. 10-12; angle: end of II-B.6.
 #pragma once
 
+#include "core/stages.hpp"
 #include "dotpose/fix.hpp"
-#include "dotpose/stages.hpp"
 
 namespace dotpose::core {
 

@@ -1,7 +1,7 @@
 // Tracked pose: the map from the image to the pattern of a tracked frame, in integers.
 #pragma once
 
-#include "dotpose/stages.hpp"
+#include "core/stages.hpp"
 
 namespace dotpose::core {
 

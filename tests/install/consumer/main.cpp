@@ -5,9 +5,9 @@
 
 // A blank frame through the whole public interface: it links, runs, and says why there is no fix.
 int main() {
-    static dotpose::SmallWorkspace workspace;
+    static dotpose::SmallMemory memory;
     const std::vector<std::uint8_t> pixels(188 * 120, 200);
-    const dotpose::Fix fix = dotpose::locate({pixels.data(), 188, 120, 188}, {}, workspace);
+    const dotpose::Fix fix = dotpose::Locator(memory).locate({pixels.data(), 188, 120, 188});
     std::printf("%s: %s\n", dotpose::name(fix.status), dotpose::message(fix.status));
     return fix.status == dotpose::Status::no_contrast ? 0 : 1;
 }

@@ -5,13 +5,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <memory>
 #include <numbers>
 #include <string>
 #include <vector>
 
-#include "dotpose/locate.hpp"
 #include "dotpose/tools/camera_file.hpp"
+#include "dotpose/tools/heap_locator.hpp"
 #include "dotpose/tools/sheet_file.hpp"
 #include "dotpose/tools/simulate.hpp"
 
@@ -93,7 +92,7 @@ struct RobotError {
 };
 inline constexpr int kRobotStands = 24;
 inline RobotError robot_error(const Camera& camera, const CameraModel& model, std::uint64_t seed) {
-    const auto workspace = std::make_unique<LargeWorkspace>();
+    HeapLocator locator;
     constexpr double kStand_x_mm = kPivot_x_mm + 500;
     constexpr double kStand_y_mm = kPivot_y_mm + 300;
     RobotError sum;
@@ -102,11 +101,12 @@ inline RobotError robot_error(const Camera& camera, const CameraModel& model, st
         const GreyImage image = robot_frame(model, seed, i, kStand_x_mm, kStand_y_mm, theta_rad);
         Options options;
         use_camera(camera, image.width_px, image.height_px, options);
-        const Fix fix =
-            with_camera(locate(image.view(), options, *workspace), camera, options, *workspace);
+        locator.set_options(options);
+        const Fix seen = locator.locate(image.view());
+        const Fix fix = with_camera(seen, camera, locator.trace());
         if (fix.status != Status::ok) continue;
-        const double dx = fix.x_mm(kDefaultSpacing_mm) - kStand_x_mm;
-        const double dy = fix.y_mm(kDefaultSpacing_mm) - kStand_y_mm;
+        const double dx = fix.x_mm() - kStand_x_mm;
+        const double dy = fix.y_mm() - kStand_y_mm;
         const double c = std::cos(theta_rad);
         const double s = std::sin(theta_rad);
         sum.place_mm.x += c * dx + s * dy;

@@ -9,8 +9,8 @@
 
 #include "../../temporary_directory.hpp"
 #include "../../xml_check.hpp"
-#include "dotpose/locate.hpp"
 #include "dotpose/tools/calibrate.hpp"
+#include "dotpose/tools/heap_locator.hpp"
 #include "frames.hpp"
 
 namespace dotpose {
@@ -64,21 +64,21 @@ TEST(CalibrateSpin, TheReferenceStaysPutAfterwards) {
         return robot_frame(model, 55, i, kPivot_x_mm, kPivot_y_mm, 30 * i * kDegree_rad);
     };
     const Camera camera = calibrate_spin(12, frame_at, true_camera(model), {}).camera;
-    const auto workspace = std::make_unique<LargeWorkspace>();
+    HeapLocator locator;
     for (int i = 20; i < 26; ++i) {
         const GreyImage image =
             robot_frame(model, 55, i, kPivot_x_mm, kPivot_y_mm, 55 * i * kDegree_rad);
         Options options;
         use_camera(camera, image.width_px, image.height_px, options);
-        const Fix fix =
-            with_camera(locate(image.view(), options, *workspace), camera, options, *workspace);
+        locator.set_options(options);
+        const Fix seen = locator.locate(image.view());
+        const Fix fix = with_camera(seen, camera, locator.trace());
         ASSERT_EQ(fix.status, Status::ok);
-        EXPECT_NEAR(fix.x_mm(kDefaultSpacing_mm), kPivot_x_mm, 0.03);
-        EXPECT_NEAR(fix.y_mm(kDefaultSpacing_mm), kPivot_y_mm, 0.03);
+        EXPECT_NEAR(fix.x_mm(), kPivot_x_mm, 0.03);
+        EXPECT_NEAR(fix.y_mm(), kPivot_y_mm, 0.03);
         // 16 mm from the camera, an angle is most of the error.
         const auto variance = static_cast<double>(fix.covariance[0][0]);
-        EXPECT_LT(std::abs(fix.x_mm(kDefaultSpacing_mm) - kPivot_x_mm),
-                  5 * kDefaultSpacing_mm * std::sqrt(variance));
+        EXPECT_LT(std::abs(fix.x_mm() - kPivot_x_mm), 5 * kDefaultSpacing_mm * std::sqrt(variance));
     }
 }
 
@@ -150,12 +150,13 @@ TEST(CalibrateDrive, FindsTheHeading) {
     EXPECT_NEAR(drive.camera.theta_offset_rad, kOffset_rad, 4 * drive.sigma_rad);
     EXPECT_NEAR(drive.length_mm, 45, 0.01);
 
-    const auto workspace = std::make_unique<LargeWorkspace>();
+    HeapLocator locator;
     const GreyImage image = frame_at(30);
     Options options;
     use_camera(drive.camera, image.width_px, image.height_px, options);
-    const Fix fix =
-        with_camera(locate(image.view(), options, *workspace), drive.camera, options, *workspace);
+    locator.set_options(options);
+    const Fix seen = locator.locate(image.view());
+    const Fix fix = with_camera(seen, drive.camera, locator.trace());
     EXPECT_NEAR(fix.theta_rad(), kDirection_rad, 0.1 * kDegree_rad);
 }
 

@@ -9,8 +9,8 @@
 
 #include "../../temporary_directory.hpp"
 #include "../../xml_check.hpp"
-#include "dotpose/locate.hpp"
 #include "dotpose/tools/calibrate.hpp"
+#include "dotpose/tools/heap_locator.hpp"
 #include "frames.hpp"
 
 namespace dotpose {
@@ -68,7 +68,7 @@ TEST(StitchSheets, FindsHowFourSheetsLieAndHowLongTheyWerePrinted) {
         EXPECT_LT(seam.residual_mm, 0.02) << seam.first << seam.second;
 
     // One world: on both sides of a seam, and as far from it as can be.
-    const auto workspace = std::make_unique<LargeWorkspace>();
+    HeapLocator locator;
     Camera camera = true_camera(model);
     // 20 mm to the right of the image: a wrong scale would show.
     camera.reference_px =
@@ -78,12 +78,13 @@ TEST(StitchSheets, FindsHowFourSheetsLieAndHowLongTheyWerePrinted) {
         const GreyImage image = table_frame(table, model, 61, 300, x_mm, y_mm, kTheta_rad);
         Options options;
         use_camera(camera, image.width_px, image.height_px, options);
-        const Fix fix = locate(image.view(), options, *workspace);
+        locator.set_options(options);
+        const Fix fix = locator.locate(image.view());
         const auto seen = find_sheet(stitching.sheets, Profile::anoto, fix);
         ASSERT_TRUE(seen);
         const auto place =
             find_sheet(stitching.sheets, Profile::anoto,
-                       with_camera(fix, camera, options, *workspace, seen->entry->print_scale()));
+                       with_camera(fix, camera, locator.trace(), seen->entry->print_scale()));
         const WorldPose found = world_pose(place.value()).value();
         EXPECT_NEAR(1000 * found.x_m, x_mm + 20 * std::cos(kTheta_rad), 0.02);
         EXPECT_NEAR(-1000 * found.y_m, y_mm + 20 * std::sin(kTheta_rad), 0.02);

@@ -1,5 +1,5 @@
-// After start nothing is allocated: `locate` lives on its workspace. scripts/check-core-symbols
-// reads the same from the object code, malloc included.
+// After start nothing is allocated: a Locator lives on the memory given to it.
+// scripts/check-core-symbols reads the same from the object code, malloc included.
 #include <cstdlib>
 #include <memory>
 #include <new>
@@ -68,7 +68,7 @@ std::vector<GreyImage> frames_of(int width_px, int height_px) {
 }
 
 /// Locates all frames in all ways; `fixes` counts those that were found.
-int allocations_of(const std::vector<GreyImage>& frames, Workspace& workspace, int& fixes) {
+int allocations_of(const std::vector<GreyImage>& frames, Locator& locator, int& fixes) {
     int counted = 0;
     for (const GreyImage& frame : frames) {
         for (const Effort effort : {Effort::device, Effort::once, Effort::twice}) {
@@ -77,7 +77,8 @@ int allocations_of(const std::vector<GreyImage>& frames, Workspace& workspace, i
                 options.effort = effort;
                 options.decoder = decoder;
                 const int before = allocations;
-                const Fix fix = locate(frame.view(), options, workspace);
+                locator.set_options(options);
+                const Fix fix = locator.locate(frame.view());
                 counted += allocations - before;
                 fixes += fix.status == Status::ok ? 1 : 0;
             }
@@ -95,16 +96,18 @@ TEST(Allocation, IsSeenWhereItHappens) {
 }
 
 TEST(Allocation, NoneInSmallFrames) {
-    const auto workspace = std::make_unique<SmallWorkspace>();
+    const auto memory = std::make_unique<SmallMemory>();
+    Locator locator(*memory);
     int fixes = 0;
-    EXPECT_EQ(allocations_of(frames_of(188, 120), *workspace, fixes), 0);
+    EXPECT_EQ(allocations_of(frames_of(188, 120), locator, fixes), 0);
     EXPECT_GT(fixes, 50);
 }
 
 TEST(Allocation, NoneInLargeFrames) {
-    const auto workspace = std::make_unique<LargeWorkspace>();
+    const auto memory = std::make_unique<LargeMemory>();
+    Locator locator(*memory);
     int fixes = 0;
-    EXPECT_EQ(allocations_of(frames_of(320, 240), *workspace, fixes), 0);
+    EXPECT_EQ(allocations_of(frames_of(320, 240), locator, fixes), 0);
     EXPECT_GT(fixes, 50);
 }
 

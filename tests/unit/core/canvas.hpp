@@ -8,8 +8,8 @@
 
 #include "core/detect/blobs.hpp"
 #include "core/detect/light.hpp"
+#include "core/workspace.hpp"
 #include "dotpose/tools/grey_image.hpp"
-#include "dotpose/workspace.hpp"
 #include "geometry.hpp"
 
 namespace dotpose::core_test {

@@ -9,12 +9,15 @@
 #include <numbers>
 #include <vector>
 
+#include "core/stages.hpp"
 #include "dotpose/code.hpp"
-#include "dotpose/stages.hpp"
 #include "dotpose/tools/random.hpp"
 #include "dotpose/tools/simulate.hpp"
 
 namespace dotpose::core_test {
+
+// The tests of the core call its stages by their own names.
+using namespace core;
 
 inline constexpr std::array kProfiles{Profile::anoto, Profile::libdots, Profile::microdots};
 

@@ -1,4 +1,4 @@
-// The whole pipeline as a function: rows or image, any workspace, any order of frames.
+// The whole pipeline as a function: rows or image, any memory, any order of frames.
 #include "dotpose/locate.hpp"
 
 #include <cmath>
@@ -57,30 +57,30 @@ void expect_same(const Fix& a, const Fix& b) {
     EXPECT_EQ(std::memcmp(a.covariance, b.covariance, sizeof a.covariance), 0);
 }
 
-Fix pushed(const GreyImage& image, const Options& options, Workspace& workspace,
-           decltype(finish) end = finish) {
-    const Status status = begin(image.width_px, image.height_px, options, workspace);
-    if (status != Status::ok) return workspace.fix;
+/// By rows, with a Locator or a DeviceLocator.
+template <typename AnyLocator>
+Fix pushed(const GreyImage& image, AnyLocator&& locator) {
+    static_cast<void>(locator.begin(image.width_px, image.height_px));
     std::vector<std::uint8_t> row(static_cast<std::size_t>(image.width_px));
     for (int v = 0; v < image.height_px; ++v) {
         std::copy_n(image.view().row(v), image.width_px, row.begin());
-        push_row(row.data(), options, workspace);
+        locator.push_row(row.data());
         std::fill(row.begin(), row.end(), std::uint8_t{0});  // the pixels are not needed afterwards
     }
-    return end(options, workspace);
+    return locator.finish();
 }
 
 /// Rows that are gone are located from their blobs, an image from windows around its dots: the same
 /// place, to what noise makes of either.
 TEST(Locate, RowsGiveTheSamePoseAsTheImage) {
-    SmallWorkspace by_rows;
-    SmallWorkspace at_once;
+    SmallMemory by_rows;
+    SmallMemory at_once;
     Options options;
     options.effort = Effort::once;  // rows that have gone by cannot be tried again
     int found = 0;
     for (const GreyImage& frame : mixed_frames()) {
-        const Fix whole = locate(frame.view(), options, at_once);
-        const Fix rows = pushed(frame, options, by_rows);
+        const Fix whole = Locator(at_once, options).locate(frame.view());
+        const Fix rows = pushed(frame, Locator(by_rows, options));
         if (rows.status != Status::ok) continue;
         ++found;
         // What the rows show, the image shows.
@@ -95,23 +95,25 @@ TEST(Locate, RowsGiveTheSamePoseAsTheImage) {
 }
 
 TEST(Locate, ADeviceGetsTheSameFromRowsAndImage) {
-    SmallWorkspace by_rows;
-    SmallWorkspace at_once;
+    SmallMemory by_rows;
+    SmallMemory at_once;
+    DeviceMemory little;
     Options device;
     device.effort = Effort::device;
     int found = 0;
     for (const GreyImage& frame : mixed_frames()) {
-        const Fix fix = locate(frame.view(), device, at_once);
-        // `finish_device` does the same whatever the effort says.
-        expect_same(pushed(frame, device, by_rows, finish_device), fix);
-        expect_same(pushed(frame, {}, by_rows, finish_device), fix);
+        const Fix fix = Locator(at_once, device).locate(frame.view());
+        expect_same(pushed(frame, Locator(by_rows, device)), fix);
+        // A DeviceLocator does the same from the image as from rows, whatever the effort says.
+        expect_same(pushed(frame, DeviceLocator(little)),
+                    DeviceLocator(little).locate(frame.view()));
         found += fix.status == Status::ok ? 1 : 0;
     }
     EXPECT_GE(found, 7) << "seed " << kSeed;
 }
 
 TEST(Locate, ADeviceLocatesNominalFrames) {
-    SmallWorkspace workspace;
+    SmallMemory memory;
     Options device;
     device.effort = Effort::device;
     std::vector<double> errors_um;
@@ -119,7 +121,7 @@ TEST(Locate, ADeviceLocatesNominalFrames) {
     for (std::uint64_t i = 0; i < kFrames; ++i) {
         SCOPED_TRACE(testing::Message() << "shot " << i << ", seed " << kSeed);
         const Shot shot = shot_of(Preset::nominal, i);
-        const Fix fix = locate(render(shot).view(), device, workspace);
+        const Fix fix = Locator(memory, device).locate(render(shot).view());
         if (fix.status != Status::ok) continue;
         const double spacing_um = 1000 * shot.page.pattern.spacing_mm;
         errors_um.push_back(
@@ -144,100 +146,134 @@ TEST(Locate, ADeviceLocatesNominalFrames) {
 }
 
 TEST(Locate, LittleMemoryIsEnoughForADevice) {
-    DeviceWorkspace little;
-    SmallWorkspace small;
+    DeviceMemory little;
+    SmallMemory small;
+    Options device;
+    device.effort = Effort::device;
     int found = 0;
     for (std::uint64_t i = 0; i < 60; ++i) {
         SCOPED_TRACE(testing::Message() << "shot " << i << ", seed " << kSeed);
         const GreyImage frame = render(shot_of(Preset::nominal, i));
-        const Fix fix = pushed(frame, {}, small, finish_device);
-        expect_same(pushed(frame, {}, little, finish_device), fix);
+        const Fix fix = pushed(frame, Locator(small, device));
+        expect_same(pushed(frame, DeviceLocator(little)), fix);
         found += fix.status == Status::ok;
         // Noise and graphics fill it up; afterwards it is as good as new.
         const Shot hard = shot_of(Preset::hard, i);
-        const Fix full = pushed(render(hard), {}, little, finish_device);
+        const Fix full = pushed(render(hard), DeviceLocator(little));
         if (full.status == Status::ok) {
             EXPECT_NEAR(full.x_grid(), x_grid(hard.pose), 0.2);
             EXPECT_NEAR(full.y_grid(), y_grid(hard.pose), 0.2);
         }
         const GreyImage noise = render_scene(Scene::noise, shot_of(Preset::clean, i), 0.3);
-        EXPECT_NE(pushed(noise, {}, little, finish_device).status, Status::ok);
+        EXPECT_NE(pushed(noise, DeviceLocator(little)).status, Status::ok);
     }
     EXPECT_GE(found, 57) << "seed " << kSeed;
-    EXPECT_EQ(begin(189, 120, {}, little), Status::image_too_large);
+    EXPECT_EQ(DeviceLocator(little).begin(189, 120), Status::image_too_large);
 }
 
 TEST(Locate, ADeviceRefusesWhatHasNoPosition) {
-    SmallWorkspace workspace;
+    SmallMemory memory;
     Options device;
     device.effort = Effort::device;
     for (const Scene scene : kScenes) {
         for (std::uint64_t i = 0; i < 20; ++i) {
             const GreyImage frame = render_scene(scene, shot_of(Preset::clean, i), 0.8);
-            EXPECT_NE(locate(frame.view(), device, workspace).status, Status::ok)
+            EXPECT_NE(Locator(memory, device).locate(frame.view()).status, Status::ok)
                 << name(scene) << ", shot " << i << ", seed " << kSeed;
         }
     }
 }
 
-TEST(Locate, SmallAndLargeWorkspacesGiveTheSameFix) {
-    SmallWorkspace small;
-    const auto large = std::make_unique<LargeWorkspace>();
+TEST(Locate, SmallAndLargeMemoryGiveTheSameFix) {
+    SmallMemory small;
+    const auto large = std::make_unique<LargeMemory>();
     for (const GreyImage& frame : mixed_frames()) {
-        expect_same(locate(frame.view(), {}, small), locate(frame.view(), {}, *large));
+        expect_same(Locator(small).locate(frame.view()), Locator(*large).locate(frame.view()));
     }
 }
 
-TEST(Locate, AUsedWorkspaceIsAsGoodAsAFreshOne) {
+TEST(Locate, UsedMemoryIsAsGoodAsFreshOne) {
     // Other sizes and failures in between leave nothing behind.
-    const auto used = std::make_unique<LargeWorkspace>();
+    const auto used_memory = std::make_unique<LargeMemory>();
+    Locator used(*used_memory);
     const GreyImage big = render(shot_of(Preset::nominal, 3, 640, 480));
     const GreyImage tiny = blank(10, 10);
     for (const GreyImage& frame : mixed_frames()) {
-        const auto fresh = std::make_unique<LargeWorkspace>();
-        expect_same(locate(frame.view(), {}, *used), locate(frame.view(), {}, *fresh));
-        EXPECT_EQ(locate(big.view(), {}, *used).status, Status::ok);
-        expect_same(locate(frame.view(), {}, *used), fresh->fix);
-        EXPECT_EQ(locate(tiny.view(), {}, *used).status, Status::image_too_small);
+        const auto fresh_memory = std::make_unique<LargeMemory>();
+        const Fix fresh = Locator(*fresh_memory).locate(frame.view());
+        expect_same(used.locate(frame.view()), fresh);
+        EXPECT_EQ(used.locate(big.view()).status, Status::ok);
+        expect_same(used.locate(frame.view()), fresh);
+        EXPECT_EQ(used.locate(tiny.view()).status, Status::image_too_small);
         // A frame that was given up half way.
-        EXPECT_EQ(begin(frame.width_px, frame.height_px, {}, *used), Status::ok);
+        EXPECT_EQ(used.begin(frame.width_px, frame.height_px), Status::ok);
         for (int v = 0; v < 50; ++v)
-            push_row(frame.view().row(v), {}, *used);
+            used.push_row(frame.view().row(v));
     }
 }
 
-TEST(Locate, TheWorkspaceKeepsTheFix) {
-    SmallWorkspace workspace;
+TEST(Locate, TheTraceKeepsTheFix) {
+    SmallMemory memory;
     const GreyImage frame = render(shot_of(Preset::nominal, 0));
     Options options;
     options.show_stages = true;
-    const Fix fix = locate(frame.view(), options, workspace);
+    Locator locator(memory, options);
+    const Fix fix = locator.locate(frame.view());
     ASSERT_EQ(fix.status, Status::ok);
-    expect_same(fix, workspace.fix);
-    EXPECT_EQ(fix.dots_seen, static_cast<int>(workspace.found_dots().size()));
+    expect_same(fix, locator.trace().fix);
+    EXPECT_EQ(fix.dots_seen, static_cast<int>(locator.trace().dots.size()));
+}
+
+TEST(Locate, RowsCountOnlyInAFrameThatWasBegun) {
+    SmallMemory memory;
+    const GreyImage frame = render(shot_of(Preset::nominal, 0));
+    Locator locator(memory);
+    locator.push_row(frame.pixels.data());
+    EXPECT_EQ(locator.finish().status, Status::bad_argument);
+    EXPECT_EQ(locator.begin(63, 120), Status::image_too_small);
+    EXPECT_EQ(locator.finish().status, Status::image_too_small);
+    EXPECT_EQ(pushed(frame, locator).status, Status::ok);
+    EXPECT_EQ(locator.finish().status, Status::bad_argument);
+    // Options that change in the middle of a frame give it up.
+    ASSERT_EQ(locator.begin(frame.width_px, frame.height_px), Status::ok);
+    locator.set_options({});
+    EXPECT_EQ(locator.finish().status, Status::bad_argument);
+}
+
+TEST(Locate, MillimetresComeFromTheSpacingInTheOptions) {
+    SmallMemory memory;
+    const GreyImage frame = render(shot_of(Preset::nominal, 0));
+    Options options;
+    options.spacing_nm = 300'000;
+    const Fix fix = Locator(memory, options).locate(frame.view());
+    ASSERT_EQ(fix.status, Status::ok);
+    EXPECT_DOUBLE_EQ(fix.x_mm(), fix.x_grid() * 0.3);
+    EXPECT_DOUBLE_EQ(fix.y_mm(), fix.y_grid() * 0.3);
+    options.spacing_nm = 0;
+    EXPECT_TRUE(std::isnan(Locator(memory, options).locate(frame.view()).x_mm()));
 }
 
 TEST(Locate, RowsMayLieApartOrUpsideDown) {
-    SmallWorkspace workspace;
+    SmallMemory memory;
     const GreyImage frame = render(shot_of(Preset::nominal, 1));
-    const Fix fix = locate(frame.view(), {}, workspace);
+    const Fix fix = Locator(memory).locate(frame.view());
     ASSERT_EQ(fix.status, Status::ok);
     for (const int stride : {188, 189, 256, 1000, -188, -300}) {
         const int step = std::abs(stride);
-        std::vector<std::uint8_t> memory(static_cast<std::size_t>(step) * 120, 77);
-        const auto row = [&](int v) { return memory.data() + (stride > 0 ? v : 119 - v) * step; };
+        std::vector<std::uint8_t> pixels(static_cast<std::size_t>(step) * 120, 77);
+        const auto row = [&](int v) { return pixels.data() + (stride > 0 ? v : 119 - v) * step; };
         for (int v = 0; v < 120; ++v)
             std::copy_n(frame.view().row(v), 188, row(v));
-        expect_same(locate({row(0), 188, 120, stride}, {}, workspace), fix);
+        expect_same(Locator(memory).locate({row(0), 188, 120, stride}), fix);
     }
 }
 
 TEST(Locate, TheReferencePointMayLieAnywhere) {
-    SmallWorkspace workspace;
+    SmallMemory memory;
     for (std::uint64_t i = 0; i < 10; ++i) {
         const Shot shot = shot_of(Preset::clean, i);
         const GreyImage frame = render(shot);
-        const Fix at_centre = locate(frame.view(), {}, workspace);
+        const Fix at_centre = Locator(memory).locate(frame.view());
         ASSERT_EQ(at_centre.status, Status::ok);
         for (const Vec2 offset :
              {Vec2{0, 0}, Vec2{40.5, -20.25}, Vec2{-93.5, 59.5}, Vec2{500, 300}}) {
@@ -246,7 +282,7 @@ TEST(Locate, TheReferencePointMayLieAnywhere) {
             Options options;
             options.reference_dx_q8 = static_cast<std::int32_t>(offset.x * 256);
             options.reference_dy_q8 = static_cast<std::int32_t>(offset.y * 256);
-            const Fix fix = locate(frame.view(), options, workspace);
+            const Fix fix = Locator(memory, options).locate(frame.view());
             ASSERT_EQ(fix.status, Status::ok);
             // Where the camera's geometry puts that pixel, in spacings from the pose's cell.
             const Vec2 pixel = Vec2{93.5, 59.5} + offset;
@@ -268,14 +304,14 @@ TEST(Locate, TheReferencePointMayLieAnywhere) {
 }
 
 TEST(Locate, ALensIsUndone) {
-    SmallWorkspace workspace;
+    SmallMemory memory;
     for (std::uint64_t i = 0; i < 10; ++i) {
         Shot shot = shot_of(Preset::clean, i);
         shot.camera.k = -1.5e-5;
         const GreyImage frame = render(shot);
         Options options;
         options.lens = Lens::from_k(shot.camera.k);
-        const Fix fix = locate(frame.view(), options, workspace);
+        const Fix fix = Locator(memory, options).locate(frame.view());
         ASSERT_EQ(fix.status, Status::ok) << "shot " << i << ", seed " << kSeed;
         EXPECT_NEAR(fix.x_grid() - shot.pose.cell.x, shot.pose.fraction_x, 0.01);
         EXPECT_NEAR(fix.y_grid() - shot.pose.cell.y, shot.pose.fraction_y, 0.01);
@@ -285,20 +321,20 @@ TEST(Locate, ALensIsUndone) {
 }
 
 TEST(Locate, SizesOutOfRangeAreRefused) {
-    SmallWorkspace small;
-    const auto large = std::make_unique<LargeWorkspace>();
-    const auto status_of = [](int width, int height, Workspace& workspace) {
+    SmallMemory small;
+    const auto large = std::make_unique<LargeMemory>();
+    const auto status_of = [](int width, int height, auto& memory) {
         const GreyImage image = blank(width, height);
-        return locate(image.view(), {}, workspace).status;
+        return Locator(memory).locate(image.view()).status;
     };
     EXPECT_EQ(status_of(63, 120, small), Status::image_too_small);
     EXPECT_EQ(status_of(120, 63, small), Status::image_too_small);
     EXPECT_EQ(status_of(1, 1, small), Status::image_too_small);
-    EXPECT_EQ(locate({}, {}, small).status, Status::image_too_small);
-    EXPECT_EQ(locate({nullptr, -5, -5, 0}, {}, small).status, Status::image_too_small);
+    EXPECT_EQ(Locator(small).locate({}).status, Status::image_too_small);
+    EXPECT_EQ(Locator(small).locate({nullptr, -5, -5, 0}).status, Status::image_too_small);
     EXPECT_EQ(status_of(189, 120, small), Status::image_too_large);
     EXPECT_EQ(status_of(64, 4097, *large), Status::image_too_large);
-    EXPECT_EQ(begin(4097, 64, {}, *large), Status::image_too_large);
+    EXPECT_EQ(Locator(*large).begin(4097, 64), Status::image_too_large);
     for (const auto& [width, height] :
          {std::pair{64, 64}, std::pair{188, 120}, std::pair{64, 4096}}) {
         EXPECT_EQ(status_of(width, height, small), Status::no_contrast) << width;
@@ -320,11 +356,11 @@ TEST(Locate, AFrameWithoutAPositionTellsWhy) {
         {Scene::seam_horizontal, {Status::not_certain, Status::not_in_code}},
         {Scene::mirrored, {Status::mirrored}},
     };
-    SmallWorkspace workspace;
+    SmallMemory memory;
     for (const Scene scene : kScenes) {
         for (std::uint64_t i = 0; i < 20; ++i) {
             const GreyImage frame = render_scene(scene, shot_of(Preset::clean, i), 0.8);
-            const Status status = locate(frame.view(), {}, workspace).status;
+            const Status status = Locator(memory).locate(frame.view()).status;
             EXPECT_TRUE(allowed.at(scene).contains(status))
                 << name(scene) << " gave " << name(status) << ", shot " << i << ", seed " << kSeed;
         }
@@ -333,10 +369,10 @@ TEST(Locate, AFrameWithoutAPositionTellsWhy) {
 
 // The second attempt measures dots where the code has them, also those that are no blobs.
 TEST(Locate, UsesNoMoreDotsThanItSaw) {
-    SmallWorkspace workspace;
+    SmallMemory memory;
     int by_second = 0;
     for (std::uint64_t i = 0; i < 20; ++i) {
-        const Fix fix = locate(render(shot_of(Preset::hard, i)).view(), {}, workspace);
+        const Fix fix = Locator(memory).locate(render(shot_of(Preset::hard, i)).view());
         if (fix.status != Status::ok) continue;
         by_second += fix.attempt == Attempt::second;
         EXPECT_LE(fix.dots_used, fix.dots_seen) << "shot " << i << ", seed " << kSeed;
@@ -350,38 +386,38 @@ TEST(Locate, AFrameWithoutAnyDotIsRefusedEvenIfNoDotIsAskedFor) {
     for (std::size_t v = 0; v < 32; ++v)
         std::fill_n(image.pixels.begin() + static_cast<std::ptrdiff_t>(64 * v), 32,
                     std::uint8_t{0});
-    SmallWorkspace workspace;
+    SmallMemory memory;
     Options options;
     options.lattice.min_dots = 0;
     options.blobs.min_area_px = 1 << 20;
     for (const Effort effort : {Effort::device, Effort::once, Effort::twice}) {
         options.effort = effort;
-        EXPECT_EQ(locate(image.view(), options, workspace).status, Status::too_few_dots);
+        EXPECT_EQ(Locator(memory, options).locate(image.view()).status, Status::too_few_dots);
     }
 }
 
 TEST(Locate, EveryStageCanRefuse) {
     // A frame of the pattern, made worse step by step until each stage has had its say.
-    SmallWorkspace workspace;
+    SmallMemory memory;
     Shot shot = shot_of(Preset::clean, 0);
     const GreyImage frame = render(shot);
     Options options;
     options.integrity.max_p_wrong_log2 = -100000;
-    EXPECT_EQ(locate(frame.view(), options, workspace).status, Status::not_certain);
+    EXPECT_EQ(Locator(memory, options).locate(frame.view()).status, Status::not_certain);
     options = {};
     options.lattice.min_dots = 10000;
-    EXPECT_EQ(locate(frame.view(), options, workspace).status, Status::too_few_dots);
+    EXPECT_EQ(Locator(memory, options).locate(frame.view()).status, Status::too_few_dots);
     // Another profile differs in a4, and so in nearly every difference.
     options = {};
     options.profile = Profile::microdots;
-    const Status other = locate(frame.view(), options, workspace).status;
+    const Status other = Locator(memory, options).locate(frame.view()).status;
     EXPECT_TRUE(other == Status::not_certain || other == Status::not_in_code) << name(other);
     // Five columns of dots.
     shot.page.origin = {shot.pose.cell.x - 2, shot.pose.cell.y - 30};
     shot.page.columns = 5;
     shot.page.rows = 60;
     shot.pose.theta_rad = radians(90);
-    const Status narrow = locate(render(shot).view(), {}, workspace).status;
+    const Status narrow = Locator(memory).locate(render(shot).view()).status;
     EXPECT_EQ(narrow, Status::grid_too_small) << name(narrow);
 }
 

@@ -38,7 +38,8 @@ const Range kRanges[] = {
     {FIELD(blobs.max_area_ratio), 1, 1024},      {FIELD(lattice.min_dots), 0, 1048576},
     {FIELD(lattice.max_offset_q16), 0, 32768},   {FIELD(integrity.max_p_wrong_log2), -1048576, 0},
     {FIELD(integrity.max_bit_error_q8), 0, 256}, {FIELD(most_dots), INT_MIN, INT_MAX},
-    {FIELD(reference_dx_q8), -4194304, 4194304}, {FIELD(reference_dy_q8), -4194304, 4194304},
+    {FIELD(spacing_nm), INT_MIN, INT_MAX},       {FIELD(reference_dx_q8), -4194304, 4194304},
+    {FIELD(reference_dy_q8), -4194304, 4194304},
 };
 
 #undef FIELD
@@ -46,7 +47,7 @@ const Range kRanges[] = {
 /// A new field does not compile here before it is in the tests below.
 [[maybe_unused]] void has_all_fields(const Options& o) {
     [[maybe_unused]] const auto& [profile, effort, decoder, lens, threshold, blobs, lattice,
-                                  integrity, most_dots, show_stages, dx, dy] = o;
+                                  integrity, most_dots, spacing, show_stages, dx, dy] = o;
     [[maybe_unused]] const auto& [k, centre_dx, centre_dy] = lens;
     [[maybe_unused]] const auto& [extent, core, min_contrast] = threshold;
     [[maybe_unused]] const auto& [min_area, min_mass, max_area] = blobs;
@@ -56,17 +57,18 @@ const Range kRanges[] = {
 
 /// What each way to locate says of the options.
 void expect_refusal(const Options& options, bool is_refused, const char* field, int value) {
-    static const auto kWorkspace = std::make_unique<LargeWorkspace>();
+    static const auto kMemory = std::make_unique<LargeMemory>();
     static const GreyImage kFrame = a_frame();
     const auto expect = [&](Status status, const char* way) {
         EXPECT_EQ(status == Status::bad_argument, is_refused)
             << way << ": " << field << " = " << value << " gave " << name(status);
     };
-    const Prediction prediction = Prediction::like(locate(kFrame.view(), {}, *kWorkspace));
-    expect(locate(kFrame.view(), options, *kWorkspace).status, "locate");
-    expect(locate(kFrame.view(), options, prediction, *kWorkspace).status, "tracked");
-    expect(begin(kFrame.width_px, kFrame.height_px, options, *kWorkspace), "begin");
-    expect(begin(kFrame.width_px, kFrame.height_px, options, prediction, *kWorkspace), "tracked");
+    const Prediction prediction = Prediction::like(Locator(*kMemory).locate(kFrame.view()));
+    expect(Locator(*kMemory, options).locate(kFrame.view()).status, "locate");
+    expect(Locator(*kMemory, options).locate(kFrame.view(), prediction).status, "tracked");
+    expect(Locator(*kMemory, options).begin(kFrame.width_px, kFrame.height_px), "begin");
+    expect(Locator(*kMemory, options).begin(kFrame.width_px, kFrame.height_px, prediction),
+           "tracked");
 }
 
 TEST(Options, EveryNumberIsTakenInItsRangeAndRefusedOutside) {

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "../../xml_check.hpp"
-#include "dotpose/locate.hpp"
+#include "dotpose/tools/heap_locator.hpp"
 #include "dotpose/tools/simulate.hpp"
 
 namespace dotpose {
@@ -26,21 +26,26 @@ using testing::Not;
 /// A frame, located.
 struct Located {
     explicit Located(const GreyImage& frame, const Options& with = {})
-        : image(frame), options(with), workspace(std::make_unique<LargeWorkspace>()) {
-        Options shown = options;
-        shown.show_stages = true;
-        fix = locate(image.view(), shown, *workspace);
+        : image(frame), locator(std::make_unique<HeapLocator>(showing(with))) {
+        fix = locator->locate(image.view());
+        trace = locator->trace();
     }
     std::string drawn(const DrawOptions& draw_options = {}) const {
         std::ostringstream out;
-        draw_frame(out, image.view(), *workspace, options, draw_options);
+        draw_frame(out, image.view(), trace, draw_options);
         return out.str();
     }
 
     GreyImage image;
-    Options options;
-    std::unique_ptr<LargeWorkspace> workspace;
+    std::unique_ptr<HeapLocator> locator;
     Fix fix;
+    Trace trace;
+
+  private:
+    static Options showing(Options options) {
+        options.show_stages = true;
+        return options;
+    }
 };
 
 Shot clean_shot(double theta_rad = 0.3) {
@@ -120,7 +125,7 @@ TEST(DrawFrame, shows_every_dot_where_it_is) {
     const std::string svg = located.drawn();
     EXPECT_THAT(XmlCheck(svg).problem(), IsEmpty());
     const auto marks = circles(group(svg, "dots"), located.image);
-    ASSERT_EQ(marks.size(), static_cast<std::size_t>(located.workspace->dot_count));
+    ASSERT_EQ(marks.size(), located.trace.dots.size());
     for (const Mark& mark : marks) {
         const auto u = static_cast<int>(std::lround(mark.pixel.x));
         const auto v = static_cast<int>(std::lround(mark.pixel.y));
@@ -147,8 +152,7 @@ TEST(DrawFrame, connects_only_the_dots_that_were_connected) {
         ASSERT_EQ(located.fix.status, Status::ok) << i;
         const std::string svg = located.drawn();
         EXPECT_EQ(count(group(svg, "connections"), "<line "), 0u) << i;
-        EXPECT_EQ(circles(group(svg, "dots"), frame).size(),
-                  static_cast<std::size_t>(located.workspace->dot_count));
+        EXPECT_EQ(circles(group(svg, "dots"), frame).size(), located.trace.dots.size());
         break;
     }
 }
@@ -163,7 +167,7 @@ TEST(DrawFrame, draws_dots_where_the_lens_shows_them) {
     const Located located(render(shot), options);
     ASSERT_EQ(located.fix.status, Status::ok);
     const auto marks = circles(group(located.drawn(), "dots"), located.image);
-    ASSERT_EQ(marks.size(), static_cast<std::size_t>(located.workspace->dot_count));
+    ASSERT_EQ(marks.size(), located.trace.dots.size());
     for (const Mark& mark : marks) {
         const auto u = static_cast<int>(std::lround(mark.pixel.x));
         const auto v = static_cast<int>(std::lround(mark.pixel.y));
@@ -216,7 +220,7 @@ TEST(DrawFrame, says_the_pose) {
     const Located located(render(clean_shot()));
     const std::string svg = located.drawn({.spacing_mm = 0.6, .title = "frame.png"});
     char x_mm[64];
-    std::snprintf(x_mm, sizeof x_mm, ">%.3f mm<", located.fix.x_mm(0.6));
+    std::snprintf(x_mm, sizeof x_mm, ">%.3f mm<", located.fix.x_grid() * 0.6);
     EXPECT_THAT(svg, HasSubstr(x_mm));
     EXPECT_THAT(svg, HasSubstr(">frame.png<"));
 }
@@ -231,14 +235,14 @@ TEST(DrawFrame, escapes_the_title) {
 }
 
 TEST(DrawFrame, works_whatever_the_status) {
-    // Of a workspace that a located frame filled, and of one that nothing has filled.
+    // Of a trace that a located frame filled, and of one that nothing has filled.
     Located full(render(clean_shot()));
     Located empty(render(clean_shot()));
-    empty.workspace = std::make_unique<LargeWorkspace>();
+    empty.trace = {};
     for (int i = 0; i < kStatusCount; ++i) {
         const auto status = static_cast<Status>(i);
-        full.workspace->fix.status = status;
-        empty.workspace->fix.status = status;
+        full.trace.fix.status = status;
+        empty.trace.fix.status = status;
         EXPECT_THAT(XmlCheck(full.drawn()).problem(), IsEmpty()) << name(status);
         EXPECT_THAT(XmlCheck(empty.drawn()).problem(), IsEmpty()) << name(status);
         if (status == Status::ok) continue;
@@ -251,9 +255,7 @@ TEST(DrawFrame, works_for_every_scene_without_a_fix) {
         const Located located(render_scene(scene, clean_shot()));
         const std::string svg = located.drawn();
         EXPECT_THAT(XmlCheck(svg).problem(), IsEmpty()) << name(scene);
-        EXPECT_EQ(count(group(svg, "dots"), "<circle"),
-                  static_cast<std::size_t>(located.workspace->dot_count))
-            << name(scene);
+        EXPECT_EQ(count(group(svg, "dots"), "<circle"), located.trace.dots.size()) << name(scene);
     }
 }
 
@@ -269,10 +271,9 @@ TEST(DrawFrame, works_for_images_of_any_shape) {
 
 TEST(DrawFrame, a_file_that_cannot_be_written_is_an_error) {
     const Located located(render(clean_shot()));
-    EXPECT_THROW(draw_frame("no/such/folder/a.svg", located.image.view(), *located.workspace, {}),
-                 Error);
+    EXPECT_THROW(draw_frame("no/such/folder/a.svg", located.image.view(), located.trace), Error);
     if (std::filesystem::exists("/dev/full")) {
-        EXPECT_THROW(draw_frame("/dev/full", located.image.view(), *located.workspace, {}), Error);
+        EXPECT_THROW(draw_frame("/dev/full", located.image.view(), located.trace), Error);
     }
 }
 

@@ -61,10 +61,8 @@ GreyImage frame(Preset preset, std::uint64_t index, int width_px = 188, int heig
 
 /// The line of a frame, from `locate` with the whole image at hand.
 std::string expected_line(const GreyImage& image) {
-    const auto workspace = std::make_unique<DeviceWorkspace>();
-    Options options;
-    options.effort = Effort::device;
-    const Fix fix = locate(image.view(), options, *workspace);
+    const auto memory = std::make_unique<DeviceMemory>();
+    const Fix fix = DeviceLocator(*memory).locate(image.view());
     return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {}\n", name(fix.status), fix.cell.x,
                        fix.cell.y, fix.fraction_x_q16, fix.fraction_y_q16, fix.theta_bam,
                        fix.section.u, fix.section.v, fix.spacing_px_q16, fix.dots_seen,
@@ -97,10 +95,8 @@ TEST(LocateFrames, GoesOnAfterAFrameOfAnotherSize) {
 
 TEST(LocateFrames, TracksFramesAfterAPrediction) {
     const GreyImage image = frame(Preset::nominal, 3);
-    const auto workspace = std::make_unique<DeviceWorkspace>();
-    Options options;
-    options.effort = Effort::device;
-    const Prediction p = Prediction::like(locate(image.view(), options, *workspace));
+    const auto memory = std::make_unique<DeviceMemory>();
+    const Prediction p = Prediction::like(DeviceLocator(*memory).locate(image.view()));
     const PlaneFromImage& plane = p.pattern_from_image;
     const auto line_of = [&](int section_u) {
         return fmt::format("T {} {} {} {} {} {} {} {} {} {} {} {} {}\n", p.place.cell.x,

@@ -75,7 +75,7 @@ Pose driving(std::int64_t time_us) {
 /// A world whose x axis is that of the pattern turned by 2 rad, y up.
 Sighting in_world(const Pose& pose, std::int64_t time_us) {
     constexpr double kYaw_rad = 2;
-    Sighting sighting = sighting_of(fix_at(pose), kSpacing_nm, time_us);
+    Sighting sighting = sighting_of(fix_at(pose), time_us);
     const double c = std::cos(kYaw_rad);
     const double s = std::sin(kYaw_rad);
     const double x = pose.x * kSpacing_nm;
@@ -95,7 +95,7 @@ struct Followed {
 
     void see(const Pose& pose, std::int64_t time_us, bool is_world = false) {
         fix = fix_at(pose);
-        sighting = is_world ? in_world(pose, time_us) : sighting_of(fix, kSpacing_nm, time_us);
+        sighting = is_world ? in_world(pose, time_us) : sighting_of(fix, time_us);
         tracker.update(time_us, &sighting);
     }
     Prediction predict(std::int64_t time_us, const Options& options = {}) const {
@@ -151,7 +151,7 @@ TEST(TrackerPredict, TheReferencePointMovesAsTheFilterSays) {
         const Pose centre{5000.25, 7000.5, 0.4 + 3e-6 * static_cast<double>(t)};
         robot.fix = fix_at(centre);
         const Pose there = pose_of(Prediction::like(robot.fix), 60, -20);
-        robot.sighting = sighting_of(fix_at({5000.25, 7000.5, centre.theta_rad}), kSpacing_nm, t);
+        robot.sighting = sighting_of(fix_at({5000.25, 7000.5, centre.theta_rad}), t);
         robot.tracker.update(t, &robot.sighting);
         if (t < 200'000) continue;
         const Pose later = pose_of(robot.predict(205'000, options), 60, -20);
@@ -183,7 +183,7 @@ TEST(TrackerPredict, IsLessSureLater) {
 TEST(TrackerPredict, ExpectsNothingWhereTheFilterDoesNot) {
     Followed robot;
     robot.fix = fix_at(driving(0));
-    robot.sighting = sighting_of(robot.fix, kSpacing_nm, 0);
+    robot.sighting = sighting_of(robot.fix, 0);
     expect_as_seen(robot.predict(kFrame_us), robot.fix);  // it has seen nothing yet
     robot = drive(200'000, driving);
     expect_as_seen(robot.predict(200'000), robot.fix);  // that is now

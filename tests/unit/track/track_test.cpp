@@ -267,7 +267,8 @@ TEST(Tracker, TakesAFixInTheUnitsOfThePattern) {
     fix.covariance[0][0] = 4;
     fix.covariance[0][2] = 4;
     fix.covariance[2][2] = 4;
-    const Sighting sighting = sighting_of(fix, 500'000, 77);
+    fix.spacing_nm = 500'000;
+    const Sighting sighting = sighting_of(fix, 77);
     EXPECT_EQ(sighting.time_us, 77);
     EXPECT_EQ(sighting.x_nm, 205'407'673'750'000);
     EXPECT_EQ(sighting.y_nm, 1'000'000);

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "dotpose/code_evidence.hpp"
+#include "dotpose/locate.hpp"
 #include "dotpose/tools/simulate.hpp"
 
 namespace dotpose {
@@ -17,7 +17,7 @@ class AnyCodeTest : public testing::Test {
         setup.seed = 41;
         return setup;
     }
-    std::unique_ptr<LargeWorkspace> workspace_ = std::make_unique<LargeWorkspace>();
+    std::unique_ptr<LargeMemory> memory_ = std::make_unique<LargeMemory>();
 };
 
 void expect_equal(const Fix& a, const Fix& b) {
@@ -38,10 +38,10 @@ TEST_F(AnyCodeTest, GivenAProfileAllIsAsItWas) {
         for (std::uint64_t i = 0; i < 12; ++i) {
             SCOPED_TRACE(i);
             const GreyImage image = render(draw_shot(setup_of(preset), i));
-            // What is left in the workspace makes no difference.
-            static_cast<void>(locate_in_any_code(image.view(), {}, {}, *workspace_));
-            const Fix fix = locate_in_code(image.view(), {}, *workspace_).fix;
-            expect_equal(fix, locate(image.view(), {}, *workspace_));
+            // What is left in the memory makes no difference.
+            static_cast<void>(Locator(*memory_).locate_in_any_code(image.view(), {}));
+            const Fix fix = Locator(*memory_).locate_in_code(image.view()).fix;
+            expect_equal(fix, Locator(*memory_).locate(image.view()));
         }
     }
 }
@@ -54,8 +54,9 @@ TEST_F(AnyCodeTest, OnceTheProfileIsKnownNothingIsLost) {
         for (std::uint64_t i = 20; i < 32; ++i) {
             SCOPED_TRACE(i);
             const GreyImage image = render(draw_shot(setup_of(preset), i));
-            const Fix fix = locate(image.view(), {}, *workspace_);
-            const CodeReading reading = locate_in_any_code(image.view(), {}, evidence, *workspace_);
+            const Fix fix = Locator(*memory_).locate(image.view());
+            const CodeReading reading =
+                Locator(*memory_).locate_in_any_code(image.view(), evidence);
             EXPECT_EQ(reading.fix.status, fix.status);
             EXPECT_EQ(reading.fix.cell, fix.cell);
             EXPECT_EQ(reading.code, Profile::anoto);
@@ -70,7 +71,7 @@ TEST_F(AnyCodeTest, FramesThatBothProfilesExplainSayNothing) {
         // In the middle of where anoto and libdots agree.
         shot.pose.cell = {241 * (1000 + i) + 100, 241 * 2000 + 100};
         const CodeReading reading =
-            locate_in_any_code(render(shot).view(), {}, evidence, *workspace_);
+            Locator(*memory_).locate_in_any_code(render(shot).view(), evidence);
         ASSERT_EQ(reading.fix.status, Status::ok);
         evidence = reading.evidence;
     }
@@ -82,13 +83,11 @@ TEST_F(AnyCodeTest, RefusesWhatLocateRefuses) {
     Options options;
     options.threshold.extent_q8 = 0;
     const GreyImage image = render(draw_shot(setup_of(Preset::nominal), 0));
-    EXPECT_EQ(locate_in_any_code(image.view(), options, {}, *workspace_).fix.status,
+    EXPECT_EQ(Locator(*memory_, options).locate_in_any_code(image.view(), {}).fix.status,
               Status::bad_argument);
-    EXPECT_EQ(locate_in_any_code({nullptr, 188, 120, 188}, {}, {}, *workspace_).fix.status,
+    EXPECT_EQ(Locator(*memory_).locate_in_any_code({nullptr, 188, 120, 188}, {}).fix.status,
               Status::bad_argument);
     // It has no room to compare profiles.
-    const auto device = std::make_unique<DeviceWorkspace>();
-    EXPECT_EQ(locate_in_any_code(image.view(), {}, {}, *device).fix.status, Status::bad_argument);
 }
 
 }  // namespace

@@ -20,12 +20,6 @@ namespace {
 
 constexpr double kBamPerDegree = 4294967296.0 / 360;
 
-Options device_options() {
-    Options options;
-    options.effort = Effort::device;
-    return options;
-}
-
 Shot shot_of(std::uint64_t index, Preset preset = Preset::nominal) {
     Setup setup;
     setup.preset = preset;
@@ -50,14 +44,12 @@ class DeviceTracked : public testing::Test {
   protected:
     /// By the device's tracked attempt alone.
     Fix tracked(const GreyImage& image, const Prediction& prediction) {
-        const Options options = device_options();
-        if (begin(image.width_px, image.height_px, options, prediction, workspace_) == Status::ok) {
-            for (int v = 0; v < image.height_px; ++v)
-                push_row(image.view().row(v), options, workspace_);
-        }
-        return finish_device(options, workspace_);
+        static_cast<void>(locator_.begin(image.width_px, image.height_px, prediction));
+        for (int v = 0; v < image.height_px; ++v)
+            locator_.push_row(image.view().row(v));
+        return locator_.finish();
     }
-    Fix fresh(const GreyImage& image) { return locate(image.view(), device_options(), workspace_); }
+    Fix fresh(const GreyImage& image) { return locator_.locate(image.view()); }
 
     Prediction disturbed(const Prediction& prediction, double shift, double turn_deg) {
         const double direction = rng_.uniform(-std::numbers::pi, std::numbers::pi);
@@ -70,7 +62,8 @@ class DeviceTracked : public testing::Test {
         return disturbed(prediction, 0.5 * std::sqrt(rng_.uniform()), rng_.uniform(-4, 4));
     }
 
-    DeviceWorkspace workspace_;
+    DeviceMemory memory_;
+    DeviceLocator locator_{memory_};
     Rng rng_{5};
 };
 
@@ -110,7 +103,7 @@ TEST_F(DeviceTracked, GoesOnFromItsOwnFixes) {
         shot.seed += 1;
         // Clouds.
         shot.imperfections.paper_level = 230 - 90 * (i % 2);
-        fix = locate(render(shot).view(), device_options(), Prediction::like(fix), workspace_);
+        fix = locator_.locate(render(shot).view(), Prediction::like(fix));
         ASSERT_EQ(fix.status, Status::ok) << i;
         EXPECT_EQ(fix.attempt, Attempt::tracked) << i;
         EXPECT_LT(std::hypot(x_off(fix, shot), y_off(fix, shot)), 0.02) << i;
@@ -125,7 +118,7 @@ TEST_F(DeviceTracked, LocatesAfreshWhatItRefuses) {
     Prediction prediction = Prediction::like(before);
     prediction.place.section.u = static_cast<std::uint8_t>((prediction.place.section.u + 1) % 63);
     EXPECT_EQ(tracked(image, prediction).status, Status::not_tracked);
-    const Fix fix = locate(image.view(), device_options(), prediction, workspace_);
+    const Fix fix = locator_.locate(image.view(), prediction);
     EXPECT_EQ(fix.status, Status::ok);
     EXPECT_EQ(fix.attempt, Attempt::device);
     EXPECT_EQ(fix.cell, before.cell);
@@ -244,20 +237,25 @@ TEST_F(DeviceTracked, RefusesFramesThatEndTooSoonOrHaveNoRoom) {
     const GreyImage image = render(shot);
     const Fix before = fresh(image);
     ASSERT_EQ(before.status, Status::ok);
-    const Options options = device_options();
     const Prediction prediction = Prediction::like(before);
-    ASSERT_EQ(begin(188, 120, options, prediction, workspace_), Status::ok);
+    ASSERT_EQ(locator_.begin(188, 120, prediction), Status::ok);
     for (int v = 0; v < 50; ++v)
-        push_row(image.view().row(v), options, workspace_);
-    EXPECT_EQ(finish_device(options, workspace_).status, Status::not_tracked);
-    EXPECT_EQ(begin(63, 64, options, prediction, workspace_), Status::image_too_small);
-    EXPECT_EQ(begin(188, 4096, options, prediction, workspace_), Status::not_tracked);
-    Options bent = options;
+        locator_.push_row(image.view().row(v));
+    EXPECT_EQ(locator_.finish().status, Status::not_tracked);
+    EXPECT_EQ(locator_.begin(63, 64, prediction), Status::image_too_small);
+    EXPECT_EQ(locator_.begin(188, 4096, prediction), Status::not_tracked);
+    // What is begun without a prediction is not tracked: it is located, however far off that is.
+    const Prediction wrong = moved(prediction, Profile::anoto, {50 << 16, 0}, 0, {});
+    EXPECT_EQ(tracked(image, wrong).status, Status::not_tracked);
+    ASSERT_EQ(locator_.begin(188, 120), Status::ok);
+    for (int v = 0; v < 120; ++v)
+        locator_.push_row(image.view().row(v));
+    EXPECT_EQ(locator_.finish().attempt, Attempt::device);
+    Options bent;
     bent.lens = Lens::from_k(-1e-6);
-    EXPECT_EQ(begin(188, 120, bent, prediction, workspace_), Status::not_tracked);
-    // What is begun without a prediction is not tracked.
-    ASSERT_EQ(begin(188, 120, options, workspace_), Status::ok);
-    EXPECT_FALSE(workspace_.tracking.is_on);
+    locator_.set_options(bent);
+    EXPECT_EQ(locator_.begin(188, 120, prediction), Status::not_tracked);
+    EXPECT_EQ(locator_.finish().status, Status::not_tracked);
 }
 
 }  // namespace

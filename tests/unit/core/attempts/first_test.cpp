@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "../canvas.hpp"
+#include "core/locate.hpp"
 #include "shots.hpp"
 
 namespace dotpose::core_test {
@@ -148,10 +149,10 @@ TEST(LocateOutwards, ShowsItsDotsAndCellsWhenAsked) {
         const Fix fix = outwards(image, options);
         ASSERT_EQ(fix.status, Status::ok);
         const Workspace& w = large_workspace();
-        ASSERT_EQ(begin(image.width_px, image.height_px, options, by_rows), Status::ok);
+        ASSERT_EQ(core::begin(image.width_px, image.height_px, options, by_rows), Status::ok);
         for (int v = 0; v < image.height_px; ++v)
-            push_row(image.view().row(v), options, by_rows);
-        ASSERT_EQ(finish(options, by_rows).status, Status::ok);
+            core::push_row(image.view().row(v), options, by_rows);
+        ASSERT_EQ(core::finish(options, by_rows).status, Status::ok);
         EXPECT_GE(w.dot_count, by_rows.dot_count * 9 / 10);
         EXPECT_LE(w.dot_count, by_rows.dot_count * 11 / 10);
         const auto found = by_rows.found_dots();

@@ -22,7 +22,7 @@ Shot partial_shot(std::uint64_t index, const PartialView& view) {
 }
 
 void expect_located_at_once(const PartialView& view) {
-    const auto workspace = std::make_unique<LargeWorkspace>();
+    const auto memory = std::make_unique<LargeMemory>();
     Options options;
     options.effort = Effort::once;
     for (std::uint64_t i = 0; i < 8; ++i) {
@@ -30,12 +30,13 @@ void expect_located_at_once(const PartialView& view) {
         const GreyImage image = render(shot);
         Outcome outcome;
         outcome.truth = truth_of(shot);
-        outcome.fix = locate(image.view(), options, *workspace);
+        outcome.fix = Locator(*memory, options).locate(image.view());
         EXPECT_EQ(outcome.fix.status, Status::ok) << "frame " << i;
         EXPECT_FALSE(outcome.is_wrong()) << "frame " << i;
         // Whoever tracks on counts from the image centre.
         EXPECT_EQ(outcome.fix.pattern_from_image.centre_q8, (Vec{639 * 128, 479 * 128}));
-        const Fix next = locate(image.view(), options, Prediction::like(outcome.fix), *workspace);
+        const Fix next =
+            Locator(*memory, options).locate(image.view(), Prediction::like(outcome.fix));
         EXPECT_EQ(next.status, Status::ok) << "frame " << i;
     }
 }
@@ -61,7 +62,7 @@ TEST(PartialViews, BordersAndCornersOnADarkTableAreLocatedByDevices) {
     PartialView view;
     view.least_share = 0.25;
     view.on_table = true;
-    const auto workspace = std::make_unique<LargeWorkspace>();
+    const auto memory = std::make_unique<LargeMemory>();
     Options options;
     options.effort = Effort::device;
     constexpr int kFrames = 30;
@@ -70,7 +71,7 @@ TEST(PartialViews, BordersAndCornersOnADarkTableAreLocatedByDevices) {
         const Shot shot = partial_shot(i, view);
         Outcome outcome;
         outcome.truth = truth_of(shot);
-        outcome.fix = locate(render(shot).view(), options, *workspace);
+        outcome.fix = Locator(*memory, options).locate(render(shot).view());
         EXPECT_FALSE(outcome.is_wrong()) << "frame " << i;
         if (outcome.fix.status != Status::ok) continue;
         ++located;

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/kernels/select.hpp"
+#include "core/workspace.hpp"
 #include "dotpose/locate.hpp"
 #include "dotpose/tools/simulate.hpp"
 
@@ -74,8 +75,13 @@ inline std::vector<const core::Kernels*> kernel_forms() {
     return forms;
 }
 
-inline Workspace& large_workspace() {
-    static const auto workspace = std::make_unique<LargeWorkspace>();
+inline LargeMemory& large_memory() {
+    static const auto memory = std::make_unique<LargeMemory>();
+    return *memory;
+}
+
+inline core::Workspace& large_workspace() {
+    static const auto workspace = std::make_unique<core::LargeWorkspace>();
     return *workspace;
 }
 

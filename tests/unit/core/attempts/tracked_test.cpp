@@ -52,7 +52,7 @@ Prediction turned_and_moved(const Shot& shot, const Prediction& prediction, Vec2
 
 Fix tracked(const GreyImage& image, const Prediction& prediction, const Options& options = {},
             const core::Kernels& kernels = core::kernels()) {
-    Workspace& w = large_workspace();
+    core::Workspace& w = large_workspace();
     if (core::locate_tracked(kernels, image.view(), options, prediction, w)) {
         EXPECT_EQ(w.fix.status, Status::ok);
         EXPECT_EQ(w.fix.attempt, Attempt::tracked);
@@ -133,7 +133,7 @@ TEST(LocateTracked, FollowsTheFixOfTheFrameBefore) {
     for (std::uint64_t i = 0; i < 20; ++i) {
         SCOPED_TRACE(testing::Message() << "shot " << i << ", seed " << kSeed);
         Shot shot = shot_of({}, kSeed, i);
-        Fix fix = locate(render(shot).view(), {}, large_workspace());
+        Fix fix = Locator(large_memory()).locate(render(shot).view());
         ASSERT_EQ(fix.status, Status::ok);
         // The light goes, the camera goes on a little.
         shot.imperfections.paper_level *= 0.5;
@@ -179,7 +179,7 @@ TEST(LocateTracked, AWrongPredictionGivesNoWrongFix) {
             SCOPED_TRACE(testing::Message() << "shot " << i << ", prediction " << number++);
             const Fix fix = tracked(image, wrong, options);
             EXPECT_TRUE(fix.status != Status::ok || is_right(fix, shot));
-            const Fix located = locate(image.view(), options, wrong, large_workspace());
+            const Fix located = Locator(large_memory(), options).locate(image.view(), wrong);
             EXPECT_EQ(located.status, Status::ok);
             EXPECT_TRUE(is_right(located, shot));
         }
@@ -194,7 +194,7 @@ TEST(LocateTracked, WhatShowsNoPatternGivesNoFix) {
             const Shot shot = shot_of({}, kSeed, i);
             const GreyImage image = render_scene(scene, shot, 0.3 + 0.1 * static_cast<double>(i));
             EXPECT_EQ(tracked(image, true_prediction(shot)).status, Status::not_tracked);
-            const Fix fix = locate(image.view(), {}, true_prediction(shot), large_workspace());
+            const Fix fix = Locator(large_memory()).locate(image.view(), true_prediction(shot));
             EXPECT_NE(fix.status, Status::ok);
         }
     }
@@ -287,7 +287,7 @@ TEST(LocateTracked, NonsenseNeitherBreaksNorDeceives) {
             const Fix fix = tracked(image, nonsense, options);
             ASSERT_TRUE(fix.status != Status::ok || is_right(fix, shot));
             if (k % 40 != 0) continue;
-            const Fix located = locate(image.view(), {}, nonsense, large_workspace());
+            const Fix located = Locator(large_memory()).locate(image.view(), nonsense);
             ASSERT_TRUE(located.status != Status::ok || is_right(located, shot));
         }
     }

@@ -79,7 +79,7 @@ Verdict judge(const Block& block, const Place& claimed, const IntegrityOptions& 
             set(words.rows, row, column, block.y[i]);
         }
     }
-    std::array<ScoredLine, 2 * kMaxLines> storage;
+    std::array<core::ScoredLine, 2 * core::kMaxLines> storage;
     const core::BlockLines lines = core::score_block(core::kernels(), words, storage);
     evidence.columns = lines.columns;
     evidence.rows = lines.rows;
@@ -427,12 +427,12 @@ Verdict verify_block(const Block& block, const IntegrityOptions& options) {
                     static_cast<std::int8_t>(block.y[i] != 0 ? 127 : -127),
                     static_cast<std::uint16_t>(i)};
     }
-    const Grid grid{cells, 64, 0, 0, block.columns, block.rows};
+    const core::Grid grid{cells, 64, 0, 0, block.columns, block.rows};
     Decoding decoding;
     decoding.region = {0, 0, block.columns, block.rows};
     decoding.window = {0, 0, 8, 8};
     decoding.place = block.place;
-    std::array<ScoredLine, 2 * kMaxLines> storage;
+    std::array<core::ScoredLine, 2 * core::kMaxLines> storage;
     Verdict verdict;
     verdict.is_certain =
         core::verify(grid, block.profile, decoding, options, storage, verdict.fix) == Status::ok;

@@ -80,7 +80,7 @@ TEST(CodedBlock, HasTheCodesBitsInTheMiddleAndWhichAreWrong) {
             const bool is_wrong = static_cast<int>(line) - 7 == kWrongColumn;
             EXPECT_EQ(x.lines[line].wrong, is_wrong ? 1U << (kWrongRow + 16) : 0U) << line;
         }
-        for (const TrackedLine& line : y.lines) {
+        for (const core::TrackedLine& line : y.lines) {
             EXPECT_EQ(line.seen, 0xFFFFU << 9);
             EXPECT_EQ(line.wrong, 0U);
         }

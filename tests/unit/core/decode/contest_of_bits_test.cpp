@@ -15,8 +15,8 @@
 #include "core/decode/rivals.hpp"
 #include "core/decode/unshared_lines.hpp"
 #include "core/fixed.hpp"
+#include "core/workspace.hpp"
 #include "dotpose/tools/random.hpp"
-#include "dotpose/workspace.hpp"
 
 namespace dotpose::core_test {
 namespace {

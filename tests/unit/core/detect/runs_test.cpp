@@ -48,9 +48,9 @@ struct Row {
     }
 };
 
-std::vector<dotpose::Run> expected_runs(const Light& light) {
+std::vector<dotpose::core::Run> expected_runs(const Light& light) {
     const std::uint8_t* row = kept_row(light, 0);
-    std::vector<dotpose::Run> runs;
+    std::vector<dotpose::core::Run> runs;
     bool is_dark = false;
     for (int u = 0; u < whole_width(light); ++u) {
         const Levels level = levels_at(light, u);
@@ -58,7 +58,7 @@ std::vector<dotpose::Run> expected_runs(const Light& light) {
         const bool was_dark = std::exchange(is_dark, weight > 0);
         if (!is_dark) continue;
         if (!was_dark) runs.push_back({.begin = static_cast<std::uint16_t>(u)});
-        dotpose::Run& run = runs.back();
+        dotpose::core::Run& run = runs.back();
         run.end = static_cast<std::uint16_t>(u + 1);
         run.mass += static_cast<std::uint32_t>(weight);
         run.sum_x += static_cast<std::uint32_t>(weight * u);
@@ -67,7 +67,8 @@ std::vector<dotpose::Run> expected_runs(const Light& light) {
     return runs;
 }
 
-void expect_runs(std::span<const dotpose::Run> found, std::span<const dotpose::Run> expected) {
+void expect_runs(std::span<const dotpose::core::Run> found,
+                 std::span<const dotpose::core::Run> expected) {
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
         SCOPED_TRACE(testing::Message() << "run " << i << " from " << expected[i].begin);
@@ -82,7 +83,7 @@ void expect_runs(std::span<const dotpose::Run> found, std::span<const dotpose::R
 TEST(Runs, AreTheStretchesOfDarkPixels) {
     Rng rng(kSeed);
     Row row;
-    std::array<dotpose::Run, 4096> storage;
+    std::array<dotpose::core::Run, 4096> storage;
     std::size_t most = 0;
     for (int i = 0; i < 3000; ++i) {
         const int width = 64 + static_cast<int>(rng.below(i % 10 == 0 ? 4033 : 200));
@@ -100,7 +101,7 @@ TEST(Runs, AreTheStretchesOfDarkPixels) {
 TEST(Runs, AreTheFirstOnesWhereThereIsNoRoomForAll) {
     Rng rng(kSeed + 1);
     Row row;
-    std::array<dotpose::Run, 256> storage;
+    std::array<dotpose::core::Run, 256> storage;
     for (int i = 0; i < 500; ++i) {
         SCOPED_TRACE(testing::Message() << "row " << i << ", seed " << kSeed + 1);
         row.draw(rng, 64 + static_cast<int>(rng.below(200)));

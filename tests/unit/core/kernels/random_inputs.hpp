@@ -18,6 +18,11 @@
 
 namespace dotpose::core_test {
 
+using core::kNoDot_px;
+using core::MeasuredDots;
+using core::Patch;
+using core::PatchDots;
+
 /// All forms that this processor can run.
 inline std::vector<const core::Kernels*> forms() {
     std::vector<const core::Kernels*> all{&core::portable_kernels(), &core::wide_kernels()};

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "../geometry.hpp"
-#include "dotpose/patch.hpp"
+#include "core/patch.hpp"
 
 namespace dotpose::core_test {
 

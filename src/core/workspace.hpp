@@ -1,5 +1,6 @@
-/// Workspace: all memory of `locate`, and after a call every stage's output, for whoever wants to
-/// draw or judge it. Fixed capacities, owned by the caller, reusable from frame to frame.
+// Workspace: all memory of a Locator, and after a frame every stage's output. Fixed capacities; it
+// lies in the caller's DeviceMemory, SmallMemory or LargeMemory (src/core/locator.cpp), and is used
+// from frame to frame.
 #pragma once
 
 #include <algorithm>
@@ -8,14 +9,12 @@
 #include <cstdint>
 #include <span>
 
+#include "core/other_codes.hpp"
+#include "core/patch.hpp"
+#include "core/stages.hpp"
 #include "dotpose/fix.hpp"
-#include "dotpose/other_codes.hpp"
-#include "dotpose/patch.hpp"
-#include "dotpose/stages.hpp"
 
-#pragma GCC visibility push(default)
-
-namespace dotpose {
+namespace dotpose::core {
 
 /// All stages' memory and results. Use one of the aliases below; the stages see spans only.
 struct Workspace {
@@ -156,7 +155,7 @@ class WorkspaceOf : public Workspace {
     std::array<TrackedRow, kMostTracked> grid_rows_{};
 };
 
-/// For `finish_device` on a small microcontroller and a 188 x 120 px sensor: some 12 KB.
+/// For a DeviceLocator on a small microcontroller and a 188 x 120 px sensor: some 12 KB.
 /// Stages use the same memory one after the other, so afterwards only what the last one left is to
 /// be seen.
 class DeviceWorkspace : public Workspace {
@@ -254,6 +253,4 @@ using SmallWorkspace = WorkspaceOf<188, 384, 32>;
 /// For everything up to 4096 x 4096 px.
 using LargeWorkspace = WorkspaceOf<4096, 16384, 192>;
 
-}  // namespace dotpose
-
-#pragma GCC visibility pop
+}  // namespace dotpose::core

@@ -1,5 +1,5 @@
-/// Other codes: what the bits of a frame say of the profiles that it was not read in. Filled in by
-/// the attempts; `locate_in_any_code` makes something of it.
+// Other codes: what the bits of a frame say of the profiles that it was not read in. Filled in by
+// the attempts; `locate_in_any_code` makes something of it.
 #pragma once
 
 #include <array>
@@ -7,9 +7,7 @@
 
 #include "dotpose/code.hpp"
 
-#pragma GCC visibility push(default)
-
-namespace dotpose {
+namespace dotpose::core {
 
 /// Of one axis. Odds are those of the bits, against the place read; 1: they explain them as well.
 struct OtherAxis {
@@ -40,6 +38,4 @@ struct OtherCodes {
     std::array<OtherCode, kProfileCount> of;  ///< by profile; that read stays as it is
 };
 
-}  // namespace dotpose
-
-#pragma GCC visibility pop
+}  // namespace dotpose::core

@@ -1,7 +1,8 @@
-/// Stages: what each stage of `locate` keeps and leaves to the next one.
-///
-/// Fixed point: a suffix _qN marks a value in units of 2^-N. Pixel frame: the centre of the first
-/// pixel is (0, 0), u to the right, v down.
+// Stages: what each stage of `locate` keeps and leaves to the next one, besides what
+// dotpose/trace.hpp shows of them.
+//
+// Fixed point: a suffix _qN marks a value in units of 2^-N. Pixel frame: the centre of the first
+// pixel is (0, 0), u to the right, v down.
 #pragma once
 
 #include <array>
@@ -11,10 +12,9 @@
 
 #include "dotpose/code.hpp"
 #include "dotpose/status.hpp"
+#include "dotpose/trace.hpp"
 
-#pragma GCC visibility push(default)
-
-namespace dotpose {
+namespace dotpose::core {
 
 /// Width of the tiles in which light is measured; their height, for images whose shorter side is at
 /// most `kLargestWithLowTiles_px`, and for larger ones. Three tiles must reach over a dot: an image
@@ -30,27 +30,10 @@ inline constexpr int kReadAhead_px = 8;
 inline constexpr std::uint8_t kAlwaysDark = 128;
 /// Dots nearest the image centre that give the first estimate of the grid.
 inline constexpr int kMaxSeeds = 256;
-/// Side of the decoding window of the paper (section II-B.5).
-inline constexpr int kWindowSide = 8;
-
 /// Most cells per axis of any workspace's grid.
 inline constexpr int kMaxGridSide = 256;
 /// Most columns and rows that are decoded: where more are in view, those read most clearly.
 inline constexpr int kMaxLines = 64;
-
-/// A vector or point in fixed point.
-struct Vec {
-    std::int32_t x = 0;
-    std::int32_t y = 0;
-    friend constexpr bool operator==(const Vec&, const Vec&) = default;
-};
-
-/// A detected dot.
-struct Dot {
-    Vec centre_q8;           ///< px; after `undistort`, where a camera without distortion sees it
-    std::uint16_t mass = 0;  ///< sum of its darkness, grey levels, saturated
-    std::uint16_t area_px = 0;
-};
 
 /// Light of one tile.
 struct Tile {
@@ -136,72 +119,12 @@ struct OpenBlobs {
     OpenBlob* first_unused = nullptr;  ///< of those before
 };
 
-/// A connection between two seeds that both count each other among their four nearest.
-struct Edge {
-    std::int16_t from = 0;  ///< index of a seed
-    std::int16_t to = 0;
-    Vec step_q8;  ///< px, pointing down (or right)
-};
-
-/// First estimate of the grid: intersection (i, j) lies at origin + i u + j v in the image.
-struct Lattice {
-    Vec u_q16;
-    Vec v_q16;
-    Vec origin_q16;
-};
-
-/// Maps image points to the plane of the paper, in spacings: with (x, y) in px from `centre`,
-///
-///     plane = at_centre + (du x + dv y) / (1 + perspective . (x, y) + lens (x^2 + y^2)),
-///
-/// which is exact for a tilted camera, for the lens of eq. 2, and for both.
-struct PlaneFromImage {
-    Vec centre_q8;              ///< px
-    Vec at_centre_q16;          ///< spacings
-    Vec du_q24;                 ///< spacings per px to the right
-    Vec dv_q24;                 ///< spacings per px down
-    Vec perspective_q30;        ///< per px
-    std::int32_t lens_q40 = 0;  ///< per px^2
-};
-
-/// One cell of the matrices P of the paper's Fig. 8.
-struct GridCell {
-    static constexpr std::uint16_t kNoDot = 65535;
-    /// Graphics cover some of the cell's four places: this and a bit for each, by Symbol.
-    static constexpr std::uint16_t kHidden = 65504;
-    bool has_dot() const { return dot < kHidden; }
-    bool is_hidden() const { return dot >= kHidden && dot != kNoDot; }
-    bool is_hidden(int symbol) const { return is_hidden() && (dot >> symbol & 1) != 0; }
-    std::int8_t x = 0;  ///< quasi-probability of the x bit, in 1/127: positive for 1
-    std::int8_t y = 0;
-    std::uint16_t dot = kNoDot;  ///< index of the dot read here
-};
-
 /// A seed in the order of buckets that lie row by row; and a bucket, which has nothing to do with
 /// it but its number.
 struct BucketedSeed {
     Vec at_q8;                ///< from the corner of the first bucket
     std::uint16_t seed = 0;   ///< its index
     std::uint16_t begin = 0;  ///< of the bucket: which of the seeds is its first
-};
-
-/// Quarter turns of the grid against the pattern: pattern_step = turn(grid_step).
-struct Turn {
-    int quarters = 0;  ///< 0 to 3, from +x towards +y
-
-    constexpr Vec operator()(Vec grid) const {
-        switch (quarters) {
-            case 1:
-                return {-grid.y, grid.x};
-            case 2:
-                return {-grid.x, -grid.y};
-            case 3:
-                return {grid.y, -grid.x};
-            default:
-                return grid;
-        }
-    }
-    constexpr Turn inverse() const { return {(4 - quarters) % 4}; }
 };
 
 /// The matrices P^(x), P^(y) over the cells [i0, i0 + columns) x [j0, j0 + rows).
@@ -233,14 +156,6 @@ struct Lead {
 struct ScoredLine {
     LineScores scores{};
     Lead lead;
-};
-
-/// A rectangle of grid cells.
-struct Region {
-    int i0 = 0;
-    int j0 = 0;
-    int columns = 0;
-    int rows = 0;
 };
 
 /// Most columns, and most rows, of the grid that a tracked frame may show.
@@ -328,21 +243,4 @@ struct Tracking {
     TrackedView view;
 };
 
-/// What the grid was read as.
-struct Decoding {
-    Region window;  ///< the 8 x 8 cells read most clearly
-    Region region;  ///< all that is decoded: at most kMaxLines x kMaxLines cells
-    /// Of some lines of the region with the main sequence, at the likeliest turn.
-    std::int32_t agreement = 0;
-    Turn pattern_from_grid;
-    Place place;  ///< where grid cell (0, 0) stands in the code, seen or not
-    /// Whether `Workspace::line_scores` are those of the region, turned so.
-    bool lines_are_scored = false;
-    int bits = 0;  ///< compared with those of the code at `place`, two for each dot read
-    /// log2 of the probability that the position is wrong along x, along y, times 256.
-    std::array<int, 2> p_wrong_log2_q8{};
-};
-
-}  // namespace dotpose
-
-#pragma GCC visibility pop
+}  // namespace dotpose::core

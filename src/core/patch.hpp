@@ -1,14 +1,12 @@
-/// Patch: what the desktop's attempts keep of a part of the image, and of the dots they measure.
-/// Unstable, like stages.hpp.
+// Patch: what the desktop's attempts keep of a part of the image, and of the dots they measure.
+// Unstable, like stages.hpp.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <span>
 
-#pragma GCC visibility push(default)
-
-namespace dotpose {
+namespace dotpose::core {
 
 /// Dots in a patch, from its middle, in px of the image.
 struct PatchDots {
@@ -75,6 +73,4 @@ struct MeasuredDots {
 /// Far away.
 inline constexpr float kNoDot_px = 1e6F;
 
-}  // namespace dotpose
-
-#pragma GCC visibility pop
+}  // namespace dotpose::core

@@ -1,0 +1,36 @@
+/// Geometry: points, and the map from an image to the plane of the paper.
+///
+/// Fixed point: a suffix _qN marks a value in units of 2^-N. Pixel frame: the centre of the first
+/// pixel is (0, 0), u to the right, v down.
+#pragma once
+
+#include <cstdint>
+
+#pragma GCC visibility push(default)
+
+namespace dotpose {
+
+/// A vector or point in fixed point.
+struct Vec {
+    std::int32_t x = 0;
+    std::int32_t y = 0;
+    friend constexpr bool operator==(const Vec&, const Vec&) = default;
+};
+
+/// Maps image points to the plane of the paper, in spacings: with (x, y) in px from `centre`,
+///
+///     plane = at_centre + (du x + dv y) / (1 + perspective . (x, y) + lens (x^2 + y^2)),
+///
+/// which is exact for a tilted camera, for the lens of eq. 2, and for both.
+struct PlaneFromImage {
+    Vec centre_q8;              ///< px
+    Vec at_centre_q16;          ///< spacings
+    Vec du_q24;                 ///< spacings per px to the right
+    Vec dv_q24;                 ///< spacings per px down
+    Vec perspective_q30;        ///< per px
+    std::int32_t lens_q40 = 0;  ///< per px^2
+};
+
+}  // namespace dotpose
+
+#pragma GCC visibility pop

@@ -1,0 +1,27 @@
+/// HeapLocator: a Locator with memory of its own, for images up to 4096 x 4096 px.
+///
+///     Fix fix = HeapLocator().locate(image.view());
+#pragma once
+
+#include <memory>
+
+#include "dotpose/locate.hpp"
+
+#pragma GCC visibility push(default)
+
+namespace dotpose {
+
+/// Its memory must exist before the Locator and longer, so it is a base class.
+class LocatorMemory {
+  protected:
+    std::unique_ptr<LargeMemory> memory_ = std::make_unique<LargeMemory>();
+};
+
+class HeapLocator : private LocatorMemory, public Locator {
+  public:
+    explicit HeapLocator(const Options& options = {}) : Locator(*memory_, options) {}
+};
+
+}  // namespace dotpose
+
+#pragma GCC visibility pop
