@@ -33,8 +33,8 @@ struct View {
     double odds_log2 = 0;  ///< that a bit of full weight is right
     std::array<GridCell, kMaxSide * kMaxSide> cells{};
 
-    Grid grid() {
-        Grid grid;
+    core::Grid grid() {
+        core::Grid grid;
         grid.storage = cells;
         grid.side = kMaxSide;
         grid.columns = columns;
@@ -55,7 +55,7 @@ void read(View& view, Rng& rng) {
         const bool is_wrong = rng.uniform() < 1 / (1 + std::exp2(view.odds_log2 * weight / 127));
         return static_cast<std::int8_t>((truth == 1) != is_wrong ? weight : -weight);
     };
-    Grid grid = view.grid();
+    core::Grid grid = view.grid();
     for (int j = 0; j < view.rows; ++j) {
         for (int i = 0; i < view.columns; ++i) {
             grid.at(i, j) = {};
@@ -69,11 +69,11 @@ void read(View& view, Rng& rng) {
 
 /// The p_wrong that the decoder claims, as a power of two; 1 if it found another place or none.
 int claim(View& view) {
-    Grid grid = view.grid();
+    core::Grid grid = view.grid();
     Decoding decoding;
     decoding.window = core::choose_window(grid, kWindowSide);
     decoding.region = core::choose_window(grid, kMaxSide);
-    std::array<ScoredLine, 2 * kMaxSide> storage;
+    std::array<core::ScoredLine, 2 * kMaxSide> storage;
     Fix fix;
     if (core::decode_all(grid, view.profile, storage, decoding) != Status::ok) return 1;
     const IntegrityOptions all{0, 256};
@@ -104,7 +104,7 @@ std::array<double, kReach + 1> odds_by_distance(View& view) {
     };
     // What the bits of a line say for it: their weights if it starts in the main sequence at
     // some index.
-    const Grid grid = view.grid();
+    const core::Grid grid = view.grid();
     const auto score = [&](bool is_x, int line, int start) {
         int sum = 0;
         for (int k = 0; k < (is_x ? view.rows : view.columns); ++k) {
