@@ -47,8 +47,8 @@ class RowLocator {
     /// again then locates it afresh.
     Status begin(int width_px, int height_px, const Prediction& prediction);
 
-    /// Takes the next row of `width_px` pixels; the pixels are not needed afterwards. Without a
-    /// frame that was begun it does nothing.
+    /// Takes the next row of `width_px` pixels; the pixels are not needed afterwards. More rows
+    /// than the frame that was begun has are not looked at.
     void push_row(const std::uint8_t* pixels);
 
     /// What the stages left of the last frame. A DeviceLocator's stages use the same memory one
@@ -60,16 +60,17 @@ class RowLocator {
         : workspace_(workspace), options_(options) {}
     ~RowLocator() = default;
 
-    /// The fix, also as what the trace shows.
-    Fix shown(const Fix& fix);
-    /// Ends the frame that was begun: ok, or why there is none.
-    Status end_rows();
+    /// Whether there is a frame that was begun; the fix says why there is none.
+    bool has_rows();
+    /// Ends the frame: its fix, in millimetres too.
+    Fix shown();
 
     core::Workspace* workspace_;
     Options options_;
 
   private:
     Status begun_ = Status::bad_argument;  ///< of the frame whose rows are pushed
+    int rows_left_ = 0;
 };
 
 /// Finds out where the pattern is seen in an image.

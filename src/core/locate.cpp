@@ -1,5 +1,12 @@
-// Which attempt is made, once the arguments are such that none can do harm.
+// Which attempt is made, once the arguments are such that none can do harm; and at the end the
+// objects that callers hold.
 #include "core/locate.hpp"
+
+#include <array>
+#include <cstddef>
+#include <new>
+#include <span>
+#include <type_traits>
 
 #include "core/attempts/any_code.hpp"
 #include "core/attempts/device.hpp"
@@ -152,3 +159,142 @@ Fix finish_as_device(const Options& options, Workspace& w) {
 }
 
 }  // namespace dotpose::core
+
+namespace dotpose {
+namespace {
+
+template <typename Space, std::size_t Bytes>
+core::Workspace* make_workspace(std::array<std::byte, Bytes>& bytes) {
+    static_assert(sizeof(Space) <= Bytes, "Memory::kBytes is too small");
+    static_assert(std::is_trivially_destructible_v<Space>, "nothing destroys it");
+    return ::new (static_cast<void*>(bytes.data())) Space;
+}
+
+template <typename T>
+std::span<const T> first(std::span<T> all, int count) {
+    return all.first(static_cast<std::size_t>(count));
+}
+
+Trace trace_of(const core::Workspace& w, const Options& options) {
+    const core::Grid& grid = w.grid;
+    return {
+        .options = options,
+        .dots = w.found_dots(),
+        .seeds = first(w.seeds, w.seed_count),
+        .edges = first(w.edges, w.edge_count),
+        .lattice = w.lattice,
+        .grid_from_image = w.grid_from_image,
+        .grid = {first(grid.storage, grid.columns * grid.rows),
+                 {grid.i0, grid.j0, grid.columns, grid.rows}},
+        .decoding = w.decoding,
+        .pattern_from_image = w.pattern_from_image,
+        .fix = w.fix,
+    };
+}
+
+}  // namespace
+
+DeviceMemory::DeviceMemory() : workspace_(make_workspace<core::DeviceWorkspace>(bytes_)) {}
+SmallMemory::SmallMemory() : workspace_(make_workspace<core::SmallWorkspace>(bytes_)) {}
+LargeMemory::LargeMemory() : workspace_(make_workspace<core::LargeWorkspace>(bytes_)) {}
+
+void RowLocator::set_options(const Options& options) {
+    options_ = options;
+    begun_ = Status::bad_argument;
+    rows_left_ = 0;
+}
+
+Status RowLocator::begin(int width_px, int height_px) {
+    begun_ = core::begin(width_px, height_px, options_, *workspace_);
+    rows_left_ = begun_ == Status::ok ? height_px : 0;
+    return begun_;
+}
+
+Status RowLocator::begin(int width_px, int height_px, const Prediction& prediction) {
+    begun_ = core::begin(width_px, height_px, options_, prediction, *workspace_);
+    rows_left_ = begun_ == Status::ok ? height_px : 0;
+    return begun_;
+}
+
+void RowLocator::push_row(const std::uint8_t* pixels) {
+    if (rows_left_ == 0) return;
+    --rows_left_;
+    core::push_row(pixels, options_, *workspace_);
+}
+
+bool RowLocator::has_rows() {
+    if (begun_ != Status::ok) core::refuse(begun_, *workspace_);
+    return begun_ == Status::ok;
+}
+
+Trace RowLocator::trace() const {
+    return trace_of(*workspace_, options_);
+}
+
+Fix RowLocator::shown() {
+    begun_ = Status::bad_argument;
+    rows_left_ = 0;
+    workspace_->fix.spacing_nm = options_.spacing_nm;
+    return workspace_->fix;
+}
+
+Locator::Locator(SmallMemory& memory, const Options& options)
+    : RowLocator(memory.workspace_, options) {}
+
+Locator::Locator(LargeMemory& memory, const Options& options)
+    : RowLocator(memory.workspace_, options) {}
+
+Fix Locator::locate(const ImageView& image) {
+    core::locate(image, options_, *workspace_);
+    return shown();
+}
+
+Fix Locator::locate(const ImageView& image, const Prediction& prediction) {
+    core::locate(image, options_, prediction, *workspace_);
+    return shown();
+}
+
+CodeReading Locator::shown(CodeReading reading) {
+    options_.profile = reading.code;
+    workspace_->fix = reading.fix;
+    reading.fix = shown();
+    return reading;
+}
+
+CodeReading Locator::locate_in_any_code(const ImageView& image, const CodeEvidence& evidence) {
+    return shown(core::locate_in_any_code(image, options_, nullptr, evidence, *workspace_));
+}
+
+CodeReading Locator::locate_in_any_code(const ImageView& image, const Prediction& prediction,
+                                        const CodeEvidence& evidence) {
+    return shown(core::locate_in_any_code(image, options_, &prediction, evidence, *workspace_));
+}
+
+CodeReading Locator::locate_in_code(const ImageView& image) {
+    return shown(core::locate_in_code(image, options_, *workspace_));
+}
+
+Fix Locator::finish() {
+    if (has_rows()) core::finish(options_, *workspace_);
+    return shown();
+}
+
+DeviceLocator::DeviceLocator(DeviceMemory& memory, const Options& options)
+    : RowLocator(memory.workspace_, options) {}
+
+Fix DeviceLocator::locate(const ImageView& image) {
+    core::locate_as_device(image, options_, *workspace_);
+    return shown();
+}
+
+Fix DeviceLocator::locate(const ImageView& image, const Prediction& prediction) {
+    core::locate_as_device(image, options_, prediction, *workspace_);
+    return shown();
+}
+
+Fix DeviceLocator::finish() {
+    if (has_rows()) core::finish_as_device(options_, *workspace_);
+    return shown();
+}
+
+}  // namespace dotpose

@@ -1,5 +1,5 @@
 // Workspace: all memory of a Locator, and after a frame every stage's output. Fixed capacities; it
-// lies in the caller's DeviceMemory, SmallMemory or LargeMemory (src/core/locator.cpp), and is used
+// lies in the caller's DeviceMemory, SmallMemory or LargeMemory (src/core/locate.cpp), and is used
 // from frame to frame.
 #pragma once
 

@@ -234,6 +234,12 @@ TEST(Locate, RowsCountOnlyInAFrameThatWasBegun) {
     EXPECT_EQ(locator.finish().status, Status::image_too_small);
     EXPECT_EQ(pushed(frame, locator).status, Status::ok);
     EXPECT_EQ(locator.finish().status, Status::bad_argument);
+    // Nor more of them than it has.
+    const Fix fix = pushed(frame, locator);
+    ASSERT_EQ(locator.begin(frame.width_px, frame.height_px), Status::ok);
+    for (int v = 0; v < 3 * frame.height_px; ++v)
+        locator.push_row(frame.view().row(v % frame.height_px));
+    expect_same(locator.finish(), fix);
     // Options that change in the middle of a frame give it up.
     ASSERT_EQ(locator.begin(frame.width_px, frame.height_px), Status::ok);
     locator.set_options({});
