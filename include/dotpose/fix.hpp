@@ -41,7 +41,7 @@ const char* name(Surface surface) noexcept;
 /// `cell + fraction` in units of the spacing; `theta` is the angle of the image x axis in the
 /// pattern frame, from +x towards +y (clockwise as seen on the paper, since y is down).
 struct Fix {
-    Status status = Status::no_contrast;
+    Status status = Status::not_run;
     Attempt attempt = Attempt::first;
     Surface surface = Surface::even;  ///< devices do not look at it
 

@@ -31,7 +31,7 @@ inline constexpr int kPacketVersion = 1;
 struct PosePacket {
     std::uint16_t sequence = 0;  ///< counts frames; a gap shows lost packets
     std::uint32_t time_us = 0;   ///< of the frame, on the sender's clock; wraps every 71.6 minutes
-    Status status = Status::no_contrast;
+    Status status = Status::not_run;
     Profile profile = Profile::anoto;
 
     Cell cell;  ///< as in Fix

@@ -21,7 +21,9 @@ enum class [[nodiscard]] Status : std::uint8_t{
     no_displacement,
     // src/core/decode
     grid_too_small,
-    no_orientation,
+    // Before a frame is located. It stands here because pose packets carry the values.
+    not_run,
+    // src/core/decode
     mirrored,
     // src/code
     bad_window,

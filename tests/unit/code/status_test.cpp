@@ -3,11 +3,14 @@
 
 #include <cctype>
 #include <cstddef>
+#include <fstream>
 #include <iterator>
 #include <set>
 #include <string>
 #include <utility>
 
+#include "dotpose/fix.hpp"
+#include "dotpose/pose_packet.hpp"
 #include "gtest/gtest.h"
 
 namespace dotpose::code_test {
@@ -25,7 +28,7 @@ constexpr std::pair<Status, const char*> kNames[] = {
     NAMED(no_grid),
     NAMED(no_displacement),
     NAMED(grid_too_small),
-    NAMED(no_orientation),
+    NAMED(not_run),
     NAMED(mirrored),
     NAMED(bad_window),
     NAMED(not_in_code),
@@ -46,6 +49,30 @@ TEST(Status, ValuesCountFromZero) {
     for (std::size_t i = 0; i < std::size(kNames); ++i) {
         EXPECT_EQ(static_cast<std::size_t>(kNames[i].first), i) << kNames[i].second;
     }
+}
+
+// Receivers in other languages know the numbers from there.
+TEST(Status, NumbersAreThoseOfTheDocumentedPackets) {
+    std::ifstream file(std::string(DOTPOSE_SOURCE_DIR) + "/docs/pose-packet.md");
+    const std::string text(std::istreambuf_iterator<char>(file), {});
+    for (const auto& [status, identifier] : kNames) {
+        const std::string row = "\n| " + std::to_string(static_cast<int>(status)) + " | " +
+                                identifier + " | " + message(status) + " |\n";
+        EXPECT_NE(text.find(row), std::string::npos) << "no such row:" << row;
+    }
+}
+
+// They are on the line between devices and hosts of different versions.
+TEST(Status, NumbersAreThoseOfTheFirstVersion) {
+    EXPECT_EQ(static_cast<int>(Status::ok), 0);
+    EXPECT_EQ(static_cast<int>(Status::grid_too_small), 8);
+    EXPECT_EQ(static_cast<int>(Status::mirrored), 10);
+    EXPECT_EQ(static_cast<int>(Status::ambiguous_code), 16);
+}
+
+TEST(Status, NothingIsKnownOfAFrameBeforeItIsLocated) {
+    EXPECT_EQ(Fix{}.status, Status::not_run);
+    EXPECT_EQ(PosePacket{}.status, Status::not_run);
 }
 
 TEST(Status, EveryMessageIsItsOwnPlainSentence) {
