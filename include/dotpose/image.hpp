@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "dotpose/language.hpp"
+
 #pragma GCC visibility push(default)
 
 namespace dotpose {

@@ -6,6 +6,8 @@
 #include <array>
 #include <cstddef>
 
+#include "dotpose/language.hpp"
+
 #pragma GCC visibility push(default)
 
 namespace dotpose {

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "dotpose/language.hpp"
+
 #pragma GCC visibility push(default)
 
 namespace dotpose {

@@ -4,6 +4,8 @@
 
 #include <stdexcept>
 
+#include "dotpose/language.hpp"
+
 #pragma GCC visibility push(default)
 
 namespace dotpose {

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "dotpose/language.hpp"
+
 #pragma GCC visibility push(default)
 
 namespace dotpose {
