@@ -1,0 +1,59 @@
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include <dotpose/locate.hpp>
+#include <dotpose/tools/calibrate.hpp>
+#include <dotpose/tools/camera_file.hpp>
+#include <dotpose/tools/draw.hpp>
+#include <dotpose/tools/image_file.hpp>
+#include <dotpose/tools/overlay.hpp>
+#include <dotpose/tools/print.hpp>
+#include <dotpose/tools/simulate.hpp>
+
+namespace {
+
+using namespace dotpose;
+
+/// Prints a small sheet, and once more over itself.
+void print(const std::filesystem::path& folder) {
+    SheetOptions options;
+    options.paper = {20, 20};
+    const Sheet sheet = make_sheet(options);
+    for (const char* name : {"sheet.svg", "sheet.tif", "sheet.pdf"})
+        write_sheet(sheet, folder / name);
+    const OverlayReport report = overlay_pdf(folder / "sheet.pdf", folder / "twice.pdf");
+    std::printf("%d x %d dots on %zu page\n", sheet.columns, sheet.rows, report.pages.size());
+}
+
+/// Simulates a frame, writes and reads it, locates it, and draws what was found.
+bool locate_simulated(const std::filesystem::path& folder) {
+    const Shot shot = draw_shot(Setup{}, 0);
+    write_png(folder / "frame.png", render(shot).view());
+    const GreyImage image = read_image(folder / "frame.png");
+    const auto workspace = std::make_unique<LargeWorkspace>();
+    const Fix fix = locate(image.view(), {}, *workspace);
+    draw_frame(folder / "drawn.png", image.view(), *workspace, {});
+    std::printf("%s: %s\n", name(fix.status), message(fix.status));
+    return fix.status == Status::ok && fix.cell == shot.pose.cell;
+}
+
+/// Calibrates a simulated camera, and keeps the result in a file.
+bool calibrate(const std::filesystem::path& folder) {
+    const auto frame_at = [](int i) { return render(draw_shot(Setup{}, i)); };
+    const LensCalibration lens = calibrate_lens(kWantedFrames, frame_at, {});
+    write_camera(folder / "camera.yaml", lens.camera);
+    const Camera camera = read_camera(folder / "camera.yaml");
+    std::printf("%s, %d px wide\n", name(lens.verdict), camera.width_px);
+    return camera.width_px == lens.camera.width_px;
+}
+
+}  // namespace
+
+// Each library that the tools depend on is used: it is found, it links, and it runs.
+int main() {
+    const std::filesystem::path folder = "consumer-out";
+    std::filesystem::create_directories(folder);
+    print(folder);
+    return locate_simulated(folder) && calibrate(folder) ? 0 : 1;
+}
