@@ -1,4 +1,4 @@
-/// Small geometry that several writers share.
+/// Positions of dots on a sheet, in mm, as the writers of all file formats compute them.
 #pragma once
 
 #include "dotpose/tools/sheet.hpp"
@@ -7,17 +7,17 @@ namespace dotpose::print {
 
 inline constexpr double kInch_mm = 25.4;
 
-/// Farthest that ink lies from its intersection along x or y.
+/// Largest distance of ink from its grid intersection, along x or y.
 inline double reach_mm(const Pattern& pattern) {
     return pattern.displacement_mm + pattern.dot_mm / 2;
 }
 
-/// Centre of the dot of column `i` on the sheet, displaced by `dx` (-1, 0, 1).
+/// x of the centre of a dot in column `i` of the sheet, displaced by `dx` (-1, 0 or 1).
 inline double dot_x_mm(const Sheet& sheet, int i, int dx) {
     return sheet.origin_x_mm + i * sheet.pattern.spacing_mm + dx * sheet.pattern.displacement_mm;
 }
 
-/// Centre of the dot of row `j` on the sheet, displaced by `dy` (-1, 0, 1); y is down.
+/// y of the centre of a dot in row `j` of the sheet, displaced by `dy` (-1, 0 or 1); y is down.
 inline double dot_y_mm(const Sheet& sheet, int j, int dy) {
     return sheet.origin_y_mm + j * sheet.pattern.spacing_mm + dy * sheet.pattern.displacement_mm;
 }

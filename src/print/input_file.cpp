@@ -56,7 +56,7 @@ nlohmann::json parse_json(const std::string& text) {
         return json::parse(text, refuse_depth);
     } catch (const json::exception& error) {
         const std::string what = error.what();
-        const std::size_t tag = what.find("] ");  // "[json.exception.parse_error.101] "
+        const std::size_t tag = what.find("] ");  // the message starts with "[json.exception...] "
         throw Error(tag == std::string::npos ? what : what.substr(tag + 2));
     }
 }

@@ -1,4 +1,4 @@
-/// Text files of strangers.
+/// Reads text files that anybody may have written, with limits on their size.
 #pragma once
 
 #include <cstddef>
@@ -11,18 +11,20 @@
 
 namespace dotpose::print {
 
-/// The text of a file or pipe; none if there is no such file. Throws Error if it cannot be read or
-/// has more bytes than `most`, of which no more are read: an endless file fills no memory.
+/// Returns the text of a file or pipe, or none if there is no such file. Throws Error if it cannot
+/// be read or has more than `most` bytes; it stops reading there, so that an endless file does not
+/// fill the memory.
 std::optional<std::string> text_of(const std::filesystem::path& path, std::size_t most);
 
-/// The next line, without its line break; false at the end. Throws Error if it has more than 64 KB,
-/// of which no more are read, or if reading fails.
+/// Reads the next line, without its line break; returns false at the end of the file. Throws Error
+/// if the line has more than 64 KB, after which it stops reading, or if reading fails.
 bool next_line(std::istream& stream, std::string& line);
 
-/// Nested deeper than any file of ours, and shallow enough for the recursion of whoever walks it.
+/// Deepest nesting of JSON that is read. Files of this project need less, and functions that walk
+/// the text recursively have stack enough for it.
 inline constexpr int kMostJsonDepth = 64;
 
-/// Throws Error, which says where the text is no JSON, or that it is nested too deeply.
+/// Parses JSON. Throws Error that says where the text is not JSON, or that it is nested too deeply.
 nlohmann::json parse_json(const std::string& text);
 
 }  // namespace dotpose::print

@@ -1,4 +1,4 @@
-/// Text without capital letters.
+/// Converts text to lower case.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace dotpose::print {
 
-/// The text with A to Z as a to z, whatever the locale; all else stays.
+/// Returns the text with A to Z replaced by a to z, in every locale; other characters stay.
 inline std::string lower_case(std::string_view text) {
     std::string lower(text);
     std::ranges::transform(lower, lower.begin(), [](char c) {

@@ -38,7 +38,8 @@ OutputFile::OutputFile(const fs::path& target) : target_(without_links(target)) 
     if (fs::exists(status) && !fs::is_regular_file(status)) {
         throw Error(fmt::format("cannot write {}: it is not a regular file", target_.string()));
     }
-    // Renaming needs no right to the old file, so a write-protected one would be lost.
+    // Renaming onto a file needs no permission to write it, so it would replace a write-protected
+    // one.
     if (fs::exists(status) && access(target_.c_str(), W_OK) != 0) {
         throw_system("write", target_, errno);
     }

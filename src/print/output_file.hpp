@@ -1,4 +1,4 @@
-/// A file that appears complete or not at all.
+/// Writes files so that they appear complete or not at all.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace dotpose::print {
 
-/// The name of the file itself where `path` is a symbolic link, also to a file that does not exist
+/// Follows symbolic links and returns the path of the file that they lead to, which need not exist
 /// yet.
 std::filesystem::path without_links(std::filesystem::path path);
 
@@ -28,13 +28,14 @@ class OutputFile {
     void write(const void* data, std::size_t size_bytes) noexcept;
     void write(std::string_view text) noexcept { write(text.data(), text.size()); }
 
-    /// Moves the place of the next write, like fseeko; returns the new place, from the start.
+    /// Moves the position of the next write, like fseeko; returns the new position in bytes from
+    /// the start of the file.
     std::int64_t seek(std::int64_t offset, int whence) noexcept;
 
     /// Throws Error with the system's reason if a write failed, for example a full disk.
     void require_good() const;
 
-    /// Closes the file and puts the file in its place. Throws Error.
+    /// Closes the temporary file and renames it to the target. Throws Error.
     void commit();
 
   private:
@@ -47,8 +48,8 @@ class OutputFile {
     int error_number_ = 0;
 };
 
-/// Throws Error, as OutputFile does, if the file could not be created: to be told before the work
-/// that it is to hold, not after it.
+/// Throws Error, as OutputFile does, if the file could not be created. Call it before a long
+/// computation whose result goes into the file.
 void require_writable(const std::filesystem::path& target);
 
 }  // namespace dotpose::print

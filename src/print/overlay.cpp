@@ -32,8 +32,8 @@ namespace {
     throw Error(fmt::format("{}: its objects are nested too deeply", path.string()));
 }
 
-/// qpdf goes on after small faults, which the new file no longer has. Content that it cannot unpack
-/// or read would stay as it is. Returns the small faults, in words.
+/// Returns the warnings of qpdf about faults that it repaired, which the new file no longer has.
+/// Throws Error for faults that it cannot repair: it would copy such content unchanged.
 std::set<std::string> small_faults(QPDF& pdf, const fs::path& path) {
     std::set<std::string> faults;
     for (const QPDFExc& warning : pdf.getWarnings()) {
@@ -48,7 +48,7 @@ std::set<std::string> small_faults(QPDF& pdf, const fs::path& path) {
     return faults;
 }
 
-/// Runs `work`; its errors then begin with `name`.
+/// Runs `work` and puts `name` in front of the message of an Error that it throws.
 template <typename Work>
 void with_name(const std::string& name, const Work& work) {
     try {
@@ -98,7 +98,7 @@ std::set<int> page_numbers(const std::string& range, int count) {
     }
 }
 
-/// "pages 1, 2, 5"; no more than the first few.
+/// Lists page numbers as in "pages 1, 2, 5", but no more than the first few.
 std::string page_list(const std::vector<int>& numbers) {
     constexpr std::size_t kShown = 8;
     const auto shown = std::span(numbers).first(std::min(kShown, numbers.size()));
@@ -106,7 +106,7 @@ std::string page_list(const std::vector<int>& numbers) {
                        numbers.size() > kShown ? " ..." : "");
 }
 
-/// Runs `work`; where qpdf is at a loss, the document is damaged.
+/// Runs `work` and reports what qpdf throws as damage of the document.
 template <typename Work>
 auto understood(const fs::path& path, const Work& work) {
     try {
@@ -122,7 +122,8 @@ auto understood(const fs::path& path, const Work& work) {
     }
 }
 
-/// The document says how large its pages are, up to a user unit that makes metres of points.
+/// Throws Error if the page is so large that it would get too many dots: a document may give its
+/// pages any size, through a user unit even kilometres.
 void require_few_dots(const Sheet& sheet) {
     constexpr double kMostDots = 5e7;
     const double dots = double{1} * sheet.columns * sheet.rows;
@@ -133,7 +134,7 @@ void require_few_dots(const Sheet& sheet) {
                     sheet.width_mm, sheet.height_mm, dots / 1e6, kMostDots / 1e6));
 }
 
-/// One document being given dots.
+/// Adds dots to one document.
 class Overlay {
   public:
     Overlay(const fs::path& in, const OverlayOptions& options)
@@ -184,7 +185,7 @@ class Overlay {
         return pages;
     }
 
-    /// Runs `work`; its errors then name the page.
+    /// Runs `work` and adds the number of the page to the message of an Error that it throws.
     template <typename Work>
     void on_page(int number, const Work& work) {
         with_name(fmt::format("{}, page {}", in_.string(), number), work);
@@ -214,7 +215,8 @@ class Overlay {
         draw(page, frame, sheet, content);
     }
 
-    /// The page's own content keeps its streams; q and Q around it restore the start.
+    /// Draws the dots over or under the page's own content, whose streams are kept. The operators q
+    /// and Q around them restore the graphics state in which the page starts.
     void draw(QPDFPageObjectHelper page, const print::PageFrame& frame, const Sheet& sheet,
               const print::PageContent& content) {
         std::string dots = "q " + frame.matrix + " cm\n";
@@ -232,7 +234,7 @@ class Overlay {
         page.addPageContents(QPDFObjectHandle::newStream(&pdf_, after), false);
     }
 
-    /// Makes the dots known to the page as forms; returns their names.
+    /// Adds the dots to the resources of the page as forms and returns the names of the forms.
     std::vector<std::string> add_forms(QPDFPageObjectHelper page, const Sheet& sheet) {
         QPDFObjectHandle resources = page.getAttribute("/Resources", true);
         if (!resources.isDictionary()) {

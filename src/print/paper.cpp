@@ -17,7 +17,7 @@ struct NamedPaper {
     Paper paper;
 };
 
-// ISO 216 and ANSI/ASME Y14.1, portrait.
+// Sizes in portrait, from ISO 216 and ANSI/ASME Y14.1.
 constexpr std::array<NamedPaper, 10> kPapers = {{
     {"a0", {841, 1189}},
     {"a1", {594, 841}},

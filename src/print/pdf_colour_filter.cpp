@@ -43,7 +43,8 @@ void ColourFilter::handleToken(Token const& token) {
         write_colour(ColourKind::grey, {0}, true);
     }
     if (token.getType() != QPDFTokenizer::tt_word) {
-        // No operator that is rewritten has as many operands.
+        // The operators that are rewritten have fewer operands, so these tokens belong to another
+        // one.
         if (pending_.size() == kMostPending) flush();
         pending_.push_back(token);
         return;

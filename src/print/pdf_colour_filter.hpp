@@ -13,8 +13,9 @@ namespace dotpose::print {
 
 class ColourFilter : public QPDFObjectHandle::TokenFilter {
   public:
-    /// `spaces` says what the names are that `cs` may select. Content that `starts_black`, as pages
-    /// do, is given the changed black to start with; other content inherits.
+    /// `spaces` maps the names that the operator `cs` may select to their kinds. Content that
+    /// `starts_black`, as pages do, begins with an operator that sets the changed black; other
+    /// content inherits its colour.
     ColourFilter(InkChange change, std::map<std::string, ColourKind> spaces, bool starts_black);
 
     void handleToken(QPDFTokenizer::Token const& token) override;
@@ -26,7 +27,8 @@ class ColourFilter : public QPDFObjectHandle::TokenFilter {
         ColourKind stroke = ColourKind::other;
     };
 
-    /// Writes the change of an operator with its operands; false leaves them as they are.
+    /// Writes the changed form of an operator and its operands. Returns false, and writes nothing,
+    /// if they stay as they are.
     bool rewrite(const std::string& name);
     bool select_space(ColourKind& kind, bool is_stroke);
     bool write_colour(ColourKind from, std::vector<double> colour, bool is_stroke);

@@ -24,7 +24,8 @@ std::map<std::string, ColourKind> named_spaces(QPDFObjectHandle resources) {
     return kinds;
 }
 
-/// Blending in RGB would turn the mix back into black.
+/// Makes transparency groups blend in CMYK: blending in RGB would turn a mix of cyan, magenta and
+/// yellow back into black.
 void blend_in_cmyk(QPDFObjectHandle holder, InkChange change) {
     QPDFObjectHandle group = holder.getKey("/Group");
     if (!change.black_to_cmy || !group.isDictionary() || !group.hasKey("/CS")) return;
@@ -41,7 +42,8 @@ std::string palette_bytes(QPDFObjectHandle table, UnpackedBytes& unpacked) {
     return {reinterpret_cast<const char*>(data->getBuffer()), data->getSize()};
 }
 
-/// [/Indexed space last table] for `count` colours made of `bytes`.
+/// Returns the colour space [/Indexed space last table] of `count` colours, whose components are
+/// `bytes`.
 QPDFObjectHandle indexed(InkChange change, ColourKind from, const std::string& bytes,
                          std::size_t count) {
     const std::size_t size = components(from);
@@ -80,7 +82,8 @@ bool convert_palette(InkChange change, QPDFObjectHandle dict, QPDFObjectHandle s
     return true;
 }
 
-/// Grey levels become a palette: it needs no look at the pixels, however they are compressed.
+/// Turns the grey levels of an image into a palette, which leaves the pixels as they are, however
+/// they are compressed.
 bool convert_grey(InkChange change, QPDFObjectHandle dict, ColourKind kind) {
     QPDFObjectHandle depth = dict.getKey("/BitsPerComponent");
     if (!depth.isInteger() || depth.getIntValue() > 8 || depth.getIntValue() < 1) return false;
@@ -99,7 +102,7 @@ bool convert_grey(InkChange change, QPDFObjectHandle dict, ColourKind kind) {
     return true;
 }
 
-/// CMYK without K, for samples that are amounts of cyan, magenta and yellow.
+/// Returns a colour space whose components are amounts of cyan, magenta and yellow.
 QPDFObjectHandle cmy_space(QPDF* pdf) {
     QPDFObjectHandle add_no_black = QPDFObjectHandle::newStream(pdf, "{ 0 }");
     add_no_black.replaceDict(QPDFObjectHandle::parse(
@@ -110,7 +113,8 @@ QPDFObjectHandle cmy_space(QPDF* pdf) {
     return space;
 }
 
-/// The numbers that samples stand for are given by /Decode, so changing it changes every pixel.
+/// Changes the colours of an image through its /Decode array, which maps samples to colour values;
+/// the pixels stay as they are.
 bool convert_decode(InkChange change, QPDFObjectHandle dict, ColourKind kind, QPDF* pdf) {
     if (kind == ColourKind::cmyk && change.black_to_cmy) return false;
     const std::size_t count = 2 * components(kind);
@@ -144,7 +148,7 @@ void ColourConverter::convert(QPDFPageObjectHelper page) {
     QPDFObjectHandle dict = page.getObjectHandle();
     QPDFObjectHandle original = page.getAttribute("/Resources", false);
     QPDFObjectHandle contents = dict.getKey("/Contents");
-    // Another page may share this very stream.
+    // Other pages may share the stream, so this page gets a copy.
     if (contents.isStream()) dict.replaceKey("/Contents", contents.copyStream());
     if (!page.getPageContents().empty()) {
         page.addContentTokenFilter(
@@ -164,7 +168,8 @@ void ColourConverter::convert(QPDFPageObjectHelper page) {
 
 QPDFObjectHandle ColourConverter::appearance(QPDFObjectHandle original) {
     if (!original.isDictionary()) return content(original, true);
-    // One stream per state, such as /On and /Off; no deeper, so a loop does no harm.
+    // An appearance may have one stream per state, such as /On and /Off. Dictionaries nested deeper
+    // are not followed, so references that form a loop do no harm.
     QPDFObjectHandle copy = original.shallowCopy();
     for (const std::string& state : copy.getKeys())
         copy.replaceKey(state, content(copy.getKey(state), true));
@@ -232,7 +237,7 @@ QPDFObjectHandle ColourConverter::pattern(QPDFObjectHandle original) {
         left_alone_.insert("shadings");
         return original;
     }
-    // An uncoloured tiling takes its colour from the content that uses it, as a colour with a name.
+    // An uncoloured tiling pattern has no colour of its own: the content that uses it sets one.
     const bool is_coloured = original.getDict().getKey("/PaintType").isInteger() &&
                              original.getDict().getKey("/PaintType").getIntValue() == 1;
     if (!is_coloured) left_alone_.insert("uncoloured patterns");
@@ -261,7 +266,7 @@ QPDFObjectHandle ColourConverter::image(QPDFObjectHandle original, QPDFObjectHan
     const QPDFObjGen id = original.getObjGen();
     if (converted_.contains(id)) return converted_.at(id);
     QPDFObjectHandle mask = original.getDict().getKey("/ImageMask");
-    if (mask.isBool() && mask.getBoolValue()) return original;  // painted in the current colour
+    if (mask.isBool() && mask.getBoolValue()) return original;  // a stencil has no own colours
     QPDFObjectHandle copy = original.copyStream();
     QPDFObjectHandle dict = copy.getDict();
     QPDFObjectHandle space = dict.getKey("/ColorSpace");

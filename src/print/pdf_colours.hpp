@@ -17,14 +17,14 @@ namespace dotpose::print {
 /// the originals. Content is rewritten only while the file is written.
 class ColourConverter {
   public:
-    /// `unpacked` counts all content that is changed, and must outlive this.
+    /// `unpacked` counts the bytes of all content that is changed; it must outlive this object.
     ColourConverter(InkChange change, UnpackedBytes& unpacked)
         : change_(change), unpacked_(unpacked) {}
 
     /// Throws Error if the page draws from resources that are nested too deeply.
     void convert(QPDFPageObjectHelper page);
 
-    /// What was met and left as it was, in words, for example "shadings".
+    /// Kinds of content that were found but not converted, in words, for example "shadings".
     const std::set<std::string>& left_alone() const { return left_alone_; }
 
   private:
@@ -40,7 +40,7 @@ class ColourConverter {
 
     InkChange change_;
     UnpackedBytes& unpacked_;
-    int level_ = 0;  ///< of the resources that are being converted
+    int level_ = 0;  ///< how deep the resources that are being converted are nested
     std::map<QPDFObjGen, QPDFObjectHandle> converted_;
     std::set<std::string> left_alone_;
 };

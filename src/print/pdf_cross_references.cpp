@@ -19,7 +19,8 @@ namespace {
 
 using Token = QPDFTokenizer::Token;
 
-/// Reads a document from its end, as `startxref` and then /Prev and /XRefStm lead.
+/// Reads the cross-reference tables and streams of a document from its end: `startxref` gives the
+/// offset of the newest, /Prev and /XRefStm those of others.
 class CrossReferences {
   public:
     CrossReferences(const std::filesystem::path& path, UnpackedBytes& unpacked)
@@ -32,7 +33,7 @@ class CrossReferences {
     }
 
     void count() {
-        // There may be something in front of the document, and behind it.
+        // Some files have other data before and after the document.
         constexpr qpdf_offset_t kNear = 1100;
         const std::string begin = text(0, kNear);
         std::smatch header;
@@ -65,7 +66,8 @@ class CrossReferences {
         return tokenizer_.readToken(file_, "cross references", kBadToo, kLongest);
     }
 
-    /// One table with its trailer, or one stream.
+    /// Reads one cross-reference table with its trailer, or one cross-reference stream, at
+    /// `offset`.
     void follow(qpdf_offset_t offset) {
         file_->seek(start_ + offset, SEEK_SET);
         Token token = next();
@@ -82,7 +84,7 @@ class CrossReferences {
         if (!is_table && next().isWord("stream")) count_stream(*dictionary);
     }
 
-    /// The data of which come next.
+    /// Counts the unpacked size of the stream whose `dictionary` was just read; its data follow.
     void count_stream(QPDFObjectHandle dictionary) {
         QPDFObjectHandle length = dictionary.getKey("/Length");
         if (!length.isInteger() || length.getIntValue() < 0) {
@@ -100,7 +102,7 @@ class CrossReferences {
         unpacked_.count(stream);
     }
 
-    /// The dictionary that comes next; none if there is no such.
+    /// Reads the dictionary at the current position, or returns none if there is no dictionary.
     std::optional<QPDFObjectHandle> read_dictionary() {
         const qpdf_offset_t begin = file_->tell();
         int level = 0;
@@ -118,7 +120,7 @@ class CrossReferences {
 
     std::shared_ptr<InputSource> file_;
     QPDFTokenizer tokenizer_;
-    QPDF stray_;  ///< that streams outside of the document can belong to
+    QPDF stray_;  ///< an empty document: qpdf requires that streams belong to one
     UnpackedBytes& unpacked_;
     qpdf_offset_t size_ = 0;
     qpdf_offset_t start_ = 0;
@@ -132,7 +134,7 @@ void count_cross_references(const std::filesystem::path& path, UnpackedBytes& un
     try {
         CrossReferences(path, unpacked).count();
     } catch (const QPDFExc&) {
-        return;  // the library will say the same of the document, in its own words
+        return;  // qpdf reports the same fault when it opens the document
     }
 }
 

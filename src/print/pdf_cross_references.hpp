@@ -1,4 +1,4 @@
-/// What a document lists its objects in.
+/// Limits the size of the cross-reference streams of a PDF, which list its objects.
 #pragma once
 
 #include <filesystem>
@@ -7,10 +7,10 @@
 
 namespace dotpose::print {
 
-/// Counts what the cross-reference streams of a document become when they are unpacked, which the
-/// library does before anybody can ask it: to be called before it opens the document. Follows the
-/// references as far as they make sense; where they do not, the library refuses them. Throws Error
-/// as `UnpackedBytes::count`, and what `FileInputSource` throws.
+/// Counts the unpacked bytes of the cross-reference streams of a document. qpdf unpacks them as
+/// soon as it opens the document, without a limit, so call this first. References that make no
+/// sense are not followed; qpdf refuses them later. Throws Error like `UnpackedBytes::count`, and
+/// what `FileInputSource` throws.
 void count_cross_references(const std::filesystem::path& path, UnpackedBytes& unpacked);
 
 }  // namespace dotpose::print

@@ -21,11 +21,11 @@ constexpr int kDotsPerStream = 250'000;
 
 // --- glyphs -------------------------------------------------------------------------------------
 
-/// One em is one spacing: the width of every glyph is then a whole number and text advances without
-/// rounding error.
+/// One em of the font is one spacing of the grid: the width of every glyph is then a whole number,
+/// and the text advances without rounding error.
 constexpr double kUnitsPerEm = 1000;
 
-/// A circle from four Bezier curves; 0.5523 makes the largest error 0.03 % of the radius.
+/// Draws a circle as four Bezier curves; with the factor 0.5523 the radius is right to 0.03 %.
 std::string circle(double x, double y, double r) {
     const double k = 0.5522847498 * r;
     return fmt::format(
@@ -36,8 +36,9 @@ std::string circle(double x, double y, double r) {
         y - k, x - k, y - r, x, y - r, x + k, y - r, x + r, y - k, x + r, y);
 }
 
-/// Dot of one symbol. The square around an undisplaced dot has its lower left corner at the glyph's
-/// origin, so that an origin on a pixel's corner makes the dot fill whole pixels.
+/// Returns the glyph that draws the dot of one symbol. The square around an undisplaced dot has its
+/// lower left corner at the glyph's origin: if the origin is the corner of a pixel, the dot fills
+/// whole pixels.
 std::string glyph(const Pattern& pattern, Symbol symbol) {
     const double per_mm = kUnitsPerEm / pattern.spacing_mm;
     const double r = pattern.dot_mm / 2 * per_mm;
@@ -48,12 +49,13 @@ std::string glyph(const Pattern& pattern, Symbol symbol) {
            circle(x, y, r);
 }
 
-/// Smallest shift, to the right or down, that keeps a glyph's origin away from where renderers
-/// round the other way.
+/// Returns the smallest shift, to the right or down, for which all renderers round the origin of a
+/// glyph to the same pixel.
 ///
-/// They count pixels from the top left or from the bottom left corner of the page, and take the
-/// whole part or the nearest number. `near_px` and `far_px` are the distances from either side at
-/// the chosen resolution; half and twice of it are looked after as well.
+/// Renderers count pixels from the top left or from the bottom left corner of the page, and either
+/// truncate or round to the nearest pixel. `near_px` and `far_px` are the distances of the origin
+/// from the two sides at the chosen resolution. The shift is also safe at half and at twice this
+/// resolution.
 double clear_shift_px(double near_px, double far_px) {
     constexpr double kClear_px = 0.05;
     const auto clearance_px = [&](double shift_px) {
@@ -80,7 +82,7 @@ void write_glyph_rows(const Sheet& sheet, double dpi, int first_row, int end_row
     const double px_per_mm = dpi / kInch_mm;
     const double half_mm = sheet.pattern.dot_mm / 2;
     const double left_mm = sheet.origin_x_mm - half_mm;
-    const double top_mm = sheet.origin_y_mm + half_mm;  // of the first row's baseline
+    const double top_mm = sheet.origin_y_mm + half_mm;  // the baseline of the first row
     const auto shift_mm = [&](double from_mm, double size_mm) {
         return clear_shift_px(from_mm * px_per_mm, (size_mm - from_mm) * px_per_mm) / px_per_mm;
     };
@@ -88,7 +90,7 @@ void write_glyph_rows(const Sheet& sheet, double dpi, int first_row, int end_row
     const double first_mm = top_mm + shift_mm(top_mm, sheet.height_mm);
 
     SymbolRows symbols(sheet);
-    // The empty ActualText keeps the letters out of what a reader copies or searches.
+    // With an empty ActualText, viewers do not find or copy the glyphs as letters.
     std::string line = fmt::format("/Span <</ActualText ()>> BDC BT 0 0 0 1 k /Dots {:.9f} Tf\n",
                                    sheet.pattern.spacing_mm * kPointsPerMm);
     for (int j = first_row; j < end_row; ++j) {
@@ -107,8 +109,8 @@ void write_glyph_rows(const Sheet& sheet, double dpi, int first_row, int end_row
 
 // --- strokes ------------------------------------------------------------------------------------
 
-/// Lengths in a unit of which spacing and displacement are whole numbers: renderers read whole
-/// numbers without rounding, and short ones make small files.
+/// A unit of length of which spacing and displacement are whole multiples. Renderers read whole
+/// numbers without rounding, and short numbers make small files.
 struct WholeUnits {
     int spacing = 0;
     int displacement = 0;
@@ -129,12 +131,14 @@ WholeUnits whole_units(const Pattern& pattern) {
     return units;
 }
 
-// Deflate finds the dots of a tile again in the rows before when tiles are small and all alike.
+// Deflate compresses small tiles well if all are written alike: it finds their dots in earlier
+// rows.
 constexpr int kTileColumns = 8;
-// Steps from tile to tile add up a renderer's rounding errors, so a run of tiles starts afresh.
+// A renderer's rounding errors add up from tile to tile, so after this many columns the position
+// is given anew.
 constexpr int kRunColumns = 16 * kTileColumns;
 
-/// What draws each symbol in each column of a tile.
+/// The operators that draw each of the four symbols in each column of a tile.
 using TileDots = std::array<std::array<std::string, 4>, kTileColumns>;
 
 TileDots tile_dots(const WholeUnits& units) {
@@ -185,7 +189,7 @@ void write_stroke_rows(const Sheet& sheet, int first_row, int end_row, RowCount&
 
 // ------------------------------------------------------------------------------------------------
 
-/// The data of one stream, made when qpdf asks for it.
+/// Provides the data of one content stream when qpdf asks for it.
 class DotRows : public QPDFObjectHandle::StreamDataProvider {
   public:
     DotRows(const Sheet& sheet, DotDrawing drawing, double dpi, int first_row, int end_row,
@@ -236,7 +240,7 @@ bool is_whole_pixels(const Pattern& pattern, double dpi) {
         const double px = mm * dpi / kInch_mm;
         return std::round(px) >= 1 && std::abs(px - std::round(px)) < tolerance_px;
     };
-    // An error of the spacing adds up over the page; one of the dot does not.
+    // The tolerance of the spacing is smaller because its error adds up over the page.
     return is_whole(pattern.spacing_mm, 1e-6) && is_whole(pattern.displacement_mm, 0.01) &&
            is_whole(pattern.dot_mm, 0.01);
 }
@@ -305,7 +309,7 @@ QPDFObjectHandle DotContent::font(const Pattern& pattern) {
         glyphs.replaceKey(std::string("/") + letter(symbol),
                           QPDFObjectHandle::newStream(&pdf_, glyph(pattern, symbol)));
     }
-    // A box around all glyphs, with room to spare.
+    // The font's bounding box has to contain all glyphs; a larger one does no harm.
     const auto reach =
         static_cast<int>(std::ceil(kUnitsPerEm * (reach_mm(pattern) * 2) / pattern.spacing_mm));
     std::string widths;

@@ -17,8 +17,8 @@ namespace dotpose::print {
 
 inline constexpr double kPointsPerMm = 72 / 25.4;
 
-/// Rows written so far, over all pages. qpdf calls for the rows while it writes the file and puts
-/// words of its own around an exception, so the first one is kept here.
+/// Counts the rows that have been written, over all pages, and keeps the first exception: qpdf asks
+/// for the rows while it writes the file, and would replace the exception's message by its own.
 struct RowCount {
     Progress progress;
     std::int64_t done = 0;
@@ -29,24 +29,25 @@ struct RowCount {
 /// Whether glyphs show the pattern exactly: spacing, displacement and dot are whole pixels.
 bool is_whole_pixels(const Pattern& pattern, double dpi);
 
-/// What `asked` means for this pattern: never automatic. Throws BadArgument for glyphs that would
-/// not be exact.
+/// Replaces `DotDrawing::automatic` by the best choice for this pattern. Throws BadArgument if
+/// glyphs were asked for and would not be exact.
 DotDrawing resolve_drawing(DotDrawing asked, const Pattern& pattern, double dpi);
 
 /// Makes content streams whose data is computed only while the file is written, a band of rows per
 /// stream: qpdf holds one compressed stream at a time, so memory does not grow with the page.
 class DotContent {
   public:
-    /// `pdf` must outlive this; `rows` counts what all streams write.
+    /// `pdf` must outlive this object; `rows` counts the rows that all streams write.
     DotContent(QPDF& pdf, double dpi, DotDrawing asked, std::shared_ptr<RowCount> rows);
 
-    /// The sheet as streams, each of which stands alone. Throws BadArgument: `resolve_drawing`.
+    /// Returns the sheet as content streams that can be drawn independently of each other. Throws
+    /// BadArgument like `resolve_drawing`.
     std::vector<QPDFObjectHandle> streams(const Sheet& sheet);
 
-    /// Resource dictionary that these streams need; may be empty.
+    /// Returns the resource dictionary that these streams need; it may be empty.
     QPDFObjectHandle resources(const Sheet& sheet);
 
-    /// The same streams as forms with resources of their own.
+    /// Returns the streams of `streams` as form objects with their own resources.
     std::vector<QPDFObjectHandle> forms(const Sheet& sheet);
 
   private:

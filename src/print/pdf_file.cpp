@@ -6,7 +6,8 @@
 namespace dotpose::print {
 namespace {
 
-/// What the document packed itself stays as it is: unpacking takes time and memory without end.
+/// Leaves streams of the document compressed as they are: unpacking them could take any amount of
+/// time and memory.
 void keep_packed(QPDF& pdf) {
     for (QPDFObjectHandle object : pdf.getAllObjects()) {
         if (object.isStream() && object.getDict().hasKey("/Filter") && !object.isDataModified()) {
@@ -24,7 +25,8 @@ void write_document(QPDF& pdf, const RowCount& rows, OutputFile& file) {
         QPDFWriter writer(pdf);
         writer.setOutputPipeline(&out);
         writer.setObjectStreamMode(qpdf_o_generate);
-        // The same input gives the same file; the key of an encrypted one depends on its random id.
+        // With this, the same input gives the same file. It is not possible for an encrypted file,
+        // whose key depends on its random identifier.
         if (!pdf.isEncrypted()) writer.setDeterministicID(true);
         writer.write();
     } catch (const Error&) {

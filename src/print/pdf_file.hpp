@@ -1,4 +1,4 @@
-/// Hands what qpdf writes to a file that appears complete or not at all.
+/// Writes a qpdf document through an OutputFile, so that it appears complete or not at all.
 #pragma once
 
 #include <qpdf/Pipeline.hh>
@@ -23,8 +23,8 @@ class FilePipeline : public Pipeline {
     OutputFile& file_;
 };
 
-/// Writes `pdf` into `file` and leaves the commit to the caller. Throws Error: what stopped `rows`,
-/// what went wrong with the file, or what qpdf says.
+/// Writes `pdf` into `file` and leaves the commit to the caller. Throws the exception that `rows`
+/// keeps, or Error if the file cannot be written or qpdf fails.
 void write_document(QPDF& pdf, const RowCount& rows, OutputFile& file);
 
 }  // namespace dotpose::print

@@ -89,7 +89,7 @@ std::vector<double> InkChange::apply(ColourKind from, std::span<const double> co
             value = from == ColourKind::cmyk ? value * keep : lit(value);
         return changed;
     }
-    // The plainest separation: equal parts of cyan, magenta and yellow in place of black.
+    // The simplest colour separation has equal parts of cyan, magenta and yellow in place of black.
     double cmy[3] = {};
     for (std::size_t i = 0; i < 3; ++i) {
         cmy[i] = from == ColourKind::grey    ? 1 - colour[0]

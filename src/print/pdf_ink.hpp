@@ -1,4 +1,4 @@
-/// Colours of PDF content: what they are, and what `OverlayOptions` makes of them.
+/// Colours of PDF content and the changes to them that `OverlayOptions` can ask for.
 #pragma once
 
 #include <cstdint>
@@ -10,23 +10,24 @@
 
 namespace dotpose::print {
 
-/// What the numbers of a colour mean, as far as they can be changed.
+/// What the components of a colour mean.
 enum class ColourKind : std::uint8_t {
-    grey,   ///< one number, 0 is black
-    rgb,    ///< three, 0 is dark
-    cmyk,   ///< four, 0 is light
-    black,  ///< one, the amount of black ink (Separation /Black or /All)
-    other,  ///< anything else: patterns, spot colours, Lab, Indexed
+    grey,   ///< one component, 0 is black
+    rgb,    ///< three components, 0 is dark
+    cmyk,   ///< four components, 0 is no ink
+    black,  ///< one component, the amount of black ink (Separation /Black or /All)
+    other,  ///< colours that cannot be changed: patterns, spot colours, Lab, Indexed
 };
 
-/// How many numbers a colour of this kind has; 0 for other.
+/// Number of components of a colour of this kind; 0 for `ColourKind::other`.
 std::size_t components(ColourKind kind);
 
-/// Kind of a colour space: a device name, or an array such as [/ICCBased stream]. Named resources
-/// are looked up in `spaces`, which may be null.
+/// Returns the kind of a colour space, which is the name of a device space or an array such as
+/// [/ICCBased stream]. Other names are looked up in the resources `spaces`, which may be null.
 ColourKind kind_of_space(QPDFObjectHandle space, QPDFObjectHandle spaces);
 
-/// Part of the black ink that a colour needs: as given, or as a printer makes it from grey and RGB.
+/// Returns the share of black ink, 0 to 1, that a colour is printed with: the given one, or the one
+/// that a printer computes from grey or RGB.
 double black_of(ColourKind kind, std::span<const double> colour);
 
 /// The change that was asked for.
@@ -36,9 +37,10 @@ struct InkChange {
 
     bool is_none() const { return !black_to_cmy && lighten == 0; }
 
-    /// Kind of a changed colour.
+    /// The kind of the colour that replaces one of the kind `from`.
     ColourKind kind(ColourKind from) const;
-    /// A changed colour, in numbers of `kind(from)`. `from` is not other.
+    /// The components, of the kind `kind(from)`, of the colour that replaces this one. `from` must
+    /// not be `ColourKind::other`.
     std::vector<double> apply(ColourKind from, std::span<const double> colour) const;
 };
 

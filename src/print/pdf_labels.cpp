@@ -23,7 +23,7 @@ constexpr double kLine_mm = 2.5;
 constexpr std::size_t kLongestName = 60;
 
 constexpr double kNumber_pt = 4.5;
-constexpr double kNumberHeight_mm = 0.718 * kNumber_pt / kPointsPerMm;  // of a digit in Helvetica
+constexpr double kNumberHeight_mm = 0.718 * kNumber_pt / kPointsPerMm;  // a digit in Helvetica
 constexpr double kLongTick_mm = 1.8;
 constexpr double kNumberAway_mm = kGap_mm + kLongTick_mm + 0.3;
 constexpr double kRulerRoom_mm = kNumberAway_mm + kNumberHeight_mm + kEdge_mm;
@@ -47,7 +47,8 @@ double width_mm(const std::string& text, double size_pt) {
     return thousandths * size_pt / 1000 / kPointsPerMm;
 }
 
-/// Lines of whole words, none wider than `widest_mm`; a word that is wider by itself is cut.
+/// Breaks text between words into lines no wider than `widest_mm`; a word that is wider than that
+/// is cut.
 std::vector<std::string> wrap(const std::string& text, double widest_mm) {
     std::vector<std::string> lines = {""};
     std::string word;
@@ -91,7 +92,7 @@ std::string shown(const std::string& win_ansi) {
     return QPDFObjectHandle::newString(win_ansi).unparse();
 }
 
-/// Text below the dots, the line nearest to them first.
+/// Returns the PDF content of the text below the dots; the line nearest to the dots comes first.
 std::string text_content(const Sheet& sheet, PageNumber page, const PrintOptions& options) {
     const double reach = reach_mm(sheet.pattern);
     const double ink_end_mm = dot_y_mm(sheet, sheet.rows - 1, 0) + reach;
@@ -104,7 +105,7 @@ std::string text_content(const Sheet& sheet, PageNumber page, const PrintOptions
     };
     std::vector<std::string> lines = wrapped(description(sheet, page, options));
     const std::vector<std::string> command = wrapped(options.command);
-    // Half a command would make another sheet.
+    // The command is left out unless all of it fits: a part of it would print another sheet.
     if (!options.command.empty() && lines.size() + command.size() <= most_lines) {
         lines.insert(lines.end(), command.begin(), command.end());
     }
@@ -124,13 +125,15 @@ std::string text_content(const Sheet& sheet, PageNumber page, const PrintOptions
 
 enum class Side { top, left };
 
-/// Ticks every millimetre from the first intersection to the last, a number every ten.
+/// Returns the PDF content of a ruler from the first intersection to the last, with a tick every
+/// millimetre and a number every ten.
 std::string ruler_content(const Sheet& sheet, Side side) {
     const double reach = reach_mm(sheet.pattern);
     const bool is_top = side == Side::top;
     const double room_mm = (is_top ? sheet.origin_y_mm : sheet.origin_x_mm) - reach;
     if (room_mm < kRulerRoom_mm) return {};
-    // From a place on the ruler and a distance from the ink to the page; the left ruler runs down.
+    // Converts a position along the ruler and a distance from the dots to a point of the page. The
+    // ruler on the left runs downwards.
     const auto point = [&](double along_mm, double away_mm) {
         const double x_mm = sheet.origin_x_mm + (is_top ? along_mm : -reach - away_mm);
         const double y_mm = sheet.origin_y_mm + (is_top ? -reach - away_mm : along_mm);

@@ -1,4 +1,4 @@
-/// What a PDF page says about itself in its margins: text below the dots, rulers above and beside.
+/// The labels in the margins of a PDF page: text below the dots, rulers above and beside them.
 #pragma once
 
 #include <string>
@@ -7,14 +7,15 @@
 
 namespace dotpose::print {
 
-/// Where a page stands in its document.
+/// Number of a page in its document.
 struct PageNumber {
     int number = 1;  ///< from 1
     int count = 1;
 };
 
-/// PDF content, in points from the bottom left corner of the page; needs Helvetica as /Label.
-/// Leaves out what the margins have no room for, the command first, so that no label touches a dot.
+/// Returns the labels as PDF content, in points from the bottom left corner of the page; it needs
+/// the font resource /Label, which is Helvetica. Labels for which the margins have no room are left
+/// out, the command first, so that no label touches a dot.
 std::string label_content(const Sheet& sheet, PageNumber page, const PrintOptions& options);
 
 }  // namespace dotpose::print

@@ -22,7 +22,8 @@ namespace {
 
 constexpr const char* kTooDeep = "streams whose lengths stand in other streams";
 
-/// Far more than reading takes, and far less than a program's first thread has.
+/// Stack that qpdf may use: valid documents need far less, and the first thread of a program has
+/// more.
 constexpr std::ptrdiff_t kMostStack_bytes = 2 << 20;
 
 class ShallowFile : public FileInputSource {
@@ -43,14 +44,15 @@ class ShallowFile : public FileInputSource {
     std::ptrdiff_t start_;
 };
 
-/// Lets bytes go, up to `most` of them.
+/// Counts the bytes that pass through and discards them. Throws after `most` bytes.
 class ByteCount : public Pipeline {
   public:
     explicit ByteCount(std::uint64_t most) : Pipeline("byte count", nullptr), most_(most) {}
 
     void write(unsigned char const* /*data*/, std::size_t size) override {
         bytes_ += size;
-        // The library may make a warning of it, so the caller has to look at the count.
+        // qpdf may turn this exception into a warning, so the caller has to check the count as
+        // well.
         if (bytes_ > most_) throw std::runtime_error("too many bytes");
     }
     void finish() override {}
@@ -62,7 +64,8 @@ class ByteCount : public Pipeline {
     std::uint64_t bytes_ = 0;
 };
 
-/// The bytes of a row that a predictor works on, which it allocates; 0 without one.
+/// Number of bytes that the predictor of a compression filter allocates for a row; 0 if there is no
+/// predictor.
 double predictor_row_bytes(QPDFObjectHandle parameters) {
     if (!parameters.isDictionary()) return 0;
     double bytes = 1.0 / 8;
@@ -73,7 +76,8 @@ double predictor_row_bytes(QPDFObjectHandle parameters) {
     return bytes;
 }
 
-/// Filters on top of each other multiply what comes out, and each takes memory of its own.
+/// Throws Error if a stream has many filters in sequence: each can multiply the size of the data
+/// and needs memory of its own.
 void require_few_filters(QPDFObjectHandle dict) {
     constexpr int kMostFilters = 8;
     constexpr double kMostRowBytes = 1 << 24;
@@ -96,7 +100,7 @@ void require_few_filters(QPDFObjectHandle dict) {
     }
 }
 
-/// The top of the page tree, as far up as the tree's own words lead.
+/// Follows /Parent from the node of the page tree that the catalogue names to the root of the tree.
 QPDFObjectHandle page_tree(QPDF& pdf) {
     QPDFObjectHandle node = pdf.getRoot().getKey("/Pages");
     std::set<QPDFObjGen> seen;
@@ -120,7 +124,8 @@ void require_shallow_page_tree(QPDF& pdf) {
     while (!nodes.empty()) {
         auto [node, level] = nodes.back();
         nodes.pop_back();
-        // What is met again is a loop or a page shown twice, and the library's to judge.
+        // A node that is met again is part of a loop or a page that is shown twice; qpdf checks
+        // these.
         if (!node.isDictionary() || (node.isIndirect() && !seen.insert(node.getObjGen()).second)) {
             continue;
         }
@@ -161,7 +166,8 @@ void UnpackedBytes::count(QPDFObjectHandle stream) {
     try {
         stream.pipeStreamData(&bytes, &attempted, 0, qpdf_dl_specialized, kSuppressWarnings);
     } catch (const std::runtime_error&) {
-        // Too many bytes, which the count tells, or damage, which is told by whoever reads them.
+        // Either there are too many bytes, which the count below shows, or the stream is damaged,
+        // which is reported when it is read.
     }
     page_ += bytes.bytes();
     document_ += bytes.bytes();

@@ -1,4 +1,4 @@
-/// What a stranger's document may ask for: depth, and bytes once they are unpacked.
+/// Limits for documents that anybody may have made: depth of nesting, and bytes after unpacking.
 #pragma once
 
 #include <cstdint>
@@ -12,26 +12,28 @@
 
 namespace dotpose::print {
 
-/// Nested deeper than any document is, and shallow enough for the recursion of whoever follows.
+/// Deepest nesting of objects that is accepted. Useful documents need less, and recursive functions
+/// have stack enough for it.
 inline constexpr int kMostPdfLevels = 100;
 
-/// Throws Error, which says that `what` is nested too deeply, for a level (from 1) beyond these.
+/// Throws Error that says that `what` is nested too deeply if `level`, which counts from 1, is
+/// above kMostPdfLevels.
 void require_pdf_level(const char* what, int level);
 
 /// Throws Error if the page tree is nested too deeply.
 void require_shallow_page_tree(QPDF& pdf);
 
-/// A file that ends the recursion of the library which reads it: a stream's length may stand in
-/// another stream, whose length stands in yet another. Each `read` that finds more of the stack
-/// taken than any document needs throws; the library makes a warning of that, for `is_too_deep`.
-/// Throws Error for pipes and devices.
+/// Opens a PDF so that reading it cannot overflow the stack. qpdf reads recursively: the length of
+/// a stream may be stored in another stream, whose length is stored in a third, and so on. A read
+/// that finds too much of the stack in use throws; qpdf turns that into a warning, which
+/// `is_too_deep` recognizes. Throws Error for pipes and devices.
 std::shared_ptr<InputSource> open_pdf(const std::filesystem::path& path);
 
-/// Whether a warning of the library says that it gave up because of depth.
+/// Whether a warning of qpdf comes from a read that found too much of the stack in use.
 bool is_too_deep(const std::string& warning);
 
-/// Counts what streams become when they are unpacked, before anybody keeps that in memory. A page
-/// may have `most_mb`, all pages together eight times as much.
+/// Counts the bytes of unpacked streams, before they are kept in memory. A page may have `most_mb`
+/// megabytes, all pages together eight times as many.
 class UnpackedBytes {
   public:
     explicit UnpackedBytes(int most_mb) : most_mb_(most_mb) {}
@@ -41,7 +43,7 @@ class UnpackedBytes {
     /// Throws Error if there are too many bytes, or too many filters on top of each other.
     void count(QPDFObjectHandle stream);
 
-    /// The streams that other objects are packed in, each like a page.
+    /// Counts the object streams, which contain other objects; the limit of a page applies to each.
     void count_object_streams(QPDF& pdf);
 
   private:

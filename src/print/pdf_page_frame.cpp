@@ -19,7 +19,7 @@ Rectangle rectangle(QPDFObjectHandle box) {
             std::max(given.llx, given.urx), std::max(given.lly, given.ury)};
 }
 
-/// Readers show no more than the media box.
+/// Returns the part of the page that viewers show: the crop box, as far as it is in the media box.
 Rectangle shown_box(QPDFPageObjectHelper& page) {
     const Rectangle media = rectangle(page.getMediaBox());
     const Rectangle crop = rectangle(page.getCropBox());
@@ -35,7 +35,7 @@ double user_unit(QPDFPageObjectHelper& page) {
 int quarter_turns(QPDFPageObjectHelper& page) {
     QPDFObjectHandle rotate = page.getAttribute("/Rotate", false);
     if (!rotate.isNumber()) return 0;
-    // Written as an integer or as a real.
+    // Documents write it as an integer or as a real number.
     const double degrees = rotate.getNumericValue();
     const double turns = std::fmod(degrees / 90, 4);
     if (turns != std::floor(turns)) {

@@ -1,4 +1,4 @@
-/// Where the page that a reader sees lies in the coordinates of its content.
+/// Relation between the page as it is shown and the coordinates of its content.
 #pragma once
 
 #include <string>
@@ -9,18 +9,20 @@
 
 namespace dotpose::print {
 
-/// The crop box, turned the way the page is shown.
+/// The crop box of a page, turned as it is shown.
 struct PageFrame {
-    Paper paper;  ///< size as shown
-    std::string
-        matrix;  ///< operand of `cm`: from points, from the bottom left as shown, to content
+    Paper paper;         ///< size as shown
+    std::string matrix;  ///< operands of `cm`: from points, counted from the bottom left as shown,
+                         ///< to content
 };
 
-/// Follows /Rotate, /UserUnit and inherited boxes. Throws Error if the page has no area
-/// or is turned by other than quarter turns, which readers show in different ways.
+/// Computes the frame from /Rotate, /UserUnit and the boxes, which may be inherited. Throws Error
+/// if the page has no area, or if it is turned by an angle that is not a multiple of 90 degrees,
+/// which viewers show in different ways.
 PageFrame page_frame(QPDFPageObjectHelper page);
 
-/// Writes a turn that is a real, such as 90.0, as an integer: some readers take it for none.
+/// Replaces a /Rotate that is a real number, such as 90.0, by an integer: some viewers ignore a
+/// real.
 void write_turn_as_integer(QPDFPageObjectHelper page);
 
 }  // namespace dotpose::print

@@ -17,10 +17,10 @@
 namespace dotpose::print {
 namespace {
 
-// Under a tenth of black ink a dot still stands out.
+// Where the page has less than this share of black ink, a black dot still has contrast.
 constexpr double kHidingBlack = 0.1;
 
-/// What content starts with: device grey 0, which is black.
+/// The current colour; content starts with device grey 0, which is black.
 struct Colour {
     ColourKind kind = ColourKind::grey;
     bool is_black = true;
@@ -31,22 +31,22 @@ struct Colours {
     Colour stroke;
 };
 
-/// What the content of a page and that of its forms have in common.
+/// State that the scans of a page and of its forms share.
 struct PageScan {
     UnpackedBytes& unpacked;
     std::set<QPDFObjGen> seen;
     PageContent found;
 };
 
-/// Operators have at most 33 operands, numbers of a colour and a name.
+/// Operands that are kept: operators have at most 33, the components of a colour and a name.
 constexpr std::size_t kMostOperands = 64;
 
 struct Operand {
     QPDFTokenizer::token_type_e type;
-    std::string text;  ///< of names and numbers
+    std::string text;  ///< the characters of a name or number
 };
 
-/// Reads tokens instead of objects, so that nothing but the bytes themselves is ever in memory.
+/// Scans content token by token: parsed objects would take many times the memory of the bytes.
 class Scan : public QPDFObjectHandle::TokenFilter {
   public:
     Scan(QPDFObjectHandle resources, Colours start, PageScan& page, int level)
@@ -225,7 +225,8 @@ class Scan : public QPDFObjectHandle::TokenFilter {
 
 void Scan::read(const std::vector<QPDFObjectHandle>& streams) {
     Pl_QPDFTokenizer tokens("content", this);
-    // What is thrown while a stream is unpacked would become a warning; after that it is not.
+    // Tokens are handled in manualFinish, after all streams are unpacked: qpdf would turn an
+    // exception during unpacking into a warning.
     Pl_Concatenate all("content", &tokens);
     for (QPDFObjectHandle stream : streams) {
         page_.unpacked.count(stream);

@@ -1,4 +1,4 @@
-/// What a page's content paints, before dots are laid over or under it.
+/// Finds out what a page paints, before dots are laid over or under it.
 #pragma once
 
 #include <qpdf/QPDFPageObjectHelper.hh>
@@ -15,8 +15,9 @@ struct PageContent {
     int extra_restores = 0;      ///< Q without q before it
 };
 
-/// Follows forms too, and counts in `unpacked` what is read. Reads the page only. Throws Error if
-/// content cannot be read to its end: a reader would not get as far as the dots.
+/// Scans the content of a page and of the forms that it uses, without changing them, and counts the
+/// bytes in `unpacked`. Throws Error if the content cannot be read to its end, because a viewer
+/// would not show the dots after it.
 PageContent scan_page(QPDFPageObjectHelper page, UnpackedBytes& unpacked);
 
 }  // namespace dotpose::print

@@ -14,7 +14,8 @@ namespace {
 // Pages are nearly empty: the default level takes 3.5 times as long for a file 20 % smaller.
 constexpr int kCompressionLevel = 4;
 
-/// libpng leaves on an error by longjmp: only `guarded` calls it, with nothing to destroy inside.
+/// Writes PNG. libpng leaves its functions by longjmp on an error, so only `guarded` calls them,
+/// with no object in its scope that has a destructor.
 class PngWriter {
   public:
     explicit PngWriter(OutputFile& file) {

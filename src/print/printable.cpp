@@ -12,11 +12,11 @@ constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
 
 struct Character {
     std::uint32_t code = 0;
-    std::size_t bytes = 0;  ///< 0: no UTF-8
+    std::size_t bytes = 0;  ///< length in UTF-8; 0: the text does not start with valid UTF-8
 };
 
-/// The first character of a text that is not empty, by the table of well-formed sequences of the
-/// Unicode standard (table 3-7): neither overlong, nor surrogates, nor beyond U+10FFFF.
+/// Decodes the first character of a text, which must not be empty. Valid are the sequences of
+/// table 3-7 of the Unicode standard: no overlong ones, no surrogates, nothing beyond U+10FFFF.
 Character first_of(std::string_view text) {
     const auto byte = [&text](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
     if (byte(0) < 0x80) return {byte(0), 1};
@@ -45,7 +45,8 @@ bool acts_on_terminals(std::uint32_t code) {
     return code < 0x20 || is_del_or_c1(code) || breaks_line || turns_direction;
 }
 
-/// Every character as `shown` has it; bytes that are no UTF-8 as they are, one at a time.
+/// Replaces every character by what `shown` returns for it. Bytes that are not UTF-8 are passed to
+/// it one at a time.
 template <typename Shown>
 std::string rewritten(std::string_view text, Shown shown) {
     std::string result;

@@ -15,31 +15,33 @@ namespace dotpose {
 namespace print {
 namespace {
 
-// Centres of exactly half a pixel must all go the same way, whatever the last bits of a double say.
+// Centres in the middle between two pixels must all be rounded the same way; without this, the
+// rounding error of the double would decide.
 constexpr double kTie_px = 1e-6;
 
 int diameter_px(const Sheet& sheet, double dpi) {
     return std::max(1, static_cast<int>(std::lround(sheet.pattern.dot_mm * dpi / kInch_mm)));
 }
 
-/// First pixel of a dot whose centre is at `centre_mm`: the nearest there is. Pixel k covers k to
-/// k + 1. Ink that rounding pushed over the edge of the page is moved back by a pixel.
+/// Returns the first pixel of a dot such that the dot's centre is nearest to `centre_mm`. Pixel k
+/// covers k to k + 1. A dot that rounding pushed over the edge of the page is moved back by a
+/// pixel.
 int first_px(double centre_mm, double dpi, int dot_px, int page_px) {
     const double first = centre_mm * dpi / kInch_mm - 0.5 * dot_px;
     return std::clamp(static_cast<int>(std::floor(first + 0.5 + kTie_px)), 0, page_px - dot_px);
 }
 
-/// For a displacement of -1, 0, 1 along one axis.
+/// The first pixels of a dot for the displacements -1, 0 and 1 along one axis.
 using Firsts = std::array<int, 3>;
 
-/// Pixels of one row of a dot: `first` to `end`, counted from the dot's left.
+/// Pixels `first` to `end` - 1 of one row of a dot, counted from the dot's left edge.
 struct Run {
     int first = 0;
     int end = 0;
 };
 
-/// A disc: the pixels of a square whose centres lie in the circle inscribed in it. 1 x 1, 2 x 2 and
-/// 3 x 3 are full, 4 x 4 has no corners.
+/// Returns the rows of a disc: the pixels of a square whose centres are in the circle inscribed in
+/// it. Discs of 1, 2 and 3 px are full squares; that of 4 px lacks its corners.
 std::vector<Run> disc(int dot_px) {
     std::vector<Run> runs;
     const double radius = 0.5 * dot_px;
@@ -153,7 +155,7 @@ void validate_resolution(const Sheet& sheet, double dpi) {
             dpi, sheet.pattern.displacement_mm, displacement_px,
             std::ceil(print::kInch_mm / sheet.pattern.displacement_mm - print::kTie_px)));
     }
-    // Rounding each dot by itself can bring two of them nearer by less than one pixel.
+    // Each dot is rounded on its own, so two of them may come closer by up to one pixel.
     const int dot_px = print::diameter_px(sheet, dpi);
     const double closest_px = sheet.pattern.spacing_mm * px_per_mm - 2 * displacement_px;
     if (closest_px < dot_px + 1 - print::kTie_px) {

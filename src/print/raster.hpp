@@ -1,4 +1,4 @@
-/// The pixels of a sheet at a printer's resolution, one pixel row at a time.
+/// Renders a sheet at a printer's resolution, one pixel row at a time.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,14 @@ struct RasterSize {
     int height_px = 0;
 };
 
-/// The page in whole printer pixels, nearest to its size in mm.
+/// Size of the page in printer pixels, rounded to whole pixels.
 RasterSize raster_size(const Sheet& sheet, double dpi);
 
-/// Takes one pixel row: 8 pixels per byte, leftmost in the highest bit, 1 is ink.
+/// Receives one pixel row: 8 pixels per byte, the leftmost in the highest bit; a bit of 1 is ink.
 using RowSink = std::function<void(std::span<const std::uint8_t>)>;
 
-/// Hands all pixel rows to `sink`, top to bottom. The sheet and resolution must be validated.
-/// Holds the rows that one row of dots covers, no more.
+/// Calls `sink` for all pixel rows from top to bottom. The sheet and resolution must be validated.
+/// Keeps only the pixel rows that one row of dots covers in memory.
 void rasterize(const Sheet& sheet, double dpi, const Progress& progress, const RowSink& sink);
 
 }  // namespace dotpose::print

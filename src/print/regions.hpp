@@ -1,4 +1,4 @@
-/// Gives out parts of the code plane that share no cell.
+/// Allocates regions of the code plane that share no cell.
 #pragma once
 
 #include <cstdint>
@@ -7,14 +7,14 @@
 
 namespace dotpose::print {
 
-/// Regions stand side by side to the right of `start`. One that would run past the end of the plane
-/// begins a new line below all regions of the line before.
+/// Places regions side by side to the right of `start`. A region that would run past the right end
+/// of the plane begins a new row, below all regions of the previous row.
 class Regions {
   public:
     explicit Regions(Cell start) : start_(start), next_(start) {}
 
-    /// Top left cell of a new region. One that does not fit the plane anywhere gets a cell from
-    /// which it runs past the end, which `validate` refuses.
+    /// Returns the top left cell of a new region. If the region fits nowhere, it would run past the
+    /// end of the plane from this cell, and `validate` refuses it.
     Cell take(int columns, int rows);
 
   private:

@@ -11,7 +11,8 @@
 namespace dotpose {
 namespace {
 
-// Lengths typed in decimal are not exact in binary; a tenth of a nanometre is nobody's printer.
+// Decimal lengths are not exact in binary, so comparisons allow a tenth of a nanometre, which is
+// far below the accuracy of any printer.
 constexpr double kTolerance_mm = 1e-7;
 constexpr double kPixelAt300Dpi_mm = print::kInch_mm / 300;
 
@@ -55,7 +56,8 @@ void validate_pattern(const Pattern& pattern) {
     }
 }
 
-/// `count` is a double so that it can be checked before it is made an integer.
+/// Throws BadArgument unless `count` cells from `first` fit into the plane. `count` is a double
+/// because values that no int can hold are checked too.
 void validate_region(const char* what, char axis, std::uint32_t first, double count) {
     if (count < kMinSheetCells) {
         throw BadArgument(
@@ -71,12 +73,13 @@ void validate_region(const char* what, char axis, std::uint32_t first, double co
     }
 }
 
-/// First place at or after `mm` whose dot fills whole printer pixels at 300 dpi.
+/// Returns the first position at or after `mm` at which a dot fills whole printer pixels at 300
+/// dpi.
 double snap_up_mm(double mm) {
     return (std::ceil((mm - kTolerance_mm) / kPixelAt300Dpi_mm - 0.5) + 0.5) * kPixelAt300Dpi_mm;
 }
 
-/// Intersections from `first_mm` to `last_mm`, both included.
+/// Number of intersections from `first_mm` to `last_mm`, both included.
 double count_between(double first_mm, double last_mm, double spacing_mm) {
     return std::floor((last_mm - first_mm + kTolerance_mm) / spacing_mm) + 1;
 }

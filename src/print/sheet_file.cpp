@@ -23,14 +23,14 @@ namespace fs = std::filesystem;
 using print::throw_system;
 namespace {
 
-/// Some 100,000 sheets.
+/// Largest sheet file that is read; it holds about 100,000 sheets.
 constexpr std::size_t kMostBytes = std::size_t{64} << 20;
 
 std::optional<std::string> text_of(const fs::path& path) {
     return print::text_of(path, kMostBytes);
 }
 
-/// Waits for locks on a file, for as long as is allowed in all.
+/// Waits for locks on a file, until the time allowed for all of them together is over.
 class Patience {
   public:
     Patience(const fs::path& path, const SheetFileWait& wait)
@@ -38,7 +38,7 @@ class Patience {
           wait_(wait),
           end_(Clock::now() + std::chrono::duration<double>(wait.most_s)) {}
 
-    /// Throws Error: the time is over, or there are no locks here.
+    /// Throws Error if the time is over, or if the file system has no locks.
     void lock(int descriptor) {
         constexpr auto kPause = std::chrono::milliseconds(10);
         while (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
@@ -87,7 +87,8 @@ SheetFile::Lock::Lock(const fs::path& path, const SheetFileWait& wait) : path_(p
             close(descriptor_);
             throw;
         }
-        // The one before removes the file: a lock on what is no longer there locks nobody out.
+        // The previous owner of the lock removes the file when it is done. A lock on a removed file
+        // excludes nobody, so the lock must be taken again on a new file.
         struct stat held {};
         struct stat named {};
         if (fstat(descriptor_, &held) == 0 && stat(path_.c_str(), &named) == 0 &&
@@ -103,7 +104,7 @@ SheetFile::Lock::~Lock() {
     close(descriptor_);
 }
 
-// Whoever names the file by a link must wait for the same lock as the others.
+// Links are followed first, so that all names of a file lead to the same lock.
 SheetFile::SheetFile(const fs::path& path, const SheetFileWait& wait)
     : path_(print::without_links(path)), lock_(path_, wait), text_(text_of(path_)) {
     if (text_) sheets_ = print::sheets_from_json(*text_, path_.string());

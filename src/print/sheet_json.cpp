@@ -18,7 +18,7 @@ using nlohmann::json;
 
 constexpr const char* kFormat = "dotpose-sheets";
 
-/// An object of the file, with its path for messages.
+/// A JSON object of the file with its path, which error messages name.
 class Node {
   public:
     Node(const json& value, std::string file, std::string path)
@@ -52,7 +52,7 @@ class Node {
     std::int64_t whole(const char* key, std::int64_t least, std::int64_t most) const {
         const json& value = member(key);
         if (!value.is_number_integer()) fail(path_of(key), "must be a whole number");
-        // Beyond 2^63 nlohmann-json keeps unsigned numbers, which would wrap around.
+        // nlohmann-json keeps numbers from 2^63 on as unsigned; as signed integers they would wrap.
         const bool is_huge =
             value.is_number_unsigned() &&
             value.get<std::uint64_t>() > std::uint64_t{std::numeric_limits<std::int64_t>::max()};

@@ -18,7 +18,7 @@ namespace {
 constexpr double kLeastPrintScale = 0.5;
 constexpr double kMostPrintScale = 2;
 
-/// Cells `first` to `end` - 1 of one axis.
+/// The cells from `first` to `end` - 1 along one axis.
 struct Range {
     std::int64_t first = 0;
     std::int64_t end = 0;
@@ -33,7 +33,7 @@ Range rows_of(const Sheet& sheet) {
 bool overlap(Range a, Range b) {
     return a.first < b.end && b.first < a.end;
 }
-/// The range and the gap on both sides of it.
+/// Extends a range by the gap that is kept on both sides of it.
 Range with_gap(Range range) {
     return {range.first - kSheetGap_cells, range.end + kSheetGap_cells};
 }
@@ -52,7 +52,7 @@ void validate_name(const std::string& name) {
     }
 }
 
-/// Leftmost free place for `columns` in the rows given, or none.
+/// Finds the leftmost column from which `columns` columns are free in these rows, or none.
 std::optional<std::uint32_t> free_column(const std::vector<SheetEntry>& sheets, Range rows,
                                          int columns) {
     std::vector<Range> taken;
@@ -88,7 +88,7 @@ std::optional<Profile> profile_by_name(std::string_view asked) {
     for (const Profile profile : {Profile::anoto, Profile::libdots, Profile::microdots}) {
         if (asked == name(profile)) return profile;
     }
-    // As sheet files and scripts of earlier versions name it.
+    // This was the name of the profile in sheet files and scripts of earlier versions.
     if (asked == "published") return Profile::libdots;
     return std::nullopt;
 }
@@ -148,7 +148,7 @@ void print::append(const SheetEntry& entry, std::vector<SheetEntry>& sheets) {
 }
 
 Cell print::free_origin(const std::vector<SheetEntry>& sheets, int columns, int rows) {
-    // The topmost free region starts at the top of the plane or right below another region.
+    // The topmost free region starts at the top of the plane or directly below another region.
     std::set<std::int64_t> tops = {kSheetGap_cells};
     for (const SheetEntry& entry : sheets)
         tops.insert(with_gap(rows_of(entry.sheet)).end);

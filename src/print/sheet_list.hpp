@@ -1,4 +1,4 @@
-/// What must hold for the sheets of a file, taken together.
+/// Checks on all sheets of a file together: names and cells are unique.
 #pragma once
 
 #include <vector>
@@ -7,16 +7,16 @@
 
 namespace dotpose::print {
 
-/// Throws BadArgument if `entry` itself is wrong, or if one of `sheets`, leaving out `ignored`, has
-/// its name or shares cells with it.
+/// Throws BadArgument if `entry` is invalid, or if one of `sheets` other than `ignored` has its
+/// name or shares cells with it.
 void check_beside(const SheetEntry& entry, const std::vector<SheetEntry>& sheets,
                   const SheetEntry* ignored = nullptr);
 
-/// Checks and appends. Throws BadArgument.
+/// Appends `entry` to `sheets`. Throws BadArgument like `check_beside`.
 void append(const SheetEntry& entry, std::vector<SheetEntry>& sheets);
 
-/// First cell of the next free region; see SheetFile::allocate. Throws BadArgument if there is
-/// none.
+/// Returns the top left cell of a free region of this size, as SheetFile::allocate describes.
+/// Throws BadArgument if there is none.
 Cell free_origin(const std::vector<SheetEntry>& sheets, int columns, int rows);
 
 }  // namespace dotpose::print

@@ -7,8 +7,8 @@
 namespace dotpose {
 namespace {
 
-/// From `first` to `cell` along one axis, the shorter way around: left of the first column of the
-/// plane the pattern goes on with the last.
+/// Returns the signed number of cells from `first` to `cell` along one axis, the shorter way
+/// around: the code plane is cyclic, so its last column is left of its first.
 std::int32_t steps(std::uint32_t first, std::uint32_t cell) {
     constexpr std::int64_t kPositions = kPositionsPerAxis;
     std::int64_t difference = std::int64_t{cell} - first;
@@ -17,13 +17,13 @@ std::int32_t steps(std::uint32_t first, std::uint32_t cell) {
     return static_cast<std::int32_t>(difference);
 }
 
-/// Grid units from the first intersection of a sheet.
+/// Position in units of the grid spacing from the first intersection of a sheet.
 struct Offset {
     double x = 0;
     double y = 0;
 };
 
-/// None if the fix was read in another section.
+/// Returns where on the sheet a fix is, or none if it was read in another section.
 std::optional<Offset> offset_on(const Sheet& sheet, const Fix& fix) {
     const std::int32_t dx = steps(sheet.origin.x, fix.cell.x);
     const std::int32_t dy = steps(sheet.origin.y, fix.cell.y);
@@ -32,13 +32,13 @@ std::optional<Offset> offset_on(const Sheet& sheet, const Fix& fix) {
     return Offset{dx + fix.fraction_x_q16 / 65536.0, dy + fix.fraction_y_q16 / 65536.0};
 }
 
-/// Each intersection stands for the cell around it.
+/// Whether a position is on the sheet: within half a spacing of one of its intersections.
 bool in_region(const Sheet& sheet, Offset offset) {
     return offset.x >= -0.5 && offset.x < sheet.columns - 0.5 && offset.y >= -0.5 &&
            offset.y < sheet.rows - 0.5;
 }
 
-/// In (-pi, pi].
+/// Returns the same angle in (-pi, pi].
 double wrapped(double angle_rad) {
     const double angle = std::remainder(angle_rad, 2 * std::numbers::pi);
     return angle <= -std::numbers::pi ? angle + 2 * std::numbers::pi : angle;
@@ -79,7 +79,8 @@ std::optional<SheetPlace> find_sheet(std::span<const SheetEntry> sheets, Profile
 std::optional<WorldPose> world_pose(const SheetPlace& place) {
     const auto& world = place.entry->world;
     if (!world) return std::nullopt;
-    // The one flip: the sheet's y is down and its angles clockwise, the world's are not.
+    // On a sheet y points down and angles are clockwise, in the world y points up and angles are
+    // counter-clockwise. All other code uses one of the two only.
     const double right_m = place.x_mm / 1000;
     const double up_m = -place.y_mm / 1000;
     const double yaw_of_image_rad = -place.theta_rad;

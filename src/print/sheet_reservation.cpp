@@ -16,7 +16,7 @@ const SheetEntry* find(const SheetFile& file, const std::string& name) {
     return found == file.sheets().end() ? nullptr : &*found;
 }
 
-/// Whether it is what was reserved, and not another sheet that got its name.
+/// Whether a sheet is still the reserved one, and not another sheet that was given its name.
 bool is_same_region(const Sheet& a, const Sheet& b) {
     return a.origin == b.origin && a.columns == b.columns && a.rows == b.rows &&
            a.pattern.profile == b.pattern.profile && a.pattern.section == b.pattern.section;
@@ -58,12 +58,13 @@ SheetReservation::~SheetReservation() {
 }
 
 void SheetReservation::confirm() {
-    // What stays reserved is safe; only the mark is too much then.
+    // If this fails, the entries stay in the file with the mark that they are reserved, so no other
+    // sheet gets their regions.
     const std::vector<SheetEntry> entries = std::move(entries_);
     entries_.clear();
     SheetFile file(path_, wait_);
     for (SheetEntry entry : entries) {
-        // As it is now: somebody may have placed it in the world meanwhile.
+        // The entry is read anew, because it may have been given a place in the world meanwhile.
         const SheetEntry* now = find(file, entry.name);
         if (now != nullptr && !is_same_region(now->sheet, entry.sheet)) {
             throw Error(fmt::format("somebody gave the name '{}' in {} to another sheet meanwhile",

@@ -12,15 +12,16 @@
 namespace dotpose::print {
 namespace {
 
-// Coordinates are whole numbers of a tenth of a micrometre: short to write, and finer than any
-// printer. Each is rounded by itself and only then turned into a step, so nothing adds up.
+// Coordinates are whole numbers of a tenth of a micrometre, which are short to write and finer than
+// any printer. Positions are rounded before the steps between them are computed, so that rounding
+// errors do not add up.
 constexpr double kUnitsPer_mm = 10'000;
 
 std::int64_t to_units(double mm) {
     return std::llround(mm * kUnitsPer_mm);
 }
 
-/// The first lines of a drawing that is as large as the page.
+/// Returns the first lines of a drawing of the size of the page.
 std::string head(double width_mm, double height_mm, const std::string& title) {
     return fmt::format(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
@@ -30,7 +31,8 @@ std::string head(double width_mm, double height_mm, const std::string& title) {
         width_mm, height_mm, to_units(width_mm), to_units(height_mm), title);
 }
 
-/// A dot is a line of no length with round ends: a full circle in a dozen bytes. One path per row.
+/// Writes one path per row of dots. A dot is a line of length zero with round ends, which draws a
+/// circle and takes a dozen bytes.
 void write_dots(const Sheet& sheet, const std::function<void(int)>& row_done, OutputFile& file) {
     SymbolRows symbols(sheet);
     file.write(
@@ -46,7 +48,7 @@ void write_dots(const Sheet& sheet, const std::function<void(int)>& row_done, Ou
         for (const Symbol symbol : symbols.row(j)) {
             const std::int64_t x = to_units(dot_x_mm(sheet, i, dx(symbol)));
             const std::int64_t y = to_units(dot_y_mm(sheet, j, dy(symbol)));
-            // The first step of a path counts from (0, 0).
+            // The first step of a path is relative to (0, 0).
             fmt::format_to(std::back_inserter(line), "m{} {}h0", x - last_x, y - last_y);
             last_x = x;
             last_y = y;

@@ -1,4 +1,4 @@
-/// The symbols of a sheet, one row at a time.
+/// Computes the symbols of a sheet, one row at a time.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,8 @@
 
 namespace dotpose::print {
 
-/// Keeps one roll per column, so that a symbol costs two look-ups instead of a closed form.
+/// Keeps the offset of the main sequence (its roll) of each column, so that a symbol takes two
+/// table look-ups instead of the formula for any cell.
 class SymbolRows {
   public:
     explicit SymbolRows(const Sheet& sheet);

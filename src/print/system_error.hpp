@@ -1,4 +1,4 @@
-/// What the operating system says of a file, as an Error.
+/// Throws an Error with the operating system's reason for a failure.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace dotpose::print {
 
-/// Throws Error: "cannot ACTION PATH: REASON", the reason being that of a value of errno.
+/// Throws Error with the text "cannot ACTION PATH: REASON"; the reason is that of a value of errno.
 [[noreturn]] inline void throw_system(const std::string& action, const std::filesystem::path& path,
                                       int error_number) {
     throw Error("cannot " + action + " " + path.string() + ": " +

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kLargestSetting = 80;
 constexpr double kLabelHeight_mm = 2.5;
-/// Blank paper around a label and between patches.
+/// Width of the blank paper around a label and between patches.
 constexpr double kGap_mm = 2;
 constexpr double kPixelAt300Dpi_mm = 25.4 / 300;
 
@@ -42,8 +42,8 @@ Cell first_cell(int spacing, int dot) {
     return {at(spacing), at(dot)};
 }
 
-/// The setting whose patch a coordinate belongs to; 0: none. Maps reach a little past a patch on
-/// either side, and so does this.
+/// Returns the number of the setting whose patch contains a coordinate, or 0 for none. Coordinates
+/// a little outside of a patch count too, because the maps that `check_print` fits extend that far.
 int setting_at(std::uint32_t coordinate) {
     constexpr std::uint32_t kHalf = kTestPatchCells / 2;
     if (coordinate < kTestPageCell + kHalf) return 0;
@@ -51,7 +51,8 @@ int setting_at(std::uint32_t coordinate) {
     return setting <= kLargestSetting ? setting : 0;
 }
 
-/// Whole printer pixels, so that every patch meets them as its first intersection was placed to.
+/// Rounds a length to whole printer pixels, so that the dots of every patch have the same position
+/// relative to the printer's pixels.
 double snapped_mm(double mm) {
     return std::round(mm / kPixelAt300Dpi_mm) * kPixelAt300Dpi_mm;
 }

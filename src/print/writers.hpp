@@ -1,5 +1,5 @@
-/// One writer per file format. Each takes a validated sheet, writes everything into `file` and
-/// leaves the commit to the caller. All throw Error when writing fails or progress says stop.
+/// One writer per file format. Each takes a validated sheet, writes all of it into `file` and
+/// leaves the commit to the caller. All throw Error if writing fails or `progress` returns false.
 #pragma once
 
 #include <span>
@@ -13,7 +13,7 @@ namespace dotpose::print {
 void write_text(const Sheet& sheet, const Progress& progress, OutputFile& file);
 void write_svg(const Sheet& sheet, const Progress& progress, OutputFile& file);
 
-/// Hands all pixel rows of an image to a sink, top to bottom.
+/// Calls a sink for all pixel rows of an image, from top to bottom.
 using RowSource = std::function<void(const RowSink&)>;
 void write_png(RasterSize size, double dpi, const RowSource& rows, OutputFile& file);
 void write_tiff(RasterSize size, double dpi, const RowSource& rows, OutputFile& file);
@@ -22,7 +22,7 @@ void write_pdf(std::span<const Sheet> sheets, const PrintOptions& options, Outpu
 void write_pdf_page(const PrintPage& page, const PrintOptions& options, OutputFile& file);
 void write_svg_page(const PrintPage& page, const Progress& progress, OutputFile& file);
 
-/// Reports one more finished row; throws Error if the caller wants to stop.
+/// Reports another finished row; throws Error if `progress` returns false.
 void report(const Progress& progress, int rows_done, int rows);
 
 }  // namespace dotpose::print
