@@ -6,7 +6,8 @@
 namespace dotpose::simulate {
 namespace {
 
-// Printing errors of one dot, decided by the page and the dot's place alone.
+// Random printing errors of one dot. They depend only on the page and the cell of the dot, so a dot
+// has the same errors in every frame.
 struct DotErrors {
     double presence;  // uniform in [0, 1)
     Vec2 jitter;      // normal, deviation 1
@@ -17,7 +18,8 @@ DotErrors errors_of(const Page& page, Cell cell) {
     const Section section = page.pattern.section;
     const std::uint64_t sheet = page.seed * 4096 + section.u * std::uint64_t{64} + section.v;
     Rng rng(sheet, (std::uint64_t{cell.x} << 32) | cell.y);
-    // All are drawn, used or not, so that changing one imperfection leaves the others alone.
+    // All random numbers are drawn, used or not, so that switching one imperfection on or off does
+    // not change the others.
     DotErrors errors{};
     errors.presence = rng.uniform();
     errors.jitter.x = rng.normal();
@@ -48,8 +50,8 @@ Vec2 shift_of(const Page& page, Cell cell) {
     return page.shift_mm({static_cast<double>(cell.x), static_cast<double>(cell.y)});
 }
 
-/// Of the ink in which the dots of a direction are printed: right, down, left, up from the darkest
-/// to the palest.
+/// Returns the reflectance of a dot. Dots may be printed in four inks by the direction of their
+/// displacement: right is the darkest, then down, left and up.
 double reflectance_of(Vec2 displacement, const Imperfections& imperfections) {
     const double paleness = displacement.x > 0   ? 0
                             : displacement.y > 0 ? 1
@@ -70,7 +72,7 @@ View::View(const CameraModel& camera_in, const CameraPose& pose_in, const Imperf
 
 OffsetBox visible_offsets(const View& view) {
     constexpr int kSteps =
-        16;  // along each side; a curved side has its extremes at corners or middle
+        16;  // points per side; a curved side has its extremes near the corners or its middle
     OffsetBox box{{1e300, 1e300}, {-1e300, -1e300}};
     const auto include = [&](double along_u, double along_v) {
         const Vec2 offset = view.projection.offset_from_pixel(
@@ -98,8 +100,9 @@ void add_disc(Ink& ink, const View& view, Vec2 offset_mm, double radius_mm, doub
     if (away_u > view.camera.width_px / 2.0 + reach_px) return;
     if (away_v > view.camera.height_px / 2.0 + reach_px) return;
 
-    // The projection is linear enough across a dot: with 3 degrees of tilt the centroid of the true
-    // outline is off by less than 0.001 px even at 60 px per spacing.
+    // The dot's image is computed as an ellipse, as if the projection were linear across the dot.
+    // With 3 degrees of tilt this moves its centroid by less than 0.001 px even at 60 px per
+    // spacing.
     const auto half = [&](Vec2 step) {
         const Vec2 ahead =
             projection.pixel_from_offset({offset_mm.x + step.x, offset_mm.y + step.y});
@@ -118,8 +121,8 @@ void add_dots(Ink& ink, const View& view, const Page& page, const Imperfections&
     const Pattern& pattern = page.pattern;
     const OffsetBox box = visible_offsets(view);
     const CameraPose& pose = view.pose;
-    // Counted from the pose's cell, so that offsets are exact anywhere on the plane. One cell more
-    // on each side for displaced and jittered dots.
+    // Cells are counted from the cell of the pose, so that offsets are exact anywhere on the plane.
+    // The range has one cell more on each side for dots that are displaced or jittered into view.
     const AxisScale scale = page.print_scale;
     const Vec2 spacing_mm{scale.x * pattern.spacing_mm, scale.y * pattern.spacing_mm};
     const auto first = [](double low, double fraction) {

@@ -1,7 +1,8 @@
-// From ink to grey levels. Ink is drawn on sub-pixels, `kernel.per_pixel` per pixel and axis: it
-// covers each by its exact area, and lens, motion and the pixel's own area are one weighted sum
-// over sub-pixels, taken along rows first and columns second. Sub-rows are drawn in bands and added
-// to the pixel rows they reach, so that no image larger than the frame is kept.
+// Computes grey levels from ink. Ink is drawn on sub-pixels, `kernel.per_pixel` per pixel and axis,
+// each with the exact share of its area that is covered. Blur of the lens, motion and integration
+// over the pixel's area are one weighted sum over sub-pixels, first along rows, then along columns.
+// Sub-rows are drawn in bands and added to the pixel rows that they contribute to, so that no image
+// larger than the frame is kept.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,11 +16,11 @@
 namespace dotpose::simulate {
 namespace {
 
-// Light is added up in fours, which compilers do in one step.
+// Sums are computed for four pixels at a time, which compilers turn into vector instructions.
 constexpr std::size_t kLanes = 4;
 
-// Collects light in pixels: that of bare paper, less what ink takes away. Ink covers a few percent
-// of the sub-pixels, so only those are spread over the pixels they reach.
+// Computes the light in each pixel as the light of bare paper minus the light that ink absorbs. Ink
+// covers a few percent of the sub-pixels, and only these are spread over neighbouring pixels.
 class Sensor {
   public:
     Sensor(const CameraModel& camera, const Kernel& kernel, const std::vector<float>& paper)
@@ -28,13 +29,14 @@ class Sensor {
           border_(static_cast<std::size_t>(kernel.border_px)),
           kernel_(kernel),
           paper_(paper),
-          // A reach may begin anywhere, and is filled up to whole lanes.
+          // A reach may begin at any pixel and is extended to a multiple of kLanes.
           row_(whole_lanes(width_ + 2 * border_ + kernel.taps) + kLanes),
           levels_(row_.size() * static_cast<std::size_t>(camera.height_px)) {
         collect_paper();
     }
 
-    // Takes away the light that ink absorbs in a sub-row, counted from the top of the border.
+    // Subtracts the light that ink absorbs in a sub-row, which is counted from the top of the
+    // border.
     void absorb(int sub_row, std::span<const Raster::Spot> spots) {
         if (spots.empty()) return;
         const int row = sub_row / kernel_.per_pixel;
@@ -58,7 +60,7 @@ class Sensor {
     }
 
   private:
-    // Elements of row_, as many as whole lanes.
+    // A range of elements of row_; their number is a multiple of kLanes.
     struct Reach {
         std::size_t from, to;
     };
@@ -71,14 +73,14 @@ class Sensor {
         return paper_.data() + (static_cast<std::size_t>(row) * (width_ + 2 * border_));
     }
 
-    // From ink to lost light, and the parts of row_ that it reaches.
+    // Converts the ink of a row to lost light and finds the ranges of row_ that it contributes to.
     void gather(std::span<const Raster::Spot> spots, const float* paper) {
         losses_.assign(spots.begin(), spots.end());
         reaches_.clear();
         for (Raster::Spot& loss : losses_) {
             for (float& light : loss.darkness)
                 light *= paper[loss.pixel];
-            // Neighbours follow each other.
+            // Pixels next to each other share a range.
             if (reaches_.empty() || loss.pixel < reaches_.back().from ||
                 loss.pixel > reaches_.back().to) {
                 reaches_.push_back({loss.pixel, loss.pixel});
@@ -112,7 +114,8 @@ class Sensor {
         }
     }
 
-    // The number of phases is known to the compiler, so that a pixel is loaded and stored once.
+    // The number of phases is a template parameter, so that the compiler can unroll the loop over
+    // them and load and store each pixel once.
     template <std::size_t kPhases>
     void spread_phases(const Kernel::Weights& weights) {
         std::array<const float*, kPhases> of_phase;
@@ -132,8 +135,8 @@ class Sensor {
         }
     }
 
-    // Adds a part of row_ to the pixel rows that row `row`, counted from the edge of the border,
-    // reaches.
+    // Adds a range of row_ to all pixel rows that row `row` contributes to. Rows are counted from
+    // the edge of the border.
     void add_row(int row, const std::vector<float>& weights, Reach reach) {
         const int top = row - 2 * kernel_.border_px;
         const int first = std::max(0, -top);
@@ -150,13 +153,14 @@ class Sensor {
         }
     }
 
-    // The paper is constant over each pixel, so the sub-pixels' weights are summed. Both passes add
-    // a chunk of a row up in registers.
+    // Convolves the light of bare paper. It is constant over each pixel, so the weights of the
+    // pixel's sub-pixels are summed first. Both passes keep the sums of a part of a row in
+    // registers.
     void collect_paper() {
         const auto height = static_cast<std::size_t>(height_);
         const std::size_t reach = 2 * border_ + 1;
         const std::size_t stride = row_.size();
-        // Room to the left for taps before the first pixel.
+        // The first elements are zeros for the taps to the left of the first pixel.
         std::vector<float> light(2 * border_ + stride);
         std::vector<float> along_rows(stride * (height + 2 * border_));
         for (const Kernel::Moment& moment : kernel_.moments) {
@@ -167,7 +171,7 @@ class Sensor {
             for (std::size_t row = 0; row < height + 2 * border_; ++row) {
                 std::copy_n(paper_row(static_cast<int>(row)), width_ + 2 * border_,
                             light.data() + (2 * border_));
-                // Tap j takes from j pixels to the left.
+                // Tap j reads the pixel that is j pixels to the left.
                 add_weighted(along_rows.data() + (row * stride), light.data() + (2 * border_), -1,
                              along, reach, stride);
             }
@@ -179,7 +183,7 @@ class Sensor {
         }
     }
 
-    // out[u] += sum over j < count of weights[j] * in[u + j * step]
+    // Computes out[u] += sum over j < count of weights[j] * in[u + j * step].
     static void add_weighted(float* out, const float* in, std::ptrdiff_t step,
                              const std::vector<float>& weights, std::size_t count,
                              std::size_t width) {
@@ -216,12 +220,12 @@ class Sensor {
     const Kernel& kernel_;
     const std::vector<float>& paper_;
     std::vector<Raster::Spot> losses_;  // darkness times the light there
-    std::vector<Reach> reaches_;        // apart from each other, from left to right
+    std::vector<Reach> reaches_;        // disjoint, from left to right
     std::vector<float> row_;     // one sub-row spread over pixels, with two borders on each side
     std::vector<float> levels_;  // rows as long as row_
 };
 
-// The ink of a page image in the sub-rows of a frame.
+// Samples the ink of a page image in the sub-rows of a frame.
 class ImageRows {
   public:
     ImageRows(const PageImage& page, const View& view, const Imperfections& imperfections,
@@ -249,13 +253,14 @@ class ImageRows {
     }
 
   private:
-    // Of a sub-pixel's centre; sub-pixels are counted from the edge of the border.
+    // Returns the pixel coordinate of the centre of a sub-pixel. Sub-pixels are counted from the
+    // edge of the border.
     double pixel_of(int sub_pixel) const {
         return (sub_pixel + 0.5) / kernel_.per_pixel - 0.5 - kernel_.border_px;
     }
 
     float darkness_at(Vec2 offset_mm) const {
-        // Pixel centres are whole numbers.
+        // Half a pixel is subtracted because the centre of a pixel has whole coordinates.
         const double u = (page_.centre_mm.x + offset_mm.x) / page_.mm_per_px - 0.5;
         const double v = (page_.centre_mm.y + offset_mm.y) / page_.mm_per_px - 0.5;
         if (!(u > -1 && v > -1 && u < page_.image.width_px && v < page_.image.height_px)) return 0;
@@ -314,7 +319,7 @@ std::vector<float> expose(const Ink& ink, const View& view, const Page& page,
 
 std::vector<float> expose(const PageImage& page, const View& view,
                           const Imperfections& imperfections) {
-    // Ink is as fine as the default pattern's dots.
+    // The sub-pixels are as fine as for dots of the default pattern.
     const Kernel kernel = make_kernel(imperfections, Pattern{}.dot_mm / view.camera.mm_per_px);
     const std::vector<float> paper = bare_paper(view, Page{}, imperfections, kernel.border_px);
     ImageRows rows(page, view, imperfections, kernel);

@@ -1,4 +1,4 @@
-/// Ink as shapes in the image: what the lens would show without blur.
+/// Ink as shapes in the image, as a lens without blur would project it.
 #pragma once
 
 #include <functional>
@@ -16,10 +16,10 @@ struct InkEllipse {
     double xx = 0;
     double xy = 0;
     double yy = 0;
-    double reflectance = 0;  ///< relative to paper
+    double reflectance = 0;  ///< reflected light relative to bare paper, 0 to 1
 };
 
-/// A convex area; corners in either order.
+/// The image of a convex area; its corners are in clockwise or counter-clockwise order.
 struct InkPolygon {
     std::vector<Vec2> corners_px;
     double reflectance = 0;
@@ -30,7 +30,7 @@ struct Ink {
     std::vector<InkPolygon> polygons;
 };
 
-/// What is needed to place ink in the image.
+/// The projection and the part of the page that the image shows.
 struct View {
     CameraModel camera;
     CameraPose pose;
@@ -40,17 +40,18 @@ struct View {
     View(const CameraModel& camera_in, const CameraPose& pose_in, const Imperfections& blurred);
 };
 
-/// A rectangle of offsets that holds all that the view shows.
+/// A rectangle of offsets from the pose point that contains everything in view.
 struct OffsetBox {
     Vec2 low_mm;
     Vec2 high_mm;
 };
 OffsetBox visible_offsets(const View& view);
 
-/// The image of a disc; nothing is added if it is out of view.
+/// Adds the image of a disc, unless it is out of view.
 void add_disc(Ink& ink, const View& view, Vec2 offset_mm, double radius_mm, double reflectance);
 
-/// Where the dot of a cell lies from its intersection, in units of the displacement length.
+/// Returns the offset of the dot of a cell from its intersection, in units of the displacement
+/// length.
 using DisplacementOf = std::function<Vec2(Cell)>;
 
 /// Adds the page's dots in view, with their printing errors.
@@ -67,7 +68,8 @@ struct Stroke {
 };
 void add_stroke(Ink& ink, const View& view, const Stroke& stroke, double reflectance);
 
-/// Letters on a line that starts at `at_mm` (offset, bottom left of the first letter).
+/// Letters on a line; `at_mm` is the offset of the bottom left corner of the first letter from the
+/// pose point.
 struct Word {
     Vec2 at_mm;
     double angle_rad = 0;
@@ -79,25 +81,26 @@ struct Word {
 inline constexpr double kLetterAdvance = 0.75;
 void add_word(Ink& ink, const View& view, const Word& word, double reflectance, Rng& rng);
 
-/// `imperfections.graphics` thick strokes or words at random places in view.
+/// Adds `imperfections.graphics` thick strokes or words at random places in view.
 void add_graphics(Ink& ink, const View& view, const Imperfections& imperfections, Rng& rng);
 
-/// `imperfections.dirt_blobs` specks of 0.6 to 3 dot diameters.
+/// Adds `imperfections.dirt_blobs` specks with a diameter of 0.6 to 3 dots.
 void add_dirt(Ink& ink, const View& view, double dot_mm, const Imperfections& imperfections,
               Rng& rng);
 
-/// Throws BadArgument on a value out of its range.
+/// Throws BadArgument if a value is out of its range.
 void check(const Page& page, const CameraModel& camera, const CameraPose& pose,
            const Imperfections& imperfections);
 
-/// Paper, light, blur, motion, integration over each pixel: exact grey levels, row by row.
+/// Computes the grey levels of a frame before noise and rounding, row by row, from paper, light,
+/// ink, blur, motion and the area of the pixels.
 std::vector<float> expose(const Ink& ink, const View& view, const Page& page,
                           const Imperfections& imperfections);
-/// The same of a page given as an image.
+/// Computes the grey levels of a frame of a page that is given as an image.
 std::vector<float> expose(const PageImage& page, const View& view,
                           const Imperfections& imperfections);
 
-/// Noise, clipping, rounding.
+/// Adds noise to grey levels, clips them to 0 to 255 and rounds them.
 GreyImage read_out(const std::vector<float>& levels, const CameraModel& camera,
                    const Imperfections& imperfections, Rng& rng);
 

@@ -1,4 +1,4 @@
-/// What lens, motion and pixel area make of a point: weights over sub-pixels.
+/// The point spread function of lens, motion and pixel area, as weights over sub-pixels.
 #pragma once
 
 #include <vector>
@@ -11,13 +11,13 @@ struct Kernel {
     static constexpr int kMaxPerPixel = 8;
     int per_pixel = 2;     ///< sub-pixels per pixel and axis: 2, 4 or 8
     int border_px = 0;     ///< the kernel reaches this many pixels beyond its own
-    std::size_t taps = 1;  ///< 2 * border_px + 1, and up to the next multiple of 4
+    std::size_t taps = 1;  ///< 2 * border_px + 1, rounded up to a multiple of 4
 
-    /// weights[phase][j]: share of the light on sub-pixel `phase` of pixel u that pixel
-    /// u + j - border_px collects; j runs from 0 to 2 * border_px, and up to `taps` with weight 0.
+    /// weights[phase][j] is the share of the light on sub-pixel `phase` of pixel u that pixel
+    /// u + j - border_px collects, for j from 0 to 2 * border_px; the rest up to `taps` is zero.
     using Weights = std::vector<std::vector<float>>;
 
-    /// The scene as it stands at one moment of the exposure.
+    /// The weights of the scene at one moment of the exposure.
     struct Moment {
         Weights x;
         Weights y;  ///< includes the share of this moment in the exposure
@@ -25,7 +25,8 @@ struct Kernel {
     std::vector<Moment> moments;
 };
 
-/// dot_px: diameter of a dot in the image; decides how fine sub-pixels must be.
+/// Computes the kernel. `dot_px` is the diameter of a dot in the image, from which follows how
+/// small the sub-pixels have to be.
 Kernel make_kernel(const Imperfections& imperfections, double dot_px);
 
 }  // namespace dotpose::simulate

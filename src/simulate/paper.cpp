@@ -6,15 +6,17 @@
 namespace dotpose::simulate {
 namespace {
 
-// std::floor is a call where the processor may lack the instruction.
+// Rounds down without std::floor, which is a function call unless the compiler may assume a newer
+// processor.
 std::int64_t floor_of(double x) {
-    // What is farther away, as at the horizon of an absurd tilt, no integer holds.
+    // Points near the horizon of an extreme tilt are too far away for a 64-bit integer.
     if (!(std::abs(x) < 4e18)) return 0;
     const auto towards_zero = static_cast<std::int64_t>(x);
     return towards_zero - (x < static_cast<double>(towards_zero) ? 1 : 0);
 }
 
-// Reflectance of bare paper: noise at the nodes of a lattice on the page, linear in between.
+// Reflectance of bare paper: random values at the nodes of a lattice on the page, interpolated
+// linearly.
 class Texture {
   public:
     Texture(const Page& page, const View& view, double deviation)
@@ -22,7 +24,8 @@ class Texture {
           nodes_per_mm_(1 / (Imperfections::kGrain_px * view.camera.mm_per_px)),
           origin_{x_grid(view.pose) * page.pattern.spacing_mm * nodes_per_mm_,
                   y_grid(view.pose) * page.pattern.spacing_mm * nodes_per_mm_},
-          // Uniform in [-1, 1) has deviation 1/sqrt(3), and interpolation leaves 2/3 of it.
+          // A uniform value in [-1, 1) has the deviation 1/sqrt(3), and interpolation reduces the
+          // deviation to 2/3.
           amplitude_(deviation * std::sqrt(3.0) * 1.5) {
         if (deviation > 0) tabulate(view);
     }
@@ -51,8 +54,8 @@ class Texture {
         return column < columns_ && row < rows_ ? nodes_[row * columns_ + column] : drawn(i, j);
     }
 
-    // The nodes in view, each of which some 36 pixels ask for. Under a strong tilt they can be more
-    // than the pixels; then there is no table.
+    // Computes the values of the nodes in view in advance: each is used by about 36 pixels. Under a
+    // strong tilt there can be more nodes than pixels; then there is no table.
     void tabulate(const View& view) {
         const OffsetBox box = visible_offsets(view);
         const double width = (box.high_mm.x - box.low_mm.x) * nodes_per_mm_ + 3;
@@ -79,7 +82,8 @@ class Texture {
     std::vector<double> nodes_;
 };
 
-/// What of the light is left where the paper ends: pixels on its edge see both.
+/// The table on which the paper lies: beyond the edge of the paper its reflectance counts, and
+/// pixels on the edge see a part of both.
 class Table {
   public:
     Table(const Page& page, const View& view)

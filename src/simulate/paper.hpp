@@ -1,4 +1,4 @@
-/// Bare paper in its light.
+/// Simulates bare paper with its texture under uneven light.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,9 @@
 
 namespace dotpose::simulate {
 
-/// Grey level of bare paper in each pixel of the frame and of `border_px` pixels around it, row by
-/// row. Constant over a pixel: light and texture change by less than 1 % from one to the next.
+/// Returns the grey level of bare paper in each pixel of the frame and of a border of `border_px`
+/// around it, row by row. It is taken to be constant over a pixel, because light and texture change
+/// by less than 1 % from one pixel to the next.
 std::vector<float> bare_paper(const View& view, const Page& page,
                               const Imperfections& imperfections, int border_px);
 

@@ -1,4 +1,4 @@
-// Views of which the pattern covers a part only: edges of sheets, islands.
+// Draws views in which the pattern covers only a part: edges of sheets, and islands of pattern.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,7 +9,7 @@
 namespace dotpose {
 namespace {
 
-/// Pixels of the image, evenly spread, as points of the page.
+/// Returns the points of the page under evenly spread pixels of the image, in units of the spacing.
 std::vector<Vec2> sample_points(const Shot& shot) {
     constexpr int kColumns = 64;
     constexpr int kRows = 48;
@@ -37,23 +37,23 @@ double spacing_px(const Shot& shot) {
     return shot.page.pattern.spacing_mm / shot.camera.mm_per_px;
 }
 
-/// Intersections in view.
+/// Estimates the number of grid intersections in view.
 double intersections(const Shot& shot) {
     return shot.camera.width_px * shot.camera.height_px / (spacing_px(shot) * spacing_px(shot));
 }
 
-/// The direction of the pattern, or that of the image, plus quarter turns.
+/// Draws a direction along an axis of the pattern or of the image.
 double draw_direction(const Shot& shot, Rng& rng) {
     const double of_image = rng.uniform() < 0.5 ? shot.pose.theta_rad : 0;
     return of_image + static_cast<double>(rng.below(4)) * std::numbers::pi / 2;
 }
 
-/// So large that it ends nowhere in view.
+/// Returns half the side of a square so large that at most one of its corners is in view.
 double endless(const Shot& shot) {
     return 8 * std::hypot(shot.camera.width_px, shot.camera.height_px) / spacing_px(shot);
 }
 
-/// A side or a corner of a sheet that covers a share of the view.
+/// Draws a sheet of which a side or a corner is in view, so that it covers a share of the view.
 PageArea edge_of_sheet(const Shot& shot, double share, Rng& rng) {
     const std::vector<Vec2> points = sample_points(shot);
     const double size = endless(shot);
@@ -62,10 +62,10 @@ PageArea edge_of_sheet(const Shot& shot, double share, Rng& rng) {
     area.angle_rad = draw_direction(shot, rng);
     const bool is_corner = rng.uniform() < 0.5;
     const Vec2 along{std::cos(area.angle_rad), std::sin(area.angle_rad)};
-    // A corner advances along a diagonal that is not quite that of the square.
+    // A corner moves into the view along a line near the diagonal of the square.
     const double across = is_corner ? rng.uniform(0.6, 1.0) : 0;
     const auto advance = [&](double by) {
-        // The middle stands so that the edge, or the corner, is `by` beyond the image centre.
+        // The square is placed so that its edge, or corner, is `by` beyond the image centre.
         const double u = by - size;
         const double v = is_corner ? across * by - size : 0;
         area.x_grid = x_grid(shot.pose) + u * along.x - v * along.y;
@@ -81,7 +81,7 @@ PageArea edge_of_sheet(const Shot& shot, double share, Rng& rng) {
     return area;
 }
 
-/// A rectangle that lies in view and holds enough dots.
+/// Draws a rectangle inside the view that contains enough dots.
 PageArea draw_island(const Shot& shot, Rng& rng) {
     constexpr double kFewest = PartialView::kFewestIslandDots * 1.05;
     PageArea area;
@@ -99,7 +99,8 @@ PageArea draw_island(const Shot& shot, Rng& rng) {
     return area;
 }
 
-/// Apart by some spacings, wherever their corners point.
+/// Whether two areas are some spacings apart. It takes about the distance from the centre of `a` to
+/// its corners as the extent of `a`, whatever direction they point in.
 bool are_apart(const PageArea& a, const PageArea& b) {
     constexpr double kGap = 2;
     const double reach = std::hypot(a.half_width, a.half_height);
@@ -143,7 +144,7 @@ void cover_partly(Shot& shot, const PartialView& view) {
         }
         return;
     }
-    // A dot or two of each row at the border is not seen whole.
+    // The margin of 15 % is for the dots at the border, which are not seen whole.
     const double least = std::max(view.least_share, 1.15 * view.fewest_dots / intersections(shot));
     const double share = rng.uniform(least, std::max(least, view.most_share));
     const PageArea dots = edge_of_sheet(shot, share, rng);

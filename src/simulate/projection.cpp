@@ -14,8 +14,8 @@ Projection::Projection(const CameraModel& camera, const CameraPose& pose)
       k_(camera.k),
       focal_px_(camera.working_distance_mm / camera.mm_per_px),
       distance_mm_(camera.working_distance_mm) {
-    // The untilted paper's axes s and t lie along the image axes. Tilting turns them first about
-    // the image y axis, then about the image x axis.
+    // The axes s and t of the paper are parallel to the image axes before the tilt. The tilt turns
+    // them first about the image y axis, then about the image x axis.
     const double cx = std::cos(pose.tilt_x_rad);
     const double sx = std::sin(pose.tilt_x_rad);
     const double cy = std::cos(pose.tilt_y_rad);
@@ -23,8 +23,9 @@ Projection::Projection(const CameraModel& camera, const CameraPose& pose)
     const std::array<double, 3> s_axis{cy, sx * sy, -cx * sy};
     const std::array<double, 3> t_axis{0, cx, sx};
 
-    // Around the pose point a step along the image x axis is, on the paper, the (s, t) that solves
-    // s * s_axis + t * t_axis = (1, 0, any). Theta is the angle of this step in the pattern.
+    // Near the pose point, a step along the image x axis corresponds on the paper to the (s, t)
+    // that solves s * s_axis + t * t_axis = (1, 0, any). Theta is the angle of this step in the
+    // pattern.
     const double step_angle_rad = std::atan2(-sx * sy / cx, 1);
     const double turn_rad = pose.theta_rad - step_angle_rad;
     const double c = std::cos(turn_rad);
@@ -44,8 +45,8 @@ Vec2 Projection::pixel_from_offset(Vec2 offset_mm) const {
     if (depth_mm <= 0) return kInvisible;
     const Vec2 undistorted{focal_px_ * camera_mm(0) / depth_mm,
                            focal_px_ * camera_mm(1) / depth_mm};
-    // Paper eq. 2 solved for r_d: k |r_u| |r_d|^2 - |r_d| + |r_u| = 0, the root that goes to r_u
-    // with k.
+    // Eq. 2 of the paper solved for r_d: k |r_u| |r_d|^2 - |r_d| + |r_u| = 0. The root is the one
+    // that tends to r_u as k tends to 0.
     const double square = undistorted.x * undistorted.x + undistorted.y * undistorted.y;
     const double discriminant = 1 - 4 * k_ * square;
     if (discriminant < 0) return kInvisible;

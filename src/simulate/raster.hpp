@@ -15,32 +15,33 @@ class Raster {
     struct Layout {
         int per_pixel = 1;
         int border_px = 0;
-        int width = 0;  ///< sub-pixels per row, border included: whole pixels
+        int width = 0;  ///< sub-pixels per row of whole pixels, with the border
         int band_rows = 0;
     };
 
     Raster(const Ink& ink, const Layout& layout);
 
-    /// Draws sub-rows top to top + band_rows - 1, counted from the top of the border. All rows of
-    /// the band before must have been taken.
+    /// Draws the sub-rows `top` to `top + band_rows - 1`, counted from the top of the border. Call
+    /// `take_row` for all rows of the previous band first.
     void draw_band(int top);
 
     /// The sub-pixels of one pixel in a sub-row.
     struct Spot {
         std::size_t pixel = 0;  ///< counted from the left of the border
-        /// Share of the light that the ink takes away; 0 from Layout::per_pixel on.
+        /// Share of the light that the ink absorbs in each sub-pixel; zero from Layout::per_pixel
+        /// on.
         std::array<float, Kernel::kMaxPerPixel> darkness{};
     };
 
-    /// The pixels with ink in a row of the band, each once. The row is empty afterwards.
+    /// Returns the pixels with ink in a row of the band, each once, and clears the row.
     std::span<const Spot> take_row(int row_in_band);
 
   private:
     // Sub-pixel coordinates: sub-pixel i covers [i, i + 1).
     struct Ellipse {
         double x, y;
-        double slant;       // x of the chord's middle per y
-        double half_width;  // of the chord through the centre
+        double slant;       // change of the x of a chord's middle per y
+        double half_width;  // half the length of the chord through the centre
         double half_height;
         double darkness;  // 1 - reflectance
     };
@@ -55,19 +56,19 @@ class Raster {
     void cover(double left, double right, double weight);
 
     Layout layout_;
-    std::vector<Ellipse> ellipses_;  // by y
+    std::vector<Ellipse> ellipses_;  // in the order of y
     double tallest_ = 0;             // largest half_height
     std::vector<Polygon> polygons_;
     int band_top_ = 0;
-    // Most sub-pixels are bare: only those in `spans_` of their row are ever looked at.
+    // Most sub-pixels have no ink: only those in `spans_` of their row are read.
     struct Span {
         int from, to;
     };
     float* row(int row_in_band);
     std::vector<float> band_;
     std::vector<std::vector<Span>> spans_;  // may overlap
-    std::vector<double> coverage_;          // of the row in work
-    Span touched_{};                        // of coverage_
+    std::vector<double> coverage_;          // covered shares in the current row
+    Span touched_{};                        // the part of coverage_ that is not zero
     std::vector<Spot> spots_;
 };
 

@@ -12,7 +12,7 @@ void require(bool holds, const std::string& otherwise) {
     if (!holds) throw BadArgument(otherwise);
 }
 
-// Also false for NaN.
+// Whether a value is from `low` to `high`; false for NaN.
 bool within(double value, double low, double high) {
     return value >= low && value <= high;
 }
@@ -28,14 +28,16 @@ void check_camera(const CameraModel& camera, const CameraPose& pose) {
     const double half_u = camera.width_px / 2.0;
     const double half_v = camera.height_px / 2.0;
     const double corner_square = half_u * half_u + half_v * half_v;
-    // At |k| r^2 = 1 eq. 2 folds the image over itself (k above 0) or reaches infinity (below 0).
+    // At |k| r^2 = 1, eq. 2 folds the image over itself (k above 0) or reaches infinity (k below
+    // 0).
     require(within(camera.k * corner_square, -0.9, 0.9),
             "the distortion k is too strong for this image: |k| r^2 must stay below 0.9 in the "
             "corners");
     require(within(pose.theta_rad, -1e6, 1e6) && within(pose.fraction_x, -1e6, 1e6) &&
                 within(pose.fraction_y, -1e6, 1e6),
             "the pose is not a number");
-    // Depth grows by `slope` per mm across, and the corner ray goes `widest` mm across per depth.
+    // Along the tilt, depth grows by `slope` per mm. The ray of the image corner moves sideways by
+    // `widest` mm per mm of depth. It meets the paper only if the product of both is below 1.
     const double widest = std::sqrt(corner_square) / std::min(1.0, 1 + camera.k * corner_square) *
                           camera.mm_per_px / camera.working_distance_mm;
     const double slope = std::hypot(std::tan(pose.tilt_x_rad),
