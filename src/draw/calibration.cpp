@@ -1,4 +1,5 @@
-// Residuals of a calibration, before and after, and where in the image dots were seen.
+// Draws the residuals before and after a calibration and the parts of the image where dots were
+// seen.
 #include <algorithm>
 #include <cmath>
 #include <ostream>
@@ -16,13 +17,14 @@ using namespace dotpose::draw;
 constexpr double kMargin = 30;
 constexpr double kHead = 74;
 constexpr double kLongestSide = 520;
-/// Parts of the image along its longer side; each has one arrow.
+/// Number of parts into which the longer side of the image is divided; each part has one arrow.
 constexpr int kParts = 22;
-/// Arrows are not enlarged beyond what this residual needs: noise is to look like noise.
+/// Arrows are not enlarged beyond the scale at which this residual has the longest arrow, so that
+/// residuals that are only noise look small.
 constexpr double kLeastFullScale_px = 0.05;
 
 struct Part {
-    Point before;  ///< sums of residuals, px
+    Point before;  ///< sum of the residuals before the calibration, px
     Point after;
     int dots = 0;
 };
@@ -73,7 +75,7 @@ class CalibrationPicture {
                  at.x, at.y, width(), height(), colour::kFrame);
     }
 
-    /// Calls use(part, its middle on the drawing) for all parts with dots.
+    /// Calls `use(part, middle)` for all parts with dots; `middle` is its centre on the drawing.
     template <typename Use>
     void visit(int panel, Use use) const {
         for (int j = 0; j < rows_; ++j) {

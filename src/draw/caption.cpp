@@ -14,19 +14,19 @@ constexpr double kBigSize = 60;
 constexpr double kSmallSize = 36;
 constexpr double kSecondRow_y = 190;
 
-/// A value with its name above it.
+/// A value of the caption; its name is drawn above it.
 struct Entry {
     const char* label;
     std::string value;
 };
 
-/// About the width of bold text without wide letters.
+/// Estimates the width of bold text without wide letters.
 double text_width(const std::string& text, double size) {
     const auto is_first_byte = [](char c) { return (c & 0xC0) != 0x80; };
     return 0.72 * size * static_cast<double>(std::ranges::count_if(text, is_first_byte));
 }
 
-/// In columns of equal width; where one needs more, in a smaller font.
+/// Draws entries in columns of equal width; an entry that is wider gets a smaller font.
 void draw_entries(const std::vector<Entry>& entries, double y, double column, double size,
                   Svg& svg) {
     double font = size;
@@ -60,7 +60,7 @@ std::string probability(const Fix& fix) {
     return "≤ 10" + exponent;
 }
 
-/// A minus sign as wide as a digit.
+/// Replaces a leading hyphen by a minus sign, which is as wide as a digit.
 std::string with_minus(std::string text) {
     if (text.starts_with('-')) text.replace(0, 1, "−");
     return text;

@@ -12,14 +12,15 @@ const Dot& dot_of_seed(const Trace& trace, int seed) {
     return trace.dots[trace.seeds[static_cast<std::size_t>(seed)]];
 }
 
-/// On the drawing. A dot that was measured once more has no pixels of its own; blurred dots look
-/// about a third of the spacing wide.
+/// Returns the radius of a dot on the drawing. For a dot that was measured at its expected place
+/// the number of pixels is not known; it is drawn a third of the spacing wide, as blurred dots
+/// look.
 double radius_of(const Dot& dot, const FrameView& view) {
     return dot.area_px == 0 ? view.spacing() / 6
                             : std::sqrt(dot.area_px / std::numbers::pi) * view.scale();
 }
 
-/// An axis with its name at the end.
+/// Draws an axis with its name at the end.
 void draw_axis(Point from, Point to, std::string_view name, Svg& svg) {
     svg.arrow(from, to, 4.5, colour::kInk);
     const Point along = to - from;
@@ -37,7 +38,7 @@ void draw_detection(const FrameView& view, Svg& svg) {
     svg.add(R"(<g class="connections" stroke="{}" stroke-width="{:.2f}" )"
             R"(stroke-linecap="round" stroke-opacity="0.85">)",
             colour::kEdge, 3.5 * stroke);
-    // Dots that were measured once more are others than those that were connected.
+    // If the dots were measured again, the edges refer to dots that are no longer in the list.
     if (view.reached().edges && !trace.seeds.empty()) {
         for (const Edge& edge : trace.edges) {
             svg.line(view.at_dot(dot_of_seed(trace, edge.from)),
@@ -71,7 +72,7 @@ void draw_edges(const FrameView& view, double side, Svg& svg) {
     svg.line({0, middle.y}, {side, middle.y}, {});
     svg.line({middle.x, 0}, {middle.x, side}, {});
     svg.add("</g>");
-    // One and a half spacings to each side hold the longest connections, from dot to dot.
+    // The square shows 1.7 spacings to each side, because the longest edges have about 1.5.
     const double scale = side / 2 / (1.7 * view.spacing() / view.scale());
     svg.add(R"(<g class="edges" fill="{0}" stroke="{0}" stroke-width="1" stroke-opacity="0.25">)",
             colour::kEdge);

@@ -12,7 +12,8 @@
 namespace dotpose::draw {
 namespace {
 
-/// libpng's simplified interface: reports errors by value instead of by longjmp.
+/// Encodes an image as PNG with the simplified interface of libpng, which returns errors instead of
+/// leaving by longjmp.
 std::vector<std::uint8_t> encode_png(ImageView image) {
     png_image png{};
     png.version = PNG_IMAGE_VERSION;

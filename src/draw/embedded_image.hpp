@@ -1,4 +1,4 @@
-// Embedded image: a grey image as a data URI, so that a picture is one file.
+// Encodes a grey image as a data URI, so that a drawing and its image are one file.
 #pragma once
 
 #include <string>
@@ -7,7 +7,8 @@
 
 namespace dotpose::draw {
 
-/// "data:image/png;base64,..."; empty for an image without pixels. Throws Error.
+/// Returns "data:image/png;base64,...", or an empty string for an image without pixels. Throws
+/// Error if the image cannot be encoded.
 std::string data_uri(ImageView image);
 
 }  // namespace dotpose::draw

@@ -1,5 +1,5 @@
-// The picture of a frame: two panels side by side, below them the plot of the connections, the pose
-// and the legend.
+// Draws a frame in two panels side by side, with the plot of the edges, the pose and the legend
+// below them.
 #include <algorithm>
 #include <ostream>
 #include <string>
@@ -53,7 +53,7 @@ class Sketch {
         return view_.reached().cells ? "turn unknown: letters as on the grid" : "";
     }
 
-    /// The image, stored once and used by both panels.
+    /// Defines the image once in the SVG; both panels refer to it.
     void define_frame(ImageView image) {
         const std::string uri = data_uri(image);
         svg_.add("<defs>");

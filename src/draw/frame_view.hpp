@@ -1,4 +1,4 @@
-// Frame view: a frame on the drawing, and how far `locate` got with it.
+// Maps a frame to the drawing, and says which stages of `locate` succeeded.
 #pragma once
 
 #include "dotpose/tools/draw.hpp"
@@ -6,26 +6,26 @@
 
 namespace dotpose::draw {
 
-/// How far `locate` got.
+/// Which results the trace holds after `locate`.
 struct Reached {
     bool undistorted = false;  ///< dot centres are where a camera without distortion sees them
-    bool edges = false;        ///< connections between neighbours
+    bool edges = false;        ///< edges between neighbouring dots
     bool axes = false;         ///< the grid vectors
-    bool cells = false;        ///< likelihoods
+    bool cells = false;        ///< the likelihoods of the bits of each cell
     bool window = false;       ///< the 8 x 8 cells read most clearly
-    bool place = false;        ///< a position and which way up, be it certain or not
+    bool place = false;        ///< a position and orientation, certain or not
     bool pose = false;         ///< a fix
 };
 Reached reached(const Trace& trace);
 
-/// A PlaneFromImage, both ways.
+/// A PlaneFromImage and its inverse.
 class Plane {
   public:
     explicit Plane(const PlaneFromImage& map);
 
     Point plane_point(Point image_px) const;
     Point image_point(Point plane_point) const;
-    /// At the centre.
+    /// The grid spacing at the image centre.
     double spacing_px() const;
 
   private:
@@ -37,11 +37,11 @@ class Plane {
     Point dv_;
     Point perspective_;
     double lens_;
-    double area_;  ///< of a pixel, in squared spacings
+    double area_;  ///< area of a pixel, in squared spacings
 };
 
-/// From pixels to the drawing. *Ideal* pixels are those of a camera without distortion, *image*
-/// pixels those of the image.
+/// Maps pixels to the drawing. *Image* pixels are those of the image; *ideal* pixels are where a
+/// camera without lens distortion would see the same point.
 class FrameView {
   public:
     FrameView(ImageView image, const Trace& trace, double side);
@@ -50,22 +50,23 @@ class FrameView {
     const Reached& reached() const { return reached_; }
     double width() const { return width_px_ * scale_; }
     double height() const { return height_px_ * scale_; }
-    /// Of one pixel.
+    /// Size of a pixel on the drawing.
     double scale() const { return scale_; }
-    /// Of strokes: 1 for a grid that shows at 70 units or more, less for smaller ones.
+    /// Factor for the width of strokes: 1 if the grid spacing is at least 70 units on the drawing,
+    /// less for a smaller spacing.
     double stroke() const { return stroke_; }
-    /// The grid spacing on the drawing; a guess as long as there is no grid.
+    /// The grid spacing on the drawing, estimated from the dots if no grid was found.
     double spacing() const { return spacing_px_ * scale_; }
 
-    /// On the drawing, from ideal pixels.
+    /// Returns the point of the drawing that shows an ideal pixel.
     Point at(Point ideal_px) const;
     Point at_dot(const Dot& dot) const;
-    /// On the drawing, from grid coordinates; needs `reached().cells`.
+    /// Returns the point of the drawing that shows a point of the grid; needs `reached().cells`.
     Point at_grid(double i, double j) const;
-    /// The point whose pose is wanted, ideal pixels.
+    /// The point whose pose is wanted, in ideal pixels.
     Point reference_px() const { return reference_px_; }
-    /// The direction of the pattern's x axis on the drawing, at the reference point; length 1.
-    /// Needs `reached().pose`.
+    /// The unit vector of the pattern's x axis on the drawing, at the reference point. Needs
+    /// `reached().pose`.
     Point ahead_of_reference() const;
 
   private:
@@ -85,12 +86,13 @@ class FrameView {
     Point reference_px_;
 };
 
-/// The grid cell of the window's top left symbol, as the pattern stands; needs `place`.
+/// The grid cell of the symbol that is the top left one of the window on the pattern; needs
+/// `Reached::place`.
 Vec window_corner(const Trace& trace);
-/// Where a cell of the grid stands in the code; needs `place`.
+/// The position of a grid cell in the code; needs `Reached::place`.
 Place place_of(const Trace& trace, Vec grid_cell);
 
-/// Fixed point to pixels.
+/// Converts 1/256 pixels to pixels.
 Point from_q8(Vec q8);
 Point from_q16(Vec q16);
 

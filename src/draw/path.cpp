@@ -1,4 +1,4 @@
-// The picture of a drive: the page with the path, and the errors as a scatter plot and over time.
+// Draws a drive: the page with the path, and the position errors as a scatter plot and over time.
 #include <algorithm>
 #include <cmath>
 #include <ostream>
@@ -21,7 +21,7 @@ constexpr double kScatterSide = 500;
 
 struct Error_um {
     std::size_t frame = 0;
-    Point offset;  ///< measured minus true
+    Point offset;  ///< measured minus true position
 };
 
 std::vector<Error_um> errors_of(std::span<const PathPoint> path) {
@@ -35,7 +35,7 @@ std::vector<Error_um> errors_of(std::span<const PathPoint> path) {
     return errors;
 }
 
-/// 1, 2 or 5 times a power of ten, at least `value`.
+/// Returns the smallest number of the form 1, 2 or 5 times a power of ten that is at least `value`.
 double round_up(double value) {
     if (!(value > 0)) return 1;
     const double power = std::pow(10, std::floor(std::log10(value)));
@@ -77,13 +77,13 @@ class PathSketch {
     void draw_page();
     void draw_scatter(double x, double y);
     void draw_errors(double x, double y, double height);
-    /// A dot of the path, by the size of its error.
+    /// Returns the true path as the data of an SVG path.
     std::string path_data() const;
 
     const Sheet& sheet_;
     std::span<const PathPoint> path_;
     std::vector<Error_um> errors_;
-    double scale_;  ///< of the page, in units per mm
+    double scale_;  ///< drawing units per mm of the page
     double worst_um_ = 0;
     Svg svg_;
 };
@@ -124,7 +124,7 @@ void PathSketch::draw_page() {
         if (!p.is_fix) svg_.circle({p.true_x_mm * scale_, p.true_y_mm * scale_}, 7, {});
     }
     svg_.add("</g>");
-    // A ruler, so that the errors beside it can be compared.
+    // A ruler shows the scale of the page.
     const double ruler_mm = round_up(sheet_.width_mm / 11);
     const Point left{(sheet_.width_mm - ruler_mm) * scale_ - 24, page_height - 28};
     svg_.line(left, left + Point{ruler_mm * scale_, 0},
@@ -185,7 +185,7 @@ void PathSketch::draw_errors(double x, double y, double height) {
     const auto last = static_cast<double>(std::max<std::size_t>(path_.size(), 2) - 1);
     svg_.add(R"svg(<g transform="translate({:.2f} {:.2f})">)svg", x, y);
     svg_.text({0, -16}, 24, "error of each frame", R"(fill="#6b7885")");
-    // Steps of 1, 2 or 5 times a power of ten.
+    // With 4 or 5 divisions the steps are 1, 2 or 5 times a power of ten.
     const int steps = std::fmod(std::round(std::log10(reach_um / 2) * 1e6), 1e6) == 0 ? 4 : 5;
     for (int step = 0; step <= steps; ++step) {
         const double line_y = height * (1 - static_cast<double>(step) / steps);

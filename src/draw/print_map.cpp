@@ -1,4 +1,4 @@
-// The distortion of a print as a map: one arrow for each part of the page, enlarged.
+// Draws the distortion of a print as a map, with one enlarged arrow for each part of the page.
 #include <algorithm>
 #include <cmath>
 #include <ostream>
@@ -15,13 +15,15 @@ using namespace dotpose::draw;
 constexpr double kMargin = 40;
 constexpr double kHead = 110;
 constexpr double kLongestSide = 1000;
-/// The longest arrow, in units of the drawing, or of the distance of the arrows if that is less.
+/// Length of the longest arrow in units of the drawing; it is shorter where arrows are closer
+/// together than this.
 constexpr double kLongestArrow = 45;
 constexpr double kLongestStep = 0.95;
-/// Arrows are not enlarged beyond what this distortion needs: noise is to look like noise.
+/// Arrows are not enlarged beyond the scale at which this distortion has the longest arrow, so that
+/// noise looks small.
 constexpr double kLeastFullScale_mm = 0.01;
 
-/// 1, 2 or 5 times a power of ten, at most `value`.
+/// Returns the largest number of the form 1, 2 or 5 times a power of ten that is at most `value`.
 double round_down(double value) {
     const double power = std::pow(10, std::floor(std::log10(value)));
     for (const double factor : {5.0, 2.0}) {
@@ -79,7 +81,7 @@ class PrintMap {
                        kMargin + kHead + (bin.v_px + 0.5) * scale_};
         const Point tip = at + per_mm_ * Point{bin.du_mm, bin.dv_mm};
         const double share = std::min(std::hypot(bin.du_mm, bin.dv_mm) / full_mm_, 1.0);
-        // From blue, small, to red, large.
+        // The colour goes from blue for small to red for large distortions.
         const auto strength = [](double part) { return static_cast<int>(std::lround(210 * part)); };
         const std::string colour =
             fmt::format("#{:02x}40{:02x}", strength(share), strength(1 - share));

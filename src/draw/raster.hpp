@@ -1,4 +1,4 @@
-// Raster: a drawing in pixels, for what does not show SVG.
+// Converts drawings to pixels, for programs that do not show SVG.
 #pragma once
 
 #include <filesystem>
@@ -8,10 +8,12 @@
 
 namespace dotpose::draw {
 
-/// Writes a drawing, which is SVG, as PNG, with two pixels to its unit. Throws Error.
+/// Writes an SVG drawing as PNG, with two pixels per unit. Throws Error if the file cannot be
+/// written.
 void write_png(const std::filesystem::path& path, const std::string& svg);
 
-/// Writes NAME.svg and NAME.png into a folder, by means of a function that draws SVG. Throws Error.
+/// Writes NAME.svg and NAME.png into a folder; a function draws the SVG. Throws Error if a file
+/// cannot be written.
 void write_figure(const std::filesystem::path& folder, const std::string& name,
                   const std::function<void(std::ostream&)>& draw);
 

@@ -11,14 +11,14 @@
 namespace dotpose::draw {
 namespace {
 
-constexpr double kHighest = 127;  // of a quasi-probability
+constexpr double kHighest = 127;  // the largest weight of a bit
 
-/// The paper's likelihood of the symbol, |Px Py|, from 0 to 1.
+/// Returns the likelihood of the symbol as in the paper, |Px Py|, from 0 to 1.
 double quality(const GridCell& cell) {
     return std::abs(cell.x * cell.y) / (kHighest * kHighest);
 }
 
-/// From red over amber to green.
+/// Returns a colour between red (0), amber and green (1).
 std::string quality_colour(double quality) {
     struct Rgb {
         double red, green, blue;
@@ -36,13 +36,13 @@ std::string quality_colour(double quality) {
                        mix(low.blue, high.blue));
 }
 
-/// The symbol that a displacement of the grid stands for on the pattern.
+/// Returns the symbol of the pattern for a symbol that was read along the axes of the grid.
 Symbol turned(Symbol symbol, Turn pattern_from_grid) {
     const Vec d = pattern_from_grid({dx(symbol), dy(symbol)});
     return make_symbol((d.y - d.x + 1) / 2, (d.y + d.x + 1) / 2);
 }
 
-/// The reading of one frame, drawn layer by layer.
+/// Draws what was read in one frame, layer by layer.
 class Reading {
   public:
     Reading(const FrameView& view, Svg& svg) : view_(view), trace_(view.trace()), svg_(svg) {}
@@ -57,7 +57,7 @@ class Reading {
     Turn turn() const { return view_.reached().place ? trace_.decoding.pattern_from_grid : Turn{}; }
     void draw_axes() const;
     void draw_symbol(int i, int j, const GridCell& cell) const;
-    /// A line of the grid; several strokes, because a lens may bend it.
+    /// Draws a line of the grid as several strokes, because lens distortion may bend it.
     void draw_grid_line(double i, double j, int steps, Point step) const;
 
     const FrameView& view_;
@@ -106,7 +106,7 @@ void Reading::draw_symbol(int i, int j, const GridCell& cell) const {
     const bool is_legible = cell.x != 0 && cell.y != 0;
     const char capital = static_cast<char>(letter(read) - 'a' + 'A');
     const double size = 1.45 * radius;
-    // A letter stands upright on the pattern, so that it also shows which way up that is.
+    // Letters are upright on the pattern, so that they show its orientation.
     const double angle_deg =
         view_.reached().pose ? -trace_.fix.theta_rad() * 180 / std::numbers::pi : 0;
     svg_.add(R"svg(<text transform="translate({:.2f} {:.2f}) rotate({:.2f})" y="{:.2f}" )svg"
@@ -135,7 +135,7 @@ void Reading::draw_symbols() const {
         }
     }
     svg_.add("</g>");
-    // What lies on no intersection, or where another dot fits better.
+    // Dots that are near no intersection, or at an intersection that another dot fits better.
     svg_.add(R"(<g class="unread" fill="none" stroke="{}" stroke-width="{:.2f}">)", colour::kBad,
              4 * view_.stroke());
     for (std::size_t d = 0; d < is_read.size(); ++d) {
@@ -147,7 +147,8 @@ void Reading::draw_symbols() const {
 void Reading::draw_window() const {
     if (!view_.reached().window) return;
     const Region& window = trace_.decoding.window;
-    // Half a cell around the outer intersections; cell by cell, because a lens may bend it.
+    // The outline is half a cell outside of the outer intersections. It is drawn cell by cell,
+    // because lens distortion may bend it.
     const double left = window.i0 - 0.5;
     const double top = window.j0 - 0.5;
     std::string path;
@@ -178,12 +179,12 @@ void Reading::draw_axes() const {
     const Point reference = view_.at(view_.reference_px());
     const double stroke = std::max(view_.stroke(), 0.35);
     const Vec cell = window_corner(trace_);
-    svg_.line(view_.at_grid(cell.x, cell.y), reference,  // t of eq. 10
+    svg_.line(view_.at_grid(cell.x, cell.y), reference,  // the vector t of the paper's eq. 10
               fmt::format(R"(stroke="{}" stroke-width="{:.2f}" stroke-dasharray="{:.2f}")",
                           colour::kWindow, 4 * stroke, 11 * stroke));
     const double reach = 2.4 * view_.spacing();
     const Point ahead = reach * view_.ahead_of_reference();
-    const double arc = 0.6;  // its radius, of the arrows' length
+    const double arc = 0.6;  // radius of the arc as a share of the arrows' length
     svg_.add(R"(<path d="M{:.2f} {:.2f}A{:.2f} {:.2f} 0 0 {} {:.2f} {:.2f}" fill="none" )"
              R"(stroke="{}" stroke-width="{:.2f}"/>)",
              reference.x + arc * reach, reference.y, arc * reach, arc * reach, ahead.y > 0 ? 1 : 0,

@@ -1,4 +1,4 @@
-// A robot's turn on the spot: where the camera was, and where each frame has the robot's centre.
+// Draws a robot's turn on the spot: where the camera was, and the centre of rotation by each frame.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -13,7 +13,8 @@ namespace {
 
 using namespace dotpose::draw;
 
-/// Residuals are not enlarged beyond what this one needs: noise is to look like noise.
+/// Residuals are not enlarged beyond the scale at which this one fills the panel, so that noise
+/// looks small.
 constexpr double kLeastFullScale_mm = 0.001;
 
 class SpinPicture {
@@ -46,7 +47,7 @@ class SpinPicture {
         svg_.line(at - Point{0, 9}, at + Point{0, 9}, style);
     }
 
-    /// The field of view of each frame, on the paper around the point that stays put.
+    /// Draws the field of view of each frame on the paper, around the centre of rotation.
     void draw_turn() {
         const Camera& camera = spin_.camera;
         const double mm_per_px = camera.paper ? camera.paper->mm_per_px_x : 0;
@@ -76,7 +77,7 @@ class SpinPicture {
         draw_cross(middle(0), colour::kBad);
     }
 
-    /// The point that stays put by each frame alone.
+    /// Draws the centre of rotation as each frame alone gives it.
     void draw_residuals() {
         double full_mm = kLeastFullScale_mm;
         for (const SpinStation& station : spin_.stations)

@@ -1,4 +1,5 @@
-// Sheets side by side, before and after stitching, with what frames over the seams say of them.
+// Draws sheets side by side before and after stitching, and how far the two sheets of each frame
+// over a seam disagree about its position.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,16 +17,19 @@ namespace {
 using namespace dotpose::draw;
 
 constexpr double kLongestArrow = 70;
-/// Arrows are not enlarged beyond what this disagreement needs: noise is to look like noise.
+/// Arrows are not enlarged beyond the scale at which this disagreement has the longest arrow, so
+/// that noise looks small.
 constexpr double kLeastFullScale_mm = 0.002;
 
-/// The image centre of one frame, in world mm with y DOWN, and how the two sheets disagree on it.
+/// The image centre of one frame, in world mm with y DOWN, and the difference between its positions
+/// by the two sheets.
 struct Disagreement {
     Point at;
     Point off;
 };
 
-/// World mm, with y down as in the drawing; the sheet must lie in the world.
+/// Converts a point of a sheet to world mm, with y down as on the drawing. The sheet must have a
+/// place in the world.
 Point in_world(const SheetEntry& entry, double x_mm, double y_mm) {
     const WorldPose place = world_pose({&entry, x_mm, y_mm, 0}).value();
     return {1000 * place.x_m, -1000 * place.y_m};

@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
 
-/// Bytes of the UTF-8 character at the start of `text`; 0 if it is none that XML permits.
+/// Returns the number of bytes of the UTF-8 character at the start of `text`, or 0 if it is invalid
+/// or not permitted in XML.
 std::size_t character_bytes(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
     const std::uint8_t first = byte(0);

@@ -1,4 +1,4 @@
-// Svg: text of a picture under construction, and the palette all pictures share.
+// Builds SVG drawings, and defines the palette that all of them use.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@
 
 namespace dotpose::draw {
 
-/// A place or vector; which frame, the variable's name says.
+/// A point or vector; the name of the variable tells the coordinate frame.
 struct Point {
     double x = 0;
     double y = 0;
@@ -44,10 +44,10 @@ inline constexpr const char* kPattern = "#8e24aa";
 
 class Svg {
   public:
-    /// A drawing of this size in user units, on white.
+    /// Starts a drawing of this size in user units, with a white background.
     Svg(double width, double height, std::string_view title);
 
-    /// Appends markup as it is, formatted, and a line break.
+    /// Appends formatted markup, without escaping it, and a line break.
     template <typename... Values>
     void add(fmt::format_string<Values...> format, Values&&... values) {
         fmt::format_to(std::back_inserter(text_), format, std::forward<Values>(values)...);
@@ -55,24 +55,25 @@ class Svg {
     }
     void line(Point from, Point to, std::string_view attributes);
     void circle(Point centre, double radius, std::string_view attributes);
-    /// A line with a head at its end; `width` is that of the line.
+    /// Draws a line with a head at its end; `width` is the width of the line.
     void arrow(Point from, Point to, double width, std::string_view colour,
                std::string_view attributes = {});
-    /// One line of text; `size` is that of the font.
+    /// Draws one line of text; `size` is the size of the font.
     void text(Point at, double size, std::string_view content, std::string_view attributes = {});
 
-    /// The whole drawing.
+    /// Returns the whole drawing.
     std::string finish() &&;
 
   private:
     std::string text_;
 };
 
-/// Text for use between tags or in an attribute: escaped, without control characters, and with a
-/// replacement character for each byte that is no UTF-8.
+/// Returns text for use between tags or in an attribute: escaped, without control characters, and
+/// with a replacement character for each byte that is not UTF-8.
 std::string escaped(std::string_view text);
 
-/// Writes a file by means of a function that writes to a stream. Throws Error.
+/// Writes a file with a function that writes to a stream. Throws Error if the file cannot be
+/// written.
 void write_file(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
 
 }  // namespace dotpose::draw

@@ -15,7 +15,7 @@ constexpr double kHead = 60;
 constexpr std::array kColours = {"#1565c0", "#c62828", "#2e7d32", "#6a1b9a",
                                  "#ef6c00", "#00838f", "#4e342e", "#ad1457"};
 
-/// The smallest upright rectangle around all that is drawn.
+/// The bounding box of everything that is drawn.
 struct Bounds {
     Point low{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
     Point high{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::lowest()};

@@ -1,4 +1,4 @@
-// Map: the sheets of a plane from above, and the paths of robots over them.
+// Draws a map: the sheets of a plane from above, and the paths of robots over them.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace dotpose::draw {
 
-/// A page; its corners in order around it.
+/// A page, given by its corners in order around it.
 struct MapSheet {
     std::string name;
     std::array<Point, 4> corners_mm;
@@ -19,21 +19,21 @@ struct MapSheet {
 
 struct MapRobot {
     std::string name;
-    std::vector<std::vector<Point>> strokes_mm;  ///< its path, cut where it jumped
-    /// Where it was seen last.
+    std::vector<std::vector<Point>> strokes_mm;  ///< its path; a jump starts a new stroke
+    /// The position at which it was seen last.
     Point place_mm;
-    std::optional<double> heading_rad;  ///< from +x towards +y of the plane; none: not known
+    std::optional<double> heading_rad;  ///< from +x towards +y of the plane; none if not known
     bool is_lost = false;
 };
 
 struct Map {
     std::string title;
-    bool y_up = false;  ///< of the plane: true in the world, false on a page
+    bool y_up = false;  ///< direction of y in the plane: up in the world, down on a page
     std::vector<MapSheet> sheets;
     std::vector<MapRobot> robots;
 };
 
-/// The drawing, as large as what is on it.
+/// Returns the drawing, whose size is the bounding box of its contents.
 std::string draw_map(const Map& map);
 
 }  // namespace dotpose::draw
