@@ -1,4 +1,4 @@
-/// Csv: reading tables of comma-separated values.
+/// Reads tables of comma-separated values.
 #pragma once
 
 #include <string>
@@ -6,8 +6,9 @@
 
 namespace dotpose::csv {
 
-/// The cells of a line (RFC 4180, without line breaks in cells): quoted ones may hold commas and
-/// doubled quotes. Blanks are kept. At least one, which may be empty.
+/// Splits a line into cells by RFC 4180, without line breaks in cells: quoted cells may contain
+/// commas and doubled quotes. Blanks are kept. The result has at least one cell, which may be
+/// empty.
 std::vector<std::string> cells_of(const std::string& line);
 
 }  // namespace dotpose::csv

@@ -52,10 +52,10 @@ std::vector<double> Scale::ticks(int least) const {
     if (!is_log) {
         const double step = tick_step(last - first, least);
         for (double i = std::ceil(first / step - 1e-9); i * step <= last + 1e-9 * step; ++i)
-            result.push_back(i * step + 0.0);  // not -0
+            result.push_back(i * step + 0.0);  // the sum turns -0 into 0
         return result;
     }
-    // Fewer numbers where several decades are to be labelled.
+    // Over several decades, fewer multiples of each power of ten are labelled.
     const bool is_long = last / first > 150;
     for (double power = std::pow(10, std::floor(std::log10(first))); power <= last; power *= 10) {
         for (const double factor : {1.0, 2.0, 5.0}) {

@@ -1,4 +1,4 @@
-/// Plot: axes with ticks in a rectangle of a drawing, and curves over them.
+/// Draws axes with ticks in a rectangle of a drawing, and curves over them.
 #pragma once
 
 #include <span>
@@ -18,18 +18,19 @@ inline constexpr double kFont = 15;
 inline constexpr double kTitleFont = 22;
 inline constexpr const char* kAll = draw::colour::kWindow;
 inline constexpr const char* kWindow = "#ffa726";
-inline constexpr const char* kAbove = "#c62828";  ///< found too far along the axis (paper: red)
-inline constexpr const char* kBelow = "#1565c0";  ///< (paper: blue)
+inline constexpr const char* kAbove = "#c62828";  ///< positive errors; red as in the paper
+inline constexpr const char* kBelow = "#1565c0";  ///< negative errors; blue as in the paper
 }  // namespace style
 
-/// The largest of 1, 2, 2.5 or 5 times a power of ten that divides `range` into at least `least`
-/// steps.
+/// Returns the largest step of the form 1, 2, 2.5 or 5 times a power of ten that divides `range`
+/// into at least `least` steps.
 double tick_step(double range, int least);
 
-/// 1, 1.5, 2, 2.5, 3, 4, 5, 6 or 8 times a power of ten, at least `value`.
+/// Returns the smallest number of the form 1, 1.5, 2, 2.5, 3, 4, 5, 6 or 8 times a power of ten
+/// that is at least `value`.
 double rounded_up(double value);
 
-/// One axis: data to drawing units.
+/// One axis: it converts data values to drawing units.
 struct Scale {
     double first = 0;
     double last = 1;
@@ -53,7 +54,7 @@ class Axes {
 
     Axes(Svg& svg, const Area& area, Scale x, Scale y);
 
-    /// Grid lines and numbers; the label stands above the axis, on the left.
+    /// Draws grid lines, numbers and the label, which is above the axis on the left.
     void draw_y(std::string_view label) const;
     void draw_x(std::string_view label) const;
 
@@ -63,9 +64,9 @@ class Axes {
         const char* colour = draw::colour::kInk;
         bool is_dashed = false;
         bool has_marks = true;
-        bool is_wide = false;  ///< so that it shows under a curve that covers it
+        bool is_wide = false;  ///< wide enough to be seen under a curve that covers it
     };
-    /// Points that are no numbers interrupt the curve.
+    /// Draws a curve through the points. It is interrupted where a coordinate is not a number.
     void curve(std::span<const Point> data, const Line& line) const;
     /// Fills the area between two curves over the same x.
     void band(std::span<const Point> low, std::span<const Point> high, const char* colour) const;
@@ -77,10 +78,11 @@ class Axes {
     Scale y_;
 };
 
-/// A short line of a legend and what it stands for; returns the x where the next entry may start.
+/// Draws an entry of a legend: a short line and its meaning. Returns the x at which the next entry
+/// may start.
 double legend_entry(Svg& svg, Point at, const Axes::Line& line, std::string_view text);
 
-/// Width of a text of about this many letters.
+/// Estimates the width of a text from its number of letters.
 double text_width(std::string_view text, double font);
 
 }  // namespace dotpose::plot

@@ -1,4 +1,4 @@
-// The paper's experiment, section IV-A, with a simulated printer and camera.
+// Repeats the experiment of the paper's section IV-A with a simulated printer and camera.
 #include "evaluate/protocol.hpp"
 
 #include <algorithm>
@@ -11,19 +11,19 @@ namespace {
 using namespace evaluate_detail;
 
 constexpr double kDegrees = 180 / std::numbers::pi;
-/// Pattern cell in the middle of the area: a place like any other.
+/// The cell in the middle of the area; the choice is arbitrary.
 constexpr Cell kMiddle{10'000, 20'000};
 
-/// Where the device stands, and on what page.
+/// The position of the device and the page that it is on.
 struct Stand {
     Vec2 place_mm;
     double theta_rad = 0;
-    const PrintModel* print = nullptr;  ///< none: a perfect page
+    const PrintModel* print = nullptr;  ///< null for a perfect page
 };
 
-/// What the print model does to the camera's view of the pattern: at the place p of the page lies
-/// the ink that was meant for p - shift(p), and the pattern is turned by the shift's gradient. The
-/// stretch within a frame is left out: at most 1 % over 8.6 mm.
+/// Applies the print model to the camera's view of the pattern: the ink at the point p of the page
+/// was meant for p - shift(p), and the pattern is rotated by the gradient of the shift. The stretch
+/// within a frame, at most 1 % over 8.6 mm, is neglected.
 void place(CameraPose& pose, const Stand& stand, double spacing_mm) {
     Vec2 pattern_mm = stand.place_mm;
     pose.theta_rad = stand.theta_rad;
@@ -46,7 +46,7 @@ void place(CameraPose& pose, const Stand& stand, double spacing_mm) {
     pose.fraction_y = y - std::floor(y);
 }
 
-/// Where the device was sent, as it would be on a perfect page.
+/// Returns the pose to which the device was sent, which is the true pose on a perfect page.
 Truth sent_to(const Stand& stand, double spacing_mm) {
     Truth truth;
     truth.x_grid = kMiddle.x + stand.place_mm.x / spacing_mm;
@@ -68,7 +68,8 @@ Station station_of(const Stand& stand, std::span<const Outcome> outcomes) {
         if (!outcome.is_fix() || outcome.is_wrong()) continue;
         ++station.located;
         const double spacing_mm = outcome.truth.spacing_mm;
-        // Right or wrong is judged by what is printed there, accuracy by where the device was sent.
+        // Whether a fix is wrong is judged by the pattern that is printed at the position; its
+        // accuracy by the pose to which the device was sent.
         const Deviation off = deviation_of(outcome.fix, sent_to(stand, spacing_mm));
         x_mm.push_back(off.x_grid * spacing_mm);
         y_mm.push_back(off.y_grid * spacing_mm);
@@ -107,7 +108,7 @@ std::vector<Step> spiral(int side) {
     std::vector<Step> steps = {{0, 0}};
     Step at;
     Step ahead{1, 0};
-    // Legs of 1, 1, 2, 2, 3, 3, ... steps.
+    // The spiral has legs of 1, 1, 2, 2, 3, 3, ... steps.
     for (int leg = 2; steps.size() < count; ++leg) {
         for (int i = 0; i < leg / 2 && steps.size() < count; ++i) {
             at = {at.x + ahead.x, at.y + ahead.y};
@@ -150,7 +151,7 @@ Summary summary_of(std::span<const Station> stations, const SpreadOf& spread) {
 }  // namespace evaluate_detail
 
 PrintModel::PrintModel(double worst_x_mm, double worst_y_mm) {
-    // Of the field with unit amplitudes, at the positions of the protocol.
+    // The largest shifts at the positions of the protocol if all amplitudes are 1.
     Vec2 largest;
     for (const Stand& stand : positions_on(nullptr)) {
         const Vec2 shift = shift_mm(stand.place_mm);
@@ -160,8 +161,8 @@ PrintModel::PrintModel(double worst_x_mm, double worst_y_mm) {
 }
 
 Vec2 PrintModel::shift_mm(Vec2 from_middle_mm) const {
-    // Along the paper's way (y): rollers that turn unevenly, and a feed that slips more on one
-    // side. Across it: a scan line that is bowed and slightly stretched.
+    // Along the feed (y), the model has rollers that turn unevenly and a feed that slips more on
+    // one side. Across the feed, it has a scan line that is bowed and slightly stretched.
     constexpr double kTurn = 2 * std::numbers::pi;
     const double x = from_middle_mm.x / kSide_mm;
     const double y = from_middle_mm.y / kSide_mm;
@@ -185,9 +186,9 @@ Protocol run_protocol(const ProtocolOptions& options) {
     }
     Shot device = draw_shot(options.setup, 0);
     device.page.pattern.section = options.setup.pattern.section;
-    device.imperfections.motion_px = {};  // it stands still
+    device.imperfections.motion_px = {};  // the device stands still
     device.imperfections.dirt_blobs = 0;
-    device.imperfections.graphics = 0;  // "carrying only the pattern"
+    device.imperfections.graphics = 0;  // the paper's sheets are "carrying only the pattern"
     device.pose.tilt_x_rad = device.pose.tilt_y_rad = 0;
 
     FrameRun run;

@@ -1,4 +1,4 @@
-/// Parts of the paper's protocol, for the figures and tests.
+/// Parts of the paper's protocol that its figures and tests use.
 #pragma once
 
 #include <functional>
@@ -12,21 +12,22 @@ namespace dotpose::evaluate_detail {
 inline constexpr int kPositionsPerSide = 11;
 inline constexpr int kAngles = 36;
 
-/// Column and row of a position, from the middle; y down.
+/// Column and row of a position, counted from the middle; y is down.
 struct Step {
     int x = 0;
     int y = 0;
     friend constexpr bool operator==(const Step&, const Step&) = default;
 };
 
-/// All positions of a square with an odd side, from the middle outwards in a spiral: first to the
-/// right, then clockwise as seen on the page.
+/// Returns all positions of a square with an odd side in a spiral from the middle outwards, first
+/// to the right and then clockwise as seen on the page.
 std::vector<Step> spiral(int side);
 
-/// Mean, and deviation with n - 1; sigma is 0 for fewer than two values.
+/// Returns the mean and the sample standard deviation (with n - 1), which is 0 for fewer than two
+/// values.
 Spread spread_of(std::span<const double> values);
 
-/// Best, mean and worst accuracy, and worst precision, over the stations with fixes.
+/// Best, mean and worst accuracy, and the worst precision, over the stations with fixes.
 struct Summary {
     double best = 0;
     double mean = 0;

@@ -1,4 +1,5 @@
-// Figures 13, 14 and 15 of the paper: a perfect page on the left, the printer model on the right.
+// Draws figures 13, 14 and 15 of the paper, each for a perfect page on the left and for the printer
+// model on the right.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -24,7 +25,7 @@ struct Panel {
     Svg& svg;
     Point corner;
     std::span<const Station> stations;
-    SpreadOf spread;  ///< in the unit of the figure
+    SpreadOf spread;  ///< selects the spread, in the unit of the figure
     const char* unit;
 
     double scale() const {
@@ -63,7 +64,7 @@ const char* colour_of(double bias) {
 constexpr double kLargestMark = 16;
 
 double mark_radius(double bias, double scale) {
-    // The area of a mark is its value; the smallest stays visible.
+    // The area of a mark is proportional to its value; small values keep a mark that can be seen.
     return std::max(1.2, kLargestMark * std::sqrt(std::abs(bias) / scale));
 }
 

@@ -1,4 +1,4 @@
-// Locating many known frames on all cores.
+// Locates many frames with known poses on all processor cores.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -15,7 +15,7 @@ namespace {
 
 using Outcomes = std::vector<std::vector<Outcome>>;
 
-/// Work that all threads share: who is free takes the next frame.
+/// The frames that all threads share: a thread that is free takes the next one.
 class Crew {
   public:
     Crew(const FrameRun& run, Outcomes& outcomes)

@@ -1,4 +1,4 @@
-// From outcomes to numbers.
+// Computes the statistics of outcomes.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -86,7 +86,7 @@ Score score_of(std::span<const Outcome> outcomes) {
         }
     }
     for (double& sum : score.normalised)
-        sum /= score.located;  // not a number without fixes, as the quantiles
+        sum /= score.located;  // NaN without fixes, like the quantiles
     score.position_um = quantiles_of(std::move(distances_um));
     score.angle_deg = quantiles_of(std::move(angles_deg));
     score.elapsed_us = quantiles_of(std::move(times_us));
@@ -112,7 +112,8 @@ std::vector<std::pair<std::string, std::string>> described(const Score& score) {
     add("error^2 / variance, mean: x / y / theta",
         fmt::format("{} / {} / {}", number(score.normalised[0], 2), number(score.normalised[1], 2),
                     number(score.normalised[2], 2)));
-    // A smaller probability would be no statement about paper, ink and cameras any more.
+    // Smaller probabilities are not reported: the model of paper, ink and camera does not justify
+    // them.
     constexpr double kLeast_p_wrong = 1e-30;
     const bool has_fix = score.located + score.wrong > 0;
     add("largest p_wrong of a fix",

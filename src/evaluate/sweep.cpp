@@ -1,4 +1,4 @@
-// One condition, worse and worse.
+// Evaluates one condition, such as blur, at increasing values.
 #include "evaluate/sweep.hpp"
 
 #include <algorithm>
@@ -61,7 +61,7 @@ void cover(GreyImage& image, double share, double direction_rad) {
 
 KnownFrame sweep_frame(SweepKind kind, double value, const Setup& setup, std::uint64_t index) {
     Shot shot = draw_shot(setup, index);
-    // Apart from the shot's own numbers, so that those stay the same for all values.
+    // A separate generator keeps the shot's own random numbers the same for all values.
     Rng rng(setup.seed ^ shot.seed);
     const double direction_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
     switch (kind) {

@@ -1,4 +1,4 @@
-/// Parts of a sweep, for the tests.
+/// Parts of a sweep that its tests use.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@ namespace dotpose::evaluate_detail {
 
 std::span<const double> sweep_values(SweepKind kind);
 
-/// Frame `index` with the condition at `value`.
+/// Returns frame `index` with the condition at `value`.
 KnownFrame sweep_frame(SweepKind kind, double value, const Setup& setup, std::uint64_t index);
 
-/// Makes this share of the pixels dark: all beyond a straight edge, in the image direction
-/// opposite to `direction_rad` (from +u towards +v).
+/// Makes a share of the pixels dark: all pixels beyond a straight edge, on the side opposite to the
+/// direction `direction_rad`, an angle in the image from +u towards +v.
 void cover(GreyImage& image, double share, double direction_rad);
 
 }  // namespace dotpose::evaluate_detail

@@ -1,4 +1,5 @@
-// The picture of a sweep: success above, errors below, over the same condition.
+// Draws a sweep: the share of frames that are located above, the errors below, over the same
+// condition.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,7 +18,7 @@ constexpr double kHeight = 690;
 constexpr double kLeft = 80;
 constexpr double kPlotWidth = kWidth - kLeft - 40;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-/// Errors of fewer fixes than this say nothing.
+/// Errors are drawn from this number of fixes on; those of fewer are no useful statistic.
 constexpr int kFewestFixes = 5;
 
 struct Words {
@@ -75,7 +76,7 @@ void draw_head(Svg& svg, const Sweep& sweep) {
     legend_entry(svg, {x, 39}, {style::kWindow, false, false, true}, "8 x 8 window (paper)");
 }
 
-/// A number in a red disc wherever fixes were wrong.
+/// Marks values at which fixes were wrong with a red disc and their number.
 void mark_wrong(Svg& svg, const Axes& axes, const Sweep& sweep, Decoder decoder) {
     for (const SweepPoint& point : sweep.points) {
         const Score& score = decoder == Decoder::window ? point.window : point.all;
@@ -87,7 +88,7 @@ void mark_wrong(Svg& svg, const Axes& axes, const Sweep& sweep, Decoder decoder)
     }
 }
 
-/// Whole steps of 1, 2 or 5 around all errors.
+/// Returns a logarithmic scale that contains all errors and whose ends are round numbers.
 Scale error_scale(const Sweep& sweep) {
     double least = 1e300;
     double most = 0;
@@ -117,7 +118,8 @@ void draw_sweep(std::ostream& out, const Sweep& sweep) {
     const Axes below(svg, {kLeft, 390, kPlotWidth, 220}, x, error_scale(sweep));
     below.draw_y("position error of the fixes, µm: median (solid) and 95 % (dashed)");
     below.draw_x(words.x_label);
-    // The window's curves first: where both are the same, they show on either side of the other's.
+    // The curves of the decoder `window` are drawn first and wider, so that they stay visible where
+    // both are the same.
     for (const Decoder decoder : kDecoders) {
         const bool is_window = decoder == Decoder::window;
         const char* colour = is_window ? style::kWindow : style::kAll;

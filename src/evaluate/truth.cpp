@@ -1,4 +1,4 @@
-// Reading truth.csv.
+// Reads truth.csv.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -14,7 +14,7 @@
 namespace dotpose {
 namespace {
 
-/// The cells of a line, without the blanks around them.
+/// Returns the cells of a line without the blanks around them.
 std::vector<std::string> trimmed_cells_of(const std::string& line) {
     std::vector<std::string> cells = csv::cells_of(line);
     for (std::string& cell : cells) {
@@ -46,7 +46,7 @@ class TruthReader {
         throw Error(fmt::format("{}, line {}: {}", name_, line_number_, what));
     }
 
-    /// The next line that is not empty, in `cells_`.
+    /// Reads the next line that is not empty into `cells_`; returns false at the end of the file.
     bool next_line() {
         std::string line;
         while (std::getline(stream_, line)) {
@@ -55,7 +55,7 @@ class TruthReader {
             cells_ = trimmed_cells_of(line);
             if (cells_.size() > 1 || !cells_[0].empty()) return true;
         }
-        // A directory opens, but cannot be read.
+        // A directory can be opened but not read.
         if (!stream_.eof()) throw Error("cannot read " + name_);
         return false;
     }
@@ -76,7 +76,7 @@ class TruthReader {
 
     bool has(const std::string& column) const { return columns_.contains(column); }
 
-    /// Empty if there is no such column or cell.
+    /// Returns a cell of the current line, or an empty string if there is no such column or cell.
     std::string text(const std::string& column) const {
         const auto found = columns_.find(column);
         return found != columns_.end() && found->second < cells_.size() ? cells_[found->second]
