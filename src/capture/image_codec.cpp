@@ -25,7 +25,7 @@ struct BlobDeleter {
 using InfoPointer = std::unique_ptr<ImageInfo, InfoDeleter>;
 using ImagePointer = std::unique_ptr<Image, ImageDeleter>;
 
-/// Where the library reports what went wrong.
+/// Collects the errors that GraphicsMagick reports.
 class Report : public ExceptionInfo {
   public:
     Report() { GetExceptionInfo(this); }
@@ -33,7 +33,8 @@ class Report : public ExceptionInfo {
     Report(const Report&) = delete;
     Report& operator=(const Report&) = delete;
 
-    /// Pixels that a damaged file did not give are filled up and only warned of.
+    /// Whether the call failed. For a damaged file that lacks pixels the library fills them up and
+    /// reports only a warning.
     bool is_failure() const {
         return severity >= ErrorException || severity == CorruptImageWarning;
     }
@@ -42,20 +43,20 @@ class Report : public ExceptionInfo {
     }
 };
 
-/// The library's global state, from the first use to the end of the program.
+/// Global state of GraphicsMagick, from its first use to the end of the program.
 class Library {
   public:
     Library() {
-        // Signals belong to the program.
+        // The program handles signals, not the library.
         if (InitializeMagickEx(nullptr, MAGICK_OPT_NO_SIGNAL_HANDER, nullptr) == MagickFail) {
             throw Error("the image decoding library could not be started");
         }
         SetMagickResourceLimit(WidthResource, kMaxImageSide_px);
         SetMagickResourceLimit(HeightResource, kMaxImageSide_px);
         SetMagickResourceLimit(PixelsResource, kMaxImagePixels);
-        // Frames are small: threads would cost more than they give.
+        // Frames are so small that threads would make decoding slower.
         SetMagickResourceLimit(ThreadsResource, 1);
-        // Never swap pixels to files behind the user's back.
+        // The library must not move pixels to temporary files.
         SetMagickResourceLimit(DiskResource, 0);
         SetMagickResourceLimit(MapResource, 0);
     }
@@ -70,7 +71,7 @@ void start_library() {
 
 InfoPointer make_info(ImageFormat format) {
     InfoPointer info(CloneImageInfo(nullptr));
-    // Named outright, so that the library never guesses among the many formats it knows.
+    // The format is set, so that the library does not guess among the many formats it knows.
     std::strncpy(info->magick, name(format), sizeof info->magick - 1);
     info->subimage = 0;
     info->subrange = 1;
@@ -93,10 +94,10 @@ InfoPointer make_info(ImageFormat format) {
                 (has_reason ? " (" + std::string(report.reason) + ")" : ""));
 }
 
-/// One row as 16-bit red, green, blue and opacity to grey, rounded once.
+/// Converts a row of 16-bit red, green, blue and opacity to grey, with a single rounding.
 void convert_row(std::span<const std::uint16_t> rgba, std::uint8_t* grey) {
     constexpr std::uint64_t kFull = 65'535;
-    constexpr std::uint64_t kLumaScale = 1000;  // of the Rec. 601 weights
+    constexpr std::uint64_t kLumaScale = 1000;  // sum of the Rec. 601 weights
     constexpr std::uint64_t kScale = kFull * kLumaScale * (kFull / 255);
     for (std::size_t i = 0; i + 3 < rgba.size(); i += 4) {
         const std::uint64_t luma = 299ULL * rgba[i] + 587ULL * rgba[i + 1] + 114ULL * rgba[i + 2];
@@ -122,7 +123,7 @@ GreyImage to_grey(const Image& image, Report& report) {
     return grey;
 }
 
-/// What the header says, without the pixels.
+/// Reads the header of an image without its pixels.
 ImagePointer read_header(ImageFormat format, std::span<const std::uint8_t> bytes) {
     Report report;
     const InfoPointer info = make_info(format);
@@ -136,7 +137,7 @@ ImagePointer read_header(ImageFormat format, std::span<const std::uint8_t> bytes
 GreyImage decode_image(ImageFormat format, std::span<const std::uint8_t> bytes, int max_pixels) {
     start_library();
     Report report;
-    // The library leaves the pixels of missing TIFF strips unset, without a word.
+    // The library leaves the pixels of missing TIFF strips unset and reports nothing.
     if (format == ImageFormat::tiff && is_cut_short(format, bytes)) fail(format, bytes, report);
     {
         const ImagePointer header = read_header(format, bytes);

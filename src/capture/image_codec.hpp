@@ -1,4 +1,4 @@
-/// Between file contents and grey images; the only place that knows the decoding library.
+/// Converts between file contents and grey images. Only this file uses the decoding library.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,16 @@
 
 namespace dotpose::capture {
 
-/// All formats but PNM. Conversions and limits as in image_file.hpp. Throws Error with the reason
-/// only; the caller knows the file's name.
+/// Decodes an image of any format but PNM, with the conversions and limits that image_file.hpp
+/// describes. Throws Error that has only the reason; the caller adds the name of the file.
 GreyImage decode_image(ImageFormat format, std::span<const std::uint8_t> bytes, int max_pixels);
 
-/// What the file states, without decoding the pixels. Throws Error with the reason only.
+/// Returns the resolution that the file states, without decoding the pixels. Throws Error that has
+/// only the reason.
 std::optional<Resolution> decode_resolution(ImageFormat format,
                                             std::span<const std::uint8_t> bytes);
 
-/// `image` must not be empty. Throws Error if the encoder fails.
+/// Encodes an image, which must not be empty. Throws Error if the encoder fails.
 std::vector<std::uint8_t> encode_png(const GreyImage& image);
 
 }  // namespace dotpose::capture

@@ -19,7 +19,8 @@ namespace {
 using capture::ImageFormat;
 using Bytes = std::vector<std::uint8_t>;
 
-/// More than an image takes at 16 bits and four channels; ends endless files.
+/// Returns a limit for the size of a file that is above that of any image with 16 bits and four
+/// channels; without it, reading an endless file would not end.
 std::size_t max_file_bytes(int max_pixels) {
     return std::size_t{8} * static_cast<std::size_t>(max_pixels) + (std::size_t{1} << 20);
 }
@@ -42,7 +43,7 @@ std::string system_reason() {
     }
 }
 
-/// Appends up to `count` bytes; fewer only at the end of the file.
+/// Appends up to `count` bytes of the file to `bytes`; fewer only at the end of the file.
 void append(std::FILE* file, std::size_t count, Bytes& bytes) {
     const std::size_t before = bytes.size();
     bytes.resize(before + count);
@@ -70,7 +71,7 @@ Content read_file(const std::filesystem::path& path, int max_pixels) {
             "example with heif-convert PHOTO.heic PHOTO.jpg");
     }
     if (!format) throw Error("not a PNM, PNG, JPEG, BMP or TIFF image");
-    // Read to the end instead of asking for the size, which pipes do not have.
+    // The file is read to its end, because pipes have no size that could be asked for.
     const std::size_t most = max_file_bytes(max_pixels);
     std::size_t chunk = std::size_t{1} << 16;
     while (std::feof(file.get()) == 0) {
@@ -88,12 +89,12 @@ void write_file(const std::filesystem::path& path, const Bytes& bytes) {
     File file(std::fopen(path.c_str(), "wb"));
     const bool written =
         file && std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
-    // What is still buffered can fail when closing: the disk may be full.
+    // Closing writes what is buffered, which fails if the disk is full.
     const bool closed = file && std::fclose(file.release()) == 0;
     if (!written || !closed) throw Error(system_reason());
 }
 
-/// The pixels without padding between rows.
+/// Returns the pixels without padding between rows.
 Bytes packed_pixels(ImageView image) {
     if (image.pixels == nullptr || image.width_px <= 0 || image.height_px <= 0) {
         throw Error("the image is empty");
@@ -107,7 +108,7 @@ Bytes packed_pixels(ImageView image) {
     return pixels;
 }
 
-/// Runs `action`; its errors, which give the reason only, get the file's name.
+/// Runs `action` and adds the name of the file to its errors, which have only the reason.
 template <class Action>
 auto with_name(const char* verb, const std::filesystem::path& path, Action action) {
     const auto sentence = [&](const char* reason) {

@@ -13,7 +13,7 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-/// Unsigned integer of `size` bytes; the caller has checked that they are there.
+/// Reads an unsigned integer of `size` bytes; the caller has checked that `bytes` is long enough.
 std::uint64_t integer(Bytes bytes, std::size_t offset, std::size_t size, bool big_endian) {
     std::uint64_t value = 0;
     for (std::size_t i = 0; i < size; ++i) {
@@ -38,7 +38,7 @@ bool png_is_cut_short(Bytes bytes) {
 
 bool jpeg_is_cut_short(Bytes bytes) {
     constexpr std::array<std::uint8_t, 2> kEndOfImage{0xFF, 0xD9};
-    // Cameras may pad after the marker, so the last bytes alone do not tell.
+    // Some cameras append padding, so the marker is not always in the last two bytes.
     return std::search(bytes.rbegin(), bytes.rend(), kEndOfImage.rbegin(), kEndOfImage.rend()) ==
            bytes.rend();
 }
@@ -62,7 +62,7 @@ class TiffDirectory {
         if (!holds(offset, count_size)) return true;
         const std::uint64_t entries = number(offset, count_size);
         const std::uint64_t first = offset + count_size;
-        // After the entries stands the offset of the next directory.
+        // The entries are followed by the offset of the next directory.
         if (entries > bytes_.size() / entry_size() ||
             !holds(first, entries * entry_size() + word())) {
             return true;
@@ -87,7 +87,7 @@ class TiffDirectory {
     struct Values {
         std::uint64_t offset = 0;
         std::uint64_t count = 0;
-        std::uint64_t size = 0;  ///< bytes of one
+        std::uint64_t size = 0;  ///< bytes per value
     };
     enum Tag : std::uint64_t {
         strip_offsets = 273,
@@ -106,7 +106,7 @@ class TiffDirectory {
     }
 
     Values values_of(std::uint64_t entry) const {
-        // Bytes per value of the types 0 to 18; the decoder ignores unknown types, and so do we.
+        // Bytes per value of the types 0 to 18. Unknown types are ignored, as the decoder does.
         constexpr std::array<std::uint8_t, 19> kTypeSizes{0, 1, 1, 2, 4, 8, 1, 1, 2, 4,
                                                           8, 4, 8, 4, 0, 0, 8, 8, 8};
         const std::uint64_t type = number(entry + 2, 2);

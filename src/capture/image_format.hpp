@@ -1,4 +1,4 @@
-/// What can be told about an image file from its bytes alone, without decoding.
+/// Examines the bytes of an image file without decoding it.
 #pragma once
 
 #include <cstddef>
@@ -10,32 +10,32 @@ namespace dotpose::capture {
 
 enum class ImageFormat : std::uint8_t { pnm, png, jpeg, bmp, tiff };
 
-/// Bytes `sniff` looks at.
+/// Number of bytes that `sniff` needs.
 inline constexpr std::size_t kMagicBytes = 12;
 
-/// The reason given for images beyond the limits.
+/// The message for images above the limits.
 inline constexpr char kTooLarge[] =
     "the image is too large: at most 100,000 px per side and 2^28 px are read";
 
 /// Throws Error if a side is beyond the limit, ImageTooLarge if there are too many pixels.
 void require_size(std::uint64_t width_px, std::uint64_t height_px, int max_pixels);
 
-/// The format the first bytes announce.
+/// Returns the format that the first bytes of a file indicate, or none.
 std::optional<ImageFormat> sniff(std::span<const std::uint8_t> bytes);
 
-/// Whether these are the first bytes of an image of phones, HEIC or AVIF, which is none of the
-/// formats.
+/// Whether these are the first bytes of a HEIC or AVIF image, as phones store them, which are not
+/// supported.
 bool is_heif(std::span<const std::uint8_t> bytes);
 
-/// "PNM", "PNG", "JPEG", "BMP" or "TIFF".
+/// Returns "PNM", "PNG", "JPEG", "BMP" or "TIFF".
 const char* name(ImageFormat format);
 
 /// Whether the file's own structure (chunks, sizes, offsets, end marker) reaches beyond its end.
 /// PNM has no such structure: always false.
 bool is_cut_short(ImageFormat format, std::span<const std::uint8_t> bytes);
 
-/// Whether a PNG announces a side above kMaxImageSide_px, which its decoder reports only as a bad
-/// header; other formats: false.
+/// Whether a PNG has a side above kMaxImageSide_px, which its decoder reports only as a bad header.
+/// Returns false for other formats.
 bool is_too_large(ImageFormat format, std::span<const std::uint8_t> bytes);
 
 }  // namespace dotpose::capture

@@ -23,7 +23,7 @@ bool is_space(char character) {
     return character == ' ' || (character >= '\t' && character <= '\r');
 }
 
-/// Takes bytes and numbers off the front of a file.
+/// Reads bytes and numbers one after the other.
 class Reader {
   public:
     explicit Reader(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
@@ -37,7 +37,7 @@ class Reader {
         return first;
     }
 
-    /// The first character that is neither white space nor in a comment.
+    /// Returns the next character that is neither white space nor in a comment.
     char symbol() {
         char character = text();
         while (is_space(character))
@@ -45,7 +45,8 @@ class Reader {
         return character;
     }
 
-    /// A decimal number and one white space behind it, without which it may have lost digits.
+    /// Reads a decimal number and the white space after it, which must be there: without it, digits
+    /// of the number may be missing.
     std::uint32_t number() {
         std::uint32_t value = 0;
         char character = symbol();
@@ -60,14 +61,14 @@ class Reader {
         return value;
     }
 
-    /// Where a header was written with line breaks of two characters, the last one is half read,
-    /// and one byte more is left than the pixels take.
+    /// Skips the line feed of a header whose lines end with a carriage return and a line feed:
+    /// after the header, one byte more is left than the pixels take.
     void finish_line_break(std::size_t pixel_bytes) {
         if (ended_by_return_ && rest_.size() > pixel_bytes && rest_.front() == '\n') byte();
     }
 
   private:
-    /// One character; a comment counts as the end of its line.
+    /// Reads one character; a comment is read as the line break at its end.
     char text() {
         char character = static_cast<char>(byte());
         if (character != '#') return character;
@@ -77,10 +78,10 @@ class Reader {
     }
 
     std::span<const std::uint8_t> rest_;
-    bool ended_by_return_ = false;  ///< the newest number
+    bool ended_by_return_ = false;  ///< whether a carriage return followed the last number
 };
 
-/// What the header says.
+/// The contents of the header.
 struct Header {
     bool is_text = false;
     bool is_bitmap = false;
@@ -108,7 +109,8 @@ Header read_header(Reader& reader, int max_pixels) {
     return header;
 }
 
-/// The least the pixels can take; checked before memory is reserved for them.
+/// Returns the least number of bytes that the pixels can take. It is compared with the size of the
+/// file before memory is allocated.
 std::size_t least_bytes(const Header& header) {
     const std::size_t samples = header.width_px * header.height_px * header.channels;
     if (header.is_bitmap) {
@@ -147,7 +149,7 @@ std::uint32_t read_level(Reader& reader, const Header& header) {
 }
 
 void read_levels(Reader& reader, const Header& header, GreyImage& image) {
-    constexpr std::uint64_t kLumaScale = 1000;  // of the Rec. 601 weights
+    constexpr std::uint64_t kLumaScale = 1000;  // sum of the Rec. 601 weights
     const std::uint64_t scale = kLumaScale * header.max_level;
     for (std::uint8_t& pixel : image.pixels) {
         const std::uint64_t first = read_level(reader, header);

@@ -1,7 +1,7 @@
 /// Reads PBM, PGM and PPM, text and binary (P1 to P6), as netpbm specifies them.
 ///
-/// Not left to the decoding library, because it reads damaged headers (a negative width, for one)
-/// as good ones and writes to standard error when a header has two comments.
+/// The decoding library is not used for them, because it accepts damaged headers, for example with
+/// a negative width, and writes to standard error when a header has two comments.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,8 @@
 
 namespace dotpose::capture {
 
-/// `bytes` start with a magic that `sniff` knows. Throws Error with the reason only.
+/// Decodes an image. `bytes` must start with the magic number of a PNM format. Throws Error that
+/// has only the reason.
 GreyImage decode_pnm(std::span<const std::uint8_t> bytes, int max_pixels);
 
 }  // namespace dotpose::capture
