@@ -1,4 +1,4 @@
-// Cameras, at this computer (V4L2) or in the network, through OpenCV.
+// Reads cameras, at this computer (V4L2) or in the network, through OpenCV.
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -33,7 +33,8 @@ void to_grey(const cv::Mat& picture, GreyImage& image) {
         image.pixels.insert(image.pixels.end(), grey.ptr(v), grey.ptr(v) + grey.cols);
 }
 
-/// Whatever a driver or decoder throws becomes an Error with the source's name.
+/// Runs `action` and replaces exceptions of drivers and decoders by an Error with the source's
+/// name.
 template <typename Action>
 auto guarded(const std::string& name, const Action& action) {
     try {
@@ -43,7 +44,7 @@ auto guarded(const std::string& name, const Action& action) {
     }
 }
 
-/// A camera is read by a thread of its own, so that the newest frame is always the one given.
+/// Reads a camera in a separate thread, so that `next` always returns the newest frame.
 class Camera : public FrameSource {
   public:
     explicit Camera(const SourceOptions& options)
@@ -104,8 +105,9 @@ class Camera : public FrameSource {
         if (options_.gain) capture_.set(cv::CAP_PROP_GAIN, *options_.gain);
     }
 
-    /// When the driver took the frame, on the monotonic clock, where it tells. A stream's own times
-    /// are on no clock that we know.
+    /// Returns when the frame was taken, on the monotonic clock: by the driver if it tells,
+    /// otherwise when the frame was read. The times of a stream are not used, because their clock
+    /// is not known.
     std::int64_t time_us() const {
         const double driver_ms = is_remote_ ? 0 : capture_.get(cv::CAP_PROP_POS_MSEC);
         if (driver_ms > 0) return std::llround(driver_ms * 1e3);
@@ -142,13 +144,13 @@ class Camera : public FrameSource {
         latest_.put(std::move(frame));
     }
 
-    /// Tells, on the camera's clock, that time goes by without a frame.
+    /// Puts an empty frame with the current time, on the camera's clock.
     void put_none() {
         using namespace std::chrono;
         put({}, newest_us_ + duration_cast<microseconds>(steady_clock::now() - read_at_).count());
     }
 
-    /// One attempt to open it anew.
+    /// Waits half a second and tries to open the camera again.
     void try_again() {
         if (!is_away_) {
             options_.tell("the camera " + options_.name + " does not answer; waiting for it");
@@ -159,11 +161,11 @@ class Camera : public FrameSource {
         if (frames_ > 0) put_none();
         try {
             open();
-        } catch (const Error&) {  // the next read fails too
+        } catch (const Error&) {  // the next read fails too, and leads here again
         }
     }
 
-    static constexpr int kPatience_ms = 2000;  ///< with a camera in the network
+    static constexpr int kPatience_ms = 2000;  ///< timeout for cameras in the network
 
     SourceOptions options_;
     bool is_remote_;
@@ -181,7 +183,7 @@ class Camera : public FrameSource {
 }  // namespace
 
 std::unique_ptr<FrameSource> open_camera(const SourceOptions& options) {
-    // What fails is told in our own words.
+    // OpenCV must not print its own messages: failures are reported as Error.
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);  // AV_LOG_QUIET
     return std::make_unique<Camera>(options);

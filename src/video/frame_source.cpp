@@ -18,7 +18,7 @@ bool is_camera(const std::string& name) {
            name.starts_with("/dev/video") || is_url(name);
 }
 
-/// Cuts the region out of every frame of another source.
+/// Crops every frame of another source to a region.
 class Cropped : public FrameSource {
   public:
     Cropped(std::unique_ptr<FrameSource> whole, const Region& region)

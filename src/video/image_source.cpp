@@ -1,4 +1,4 @@
-// Images of a folder or glob, in the order of their names.
+// Reads the images of a folder or glob in the order of their names.
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -65,7 +65,7 @@ class ImageSource : public FrameSource {
                 frame.image = read_frame(name);
                 return true;
             } catch (const Error& error) {
-                // One bad image does not keep the others from being seen.
+                // After an image that cannot be read, the source goes on with the next one.
                 options_.tell(error.what());
             }
         }

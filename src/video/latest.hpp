@@ -1,5 +1,5 @@
-// Latest: hands the newest of many values from one thread to another. What comes too fast is
-// dropped and counted, never queued.
+// Passes the newest of many values from one thread to another. A value that was not taken before
+// the next one comes is dropped and counted; there is no queue.
 #pragma once
 
 #include <chrono>
@@ -23,7 +23,7 @@ class Latest {
         arrived_.notify_one();
     }
 
-    /// Waits at most `patience`.
+    /// Returns the newest value, and waits at most `patience` for one.
     std::optional<Value> take(std::chrono::milliseconds patience) {
         std::unique_lock lock(mutex_);
         arrived_.wait_for(lock, patience, [this] { return value_.has_value(); });

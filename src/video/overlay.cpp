@@ -12,11 +12,11 @@
 namespace dotpose::video {
 namespace {
 
-constexpr int kLongerSide = 800;  ///< of the frame on the picture
+constexpr int kLongerSide = 800;  ///< longer side of the frame on the picture, px
 constexpr int kPanelWidth = 400;
 constexpr int kLineHeight = 24;
 
-// Blue, green, red.
+// Colours are given as blue, green, red.
 const cv::Scalar kGood(73, 132, 30);
 const cv::Scalar kBad(43, 57, 192);
 const cv::Scalar kDot(0, 143, 255);
@@ -32,7 +32,8 @@ int even(double length) {
     return 2 * static_cast<int>(std::ceil(length / 2));
 }
 
-/// All cells of the grid that was found, or every other one so that few hundred lines remain.
+/// Draws the grid that was found; of a large grid, only every n-th line, so that there are at most
+/// a few hundred.
 void draw_grid(const draw::FrameView& view, cv::Mat& picture) {
     const Region& grid = view.trace().grid.region;
     const int step = std::max({1, grid.columns / 64, grid.rows / 64});
@@ -40,7 +41,7 @@ void draw_grid(const draw::FrameView& view, cv::Mat& picture) {
         cv::line(picture, pixel(view.at_grid(i0, j0)), pixel(view.at_grid(i1, j1)), kGrid, 1,
                  cv::LINE_AA);
     };
-    // From cell to cell, because a lens bends lines.
+    // Lines are drawn from cell to cell, because lens distortion bends them.
     for (int i = grid.i0; i < grid.i0 + grid.columns; i += step) {
         for (int j = grid.j0; j < grid.j0 + grid.rows; j += step) {
             if (i + step < grid.i0 + grid.columns) line(i, j, i + step, j);
@@ -73,7 +74,7 @@ void draw_captions(const Scene& scene, cv::Mat panel) {
     }
 }
 
-/// Sheets and path from above, scaled to fill the panel.
+/// The panel with the sheets and the path from above, scaled to fill it.
 class Plan {
   public:
     Plan(const Scene& scene, cv::Mat panel) : panel_(std::move(panel)), y_up_(scene.y_up) {
@@ -136,7 +137,7 @@ cv::Mat overlay(const Scene& scene) {
     const int width = even(view.width());
     const int height = std::max(even(view.height()), 480);
     cv::Mat picture(height, width + kPanelWidth, CV_8UC3, kPaper);
-    // Nothing is written through it.
+    // cv::Mat has no read-only view; nothing writes to these pixels.
     const cv::Mat grey(scene.image.height_px, scene.image.width_px, CV_8UC1,
                        const_cast<std::uint8_t*>(scene.image.pixels),
                        static_cast<std::size_t>(scene.image.stride_bytes));

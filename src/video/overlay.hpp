@@ -1,4 +1,4 @@
-// Overlay: draws what `locate` saw over a frame, with captions and the path beside it.
+// Draws the results of `locate` over a frame, with captions and the path beside it.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -7,8 +7,8 @@
 
 namespace dotpose::video {
 
-/// Always of the same size for frames of the same size; width and height are even, as encoders want
-/// them.
+/// Draws the picture. Its size depends only on the size of the frame; width and height are even,
+/// because video encoders require that.
 cv::Mat overlay(const Scene& scene);
 
 }  // namespace dotpose::video

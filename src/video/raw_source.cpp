@@ -1,4 +1,4 @@
-// Raw 8-bit grey frames on standard input, one after the other, without anything between them.
+// Reads raw 8-bit grey frames from standard input, one after the other with nothing between them.
 #include <cerrno>
 #include <chrono>
 #include <cmath>
@@ -38,7 +38,8 @@ class RawSource : public FrameSource {
     double rate() const override { return options_.fps.value_or(0); }
 
   private:
-    /// False at the end between two frames, or when asked to stop.
+    /// Reads one frame. Returns false if the input ends before its first byte, or when
+    /// `SourceOptions::stop` returns true.
     bool fill(std::vector<std::uint8_t>& pixels) {
         constexpr int kPatience_ms = 100;
         std::size_t filled = 0;

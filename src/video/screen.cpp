@@ -48,8 +48,8 @@ class Screen::Output {
                cv::getWindowProperty(kWindow, cv::WND_PROP_VISIBLE) >= 1;
     }
 
-    /// The library tells neither a full disk nor a file that was cut short: what was recorded is
-    /// looked at.
+    /// Closes the recording and counts its frames: OpenCV reports neither a full disk nor an
+    /// incomplete file. Throws Error if frames are missing.
     void finish() {
         if (!writer_.isOpened()) return;
         writer_.release();
@@ -97,7 +97,7 @@ class Screen::Output {
     ScreenOptions options_;
     cv::VideoWriter writer_;
     cv::Size size_;
-    std::int64_t frames_ = 0;  ///< recorded
+    std::int64_t frames_ = 0;  ///< number of frames that were written to the recording
     bool is_shown_ = false;
 };
 
@@ -121,7 +121,8 @@ bool Screen::is_wanted() {
 }
 
 bool has_display() {
-    // Qt, which draws the window, ends the program if nobody answers. It brings this library along.
+    // Qt, which draws the window, ends the program if it cannot reach an X server, so that is tried
+    // first. The library is loaded here because Qt brings it along; dotpose does not link it.
     void* library = dlopen("libX11.so.6", RTLD_LAZY);
     if (library == nullptr) return false;
     const auto connect = reinterpret_cast<void* (*)(const char*)>(dlsym(library, "XOpenDisplay"));

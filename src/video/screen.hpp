@@ -1,4 +1,4 @@
-// Screen: the live picture of `dotpose watch`, in a window, in a video file, or both.
+// Shows the live picture of `dotpose watch` in a window, writes it to a video file, or both.
 #pragma once
 
 #include <cstdint>
@@ -15,49 +15,49 @@
 
 namespace dotpose::video {
 
-/// A point of the path, in any plane; a jump starts a new stroke.
+/// A point of the path in some plane; after a jump, the path is drawn as a new stroke.
 struct PathMark {
     double x = 0;
     double y = 0;
     bool is_jump = false;
 };
 
-/// What the picture of one frame shows.
+/// The contents of the picture of one frame.
 struct Scene {
     ImageView image;
     Trace trace;                             ///< of this image
     bool is_good = false;                    ///< colour of the captions
     std::vector<std::string> lines;          ///< captions: pose, rate, quality
-    std::span<const PathMark> path;          ///< so far
-    std::span<const draw::MapSheet> sheets;  ///< in the path's plane
-    bool y_up = false;                       ///< of that plane
+    std::span<const PathMark> path;          ///< the path up to this frame
+    std::span<const draw::MapSheet> sheets;  ///< the sheets in the plane of the path
+    bool y_up = false;                       ///< whether y points up in this plane
 };
 
 struct ScreenOptions {
     bool has_window = false;
-    std::string record;  ///< video file; empty: none
-    double fps = 30;     ///< of the video file
+    std::string record;  ///< path of the video file; empty for none
+    double fps = 30;     ///< frame rate of the video file
 };
 
 class Screen {
   public:
-    /// Throws Error if the window or file cannot be opened. Nothing happens before the first scene.
+    /// Throws Error if the window or file cannot be opened. They are opened with the first scene.
     explicit Screen(const ScreenOptions& options);
     ~Screen();
     Screen(const Screen&) = delete;
     Screen& operator=(const Screen&) = delete;
 
-    /// Whether anybody looks.
+    /// Whether there is a window or a recording.
     bool is_on() const;
 
-    /// Draws, shows and records. Throws Error. False if the user closed the window or pressed q or
-    /// Escape in it.
+    /// Draws, shows and records a scene. Returns false if the user closed the window or pressed q
+    /// or Escape in it. Throws Error if this fails.
     bool show(const Scene& scene);
 
     /// Closes the recording. Throws Error if it is not complete, as on a full disk.
     void finish();
 
-    /// Without anything new to show. The same return value.
+    /// Handles events of the window when there is nothing new to show. Returns false like `show`.
     bool is_wanted();
 
   private:
@@ -65,7 +65,7 @@ class Screen {
     std::unique_ptr<Output> output_;
 };
 
-/// Whether a window can be opened here: an X server answers, be it that of a Wayland session.
+/// Whether a window can be opened: an X server answers, which may be that of a Wayland session.
 bool has_display();
 
 }  // namespace dotpose::video

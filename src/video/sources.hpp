@@ -1,4 +1,4 @@
-// One function for each kind of source; see frame_source.hpp.
+// Functions that open each kind of source; frame_source.hpp describes the kinds.
 #pragma once
 
 #include "video/frame_source.hpp"
@@ -10,14 +10,14 @@ std::unique_ptr<FrameSource> open_images(const SourceOptions& options);
 std::unique_ptr<FrameSource> open_video(const SourceOptions& options);
 std::unique_ptr<FrameSource> open_camera(const SourceOptions& options);
 
-/// The images of a folder or glob, in the order of their names. Throws Error: the folder cannot be
-/// read.
+/// Returns the images of a folder or glob, in the order of their names. Throws Error if the folder
+/// cannot be read.
 std::vector<std::string> images_at(const std::string& name);
 
-/// Whether the name is that of something in the network.
+/// Whether the name is a URL of a source in the network.
 bool is_url(const std::string& name);
 
-/// Time of a frame where only its number is known.
+/// Returns the time of a frame in microseconds from its number and the frame rate.
 std::int64_t time_of(std::int64_t index, double fps);
 
 }  // namespace dotpose::video

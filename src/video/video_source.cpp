@@ -1,5 +1,5 @@
-// Video files, through FFmpeg's libraries: they tell the time of every frame, and which frames are
-// damaged; OpenCV keeps both to itself.
+// Reads video files with FFmpeg's libraries. Unlike OpenCV, they give the time of every frame and
+// report damaged frames.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -22,7 +22,7 @@ extern "C" {
 namespace dotpose::video {
 namespace {
 
-/// Calls of these libraries that end what others of them began.
+/// Frees objects of FFmpeg's libraries.
 struct Release {
     void operator()(AVFormatContext* file) const { avformat_close_input(&file); }
     void operator()(AVCodecContext* decoder) const { avcodec_free_context(&decoder); }
@@ -39,7 +39,7 @@ Owned<T> owned(T* pointer) {
     return Owned<T>(pointer);
 }
 
-/// Brightness, whatever the format of the frame.
+/// Converts frames of any pixel format to grey.
 class GreyConverter {
   public:
     void operator()(const AVFrame& picture, GreyImage& image) {
@@ -53,7 +53,7 @@ class GreyConverter {
             const int* colours = sws_getCoefficients(SWS_CS_DEFAULT);
             sws_setColorspaceDetails(converter_.get(), colours, 1, colours, 1, 0, 1 << 16, 1 << 16);
         }
-        // Its rows are as long as the converter likes them.
+        // The converter needs rows with a certain alignment, which this allocation gives.
         const auto grey = owned(av_frame_alloc());
         grey->format = AV_PIX_FMT_GRAY8;
         grey->width = width;
@@ -84,7 +84,7 @@ class VideoFile : public FrameSource {
             throw Error("cannot read " + options.name + ": no such file or camera");
         }
         if (!std::ifstream(options.name)) throw Error("cannot read " + options.name);
-        // What fails is told in our own words.
+        // FFmpeg must not print its own messages: failures are reported as Error.
         av_log_set_level(AV_LOG_QUIET);
         if (!open()) throw Error(options.name + " is no video, or of a kind that is not known");
     }
@@ -110,11 +110,11 @@ class VideoFile : public FrameSource {
   private:
     bool open() {
         AVFormatContext* file = nullptr;
-        // A name with a colon is no protocol.
+        // With the prefix, the part of a name before a colon is not taken for a protocol.
         const std::string url = "file:" + options_.name;
         if (avformat_open_input(&file, url.c_str(), nullptr, nullptr) < 0) return false;
         file_.reset(file);
-        // Later it also holds what was found by reading.
+        // This must come before packets are read, which adds entries to the index.
         for (unsigned i = 0; i < file->nb_streams; ++i) {
             const int entries = avformat_index_get_entries_count(file->streams[i]);
             has_index_ = has_index_ || (entries > 0 && entries >= file->streams[i]->nb_frames);
@@ -132,20 +132,21 @@ class VideoFile : public FrameSource {
                avcodec_open2(decoder_.get(), codec, nullptr) >= 0;
     }
 
-    /// How long the file says the video is; 0: it does not say.
+    /// Returns the duration of the video that the file states, or 0 if it states none.
     double duration_s() const {
         if (stream_->duration > 0) {
             return static_cast<double>(stream_->duration) * av_q2d(stream_->time_base);
         }
-        // That of the longest stream.
+        // The duration of a file is that of its longest stream, so it is used only if there is one
+        // stream.
         const bool is_of_video = file_->nb_streams == 1 && file_->duration > 0;
         return is_of_video ? static_cast<double>(file_->duration) / AV_TIME_BASE : 0;
     }
-    /// How many frames the file says it has, or that take so long.
+    /// Returns the number of frames that the file states, or the number for the stated duration.
     std::int64_t promised() const {
         return stream_->nb_frames > 0 ? stream_->nb_frames : std::llround(duration_s() * rate_);
     }
-    /// Throws Error if something is missing.
+    /// Throws Error if the video is damaged or ended too early.
     void judge_end() const {
         const bool is_short = stream_->nb_frames > 0 ? frames_ < stream_->nb_frames
                                                      : time_s_ + 2 / rate_ < duration_s();
@@ -163,7 +164,8 @@ class VideoFile : public FrameSource {
         }
     }
 
-    /// The next packet of the video to the decoder, or at the end that there are no more.
+    /// Sends the next packet of the video to the decoder, or the end of the stream after the last
+    /// one.
     void send_packet() {
         constexpr int kMostFailures = 100;
         for (int failures = 0; failures < kMostFailures;) {
@@ -186,8 +188,9 @@ class VideoFile : public FrameSource {
         avcodec_send_packet(decoder_.get(), nullptr);
     }
 
-    /// AVI stores no times: they are counted from packet to packet, wrongly after damage. But its
-    /// index tells which frame stands where.
+    /// Corrects the time of a packet of an AVI file by the file's index. AVI stores no times;
+    /// FFmpeg counts packets, which is wrong after damage. The index tells the position of every
+    /// frame.
     void correct_time() {
         if (std::string_view(file_->iformat->name) != "avi") return;
         int first = 0;
@@ -206,13 +209,14 @@ class VideoFile : public FrameSource {
         if (packet_->pts != AV_NOPTS_VALUE) packet_->pts = entry->timestamp;
     }
 
-    /// What follows may show what stood in other frames, up to the next that stands for itself.
+    /// Discards frames up to the next key frame, which does not depend on earlier ones: the others
+    /// may contain parts of wrong frames.
     void pass_over() {
         is_damaged_ = true;
         waits_for_key_frame_ = true;
     }
 
-    /// False if the picture is not to be trusted.
+    /// Converts the decoded picture to a frame. Returns false if the picture may be damaged.
     bool take_picture(Frame& frame) {
         const std::int64_t time = picture_->best_effort_timestamp;
         if (time != AV_NOPTS_VALUE) {
@@ -238,20 +242,20 @@ class VideoFile : public FrameSource {
 
     SourceOptions options_;
     Owned<AVFormatContext> file_;
-    AVStream* stream_ = nullptr;  ///< of the file
+    AVStream* stream_ = nullptr;  ///< the video stream, owned by `file_`
     Owned<AVCodecContext> decoder_;
     Owned<AVPacket> packet_;
     Owned<AVFrame> picture_;
     GreyConverter to_grey_;
     double rate_ = 30;
-    double begin_s_ = 0;  ///< of the first picture, as the file counts
-    double time_s_ = 0;   ///< of the newest
+    double begin_s_ = 0;  ///< time of the first picture in the file
+    double time_s_ = 0;   ///< time of the newest picture after the first
     bool has_begun_ = false;
     bool is_damaged_ = false;
     bool has_index_ = false;
-    bool is_counted_ = false;  ///< times, because there is no index that fits
+    bool is_counted_ = false;  ///< whether times are counted, because the index does not fit
     bool waits_for_key_frame_ = false;
-    std::int64_t frames_ = 0;  ///< given
+    std::int64_t frames_ = 0;  ///< number of frames that were returned
 };
 
 }  // namespace
