@@ -1,6 +1,6 @@
-// Framing: a fixed number of any bytes -> bytes without zeros, protected by a CRC. The coded bytes
-// are what the CRC protects, not the plain ones: an error in a code byte of COBS would shift all
-// that follows, and no CRC of the plain bytes is sure to notice that.
+// Codes a fixed number of arbitrary bytes as bytes without zeros, protected by a CRC. The CRC is
+// that of the coded bytes, not of the plain ones: an error in a code byte of COBS shifts all bytes
+// after it, which a CRC of the plain bytes would not detect with certainty.
 #pragma once
 
 #include <array>
@@ -11,23 +11,24 @@
 namespace dotpose::link {
 
 inline constexpr std::size_t kPlainBytes = 27;
-/// COBS (Cheshire and Baker, 1999) adds one byte to up to 254.
+/// Number of bytes after COBS (Cheshire and Baker, 1999), which adds one byte to up to 254 bytes.
 inline constexpr std::size_t kCodedBytes = kPlainBytes + 1;
-/// The CRC, 7 bits in a byte, so that none is zero.
+/// Number of bytes of the CRC, which has at most 7 of its bits in a byte, so that no byte is zero.
 inline constexpr std::size_t kCheckBytes = 3;
 inline constexpr std::size_t kFramedBytes = kCodedBytes + kCheckBytes;
 
 using Plain = std::array<std::uint8_t, kPlainBytes>;
 using Framed = std::array<std::uint8_t, kFramedBytes>;
 
-/// CRC-16 with the polynomial 0x5935, initial value 0xFFFF, most significant bit first. Among
-/// 16-bit polynomials it notices the most errors at our length: all of up to 4 bits in up to 241
-/// bits of data (Koopman and Chakravarty, DSN 2004, as 0xAC9A).
+/// Returns the CRC-16 with the polynomial 0x5935 and the initial value 0xFFFF, most significant bit
+/// first. Of all 16-bit polynomials it detects the most errors at this length: all errors of up to
+/// 4 bits in up to 241 bits of data (Koopman and Chakravarty, DSN 2004, where it is written
+/// 0xAC9A).
 std::uint16_t crc16(std::span<const std::uint8_t> bytes);
 
 Framed frame(const Plain& plain);
 
-/// False if the bytes are not what `frame` makes of any plain bytes.
+/// Decodes framed bytes. Returns false if `frame` does not give these bytes for any plain bytes.
 bool unframe(const Framed& framed, Plain& plain);
 
 }  // namespace dotpose::link

@@ -13,7 +13,7 @@ using link::Plain;
 
 static_assert(kFramedBytes + 1 == PacketBytes{}.size(), "a packet is a frame and its end mark");
 
-/// Writes whole numbers one after the other, the least significant byte first.
+/// Writes integers one after the other, the least significant byte first.
 class Writer {
   public:
     void put(std::uint32_t value, int bytes) {
@@ -45,7 +45,7 @@ class Reader {
     std::size_t next_ = 0;
 };
 
-/// The order of the fields; docs/pose-packet.md has the same table.
+/// Writes the fields in the order of the table in docs/pose-packet.md.
 Plain packed(const PosePacket& packet) {
     Writer writer;
     writer.put(kPacketVersion, 1);
@@ -65,7 +65,7 @@ Plain packed(const PosePacket& packet) {
     return writer.plain();
 }
 
-/// False for what no sender of this version writes.
+/// Reads the fields. Returns false if the version is another one or a field is out of its range.
 bool unpack(const Plain& plain, PosePacket& packet) {
     Reader reader(plain);
     if (reader.get8() != kPacketVersion) return false;
@@ -93,7 +93,7 @@ bool unpack(const Plain& plain, PosePacket& packet) {
     return true;
 }
 
-/// The angle to the nearest step; half a turn becomes minus half a turn.
+/// Rounds an angle to the nearest step of 2^-16 turn; half a turn becomes minus half a turn.
 std::int16_t rounded_bam16(std::int32_t theta_bam) {
     const std::uint32_t bits = static_cast<std::uint32_t>(theta_bam) + 0x8000U;
     return static_cast<std::int16_t>(static_cast<std::uint16_t>(bits >> 16));
@@ -102,7 +102,7 @@ std::int16_t rounded_bam16(std::int32_t theta_bam) {
 std::uint8_t deviation_q12(const Fix& fix) {
     const float variance = std::max(fix.covariance[0][0], fix.covariance[1][1]);
     const float deviation = std::sqrt(std::max(variance, 0.0F)) * 4096.0F;
-    // No covariance is no certainty.
+    // Without a covariance, the deviation is not known.
     if (!(deviation > 0) || deviation >= 254) return 255;
     return static_cast<std::uint8_t>(static_cast<int>(deviation) + 1);
 }
@@ -142,7 +142,7 @@ bool PacketReader::push(std::uint8_t byte) {
     }
     const std::size_t count = count_;
     count_ = 0;
-    if (count == 0) return false;  // two end marks in a row: nothing between them
+    if (count == 0) return false;  // there is nothing between two end marks in a row
     Plain plain;
     if (count == bytes_.size() && link::unframe(bytes_, plain) && unpack(plain, packet_)) {
         return true;
