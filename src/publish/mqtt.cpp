@@ -13,14 +13,14 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// How long a broker may take to say whether it lets us in.
+/// How long `start` waits for the broker's answer.
 constexpr auto kPatience = 3s;
-/// From one attempt to reach a broker that is gone to the next.
+/// Time between attempts to reach a broker that does not answer.
 constexpr auto kBetweenAttempts = 500ms;
-/// Messages handed to the library at a time; those it sends in their order.
+/// Most messages that libmosquitto has at a time; it sends them in their order.
 constexpr std::size_t kMostUnderWay = 20;
 
-/// The library wants to be set up once in a program.
+/// Sets up libmosquitto, which must be done once in a program.
 struct Library {
     Library() { mosquitto_lib_init(); }
     ~Library() { mosquitto_lib_cleanup(); }
@@ -30,8 +30,9 @@ std::string reason_of(int code) {
     return code == MOSQ_ERR_ERRNO ? std::strerror(errno) : mosquitto_strerror(code);
 }
 
-/// With TLS, the library takes a broker that is not there for one that is slow to answer, and waits
-/// for as long as its keep-alive; the system knows better.
+/// Whether the other side has closed the connection. With TLS, libmosquitto waits for its
+/// keep-alive interval if there is no broker, as if it were slow; the operating system knows at
+/// once.
 bool is_hung_up(int socket) {
     pollfd state{socket, 0, 0};
     return socket >= 0 && poll(&state, 1, 0) > 0 && (state.revents & (POLLHUP | POLLERR)) != 0;
@@ -80,7 +81,7 @@ void parse_url(const std::string& url, MqttOptions& options) {
     options.host = rest;
 }
 
-/// C functions that lead back into the object.
+/// The C callbacks of libmosquitto, which call methods of the object.
 struct MqttClient::Callbacks {
     static MqttClient& client(void* object) { return *static_cast<MqttClient*>(object); }
     static void on_connect(mosquitto*, void* object, int code) { client(object).answered(code); }
@@ -132,7 +133,7 @@ void MqttClient::set_up_security() {
 
 void MqttClient::start() {
     set_up_security();
-    // A state that waits to share its packet with the next one is late by up to 40 ms.
+    // Without this, TCP may delay a small message by up to 40 ms to send it together with the next.
     require(mosquitto_int_option(mosquitto_, MOSQ_OPT_TCP_NODELAY, 1), "cannot set the connection");
     if (!options_.will_topic.empty()) {
         require(mosquitto_will_set(mosquitto_, options_.will_topic.c_str(),
@@ -145,7 +146,7 @@ void MqttClient::start() {
     mosquitto_publish_callback_set(mosquitto_, Callbacks::on_publish);
     mosquitto_message_callback_set(mosquitto_, Callbacks::on_message);
     mosquitto_max_inflight_messages_set(mosquitto_, static_cast<unsigned>(kMostUnderWay));
-    // Functions are called by another thread than `run`.
+    // Messages are published from other threads than that of `run`.
     mosquitto_threaded_set(mosquitto_, true);
     constexpr int kKeepAlive_s = 10;
     const int code =
@@ -183,7 +184,8 @@ void MqttClient::stop() {
     thread_.join();
 }
 
-// The library's own thread gives up when a broker is not there at once.
+// The thread that libmosquitto offers ends if it cannot reach the broker at first, so this one is
+// used instead.
 void MqttClient::run() {
     constexpr int kWait_ms = 100;
     constexpr int kPackets = 1;
@@ -196,7 +198,8 @@ void MqttClient::run() {
             code = MOSQ_ERR_NO_CONN;
             reason = "no connection";
         }
-        // A broker that is not taken leave of sends the last will.
+        // Before the thread ends, the disconnect message must have been sent, or the broker sends
+        // the last will.
         const bool has_left = !is_connected_ || code != MOSQ_ERR_SUCCESS;
         if (ends_ && (has_left || std::chrono::steady_clock::now() > ends_by_)) return;
         if (code == MOSQ_ERR_SUCCESS) continue;
@@ -229,7 +232,7 @@ void MqttClient::disconnected(int reason) {
     bool is_news = false;
     {
         const std::lock_guard lock(mutex_);
-        is_news = is_connected_ && reason != 0;  // 0: we asked for it
+        is_news = is_connected_ && reason != 0;  // the reason is 0 after mosquitto_disconnect
         is_connected_ = false;
     }
     on_disconnected();
@@ -272,7 +275,7 @@ void MqttPublisher::send_waiting() {
         } else if (code == MOSQ_ERR_SUCCESS) {
             under_way_.insert(id);
         } else {
-            return;  // not connected any more: it stays
+            return;  // the connection is lost; the message stays in the queue
         }
         waiting_.pop_back();
     }
@@ -288,7 +291,7 @@ void MqttPublisher::on_published(int id) {
 }
 
 void MqttPublisher::on_disconnected() {
-    // The library sends messages of QoS 1 again, and forgets those of QoS 0.
+    // libmosquitto sends messages of QoS 1 again after it reconnects, and forgets those of QoS 0.
     if (options_.qos > 0) return;
     const std::lock_guard lock(mutex_);
     dropped_ += static_cast<std::int64_t>(under_way_.size());

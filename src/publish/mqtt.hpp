@@ -1,5 +1,5 @@
-// MQTT through libmosquitto: messages out with a bounded queue, messages in by subscription. Both
-// connect in the background and again whenever the connection breaks.
+// Sends MQTT messages from a bounded queue, and receives messages by subscription, with
+// libmosquitto. Both connect in the background, and again whenever the connection breaks.
 #pragma once
 
 #include <chrono>
@@ -22,26 +22,26 @@ namespace dotpose::publish {
 struct MqttOptions {
     std::string host = "localhost";
     int port = 1883;
-    std::string user;  ///< empty: none
+    std::string user;  ///< empty for none
     std::string password;
     bool has_tls = false;
-    std::string ca_file;    ///< certificates to trust; empty: those of the system
+    std::string ca_file;    ///< certificates to trust; empty for those of the system
     int qos = 0;            ///< 0: at most once, 1: at least once
-    std::string client_id;  ///< empty: the broker chooses
-    // Sent by the broker when the connection breaks; empty topic: nothing.
+    std::string client_id;  ///< empty if the broker chooses
+    // The message that the broker sends when the connection breaks; an empty topic means none.
     std::string will_topic;
     std::string will;
-    /// Messages kept while there is no connection. Of more, the oldest are dropped.
+    /// Most messages that are kept while there is no connection; beyond it, the oldest are dropped.
     std::size_t queue = 50;
-    /// Told what the user should know: the broker is gone, is back.
+    /// Called with messages for the user, for example that the connection is lost or back.
     std::function<void(const std::string&)> tell = [](const std::string&) {};
 };
 
-/// "mqtt://[USER[:PASSWORD]@]HOST[:PORT]", or mqtts:// for TLS, into the options. The default ports
-/// are 1883 and 8883. Throws BadArgument.
+/// Sets options from "mqtt://[USER[:PASSWORD]@]HOST[:PORT]", or mqtts:// for TLS. The default ports
+/// are 1883 and 8883. Throws BadArgument if the URL is invalid.
 void parse_url(const std::string& url, MqttOptions& options);
 
-/// What both directions share: the connection and its thread.
+/// The connection and its thread, which publisher and subscriber share.
 class MqttClient {
   public:
     MqttClient(const MqttClient&) = delete;
@@ -53,13 +53,14 @@ class MqttClient {
     explicit MqttClient(MqttOptions options);
     virtual ~MqttClient();
 
-    /// Connects, and waits a little for the answer. Throws Error: the broker refuses the user, the
-    /// certificates cannot be read. A broker that does not answer is told, and tried on.
+    /// Connects, and waits a short time for the answer. Throws Error if the broker refuses the user
+    /// or the certificates cannot be read. If the broker does not answer, this is reported through
+    /// `MqttOptions::tell`, and the thread goes on trying.
     void start();
-    /// Ends the connection and the thread; after it no virtual function is called.
+    /// Ends the connection and the thread; after this, no virtual function is called.
     void stop();
 
-    // Called by the thread, without the lock.
+    // These functions are called by the thread, without the lock.
     virtual void on_connected() {}
     virtual void on_disconnected() {}
     virtual void on_published(int) {}
@@ -81,30 +82,31 @@ class MqttClient {
     mosquitto* mosquitto_ = nullptr;
     std::condition_variable changed_;
     bool is_connected_ = false;
-    std::string failure_;  ///< why the newest attempt to connect failed
+    std::string failure_;  ///< reason why the newest attempt to connect failed
     bool ends_ = false;
     std::chrono::steady_clock::time_point ends_by_;
-    std::string refusal_;  ///< why the broker does not let us in
+    std::string refusal_;  ///< reason why the broker refused the connection
     std::thread thread_;
 };
 
 class MqttPublisher : public MqttClient {
   public:
-    /// Throws Error; see MqttClient::start.
+    /// Connects. Throws Error like MqttClient::start.
     explicit MqttPublisher(MqttOptions options);
     ~MqttPublisher() override;
 
-    /// Sends, or keeps for later; never waits. After an interruption the newest leave first.
+    /// Sends a message, or keeps it until there is a connection; does not block. After an
+    /// interruption, the newest messages are sent first.
     void publish(std::string topic, std::string payload);
 
-    /// Waits until all is sent or the time is over; false in that case.
+    /// Waits until all messages are sent. Returns false if that takes longer than `patience`.
     bool flush(std::chrono::milliseconds patience);
 
     std::int64_t sent() const;
-    /// Messages that wait or are under way.
+    /// Number of messages that are in the queue or being sent.
     std::int64_t unsent() const;
-    /// Messages that were never sent: newer ones took their place in the queue, or (QoS 0) the
-    /// connection broke while they were on their way.
+    /// Number of messages that were never sent, because newer ones took their place in the queue,
+    /// they are invalid, or (QoS 0) the connection broke while they were being sent.
     std::int64_t dropped() const;
 
   private:
@@ -118,7 +120,7 @@ class MqttPublisher : public MqttClient {
     void send_waiting();
 
     std::deque<Message> waiting_;
-    std::set<int> under_way_;  ///< handed over, not yet sent (QoS 0) or acknowledged (QoS 1)
+    std::set<int> under_way_;  ///< with libmosquitto, not yet sent (QoS 0) or acknowledged (QoS 1)
     std::condition_variable done_;
     std::int64_t sent_ = 0;
     std::int64_t dropped_ = 0;
@@ -128,7 +130,8 @@ class MqttSubscriber : public MqttClient {
   public:
     using Handler = std::function<void(const std::string& topic, const std::string& payload)>;
 
-    /// `handle` is called by another thread. Throws Error; see MqttClient::start.
+    /// Subscribes to a topic; `handle` is called by another thread. Throws Error like
+    /// MqttClient::start.
     MqttSubscriber(MqttOptions options, std::string topic, Handler handle);
     ~MqttSubscriber() override;
 
