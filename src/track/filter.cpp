@@ -6,28 +6,30 @@
 namespace dotpose::track {
 namespace {
 
-/// How long a robot keeps on accelerating as it does.
+/// Time constant with which the acceleration decays, that is, how long a robot goes on
+/// accelerating.
 constexpr float kHold_s = 0.5F;
 
-/// Agility from one sighting to the next: it has to fall as fast as it rises, so that the
-/// innovations repeat their sign as often as they change it.
+/// Factor by which the agility, the variance of new acceleration, changes from one sighting to the
+/// next. It rises and falls by the same factor, so that in balance the innovations keep their sign
+/// as often as they change it, as those of a matched filter do.
 constexpr float kAgility_step = 1.5F;
 constexpr float kLeast_agility = 1e-6F;
-/// Beyond so many deviations an innovation is no chance.
+/// Innovations of more standard deviations than this are not taken for noise.
 constexpr float kSurprise = 4;
-/// Sightings over which their scatter is averaged.
+/// Number of sightings over which their scatter is averaged.
 constexpr float kScatter_sightings = 32;
 constexpr float kLeast_scatter = 0.01F;
 constexpr float kLargest_scatter = 9;
 
-/// What the difference of two variances may be off, in parts of the larger: some of the last bits.
+/// Bound of the rounding error of the difference of two variances, relative to the larger one.
 constexpr float kRounding = 4e-6F;
 
 float squared(float value) {
     return value * value;
 }
 
-/// Of what a sighting measures, with the least errors added.
+/// Returns the covariance of a sighting's pose, to which the least errors of the options are added.
 Matrix3 noise_of(const Sighting& sighting, const TrackOptions& options) {
     Matrix3 noise = sighting.covariance;
     noise[0][0] += squared(options.least_sigma_mm);
@@ -41,7 +43,7 @@ std::int32_t turned(std::int32_t theta_bam, float angle_rad) {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(std::int64_t{theta_bam} + turn));
 }
 
-/// Adds to the state.
+/// Adds a step to the state.
 void move(Motion& motion, const Vector9& step) {
     constexpr float kNm_per_mm = 1e6F;
     TrackedPose& pose = motion.pose;
@@ -55,13 +57,13 @@ void move(Motion& motion, const Vector9& step) {
         motion.acceleration[i] += step[i + 6];
 }
 
-/// The part of the acceleration that outlasts a time.
+/// Returns the share of the acceleration that is left after a time.
 float kept(float dt_s) {
     return kHold_s / (kHold_s + dt_s);
 }
 
-/// What time does to a state (or to a row or column of its covariance), by reference to its parts.
-/// The acceleration of an interval is the same all through it.
+/// Advances a state, or a row or column of its covariance, by a time; `at(i)` is a reference to its
+/// part i. The acceleration is taken to be constant over the interval.
 template <typename State>
 void advance(const State& at, float dt_s) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -71,18 +73,18 @@ void advance(const State& at, float dt_s) {
     }
 }
 
-/// Deviation of the acceleration along an axis, at full agility.
+/// Returns the standard deviation of the acceleration along an axis, at an agility of 1.
 float spread(std::size_t axis, const TrackOptions& options) {
     return axis < 2 ? options.acceleration_mm_s2 : options.angular_acceleration_rad_s2;
 }
 
-/// Variance of what is new in it after a time.
+/// Returns the variance of the acceleration that is new after a time, at an agility of 1.
 float push(std::size_t axis, float dt_s, const TrackOptions& options) {
     return squared(spread(axis, options)) * (1 - squared(kept(dt_s)));
 }
 
-/// Makes a state less certain by something of this variance, that has this effect on the position,
-/// velocity and acceleration along an axis.
+/// Adds process noise to the covariance: a random variable with this variance, which `effect`
+/// multiplies to the changes of position, velocity and acceleration along an axis.
 void add_noise(Covariance9& covariance, std::size_t axis, float variance, const Vector3& effect) {
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 3; ++j)
@@ -90,8 +92,8 @@ void add_noise(Covariance9& covariance, std::size_t axis, float variance, const 
     }
 }
 
-/// Sets the covariance of the pose. Sightings that differ less than their covariances say have the
-/// rest of their errors in common, and no filter averages that.
+/// Sets the covariance of the pose. If sightings scatter less than their covariances predict, the
+/// rest of their errors is common to all of them, and averaging does not reduce it.
 void set_pose_covariance(Motion& motion) {
     const float common = std::max(1 - motion.scatter, 0.0F);
     for (std::size_t i = 0; i < 6; ++i) {
@@ -102,7 +104,8 @@ void set_pose_covariance(Motion& motion) {
     }
 }
 
-/// Symmetric and positive definite, as covariances are: by cofactors.
+/// Returns the inverse of a covariance matrix, which is symmetric and positive definite, computed
+/// from cofactors.
 Matrix3 inverse(const Matrix3& m) {
     Matrix3 cofactors{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -123,7 +126,7 @@ Matrix3 inverse(const Matrix3& m) {
     return cofactors;
 }
 
-/// left * right; right has any number of columns.
+/// Returns left * right; `right` may have any number of columns.
 template <typename Left, typename Right>
 Right product(const Left& left, const Right& right) {
     Right result{};
@@ -136,7 +139,7 @@ Right product(const Left& left, const Right& right) {
     return result;
 }
 
-/// P becomes (I - K H) P; `weighted` is S^-1 H P, the transposed gain.
+/// Replaces P by (I - K H) P; `weighted` is S^-1 H P, the transposed gain.
 void subtract_known(Covariance9& p, const std::array<Vector9, 3>& weighted, const Matrix3& noise) {
     const Covariance9 before = p;
     for (std::size_t i = 3; i < 9; ++i) {
@@ -147,9 +150,9 @@ void subtract_known(Covariance9& p, const std::array<Vector9, 3>& weighted, cons
         }
         p[i][i] += kRounding * before[i][i];
     }
-    // The upper rows equal R S^-1 H P, where nothing cancels: in single precision the difference of
-    // nearly equal numbers would lose everything after a long gap. Above, where it cannot be
-    // avoided, what is lost is added.
+    // The upper rows equal R S^-1 H P, a product without cancellation. In single precision, the
+    // difference of nearly equal numbers would have no correct digit after a long gap. Above, where
+    // the difference cannot be avoided, the bound of its rounding error is added.
     const auto upper = product(noise, weighted);
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 9; ++j)
@@ -245,14 +248,15 @@ Motion fitted(const Motion& predicted, const Sighting& sighting, float dt_s,
         const float pushed = push(i, dt_s, options);
         const float possible = squared(moved / kSurprise) / motion.scatter;
         const auto surprise = [&] { return possible - motion.covariance[i][i] - noise[i][i]; };
-        // Where the filter lags, innovations repeat their sign; where it follows the noise, they
-        // change it.
+        // If the filter lags behind the robot, successive innovations have the same sign; if it
+        // follows the noise, they alternate.
         const float agility = repeated > 0 ? old * kAgility_step : old / kAgility_step;
         const float needed = old + surprise() / (pushed * squared(effect[0]));
         motion.agility[i] = std::clamp(std::max(agility, needed), kLeast_agility, 1.0F);
         add_noise(motion.covariance, i, (motion.agility[i] - old) * pushed, effect);
-        // What that does not explain is a hit, which changes the velocity at once. The first time
-        // it may as well be a sighting that is off: the position follows, the velocity does not.
+        // An innovation that this does not explain may come from a collision, which changes the
+        // velocity abruptly. The first one may also be an outlier, so it changes the position only;
+        // a second one in the same direction changes the velocity too.
         if (surprise() > 0) {
             const bool is_hit = repeated > squared(moved) / 2;
             add_noise(motion.covariance, i, surprise(), {1, is_hit ? 1 / dt_s : 0, 0});
@@ -266,11 +270,11 @@ Motion corrected(const Motion& predicted, const Sighting& sighting, const TrackO
     const Matrix3 inverse_s = inverse(found.covariance);
     std::array<Vector9, 3> pose_rows{};
     std::copy_n(predicted.covariance.begin(), 3, pose_rows.begin());
-    const auto weighted = product(inverse_s, pose_rows);  // S^-1 H P, the transposed gain
+    const auto weighted = product(inverse_s, pose_rows);  // S^-1 H P, the transpose of the gain K
 
     Motion motion = predicted;
     Vector9 step{};
-    float distance = 0;  // squared, of three dimensions
+    float distance = 0;  // squared Mahalanobis distance, which is 3 in the mean
     for (std::size_t k = 0; k < 3; ++k) {
         for (std::size_t i = 0; i < 9; ++i)
             step[i] += weighted[k][i] * found.difference[k];

@@ -1,6 +1,6 @@
-// The filter: a Kalman filter with the state (x, y, theta), its velocities and its accelerations,
-// which decay towards zero and are pushed anew all the time (Singer 1970). How hard they are pushed
-// is fitted to how the robot moves.
+// A Kalman filter whose state is (x, y, theta) with velocities and accelerations. The accelerations
+// decay towards zero and are driven by white noise (Singer 1970), whose variance, the agility, is
+// adapted to how the robot moves.
 //
 // Bar-Shalom, Li, Kirubarajan: Estimation with Applications to Tracking and Navigation, 8.2 (the
 // model) and 11.2 (fitting it).
@@ -12,19 +12,19 @@ namespace dotpose::track {
 
 inline constexpr float kRad_per_bam = 1.46291808e-9F;  // pi / 2^31
 
-/// Without velocities and covariance.
+/// Returns the pose of a sighting; velocities and covariance are zero.
 TrackedPose pose_of(const Sighting& sighting);
 
-/// What is known from one sighting: the velocities are not.
+/// Returns the state after the first sighting, in which the velocities are not known.
 Motion started_at(const Sighting& sighting, const TrackOptions& options);
 
-/// At a later time.
+/// Returns the state that is expected at a later time.
 Motion predicted(const Motion& motion, std::int64_t time_us, const TrackOptions& options);
 
-/// b - a in mm, mm and rad in [-pi, pi).
+/// Returns b - a in mm, mm and rad in [-pi, pi).
 Vector3 difference(const TrackedPose& a, const TrackedPose& b);
 
-/// How far a sighting is from a prediction for its time.
+/// Difference between a sighting and the prediction for its time, with its covariance.
 struct Innovation {
     Vector3 difference{};
     Matrix3 covariance{};
@@ -32,12 +32,12 @@ struct Innovation {
 Innovation innovation(const Motion& predicted, const Sighting& sighting,
                       const TrackOptions& options);
 
-/// The prediction with its agility, and its covariance with it, fitted to the sighting. The robot
-/// was seen `dt_s` before.
+/// Returns the prediction with its agility, and its covariance accordingly, adapted to the
+/// sighting. The sighting before this one was `dt_s` earlier.
 Motion fitted(const Motion& predicted, const Sighting& sighting, float dt_s,
               const TrackOptions& options);
 
-/// The prediction corrected by the sighting.
+/// Returns the prediction corrected by the sighting.
 Motion corrected(const Motion& predicted, const Sighting& sighting, const TrackOptions& options);
 
 }  // namespace dotpose::track

@@ -9,18 +9,19 @@ namespace {
 
 using namespace dotpose::track;
 
-/// Dots are looked for within three deviations: in a tenth of a spacing and half a degree at the
-/// least, since a filter that has followed a resting robot for long trusts itself too much.
+/// Least standard deviation of a prediction. Dots are searched for within three deviations, so this
+/// is at least a tenth of a spacing and half a degree: after a long rest of the robot, the
+/// covariance of the filter is too small.
 constexpr std::int32_t kLeast_sigma_q16 = 65536 / 32;
 constexpr std::int32_t kLeast_sigma_theta_bam = 1 << 21;
 constexpr float kDeviations = 3;
 
-/// Predicted motions beyond this, in spacings, are none: no robot moves so far in one frame, and
-/// sums of whole numbers must not overflow.
+/// Longest motion between two frames that is predicted, in spacings: robots do not move further,
+/// and sums of integers must not overflow.
 constexpr float kFarthest = 2048;
 
-/// A vector of the sighting's plane in the pattern frame, by the angle of the image x axis, which
-/// is known in both.
+/// Converts a vector from the plane of the sighting to the pattern frame. The rotation between them
+/// follows from the angle of the image x axis, which is known in both.
 std::array<float, 2> in_pattern(float x, float y, const Fix& fix, const Sighting& seen) {
     const auto pattern_bam = static_cast<std::uint32_t>(fix.theta_bam);
     const auto plane_bam = static_cast<std::uint32_t>(seen.theta_bam);
@@ -32,15 +33,17 @@ std::array<float, 2> in_pattern(float x, float y, const Fix& fix, const Sighting
     return {c * x - s * y, s * x + c * y};
 }
 
-/// A deviation as an integer of the given unit, within limits; not a number counts as too large.
+/// Returns a deviation as an integer multiple of a unit, clamped to limits; NaN gives the upper
+/// one.
 std::int32_t bounded(float sigma, float unit, std::int32_t least, std::int32_t most) {
     const float value = sigma / unit;
     if (!(value < static_cast<float>(most))) return most;
     return std::max(static_cast<std::int32_t>(value), least);
 }
 
-/// Of the pose, so that three of them reach over the filter's deviation, that of the fix, whose map
-/// is taken, and what the robot may do that no filter foresees.
+/// Returns the standard deviation of the predicted pose. It contains those of the filter and of the
+/// fix whose map is used, and `unforeseen`, a motion that the filter cannot predict, so that three
+/// deviations cover it.
 float sigma(const Covariance6& predicted, const Sighting& seen, std::size_t axis,
             float unforeseen) {
     return std::sqrt(predicted[axis][axis] + seen.covariance[axis][axis]) +

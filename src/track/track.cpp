@@ -10,21 +10,23 @@ namespace {
 
 using namespace dotpose::track;
 
-/// floor(log2(kPositionsPerAxis * 63 * 4)): places, sections and turns of one axis.
+/// Number of hypotheses along one axis, positions, sections and turns, as a power of two:
+/// floor(log2(kPositionsPerAxis * 63 * 4)).
 constexpr int kHypotheses_log2 = 36;
 static_assert((std::uint64_t{kPositionsPerAxis} * kSections * 4) >> kHypotheses_log2 == 1,
               "the number of hypotheses is rounded down to a power of two");
 
-/// Places that differ by fewer cells than this have no place in a sequence in common, and resemble
-/// each other by coincidence only: 31 is the shortest of the sequences that spell the position.
-/// docs/tracking.md.
+/// Positions that differ by fewer cells than this have different places in each of the sequences
+/// that encode the position, the shortest of which has a period of 31, so they resemble each other
+/// only by chance. docs/tracking.md explains this.
 constexpr int kShortestSequence = 31;
 
 float seconds(std::int64_t from_us, std::int64_t to_us) {
     return static_cast<float>(to_us - from_us) * 1e-6F;
 }
 
-/// Largest difference that is allowed, by the filter's own deviation and by physics.
+/// Returns the largest differences from the prediction that are accepted: some deviations of the
+/// innovation, plus the effect of the largest acceleration.
 Vector3 gate(const Innovation& found, float dt, const TrackOptions& options) {
     Vector3 limits{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -43,7 +45,8 @@ bool is_within(const Vector3& difference, const Vector3& limits) {
     return true;
 }
 
-/// Whether a robot could be at `sighting` after it was at `from`, whatever it did.
+/// Whether a robot that was at `from` can be at `sighting` within the limits of speed and turn
+/// rate.
 bool is_reachable(const Motion& from, const Sighting& sighting, const TrackOptions& options) {
     if (from.pose.plane != sighting.plane) return false;
     const float dt = seconds(from.pose.time_us, sighting.time_us);
@@ -57,7 +60,8 @@ bool is_reachable(const Motion& from, const Sighting& sighting, const TrackOptio
            std::fabs(found.difference[2]) <= options.max_turn_rad_s * dt + slack_rad;
 }
 
-/// p_wrong of a sighting that lies within the gate, as a power of two; 0: the prior does not help.
+/// Returns log2 of the bound of the probability that a sighting within the gate is wrong, or 0 if
+/// the prediction does not help.
 int p_wrong_with_prior(const Sighting& sighting, const Vector3& limits,
                        const TrackOptions& options) {
     const float half = std::max(limits[0], limits[1]) / options.spacing_mm;
@@ -174,7 +178,7 @@ bool Tracker::is_confirmed(const Sighting& sighting) {
 void Tracker::restart(const Motion& motion) {
     track_.events.fix = track_.is_lost;
     track_.is_lost = false;
-    // A robot that was put somewhere else moved, whatever it does now.
+    // A robot that was lifted and put elsewhere has moved, even if it rests now.
     track_.events.moving = track_.is_stationary;
     track_.is_stationary = false;
     was_seen_ = true;
