@@ -1,6 +1,5 @@
-/// The subcommands that need a camera or a network. They are a program of their own, which
-/// `dotpose` starts: the libraries for video take five times as long to load as all other commands
-/// run.
+/// The subcommands that need a camera or a network. They are in a separate program, which `dotpose`
+/// starts, because the libraries for video take a tenth of a second to load.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -11,9 +11,9 @@ namespace dotpose::cli {
 namespace {
 
 constexpr std::int64_t kWindow_us = 1'000'000;
-/// Fewest frames of the last second that are judged; slow cameras have no more.
+/// Fewest frames in a second that allow a judgement; slow cameras deliver no more.
 constexpr std::size_t kLeastFrames = 3;
-/// Most frames that are kept, for sources whose times stand still.
+/// Most frames that are kept, in case the times of a source do not advance.
 constexpr std::size_t kMostFrames = 2000;
 
 }  // namespace
@@ -21,7 +21,7 @@ constexpr std::size_t kMostFrames = 2000;
 std::string FailureHint::after(const Reading& reading, ImageView image, const Options& options) {
     const Record& record = reading.record;
     last_second_.push_back({reading.time_us, record.fix.status != Status::ok});
-    // The oldest one kept is a second old: before, it is too early to judge.
+    // The oldest frame that is kept must be a second old; until then it is too early to judge.
     while (last_second_.size() > kMostFrames ||
            (last_second_.size() > 1 && reading.time_us - last_second_[1].time_us >= kWindow_us)) {
         last_second_.pop_front();

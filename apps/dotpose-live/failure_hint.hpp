@@ -1,4 +1,4 @@
-/// Tells, once, what is wrong with the pictures of a camera of which most cannot be located.
+/// Explains once why most frames of a camera cannot be located.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,9 @@ namespace dotpose::cli {
 
 class FailureHint {
   public:
-    /// After each frame, which `reading` is of. A sentence when most frames of the last second have
-    /// failed, and again after most of a second have not; else empty. `options`: as it was located.
+    /// Takes the result of a frame, which was located with `options`. Returns a sentence once most
+    /// frames of the last second have failed, and again only after most of a second were located in
+    /// between; otherwise an empty text.
     std::string after(const Reading& reading, ImageView image, const Options& options);
 
   private:

@@ -37,7 +37,7 @@ struct FleetArguments {
     MqttArguments mqtt;
     std::string sheets;
     std::string map;
-    double seconds = 0;  ///< 0: until interrupted
+    double seconds = 0;  ///< how long to run; 0 until interrupted
     double every_s = 1;
 };
 
@@ -61,8 +61,8 @@ class FleetView {
     }
 
   private:
-    /// A map that cannot be written now may be later, and those who watch the table need none: only
-    /// the last one is an error.
+    /// Writes the map. A failure is only reported, because the next attempt may succeed and the
+    /// table goes on without the map; for the last map, it is an error.
     void write_map(const FleetState& fleet, bool is_last) {
         try {
             print::OutputFile file(map_path_);
@@ -76,7 +76,8 @@ class FleetView {
         }
     }
 
-    /// The sheets' world, or the plane of the first robot that has one.
+    /// Returns the name of the map to draw: the world of the sheets, or else the plane of the first
+    /// robot that has one.
     std::string map_shown(const FleetState& fleet) const {
         if (!map_id_.empty()) return map_id_;
         for (const auto& [name, robot] : fleet.robots()) {
@@ -89,7 +90,7 @@ class FleetView {
     std::string map_id_;
     std::vector<draw::MapSheet> sheets_;
     bool on_terminal_;
-    bool is_failing_ = false;  ///< the map could not be written
+    bool is_failing_ = false;  ///< whether the last map could not be written
 };
 
 void run(const FleetArguments& arguments) {

@@ -18,9 +18,9 @@ double quantile(std::vector<float> values, double share) {
     return static_cast<double>(values[static_cast<std::size_t>(at)]);
 }
 
-/// Whether a message is news of its robot, or came late. Numbers that go on tell it, whatever the
-/// sender's clock says; where both are behind, the clock was set back and the numbers began anew
-/// once several messages in a row follow each other.
+/// Whether a message is newer than the last one of its robot. It is if its number is higher,
+/// whatever the sender's clock says. If number and time are both lower, the message is late, unless
+/// several such messages ascend: then the robot has started again with its clock set back.
 bool is_news(const RobotState& state, FleetRobot& robot) {
     constexpr int kDoubts = 5;
     const bool is_late =
@@ -29,7 +29,7 @@ bool is_news(const RobotState& state, FleetRobot& robot) {
         robot.doubts = 0;
         return true;
     }
-    // A queue that is sent again begins with its newest message, so that its times do not ascend.
+    // After an interruption, a queue is sent with the newest message first, so its times descend.
     robot.doubts =
         state.sent_us > robot.doubted_sent_us || robot.doubts == 0 ? robot.doubts + 1 : 1;
     robot.doubted_sent_us = state.sent_us;
@@ -61,7 +61,7 @@ void FleetState::take(const std::string& topic, const std::string& payload, std:
         robot.missed = std::max<std::int64_t>(robot.missed - 1, 0);
         return;
     }
-    // A robot that starts anew counts from 0 again.
+    // A lower number means that the robot has started again, which is no gap.
     if (!is_first && state->header_id > robot.newest.header_id) {
         constexpr std::uint64_t kMost = 1'000'000'000;
         const std::uint64_t gap = state->header_id - robot.newest.header_id - 1;

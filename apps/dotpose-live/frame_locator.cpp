@@ -18,8 +18,8 @@ std::int32_t bam(double angle_rad) {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(turned));
 }
 
-/// The covariance of a fix in the world: turned like the sheet, with y and the angle the other way
-/// around.
+/// Converts the covariance of a fix to the world: it is rotated like the sheet, and y and the angle
+/// change their sign.
 std::array<std::array<float, 3>, 3> turned(const std::array<std::array<float, 3>, 3>& covariance,
                                            double sheet_yaw_rad) {
     const auto c = static_cast<float>(std::cos(sheet_yaw_rad));
@@ -63,7 +63,7 @@ void FrameLocator::use_sheets() {
     }
 }
 
-/// Where the pattern will be seen.
+/// Predicts where the frame at a time sees the pattern.
 std::optional<Prediction> FrameLocator::predict(std::int64_t time_us) const {
     if (!seen_) return std::nullopt;
     if (!seen_->sighting) return Prediction::like(seen_->fix);
@@ -97,14 +97,15 @@ FrameLocator::Found FrameLocator::find(ImageView image, int max_p_wrong_log2,
 
 FrameLocator::Found FrameLocator::look(ImageView image, const Options& options,
                                        const std::optional<Prediction>& expected) {
-    // A code that was named may be the wrong one; frames that follow others need not ask again.
+    // The user may have named a wrong code, so without a prediction the other codes are tried as
+    // well, to warn about them.
     if (!expected && sheets_.empty()) {
         const CodeReading reading = locator(options).locate_in_code(image);
         return {reading.fix, {}, reading};
     }
     Fix fix = expected ? locator(options).locate(image, *expected) : locator(options).locate(image);
     auto place = find_sheet(sheets_, options.profile, fix);
-    // The centre has left the page that was followed: another one may be seen there.
+    // A tracked frame whose centre has left the page may show another page there.
     if (fix.status == Status::ok && fix.attempt == Attempt::tracked && !place && !sheets_.empty()) {
         fix = locator(options).locate(image);
         place = find_sheet(sheets_, options.profile, fix);
@@ -122,11 +123,13 @@ FrameLocator::Found FrameLocator::look_in_any_code(ImageView image,
     return {reading.fix, {}, reading};
 }
 
-/// A frame across the edge of a page: once more without what lies beside it, if that leaves enough.
+/// Locates a frame across the edge of a page again, without the part beyond the edge, if enough
+/// dots are left.
 FrameLocator::Found FrameLocator::without_neighbours(const Found& found, ImageView image) {
     Found guess = found;
     if (found.fix.status == Status::not_certain) {
-        // Of two patterns in the frame the better one. It only says where to cut.
+        // If the frame shows two patterns, the one that is read better is accepted here, because it
+        // is only used to find the edge of its page.
         Options any = used_;
         any.integrity = {.max_p_wrong_log2 = 0, .max_bit_error_q8 = 128};
         guess = look(image, any);
@@ -136,7 +139,7 @@ FrameLocator::Found FrameLocator::without_neighbours(const Found& found, ImageVi
     if (!cut) return found;
     Found again = look(cut->view(), used_, Prediction::like(guess.fix));
     if (!again.place || again.place->entry != guess.place->entry) return found;
-    // The dots were found where this very frame had them.
+    // The prediction for the second call came from the same frame, so it is no tracked fix.
     if (again.fix.attempt == Attempt::tracked) again.fix.attempt = guess.fix.attempt;
     return again;
 }
@@ -172,7 +175,8 @@ Reading FrameLocator::operator()(video::Frame& frame) {
     Found found = find(image, options_.track.max_p_wrong_log2, predict(frame.time_us));
     const Fix strict = found.fix;
     if (strict.status == Status::not_certain && tracker_.has_prior()) {
-        // From nothing: what is only confirmed where it was expected would count the prior twice.
+        // The frame is located without a prediction: the tracker applies its prior to the result,
+        // which must not depend on the prior already.
         found = find(image, options_.track.max_weak_p_wrong_log2, {});
     }
     const auto sighting = sighting_of(found, frame.time_us);
@@ -181,7 +185,7 @@ Reading FrameLocator::operator()(video::Frame& frame) {
     reading.time_us = frame.time_us;
     reading.plane = plane_;
     reading.track = tracker_.update(frame.time_us, sighting ? &*sighting : nullptr);
-    // A weak fix counts only if the prior made it one.
+    // A fix with a weak bound counts only if the tracker accepted it with its prior.
     const bool is_fix = strict.status == Status::ok || reading.track.verdict == Verdict::with_prior;
     if (is_fix) {
         seen_ = Seen{found.fix, found.reading.code, sighting};

@@ -1,5 +1,5 @@
-/// Locates the frames of `dotpose watch`, on sheets or on the bare pattern, with the tracker's
-/// prior. Dots are looked for where the frames before lead to expect them.
+/// Locates the frames of `dotpose watch` on sheets, or on the pattern without sheets, with the
+/// predictions of the tracker.
 #pragma once
 
 #include <optional>
@@ -18,34 +18,34 @@ namespace dotpose::cli {
 
 struct LocatorOptions {
     Options locate;
-    std::optional<Profile> code;  ///< none: found out
-    std::string sheets;           ///< sheet file; empty: none
+    std::optional<Profile> code;  ///< none if it is found out from the frames
+    std::string sheets;           ///< path of the sheet file; empty for none
     double spacing_mm = kDefaultSpacing_mm;
     bool is_inverted = false;
     TrackOptions track;
 };
 
-/// In which plane a robot is tracked.
+/// The plane in which a robot is tracked.
 enum class Plane { pattern, sheet_world };
 
-/// What one frame told, alone and together with those before it.
+/// The results of one frame, alone and with the tracker.
 struct Reading {
     std::int64_t index = 0;
     std::int64_t time_us = 0;
-    Record record;  ///< `p_wrong` with the prior, where that was needed
+    Record record;  ///< `p_wrong` takes the prior into account where the fix needed it
     Track track;
     Plane plane = Plane::pattern;
 };
 
 class FrameLocator {
   public:
-    /// Throws Error: the sheet file cannot be read or has no sheets.
+    /// Throws Error if the sheet file cannot be read or has no sheets.
     explicit FrameLocator(const LocatorOptions& options);
 
-    /// `frame.image` is inverted in place if that was asked for.
+    /// Locates a frame. Inverts `frame.image` in place if the options ask for it.
     Reading operator()(video::Frame& frame);
 
-    /// The world if the file says where the sheets lie; otherwise the pattern.
+    /// The world if the sheet file has the poses of the sheets in it, otherwise the pattern.
     Plane plane() const { return plane_; }
     const std::vector<SheetEntry>& sheets() const { return sheets_; }
     Trace trace() const { return locator_.trace(); }
@@ -55,7 +55,7 @@ class FrameLocator {
     struct Found {
         Fix fix;
         std::optional<SheetPlace> place;
-        CodeReading reading;  ///< of which the profile alone counts where that is given
+        CodeReading reading;  ///< if the profile is given, only `CodeReading::code` is set
     };
     /// The newest frame with a fix.
     struct Seen {
@@ -76,14 +76,14 @@ class FrameLocator {
 
     LocatorOptions options_;
     std::vector<SheetEntry> sheets_;
-    /// To try, in this order; first the one seen last. None: all are in question.
+    /// The profiles in the order of trying, the one seen last first; empty for any profile.
     std::vector<Profile> profiles_;
-    CodeEvidence evidence_;  ///< of the frames before
+    CodeEvidence evidence_;  ///< evidence for each profile from the frames before
     Plane plane_ = Plane::pattern;
-    Options used_;  ///< for the newest frame
+    Options used_;  ///< the options for the newest frame
     HeapLocator locator_;
     Tracker tracker_;
-    std::optional<Seen> seen_;  ///< none if that is too long ago to expect anything
+    std::optional<Seen> seen_;  ///< none if it is too long ago for a prediction
 };
 
 }  // namespace dotpose::cli

@@ -1,4 +1,4 @@
-/// The options of a broker, shared by `watch` and `fleet`.
+/// The options of a broker, which `watch` and `fleet` share.
 #pragma once
 
 #include <optional>
@@ -12,11 +12,11 @@ namespace dotpose::cli {
 
 class MqttArguments {
   public:
-    /// --mqtt, --mqtt-ca and --qos.
+    /// Adds --mqtt, --mqtt-ca and --qos.
     CLI::Option* add_to(CLI::App& command);
 
-    /// None if no broker was named. The password may stand in the environment variable
-    /// DOTPOSE_MQTT_PASSWORD. Throws BadArgument.
+    /// Returns none if no broker was given. The password may be in the environment variable
+    /// DOTPOSE_MQTT_PASSWORD. Throws BadArgument if the options are invalid.
     std::optional<publish::MqttOptions> options() const;
 
     const std::string& ca_file() const { return ca_file_; }

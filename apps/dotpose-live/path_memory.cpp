@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kMm_per_m = 1000;
 
-/// A point of a page in the plane; none if it is not known where the page lies there.
+/// Converts a point of a page to the plane. If that is the world, the page must have a pose in it.
 draw::Point in_plane(const SheetEntry& entry, Plane plane, double x_mm, double y_mm) {
     const Sheet& sheet = entry.sheet;
     if (plane == Plane::pattern) {

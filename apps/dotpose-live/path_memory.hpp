@@ -1,4 +1,5 @@
-/// The path of a robot in bounded memory: of a long one, every second, fourth ... point.
+/// Keeps the path of a robot in bounded memory; of a long path, it keeps every second, fourth, ...
+/// point.
 #pragma once
 
 #include <cstdint>
@@ -14,24 +15,24 @@ namespace dotpose::cli {
 
 class PathMemory {
   public:
-    /// Takes a frame; only frames in which the robot is tracked add to the path.
+    /// Takes the track after a frame; only frames in which the robot is tracked extend the path.
     void add(const Track& track);
 
     const std::vector<video::PathMark>& marks() const { return marks_; }
 
-    /// The path as strokes in mm, cut where the robot was lost or kidnapped.
+    /// Returns the path in mm; a new stroke begins where the robot was lost or put elsewhere.
     std::vector<std::vector<draw::Point>> strokes() const;
 
   private:
     static constexpr std::size_t kMost = 16384;
 
     std::vector<video::PathMark> marks_;
-    std::int64_t stride_ = 1;  ///< of the tracked frames, one in so many is kept
+    std::int64_t stride_ = 1;  ///< one in this many tracked frames is kept
     std::int64_t frames_ = 0;
     bool is_jump_ = true;
 };
 
-/// The sheets as they lie in the plane of the tracker.
+/// Returns the sheets in the plane of the tracker.
 std::vector<draw::MapSheet> map_sheets(const std::vector<SheetEntry>& sheets, Plane plane);
 
 }  // namespace dotpose::cli

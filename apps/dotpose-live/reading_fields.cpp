@@ -12,7 +12,7 @@ double deviation(const TrackedPose& pose, std::size_t i) {
     return std::sqrt(static_cast<double>(pose.covariance[i][i]));
 }
 
-/// The tracker's own fields; those of the pose are empty while it is lost.
+/// Returns the fields of the tracker; those of the pose are empty while it is lost.
 std::vector<Field> track_fields(const Track& track, Plane plane) {
     const TrackedPose& pose = track.pose;
     constexpr double kDegrees = 180 / std::numbers::pi;

@@ -1,5 +1,5 @@
-/// One output line of `dotpose watch`: the raw pose of `dotpose locate`, and what the tracker made
-/// of it.
+/// The fields of an output line of `dotpose watch`: those of `dotpose locate` and those of the
+/// tracker.
 #pragma once
 
 #include <string>
@@ -10,15 +10,16 @@
 
 namespace dotpose::cli {
 
-/// lost, moving or stationary.
+/// Returns "lost", "moving" or "stationary".
 std::string state_name(const Track& track);
 
-/// "fix kidnapped", for example; empty: none.
+/// Returns the names of events separated by blanks, for example "fix kidnapped"; empty if there is
+/// none.
 std::string event_names(const TrackEvents& events);
 
 std::vector<Field> fields(const Reading& reading);
 
-/// The header of a run with or without sheets.
+/// Returns the header line of a run with or without sheets.
 std::string csv_header_of_readings(bool has_sheets);
 
 }  // namespace dotpose::cli

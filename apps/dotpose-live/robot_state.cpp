@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::int64_t kMicro = 1'000'000;
 
-/// ISO 8601 in UTC, with microseconds.
+/// Formats a time by ISO 8601 in UTC, with microseconds.
 std::string timestamp(std::int64_t time_us) {
     const auto seconds = static_cast<std::time_t>(time_us / kMicro);
     std::tm utc{};
@@ -28,7 +28,7 @@ std::string timestamp(std::int64_t time_us) {
                        time_us % kMicro);
 }
 
-/// Two digits, or four, of a text that is long enough; -1 if they are none.
+/// Parses `count` digits of a text that is long enough; returns -1 if they are not digits.
 int digits(std::string_view text, std::size_t first, std::size_t count) {
     int value = -1;
     const char* const begin = text.data() + first;
@@ -36,7 +36,8 @@ int digits(std::string_view text, std::size_t first, std::size_t count) {
     return error == std::errc() && stop == begin + count ? value : -1;
 }
 
-/// "2026-11-24T16:20:00.123456Z", with any number of decimals or none. None if it is no such time.
+/// Parses a time such as "2026-11-24T16:20:00.123456Z", with any number of decimals or none.
+/// Returns none for any other text.
 std::optional<std::int64_t> parse_timestamp(std::string_view text) {
     constexpr std::string_view kSeconds = "2026-11-24T16:20:00";
     if (text.size() <= kSeconds.size() || !text.ends_with('Z')) return std::nullopt;
@@ -71,7 +72,8 @@ std::optional<std::int64_t> parse_timestamp(std::string_view text) {
     return std::int64_t{timegm(&utc)} * kMicro + std::llround(fraction_s * 1e6);
 }
 
-/// A number of a message that some world of robots could hold. Throws json::exception, or Error.
+/// Returns a number of a message. Throws json::exception if there is none, and Error if its
+/// absolute value is above `most`.
 double bounded(const nlohmann::json& object, const char* key, double most) {
     const double value = object.at(key);
     if (!(std::abs(value) <= most)) throw Error(fmt::format("{} is absurd", key));

@@ -40,7 +40,7 @@ struct WatchArguments {
     OutputOptions outputs;
     MqttArguments mqtt;
     bool has_no_window = false;
-    std::int64_t frames = 0;  ///< after so many it ends; 0: never
+    std::int64_t frames = 0;  ///< number of frames to take; 0 for no limit
 };
 
 void report(const WatchOutputs& outputs, std::int64_t dropped) {
@@ -64,7 +64,7 @@ void require_apart(const WatchArguments& arguments) {
     files.writes("--packets", outputs.packets, Content::packets);
 }
 
-/// Tells on standard error why most frames fail, and that another code explains them.
+/// Writes to standard error why most frames fail, and whether another code explains them.
 void tell_once_in_a_while(const Reading& reading, ImageView image, const FrameLocator& locator,
                           FailureHint& hint, bool& is_warned) {
     const std::string advice = hint.after(reading, image, locator.options());
@@ -103,7 +103,7 @@ int run(WatchArguments& arguments) {
     } catch (const BadArgument&) {
         throw;
     } catch (const Error& error) {
-        // What was seen before the source failed is kept: the map, the counts.
+        // The map and the counts of the frames before the failure are still written.
         tell(error.what());
         exit_code = kExitFailed;
     }

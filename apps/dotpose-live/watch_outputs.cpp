@@ -50,7 +50,7 @@ void PacketOutput::write(const Reading& reading, Profile profile) {
 
 namespace {
 
-/// What everybody is to know when the robot is not heard of any more.
+/// Returns the message that the broker sends when the robot's connection breaks.
 RobotState lost_state(const std::string& robot) {
     RobotState state;
     state.robot = robot;
@@ -130,7 +130,7 @@ bool WatchOutputs::take(const video::Frame& frame, const Reading& reading, std::
     return !screen_.is_on() || show(frame, reading, dropped);
 }
 
-/// Whoever reads the lines may leave; the rest of the run goes on.
+/// Writes a line. If the reader of the lines has left, the other outputs go on.
 void WatchOutputs::write_line(const std::string& line) {
     if (!lines_) return;
     try {

@@ -1,4 +1,4 @@
-/// Where the readings of `dotpose watch` go.
+/// The outputs of `dotpose watch`.
 #pragma once
 
 #include <chrono>
@@ -19,13 +19,14 @@ namespace dotpose::cli {
 
 struct OutputOptions {
     RecordFormat format = RecordFormat::jsonl;
-    std::string out;                           ///< file instead of standard output
-    std::string log;                           ///< CSV of all frames; empty: none
-    std::string map;                           ///< SVG of the path, written at the end; empty: none
-    std::string packets;                       ///< file or device for pose packets; empty: none
-    std::string robot = "robot";               ///< its name on the broker
-    std::optional<publish::MqttOptions> mqtt;  ///< broker; none: nothing is published
-    double mqtt_rate_hz = 0;                   ///< most messages a second; 0: one for each frame
+    // An empty path means that the output is not written.
+    std::string out;                           ///< file for lines; empty for standard output
+    std::string log;                           ///< CSV file of all frames
+    std::string map;                           ///< SVG file of the path, written at the end
+    std::string packets;                       ///< file or device for pose packets
+    std::string robot = "robot";               ///< name of the robot on the broker
+    std::optional<publish::MqttOptions> mqtt;  ///< the broker; none if nothing is published
+    double mqtt_rate_hz = 0;                   ///< most messages per second; 0 for one per frame
     std::string world_map;                     ///< name of the world of the sheets
     video::ScreenOptions screen;
 };
@@ -40,10 +41,11 @@ struct WatchTally {
     void count(const Reading& reading);
 };
 
-/// Pose packets to a file or serial device.
+/// Writes pose packets to a file or serial device.
 class PacketOutput {
   public:
-    /// Throws Error if it cannot be opened; `write`, if it cannot be written (ReaderLeft).
+    /// Throws Error if it cannot be opened. `write` throws Error if it cannot be written,
+    /// ReaderLeft if its reader has closed it.
     explicit PacketOutput(const std::string& path);
     ~PacketOutput();
     PacketOutput(const PacketOutput&) = delete;
@@ -55,12 +57,12 @@ class PacketOutput {
     int descriptor_;
 };
 
-/// The robot's state to a broker.
+/// Publishes the state of the robot through a broker.
 class StateOutput {
   public:
     /// Throws Error if the broker refuses the connection.
     explicit StateOutput(const OutputOptions& options);
-    /// Says that the robot is lost, and waits a little until all is sent.
+    /// Publishes that the robot is lost, and waits a short time until all messages are sent.
     ~StateOutput();
     StateOutput(const StateOutput&) = delete;
     StateOutput& operator=(const StateOutput&) = delete;
@@ -81,14 +83,15 @@ class WatchOutputs {
     /// Throws Error if something cannot be opened.
     WatchOutputs(const OutputOptions& options, const FrameLocator& locator);
 
-    /// Throws Error. False if the user closed the window, or nobody reads any output any more.
+    /// Writes the outputs of a frame. Returns false if the user closed the window or all outputs
+    /// have lost their readers. Throws Error if an output cannot be written.
     bool take(const video::Frame& frame, const Reading& reading, std::int64_t dropped);
 
-    /// Writes what is written at the end. Throws Error.
+    /// Writes the map and closes the recording. Throws Error if that fails.
     void finish();
 
     const WatchTally& tally() const { return tally_; }
-    /// Frames per second of all frames so far, on the clock of the wall.
+    /// Returns the number of frames per second of real time, over all frames of the run.
     double rate() const;
 
   private:

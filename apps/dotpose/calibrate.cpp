@@ -42,7 +42,7 @@ struct CalibrateArguments {
     std::string out;
     std::string picture;
     std::string spin_picture;
-    std::optional<Profile> code;  ///< none: found out
+    std::optional<Profile> code;  ///< none if it is found out from the frames
     CalibrateOptions options;
 };
 
@@ -52,7 +52,7 @@ FrameAt frames_of(const Names& names) {
     return [&names](int index) { return read_frame(names[static_cast<std::size_t>(index)]); };
 }
 
-/// Runs `work(frames, frame_at, options)` with its progress shown.
+/// Runs `work(frames, frame_at, options)` and shows its progress.
 template <typename Work>
 auto with_progress(const Names& names, const std::string& what, CalibrateOptions options,
                    Work work) {
@@ -64,7 +64,7 @@ auto with_progress(const Names& names, const std::string& what, CalibrateOptions
     return work(static_cast<int>(names.size()), frames_of(names), options);
 }
 
-/// Lens, then mount, as far as frames of each are given; returns what it did.
+/// Calibrates the lens and then the mount, if frames for them are given. Returns a report.
 std::string calibrate_camera(const CalibrateArguments& arguments) {
     std::string report;
     std::optional<Camera> camera = arguments.camera.camera;
@@ -102,7 +102,7 @@ std::string calibrate_camera(const CalibrateArguments& arguments) {
     return report;
 }
 
-/// "camera", or "SHEET=MM".
+/// Parses "camera" or "SHEET=MM".
 ScaleReference parse_reference(const std::string& text) {
     if (text == "camera") return {ScaleReference::By::camera, "", 0};
     const std::size_t sign = text.rfind('=');
@@ -117,7 +117,8 @@ ScaleReference parse_reference(const std::string& text) {
     return reference;
 }
 
-/// Writes the world poses and print scales into the sheet file; returns what it did.
+/// Finds the world poses and print scales of sheets and writes them into the sheet file. Returns a
+/// report.
 std::string stitch(const CalibrateArguments& arguments) {
     SheetFile file(arguments.sheets, {.tell = tell, .stop = interrupted});
     const Stitching stitching = with_progress(
@@ -139,7 +140,8 @@ void require_apart(const CalibrateArguments& arguments) {
     files.reads("--spin", arguments.spin);
     files.reads("--drive", arguments.drive);
     files.updates("--sheets", arguments.sheets, Content::json);
-    // A camera file may be completed: what is not found anew stays in it.
+    // The output may be the camera file that is read: it keeps the values that are not calibrated
+    // now.
     const auto camera = identity_of(arguments.camera.path);
     if (camera && camera == identity_of(arguments.out) && !is_camera_info(arguments.camera.path)) {
         files.updates("-o", arguments.out, Content::yaml);

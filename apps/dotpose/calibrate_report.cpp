@@ -19,7 +19,8 @@ double degrees(double rad) {
     return rad * 180 / std::numbers::pi;
 }
 
-/// By how much the lens moves the farthest corner, in percent of its distance.
+/// Returns how far lens distortion moves the farthest corner, in percent of its distance from the
+/// distortion centre.
 double corner_displacement(const Camera& camera) {
     const PixelPoint corner{
         camera.centre_px.u < (camera.width_px - 1) / 2.0 ? camera.width_px - 1.0 : 0,
@@ -111,7 +112,7 @@ std::string print_scale_text(double scale, double sigma) {
     return fmt::format("{:.6f} +- {:.6f}{}", scale, sigma, is_told(sigma) ? "" : " (NOT TOLD)");
 }
 
-/// How long sheets were printed, and what this is measured by.
+/// Appends the print scales of the sheets and the reference by which they were measured.
 void add_print_scales(std::string& text, const Stitching& stitching) {
     bool is_all_told = true;
     std::string fixed;

@@ -1,4 +1,4 @@
-/// What `calibrate` says.
+/// The text that `dotpose calibrate` prints.
 #pragma once
 
 #include <string>

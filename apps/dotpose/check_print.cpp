@@ -56,13 +56,14 @@ void require_svg(const std::string& path) {
     throw BadArgument(fmt::format("'{}': the name of the map must end in .svg", path));
 }
 
-/// The page is farther from its scale than drivers make it: the resolution is not true.
+/// Whether a print scale is one that printer drivers produce. If not, the resolution of the scan is
+/// probably wrong.
 bool is_believable(const PrintScale& scale) {
     constexpr double kFarthest = 0.25;
     return std::abs(scale.scale_x - 1) <= kFarthest && std::abs(scale.scale_y - 1) <= kFarthest;
 }
 
-/// Refuses what tells no scale that could be written.
+/// Throws Error if the scan gives no scale that can be written into a sheet file.
 void require_scan(const std::string& scan, const PrintCheck& check) {
     constexpr const char* kRemedy = "; nothing was written: --fit needs a scan from a flatbed";
     if (check.camera) {
@@ -87,17 +88,17 @@ void require_scan(const std::string& scan, const PrintCheck& check) {
     }
 }
 
-/// Writes the scale of every field into the sheet that it belongs to; returns what it did. `sheets`
-/// are those that the fields name.
+/// Writes the scale of every field of dots to the sheet that it belongs to, and returns a report.
+/// The fields refer to `sheets` by index.
 std::string fit_sheets(const std::string& path, const std::vector<SheetEntry>& sheets,
                        const PrintCheck& check) {
     SheetFile file(path, {.tell = tell, .stop = interrupted});
     std::string done;
     std::set<std::size_t> fitted;
     for (const PrintField& field : check.fields) {
-        // A sheet may show in several parts, of which the largest comes first.
+        // A sheet may be visible in several parts; the first one is the largest.
         if (!field.scale || !field.sheet || !fitted.insert(*field.sheet).second) continue;
-        // As it is now: somebody may have changed it during the check.
+        // The entry is read anew, because it may have been changed during the check.
         const std::string& name = sheets[*field.sheet].name;
         const auto found = std::ranges::find(file.sheets(), name, &SheetEntry::name);
         if (found == file.sheets().end()) {
@@ -117,7 +118,7 @@ std::string fit_sheets(const std::string& path, const std::vector<SheetEntry>& s
     return done;
 }
 
-/// The profile that all sheets have; none if they differ.
+/// Returns the profile of all sheets, or none if they differ.
 std::optional<Profile> common_profile(const std::string& path,
                                       const std::vector<SheetEntry>& sheets) {
     if (sheets.empty()) throw Error(fmt::format("{} has no sheets", path));

@@ -21,11 +21,11 @@ double degrees(double angle_rad) {
     return angle_rad * 180 / std::numbers::pi;
 }
 
-/// For output: so many decimals and no more.
+/// Rounds a number to this many decimals for output.
 double rounded(double value, int decimals) {
     const double scale = std::pow(10, decimals);
     const double result = std::round(value * scale) / scale;
-    return result == 0 ? 0 : result;  // no minus zero
+    return result == 0 ? 0 : result;  // turns -0 into 0
 }
 
 template <typename... Values>
@@ -78,7 +78,8 @@ void add_field(std::string& text, const CheckedScan& scan, const PrintField& fie
         100 * field.wrong_share());
 }
 
-/// "sheet 'table': " or its cells, if there are several fields to tell apart.
+/// Returns a prefix such as "sheet 'table': ", or one with the cells of the field. It is empty if
+/// there is only one field.
 std::string about(const CheckedScan& scan, const PrintCheck& check,
                   std::optional<std::size_t> index) {
     if (!index || check.fields.size() == 1) return "";
@@ -87,7 +88,7 @@ std::string about(const CheckedScan& scan, const PrintCheck& check,
     return fmt::format("from cell {},{} on: ", field.origin.x, field.origin.y);
 }
 
-/// Patches by spacing, then by dot.
+/// Returns the indices of the patches, ordered by spacing and then by dot diameter.
 std::vector<std::size_t> patches_in_order(const PrintCheck& check) {
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < check.fields.size(); ++i) {
@@ -164,8 +165,8 @@ ordered_json json_of(const Pattern& pattern) {
     return {{"spacing_mm", rounded(pattern.spacing_mm, 6)}, {"dot_mm", rounded(pattern.dot_mm, 6)}};
 }
 
-/// A remark behind the name of a code that was found out, where another one may have been printed;
-/// empty where that is improbable.
+/// Returns a remark to append to the name of a code that was found out, if another code is
+/// possible; empty if that is improbable.
 std::string doubt_of_code(const PrintCheck& check) {
     constexpr double kDoubtful = 0.01;
     if (check.code_p_wrong < kDoubtful) return "";

@@ -1,4 +1,4 @@
-/// What `check-print` says, for people and for machines.
+/// The results of `dotpose check-print` as text and as JSON.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ struct CheckedScan {
 
 std::string text_report(const CheckedScan& scan, const PrintCheck& check);
 
-/// One JSON object.
+/// Returns the results as one JSON object.
 std::string json_report(const CheckedScan& scan, const PrintCheck& check);
 
 }  // namespace dotpose::cli

@@ -1,6 +1,7 @@
-/// The subcommands of the tool, one file each. A command registers itself with its options; when
-/// the user chose it, CLI11 runs its callback, which sets `exit_code` if that is not to be 0.
-/// Callbacks throw dotpose::Error; main.cpp turns it into a message and an exit status.
+/// The subcommands of the tool, each of which has a file of its own. A command registers itself
+/// with its options. If the user names it, CLI11 runs its callback, which sets `exit_code` unless
+/// it is 0. Callbacks may throw dotpose::Error, which main.cpp turns into a message and an exit
+/// status.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -20,7 +21,7 @@ void add_optics(CLI::App& app, int& exit_code);
 void add_listen(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);
 
-/// The commands that another program does: see apps/dotpose-live.
+/// Registers the commands that the program in apps/dotpose-live executes.
 void add_live(CLI::App& app);
 
 }  // namespace dotpose::cli

@@ -36,7 +36,7 @@ std::string quoted_for_shell(const std::string& word) {
     return quoted + "'";
 }
 
-/// "A,B" with whole numbers from 0 to limit - 1.
+/// Parses "A,B" with two integers from 0 to limit - 1.
 std::pair<std::uint32_t, std::uint32_t> parse_pair(const std::string& flag, const std::string& text,
                                                    std::uint32_t limit) {
     const auto numbers = whole_numbers(text, ",", limit - 1);
@@ -48,16 +48,16 @@ std::pair<std::uint32_t, std::uint32_t> parse_pair(const std::string& flag, cons
     return {(*numbers)[0], (*numbers)[1]};
 }
 
-/// CLI11's own check for positive numbers names a limit of 309 digits.
+/// Checks that a number is positive. CLI11's own check prints a limit of 309 digits in its message.
 std::string require_positive(const std::string& text) {
     double value = 0;
     if (CLI::detail::lexical_cast(text, value) && value > 0 && std::isfinite(value)) return {};
     return "'" + text + "' is not a length in mm above 0";
 }
 
-/// Refuses what is meant in another unit: micrometres, metres. Ten dots of a printer of 25,000 dpi
-/// make the smallest spacing, and the largest makes 8 x 8 dots, the least that tell a place, fill
-/// most of an A0 poster.
+/// Refuses a spacing that was probably given in micrometres or metres. The smallest one is ten dots
+/// of a printer of 25,000 dpi. With the largest one, 8 x 8 dots, the fewest that tell a position,
+/// fill most of an A0 poster.
 std::string require_spacing(const std::string& text) {
     constexpr double kLeast_mm = 0.01;
     constexpr double kMost_mm = 100;
@@ -261,7 +261,7 @@ FrameSize parse_frame_size(const std::string& flag, const std::string& text) {
 }
 
 void refuse_non_finite_numbers(CLI::App& app) {
-    // Values that are text, such as a file that is called nan.
+    // Values of these types are text: a file may be called "nan".
     const std::set<std::string> texts = {"DIR",   "FILE", "FILE|-", "IMAGE", "NAME", "PART",
                                          "RANGE", "SCAN", "SOURCE", "TEXT",  "URL"};
     const auto is_finite = [](const std::string& text) -> std::string {

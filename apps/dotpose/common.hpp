@@ -1,4 +1,4 @@
-/// Options that several subcommands share, spelt and explained in one place.
+/// Options that several subcommands share, with their names and help texts.
 #pragma once
 
 #include <cstdint>
@@ -19,47 +19,48 @@
 
 namespace dotpose::cli {
 
-/// --code anoto|libdots|microdots, of what is made. The default stays what `profile` holds.
+/// Adds --code anoto|libdots|microdots for output. The default is the value of `profile`.
 void add_code_option(CLI::App& command, Profile& profile);
 
-/// --code auto|anoto|libdots|microdots, of what is read; none: auto, the default.
+/// Adds --code auto|anoto|libdots|microdots for input. None means auto, which is the default.
 void add_code_option(CLI::App& command, std::optional<Profile>& code);
 
-/// --section U,V; each 0 to 62.
+/// Adds --section U,V, each 0 to 62.
 void add_section_option(CLI::App& command, Section& section);
 
-/// --spacing MM; more than 0.
+/// Adds --spacing MM, which must be above 0.
 void add_spacing_option(CLI::App& command, double& spacing_mm);
 
-/// --origin X,Y, a cell; the meaning of the cell for this command is in `help`.
+/// Adds an option for a cell X,Y, such as --origin; `help` says what the cell means for the
+/// command.
 void add_cell_option(CLI::App& command, const std::string& flag, Cell& cell,
                      const std::string& help);
 
-/// --sheets FILE; what the file is for in this command is in `help`.
+/// Adds --sheets FILE; `help` says what the command uses the file for.
 CLI::Option* add_sheets_option(CLI::App& command, std::string& path, const std::string& help);
 
-/// --k 1/PX^2: what `locate` corrects.
+/// Adds --k, the lens distortion in 1/px^2 that `locate` corrects.
 CLI::Option* add_lens_option(CLI::App& command, Lens& lens);
 
-/// A camera file and what it says.
+/// A camera file and its contents.
 struct CameraArgument {
-    std::string path;  ///< empty: none
+    std::string path;  ///< empty if no file was given
     std::optional<Camera> camera;
 };
 
-/// --camera FILE, which is read at once.
+/// Adds --camera FILE; the file is read while the command line is parsed.
 CLI::Option* add_camera_option(CLI::App& command, CameraArgument& camera, const std::string& help);
 
-/// --decoder and --effort. `options` must outlive the command.
+/// Adds --decoder and --effort. `options` must outlive the command.
 void add_attempt_options(CLI::App& command, Options& options);
 
-/// --format jsonl|csv of output lines.
+/// Adds --format jsonl|csv, the format of output lines.
 void add_format_option(CLI::App& command, RecordFormat& format);
 
-/// --size WxH of a simulated frame.
+/// Adds --size WxH, the size of a simulated frame.
 void add_size_option(CLI::App& command, CameraModel& camera);
 
-/// An option whose value is the name of one of `values`, which must outlive the command.
+/// Adds an option whose value is the name of one of `values`, which must outlive the command.
 template <typename Values, typename Store>
 CLI::Option* add_named(CLI::App& command, const std::string& flag, const Values& values,
                        const std::string& default_name, const std::string& help, Store store) {
@@ -81,19 +82,19 @@ CLI::Option* add_named(CLI::App& command, const std::string& flag, const Values&
         ->default_str(default_name);
 }
 
-/// --code, --section, --spacing, --displacement and --dot.
+/// The options --code, --section, --spacing, --displacement and --dot.
 class PatternArguments {
   public:
-    /// What the pattern is for. The section of one that is expected is found in the image, so it is
-    /// no option.
+    /// Whether the pattern is output or expected in an image. For an expected pattern there is no
+    /// option --section, because the section is read from the image.
     enum class Use { made, expected };
     void add_to(CLI::App& command, Use use = Use::made);
 
-    /// The pattern asked for. Displacement and dot diameter follow the spacing (one sixth of it)
-    /// unless they were given.
+    /// The pattern that the options describe. Displacement and dot diameter are a sixth of the
+    /// spacing unless they are given.
     Pattern pattern() const;
 
-    /// The profile that is expected; none: it is found out.
+    /// The profile that is expected, or none if it is found out from the image.
     std::optional<Profile> expected_code() const { return expected_code_; }
 
   private:
@@ -103,11 +104,11 @@ class PatternArguments {
     std::optional<double> dot_mm_;
 };
 
-/// --dots: how a PDF draws them.
+/// Adds --dots, the way in which a PDF draws dots.
 void add_drawing_option(CLI::App& command, DotDrawing& drawing);
 
-/// The whole numbers from 0 to `most` in a text, with these separators between them and nothing
-/// else: "640x480" with the separator x, "10,20,640x480" with ",,x". None if it is no such text.
+/// Parses integers from 0 to `most` with these separators between them and nothing else: "640x480"
+/// with the separators "x", "10,20,640x480" with ",,x". Returns none for any other text.
 std::optional<std::vector<std::uint32_t>> whole_numbers(std::string_view text,
                                                         std::string_view separators,
                                                         std::uint32_t most);
@@ -116,23 +117,23 @@ struct FrameSize {
     int width_px = 0;
     int height_px = 0;
 };
-/// "WIDTHxHEIGHT". Throws CLI::ValidationError that names the flag.
+/// Parses "WIDTHxHEIGHT". Throws CLI::ValidationError that names the flag.
 FrameSize parse_frame_size(const std::string& flag, const std::string& text);
 
-/// Every option of every subcommand refuses what is read as a number and is none that can be
-/// reckoned with: nan, inf, 1e999. To be called when all options are there.
+/// Makes every numeric option of every subcommand refuse values that are not finite: nan, inf,
+/// 1e999. Call it after all options have been added.
 void refuse_non_finite_numbers(CLI::App& app);
 
-/// Keeps the arguments of `main` for `command_line`.
+/// Stores the arguments of `main` for `command_line`.
 void remember_command_line(int argc, char** argv);
 
-/// The command as the user could type it again, quoted where a shell needs it.
+/// Returns the command line as the user could type it again, quoted where a shell needs it.
 std::string command_line();
 
-/// The page and the part of the code plane on it, in words.
+/// Describes the page and its region of the code plane in words.
 std::string region_text(const Sheet& sheet);
 
-/// Name of a profile as --code takes it.
+/// Returns the name of a profile as --code takes it.
 const char* profile_name(Profile profile);
 
 }  // namespace dotpose::cli

@@ -32,14 +32,14 @@ constexpr const char* kExamples =
     "wrong; errors are those of the others. Exit status 1 if truth.csv or an image cannot be\n"
     "read, 2 for wrong usage.\n";
 
-/// Of the paper, section IV.
+/// Marks the job that repeats the protocol of the paper's section IV.
 struct PaperProtocol {};
 constexpr std::array kProtocols = {PaperProtocol{}};
 const char* name(PaperProtocol) {
     return "paper";
 }
 
-/// Whose poses truth.csv has.
+/// Whether the poses in truth.csv are those of the image centre or of the robot.
 enum class TruthOf : std::uint8_t { image, robot };
 constexpr std::array kTruths = {TruthOf::image, TruthOf::robot};
 const char* name(TruthOf truth) {
@@ -59,8 +59,8 @@ struct EvaluateArguments {
     TruthOf truth_of = TruthOf::image;
     double spacing_mm = kDefaultSpacing_mm;
     bool spacing_given = false;
-    std::optional<Profile> code;     ///< that all frames are read in
-    bool code_is_found_out = false;  ///< of all frames; else of those that do not tell it
+    std::optional<Profile> code;     ///< the profile in which all frames are read
+    bool code_is_found_out = false;  ///< whether to ignore the profiles in truth.csv
     int threads = 0;
     bool json = false;
 };
@@ -76,7 +76,7 @@ nlohmann::ordered_json json_of(const Quantiles& quantiles) {
     return {{"median", quantiles.median}, {"p95", quantiles.p95}, {"max", quantiles.max}};
 }
 
-/// What is no number, for want of frames, becomes null.
+/// Returns the score as JSON. Statistics without any frame are NaN and become null.
 nlohmann::ordered_json json_of(const Score& score) {
     nlohmann::ordered_json statuses = nlohmann::ordered_json::object();
     for (std::size_t i = 1; i < score.by_status.size(); ++i) {
@@ -136,7 +136,8 @@ int evaluate_run(const EvaluateArguments& arguments, const std::string& what, Fr
     return report(evaluate(run).front(), arguments.json);
 }
 
-/// As `locate --camera` does. Images of another size become frames with a problem.
+/// Locates the frames as `locate --camera` does. Images whose size is not that of the camera file
+/// become frames with a problem.
 void locate_with(const Camera& camera, const std::vector<TruthRow>& rows, FrameRun& run) {
     run.frame_at = [camera, rows, read = run.frame_at](int index) {
         KnownFrame frame = read(index);
@@ -220,7 +221,7 @@ int evaluate_protocol(const EvaluateArguments& arguments) {
 int run(EvaluateArguments& arguments) {
     const bool writes = arguments.sweep || arguments.protocol;
     const bool has_folder = !arguments.folder.empty();
-    // A preset alone is a job; with a sweep or the protocol it says in which conditions.
+    // A preset is a job of its own only without a sweep and the protocol, whose conditions it sets.
     const int jobs = static_cast<int>(has_folder) + static_cast<int>(arguments.sweep.has_value()) +
                      static_cast<int>(arguments.protocol) +
                      static_cast<int>(arguments.preset && !writes);

@@ -45,7 +45,8 @@ std::string degrees(double angle_rad) {
 }
 
 std::string p_wrong_text(double p_wrong) {
-    // A smaller probability would be no statement about paper, ink and cameras any more.
+    // Smaller probabilities are not reported: the model of paper, ink and camera does not justify
+    // them.
     constexpr double kLeast_p_wrong = 1e-30;
     return fmt::format("{:.3g}", std::max(p_wrong * 1.005, kLeast_p_wrong));
 }

@@ -1,4 +1,4 @@
-/// The names of the images that a command reads.
+/// Names of the images that a command reads.
 #pragma once
 
 #include <fstream>
@@ -9,17 +9,17 @@
 
 namespace dotpose::cli {
 
-/// All names in turn: those on the command line and of a list in a file, which are known from the
-/// start, then those of a list in a pipe, read as they come.
+/// Returns all names one after the other: first those on the command line and in a list file, which
+/// are known from the start, then those of a list in a pipe, which are read as they arrive.
 class ImageNames {
   public:
-    /// `list`: a file with a name a line, "-" for standard input; empty: none. Throws Error where
-    /// the list cannot be read, or a line is too long.
+    /// `list` is a file with one name per line, "-" for standard input, or empty for none. Throws
+    /// Error if the list cannot be read or a line is too long.
     ImageNames(std::vector<std::string> images, const std::string& list);
 
     const std::vector<std::string>& known() const { return known_; }
 
-    /// None after the last one. Throws Error likewise.
+    /// Returns the next name, or none after the last one. Throws Error like the constructor.
     std::optional<std::string> next();
 
   private:

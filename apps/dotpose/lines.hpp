@@ -1,4 +1,4 @@
-/// Lines of output.
+/// Writes lines of output.
 #pragma once
 
 #include <cstdio>
@@ -9,22 +9,23 @@
 
 namespace dotpose::cli {
 
-/// Nobody reads an output any more, as after `| head`.
+/// The reader of an output has closed it, as `head` does.
 struct ReaderLeft : Error {
     using Error::Error;
 };
 
-/// Throws Error, or ReaderLeft where that is the reason: an output could not be written, and errno
-/// was this then.
+/// Throws Error for an output that could not be written, with the reason `error_number`, a value of
+/// errno; ReaderLeft if the reader has closed the output.
 [[noreturn]] void throw_unwritable(const std::string& output, int error_number);
 
-/// Standard output or a file; every line leaves at once, so that stopping the tool loses none.
+/// Standard output or a file. Every line is flushed, so that none is lost if the tool is stopped.
 class Lines {
   public:
     /// An empty path is standard output. Throws Error if the file cannot be created.
     explicit Lines(const std::string& path);
 
-    /// Throws Error if the line cannot be written: ReaderLeft where SIGPIPE is ignored.
+    /// Throws Error if the line cannot be written: ReaderLeft if the reader has closed the output
+    /// and SIGPIPE is ignored.
     void write(const std::string& line);
 
   private:

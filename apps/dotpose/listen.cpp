@@ -53,7 +53,7 @@ struct ListenArguments {
     Baud baud{115200, B115200};
 };
 
-/// Bytes as they come from a file, a pipe or a serial device.
+/// Reads bytes from a file, a pipe or a serial device.
 class ByteSource {
   public:
     explicit ByteSource(const ListenArguments& arguments) : name_(arguments.source) {
@@ -72,7 +72,8 @@ class ByteSource {
     ByteSource(const ByteSource&) = delete;
     ByteSource& operator=(const ByteSource&) = delete;
 
-    /// At least one byte; none at the end, or when the user has had enough. Throws Error.
+    /// Returns at least one byte, or none at the end or after Ctrl-C. Throws Error if reading
+    /// fails.
     std::span<const std::uint8_t> next() {
         constexpr int kPatience_ms = 100;
         while (!interrupted()) {
@@ -104,7 +105,7 @@ class ByteSource {
 
     std::string name_;
     int descriptor_ = STDIN_FILENO;
-    bool is_line_ = false;  ///< a serial device, which has no end
+    bool is_line_ = false;  ///< whether it is a serial device, which has no end
     std::array<std::uint8_t, 4096> buffer_{};
 };
 
@@ -112,7 +113,7 @@ std::vector<Field> fields(const PosePacket& packet, double spacing_mm) {
     const bool ok = packet.status == Status::ok;
     const auto if_ok = [ok](std::string text) { return ok ? std::move(text) : std::string(); };
     const auto number = [](unsigned value) { return fmt::format("{}", value); };
-    // 255 stands for more as well: not known.
+    // The value 255 also stands for larger deviations, so the deviation is not known then.
     const bool has_deviation = packet.deviation_q12 < 255;
     return {
         {"sequence", number(packet.sequence)},
@@ -133,12 +134,12 @@ std::vector<Field> fields(const PosePacket& packet, double spacing_mm) {
     };
 }
 
-/// Says at the end what did not arrive.
+/// Counts lost packets for the report at the end.
 class LossCounter {
   public:
     void count(const PosePacket& packet) {
-        // A short step back is a packet that came twice or late; a long one, a device that was
-        // switched on again.
+        // A small step back in the sequence is a packet that arrived twice or late; a large one
+        // means that the device was switched on again.
         constexpr int kMostLate = 16;
         const int step = last_ ? static_cast<std::int16_t>(packet.sequence - *last_) : 1;
         if (step > 1) lost_ += static_cast<std::uint64_t>(step - 1);

@@ -1,4 +1,4 @@
-// The commands of `dotpose-live`, which lies beside this program.
+// Starts `dotpose-live`, the program beside this one, for the commands that it executes.
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -14,7 +14,7 @@
 namespace dotpose::cli {
 namespace {
 
-/// Goes on as the other program; returns only by throwing Error.
+/// Replaces this process by the other program. Throws Error if that fails.
 [[noreturn]] void become_live(const CLI::App& command) {
     std::error_code failed;
     const auto here = std::filesystem::read_symlink("/proc/self/exe", failed);
@@ -26,7 +26,8 @@ namespace {
     for (std::string& word : words)
         arguments.push_back(word.data());
     arguments.push_back(nullptr);
-    // Seconds until a camera that gives no frames is told; OpenCV looks when it is loaded.
+    // Timeout in seconds for a camera that delivers no frames. OpenCV reads the variable when it is
+    // loaded, so it is set before the program starts.
     setenv("OPENCV_VIDEOIO_V4L_SELECT_TIMEOUT", "2", 0);
     execv(program.c_str(), arguments.data());
     throw Error("cannot start " + program + ": " + std::strerror(errno));

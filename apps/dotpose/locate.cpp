@@ -35,7 +35,8 @@ namespace {
 
 using std::chrono::steady_clock;
 
-/// Far outside any image, and far inside what the fixed-point pose can express.
+/// Largest distance of a reference point from the image centre: far outside of any image, but well
+/// within the range of the fixed-point pose.
 constexpr double kFarthestReference_px = 10'000;
 
 constexpr const char* kExamples =
@@ -55,10 +56,10 @@ struct LocateArguments {
     std::string out;
     std::string draw_folder;
     RecordFormat format = RecordFormat::jsonl;
-    std::string sheets;  ///< sheet file; empty: none
+    std::string sheets;  ///< path of the sheet file; empty for none
     double spacing_mm = kDefaultSpacing_mm;
     bool is_inverted = false;
-    std::optional<Profile> code;  ///< none: found out
+    std::optional<Profile> code;  ///< none if it is found out from the image
     Options options;
     CameraArgument camera;
     std::optional<PixelPoint> reference_px;
@@ -84,7 +85,7 @@ class ImageLocator {
     /// Throws Error if the image cannot be read.
     Record operator()(const std::string& name) {
         try {
-            // Larger ones are reduced, but for those that belong to a camera file.
+            // Images that are too large are reduced, unless a camera file gives their size.
             image_ = arguments_.camera.camera ? read_frame(name) : read_image(name);
         } catch (const ImageTooLarge& large) {
             return too_large(name, large);
@@ -126,7 +127,8 @@ class ImageLocator {
     }
 
   private:
-    /// The record of an image that is refused by its header, without a look at its pixels.
+    /// Returns the record of an image that is refused because of its header, without reading
+    /// pixels.
     Record too_large(const std::string& name, const ImageTooLarge& image) {
         image_ = {};
         Record record;
@@ -160,7 +162,8 @@ class ImageLocator {
         return advice_on(image_.view(), status, options_, *scratch_);
     }
 
-    /// Returns by how much. A camera file is for images of its own size.
+    /// Reduces the image if it is too large, and returns the factor. With a camera file it is not
+    /// reduced, because the file is valid for one size only.
     int reduce_if_large(const std::string& name) {
         const int by =
             arguments_.camera.camera ? 1 : reduction_of(image_.width_px, image_.height_px);
@@ -175,10 +178,10 @@ class ImageLocator {
 
     struct Found {
         CodeReading reading;
-        Fix fix;  ///< of the point that is asked for, by the camera file
+        Fix fix;  ///< the pose of the reference point, by the camera file
     };
 
-    /// Leaves the profile that was read in `options_`.
+    /// Locates the image, and sets the profile in `options_` to the one that was read.
     Found read() {
         if (!profiles_.empty()) return locate_with_any_profile();
         const CodeReading reading = locator().locate_in_any_code(image_.view(), evidence_);
@@ -187,8 +190,8 @@ class ImageLocator {
         return {reading, corrected(reading.fix)};
     }
 
-    /// The first fix that lies on a sheet of its profile; if none does, the first fix; if there is
-    /// none, what the first profile told.
+    /// Returns the first fix that is on a sheet of its profile. If there is none, it returns the
+    /// first fix, or without any fix the result for the first profile.
     Found locate_with_any_profile() {
         Profile best = profiles_.front();
         bool is_found = false;
@@ -201,7 +204,8 @@ class ImageLocator {
                 is_found = true;
             }
         }
-        // Once more if need be, so that fix and trace belong together.
+        // Unless it was the last profile, the image is located again in the best one, so that the
+        // workspace matches the fix.
         return options_.profile == best ? found : locate_with(best);
     }
 
@@ -219,7 +223,8 @@ class ImageLocator {
                            place ? place->entry->print_scale() : AxisScale{});
     }
 
-    /// Where the sheet is known, labels and table beside its dots contradict nothing.
+    /// Locates an image on a known sheet again without the area beside its dots: labels and the
+    /// table there are no evidence against the fix.
     Fix without_surroundings(const Fix& fix, const SheetPlace& place) {
         if (fix.bit_errors == 0) return fix;
         const auto cut = cut_to_dots(image_.view(), options_, fix, place.entry->sheet);
@@ -230,12 +235,12 @@ class ImageLocator {
                                again.bit_errors < fix.bit_errors &&
                                again.dots_used + fix.bit_errors >= fix.dots_used;
         if (!is_better) {
-            // The trace must show what is returned.
+            // The workspace must hold the results of the fix that is returned.
             (void)locator().locate(image_.view());
             return fix;
         }
         if (again.attempt == Attempt::tracked) again.attempt = fix.attempt;
-        // All codes were part of the doubt about the first one.
+        // The bound of the first fix takes all codes into account, so it is kept.
         again.p_wrong_log2 = fix.p_wrong_log2;
         return again;
     }
@@ -296,7 +301,7 @@ int run(const LocateArguments& arguments) {
     ImageLocator locator(arguments, files);
     Lines lines(arguments.out);
     int exit_code = 0;
-    // One bad file does not keep the others from being done.
+    // After a file that fails, the run goes on with the next one.
     const auto attempt = [&exit_code](const auto& action) {
         try {
             action();

@@ -19,7 +19,7 @@ double sigma(const Fix& fix, std::size_t axis) {
     return std::sqrt(static_cast<double>(fix.covariance[axis][axis]));
 }
 
-/// What `--sheets` adds.
+/// The fields that `--sheets` adds.
 std::vector<Field> sheet_fields(const std::optional<SheetPlace>& place) {
     std::vector<Field> fields = {
         {"sheet", {}, true}, {"x_sheet_mm", {}}, {"y_sheet_mm", {}},
@@ -37,7 +37,7 @@ std::vector<Field> sheet_fields(const std::optional<SheetPlace>& place) {
     return fields;
 }
 
-/// Why a position that was found is refused as not certain, in words, with the numbers.
+/// Explains in words and numbers why a position is refused as not certain.
 std::string doubt(const Record& record) {
     const Fix& fix = record.fix;
     if (fix.p_wrong_log2 <= record.max_p_wrong_log2) {
@@ -64,7 +64,7 @@ double mm(std::uint32_t cell, std::uint16_t fraction_q16, double spacing_mm) {
     return (cell + fraction_q16 / 65536.0) * spacing_mm;
 }
 
-/// The profile, and the places of two profiles that are in question.
+/// The fields of the profile and, if two profiles are possible, of the positions in both.
 std::vector<Field> code_fields(const Record& record) {
     const CodeReading& reading = record.reading;
     const Fix& fix = reading.fix;
@@ -96,7 +96,7 @@ std::vector<Field> code_fields(const Record& record) {
     };
 }
 
-/// Why there is no fix, without the advice that follows; empty if there is one.
+/// Explains why there is no fix, without advice; empty if there is one.
 std::string plain_reason(const Record& record) {
     const Fix& fix = record.fix;
     switch (fix.status) {

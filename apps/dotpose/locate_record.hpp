@@ -1,4 +1,4 @@
-/// One output line of `dotpose locate`: what one image told.
+/// The results for one image, which are one output line of `dotpose locate`.
 #pragma once
 
 #include <optional>
@@ -16,29 +16,29 @@ struct Record {
     std::string file;
     Fix fix;
     CodeReading reading;         ///< profile and other places; its fix is that of the image centre
-    bool code_is_given = false;  ///< by the user or the sheets
-    double spacing_mm = 0;       ///< not a number if it is not known; then nothing is given in mm
-    bool has_sheets = false;     ///< sheets were searched: their fields are wanted
-    std::optional<SheetPlace> place;  ///< on one of them
-    double elapsed_us = 0;            ///< of `dotpose::locate` alone
-    std::string advice;               ///< on what would help where there is no fix; may be empty
+    bool code_is_given = false;  ///< whether the user or the sheets determine the profile
+    double spacing_mm = 0;       ///< NaN if it is not known; then there are no fields in mm
+    bool has_sheets = false;     ///< whether there is a sheet file, so that its fields are output
+    std::optional<SheetPlace> place;  ///< the place on a sheet
+    double elapsed_us = 0;            ///< time that `dotpose::locate` took
+    std::string advice;               ///< what would help, if there is no fix; may be empty
     int width_px = 0;
     int height_px = 0;
-    int min_dots = 0;          ///< fewest that are worth a try
-    int max_p_wrong_log2 = 0;  ///< what may be wrong with more than 2^this is refused
+    int min_dots = 0;          ///< fewest dots with which locating is tried
+    int max_p_wrong_log2 = 0;  ///< positions that may be wrong with more than 2^this are refused
 };
 
-/// A warning where the user gave a profile and another one explains the frame; else empty.
+/// Returns a warning if the user gave a profile and another one explains the frame; else empty.
 std::string warning(const Record& record);
 
-/// Why there is no fix, with the numbers that matter; empty if there is one.
+/// Explains why there is no fix, with the relevant numbers; empty if there is one.
 std::string reason(const Record& record);
 
-/// The list of fields, in the order of the output.
+/// Returns the fields in the order of the output.
 std::vector<Field> fields(const Record& record);
 
-/// Lines with their line break. JSON holds the fields that mean something, CSV has all columns. In
-/// JSON, bytes of a file name that are no UTF-8 are replaced.
+/// These functions return a line with its line break. JSON has only the fields with a value, CSV
+/// has all columns. In JSON, bytes of a file name that are not UTF-8 are replaced.
 std::string json_line(const Record& record);
 std::string csv_header(bool has_sheets);
 std::string csv_line(const Record& record);

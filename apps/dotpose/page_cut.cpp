@@ -11,7 +11,7 @@
 namespace dotpose::cli {
 namespace {
 
-/// Where the pixels lie on a page. Tilt and lens are left out: the place is known to some pixels.
+/// Maps pixels to a page. Tilt and lens distortion are neglected, so it is exact to some pixels.
 class PixelsOnPage {
   public:
     PixelsOnPage(ImageView image, const Options& options, const Fix& fix, const SheetPlace& place)
@@ -32,13 +32,13 @@ class PixelsOnPage {
 
   private:
     const SheetPlace& place_;
-    double u_;  ///< of the reference point
+    double u_;  ///< pixel of the reference point
     double v_;
     double cosine_mm_ = 0;
     double sine_mm_ = 0;
 };
 
-/// As bright as half of the image: paper.
+/// Returns the median grey level of the image, which is that of paper.
 std::uint8_t brightness_of(ImageView image) {
     std::array<std::int64_t, 256> counts{};
     for (int v = 0; v < image.height_px; ++v) {
@@ -52,7 +52,8 @@ std::uint8_t brightness_of(ImageView image) {
     return static_cast<std::uint8_t>(grey);
 }
 
-/// The image with what `region` does not hold painted as paper; none if it holds all corners.
+/// Returns the image with all pixels outside of `region` painted in the grey level of paper, or
+/// none if `region` contains all corners of the image.
 template <typename Region>
 std::optional<GreyImage> cut_to(ImageView image, const Region& region) {
     const int right = image.width_px - 1;
@@ -72,7 +73,7 @@ std::optional<GreyImage> cut_to(ImageView image, const Region& region) {
     return cut;
 }
 
-/// Where the pixels lie among the dots of a sheet, as exactly as the fix tells.
+/// Maps pixels to the dots of a sheet, with the map of the fix.
 class PixelsAmongDots {
   public:
     PixelsAmongDots(ImageView image, const Options& options, const Fix& fix, const Sheet& sheet)
@@ -93,7 +94,8 @@ class PixelsAmongDots {
     }
 
   private:
-    /// From a cell to the edge half a cell before the first one, the shorter way around the plane.
+    /// Returns the signed distance from a cell to the edge of the region, which is half a cell
+    /// before its first cell, the shorter way around the cyclic plane.
     static std::int64_t cells_q16(std::uint32_t from, std::uint32_t first) {
         const double cells = std::remainder(double(first) - double(from), kPositionsPerAxis);
         return std::llround(cells * 65536) - 32768;

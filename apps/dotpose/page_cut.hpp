@@ -1,5 +1,5 @@
-/// Frames that show the edge of a page: what lies beyond it is kept from `locate`, which would take
-/// dots of the sheet beside for those of this one.
+/// Masks the part of a frame that is beyond the edge of a page, where `locate` would take dots of
+/// the next sheet for dots of this one.
 #pragma once
 
 #include <optional>
@@ -11,13 +11,14 @@
 
 namespace dotpose::cli {
 
-/// The image with all that is not on the page painted over. `fix` and `place` are what was found in
-/// the image with `options`. None if the image shows nothing but the page.
+/// Returns the image with everything outside of the page painted over, or none if all of the image
+/// shows the page. `fix` and `place` are the results for the image with `options`.
 std::optional<GreyImage> cut_to_page(ImageView image, const Options& options, const Fix& fix,
                                      const SheetPlace& place);
 
-/// The image with all painted over that is not among the dots of the sheet: labels in its margins,
-/// the table beside it. `fix` lies on the sheet. None if the image shows nothing but the dots.
+/// Returns the image with everything outside of the sheet's dots painted over, such as labels in
+/// its margins and the table beside it, or none if all of the image shows dots. `fix` must be on
+/// the sheet.
 std::optional<GreyImage> cut_to_dots(ImageView image, const Options& options, const Fix& fix,
                                      const Sheet& sheet);
 

@@ -17,7 +17,7 @@
 namespace dotpose::cli {
 namespace {
 
-/// The grey level that a tenth of the image exceeds: that of paper, where there is any.
+/// Returns the 90 % quantile of the grey levels, which is that of paper if the image shows any.
 int paper_level(ImageView image) {
     std::array<std::int64_t, 256> counts{};
     for (int v = 0; v < image.height_px; ++v) {
@@ -31,8 +31,8 @@ int paper_level(ImageView image) {
     return level;
 }
 
-/// The middle of an image, at most `side_px` wide and high, enlarged with straight lines between
-/// its pixels.
+/// Returns the middle of an image, at most `side_px` wide and high, enlarged with linear
+/// interpolation.
 GreyImage enlarged_middle(ImageView image, int side_px, int by) {
     const int width_px = std::min(image.width_px, side_px) - 1;
     const int height_px = std::min(image.height_px, side_px) - 1;
@@ -55,7 +55,7 @@ GreyImage enlarged_middle(ImageView image, int side_px, int by) {
     return result;
 }
 
-/// The spacing in the image, if the pattern can be read once the image is enlarged.
+/// Returns the spacing in the image if the pattern can be read after the image is enlarged.
 std::optional<double> too_small_spacing_px(ImageView image, const Options& options,
                                            LargeMemory& scratch) {
     constexpr int kMiddle_px = 320;
@@ -73,12 +73,13 @@ std::optional<double> too_small_spacing_px(ImageView image, const Options& optio
     return std::nullopt;
 }
 
-/// A stretch of the image along one direction, which undoes the foreshortening of a tilted sheet.
+/// A stretch of the image along one direction, which compensates the foreshortening of a tilted
+/// sheet.
 struct Stretch {
     double angle_rad = 0;
     double by = 1;
 
-    /// Where a step from the middle of the stretched image leads in the image.
+    /// Returns the pixel of the image for an offset from the middle of the stretched image.
     PixelPoint in_image(PixelPoint step) const {
         const double c = std::cos(angle_rad);
         const double s = std::sin(angle_rad);
@@ -87,8 +88,8 @@ struct Stretch {
     }
 };
 
-/// The middle of an image, stretched: a square of at most `side_px`, whose corners may lie outside
-/// of the image and then show its border.
+/// Returns the stretched middle of an image, a square of at most `side_px`. Where it is outside of
+/// the image, it repeats the pixels of the border.
 GreyImage stretched_middle(ImageView image, int side_px, const Stretch& stretch) {
     const int side = std::min({image.width_px, image.height_px, side_px});
     GreyImage result{{}, side, side};
@@ -110,7 +111,7 @@ GreyImage stretched_middle(ImageView image, int side_px, const Stretch& stretch)
     return result;
 }
 
-/// The tilt of the sheet, if the pattern can be read once that is undone.
+/// Returns the tilt of the sheet if the pattern can be read after the image is stretched.
 std::optional<double> large_tilt_degrees(ImageView image, const Options& options,
                                          LargeMemory& scratch) {
     constexpr int kMiddle_px = 480;
@@ -137,7 +138,7 @@ std::optional<double> large_tilt_degrees(ImageView image, const Options& options
             };
             const auto a = seen(1, 0);
             const auto b = seen(0, 1);
-            // The singular values of (a b): the lengths that one px has along and across the tilt.
+            // The singular values of (a b) are the lengths of a pixel along and across the tilt.
             const double sum = a[0] * a[0] + a[1] * a[1] + b[0] * b[0] + b[1] * b[1];
             const double area = std::abs(a[0] * b[1] - a[1] * b[0]);
             const double root = std::sqrt(std::max(sum * sum - 4 * area * area, 0.0));
@@ -148,9 +149,9 @@ std::optional<double> large_tilt_degrees(ImageView image, const Options& options
     return std::nullopt;
 }
 
-/// How much grey levels bend over a distance: the mean square of the difference between a pixel and
-/// the mean of those beside it on both sides. Noise adds the same at every distance, and the fall
-/// of light nothing.
+/// Returns the mean squared second difference of the grey levels over a distance: between a pixel
+/// and the mean of the pixels at this distance on both sides. Noise adds the same value at every
+/// distance, and a linear fall of light adds nothing.
 double bend(ImageView image, int step_px) {
     std::int64_t squares = 0;
     for (int v = step_px; v + step_px < image.height_px; ++v) {
@@ -165,9 +166,9 @@ double bend(ImageView image, int step_px) {
     return static_cast<double>(squares) / (4 * samples);
 }
 
-/// Whether the image has details, but none as small as those of a picture in focus, of whose bends
-/// over 8 or 16 px a sixth and more show over 2 px already (70 degrees of tilt); of those of dots
-/// that cannot be read for blur it is less than a twentieth.
+/// Whether the image has details, but only large ones. The second difference over 2 px is compared
+/// with those over 8 and 16 px: it is at least a sixth of them in a picture in focus, even with a
+/// tilt of 70 degrees, and less than a twentieth if the dots are too blurred to be read.
 bool is_out_of_focus(ImageView image) {
     constexpr double kLeastDetail = 0.4;
     constexpr double kFocused = 0.06;
@@ -187,7 +188,7 @@ std::string advice_on(ImageView image, Status status, const Options& options,
         status == Status::ambiguous_code) {
         return {};
     }
-    // Dots that blur spreads to a quarter of their contrast have to differ by min_contrast.
+    // Blur may reduce the contrast of dots to a quarter, which must still be min_contrast.
     const int darkest_paper = 4 * options.threshold.min_contrast;
     if (const int level = paper_level(image); level < darkest_paper) {
         return fmt::format(

@@ -1,4 +1,4 @@
-/// Why a picture of a sheet could not be located, as far as the picture tells, and what would help.
+/// Finds out from a picture of a sheet why it could not be located, and what would help.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace dotpose::cli {
 
-/// A sentence without a full stop; empty if the picture tells nothing. `status` is what `locate`
-/// said of it with `options`; `scratch` is overwritten.
+/// Returns a sentence without a full stop, or an empty text if the picture gives no reason.
+/// `status` is the result of `locate` with `options`; `scratch` is overwritten.
 std::string advice_on(ImageView image, Status status, const Options& options, LargeMemory& scratch);
 
 }  // namespace dotpose::cli

@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 PictureFolder::PictureFolder(fs::path folder, const RunFiles& files)
     : folder_(std::move(folder)), files_(files) {
     std::error_code error;
-    // One folder only: more missing ones are a mistyped name.
+    // Only the last folder of the path is created: if others are missing, the name is mistyped.
     fs::create_directory(folder_, error);
     if (!fs::is_directory(folder_)) {
         throw Error(fmt::format("cannot create the folder {}: {}", folder_.string(),

@@ -1,4 +1,4 @@
-/// The folder of `--draw`: one picture per image.
+/// The folder of `--draw`, which gets one picture per image.
 #pragma once
 
 #include <filesystem>
@@ -13,12 +13,12 @@ namespace dotpose::cli {
 
 class PictureFolder {
   public:
-    /// Creates the folder, in one that exists. Throws Error. The pictures are outputs of the run
-    /// that has `files`.
+    /// Creates the folder, whose parent must exist. Throws Error if that fails. `files` checks that
+    /// no picture overwrites a file of the same run.
     PictureFolder(std::filesystem::path folder, const RunFiles& files);
 
-    /// Writes STEM.svg after the image's name, or STEM-2.svg and so on if an earlier image had the
-    /// same stem. Throws Error.
+    /// Writes STEM.svg, where STEM is the name of the image without its ending; STEM-2.svg and so
+    /// on if an earlier image had the same stem. Throws Error if it cannot be written.
     void add(const std::string& image_name, ImageView image, const Trace& trace, double spacing_mm);
 
   private:

@@ -48,7 +48,7 @@ bool has_resolution(PrintFormat format) {
     return format != PrintFormat::text && format != PrintFormat::svg;
 }
 
-/// Labels and rulers of a PDF need more room than printers leave white.
+/// Returns the default margin: labels and rulers of a PDF need more than printers leave white.
 double default_margin_mm(PrintFormat format, const Paper& paper) {
     constexpr double kWithLabels_mm = 10;
     constexpr double kSmallPage_mm = 60;
@@ -56,7 +56,7 @@ double default_margin_mm(PrintFormat format, const Paper& paper) {
     return format == PrintFormat::pdf && !is_small ? kWithLabels_mm : SheetOptions{}.margin_mm;
 }
 
-/// Runs `write` with progress on the terminal and an ear for Ctrl-C.
+/// Runs `write`, shows its progress on the terminal and stops it after Ctrl-C.
 template <typename Write>
 void with_progress(const PrintArguments& arguments, const Write& write) {
     catch_interrupts();

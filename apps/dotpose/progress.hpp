@@ -1,4 +1,4 @@
-/// Progress of long work on a terminal, and giving it up by Ctrl-C.
+/// Shows the progress of long computations on a terminal, and lets Ctrl-C stop them.
 #pragma once
 
 #include <chrono>
@@ -6,16 +6,16 @@
 
 namespace dotpose::cli {
 
-/// From now on a reader that leaves makes the write fail, and does not end the program.
+/// Ignores SIGPIPE: if the reader of an output closes it, the write fails and the program goes on.
 void ignore_broken_pipes();
 
-/// From now on SIGINT, SIGTERM and SIGHUP no longer end the program but make `interrupted` true, so
-/// that no temporary file is left behind. A second signal ends the program.
+/// Makes SIGINT, SIGTERM and SIGHUP set `interrupted` instead of ending the program, so that it can
+/// remove its temporary files. A second signal ends the program.
 void catch_interrupts();
 bool interrupted();
 
-/// One line on standard error, "printing sheet.png: 42 %". Shown only if standard error is a
-/// terminal and the work has taken more than a second; removed at the end.
+/// A line such as "printing sheet.png: 42 %" on standard error. It is shown if standard error is a
+/// terminal and the work takes more than a second, and removed at the end.
 class ProgressLine {
   public:
     explicit ProgressLine(std::string what);

@@ -34,8 +34,9 @@ GreyImage reduced(const GreyImage& image, int by) {
 }
 
 Options reduced(const Options& options, const GreyImage& image, int by) {
-    // From the corner of the image, not from the middle of its first pixel, places scale as they
-    // are; the centre moves by what is cut off.
+    // Positions are counted from the corner of the image here, not from the centre of its first
+    // pixel, so that they only have to be divided. The image centre moves by half of what is cut
+    // off.
     const auto offset_q8 = [by](std::int32_t whole_q8, int side_px) {
         const double from_corner_px = side_px / 2.0 + whole_q8 / 256.0;
         return static_cast<std::int32_t>(

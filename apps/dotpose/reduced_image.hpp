@@ -1,4 +1,5 @@
-/// Images larger than `locate` takes, such as scans of large pages: reduced by a whole number.
+/// Reduces images that are too large for `locate`, such as scans of large pages, by an integer
+/// factor.
 #pragma once
 
 #include "dotpose/fix.hpp"
@@ -7,19 +8,19 @@
 
 namespace dotpose::cli {
 
-/// The least number by which an image of this size has to be reduced; 1: it can be located as it
-/// is, or hardly anything would be left of it.
+/// Returns the smallest factor by which an image of this size has to be reduced. It is 1 if the
+/// image can be located as it is, or if it would become too small.
 int reduction_of(int width_px, int height_px);
 
-/// Every pixel is the mean of `by` x `by`; what is left over at the right and at the bottom is cut
-/// off.
+/// Returns the image whose pixels are the means of `by` x `by` pixels. Remaining pixels at the
+/// right and at the bottom are cut off.
 GreyImage reduced(const GreyImage& image, int by);
 
-/// Options for an image reduced by `by` that mean what `options` mean for `image`: lens and
-/// reference point stay on the same spots of the scene.
+/// Converts options for `image` to options for the image reduced by `by`: lens and reference point
+/// belong to the same points of the scene.
 Options reduced(const Options& options, const GreyImage& image, int by);
 
-/// The fix of a reduced image, with its pixels counted in those of the whole one.
+/// Converts the fix of an image reduced by `by` to pixels of the original image.
 Fix in_whole_pixels(const Fix& fix, int by);
 
 }  // namespace dotpose::cli

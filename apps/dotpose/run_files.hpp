@@ -1,5 +1,5 @@
-/// The files of one run. No output may be one of its inputs, and no two outputs the same file:
-/// every command tells its files here before it opens one.
+/// Checks the files of one run: no output may be one of its inputs, and two outputs must not be the
+/// same file. Every command registers its files here before it opens any.
 ///
 ///     RunFiles files;
 ///     files.reads("--sheets", arguments.sheets);
@@ -18,54 +18,56 @@
 
 namespace dotpose::cli {
 
-/// The kind of data in an output file; `own`: the ending of its name chooses the format.
+/// The kind of data in an output file; `own` means that the ending of its name chooses the format.
 enum class Content { json, csv, yaml, svg, packets, own };
 
 Content content_of(RecordFormat format);
 
-/// Two names with equal identities are one file, also if they differ in links or folders; names of
-/// new files also if they differ in upper and lower case.
+/// Identity of a file: names with equal identities refer to one file, whatever links and folders
+/// they contain. Names of new files that differ only in upper and lower case have equal identities.
 struct FileIdentity {
     dev_t device = 0;
-    ino_t inode = 0;       ///< of the file, or of the folder of a file that does not exist yet
+    ino_t inode = 0;       ///< inode of the file, or of the folder if the file does not exist yet
     std::string new_name;  ///< in lower case; empty if the file exists
     auto operator<=>(const FileIdentity&) const = default;
 };
 
-/// None for what is no file and cannot become one: devices, pipes, names in folders that do not
+/// Returns the identity of a file, or none for devices, pipes and names in folders that do not
 /// exist.
 std::optional<FileIdentity> identity_of(const std::string& path);
 
-/// All names may be empty: no file. What is refused throws BadArgument, which names both options.
+/// An empty name means that there is no file. The functions throw BadArgument that names both
+/// options if they refuse a file.
 class RunFiles {
   public:
-    /// `option` is the flag, or empty for an argument without one; "-" is standard input.
+    /// Registers an input. `option` is its flag, or empty for an argument without a flag; "-" is
+    /// standard input.
     void reads(const std::string& option, const std::string& path);
     void reads(const std::string& option, const std::vector<std::string>& paths);
 
-    /// Text and pictures are refused where the name ends like an image or video of another kind:
-    /// who forgets the name of the output of `-o frames/*.png` would lose the first frame.
+    /// Registers an output. It is refused if the ending of its name is that of an image or video
+    /// of another kind than `content`: with `-o frames/*.png`, where the name of the output is
+    /// missing, the first frame would be overwritten.
     void writes(const std::string& option, const std::string& path, Content content);
 
-    /// Lines to `-o`, or without it to standard output.
+    /// Registers the output of lines to the file of `-o`, or to standard output without it.
     void writes_lines(const std::string& path, Content content);
 
-    /// An input that is changed after it was read, so that nothing of it is lost, and made if
-    /// missing.
+    /// Registers a file that is read, changed and written, or created if it does not exist.
     void updates(const std::string& option, const std::string& path, Content content);
 
-    /// Refuses an input as `reads` does, and forgets it: for names without end.
+    /// Checks an input like `reads` without keeping its name, for runs with any number of inputs.
     void require_not_written(const std::string& path) const;
 
-    /// Refuses an output as `writes` does, and forgets it: for names that are made up so that they
-    /// differ from each other.
+    /// Checks an output like `writes` without keeping its name, for generated names, which differ
+    /// from each other.
     void require_free(const std::string& option, const std::string& path) const;
 
   private:
     void add_output(const std::string& label, const std::string& path);
     void require_free(const std::string& label, const FileIdentity& identity) const;
 
-    std::map<FileIdentity, std::string> inputs_;  ///< and what the user called them
+    std::map<FileIdentity, std::string> inputs_;  ///< with the names that the user gave them
     std::map<FileIdentity, std::string> outputs_;
 };
 

@@ -18,7 +18,7 @@ namespace {
 
 using csv::cells_of;
 
-/// Looks up the cells of a row by the names of the header.
+/// A row whose cells are looked up by the names in the header.
 class Row {
   public:
     Row(const std::map<std::string, std::size_t>& columns, std::vector<std::string> cells)
@@ -48,7 +48,7 @@ class Row {
     std::vector<std::string> cells_;
 };
 
-/// A whole number below 2^53, which a double holds exactly.
+/// Converts an integer below 2^53, which a double represents exactly. Throws Error otherwise.
 std::int64_t whole(double value, const char* column) {
     if (!(value >= 0 && value < 9007199254740992.0) || value != std::floor(value)) {
         throw Error(fmt::format("{} is no whole number from 0 on", column));
@@ -56,7 +56,8 @@ std::int64_t whole(double value, const char* column) {
     return static_cast<std::int64_t>(value);
 }
 
-/// At 100 frames per second the log of half a day, which takes about a gigabyte of memory.
+/// Most rows that are read: at 100 frames per second the log of half a day, which takes about a
+/// gigabyte of memory.
 constexpr std::size_t kMostLogRows = 5'000'000;
 
 LogRow log_row(const Row& row) {
@@ -109,7 +110,7 @@ std::vector<LogRow> read_log(const std::filesystem::path& path) {
             if (rows.size() == kMostLogRows) {
                 throw Error(fmt::format("more than {} frames", kMostLogRows));
             }
-            if (file.eof()) break;  // no line break: cut off
+            if (file.eof()) break;  // a last line without a line break was cut off
             auto cells = cells_of(line);
             if (cells.size() != width) {
                 throw Error(fmt::format("{} values instead of {}", cells.size(), width));
@@ -155,7 +156,7 @@ RunStatistics statistics_of(const std::vector<LogRow>& rows) {
         const double step_s = row.t_s - before.t_s;
         if (row.state == "stationary") {
             run.stationary_s += step_s;
-            continue;  // noise is no distance
+            continue;  // motion below the noise is not counted as distance
         }
         moving_s += step_s;
         run.distance_mm += std::hypot(*row.x_mm - *before.x_mm, *row.y_mm - *before.y_mm);

@@ -1,4 +1,4 @@
-// The picture of a run: the path on the left, what changed over time on the right.
+// Draws a run: the path on the left, and quantities over time on the right.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -25,7 +25,7 @@ bool jumps(const LogRow& row) {
            row.events.find("fix") != std::string::npos;
 }
 
-/// The path; points that are no numbers cut it where the robot was lost or put elsewhere.
+/// Returns the path. Points that are NaN interrupt it where the robot was lost or put elsewhere.
 std::vector<Point> path_of(const std::vector<LogRow>& rows) {
     std::vector<Point> path;
     for (const LogRow& row : rows) {
@@ -35,7 +35,7 @@ std::vector<Point> path_of(const std::vector<LogRow>& rows) {
     return path;
 }
 
-/// Axes of equal scale around the path.
+/// Draws the path with axes of equal scale.
 void draw_path(Svg& svg, const std::vector<LogRow>& rows) {
     const std::vector<Point> path = path_of(rows);
     Point low{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
@@ -57,7 +57,7 @@ void draw_path(Svg& svg, const std::vector<LogRow>& rows) {
     axes.curve(path, {.colour = draw::colour::kWindow, .has_marks = false});
 }
 
-/// Red stripes where no fix was.
+/// Draws red stripes where there was no fix.
 void draw_gaps(const Axes& axes, const std::vector<LogRow>& rows, double low, double high) {
     for (std::size_t i = 0; i < rows.size();) {
         std::size_t end = i;

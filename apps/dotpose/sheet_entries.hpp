@@ -1,4 +1,5 @@
-/// --sheets FILE --name NAME --wait SECONDS: entering what is printed in a sheet file.
+/// The options --sheets FILE --name NAME --wait SECONDS, with which commands enter what they print
+/// in a sheet file.
 #pragma once
 
 #include <functional>
@@ -13,10 +14,10 @@ namespace dotpose::cli {
 
 class SheetEntryArguments {
   public:
-    /// To be called after the command's --origin has been added.
+    /// Adds the options. Call it after the option --origin of the command has been added.
     void add_to(CLI::App& command);
 
-    /// Whether there is a sheet file at all; the others ask for one.
+    /// Whether a sheet file was given; the functions below require one.
     bool given() const { return !path_.empty(); }
     const std::string& path() const { return path_; }
     const std::string& name() const { return name_; }
@@ -27,21 +28,21 @@ class SheetEntryArguments {
         bool is_only = true;
     };
 
-    /// What the file calls a page: NAME, or NAME-NUMBER if there are others.
+    /// Returns the name of a page in the file: NAME, or NAME-NUMBER if there are several pages.
     std::string page_name(Page page) const;
 
-    /// Reserves the regions of all pages that `enter_all` enters, before any is written.
+    /// Reserves the regions of all pages that `enter_all` enters, before any page is written.
     void reserve(const std::function<void(SheetFile&)>& enter_all,
                  std::optional<SheetReservation>& reservation) const;
 
     /// Adds a page to the file, in the next free region unless the user chose an origin. Returns
-    /// the sheet where it stands now.
+    /// the sheet with its new origin.
     Sheet enter(SheetFile& file, const Sheet& sheet, Page page) const;
 
-    /// The pages at `out` are written: so says the file from now on. Throws Error.
+    /// Marks the reserved pages as written, to `out`. Throws Error if the file cannot be changed.
     void confirm(SheetReservation& reservation, const std::string& out) const;
 
-    /// ", sheet 'NAME' of FILE"; empty if there is no sheet file.
+    /// Returns ", sheet 'NAME' of FILE", or an empty text if there is no sheet file.
     std::string summary(Page page) const;
 
   private:

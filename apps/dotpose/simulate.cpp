@@ -37,7 +37,7 @@ constexpr const char* kExamples =
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-// Imperfections that are a single number, each with an option of its own.
+// An imperfection that is a single number and has an option of its own.
 struct NumberOption {
     const char* flag;
     const char* unit;
@@ -60,7 +60,7 @@ constexpr NumberOption kNumberOptions[] = {
     {"--texture", "FRACTION", "Deviation of the paper's reflectance", &Imperfections::texture},
 };
 
-// Two numbers in one argument: "A,B".
+// Two numbers in one argument, as "A,B".
 struct Pair {
     std::vector<double> values;
     bool given() const { return values.size() == 2; }
@@ -89,7 +89,7 @@ Vec2 to_vec(const Pair& pair) {
     return {pair.values[0], pair.values[1]};
 }
 
-// Called for each frame: what the user fixed replaces what was drawn.
+// Returns the shot of a frame, in which the values that the user gave replace random ones.
 Shot shot_of(const SimulateArguments& arguments, int index) {
     Shot shot = draw_shot(arguments.setup, static_cast<std::uint64_t>(index));
     Imperfections& seen = shot.imperfections;
@@ -102,7 +102,7 @@ Shot shot_of(const SimulateArguments& arguments, int index) {
 
     CameraPose& pose = shot.pose;
     if (arguments.angle_deg) {
-        // To (-180, 180].
+        // The result is in (-180, 180] degrees.
         pose.theta_rad = -std::remainder(-*arguments.angle_deg, 360) / kDegrees;
     }
     if (arguments.tilt_deg.given()) {
@@ -137,7 +137,7 @@ std::string file_name(int index) {
     return fmt::format("frame_{:06}.pgm", index);
 }
 
-// Scenes have no pose: those columns stay empty.
+// Returns a row of truth.csv. Scenes without a pose leave its columns empty.
 std::string truth_row(const SimulateArguments& arguments, int index, const Shot& shot) {
     const Pattern& pattern = shot.page.pattern;
     std::string pose = ",,,,,,";
@@ -154,7 +154,7 @@ std::string truth_row(const SimulateArguments& arguments, int index, const Shot&
                        arguments.setup.seed);
 }
 
-// Renders and writes frames `first` to `end` - 1 on all cores; gives their rows of truth.csv.
+// Renders and writes frames `first` to `end` - 1 on all cores. Returns their rows of truth.csv.
 std::vector<std::string> write_frames(const SimulateArguments& arguments, int first, int end) {
     std::vector<std::string> rows(static_cast<std::size_t>(end - first));
     std::vector<std::exception_ptr> errors(rows.size());
@@ -211,7 +211,8 @@ void run(SimulateArguments& arguments, bool section_given, int& exit_code) {
     int done = 0;
     {
         ProgressLine line("simulating " + arguments.out);
-        // Short batches, so that Ctrl-C and truth.csv do not lag behind.
+        // Frames are written in short batches, so that Ctrl-C works soon and truth.csv is up to
+        // date.
         const int batch = 4 * static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
         while (done < arguments.frames && truth && !interrupted()) {
             const int end = std::min(arguments.frames, done + batch);
@@ -253,7 +254,7 @@ void add_camera_options(CLI::App& command, CameraModel& camera) {
         ->capture_default_str();
 }
 
-// Everything that is otherwise drawn for each frame.
+// Adds options for everything that is otherwise random in each frame.
 void add_overrides(CLI::App& command, SimulateArguments& arguments) {
     command.add_option("--angle", arguments.angle_deg, "Angle of the camera on the page")
         ->type_name("DEG");

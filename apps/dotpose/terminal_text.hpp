@@ -1,4 +1,4 @@
-/// What the tool says on a terminal, with text of strangers in it.
+/// Messages on the terminal, which may contain text from files, file names or networks.
 #pragma once
 
 #include <string_view>
@@ -10,7 +10,7 @@ namespace dotpose::cli {
 using print::printable;
 using print::with_escaped_controls;
 
-/// "dotpose: MESSAGE" on standard error, as one printable line.
+/// Writes "dotpose: MESSAGE" to standard error, as one printable line.
 void tell(std::string_view message);
 
 }  // namespace dotpose::cli

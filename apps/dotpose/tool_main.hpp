@@ -1,4 +1,4 @@
-/// What `main` of both programs does around its subcommands.
+/// The common part of `main` in both programs.
 #pragma once
 
 #include <functional>
@@ -8,8 +8,8 @@
 
 namespace dotpose::cli {
 
-/// Parses the command line with the subcommands that `add` registers, runs the one that was named,
-/// and turns what goes wrong into a message and an exit status.
+/// Parses the command line with the subcommands that `add` registers and runs the one that is
+/// named. Turns exceptions into a message and an exit status.
 int tool_main(int argc, char** argv,
               const std::function<void(CLI::App& app, int& exit_code)>& add) noexcept;
 
