@@ -1,4 +1,4 @@
-/// AprilTag, as Debian ships it: the other way to know where a camera is.
+/// Detection of AprilTags with Debian's libapriltag, for comparison.
 #pragma once
 
 #include <memory>
@@ -16,20 +16,21 @@ struct TagFrame {
     int id = 0;
 };
 
-/// The tag has two thirds of the frame's shorter side, its white border included, and any angle;
-/// light, blur and noise are those of the nominal frames of the same camera.
+/// Renders frames with a tag. With its white border it covers two thirds of the frame's shorter
+/// side, at a random angle. Light, blur and noise are those of the nominal frames of the same
+/// camera.
 std::vector<TagFrame> render_tags(const CameraModel& camera, int count);
 
-/// A detector with the library's defaults, on one thread.
+/// A detector with the library's default options, on one thread.
 class TagDetector {
   public:
-    /// decimate: the library looks for tags in an image smaller by this factor.
+    /// `decimate` is the factor by which the library reduces the image before it searches for tags.
     explicit TagDetector(int decimate);
 
     const apriltag_family_t& family() const { return *family_; }
-    /// Number of tags found.
+    /// Returns the number of tags found.
     int detect(GreyImage& image);
-    /// Whether just the tag of the frame is found, with all its bits, and in its place.
+    /// Whether exactly the tag of the frame is found, with all its bits right and in its place.
     bool is_right(TagFrame& frame);
 
   private:

@@ -1,4 +1,4 @@
-/// The parts of the program: what each measures, and the tables that it makes of the results.
+/// The parts of the program, each of which measures something and makes tables of the results.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ namespace dotpose::bench {
 
 void add_frame_benchmarks();
 
-/// What one kind of frame took, in µs; 0 where it was not measured.
+/// Times for one kind of frame in µs; 0 if not measured.
 struct FrameTimes {
     CameraModel camera;
     double dots = 0;
@@ -27,24 +27,24 @@ struct FrameTimes {
 
     double megapixels() const { return 1e-6 * camera.width_px * camera.height_px; }
 };
-/// The sizes of frames, from small to large.
+/// Returns the times for frames of several sizes, from small to large.
 std::vector<FrameTimes> times_by_size(const Results& results);
-/// Frames of one size that show more and more dots.
+/// Returns the times for frames of one size with an increasing number of dots.
 std::vector<FrameTimes> times_by_dots(const Results& results);
 std::string size_table(const std::vector<FrameTimes>& times);
 std::string dots_table(const std::vector<FrameTimes>& times);
 
 // ---- Tilted cameras: tilt.cpp ----
 
-/// Frames of one size, seen at one angle.
+/// Results for frames of one size, seen at one tilt angle.
 struct TiltTimes {
     CameraModel camera;
     int tilt_deg = 0;
     int frames = 0;
-    int at_once = 0;  ///< located at the first attempt
+    int at_once = 0;  ///< number of frames located by the first attempt
     double median_us = 0;
 };
-/// Throws Error where a fix is wrong.
+/// Locates frames of tilted cameras. Throws Error if a fix is wrong.
 std::vector<TiltTimes> time_tilted_frames(bool is_quick);
 std::string tilt_table(const std::vector<TiltTimes>& times);
 

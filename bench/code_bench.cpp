@@ -1,4 +1,4 @@
-// The position code by itself.
+// Benchmarks of the position code without images.
 #include <fmt/core.h>
 
 #include <dotpose/code.hpp>

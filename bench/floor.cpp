@@ -6,9 +6,10 @@
 namespace dotpose::bench {
 namespace {
 
-/// Pixels counted side by side, each lane in one byte, so that the compiler fills its vectors.
+/// Number of pixels that are counted in parallel. Each lane has a counter of one byte, so that the
+/// compiler can use its widest vectors.
 constexpr std::size_t kLanes = 64;
-/// Most that a lane can count.
+/// Largest count of a lane.
 constexpr std::size_t kMostSteps = 255;
 
 std::uint32_t count_steps(std::span<const std::uint8_t> pixels, std::uint8_t level) {

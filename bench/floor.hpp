@@ -1,4 +1,4 @@
-/// Floor: the least that any method does that looks at all pixels.
+/// The least work of any method that reads all pixels, as a lower bound of its time.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace dotpose::bench {
 
-/// How many pixels are darker than `level`: one pass, threshold and count.
+/// Returns the number of pixels that are darker than `level`, in one pass.
 std::uint32_t count_dark(std::span<const std::uint8_t> pixels, std::uint8_t level);
 
 }  // namespace dotpose::bench

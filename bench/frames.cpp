@@ -12,14 +12,16 @@
 namespace dotpose::bench {
 namespace {
 
-/// Enough that the processor does not learn them by heart, and few enough to render.
+/// Returns the number of frames to render: enough that branch prediction and caches do not adapt to
+/// single frames, but few enough to be rendered quickly.
 int count_of(const CameraModel& camera) {
     constexpr int kMost = 20;
     constexpr int kPixels = 4'000'000;
     return std::clamp(kPixels / (camera.width_px * camera.height_px), 1, kMost);
 }
 
-/// Whether the first attempt finds a pose: without one it ends early, and would seem fast.
+/// Whether the first attempt finds a pose. Frames without a pose are left out, because the attempt
+/// may end early on them and would seem fast.
 bool is_located_at_once(const KnownFrame& frame) {
     const auto memory = std::make_unique<LargeMemory>();
     const auto locates = [&](Effort effort) {

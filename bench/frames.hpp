@@ -1,4 +1,4 @@
-/// Frames: what the benchmarks look at, rendered before time counts.
+/// The frames of the benchmarks, which are rendered before the measurement begins.
 #pragma once
 
 #include <functional>
@@ -9,16 +9,17 @@
 
 namespace dotpose::bench {
 
-/// Of no test and no tuning: these frames are seen here only.
+/// A seed that no test and no tuning uses.
 inline constexpr std::uint64_t kSeed = 606;
 
-/// Nominal frames of a camera that the first attempt locates; more of small ones. Rendered once.
+/// Returns nominal frames of a camera that the first attempt locates; the number is larger for
+/// small frames. They are rendered at the first call.
 const std::vector<KnownFrame>& nominal_frames(const CameraModel& camera);
 
-/// Whether the pose is there, and right.
+/// Whether there is a pose and it is right.
 bool is_right(const Fix& fix, const Truth& truth);
 
-/// Calls work(i) for i from 0 to count - 1, on all cores.
+/// Calls `work(i)` for i from 0 to count - 1, on all cores.
 void on_all_cores(int count, const std::function<void(int)>& work);
 
 }  // namespace dotpose::bench

@@ -17,7 +17,7 @@ constexpr std::uint64_t kSeed = 606;
 
 }  // namespace
 
-/// By their names, the counter knows them.
+/// The tool that counts instructions finds these functions by their names.
 extern "C" [[gnu::noinline]] void count_fresh_frame(const ImageView& image, Locator& locator) {
     locator.locate(image);
 }

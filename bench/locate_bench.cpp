@@ -1,4 +1,4 @@
-// Whole frames: dotpose, libapriltag and one pass over the pixels, side by side.
+// Benchmarks of whole frames: dotpose, libapriltag and one pass over the pixels.
 #include <algorithm>
 #include <map>
 #include <memory>
@@ -15,7 +15,7 @@
 namespace dotpose::bench {
 namespace {
 
-/// The paper's camera, larger.
+/// Returns the paper's camera with a larger image.
 CameraModel camera_of(int width_px, int height_px) {
     CameraModel camera;
     camera.width_px = width_px;
@@ -23,14 +23,14 @@ CameraModel camera_of(int width_px, int height_px) {
     return camera;
 }
 
-/// A phone's, of 12 megapixels, that sees a whole page.
+/// Returns the camera of a phone with 12 megapixels that sees a whole page.
 CameraModel phone_camera() {
     CameraModel camera = camera_of(4000, 3000);
     camera.mm_per_px = kDefaultSpacing_mm / 6;
     return camera;
 }
 
-/// Largest frames that libapriltag gets: it takes longer than all others.
+/// Largest frames that are measured with libapriltag, which takes longer than all other methods.
 constexpr int kMostTagPixels = 1280 * 800;
 
 const std::vector<CameraModel>& sizes() {
@@ -40,7 +40,7 @@ const std::vector<CameraModel>& sizes() {
     return all;
 }
 
-/// From few dots to many in a frame of one size: more and more of the paper in view.
+/// Returns cameras of one image size that see an increasing area of the paper, and so more dots.
 const std::vector<CameraModel>& spacings() {
     static const std::vector<CameraModel> all = [] {
         std::vector<CameraModel> cameras;
@@ -91,7 +91,7 @@ void locate_frames(benchmark::State& state, const CameraModel& camera, Effort ef
     state.counters["dots"] = dots / static_cast<double>(frames.size());
 }
 
-/// Each frame from its own fix.
+/// Tracks each frame from the prediction that its own fix gives.
 void track_frames(benchmark::State& state, const CameraModel& camera) {
     Locator& locator = locator_for(camera, Options{}.effort);
     const std::vector<KnownFrame>& frames = nominal_frames(camera);

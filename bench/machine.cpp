@@ -10,7 +10,7 @@
 namespace dotpose::bench {
 namespace {
 
-/// What stands behind the name in a file of lines `name: value` or `name="value"`.
+/// Returns the value of a name in a file with lines `name: value` or `name="value"`.
 std::string value_in(const char* path, std::string_view name) {
     std::ifstream lines(path);
     for (std::string line; std::getline(lines, line);) {

@@ -1,14 +1,14 @@
-/// The machine that a run was measured on.
+/// Describes the machine on which a run was measured.
 #pragma once
 
 #include <string>
 
 namespace dotpose::bench {
 
-/// 1, 5 and 15 minutes ago: processes that wanted to run.
+/// Returns the load averages of the last 1, 5 and 15 minutes.
 std::string load_average();
 
-/// Processor, caches, compiler, library, as a list.
+/// Returns a Markdown list of processor, caches, compiler and library.
 std::string machine_list();
 
 }  // namespace dotpose::bench

@@ -4,9 +4,9 @@
 //   dotpose_bench --benchmark_filter=stage [--benchmark_...]
 //
 // Writes tables.md, pixels.svg and dots.svg to FOLDER (bench-out). --update also replaces the
-// generated parts of the document and the pictures beside it. --quick: to see that it works; its
-// numbers are for nobody. With options of Google Benchmark only the benchmarks that they ask for
-// are run and printed.
+// generated parts of the document and the pictures beside it. --quick is a short run to test the
+// program; its numbers are not exact. With options of Google Benchmark, only the benchmarks that
+// they select are run and printed.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -37,12 +37,13 @@ struct Arguments {
     fs::path document;
     bool is_quick = false;
     bool is_partial = false;
-    std::vector<std::string> library = {"dotpose_bench"};  ///< what Google Benchmark gets
+    std::vector<std::string> library = {"dotpose_bench"};  ///< arguments for Google Benchmark
 };
 
 Arguments parse(int argc, char** argv) {
     Arguments arguments;
-    // Repetitions take turns, so that a busy moment of the machine is not one benchmark's alone.
+    // Repetitions of all benchmarks are interleaved, so that a busy moment of the machine does not
+    // affect all repetitions of one of them.
     for (const char* option : {"--benchmark_enable_random_interleaving=true",
                                "--benchmark_repetitions=9", "--benchmark_min_time=0.05"})
         arguments.library.emplace_back(option);
@@ -99,8 +100,8 @@ const FrameTimes& of_width(const std::vector<FrameTimes>& sizes, int width_px) {
                               [](const FrameTimes& t) { return t.camera.width_px; });
 }
 
-/// The least share located at the first attempt, and the longest time relative to that at 0
-/// degrees.
+/// Returns the least share of frames located at the first attempt, and the longest time relative to
+/// the time at 0 degrees.
 std::pair<double, double> worst_tilt(const std::vector<TiltTimes>& tilts) {
     double share = 100;
     double ratio = 1;
@@ -113,7 +114,7 @@ std::pair<double, double> worst_tilt(const std::vector<TiltTimes>& tilts) {
     return {share, ratio};
 }
 
-/// What was aimed at, and how far it is.
+/// Returns a table of the aims and the measured values.
 std::string aims_table(const std::vector<FrameTimes>& sizes, const Varied& varied,
                        const std::vector<TiltTimes>& tilts) {
     const double locate_us = varied.of(Way::twice).median_us;
@@ -149,7 +150,7 @@ std::string aims_table(const std::vector<FrameTimes>& sizes, const Varied& varie
 void run(const Arguments& arguments) {
     Results results;
     if (arguments.is_partial) return run_benchmarks(arguments.library, results);
-    // Found out now, not after minutes.
+    // A document that cannot be read is reported before the measurement, not minutes later.
     if (!arguments.document.empty()) read_document(arguments.document);
     fs::create_directories(arguments.out);
 

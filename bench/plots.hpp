@@ -1,4 +1,4 @@
-/// The pictures of docs/speed.md.
+/// Draws the pictures of docs/speed.md.
 #pragma once
 
 #include <iosfwd>
@@ -8,9 +8,9 @@
 
 namespace dotpose::bench {
 
-/// Time against pixels.
+/// Draws times over the number of pixels.
 void draw_pixels(std::ostream& out, const std::vector<FrameTimes>& times);
-/// Time against dots, in frames of one size.
+/// Draws times over the number of dots, in frames of one size.
 void draw_dots(std::ostream& out, const std::vector<FrameTimes>& times);
 
 }  // namespace dotpose::bench

@@ -9,7 +9,7 @@
 namespace dotpose::bench {
 namespace {
 
-/// The time that this thread was given, so that others on the machine do not count.
+/// Returns the processor time, which other processes on the machine do not increase.
 double us_of(const benchmark::BenchmarkReporter::Run& run) {
     return 1e6 * run.cpu_accumulated_time / static_cast<double>(run.iterations);
 }
@@ -25,11 +25,11 @@ const Result& Results::of(const std::string& name) const {
 }
 
 void Results::ReportRuns(const std::vector<Run>& repetitions) {
-    if (repetitions.front().run_type != Run::RT_Iteration) return;  // the library's own statistics
+    if (repetitions.front().run_type != Run::RT_Iteration) return;  // statistics over repetitions
     Run fastest = *std::ranges::min_element(repetitions, {}, us_of);
     fastest.run_name.repetitions.clear();
     ConsoleReporter::ReportRuns({fastest});
-    // One that found a wrong answer has not begun to count.
+    // A benchmark that found a wrong answer has stopped before its first iteration.
     if (std::ranges::any_of(repetitions, [](const Run& run) { return run.iterations == 0; })) {
         has_failed_ = true;
         return;

@@ -1,4 +1,4 @@
-/// Results: what the benchmarks of one run took.
+/// The times of the benchmarks of one run.
 #pragma once
 
 #include <map>
@@ -10,17 +10,17 @@
 namespace dotpose::bench {
 
 struct Result {
-    double us = 0;    ///< for one call, in the fastest of all repetitions
-    double dots = 0;  ///< that the frames show, on average; 0 where there are none
+    double us = 0;    ///< time of one call in µs, in the fastest repetition
+    double dots = 0;  ///< mean number of dots in the frames; 0 for benchmarks without frames
 };
 
-/// Prints the fastest repetition of each benchmark, and keeps it: whatever else the machine does
-/// makes the others slower.
+/// Prints and keeps the fastest repetition of each benchmark: other work of the machine can only
+/// make a repetition slower.
 class Results : public benchmark::ConsoleReporter {
   public:
     Results();
 
-    /// Throws Error if that benchmark was not run, or failed.
+    /// Returns the result of a benchmark. Throws Error if it was not run or failed.
     const Result& of(const std::string& name) const;
     bool has_failed() const { return has_failed_; }
 

@@ -1,5 +1,6 @@
-// Each stage of the pipeline by itself, from what the stages before it left of a nominal frame of
-// 188 x 120 px. docs/pipeline.md has the stages, src/core/attempts the calls.
+// Benchmarks of each stage of the pipeline, with the results of the earlier stages for a nominal
+// frame of 188 x 120 px as input. docs/pipeline.md describes the stages; src/core/attempts calls
+// them.
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -34,7 +35,7 @@ namespace {
 constexpr Options kOptions;
 constexpr Profile kProfile = kOptions.profile;
 
-/// A frame that has been located, with what every stage left.
+/// A frame that has been located, with the results of all stages.
 struct Located {
     const GreyImage* image = nullptr;
     std::vector<Dot> blobs;  ///< before the size filter
@@ -49,7 +50,7 @@ struct Located {
     static std::size_t size(int count) { return static_cast<std::size_t>(count); }
 };
 
-/// Runs a stage and says whether its result is that which the pipeline got.
+/// A function that runs a stage and returns whether its result is the same as in the pipeline.
 using Stage = bool (*)(Located&);
 
 bool measure_light(Located& l) {
@@ -187,14 +188,14 @@ bool refine_pose(Located& l) {
     return is_fitted && l.w.fix.has_covariance();
 }
 
-/// The path through the pipeline that has a stage.
+/// The path through the pipeline to which a stage belongs.
 enum class Path : std::uint8_t { both, full, device };
 
 struct NamedStage {
     const char* name;
     Stage run;
     Path path = Path::both;
-    bool is_part = false;  ///< of the position
+    bool is_part = false;  ///< whether it is a part of the stage `position`
 };
 constexpr std::array kStages = {
     NamedStage{"light", measure_light},
@@ -221,7 +222,8 @@ std::string name_of(const NamedStage& stage) {
     return fmt::format("stage/{}", stage.name);
 }
 
-/// Locates the frame once more, keeping what one stage takes from the next. False where it fails.
+/// Locates the frame again and keeps the results that later stages change. Returns false if this
+/// fails.
 bool prepare(const KnownFrame& frame, Path path, Located& l) {
     l.image = &frame.image;
     if (!push_rows(frame.image, l.w)) return false;
@@ -264,7 +266,8 @@ std::string stage_table(const Results& results) {
     double device_us = 0;
     for (const NamedStage& stage : kStages) {
         double us = results.of(name_of(stage)).us;
-        // Blobs cannot be had without the light that goes before them, band by band.
+        // Blobs and light alternate from band to band, so the benchmark of blobs runs both; the
+        // time of light is subtracted.
         if (stage.run == find_blobs) us -= results.of(name_of(kStages.front())).us;
         const auto cell = [&](Path other) {
             if (stage.path == other) return std::string();

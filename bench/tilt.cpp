@@ -1,4 +1,4 @@
-// Frames of a tilted camera: how many are located at the first attempt, and how long they take.
+// Measures how many frames of a tilted camera the first attempt locates, and their times.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -22,7 +22,7 @@ std::vector<KnownFrame> tilted_frames(const CameraModel& camera, int tilt_deg, i
     std::vector<KnownFrame> frames(static_cast<std::size_t>(count));
     on_all_cores(count, [&](int i) {
         Shot shot = draw_shot(setup, static_cast<std::uint64_t>(i));
-        // About another axis each time.
+        // The axis of the tilt is another one in each frame.
         const double axis_rad = i * std::numbers::phi * 2 * std::numbers::pi;
         const double tilt_rad = tilt_deg * std::numbers::pi / 180;
         shot.pose.tilt_x_rad = tilt_rad * std::cos(axis_rad);

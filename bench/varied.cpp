@@ -24,7 +24,7 @@
 namespace dotpose::bench {
 namespace {
 
-/// One way, and the frames that it gets.
+/// A way to locate, and its frames.
 struct Subject {
     std::vector<const GreyImage*> frames;
     int found = 0;
@@ -58,7 +58,7 @@ Subject locating(const std::vector<KnownFrame>& frames, Effort effort, SmallMemo
     return subject;
 }
 
-/// As on a processor without AVX2; what it does not settle is not found.
+/// Locates as on a processor without AVX2, with the first attempt only.
 Subject locating_narrowly(const std::vector<KnownFrame>& frames) {
     static core::SmallWorkspace workspace;
     const auto locates = [](const GreyImage& image) {
@@ -73,7 +73,7 @@ Subject locating_narrowly(const std::vector<KnownFrame>& frames) {
     return subject;
 }
 
-/// From the frame's own fix, displaced.
+/// Returns the prediction from the frame's own fix, displaced by a random offset.
 Prediction prediction_for(const KnownFrame& frame, Rng& rng, SmallMemory& memory) {
     const Fix fix = Locator(memory).locate(frame.image.view());
     const double direction_rad = rng.uniform(0, 2 * std::numbers::pi);
@@ -119,8 +119,9 @@ Subject detecting(std::vector<TagFrame>& frames, TagDetector& detector) {
     return subject;
 }
 
-/// One look at every frame. Frames come as from a camera, all into the same memory; between two
-/// looks at one frame come all others, so that the processor does not know it by heart.
+/// Times every frame once. As with a camera, all frames are copied to the same memory. All other
+/// frames are located between two passes of one frame, so that caches and branch prediction do not
+/// adapt to it.
 void pass(Subject& subject) {
     using Clock = std::chrono::steady_clock;
     GreyImage camera = *subject.frames.front();
@@ -133,7 +134,7 @@ void pass(Subject& subject) {
     }
 }
 
-/// By nearest rank.
+/// Returns a quantile of sorted values, by the nearest rank.
 double quantile(const std::vector<double>& sorted, double share) {
     const double rank = std::ceil(share * static_cast<double>(sorted.size()));
     return sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];

@@ -1,4 +1,4 @@
-/// Many different frames, each timed by itself: how even the time is.
+/// Times many different frames individually, to show how much the time varies.
 #pragma once
 
 #include <array>
@@ -6,12 +6,12 @@
 
 namespace dotpose::bench {
 
-/// What looks at the frames, in the order of the table.
+/// The ways to process the frames, in the order of the table.
 enum class Way : std::uint8_t {
     twice,
     once,
-    narrow,   ///< the first attempt in vectors of 16 bytes, as without AVX2
-    tracked,  ///< from predictions off by up to a third of a spacing and 2 degrees
+    narrow,   ///< the first attempt with vectors of 16 bytes, as without AVX2
+    tracked,  ///< with predictions that are off by up to a third of a spacing and 2 degrees
     device,
     floor,
     apriltag_1,
@@ -19,7 +19,7 @@ enum class Way : std::uint8_t {
 };
 inline constexpr std::size_t kWays = 8;
 
-/// Times of one way, in µs: for each frame the fastest of several passes.
+/// Statistics of the times of one way in µs, where each frame counts with its fastest pass.
 struct FrameSpread {
     int frames = 0;
     int found = 0;
@@ -36,8 +36,8 @@ struct Varied {
     const FrameSpread& of(Way way) const { return spreads[static_cast<std::size_t>(way)]; }
 };
 
-/// Nominal frames of 188 x 120 px, and a tenth as many with a tag. Throws Error where a fix is
-/// wrong.
+/// Times nominal frames of 188 x 120 px, and a tenth as many frames with a tag. Throws Error if a
+/// fix is wrong.
 Varied time_varied_frames(int frames, int passes);
 std::string varied_table(const Varied& varied);
 
