@@ -1,5 +1,5 @@
-// The main job from end to end: prints a sheet, drives a simulated camera over it, locates every
-// frame and compares with the truth. Run by `make demo`.
+// Shows the library from end to end: prints a sheet, drives a simulated camera over it, locates
+// every frame and compares the poses with the true ones. `make demo` runs it.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -59,14 +59,16 @@ Sheet print_sheet(const fs::path& folder) {
     return sheet;
 }
 
-/// A place on the page, in mm from its top left corner, and the direction the camera faces there.
+/// A point of the page, in mm from its top left corner, and the direction that the camera faces
+/// there.
 struct Waypoint {
     double x_mm = 0;
     double y_mm = 0;
     double heading_rad = 0;
 };
 
-/// A figure of eight that fills the page; the camera faces ahead.
+/// Returns the waypoint of a frame. The path is a figure of eight that fills the page, and the
+/// camera faces ahead.
 Waypoint waypoint(const Sheet& sheet, int frame) {
     const double t = 2 * std::numbers::pi * frame / kFrames;
     const double reach_x_mm = 0.4 * sheet.width_mm;
@@ -89,7 +91,7 @@ CameraPose pose_at(const Sheet& sheet, const Waypoint& waypoint) {
     return pose;
 }
 
-/// What became of a drive.
+/// The results of a drive.
 struct Drive {
     std::vector<PathPoint> path;
     std::vector<double> errors_um;
@@ -200,7 +202,7 @@ void locate_photo(const fs::path& photo, const fs::path& folder, Locator& locato
     fmt::print("\n");
 }
 
-/// True if nearly every frame was located, and none wrongly.
+/// Runs the demo. Returns whether nearly all frames were located and none of them wrongly.
 bool run(const Arguments& arguments) {
     fs::create_directories(arguments.out);
     Options options;

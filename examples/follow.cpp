@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
     if (argc < 3) return 2;
     HeapLocator locator;
     Tracker tracker;
-    Fix seen;  // The newest fix, and what the tracker was told of it.
+    Fix seen;  // The newest fix and the sighting that the tracker got from it.
     Sighting sighting;
     for (int i = 2; i < argc; ++i) {
         const GreyImage image = read_image(argv[i]);
