@@ -1,10 +1,10 @@
-// How often is `locate` deceived?
+// Counts wrong fixes of `locate` in adversarial frames, which show patterns that resemble the code.
 //
 //   dotpose_adversarial [--frames N] [--class NAME] [--code given|auto] [--seed S] [--threads N]
 //
-// N frames, evenly over the classes of tests/adversarial_frames.hpp, or all of one class. Exits 1
-// if any fix is wrong.
-// Ctrl-C prints the table of the frames seen so far. The times are those of the processor.
+// The N frames are distributed evenly over the classes of tests/adversarial_frames.hpp, or all are
+// of one class. The exit status is 1 if any fix is wrong. Ctrl-C ends the run and prints the table
+// of the frames until then. Times are processor times.
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -34,19 +34,19 @@ constexpr std::array<std::string_view, 5> kVerdicts{"refused", "right", "second"
 using Counts = std::array<std::uint64_t, kVerdicts.size()>;
 constexpr std::size_t kClasses = test::kAdversaries.size();
 
-/// Seconds that this thread has used the processor.
+/// Returns the processor time of this thread in seconds.
 double thread_seconds() {
     timespec time{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// What became of the frames of one class, and the time that went into them.
+/// Results and times of the frames of one class.
 struct ClassTally {
     Counts verdicts{};
     double rendering_s = 0;
     double locating_s = 0;
-    double longest_s = 0;  ///< of locating
+    double longest_s = 0;  ///< longest time of one call of `locate`
 
     ClassTally& operator+=(const ClassTally& other) {
         for (std::size_t v = 0; v < verdicts.size(); ++v)
@@ -73,10 +73,10 @@ struct Tally {
     }
 };
 
-/// Whether the profile is one of the frame's options, or found out.
+/// Whether the profile is given by the options of the frame or found out by `locate`.
 enum class Code : std::uint8_t { given, automatic };
 
-/// The profile that was read is then the frame's.
+/// Locates a frame. If the profile is found out, it is stored in the options of the frame.
 Fix locate(test::AdversarialFrame& frame, Code code, LargeMemory& memory) {
     if (code == Code::given) return Locator(memory, frame.options).locate(frame.image.view());
     const CodeReading reading =

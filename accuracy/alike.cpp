@@ -1,6 +1,7 @@
-// How exact is a frame whose dots all fall on the pixels alike? Spacings of whole pixels, no
-// printing errors, and angles of 0, 45 and 90 degrees, against 7 degrees, where biases average out.
-// The table of docs/accuracy.md, in Markdown.
+// Measures the accuracy of frames in which all dots have the same position relative to the pixels:
+// spacings of whole pixels, no printing errors, and angles of 0, 45 and 90 degrees. They are
+// compared with frames at 7 degrees, in which the biases of single dots average out. Prints a table
+// of docs/accuracy.md in Markdown.
 //
 //   dotpose_alike [--frames N] [--seed S] [--threads N]
 #include <algorithm>
@@ -26,8 +27,8 @@ constexpr double kApart_deg = 7;
 constexpr std::array kAlike_deg{0.0, 45.0, 90.0};
 constexpr std::array kDots{0.10, 1.0 / 6, 0.25, 0.35};
 constexpr std::array kBlurs_px{0.3, 0.5, 0.7, 1.0, 1.5};
-/// An error against that of the same frames at 7 degrees, and error^2 / variance: cells beyond
-/// these are marked.
+/// Limits above which cells are marked: of the error relative to that at 7 degrees, and of the mean
+/// of error^2 / variance.
 constexpr double kMostOfError = 2;
 constexpr std::array kNormalised{0.7, 1.5};
 
@@ -67,7 +68,7 @@ Shot shot_of(const Condition& condition, const Arguments& arguments, int index) 
     return shot;
 }
 
-/// At the first attempt.
+/// Locates the frames of a condition with the first attempt.
 Score score_of_condition(const Condition& condition, const Arguments& arguments) {
     FrameRun run;
     run.frames = static_cast<int>(arguments.frames);
@@ -91,7 +92,7 @@ bool is_within_claims(const Score& score) {
     });
 }
 
-/// Prints a row; returns how many fixes are wrong.
+/// Prints a row and returns the number of wrong fixes.
 int print_row(Condition condition, const Arguments& arguments) {
     condition.angle_deg = kApart_deg;
     const Score apart = score_of_condition(condition, arguments);

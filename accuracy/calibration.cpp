@@ -1,6 +1,5 @@
-// How far calibrations are off, and whether they know it: many simulated calibrations each, with
-// their errors in units of the standard deviations that they report. Every number of
-// docs/calibration.md.
+// Measures the errors of calibrations, also relative to the standard deviations that they report,
+// in many simulated calibrations of each kind. Prints every number of docs/calibration.md.
 #include <cstdlib>
 #include <string>
 
@@ -14,7 +13,7 @@ struct Arguments {
     std::uint64_t large = 10;
     std::uint64_t spins = 50;
     std::uint64_t tables = 20;
-    std::string example;  ///< folder
+    std::string example;  ///< folder for the example; empty for none
     Counting counting;
 };
 

@@ -1,5 +1,5 @@
-// What no calibration can do better than: the residual of perfect knowledge, and the Cramer-Rao
-// bounds that the printer's jitter sets.
+// Bounds for any calibration: the residual with the true parameters, and the Cramer-Rao bounds that
+// follow from the printer's jitter.
 #pragma once
 
 #include <map>
@@ -11,24 +11,24 @@
 
 namespace dotpose {
 
-/// A dot that a calibration used, and what is true of it.
+/// A dot that a calibration used, with its true values.
 struct TrueDot {
     int frame = 0;
     PixelPoint pixel;
-    Vec2 off_mm;        ///< where it was seen on the paper, less where it was meant to be printed
-    Vec2 displaced_mm;  ///< from its intersection, along the image axes
+    Vec2 off_mm;        ///< measured position on the paper minus nominal position
+    Vec2 displaced_mm;  ///< displacement from its intersection, along the image axes
 };
 std::vector<TrueDot> true_dots(const LensCalibration& found, const std::vector<Shot>& shots);
 
-/// What is not known beforehand of a mounted camera; the pose of each frame never is.
+/// The unknown parameters of a mounted camera; the pose of each frame is always unknown.
 enum class Unknown {
-    view,      ///< lens, scale along both axes, skew, perspective: as `calibrate_lens` has it
+    view,      ///< lens, scale along both axes, skew, perspective, as for `calibrate_lens`
     square,    ///< lens, one scale, perspective
     straight,  ///< lens, one scale
 };
 
-/// The least standard deviations that these dots allow, by the names of `Camera::sigma`, if their
-/// places err by `jitter_mm` along each axis.
+/// Returns the least standard deviations that an unbiased estimate from these dots can have, by the
+/// names of `Camera::sigma`, if their positions have errors of `jitter_mm` along each axis.
 std::map<std::string, double> least_sigmas(const Camera& camera, const std::vector<TrueDot>& dots,
                                            double jitter_mm, Unknown unknown);
 

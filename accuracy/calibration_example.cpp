@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace calibrate_test;
 
-/// Writes frame_at(0), frame_at(1), ... into a folder.
+/// Writes the frames frame_at(0), frame_at(1), ... into a folder.
 template <typename FrameAt>
 void write_frames(const fs::path& folder, int frames, FrameAt frame_at) {
     fs::create_directories(folder);
@@ -22,7 +22,7 @@ void write_frames(const fs::path& folder, int frames, FrameAt frame_at) {
         write_pgm(folder / fmt::format("frame_{:06}.pgm", i), frame_at(i).view());
 }
 
-/// The sheets of the table, where a ruler would have them.
+/// Writes the sheets of the table with poses as measured with a ruler.
 void write_sheets(const fs::path& path) {
     fs::remove(path);
     SheetFile file(path);
@@ -46,7 +46,7 @@ void write_example(const std::string& folder, std::uint64_t seed) {
         return robot_frame(camera, seed + 1, i, kPivot_x_mm, kPivot_y_mm, 30 * i * kDegree_rad);
     });
     write_frames(root / "line", 10, [&](int i) {
-        // It heads along x, and the image's x axis lies a quarter turn to the left of that.
+        // The robot heads along x, and the image's x axis is a quarter turn to the left of that.
         return robot_frame(camera, seed + 2, i, kPivot_x_mm + 5 * i, kPivot_y_mm,
                            -90 * kDegree_rad);
     });

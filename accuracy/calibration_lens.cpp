@@ -19,18 +19,19 @@ namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180;
 constexpr int kFrames = 20;
-/// Of the preset `nominal`.
+/// Print jitter of the preset `nominal`.
 constexpr double kJitter_mm = 0.010;
 
-/// Cameras that are calibrated.
+/// A kind of camera that is calibrated.
 struct Kind {
     const char* title;
     CameraModel camera;
-    double tilt_deg = 0;  ///< largest, about both axes
+    double tilt_deg = 0;  ///< largest tilt about both axes
     bool is_mounted = true;
 };
 
-/// The paper's: 54 degrees, 12 % in the corner; 8.6 x 5.5 mm once corrected.
+/// Returns the paper's camera: field of view 54 degrees, distortion of 12 % in the corner, 8.6 x
+/// 5.5 mm after correction.
 CameraModel small_camera() {
     CameraModel camera;
     camera.k = -8.7e-6;
@@ -48,10 +49,10 @@ CameraModel large_camera() {
 struct Tally {
     ErrorTable errors;
     std::map<Unknown, ErrorTable> bounds_if;
-    Numbers residual;     ///< over that of perfect knowledge
-    Errors located;       ///< with the calibrated camera, um per axis
-    Errors undistorted;   ///< the same with a lens without distortion
-    int not_located = 0;  ///< with the calibrated camera
+    Numbers residual;     ///< relative to the residual with the true parameters
+    Errors located;       ///< position errors with the calibrated camera, um per axis
+    Errors undistorted;   ///< position errors for a lens without distortion, um per axis
+    int not_located = 0;  ///< frames without a fix, with the calibrated camera
     int not_good = 0;
     int wrong_kind = 0;
 
@@ -73,7 +74,7 @@ struct Tally {
 struct Series {
     const Kind& kind;
     std::uint64_t seed;
-    CameraPose mounted;  ///< its tilt
+    CameraPose mounted;  ///< the tilt of a mounted camera
 
     Series(const Kind& k, std::uint64_t s, std::uint64_t index)
         : kind(k), seed(scramble(s) + index) {
@@ -97,7 +98,7 @@ struct Series {
     }
 };
 
-/// How wide the image is on the paper, in the middle.
+/// Returns the width of the image on the paper, through its middle.
 double field_mm(const Camera& camera) {
     const double v = (camera.height_px - 1) / 2.0;
     const CameraPoint left = on_paper(camera, undistorted(camera, {0, v}));
@@ -112,10 +113,10 @@ double field_mm(const CameraModel& model) {
     return std::hypot(right.x - left.x, right.y - left.y);
 }
 
-/// A parameter, the key of its deviation, how far it is off, and the unit in which this is told.
+/// The error of a parameter, with its name, the key of its deviation and the unit for output.
 struct Off {
     const char* title;
-    const char* sigma;  ///< empty: no deviation is told
+    const char* sigma;  ///< key in `Camera::sigma`; empty if no deviation is reported
     double error;
     double unit;
 };
@@ -193,7 +194,7 @@ void judge_residual(const LensCalibration& found, const std::vector<Shot>& shots
     tally.residual.add(found.residual_px / std::sqrt(squares / count));
 }
 
-/// Locates more frames, with the calibrated camera and with one that has no distortion.
+/// Locates more frames with the calibrated camera, and frames of a lens without distortion.
 void judge_positions(const Series& series, const Camera& camera, Tally& tally) {
     HeapLocator locator;
     HeapLocator undistorted;

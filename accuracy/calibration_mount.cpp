@@ -17,7 +17,7 @@ using namespace calibrate_test;
 constexpr int kLensFrames = 20;
 constexpr int kSpinFrames = 12;
 constexpr int kSeamFrames = 200;
-/// Prints err by up to this along each axis.
+/// Largest error of the print scale along each axis, as a share.
 constexpr double kPrintError = 0.003;
 
 void print_table(const std::string& title, const ErrorTable& table) {
@@ -61,7 +61,7 @@ Table draw_table(Rng& rng) {
         lying.print = {1 + rng.uniform(-kPrintError, kPrintError),
                        1 + rng.uniform(-kPrintError, kPrintError)};
     }
-    // The mean of the first is what the sheet file says.
+    // The mean scale of the first sheet is the true one, as the sheet file gives it.
     const double mean = std::sqrt(table[0].print.x * table[0].print.y);
     table[0].print = {table[0].print.x / mean, table[0].print.y / mean};
     return table;
@@ -91,7 +91,7 @@ Camera calibrated(const CameraModel& model, std::uint64_t seed) {
     return calibrate_lens(kLensFrames, frame_at, {}).camera;
 }
 
-/// Both with the true camera file and with an estimated one: `work(camera, model, seed, errors)`.
+/// Calls `work(camera, model, seed, errors)` with the true camera file and with an estimated one.
 template <typename Work>
 void measure_both(const std::string& what, std::uint64_t count, const CameraModel& model,
                   const Counting& counting, Work work) {

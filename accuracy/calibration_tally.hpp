@@ -1,4 +1,4 @@
-// Errors of what was calibrated, over many calibrations.
+// Statistics of the errors of many calibrations.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace dotpose {
 
-/// Errors of one parameter, and the standard deviations that were told with it.
+/// Errors of one parameter, and the standard deviations that were reported with it.
 struct Errors {
     double squares = 0;
     double normalised_squares = 0;
@@ -31,14 +31,15 @@ struct Errors {
         return *this;
     }
     double rms() const { return std::sqrt(squares / count); }
-    /// error^2 / variance: 1 if the deviations told are true; "-" if none are told.
+    /// Returns the mean of error^2 / variance, which is 1 if the reported deviations are true, or
+    /// "-" if none are reported.
     std::string normalised_text() const {
         return std::isnan(normalised_squares) ? "-"
                                               : fmt::format("{:.2f}", normalised_squares / count);
     }
 };
 
-/// By parameter.
+/// The errors by the name of the parameter.
 using ErrorTable = std::map<std::string, Errors>;
 inline ErrorTable& operator+=(ErrorTable& table, const ErrorTable& other) {
     for (const auto& [key, errors] : other)
@@ -46,7 +47,7 @@ inline ErrorTable& operator+=(ErrorTable& table, const ErrorTable& other) {
     return table;
 }
 
-/// Mean and largest of a number.
+/// Mean and maximum of a quantity.
 struct Numbers {
     double sum = 0;
     double largest = 0;

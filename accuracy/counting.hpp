@@ -1,4 +1,4 @@
-/// What the programs that count wrong fixes share: arguments, threads, progress, giving up.
+/// Common parts of the programs that count wrong fixes: arguments, threads, progress, interruption.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 
 namespace dotpose {
 
-/// Arguments of every such program.
+/// Arguments that all these programs have.
 struct Counting {
     std::uint64_t seed = 1;
     unsigned threads = std::max(std::thread::hardware_concurrency(), 1u);
@@ -26,28 +26,29 @@ struct Counting {
     void add_to(CLI::App& app);
 };
 
-/// An option for how many items are looked at, 0 to 2e9.
+/// Adds an option for a number of items, 0 to 2e9.
 void add_count(CLI::App& app, const std::string& flag, std::uint64_t& count,
                const std::string& what);
 
-/// The whole of a main(): reads the arguments, then calls `run`, whose result is the exit code.
-/// Returns 2 on wrong usage and 1 on other errors. From here on Ctrl-C ends `count_on_threads`.
+/// The body of main(): reads the arguments and calls `run`, whose result is the exit status.
+/// Returns 2 for wrong usage and 1 for other errors. Ctrl-C then ends `count_on_threads` early.
 int run_program(CLI::App& app, int argc, char** argv, const std::function<int()>& run);
 
 template <typename Tally>
 struct Count {
     Tally tally;
     std::uint64_t asked = 0;
-    std::uint64_t done = 0;  ///< fewer, if interrupted
+    std::uint64_t done = 0;  ///< number of items done; less than asked if interrupted
     double seconds = 0;
 };
 
-/// "12000 frames in 60 s, 200 frames/s", and whether they were interrupted.
+/// Returns text such as "12000 frames in 60 s, 200 frames/s", and whether the run was interrupted.
 std::string speed_line(const std::string& what, std::uint64_t asked, std::uint64_t done,
                        double seconds);
 
-/// Runs work(i, tally) for i from 0 to count - 1, with one Tally for each thread, and sums them
-/// (+=). The sum does not depend on how many threads there are. `what` is shown while it runs.
+/// Runs `work(i, tally)` for i from 0 to count - 1, with one Tally for each thread, and adds them
+/// with
+/// +=. The result does not depend on the number of threads. `what` is shown as progress.
 template <typename Tally, typename Work>
 Count<Tally> count_on_threads(const std::string& what, std::uint64_t count, unsigned threads,
                               Work work) {

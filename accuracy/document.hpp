@@ -1,4 +1,4 @@
-/// The generated parts of a document: what stands between `<!-- begin NAME -->` and
+/// Replaces the generated parts of a document, which are between `<!-- begin NAME -->` and
 /// `<!-- end NAME -->`.
 #pragma once
 
@@ -12,11 +12,12 @@ struct Block {
 };
 using Blocks = std::vector<Block>;
 
-/// Throws dotpose::Error.
+/// Returns the text of a document. Throws Error if it cannot be read.
 std::string read_document(const std::filesystem::path& path);
 
-/// Replaces the blocks. Throws dotpose::Error.
+/// Replaces the blocks of a document. Throws Error if the document has no such block or cannot be
+/// written.
 void update_document(const std::filesystem::path& path, const Blocks& blocks);
 
-/// Copies all pictures (SVG) of `folder` to the folder beside the document that has its name.
+/// Copies all SVG pictures of `folder` to the folder beside the document that has its name.
 void update_pictures(const std::filesystem::path& path, const std::filesystem::path& folder);

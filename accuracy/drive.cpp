@@ -1,5 +1,5 @@
-// How exactly a robot is followed: the simulated drive of the tests at several speeds, on paper
-// with printing errors and without, through what `dotpose watch` does with its frames.
+// Measures how exactly a robot is tracked: the frames of the tests' simulated drive, at several
+// speeds and on paper with and without printing errors, are processed as in `dotpose watch`.
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -31,18 +31,18 @@ struct Arguments {
     unsigned threads = Counting{}.threads;
 };
 
-/// What is driven on, and seen with.
+/// The paper and the camera of a drive.
 struct Kind {
     const char* name;
     bool has_printing_errors;
-    double noise;  ///< of the sensor, in that of preset nominal
+    double noise;  ///< sensor noise relative to that of the preset nominal
 };
 constexpr std::array kKinds{Kind{"nominal", true, 1},
                             Kind{"nominal, four times the noise", true, 4},
                             Kind{"no printing errors", false, 1},
                             Kind{"no printing errors, four times the noise", false, 4}};
 
-/// One frame of a drive.
+/// The results of one frame of a drive.
 struct Sample {
     double t_s = 0;
     test::DriveState truth;
@@ -111,7 +111,7 @@ void print_row(const Kind& kind, double speed_mm_s, const DriveErrors& errors) {
 
 using plot::Point;
 
-/// One panel of the picture: curves of something over time.
+/// One panel of the picture: curves of a quantity over time.
 struct Panel {
     const char* label;
     double most;
@@ -137,7 +137,7 @@ double speed(const Sample& s) {
     return std::hypot(s.truth.vx_mm_s, s.truth.vy_mm_s);
 }
 
-/// The errors along a drive; gaps where the robot is not followed.
+/// Draws the errors along a drive, with gaps where the robot is not tracked.
 void draw(const Run& run, const std::string& title, const std::string& file) {
     constexpr double kWidth = 900;
     constexpr double kLeft = 80;

@@ -1,4 +1,4 @@
-/// Frames located and scored, for programs that count frames.
+/// Locates many frames, for programs that count them.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace dotpose {
 
-/// outcomes[k][i]: frame i of the run, located with options[k], on the threads asked for. `what` is
-/// shown while it runs. Throws Error if interrupted.
+/// Returns outcomes[k][i], the outcome of frame i of the run with options[k]. `what` is shown as
+/// progress. Throws Error if interrupted.
 std::vector<std::vector<Outcome>> evaluate_all(const std::string& what, FrameRun run,
                                                const Counting& counting);
 

@@ -1,6 +1,6 @@
-// Do frames still give the same poses, to the bit? Locates sets of simulated frames with every
-// attempt and prints one line for each set and attempt: a checksum of the pixels, a checksum of all
-// integers of the fixes, and how many frames were located.
+// Computes checksums by which changes of poses are detected, down to the last bit. Locates sets of
+// simulated frames with every attempt and prints one line for each set and attempt: a checksum of
+// the pixels, a checksum of all integers of the fixes, and the number of frames that were located.
 //
 //   dotpose_golden [--threads N]
 //
@@ -55,7 +55,7 @@ void add(Checksum& sum, const PlaneFromImage& plane) {
     sum.add(plane.lens_q40);
 }
 
-/// All integers of a fix; of one that is none, those that mean anything.
+/// Adds all integers of a fix to the checksum; without a fix, only those that have a meaning.
 void add(Checksum& sum, const Fix& fix) {
     sum.add(static_cast<std::int64_t>(fix.status));
     sum.add(fix.dots_seen);
@@ -73,7 +73,7 @@ void add(Checksum& sum, const Fix& fix) {
     add(sum, fix.pattern_from_image);
 }
 
-/// A frame, and the one after it, which a prediction made from its fix awaits.
+/// A frame and the frame after it, for which the fix of the first gives a prediction.
 struct Frames {
     GreyImage image;
     GreyImage next;
@@ -94,14 +94,14 @@ struct Set {
     std::vector<Way> ways;
 };
 
-/// Sums over frames, in any order.
+/// Sums of checksums, which do not depend on the order of the frames.
 struct Tally {
     struct Fixes {
         std::uint64_t checksum = 0;
         std::uint64_t located = 0;
     };
     std::uint64_t pixels = 0;
-    std::array<Fixes, kMostWays> fixes;  ///< by the number of the way
+    std::array<Fixes, kMostWays> fixes;  ///< indexed by the number of the way
 
     Tally& operator+=(const Tally& other) {
         pixels += other.pixels;
@@ -133,7 +133,7 @@ void add(Tally& tally, const Set& set, std::uint64_t index) {
     }
 }
 
-/// The frame of a camera that has moved by a quarter of a spacing and turned by 2 degrees since.
+/// Returns the shot after the camera has moved by a quarter of a spacing and turned by 2 degrees.
 Shot moved(Shot shot) {
     constexpr double kStep = 0.25;
     constexpr double kTurn_rad = 0.035;

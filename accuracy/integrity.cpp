@@ -1,13 +1,15 @@
-// p_wrong against reality: how often is a position wrong of which `verify` says that it is wrong
-// with probability p? Every frame is accepted, however doubtful, and counted by what it claims.
+// Compares p_wrong, the bound that `verify` gives for the probability that a position is wrong,
+// with the frequency of wrong positions. Every frame is accepted, however doubtful, and counted by
+// its p_wrong.
 //
 //   dotpose_integrity [--grids N] [--doubtful N] [--frames N] [--seed S] [--threads N]
 //
-// Grids: bits with random errors, handed to the decoder directly. Their errors are independent of
-// each other, and rarer the larger the weight, as the model behind p_wrong has it. Doubtful grids:
-// with as many errors as make p_wrong land between 1e-3 and 1e-5, where a claim can be refuted by
-// counting. Frames: rendered patterns with flipped bits, seen by `locate`. Exits 1 if more is wrong
-// than claimed. Ctrl-C prints what was counted so far.
+// Grids are bits with random errors that are given to the decoder directly. The errors are
+// independent of each other and the rarer the larger the weight, as in the model behind p_wrong.
+// Doubtful grids have so many errors that p_wrong is between 1e-3 and 1e-5, where counting can
+// refute it. Frames are rendered patterns with flipped bits, which `locate` reads. The exit status
+// is 1 if more positions are wrong than p_wrong allows. Ctrl-C ends the run and prints the counts
+// until then.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -63,7 +65,7 @@ void try_frame(std::uint64_t seed, std::uint64_t index, LargeMemory& memory, Tal
 
 // ---- Result ----
 
-/// P(Poisson(mean) <= count).
+/// Returns P(X <= count) for a Poisson variable X with this mean.
 double chance_of_as_few(std::uint64_t count, double mean) {
     double sum = 0;
     for (std::uint64_t n = 0; n <= count; ++n) {
@@ -73,12 +75,12 @@ double chance_of_as_few(std::uint64_t count, double mean) {
     return sum;
 }
 
-/// P(Poisson(mean) >= count).
+/// Returns P(X >= count) for a Poisson variable X with this mean.
 double chance_of_as_many(std::uint64_t count, double mean) {
     return count == 0 || mean <= 0 ? 1 : 1 - chance_of_as_few(count - 1, mean);
 }
 
-/// The mean above which so few would be seen in less than 5 % of the cases.
+/// Returns the upper 95 % confidence limit of a Poisson mean for this count.
 double upper_limit(std::uint64_t count) {
     double low = static_cast<double>(count);
     double high = 2 * low + 10;
@@ -89,17 +91,18 @@ double upper_limit(std::uint64_t count) {
     return high;
 }
 
-/// Whether no more is wrong than claimed, but for a chance of one in a thousand.
+/// Whether the number of wrong positions is consistent with p_wrong, at a significance level of one
+/// in a thousand.
 bool holds(const Bin& bin) {
     const std::uint64_t wrong = bin.all_wrong();
     return static_cast<double>(wrong) <= bin.claimed ||
            chance_of_as_many(wrong, bin.claimed) > 1e-3;
 }
 
-/// All claims, by factors of 8. Returns whether all hold.
+/// Prints all values of p_wrong in classes of a factor of 8. Returns whether all are consistent.
 bool print(std::string_view title, const Tally& tally, bool with_kinds) {
     constexpr std::size_t kWidth_log2 = 3;
-    constexpr std::size_t kLast = 34;  // and all below
+    constexpr std::size_t kLast = 34;  // this bin has all smaller values of p_wrong as well
     bool all_hold = true;
     fmt::print("\n{} ({} not read{})\n{:>17} {:>9} {:>7} {:>10} {:>10}", title, tally.unread,
                tally.passed_over > 0 ? fmt::format(", {} passed over", tally.passed_over) : "",
@@ -132,8 +135,8 @@ bool print(std::string_view title, const Tally& tally, bool with_kinds) {
     return all_hold;
 }
 
-/// The claims near 1e-3, 1e-4 and 1e-5, each of three powers of two, with what can be said of the
-/// true rate. Returns whether all hold.
+/// Prints the values of p_wrong near 1e-3, 1e-4 and 1e-5, each in a class of three powers of two,
+/// with confidence limits of the true rate. Returns whether all are consistent.
 bool print_doubtful(const Tally& tally) {
     bool all_hold = true;
     fmt::print("\n{:>15} {:>9} {:>7} {:>10} {:>16} {:>13}\n", "p_wrong", "read", "wrong", "rate",

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kMaxSide = 16;
 
-/// Bits as read from a pattern.
+/// Bits as they are read from a pattern, with the true position.
 struct Reading {
     std::array<GridCell, kMaxSide * kMaxSide> cells;
     core::Grid grid;
@@ -22,7 +22,7 @@ struct Reading {
     Place place;  ///< true place of grid cell (0, 0)
 };
 
-/// The cell that `core::turned` turns to these bits.
+/// Returns the cell for which `core::turned` gives these bits.
 GridCell cell_of(Turn turn, int x, int y) {
     const Vec grid = turn.quarters == 1   ? Vec{-y, x}
                      : turn.quarters == 3 ? Vec{y, -x}
@@ -33,8 +33,8 @@ GridCell cell_of(Turn turn, int x, int y) {
 
 /// Statistics of the errors of one reading.
 struct Noise {
-    double odds_log2;  ///< that a bit of full weight is right
-    double missing;    ///< share of the cells
+    double odds_log2;  ///< log2 of the odds that a bit of full weight is right
+    double missing;    ///< share of the cells that have no dot
     int least_weight;
 
     double chance_of_error(int weight) const {
@@ -46,12 +46,13 @@ struct Noise {
         const bool is_wrong = rng.uniform() < chance_of_error(weight);
         return (bit == 1) != is_wrong ? weight : -weight;
     }
-    /// What a reading says of a bit, in bits: 1 - H(chance of error).
+    /// Returns the information of a bit that was read with this weight: 1 - H(probability of
+    /// error).
     double information(int weight) const {
         const double q = chance_of_error(weight);
         return 1 + q * std::log2(q) + (1 - q) * std::log2(1 - q);
     }
-    /// The mean over all cells.
+    /// Returns the mean information over all cells.
     double information() const {
         double sum = 0;
         for (int weight = least_weight; weight <= 127; ++weight)
@@ -60,8 +61,9 @@ struct Noise {
     }
 };
 
-/// What a position needs on one axis: log2 of positions, sections and turns is 36.6. With some 30
-/// bits more the rivals leave a doubt of about 2^-13.
+/// Draws the odds of a bit for a doubtful reading with this number of cells. On one axis, log2 of
+/// the number of positions, sections and turns is 36.6; with about 30 bits of information more than
+/// that, p_wrong is about 2^-13.
 double draw_odds_of_doubt(double cells, Noise noise, Rng& rng) {
     const double wanted_bits = rng.uniform(60, 80);
     constexpr double kMostOdds_log2 = 12;
@@ -73,7 +75,7 @@ double draw_odds_of_doubt(double cells, Noise noise, Rng& rng) {
     return noise.odds_log2;
 }
 
-/// Size, place and turn.
+/// Draws the size, position and orientation of the grid.
 void draw_frame(Rng& rng, Reading& reading) {
     core::Grid& grid = reading.grid;
     grid.storage = reading.cells;
@@ -95,7 +97,7 @@ void draw(GridKind kind, Rng& rng, Reading& reading) {
     core::Grid& grid = reading.grid;
     Noise noise{rng.uniform(2.5, 9), rng.below(2) == 0 ? 0 : rng.uniform(0, 0.25),
                 rng.below(2) == 0 ? 127 : 8};
-    // In some, blank paper beyond some column.
+    // In a third of them, the paper is blank beyond a column.
     const int visible = rng.below(3) == 0 ? 6 + static_cast<int>(rng.below(3)) : grid.columns;
     if (kind == GridKind::doubtful) {
         const int cells = std::min(visible, grid.columns) * grid.rows;
@@ -116,14 +118,14 @@ void draw(GridKind kind, Rng& rng, Reading& reading) {
     }
 }
 
-/// Where the first of some lines stands, and the first of those that cross them.
+/// Position of the first of several parallel lines, and of the first line that crosses them.
 struct AxisPlace {
     std::uint32_t position;
     int section;
     std::uint32_t cross;
 };
 
-/// Rolls of `count` lines.
+/// Returns the rolls of `count` lines.
 std::array<int, kMaxSide> rolls_of(Profile profile, const AxisPlace& place, int count) {
     std::array<int, kMaxSide> rolls{};
     std::uint32_t position = place.position;
@@ -162,7 +164,7 @@ Wrong kind_of_error(const Reading& reading, const Decoding& decoding) {
     const Place& real = reading.place;
     if (decoding.pattern_from_grid.quarters != reading.turn.quarters) return Wrong::unrelated;
     if (found == real) return Wrong::none;
-    // Compared in the columns and rows in view.
+    // The two positions are compared by the columns and rows in view.
     const Vec a = reading.turn({reading.grid.i0, reading.grid.j0});
     const Vec b = reading.turn(
         {reading.grid.i0 + reading.grid.columns - 1, reading.grid.j0 + reading.grid.rows - 1});
@@ -177,8 +179,8 @@ Wrong kind_of_error(const Reading& reading, const Decoding& decoding) {
                         {r.cell.y, r.section.v, r.cell.x}, size.y);
 }
 
-/// What the bits of a reading say, per axis, if its odds are those that `verify` takes for it: a
-/// cheap measure of how doubtful it is, from nothing but what the decoder sees.
+/// Returns the information of a reading's bits per axis, with the odds that `verify` estimates for
+/// them. It is a fast estimate of p_wrong that uses only what the decoder has.
 double apparent_information(const core::Grid& grid, const Decoding& decoding,
                             const core::Nominal& nominal) {
     core::Confidence confidence;
@@ -197,8 +199,9 @@ double apparent_information(const core::Grid& grid, const Decoding& decoding,
     return bits / 2;
 }
 
-/// Whether p_wrong is likely to be near 1e-5, the claim that takes the most cases; enough of those
-/// that look so are near 1e-4 and 1e-3. `verify` takes 20 times as long as all before it.
+/// Whether p_wrong is probably near 1e-5, the value that needs the most cases; enough of these
+/// readings have a p_wrong near 1e-4 and 1e-3. Only they are verified, because `verify` takes 20
+/// times as long as all steps before it.
 bool looks_doubtful(const core::Grid& grid, const Decoding& decoding,
                     const core::Nominal& nominal) {
     const double bits = apparent_information(grid, decoding, nominal);

@@ -1,4 +1,4 @@
-/// What readings claim of themselves, and how many of them are wrong.
+/// Counts readings and wrong positions by their p_wrong.
 #pragma once
 
 #include <algorithm>
@@ -11,23 +11,23 @@
 
 namespace dotpose {
 
-/// Every reading is accepted, however doubtful.
+/// Options with which every reading is accepted, however doubtful.
 inline constexpr IntegrityOptions kAcceptAll{0, 256};
 
-/// What kind of position was taken for the true one.
+/// The relation of a wrong position to the true one.
 enum class Wrong : std::uint8_t {
     near,       ///< shares five or more lines in a row
     single,     ///< differs in the place of one secondary sequence
     far,        ///< differs in two or more, and shares some line
     section,    ///< the same position in another section
-    unrelated,  ///< none of these, or another turn
+    unrelated,  ///< none of these, or another orientation
     none,
 };
 inline constexpr std::array kWrongs{Wrong::near, Wrong::single, Wrong::far, Wrong::section,
                                     Wrong::unrelated};
 inline constexpr std::array kWrongNames{"near", "single", "far", "section", "unrelated"};
 
-/// Frames that claim the same p_wrong, or a similar one.
+/// Readings with the same or a similar p_wrong.
 struct Bin {
     std::uint64_t frames = 0;
     double claimed = 0;  ///< sum of p_wrong
@@ -46,10 +46,10 @@ struct Bin {
 };
 
 struct Tally {
-    /// p_wrong = 2^-n in bin n; the last holds all below.
+    /// Bin n has the readings with p_wrong = 2^-n; the last bin has all smaller values as well.
     std::array<Bin, 64> bins;
     std::uint64_t unread = 0;
-    std::uint64_t passed_over = 0;  ///< not doubtful
+    std::uint64_t passed_over = 0;  ///< number of grids that were skipped as not doubtful
 
     void add(int p_wrong_log2, Wrong wrong) {
         Bin& bin = bins[std::min(static_cast<std::size_t>(-p_wrong_log2), bins.size() - 1)];
@@ -57,7 +57,7 @@ struct Tally {
         bin.claimed += std::ldexp(1.0, p_wrong_log2);
         if (wrong != Wrong::none) ++bin.wrong[static_cast<std::size_t>(wrong)];
     }
-    /// Bins `first` to `last`; those that do not exist are empty.
+    /// Returns the sum of the bins `first` to `last`; bins that do not exist are empty.
     Bin sum(std::size_t first, std::size_t last) const {
         Bin sum;
         for (std::size_t n = first; n <= last && n < bins.size(); ++n)

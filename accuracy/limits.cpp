@@ -1,9 +1,9 @@
-// How bad may a frame be? The table of docs/limits.md, in Markdown.
+// Measures how much frames may be degraded. Prints the table of docs/limits.md in Markdown.
 //
 //   dotpose_limits [--frames N] [--seed S] [--threads N]
 //
-// N frames of each condition of tests/limit_frames.hpp, fewer of large images and of mirror images,
-// which take long. Exits 1 if any fix is wrong.
+// There are N frames for each condition of tests/limit_frames.hpp, but fewer for large images and
+// mirror images, which take long. The exit status is 1 if any fix is wrong.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -27,10 +27,10 @@ struct Arguments {
     std::uint64_t frames = 200;
 };
 
-/// At least these, unless fewer were asked for.
+/// Fewest frames of a condition, unless fewer were asked for.
 constexpr std::uint64_t kFewest = 4;
 
-/// As many pixels in all as `frames` images of 320 x 240.
+/// Returns the number of frames that have as many pixels in all as `frames` images of 320 x 240.
 int frames_of(const CameraModel& camera, std::uint64_t frames) {
     constexpr std::uint64_t kFull_px = 320 * 240;
     const std::uint64_t area_px =
@@ -45,7 +45,8 @@ std::string micrometres(double value) {
 
 using Outcomes = std::vector<std::vector<Outcome>>;
 
-/// Locates all frames at the first attempt, and with both. Throws Error if interrupted.
+/// Locates all frames with the first attempt only, and with both attempts. Throws Error if
+/// interrupted.
 Outcomes locate_all(const std::string& what, FrameRun run, const Arguments& arguments,
                     const Options& options) {
     run.options.assign(2, options);
@@ -54,7 +55,7 @@ Outcomes locate_all(const std::string& what, FrameRun run, const Arguments& argu
     return evaluate_all(what, std::move(run), arguments.counting);
 }
 
-/// Prints the row of one condition; returns how many fixes are wrong.
+/// Prints the row of one condition and returns the number of wrong fixes.
 int print_limit(const test::Limit& limit, const Arguments& arguments) {
     FrameRun run;
     run.frames = frames_of(limit.camera, arguments.frames);
@@ -73,7 +74,8 @@ int print_limit(const test::Limit& limit, const Arguments& arguments) {
     return twice.wrong;
 }
 
-/// Prints how often a mirror image is refused as one; returns how many fixes there are.
+/// Prints how often mirror images are refused with the status `mirrored`, and returns the number of
+/// fixes, all of which are wrong.
 int print_mirrored(const Arguments& arguments) {
     FrameRun run;
     run.frames =

@@ -5,7 +5,7 @@
 // Writes tables.md, sweep-*.{csv,svg,png}, table-3.md and figure-*.{svg,png} to FOLDER
 // (accuracy-out).
 // --update also replaces the generated parts of the document and the pictures beside it.
-// --quick: a tenth of the frames, to see that it works; its numbers are for nobody.
+// --quick takes a tenth of the frames, to test the program; its numbers are not exact.
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -30,7 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace dotpose;
 
-/// Of no test and no tuning: these frames are seen here only.
+/// A seed that no test and no tuning uses.
 constexpr std::uint64_t kSeed = 404;
 
 struct Arguments {
@@ -57,7 +57,7 @@ Arguments parse(int argc, char** argv) {
     return arguments;
 }
 
-/// Says what is being done, on a terminal also how far it is, and at the end how long it took.
+/// Prints a step of the program and its time. On a terminal, it shows the progress as well.
 class Step {
   public:
     explicit Step(std::string what)
@@ -87,7 +87,7 @@ class Step {
     bool is_shown_ = false;
 };
 
-/// A way to locate, as a user may choose it.
+/// Options to locate with, as a user may choose them.
 struct Way {
     const char* name;
     Decoder decoder;
@@ -115,7 +115,7 @@ std::string three(const Quantiles& quantiles, int decimals) {
 }
 
 std::string frame_row(Preset preset, const Way& way, const Score& score) {
-    // Devices claim none.
+    // Devices report no covariance.
     const auto& [x, y, theta] = score.normalised;
     const std::string normalised =
         std::isfinite(x) ? fmt::format("{:.2f} / {:.2f} / {:.2f}", x, y, theta) : "-";
@@ -135,7 +135,7 @@ std::string status_rows(Preset preset, const Score& score) {
     return rows;
 }
 
-/// Clean, nominal and hard frames, in all ways.
+/// Adds the tables of clean, nominal and hard frames, located in all ways.
 void add_frame_tables(const Arguments& arguments, Blocks& blocks) {
     std::string frames =
         "| preset | decoder | frames | located | wrong | position error, µm: median / 95 % / max | "
@@ -165,8 +165,9 @@ void add_frame_tables(const Arguments& arguments, Blocks& blocks) {
     blocks.push_back({"statuses", statuses});
 }
 
-/// The last value at which at least 99 % and 50 % of the frames are located, going up from the
-/// easiest: the first but for the spacing, where it is the best.
+/// Returns the last value up to which at least this share of the frames is located. It starts at
+/// the first value, which is the easiest one; for the spacing, it returns the range of values
+/// instead.
 std::string reach(const Sweep& sweep, Decoder decoder, double share) {
     const auto located = [&](std::size_t i) {
         const SweepPoint& point = sweep.points[i];
@@ -221,7 +222,7 @@ void add_protocol(const Arguments& arguments, Blocks& blocks) {
 
 void run(const Arguments& arguments) {
     fs::create_directories(arguments.out);
-    // Found out now, not after an hour.
+    // A document that cannot be read is reported before the measurement, not an hour later.
     if (!arguments.document.empty()) read_document(arguments.document);
     Blocks blocks;
     add_frame_tables(arguments, blocks);

@@ -1,9 +1,10 @@
-// Does a fix tell how exact it is where the sheet is not one plane? Halves that slipped against
-// each other, and wrinkled paper. The table of docs/integrity.md, in Markdown.
+// Measures whether the covariance of a fix is right where the sheet is not one plane: halves of a
+// sheet that are displaced against each other, and wrinkled paper. Prints the table of
+// docs/integrity.md in Markdown.
 //
 //   dotpose_slips [--frames N] [--seed S] [--threads N]
 //
-// N frames of each condition. Exits 1 if any fix is wrong.
+// There are N frames for each condition. The exit status is 1 if any fix is wrong.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -24,7 +25,7 @@ namespace {
 
 using namespace dotpose;
 
-/// Fixes farther off than so many of their own sigmas claim too much.
+/// Fixes whose errors are above this number of their standard deviations are counted.
 constexpr double kMostSigmas = 4;
 
 struct Arguments {
@@ -53,7 +54,7 @@ KnownFrame frame_of(const Condition& condition, std::uint64_t seed, int index) {
     return {render(shot), truth_of(shot), {}, {}};
 }
 
-/// The largest error of x, y and theta in units of their sigmas.
+/// Returns the largest error of x, y and theta in units of their standard deviations.
 double sigmas_off(const Outcome& outcome) {
     const Deviation off = deviation_of(outcome.fix, outcome.truth);
     const double errors[] = {off.x_grid, off.y_grid, off.theta_rad};
@@ -71,7 +72,7 @@ double share(std::span<const Outcome> outcomes, const std::function<bool(const O
                                   static_cast<double>(outcomes.size());
 }
 
-/// Prints the row of one condition; returns how many fixes are wrong.
+/// Prints the row of one condition and returns the number of wrong fixes.
 int print_row(const Condition& condition, const Arguments& arguments) {
     FrameRun run;
     run.frames = static_cast<int>(arguments.frames);

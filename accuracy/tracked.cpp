@@ -1,9 +1,10 @@
-// What becomes of predictions?
+// Counts what `locate` makes of right and wrong predictions.
 //
 //   dotpose_tracked [--part NAME] [--frames N] [--predictions N] [--seed S] [--document FILE]
 //
-// Four tables: drives followed with predictions, predictions that are off, frames that change, and
-// wrong predictions by class. Exits 1 if any fix is wrong. Ctrl-C prints the tables so far.
+// Prints four tables: drives that are tracked, predictions that are off, frames that change, and
+// wrong predictions by class. The exit status is 1 if any fix is wrong. Ctrl-C ends the run and
+// prints the tables until then.
 #include <cstdlib>
 #include <functional>
 #include <string>
@@ -36,7 +37,7 @@ TrackedTable table_of(const std::string& part, const Arguments& arguments) {
 }
 
 int run(const Arguments& arguments) {
-    // Found out now, not after an hour.
+    // A document that cannot be read is reported before the measurement, not an hour later.
     if (!arguments.document.empty()) read_document(arguments.document);
     Blocks blocks;
     std::uint64_t wrong = 0;

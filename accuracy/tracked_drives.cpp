@@ -12,7 +12,7 @@
 namespace dotpose {
 namespace {
 
-/// A drive, and how many of its 200 frames a second are taken.
+/// A drive at some speed, of whose 200 frames per second every n-th is taken.
 struct DriveKind {
     double speed_mm_s;
     int every;
@@ -21,10 +21,10 @@ constexpr std::array kDrives{DriveKind{0, 1},   DriveKind{30, 1},  DriveKind{100
                              DriveKind{300, 1}, DriveKind{300, 2}, DriveKind{300, 4},
                              DriveKind{100, 4}, DriveKind{30, 8}};
 
-/// Frames between events: the robot was seen before, and is not lifted.
+/// Results of a drive.
 struct DriveTally {
     TrackedTally seen;
-    TrackedTally settled;  ///< from the third frame after the robot was put down on
+    TrackedTally settled;  ///< frames from the third one on after the robot was put down
 };
 
 struct DriveTallies {
@@ -39,7 +39,7 @@ struct DriveTallies {
     }
 };
 
-/// As TrackedTally::count, in the world.
+/// Counts a frame like TrackedTally::count, but compares poses in the world.
 void count(const cli::Record& record, const test::DriveState& truth, TrackedTally& tally) {
     const Fix& fix = record.fix;
     if (fix.status != Status::ok) {
@@ -83,7 +83,7 @@ void follow(const DriveKind& kind, const std::string& sheets, DriveTally& tally)
         const cli::Record record = locator(frame).record;
         if (truth.is_lifted) {
             since_put_down = 0;
-            // Whatever is found then is wrong, and nothing else is counted.
+            // A fix of a lifted robot is wrong; frames without a fix are not counted.
             if (record.fix.status == Status::ok) count(record, truth, tally.seen);
             continue;
         }

@@ -1,4 +1,4 @@
-/// The simulated drive of the tests, followed with predictions as `dotpose watch` does it.
+/// Tracks the simulated drive of the tests as `dotpose watch` does.
 #pragma once
 
 #include "counting.hpp"
@@ -6,7 +6,7 @@
 
 namespace dotpose {
 
-/// At several speeds and frame rates.
+/// Returns the table of drives at several speeds and frame rates.
 TrackedTable drives_table(const Counting& counting);
 
 }  // namespace dotpose

@@ -17,7 +17,7 @@ LargeMemory& memory() {
     return *kMemory;
 }
 
-/// By how much a prediction is off.
+/// The error of a prediction.
 struct Offset {
     double spacings;
     double degrees;
@@ -28,7 +28,7 @@ constexpr std::array kOffsets{Offset{0, 0},   Offset{0.1, 0}, Offset{0.2, 0}, Of
                               Offset{0, 4},   Offset{0, 5},   Offset{0, 6},   Offset{0.3, 2},
                               Offset{0.5, 3}, Offset{0.6, 4}, Offset{0.9, 6}};
 
-/// In any direction, to either side.
+/// Returns the prediction from a fix with an error in a random direction.
 Prediction displaced(const Fix& fix, const Offset& offset, Rng& rng) {
     const double direction = rng.uniform(-std::numbers::pi, std::numbers::pi);
     const double sign = rng.below(2) == 0 ? 1 : -1;
@@ -46,7 +46,8 @@ Setup nominal(const Counting& counting) {
     return setup;
 }
 
-/// The first row is that of frames without a prediction.
+/// Locates a frame with predictions of increasing error. The first tally is that without a
+/// prediction.
 void try_offsets(const Shot& shot, TrackedTallies& tallies) {
     const GreyImage image = render(shot);
     const Fix fresh = Locator(memory()).locate(image.view());
@@ -61,7 +62,7 @@ void try_offsets(const Shot& shot, TrackedTallies& tallies) {
     }
 }
 
-/// How the second frame differs from the first.
+/// The change between the first and the second frame.
 enum class Change : std::uint8_t {
     nothing,
     driven,
@@ -97,7 +98,8 @@ void drive_on(Shot& shot, Rng& rng) {
     shot.pose.theta_rad += rng.uniform(-kMost_rad, kMost_rad);
 }
 
-/// The second frame. Its noise is another; its page shows each dot as before.
+/// Returns the second frame. Its noise differs from that of the first; printing errors of the dots
+/// are the same.
 Shot changed(Change change, const Shot& first, const Shot& other, Rng& rng) {
     Shot shot = first;
     shot.seed = rng.bits();
@@ -131,7 +133,7 @@ Shot changed(Change change, const Shot& first, const Shot& other, Rng& rng) {
     return shot;
 }
 
-/// What a lifted camera sees.
+/// Returns the frame of a lifted camera, which is out of focus.
 GreyImage nothing_in_focus(const Shot& shot, Rng& rng) {
     return test::detail::painted(
         shot, [&](int, int) { return 120 + shot.imperfections.noise_sigma * rng.normal(); });

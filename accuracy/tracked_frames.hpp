@@ -1,4 +1,5 @@
-/// Pairs of frames: what was seen in the first predicts the second.
+/// Tests predictions with pairs of frames: the fix of the first frame gives the prediction for the
+/// second.
 #pragma once
 
 #include "counting.hpp"
@@ -6,10 +7,11 @@
 
 namespace dotpose {
 
-/// Nominal frames with predictions that are off by more and more.
+/// Returns the table of nominal frames with predictions of increasing error.
 TrackedTable offsets_table(const Counting& counting, std::uint64_t frames);
 
-/// Frames that are not as those before: other light, lifted, turned, put elsewhere, covered.
+/// Returns the table of second frames that differ from the first: other light, lifted, turned, put
+/// elsewhere, covered.
 TrackedTable changes_table(const Counting& counting, std::uint64_t frames);
 
 }  // namespace dotpose

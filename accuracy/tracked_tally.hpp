@@ -1,4 +1,4 @@
-/// What became of predictions: shared by the parts of `dotpose_tracked`.
+/// Counts the results of predictions; all parts of `dotpose_tracked` use it.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 namespace dotpose {
 
-/// What an image shows at its centre.
+/// The true pose of the image centre.
 struct Truth {
     CameraPose pose;
     Section section;
@@ -37,7 +37,7 @@ struct Truth {
     }
 };
 
-/// The `share` quantile; 0 of none.
+/// Returns a quantile, or 0 if there are no values.
 inline double quantile(std::vector<double> values, double share) {
     if (values.empty()) return 0;
     const auto n = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
@@ -46,16 +46,16 @@ inline double quantile(std::vector<double> values, double share) {
     return *at;
 }
 
-/// Predictions of one kind.
+/// Results of one kind of predictions.
 struct TrackedTally {
-    std::uint64_t tracked = 0;        ///< right, where the prediction had it
-    std::uint64_t afresh = 0;         ///< the prediction was refused, the frame located afresh
-    std::uint64_t none = 0;           ///< no fix
-    std::uint64_t tracked_wrong = 0;  ///< a wrong position was taken for confirmed
-    std::uint64_t afresh_wrong = 0;
-    std::vector<double> errors_um;  ///< of the tracked ones
+    std::uint64_t tracked = 0;        ///< right fixes that use the prediction
+    std::uint64_t afresh = 0;         ///< right fixes for which the prediction was refused
+    std::uint64_t none = 0;           ///< frames without a fix
+    std::uint64_t tracked_wrong = 0;  ///< wrong fixes that use the prediction
+    std::uint64_t afresh_wrong = 0;   ///< wrong fixes for which the prediction was refused
+    std::vector<double> errors_um;    ///< position errors of right fixes that use the prediction
 
-    /// Without a truth every fix is wrong.
+    /// Counts a fix. Without a true pose, every fix is wrong.
     void count(const Fix& fix, const std::optional<Truth>& truth) {
         if (fix.status != Status::ok) {
             ++none;
@@ -70,7 +70,8 @@ struct TrackedTally {
         }
     }
 
-    /// Two cells of a table: median and 95 %; empty if nothing was tracked.
+    /// Returns two cells of a table, the median and the 95 % quantile of the errors; they are empty
+    /// if nothing was tracked.
     std::string errors() const {
         if (errors_um.empty()) return " | ";
         return fmt::format("{:.2f} | {:.2f}", quantile(errors_um, 0.5), quantile(errors_um, 0.95));
@@ -92,7 +93,7 @@ struct TrackedTally {
     }
 };
 
-/// One for each kind, by its number.
+/// The tallies of all kinds of predictions, by their numbers.
 struct TrackedTallies {
     std::vector<TrackedTally> kinds;
 
@@ -113,7 +114,7 @@ struct TrackedTallies {
     }
 };
 
-/// A table of a document, and how many fixes in it are wrong.
+/// A table of a document, and the number of wrong fixes in it.
 struct TrackedTable {
     std::string text;
     std::uint64_t wrong = 0;

@@ -11,10 +11,10 @@
 namespace dotpose {
 namespace {
 
-/// A prediction that is wrong, or an image for which any is.
+/// A class of wrong predictions, or of images for which every prediction is wrong.
 struct WrongClass {
     const char* name;
-    /// Cells off; where one or two are given.
+    /// Error of the prediction in cells, for the classes that have one.
     int dx = 0;
     int dy = 0;
 };
@@ -72,7 +72,7 @@ LargeMemory& memory() {
     return *kMemory;
 }
 
-/// Of a frame whose fix is right, and of another one.
+/// A frame whose fix is right, and another frame.
 struct Views {
     Shot shot;
     GreyImage image;
@@ -84,8 +84,8 @@ std::int32_t between(std::uint32_t from, std::uint32_t to) {
     return static_cast<std::int32_t>(static_cast<std::int64_t>(to) - from);
 }
 
-/// The prediction with the worst rival of the 10 to 16 lines in the middle of the view, which shows
-/// 11 to 18.
+/// Returns a prediction of the wrong position that shares the most of the 10 to 16 lines in the
+/// middle of the view, which shows 11 to 18 lines.
 Prediction rival_of(const Fix& fix, bool is_along_x, Rng& rng) {
     const std::int32_t before = 5 + static_cast<std::int32_t>(rng.below(4));
     Prediction prediction = Prediction::like(fix);
@@ -127,7 +127,7 @@ Prediction predicted(std::size_t kind, const Views& views, Rng& rng) {
     return prediction;
 }
 
-/// An image that shows nothing of the code, with the same camera and lattice.
+/// Returns an image of the same camera without a valid code, on the same grid.
 GreyImage without_code(std::size_t kind, const Shot& shot, Rng& rng) {
     switch (kind) {
         case noise:

@@ -1,4 +1,4 @@
-/// Predictions of places that are not in view.
+/// Tests predictions of positions that are not in view.
 #pragma once
 
 #include "counting.hpp"
@@ -6,7 +6,7 @@
 
 namespace dotpose {
 
-/// `predictions` in all, evenly over the classes.
+/// Returns the table of wrong predictions; their number is distributed evenly over the classes.
 TrackedTable wrong_predictions_table(const Counting& counting, std::uint64_t predictions);
 
 }  // namespace dotpose

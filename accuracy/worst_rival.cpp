@@ -12,7 +12,7 @@
 namespace dotpose {
 namespace {
 
-/// Position and section along an axis, and along the other one.
+/// Position and section along an axis, and along the axis across it.
 struct Along {
     std::uint32_t position;
     std::uint8_t section;
@@ -22,8 +22,8 @@ struct Along {
 
 using Places = std::array<std::uint32_t, 4>;
 
-/// How many of the lines roll alike if a sequence stands at one place rather than another; all may
-/// be rolled further by the same, which is another section.
+/// Returns how many lines have the same roll for two places of a secondary sequence. A difference
+/// that is common to all lines does not count, because it is another section.
 int shared_lines(const code::Secondary& sequence, std::uint32_t place, std::uint32_t other,
                  int lines) {
     std::array<int, kSections> counts{};
@@ -55,7 +55,7 @@ std::uint8_t section(int value) {
     return static_cast<std::uint8_t>((value % kSections + kSections) % kSections);
 }
 
-/// The section in which most lines from `position` on are rolled like those.
+/// Returns the section in which most lines from `position` on have these rolls.
 std::uint8_t likest_section(Profile profile, std::uint32_t position, std::uint32_t cross,
                             const std::vector<std::uint8_t>& rolls) {
     std::vector<std::uint8_t> there(rolls.size());
@@ -78,7 +78,8 @@ Along worst(Profile profile, const Along& true_place, int lines) {
     Along rival = true_place;
     rival.position = code::position_at(basis, worst_places(basis, places, lines));
     rival.section = likest_section(profile, rival.position, rival.cross, rolls);
-    // Lines along the other axis are rolled by where they are crossed: the section makes up for it.
+    // The rolls of the lines across depend on the position along them. The section across is chosen
+    // so that they stay the same.
     const auto residue = [](std::uint32_t position) {
         return static_cast<int>(position % static_cast<std::uint32_t>(kSections));
     };

@@ -1,13 +1,13 @@
-/// The wrong place that resembles a true one most.
+/// Finds the wrong position that resembles a true one most.
 #pragma once
 
 #include "dotpose/code.hpp"
 
 namespace dotpose {
 
-/// Of the places that differ from `place` in x (or in y) by the place in one secondary sequence,
-/// and in their section, the one that shows most of the `lines` columns (or rows) from `place` on
-/// as they are. All rows (or columns) it shows as they are, so all bits of the other axis.
+/// Returns the wrong position that shares the most of the `lines` columns from `place` on with it
+/// (or rows, if not `is_along_x`). It differs in the place in one secondary sequence along this
+/// axis and in the section. All lines of the other direction are the same.
 Place worst_rival(Profile profile, const Place& place, bool is_along_x, int lines);
 
 }  // namespace dotpose
