@@ -1,11 +1,12 @@
-// QEMU plugin: counts the instructions of each frame, by stage of the locator.
+// A plugin of QEMU that counts the instructions of each frame, by stages of the locator.
 //
 //   qemu-... -plugin ./libdotpose_count.so,stages=FILE,out=FILE
 //
-// Counted is between the markers `resume` and `pause` of markers.hpp, without them. STAGES holds
-// lines "ADDRESS NAME", the address in hexadecimal: an instruction there enters that stage, which
-// lasts until another is entered. After `resume` the stage is "other" until one is entered.
-// OUT receives a line of stage names and then, at each marker `end_frame`, one of counts.
+// Instructions between the markers `resume` and `pause` of markers.hpp are counted, without the
+// markers. The file of stages has lines "ADDRESS NAME" with hexadecimal addresses: the instruction
+// at an address begins that stage, which lasts until another one begins. After `resume` the stage
+// is "other" until one begins. The output has a line of stage names, and a line of counts for each
+// marker `end_frame`.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -19,8 +20,8 @@
 #include <string>
 #include <string_view>
 
-// Debian ships no header for plugins; this is what is used of version 1 of the interface ("QEMU TCG
-// Plugins" in QEMU's documentation).
+// Debian has no package with the header for plugins, so the functions and types that are used are
+// declared here, from version 1 of the interface ("QEMU TCG Plugins" in QEMU's documentation).
 extern "C" {
 
 using qemu_plugin_id_t = std::uint64_t;
@@ -64,16 +65,16 @@ namespace {
 struct Stage {
     std::uint64_t address = 0;
     std::string name;
-    std::uint64_t count = 0;  ///< in this frame
+    std::uint64_t count = 0;  ///< instructions in the current frame
 };
 
-/// QEMU gives callbacks little but a pointer, so the state is global. The emulated machine has one
-/// processor, so one thread.
+/// The state is global because callbacks of QEMU get only one pointer. The emulated machine has one
+/// processor, so there is one thread.
 struct Counter {
     std::deque<Stage> stages = {{0, "other"}};
     Stage* current = &stages.front();
-    std::uint64_t executed = 0;  ///< ever
-    std::uint64_t credited = 0;  ///< of them, up to the last change of stage
+    std::uint64_t executed = 0;  ///< instructions since the start
+    std::uint64_t credited = 0;  ///< value of `executed` at the last change of stage
     bool is_counting = false;
     std::ofstream out;
 
@@ -117,17 +118,17 @@ struct Marker {
 };
 using Markers = std::array<Marker, 3>;
 
-// mov r10, r10; mov r11, r11; mov r12, r12
+// The instructions are mov r10, r10; mov r11, r11; mov r12, r12.
 constexpr Markers kThumbMarkers = {
     {{0x46D2, 2, on_resume}, {0x46DB, 2, on_pause}, {0x46E4, 2, on_end_frame}}};
-// sltiu $0, $0, 0x1b1 to 0x1b3, in microMIPS
+// The instructions are sltiu $0, $0, 0x1b1 to 0x1b3 in microMIPS.
 constexpr Markers kMipsMarkers = {
     {{0x01B1B000, 4, on_resume}, {0x01B2B000, 4, on_pause}, {0x01B3B000, 4, on_end_frame}}};
 const Markers* markers = &kThumbMarkers;
 
 const Marker* marker_at(const qemu_plugin_insn* instruction) {
     const std::size_t size = qemu_plugin_insn_size(instruction);
-    std::uint32_t encoding = 0;  // Targets and host are little-endian.
+    std::uint32_t encoding = 0;  // the bytes are copied: targets and host are little-endian
     std::memcpy(&encoding, qemu_plugin_insn_data(instruction), std::min(size, sizeof encoding));
     const auto found = std::ranges::find_if(
         *markers, [&](const Marker& m) { return m.size == size && m.encoding == encoding; });

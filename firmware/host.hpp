@@ -1,14 +1,14 @@
-/// What a firmware program needs of the machine it runs on: one implementation for each target.
+/// The functions of the machine that a firmware program needs; each target implements them.
 #pragma once
 
 #include <cstddef>
 
 namespace host {
 
-/// Opens the file to read; false where there is none.
+/// Opens the file to read. Returns false if there is none.
 bool open(const char* path);
 
-/// Reads `size` bytes; false where fewer are left.
+/// Reads `size` bytes. Returns false if fewer are left.
 bool read(void* bytes, std::size_t size);
 
 /// Prints to standard output.

@@ -28,7 +28,8 @@ struct FrameHeader {
     Prediction prediction;
 };
 
-/// The next number of a header, and the one byte after it. False where there is none of 32 bits.
+/// Reads the next number of a header and the byte after it. Returns false if there is no number or
+/// it does not fit into 32 bits.
 bool read_number(std::int64_t& number) {
     char byte = 0;
     do {
@@ -89,7 +90,8 @@ Status begin_frame(const FrameHeader& frame) {
                               : locator.begin(frame.width_px, frame.height_px);
 }
 
-/// False if the file ends within the frame.
+/// Reads and locates a frame and prints the result. Returns false if the file ends within the
+/// frame.
 bool locate_frame(const FrameHeader& frame, Fix& fix) {
     markers::resume();
     const Status status = begin_frame(frame);

@@ -1,13 +1,13 @@
 #pragma once
 
-/// Locates the frames in the file at `path`: binary PGM images (P5, 8 bits, no comments), one after
-/// the other. Before an image may stand a prediction, and it is then tracked: a line of T and the
-/// integers of Place (x, y, u, v), PlaneFromImage (centre, at_centre, du, dv) and displacement_q16,
-/// with blanks between them. Prints one line for each:
+/// Locates the frames in the file at `path`, which are binary PGM images (P5, 8 bits, no comments)
+/// one after the other. A prediction may precede an image, which is then tracked: a line of the
+/// letter T and the integers of Place (x, y, u, v), PlaneFromImage (centre, at_centre, du, dv) and
+/// displacement_q16, separated by blanks. Prints one line for each frame:
 ///
 ///     STATUS CELL_X CELL_Y FRACTION_X FRACTION_Y THETA SECTION_U SECTION_V SPACING SEEN USED
 ///     BIT_ERRORS P_WRONG
 ///
-/// with the integers of Fix as they are (fraction_q16, theta_bam, spacing_px_q16, p_wrong_log2).
-/// Returns the exit status: 0 for all frames read, 1 for a file that cannot be read.
+/// with the integers of Fix (fraction_q16, theta_bam, spacing_px_q16, p_wrong_log2). Returns the
+/// exit status: 0 if all frames were read, 1 if the file cannot be read.
 int locate_frames(const char* path);

@@ -1,4 +1,4 @@
-/// Instructions without effect between which firmware/count.cpp counts.
+/// Instructions without effect that tell firmware/count.cpp what to count.
 #pragma once
 
 namespace markers {

@@ -1,5 +1,5 @@
-// What the compiler calls by itself. No C library is linked: Debian's for MIPS wants an FPU, and
-// counts would change with its versions.
+// The functions of the C library that compilers call implicitly. No C library is linked: Debian's
+// for MIPS needs an FPU, and the counts of instructions would change with its versions.
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -16,7 +16,7 @@ bool are_aligned(const void* a, const void* b) {
 
 extern "C" {
 
-// Small Arm processors have their own (cortex-m0plus/memcpy.S).
+// Cortex-M0+ has a faster one in cortex-m0plus/memcpy.S.
 [[gnu::weak]] void* memcpy(void* __restrict to, const void* __restrict from, std::size_t size) {
     auto* target_word = static_cast<Word*>(to);
     const auto* source_word = static_cast<const Word*>(from);

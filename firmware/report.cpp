@@ -1,10 +1,11 @@
-// The budget report, from what firmware/budget has left in FOLDER.
+// Reports the budget of the firmware from the files that firmware/budget has written to FOLDER.
 //
 //   dotpose_budget [--update] DOCUMENT FOLDER
 //
-// Prints a line `TARGET PRESET median=N worst=N ram=N code=N` for each run (instructions per frame,
-// bytes, bytes), and tables. With --update they replace the generated parts of the document;
-// without, it exits 1 if any of these figures has grown by more than 3 % over the document's.
+// Prints a line `TARGET PRESET median=N worst=N ram=N code=N` for each run, and tables; `median`
+// and `worst` are instructions per frame, `ram` and `code` bytes. With --update, the tables replace
+// the generated parts of the document. Without it, the exit status is 1 if any figure is more than
+// 3 % above that of the document.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -32,14 +33,14 @@ using Count = std::uint64_t;
 
 struct Target {
     const char* name;
-    /// Assumed for the table of frame rates; docs/firmware.md says why.
+    /// Assumption for the table of frame rates, which docs/firmware.md explains.
     double instructions_per_cycle;
 };
 constexpr std::array kTargets = {Target{"cortex-m0plus", 0.7}, Target{"mips32r2", 0.8}};
-/// Frames of these presets, located afresh, and the first ones once more, tracked.
+/// The sets of frames: two presets, and frames of the first preset with predictions.
 constexpr std::array kPresets = {"nominal", "hard", "tracked"};
 
-/// Instructions of frames.
+/// Statistics of the instructions per frame.
 struct Cost {
     Count median = 0;
     Count worst = 0;
@@ -62,7 +63,7 @@ struct Figure {
     Count value;
 };
 
-/// One target on the frames of one preset.
+/// The results of one target with one set of frames.
 struct Run {
     Target target;
     std::string preset;
@@ -72,7 +73,7 @@ struct Run {
     Count code_bytes = 0;
 
     std::string name() const { return fmt::format("{} {}", target.name, preset); }
-    /// What may not grow.
+    /// The figures that must not grow.
     std::array<Figure, 4> figures() const {
         return {{{"median", cost.median},
                  {"worst", cost.worst},
@@ -88,13 +89,13 @@ std::string line_of(const Run& run) {
     return line;
 }
 
-/// Reads the counts that firmware/count.cpp has written.
+/// Reads the counts that the plugin firmware/count.cpp has written.
 void read_counts(const fs::path& path, Run& run) {
     std::istringstream lines(read_document(path));
     std::string line;
     std::getline(lines, line);
     std::istringstream names(line);
-    std::vector<std::vector<Count>> counts_of;  // of each stage
+    std::vector<std::vector<Count>> counts_of;  // the counts of each stage, by frame
     for (std::string stage; names >> stage; counts_of.emplace_back())
         run.stages.push_back({stage, {}});
     std::vector<Count> totals;
@@ -115,7 +116,7 @@ void read_counts(const fs::path& path, Run& run) {
         run.stages[i].cost = cost_of(counts_of[i]);
 }
 
-/// The number after `name` at the start of a line; 0 where there is no such line.
+/// Returns the number after `name` at the start of a line, or 0 if there is no such line.
 Count number_after(const fs::path& path, std::string_view name) {
     std::istringstream lines(read_document(path));
     for (std::string line; std::getline(lines, line);) {
@@ -139,7 +140,7 @@ Run read_run(const fs::path& folder, const Target& target, const char* preset) {
     return run;
 }
 
-/// How many of the frames were located, which is the same on all targets.
+/// Returns how many of the frames were located, as text. It is the same on all targets.
 std::string located(const fs::path& folder) {
     std::string text;
     for (const char* preset : kPresets) {
@@ -160,7 +161,7 @@ std::string summary(const std::vector<Run>& runs) {
     return text + "```\n";
 }
 
-/// 1234567 -> "1,234,567".
+/// Formats a number with groups of three digits, such as "1,234,567".
 std::string grouped(Count number) {
     std::string digits = std::to_string(number);
     for (std::size_t at = digits.size(); at > 3;)
@@ -168,7 +169,7 @@ std::string grouped(Count number) {
     return digits;
 }
 
-/// `runs` are those of one target.
+/// Returns the table of the stages. All `runs` must be those of one target.
 std::string stage_table(std::span<const Run> runs) {
     std::string text = "| stage |";
     std::string rule = "|---|";
@@ -224,7 +225,7 @@ std::string rate_table(const std::vector<Run>& runs) {
     return text;
 }
 
-/// The value of a figure in the document's line of a run.
+/// Returns the value of a figure in the document's line for a run.
 Count committed_value(const fs::path& path, const Run& run, const char* figure) {
     std::istringstream lines(read_document(path));
     const std::string key = fmt::format(" {}=", figure);
@@ -239,7 +240,7 @@ Count committed_value(const fs::path& path, const Run& run, const char* figure) 
                             figure, run.name()));
 }
 
-/// Prints every figure that has grown by more than 3 %; whether there is none.
+/// Prints every figure that has grown by more than 3 %. Returns whether there is none.
 bool keeps_budget(const fs::path& path, const std::vector<Run>& runs) {
     bool is_kept = true;
     for (const Run& run : runs) {
@@ -254,7 +255,7 @@ bool keeps_budget(const fs::path& path, const std::vector<Run>& runs) {
     return is_kept;
 }
 
-/// Whether the budget is kept.
+/// Prints the report or updates the document. Returns whether the budget is kept.
 bool report(bool is_update, const fs::path& document, const fs::path& folder) {
     std::vector<Run> runs;
     for (const Target& target : kTargets) {

@@ -1,4 +1,5 @@
-/// The deepest reach of the stack: it is painted at the start, and what lost its paint was used.
+/// Measures the stack: it is filled with a pattern at the start, and words that have lost the
+/// pattern were used.
 #pragma once
 
 #include <cstddef>
@@ -6,21 +7,22 @@
 
 namespace stack {
 
-/// Lowest word of the stack and the word after the highest: from the linker script.
+/// The lowest word of the stack and the word after its highest one, as the linker script defines
+/// them.
 extern "C" std::uint32_t stack_bottom[], stack_top[];
 
 inline constexpr std::uint32_t kPaint = 0x5AFEC0DE;
 
-/// Paints what lies below the caller's frame. Call it first.
+/// Fills the stack below the caller's frame with the pattern. Call it first.
 [[gnu::always_inline]] inline void paint() {
-    // Some words are left for the function that paints.
+    // Some words are left out for this function's own variables.
     constexpr std::size_t kOwnWords = 16;
     auto* const end = static_cast<std::uint32_t*>(__builtin_frame_address(0)) - kOwnWords;
     for (volatile std::uint32_t* word = stack_bottom; word < end; ++word)
         *word = kPaint;
 }
 
-/// Most bytes that were in use at any time.
+/// Returns the largest number of bytes that were in use at any time.
 inline std::size_t high_water_bytes() {
     const volatile std::uint32_t* word = stack_bottom;
     while (word < stack_top && *word == kPaint)
@@ -28,7 +30,7 @@ inline std::size_t high_water_bytes() {
     return static_cast<std::size_t>(stack_top - word) * sizeof *word;
 }
 
-/// Whether it may have reached below its end, into the variables.
+/// Whether the stack may have grown beyond its end, into the variables.
 inline bool has_overflown() {
     return *static_cast<volatile std::uint32_t*>(stack_bottom) != kPaint;
 }

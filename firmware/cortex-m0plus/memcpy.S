@@ -1,4 +1,4 @@
-// memcpy: five words at a time, where GCC would use three registers.
+// memcpy that copies five words at a time; code from GCC would use three registers.
     .syntax unified
     .cpu cortex-m0plus
     .thumb

@@ -1,4 +1,4 @@
-# What runs once a frame is made small, so that the code fits.
+# Functions that run once per frame are optimized for size, so that the code fits.
 compile_core(-Os code/basis.cpp code/decode.cpp code/encode.cpp core/locate.cpp core/plane.cpp
              core/attempts/device.cpp core/attempts/device_tracked.cpp core/attempts/steps.cpp
              core/decode/confidence.cpp core/decode/contest.cpp core/decode/orientation.cpp

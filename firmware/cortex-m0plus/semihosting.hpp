@@ -1,4 +1,4 @@
-/// Calls to the debugger or emulator: Arm's "Semihosting for AArch32 and AArch64".
+/// Calls of the debugger or emulator, as defined in Arm's "Semihosting for AArch32 and AArch64".
 #pragma once
 
 #include <cstddef>
@@ -14,11 +14,12 @@ enum class Call : std::uint32_t {
     exit = 0x20,
 };
 
-/// File modes, as of fopen. The file ":tt" is the console: standard output where it is written.
+/// File modes with the meaning of those of fopen. The file ":tt" is the console; if it is opened
+/// for writing, it is standard output.
 inline constexpr std::uint32_t kRead = 1;
 inline constexpr std::uint32_t kWrite = 4;
 
-/// `arguments` is an array of words, as the call wants.
+/// Makes a call. `arguments` is an array of words whose meaning depends on the call.
 inline std::int32_t call(Call number, const void* arguments) {
     register auto r0 asm("r0") = static_cast<std::int32_t>(number);
     register const void* r1 asm("r1") = arguments;
@@ -35,13 +36,14 @@ inline std::int32_t open(const char* path, std::size_t length, std::uint32_t mod
     return call(Call::open, arguments);
 }
 
-/// Number of bytes that were not read, or not written.
+/// Reads or writes bytes; returns the number of bytes that were not transferred.
 inline std::int32_t transfer(Call number, std::int32_t file, const void* bytes, std::size_t size) {
     const std::uint32_t arguments[] = {static_cast<std::uint32_t>(file), word(bytes), size};
     return call(number, arguments);
 }
 
-/// Whether `text` received what stands on the command line after `-semihosting-config`.
+/// Copies the arguments of the option `-semihosting-config` to `text`. Returns false if they do not
+/// fit.
 inline bool command_line(char* text, std::size_t size) {
     const std::uint32_t arguments[] = {word(text), size};
     return call(Call::command_line, arguments) == 0;

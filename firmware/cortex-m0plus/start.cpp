@@ -1,4 +1,4 @@
-// From reset to `main` and back to the emulator.
+// Start-up code, which runs the program after a reset and returns to the emulator.
 #include <array>
 #include <cstdint>
 
@@ -6,7 +6,7 @@
 #include "semihosting.hpp"
 #include "stack.hpp"
 
-// From memory.ld.
+// These symbols are defined in memory.ld.
 extern "C" {
 extern std::uint32_t data_begin[], data_end[], data_load[], bss_begin[], bss_end[];
 extern void (*const init_array_begin[])();
@@ -25,7 +25,7 @@ void clear(volatile std::uint32_t* from, const std::uint32_t* end) {
         *from++ = 0;
 }
 
-/// The last word of the command line: the file of frames.
+/// Returns the last word of the command line, which is the path of the file of frames.
 const char* path_of_frames() {
     static std::array<char, 256> line;
     if (!semihosting::command_line(line.data(), line.size())) return "";
@@ -52,7 +52,8 @@ extern "C" [[noreturn]] void reset() {
     semihosting::exit(run_program(path_of_frames()));
 }
 
-/// The first words of flash: ARMv6-M Architecture Reference Manual, B1.5.3.
+/// The vector table at the start of the flash memory (ARMv6-M Architecture Reference Manual,
+/// B1.5.3).
 struct Vectors {
     const void* initial_stack;
     std::array<void (*)(), 15> handlers;

@@ -1,5 +1,5 @@
-// The firmware as a desktop program: its lines are what the devices must print. It also predicts
-// frames for them to track.
+// Runs the firmware's program on a desktop; devices must print the same lines. It also adds
+// predictions to files of frames, which the devices then track.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -37,7 +37,7 @@ void print(const char* text) {
 
 namespace {
 
-/// Reads the frames of a file again, with what a fresh fix of each tells.
+/// Locates frames without a prediction and writes predictions for them.
 class Predictor {
   public:
     explicit Predictor(std::uint64_t seed) : rng_(seed) {}
@@ -71,7 +71,7 @@ class Predictor {
     dotpose::DeviceMemory memory_;
 };
 
-/// Standard output: the frames of the file that are located, each after a prediction.
+/// Writes the frames of a file that are located to standard output, each after a prediction.
 int predict(const char* path, std::uint64_t seed) {
     if (!host::open(path)) return 1;
     Predictor predictor(seed);

@@ -1,5 +1,5 @@
-// The one function of libgcc that the core calls. Debian's is plain MIPS32, which the short calls
-// of microMIPS cannot reach.
+// The only function of libgcc that the core calls. Debian's libgcc is compiled as plain MIPS32, to
+// which microMIPS code cannot make its short calls.
 #include <algorithm>
 #include <bit>
 #include <cstdint>

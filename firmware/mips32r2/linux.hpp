@@ -1,4 +1,4 @@
-/// Linux system calls, ABI o32: what QEMU's user mode offers instead of a board.
+/// System calls of Linux with the ABI o32, which QEMU's user mode has instead of a board's devices.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@ namespace linux_o32 {
 
 enum class Call : int { exit = 4001, read = 4003, write = 4004, open = 4005 };
 
-/// The result, or -1.
+/// Makes a system call. Returns its result, or -1 if it fails.
 inline int call(Call number, int a, const void* b, std::size_t c) {
     register int v0 asm("$2") = static_cast<int>(number);
     register int a0 asm("$4") = a;

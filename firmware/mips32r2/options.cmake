@@ -1,4 +1,4 @@
-# What runs once a frame is made small, which leaves room in flash for what runs all the time.
+# Functions that run once per frame are optimized for size, which leaves flash for the others.
 compile_core(-Os code/basis.cpp code/decode.cpp code/encode.cpp core/locate.cpp core/plane.cpp
              core/attempts/device.cpp core/attempts/device_tracked.cpp core/attempts/steps.cpp
              core/decode/contest.cpp core/decode/orientation.cpp
@@ -8,5 +8,5 @@ compile_core(-Os code/basis.cpp code/decode.cpp code/encode.cpp core/locate.cpp 
              core/lattice/predicted.cpp core/lattice/turn.cpp core/pose/subgrid.cpp
              core/pose/tracked_pose.cpp)
 compile_core(-O3 core/decode/correlation.cpp core/detect/blobs.cpp core/detect/runs.cpp)
-# Constants stay in registers.
+# This keeps constants in registers.
 compile_core(-fno-tree-pre core/detect/tiles.cpp)

@@ -1,4 +1,4 @@
-# Entry of the program: the kernel's stack, with the arguments on it, is exchanged for ours.
+# Entry of the program: switches from the kernel's stack, which has the arguments, to the program's own.
     .set noreorder
     .text
     .globl start

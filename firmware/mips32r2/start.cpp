@@ -1,15 +1,15 @@
-// From the entry to the program and back to the emulator.
+// Start-up code, which runs the program and returns to the emulator.
 #include "linux.hpp"
 #include "program.hpp"
 #include "stack.hpp"
 
-// From memory.ld.
+// These symbols are defined in memory.ld.
 extern "C" {
 extern void (*const init_array_begin[])();
 extern void (*const init_array_end[])();
 }
 
-/// What the kernel leaves on the stack.
+/// The contents of the stack at the start of a process.
 struct KernelStack {
     int argument_count;
     const char* arguments[2];

@@ -1,8 +1,8 @@
-# Read by the assembler before what the compiler wrote (cmake/mips32r2.cmake): swm, which stores several
-# registers, becomes a sw of each. QEMU 7.2's swm stores only 16 bits of each. To the core it is the same
-# number of cycles; the code grows by 2 %.
+# The assembler reads this file before the compiler's output (cmake/mips32r2.cmake). It replaces swm, which
+# stores several registers, by one sw for each, because swm in QEMU 7.2 stores only 16 bits of each. The
+# processor takes the same number of cycles; the code grows by 2 %.
 
-# Of "swm $16-$18,$31,24($sp)": `first` $16-$18, `more` $31, `memory` 24($sp).
+# In "swm $16-$18,$31,24($sp)", `first` is $16-$18, `more` is $31 and `memory` is 24($sp).
     .macro store_each memory, first, more:vararg
     .set offset, 0
     .irp n, 16, 17, 18, 19, 20, 21, 22, 23
@@ -23,7 +23,7 @@
     .endr
     .endm
 
-# The memory is the last of two to four operands.
+# The memory operand is the last of two to four operands.
     .macro swm first, second, third, fourth
     .ifnb \fourth
     store_each \fourth, \first, \second, \third
