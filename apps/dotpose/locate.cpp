@@ -205,7 +205,7 @@ class ImageLocator {
             }
         }
         // Unless it was the last profile, the image is located again in the best one, so that the
-        // workspace matches the fix.
+        // trace matches the fix.
         return options_.profile == best ? found : locate_with(best);
     }
 
@@ -235,7 +235,7 @@ class ImageLocator {
                                again.bit_errors < fix.bit_errors &&
                                again.dots_used + fix.bit_errors >= fix.dots_used;
         if (!is_better) {
-            // The workspace must hold the results of the fix that is returned.
+            // The trace must hold the results of the fix that is returned.
             (void)locator().locate(image_.view());
             return fix;
         }

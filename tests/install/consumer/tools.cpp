@@ -1,11 +1,10 @@
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 
-#include <dotpose/locate.hpp>
 #include <dotpose/tools/calibrate.hpp>
 #include <dotpose/tools/camera_file.hpp>
 #include <dotpose/tools/draw.hpp>
+#include <dotpose/tools/heap_locator.hpp>
 #include <dotpose/tools/image_file.hpp>
 #include <dotpose/tools/overlay.hpp>
 #include <dotpose/tools/print.hpp>
@@ -31,9 +30,9 @@ bool locate_simulated(const std::filesystem::path& folder) {
     const Shot shot = draw_shot(Setup{}, 0);
     write_png(folder / "frame.png", render(shot).view());
     const GreyImage image = read_image(folder / "frame.png");
-    const auto workspace = std::make_unique<LargeWorkspace>();
-    const Fix fix = locate(image.view(), {}, *workspace);
-    draw_frame(folder / "drawn.png", image.view(), *workspace, {});
+    HeapLocator locator;
+    const Fix fix = locator.locate(image.view());
+    draw_frame(folder / "drawn.png", image.view(), locator.trace());
     std::printf("%s: %s\n", name(fix.status), message(fix.status));
     return fix.status == Status::ok && fix.cell == shot.pose.cell;
 }
