@@ -11,8 +11,9 @@
 #include "calibration_bound.hpp"
 #include "calibration_measures.hpp"
 #include "calibration_tally.hpp"
-#include "dotpose/tools/evaluate.hpp"
 #include "dotpose/tools/heap_locator.hpp"
+#include "dotpose/tools/mounted_pose.hpp"
+#include "dotpose/tools/outcome.hpp"
 
 namespace dotpose {
 namespace {

@@ -22,6 +22,9 @@
 #include <unistd.h>
 
 #include <dotpose/tools/evaluate.hpp>
+#include <dotpose/tools/protocol.hpp>
+#include <dotpose/tools/score.hpp>
+#include <dotpose/tools/sweep.hpp>
 
 #include "document.hpp"
 

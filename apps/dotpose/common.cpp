@@ -11,8 +11,9 @@
 
 #include <fmt/core.h>
 
-#include "dotpose/tools/evaluate.hpp"
+#include "dotpose/tools/camera_file.hpp"
 #include "dotpose/tools/image_file.hpp"
+#include "dotpose/tools/option_names.hpp"
 #include "dotpose/tools/sheet_file.hpp"
 
 namespace dotpose::cli {

@@ -11,7 +11,7 @@
 #include <fmt/core.h>
 
 #include "dotpose/options.hpp"
-#include "dotpose/tools/camera_file.hpp"
+#include "dotpose/tools/camera.hpp"
 #include "dotpose/tools/print.hpp"
 #include "dotpose/tools/sheet.hpp"
 #include "dotpose/tools/simulate.hpp"

@@ -13,6 +13,10 @@
 
 #include "commands.hpp"
 #include "common.hpp"
+#include "dotpose/tools/mounted_pose.hpp"
+#include "dotpose/tools/protocol.hpp"
+#include "dotpose/tools/score.hpp"
+#include "dotpose/tools/sweep.hpp"
 #include "progress.hpp"
 #include "terminal_text.hpp"
 

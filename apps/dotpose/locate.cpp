@@ -19,6 +19,7 @@
 #include "dotpose/code_evidence.hpp"
 #include "dotpose/tools/frame_file.hpp"
 #include "dotpose/tools/heap_locator.hpp"
+#include "dotpose/tools/mounted_pose.hpp"
 #include "dotpose/tools/sheet_file.hpp"
 #include "image_names.hpp"
 #include "lines.hpp"

@@ -11,7 +11,7 @@
 #include <fmt/core.h>
 
 #include "dotpose/locate.hpp"
-#include "dotpose/tools/camera_file.hpp"
+#include "dotpose/tools/camera.hpp"
 #include "dotpose/tools/grey_image.hpp"
 
 namespace dotpose::cli {

@@ -1,4 +1,6 @@
 // A camera's geometry, and its use in `locate`.
+#include "dotpose/tools/camera.hpp"
+
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -6,7 +8,6 @@
 #include <fmt/core.h>
 
 #include "dotpose/locate.hpp"
-#include "dotpose/tools/camera_file.hpp"
 
 namespace dotpose {
 namespace {

@@ -11,6 +11,7 @@
 #include "dotpose/code_evidence.hpp"
 #include "dotpose/tools/calibrate.hpp"
 #include "dotpose/tools/heap_locator.hpp"
+#include "dotpose/tools/mounted_pose.hpp"
 
 namespace dotpose {
 namespace {

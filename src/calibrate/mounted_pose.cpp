@@ -1,4 +1,6 @@
 // The pose of a camera whose view of the paper is known: place, angle and scale, by least squares.
+#include "dotpose/tools/mounted_pose.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "calibrate/yaml_reader.hpp"
-#include "dotpose/tools/camera_file.hpp"
+#include "dotpose/tools/camera.hpp"
 
 namespace dotpose::calibrate {
 

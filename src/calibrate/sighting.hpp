@@ -6,7 +6,7 @@
 
 #include "dotpose/code_evidence.hpp"
 #include "dotpose/image.hpp"
-#include "dotpose/tools/camera_file.hpp"
+#include "dotpose/tools/camera.hpp"
 #include "dotpose/tools/heap_locator.hpp"
 
 namespace dotpose::calibrate {

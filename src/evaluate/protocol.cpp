@@ -150,31 +150,6 @@ Summary summary_of(std::span<const Station> stations, const SpreadOf& spread) {
 
 }  // namespace evaluate_detail
 
-PrintModel::PrintModel(double worst_x_mm, double worst_y_mm) {
-    // The largest shifts at the positions of the protocol if all amplitudes are 1.
-    Vec2 largest;
-    for (const Stand& stand : positions_on(nullptr)) {
-        const Vec2 shift = shift_mm(stand.place_mm);
-        largest = {std::max(largest.x, std::abs(shift.x)), std::max(largest.y, std::abs(shift.y))};
-    }
-    amplitude_mm_ = {worst_x_mm / largest.x, worst_y_mm / largest.y};
-}
-
-Vec2 PrintModel::shift_mm(Vec2 from_middle_mm) const {
-    // Along the feed (y), the model has rollers that turn unevenly and a feed that slips more on
-    // one side. Across the feed, it has a scan line that is bowed and slightly stretched.
-    constexpr double kTurn = 2 * std::numbers::pi;
-    const double x = from_middle_mm.x / kSide_mm;
-    const double y = from_middle_mm.y / kSide_mm;
-    const double across = 0.75 * std::sin(kTurn * (0.62 * x + 0.10)) +
-                          0.45 * std::cos(kTurn * (0.48 * y - 0.17)) * std::sin(kTurn * 0.35 * x) +
-                          0.22 * std::sin(kTurn * (1.30 * y + 0.33)) - 0.28;
-    const double along = 0.85 * std::sin(kTurn * (0.58 * y - 0.06)) +
-                         0.42 * std::sin(kTurn * (1.65 * y + 0.21)) +
-                         0.38 * std::cos(kTurn * (0.42 * x + 0.30 * y + 0.12)) - 0.12;
-    return {amplitude_mm_.x * across, amplitude_mm_.y * along};
-}
-
 Protocol run_protocol(const ProtocolOptions& options) {
     if (options.samples < 1) throw BadArgument("the protocol needs at least one sample");
     const PrintModel print;

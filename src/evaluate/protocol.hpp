@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "dotpose/tools/evaluate.hpp"
+#include "dotpose/tools/protocol.hpp"
 
 namespace dotpose::evaluate_detail {
 

@@ -1,12 +1,12 @@
 // Computes the statistics of outcomes.
+#include "dotpose/tools/score.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include <fmt/core.h>
-
-#include "dotpose/tools/evaluate.hpp"
 
 namespace dotpose {
 namespace {
@@ -37,20 +37,6 @@ Quantiles quantiles_of(std::vector<double> values) {
     if (values.empty()) return {};
     std::ranges::sort(values);
     return {nearest_rank(values, 0.5), nearest_rank(values, 0.95), values.back()};
-}
-
-Deviation deviation_of(const Fix& fix, const Truth& truth) {
-    return {fix.x_grid() - truth.x_grid, fix.y_grid() - truth.y_grid,
-            std::remainder(fix.theta_rad() - truth.theta_rad, 2 * std::numbers::pi)};
-}
-
-bool Outcome::is_wrong() const {
-    if (!is_fix()) return false;
-    if (!truth.has_pose) return true;
-    const Deviation off = deviation_of(fix, truth);
-    return std::hypot(off.x_grid, off.y_grid) > kWrongFrom_grid ||
-           std::abs(off.theta_rad) * kDegrees > kWrongFrom_deg ||
-           (truth.section && fix.section != *truth.section);
 }
 
 Score score_of(std::span<const Outcome> outcomes) {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "dotpose/tools/evaluate.hpp"
+#include "dotpose/tools/sweep.hpp"
 
 namespace dotpose::evaluate_detail {
 

@@ -1,4 +1,6 @@
 // Reads truth.csv.
+#include "dotpose/tools/truth.hpp"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -8,7 +10,6 @@
 
 #include <fmt/core.h>
 
-#include "dotpose/tools/evaluate.hpp"
 #include "evaluate/csv.hpp"
 
 namespace dotpose {

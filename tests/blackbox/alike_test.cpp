@@ -7,8 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "dotpose/locate.hpp"
-#include "dotpose/tools/evaluate.hpp"
+#include "dotpose/tools/score.hpp"
 #include "dotpose/tools/simulate.hpp"
+#include "dotpose/tools/truth.hpp"
 
 namespace dotpose::test {
 namespace {

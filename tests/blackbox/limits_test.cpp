@@ -9,7 +9,7 @@
 
 #include "../limit_frames.hpp"
 #include "dotpose/locate.hpp"
-#include "dotpose/tools/evaluate.hpp"
+#include "dotpose/tools/outcome.hpp"
 
 namespace dotpose::test {
 namespace {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "dotpose/locate.hpp"
-#include "dotpose/tools/evaluate.hpp"
+#include "dotpose/tools/outcome.hpp"
 #include "locate_command.hpp"
 
 namespace dotpose::test {

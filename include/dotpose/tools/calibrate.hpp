@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-#include "dotpose/tools/camera_file.hpp"
+#include "dotpose/tools/camera.hpp"
 #include "dotpose/tools/error.hpp"
 #include "dotpose/tools/grey_image.hpp"
 #include "dotpose/tools/sheet.hpp"

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "dotpose/tools/camera_file.hpp"
 #include "dotpose/tools/heap_locator.hpp"
+#include "dotpose/tools/mounted_pose.hpp"
 #include "dotpose/tools/sheet_file.hpp"
 #include "dotpose/tools/simulate.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "canvas.hpp"
 #include "dotpose/locate.hpp"
-#include "dotpose/tools/evaluate.hpp"
+#include "dotpose/tools/option_names.hpp"
 
 namespace dotpose::core_test {
 namespace {

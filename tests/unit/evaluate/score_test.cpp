@@ -1,3 +1,5 @@
+#include "dotpose/tools/score.hpp"
+
 #include <cmath>
 #include <numbers>
 #include <vector>

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "dotpose/locate.hpp"
-#include "dotpose/tools/evaluate.hpp"
+#include "dotpose/tools/outcome.hpp"
 #include "dotpose/tools/simulate.hpp"
 
 namespace dotpose {

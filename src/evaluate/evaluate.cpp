@@ -1,4 +1,6 @@
 // Locates many frames with known poses on all processor cores.
+#include "dotpose/tools/evaluate.hpp"
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -6,7 +8,6 @@
 #include <thread>
 
 #include "dotpose/code_evidence.hpp"
-#include "dotpose/tools/evaluate.hpp"
 #include "dotpose/tools/frame_file.hpp"
 #include "dotpose/tools/heap_locator.hpp"
 
@@ -80,22 +81,6 @@ class Crew {
 };
 
 }  // namespace
-
-const char* name(Decoder decoder) {
-    return decoder == Decoder::window ? "window" : "all";
-}
-
-const char* name(Effort effort) {
-    switch (effort) {
-        case Effort::device:
-            return "device";
-        case Effort::once:
-            return "once";
-        case Effort::twice:
-            break;
-    }
-    return "twice";
-}
 
 std::vector<std::vector<Outcome>> evaluate(const FrameRun& run) {
     if (run.frames < 0 || !run.frame_at) throw BadArgument("there are no frames to evaluate");

@@ -1,0 +1,28 @@
+/// Print model: how far a printer puts ink from where it was meant to be.
+#pragma once
+
+#include "dotpose/tools/simulate.hpp"
+
+#pragma GCC visibility push(default)
+
+namespace dotpose {
+
+/// A model (not a measurement) of what a printer does to a page: a smooth shift of low frequency.
+/// The amplitudes are chosen so that its largest values on the measured area are those that the
+/// paper found (Table III): y, along which the paper is fed, is worse.
+class PrintModel {
+  public:
+    static constexpr double kSide_mm = 200;  ///< of the area on which the amplitudes are reached
+
+    PrintModel(double worst_x_mm = 0.15, double worst_y_mm = 0.27);
+
+    /// Printed minus intended place, at a place relative to the middle of the area.
+    Vec2 shift_mm(Vec2 from_middle_mm) const;
+
+  private:
+    Vec2 amplitude_mm_{1, 1};
+};
+
+}  // namespace dotpose
+
+#pragma GCC visibility pop

@@ -1,0 +1,74 @@
+/// Protocol: the paper's experiment (section IV), simulated.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dotpose/options.hpp"
+#include "dotpose/tools/evaluate.hpp"
+#include "dotpose/tools/print_model.hpp"
+#include "dotpose/tools/simulate.hpp"
+
+#pragma GCC visibility push(default)
+
+namespace dotpose {
+
+struct ProtocolOptions {
+    int samples = 20;  ///< at each position and angle
+    /// Light, blur and noise are the device's and drawn once; dots lie where this page has them.
+    Setup setup;
+    Options locate;
+    int threads = 0;
+    Progress progress;
+};
+
+/// Deviations of one coordinate while the device stands still.
+struct Spread {
+    double bias = 0;   ///< mean of found minus true; its absolute value is the paper's accuracy
+    double sigma = 0;  ///< the paper's precision
+};
+
+/// One position or angle of the device.
+struct Station {
+    Vec2 place_mm;  ///< from the middle of the area, y down
+    double theta_deg = 0;
+    Spread x_mm;  ///< of the right fixes
+    Spread y_mm;
+    Spread theta;  ///< degrees
+    int samples = 0;
+    int located = 0;
+    int wrong = 0;
+};
+
+struct ProtocolResult {
+    std::vector<Station> positions;  ///< 11 x 11 on 200 x 200 mm, in a spiral from the middle
+    std::vector<Station> angles;     ///< 36, at the middle
+};
+
+struct Protocol {
+    int samples = 0;
+    ProtocolResult perfect;  ///< every dot where it should be, but for its jitter
+    ProtocolResult printed;  ///< with `PrintModel`
+};
+
+/// Throws Error if interrupted.
+Protocol run_protocol(const ProtocolOptions& options);
+
+/// Table III in Markdown, the paper's figures beside the simulated ones.
+std::string table_3(const Protocol& protocol);
+void write_stations_csv(std::ostream& out, std::span<const Station> stations);
+/// Figures 13 and 14: accuracy of x or y over the positions; Figure 15: of theta. SVG.
+void draw_figure_13(std::ostream& out, const Protocol& protocol);
+void draw_figure_14(std::ostream& out, const Protocol& protocol);
+void draw_figure_15(std::ostream& out, const Protocol& protocol);
+
+/// Writes table-3.md, positions.csv, angles.csv (the printed page) and figure-13, -14, -15, each as
+/// .svg and .png.
+void write_protocol(const std::filesystem::path& folder, const Protocol& protocol);
+
+}  // namespace dotpose
+
+#pragma GCC visibility pop

@@ -1,0 +1,53 @@
+/// Score: the outcomes of many frames as numbers.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dotpose/status.hpp"
+#include "dotpose/tools/outcome.hpp"
+
+#pragma GCC visibility push(default)
+
+namespace dotpose {
+
+/// By nearest rank: the least value that at least this share of all values does not exceed. Not a
+/// number without values.
+struct Quantiles {
+    double median = std::numeric_limits<double>::quiet_NaN();
+    double p95 = std::numeric_limits<double>::quiet_NaN();
+    double max = std::numeric_limits<double>::quiet_NaN();
+};
+Quantiles quantiles_of(std::vector<double> values);
+
+struct Score {
+    int frames = 0;  ///< readable ones; each is either located, wrong, or has another status
+    int unreadable = 0;
+    int located = 0;                               ///< right fixes
+    int wrong = 0;                                 ///< fixes that are not
+    std::array<int, kStatusCount> by_status = {};  ///< `ok` counts right and wrong fixes
+
+    // Of the right fixes.
+    Quantiles position_um;  ///< distance in the plane
+    Quantiles angle_deg;
+    /// Mean of error^2 / variance, for x, y, theta: 1 if the covariance tells the truth, above it
+    /// if the fixes are worse than they claim.
+    std::array<double, 3> normalised = {};
+
+    double largest_p_wrong = 0;  ///< claimed by any fix
+    Quantiles elapsed_us;        ///< of all readable frames
+
+    double located_share() const { return frames > 0 ? 1.0 * located / frames : 0; }
+};
+Score score_of(std::span<const Outcome> outcomes);
+
+/// The score in words and numbers, for tables: (what, value).
+std::vector<std::pair<std::string, std::string>> described(const Score& score);
+
+}  // namespace dotpose
+
+#pragma GCC visibility pop

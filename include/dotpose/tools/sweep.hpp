@@ -1,0 +1,62 @@
+/// Sweep: the score of `locate` while one condition of the simulated frames gets worse and worse.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <iosfwd>
+#include <vector>
+
+#include "dotpose/options.hpp"
+#include "dotpose/tools/evaluate.hpp"
+#include "dotpose/tools/score.hpp"
+#include "dotpose/tools/simulate.hpp"
+
+#pragma GCC visibility push(default)
+
+namespace dotpose {
+
+enum class SweepKind : std::uint8_t {
+    noise,      ///< sensor noise, grey levels
+    blur,       ///< sigma of the lens's blur, px
+    missing,    ///< dots not printed, %
+    tilt,       ///< of the camera, about a random axis in the image, degrees
+    spacing,    ///< grid spacing in the image, px
+    occlusion,  ///< share of the image behind a straight dark edge from a random side, %
+};
+inline constexpr std::array kSweepKinds = {SweepKind::noise,   SweepKind::blur,
+                                           SweepKind::missing, SweepKind::tilt,
+                                           SweepKind::spacing, SweepKind::occlusion};
+const char* name(SweepKind kind);
+
+struct SweepOptions {
+    Setup setup;                 ///< all other conditions
+    int frames_per_value = 200;  ///< the same frames for each value
+    Options locate;              ///< `decoder` does not matter: both are run
+    int threads = 0;
+    Progress progress;
+};
+
+struct SweepPoint {
+    double value = 0;  ///< in the unit of the kind
+    Score window;      ///< by Decoder
+    Score all;
+};
+
+struct Sweep {
+    SweepKind kind = SweepKind::noise;
+    Preset preset = Preset::nominal;
+    int frames_per_value = 0;
+    std::vector<SweepPoint> points;
+};
+
+Sweep run_sweep(SweepKind kind, const SweepOptions& options);
+void write_sweep_csv(std::ostream& out, const Sweep& sweep);
+/// Success rate and errors of both decoders over the condition, as SVG.
+void draw_sweep(std::ostream& out, const Sweep& sweep);
+/// Writes sweep-KIND.csv, .svg and .png.
+void write_sweep(const std::filesystem::path& folder, const Sweep& sweep);
+
+}  // namespace dotpose
+
+#pragma GCC visibility pop

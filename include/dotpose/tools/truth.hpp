@@ -1,0 +1,47 @@
+/// Truth: the known poses of frames, drawn by the simulator or read from a truth.csv.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dotpose/code.hpp"
+#include "dotpose/tools/error.hpp"
+#include "dotpose/tools/sheet.hpp"
+#include "dotpose/tools/simulate.hpp"
+
+#pragma GCC visibility push(default)
+
+namespace dotpose {
+
+/// The true pose of a frame, in the terms of `Fix`.
+struct Truth {
+    bool has_pose = true;  ///< false: the frame shows no readable pattern and must be refused
+    double x_grid = 0;
+    double y_grid = 0;
+    double theta_rad = 0;
+    std::optional<Section> section;  ///< not judged if unknown
+    double spacing_mm = kDefaultSpacing_mm;
+};
+
+Truth truth_of(const Shot& shot);
+
+/// One line of truth.csv.
+struct TruthRow {
+    std::string file;
+    Truth truth;
+    std::optional<Profile> profile;  ///< as printed, if the file tells
+};
+
+/// Reads truth.csv as `dotpose simulate` writes it. Columns are found by their names and may stand
+/// in any order; needed are file, theta_deg, and x_grid, y_grid or x_mm, y_mm (grid units win).
+/// Known besides: section_u, section_v, profile, spacing_mm. A row with empty pose is a frame
+/// without one. `spacing_mm`, if given, replaces that of the file.
+/// Throws Error, naming file and line, if the file cannot be read or makes no sense.
+std::vector<TruthRow> read_truth(const std::filesystem::path& path,
+                                 std::optional<double> spacing_mm = std::nullopt);
+
+}  // namespace dotpose
+
+#pragma GCC visibility pop
