@@ -68,6 +68,7 @@ check: setup $(RELEASE)/build.ninja
 	scripts/format --check
 	scripts/check-layers
 	scripts/check-names
+	scripts/check-pipeline
 	$(BUILD) release -j $(JOBS) --target dotpose dotpose_golden
 	scripts/golden-frames
 	scripts/check-core-symbols $(RELEASE)/src/libdotpose.a
