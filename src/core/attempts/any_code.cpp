@@ -13,6 +13,7 @@
 #include "core/attempts/second.hpp"
 #include "core/attempts/steps.hpp"
 #include "core/attempts/tracked.hpp"
+#include "core/attempts/tuning.hpp"
 #include "core/decode/verify.hpp"
 #include "core/locate.hpp"
 #include "core/odds.hpp"
@@ -20,20 +21,14 @@
 namespace dotpose::core {
 namespace {
 
-enum class Step { tracked, outwards, rows, second, closer, device };
+namespace tuned = tuning::any_code;
 
-/// Below that, other places are doubts like others, which a closer look may dispel.
-constexpr float kAsWell = 1e-3F;
-/// From that on a frame is read again in the profile that explains it better.
-constexpr float kBetter = 2;
-/// Odds of profiles in which no attempt is made: other frames speak against them.
-constexpr float kRuledOut = 1e-9F;
+enum class Step { tracked, outwards, rows, second, closer, device };
 
 /// More than any frame has.
 constexpr int kMostErrors = std::numeric_limits<int>::max();
 
-/// Sums are rounded up by more than that.
-constexpr float kRoundings = 1.01F;
+constexpr float kRoundings = tuned::kRoundings;
 
 constexpr std::size_t index(Profile profile) {
     return static_cast<std::size_t>(profile);
@@ -122,7 +117,7 @@ class AnyCode {
             result.other_odds = odds;
             result.other = other;
         }
-        result.is_ambiguous = elsewhere > kAsWell;
+        result.is_ambiguous = elsewhere > tuned::kAsWell;
         const float own = std::ldexp(1.0F, w_.fix.p_wrong_log2);
         result.p_wrong_log2 = std::min(rounded_up(w_.fix.p_wrong_log2, 1 + elsewhere / own), 0);
         result.is_certain = result.p_wrong_log2 <= options_.integrity.max_p_wrong_log2;
@@ -185,7 +180,7 @@ class AnyCode {
         // What rows show in another profile, the second attempt shows as well.
         if (step == Step::rows && may_try_twice()) return std::span(order_).first(1);
         std::size_t count = 1;
-        while (count < order_.size() && weight(order_[count]) > kRuledOut)
+        while (count < order_.size() && weight(order_[count]) > tuned::kRuledOut)
             ++count;
         return std::span(order_).first(count);
     }
@@ -250,7 +245,7 @@ class AnyCode {
     /// The fix that is certain, or a better one: of a profile that explains the same place better,
     /// or of the second attempt.
     CodeReading best_of(Step step, Profile code, const Judgement& judgement) {
-        if (judgement.other_odds > kBetter) {
+        if (judgement.other_odds > tuned::kBetter) {
             if (attempt(step, judgement.other) && judge(judgement.other).is_certain) {
                 code = judgement.other;
             } else {
@@ -332,8 +327,8 @@ CodeReading read_in_code(const ImageView& image, const Options& options, Workspa
     if (!is_for_code(reading.fix.status)) return reading;
     const CodeReading any = read_in_any_code(image, options, nullptr, {}, w);
     const bool is_read = any.fix.status == Status::ok || any.fix.status == Status::ambiguous_code;
-    // Without a contradiction: but for bits misread, less than one in a hundred.
-    if (is_read && 50 * any.fix.bit_errors <= any.fix.dots_seen) {
+    // Without a contradiction, but for bits misread.
+    if (is_read && tuned::kBitsPerError * any.fix.bit_errors <= any.fix.dots_seen) {
         const bool is_first = any.code != reading.code;
         reading.has_other = is_first || any.has_other;
         reading.other_code = is_first ? any.code : any.other_code;

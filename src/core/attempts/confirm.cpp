@@ -7,6 +7,7 @@
 #include "core/attempts/dot_reader.hpp"
 #include "core/attempts/fitted_pose.hpp"
 #include "core/attempts/steps.hpp"
+#include "core/attempts/tuning.hpp"
 #include "core/decode/bit_lines.hpp"
 #include "core/decode/certainty.hpp"
 #include "core/decode/coded_block.hpp"
@@ -20,17 +21,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Around the image centre, so many spacings, all dots are measured, and must make the position
-/// certain.
-constexpr float kDense = 10;
-/// Where the image ends within so many, it is measured at once.
-constexpr float kDenseAtMost = 17;
-/// Where the pattern may end anywhere, the first look reaches this far, in spacings, and the bits
-/// that decide whether the place is certain reach that far.
-constexpr float kDenseOfPart = 6;
-constexpr float kDecidingOfPart = 32;
-/// How much farther a plane can be trusted than the dots reach that it was fitted to.
-constexpr float kFarther = 3.5F;
+namespace tuned = tuning::confirm;
 
 FloatVec centre_px(const ImageView& image) {
     return {static_cast<float>(image.width_px - 1) / 2,
@@ -80,7 +71,8 @@ bool is_plausible(const BitsRead& bits, const MeasuredDots& dots, const Options&
 
 /// Nearly all dots are clear, and hardly a bit is wrong.
 bool is_clean(const BitsRead& bits) {
-    return 100 * bits.read >= 97 * bits.seen && bits.wrong_x + bits.wrong_y <= 1;
+    return 100 * bits.read >= tuned::kClear_percent * bits.seen &&
+           bits.wrong_x + bits.wrong_y <= tuned::kMostWrong;
 }
 
 /// Bits of one axis, as many as were read and so many of them wrong.
@@ -174,8 +166,7 @@ bool fit_to_dots(const Kernels& kernels, const MeasuredDots& dots, const BitsRea
     if (bits.right == 0) return false;
     const auto right = static_cast<float>(bits.right);
     sight.displacement = bits.projected / right;
-    // Four deviations of those that are right.
-    const float limit = 8.3F * bits.squares / right + 1e-6F;
+    const float limit = tuned::kOutlier * bits.squares / right + 1e-6F;
     return fit_plane(kernels, dots, static_cast<int>(half_side_px(image)) + 1, limit,
                      sight.displacement, sight.pattern_from_image, fit);
 }
@@ -206,13 +197,12 @@ void write_fix(const ImageView& image, const Options& options, const Sight& sigh
 /// Whether a plane was fitted so far from where dots were looked for that quick bells do not see
 /// all of their distance.
 bool is_far_from(const FloatPlane& before, const FloatPlane& now, const ImageView& image) {
-    constexpr float kFar = 0.055F;
     const FloatVec half = centre_px(image);
     for (const FloatVec corner : {FloatVec{-half.x, -half.y}, FloatVec{half.x, -half.y},
                                   FloatVec{-half.x, half.y}, FloatVec{half.x, half.y}}) {
         const FloatVec was = plane_point(before, corner);
         const FloatVec is = plane_point(now, corner);
-        if (std::max(std::abs(was.x - is.x), std::abs(was.y - is.y)) > kFar) return true;
+        if (std::max(std::abs(was.x - is.x), std::abs(was.y - is.y)) > tuned::kFar_px) return true;
     }
     return false;
 }
@@ -232,15 +222,15 @@ struct Reach {
     Reach(const ImageView& image, const Sight& sight, float spacing_px)
         : full(half_side_px(image) +
                std::max(std::abs(sight.from_centre.x), std::abs(sight.from_centre.y)) + 1),
-          deciding(full <= kDenseAtMost * spacing_px ? full : kDense * spacing_px),
+          deciding(full <= tuned::kDenseAtMost * spacing_px ? full : tuned::kDense * spacing_px),
           now(deciding) {
         if (!sight.shows_part) return;
         // Where the pattern ends, it is not full, and where there are islands, one is not certain.
-        deciding = std::min(full, kDecidingOfPart * spacing_px);
-        now = std::min(full, kDenseOfPart * spacing_px);
+        deciding = std::min(full, tuned::kDecidingOfPart * spacing_px);
+        now = std::min(full, tuned::kDenseOfPart * spacing_px);
     }
     bool decides() const { return now == deciding; }
-    void grow() { now = std::min(now * kFarther, now < deciding ? deciding : full); }
+    void grow() { now = std::min(now * tuned::kFarther, now < deciding ? deciding : full); }
 };
 
 }  // namespace

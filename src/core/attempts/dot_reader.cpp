@@ -3,18 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/attempts/tuning.hpp"
+
 namespace dotpose::core {
 namespace {
+
+namespace tuned = tuning::confirm;
 
 /// Leaves out windows so much darker than paper that they show the table beyond the sheet, where
 /// noise is as dark as dots. `paper` is the mean level around dots, once it is known.
 void leave_out_table(MeasuredDots& dots, float& paper) {
-    constexpr float kDarkest = 0.4F;
     float sum = 0;
     float count = 0;
     for (std::size_t k = 0; k < static_cast<std::size_t>(dots.count); ++k) {
         const auto level = static_cast<float>(dots.paper[k]);
-        if (level < kDarkest * paper) dots.x[k] = kNoDot_px;
+        if (level < tuned::kTable * paper) dots.x[k] = kNoDot_px;
         if (dots.x[k] >= kNoDot_px) continue;
         sum += level;
         count += 1;
@@ -22,28 +25,25 @@ void leave_out_table(MeasuredDots& dots, float& paper) {
     if (paper == 0 && count > 0) paper = sum / count;
 }
 
-/// Up to such spacings dots are so small that quick bells are wide enough, however they are
-/// blurred.
-constexpr float kQuickBells_px = 13;
-
 /// How far the bell reaches that dots are weighed with: little, for noise, but as far as a dot's
-/// edge is seen, and not so little that it, too, would depend on how dots fall on the pixels.
+/// edge is seen.
 float bell_reach_px(const Sight& sight) {
-    constexpr float kRadii = 2.4F;
     constexpr float kPi = 3.14159265F;
     const float beyond_cut = static_cast<float>(sight.depth_q8 * (256 - kCutOfDepth_q8)) / 65536;
     const float radius_px =
         std::sqrt(sight.typical_mass / (kPi * std::max(beyond_cut, 1.0F / 256)));
-    const bool is_quick = spacing_px(sight.pattern_from_image) < kQuickBells_px;
-    return std::clamp(kRadii * radius_px, 3.3F, is_quick ? kQuickBellReach_px : kMostBellReach_px);
+    const bool is_quick = spacing_px(sight.pattern_from_image) < tuned::kQuickBells_px;
+    return std::clamp(tuned::kBellRadii * radius_px, tuned::kLeastBell_px,
+                      is_quick ? kQuickBellReach_px : kMostBellReach_px);
 }
 
 /// Whether all dots in view fall on the pixels alike, along u or v: the grid's steps are whole
 /// pixels. What one look is off does not average out then.
 bool falls_on_pixels_alike(const FloatPlane& p) {
-    constexpr float kDrift_px = 0.05F;  // A view's dots drift through all of a pixel.
     const float by = 1 / (p.du_x * p.dv_y - p.dv_x * p.du_y);
-    const auto is_whole = [](float px) { return std::abs(px - std::floor(px + 0.5F)) < kDrift_px; };
+    const auto is_whole = [](float px) {
+        return std::abs(px - std::floor(px + 0.5F)) < tuned::kDrift_px;
+    };
     return (is_whole(by * p.dv_y) && is_whole(by * p.dv_x)) ||
            (is_whole(by * p.du_y) && is_whole(by * p.du_x));
 }
@@ -51,17 +51,14 @@ bool falls_on_pixels_alike(const FloatPlane& p) {
 }  // namespace
 
 bool suits_one_look(const Sight& sight) {
-    // Of a finer grid, the places of a cell are too near to each other to be told apart at a look.
-    constexpr float kFinest_px = 8;
     const float spacing = spacing_px(sight.pattern_from_image);
-    return spacing >= kFinest_px && spacing < kQuickBells_px &&
+    return spacing >= tuned::kFinestOneLook_px && spacing < tuned::kQuickBells_px &&
            !falls_on_pixels_alike(sight.pattern_from_image);
 }
 
 void DotReader::look_at_some(CellsInView view, Sight& sight) {
-    constexpr float kSome = 30;
     const float cells = view.width_px * view.height_px / (spacing_px_ * spacing_px_);
-    view.step = std::max(static_cast<int>(cells / kSome), 1);
+    view.step = std::max(static_cast<int>(cells / tuned::kSomeDots), 1);
     kernels_.list_cells(view, dots_);
     sight.typical_mass = kernels_.measure_windows(image_, view, window_look(sight), dots_);
 }
@@ -92,8 +89,7 @@ BitsRead DotReader::read_again(const Sight& sight, BitBlock& block) const {
 void DotReader::find_centres(const CellsInView& view, const Sight& sight, bool is_last,
                              BitsRead& bits) const {
     if (sight.is_exact) {
-        constexpr float kMostOff_px = 1;
-        kernels_.find_centres(image_, view, bell_reach_px(sight), kMostOff_px, dots_);
+        kernels_.find_centres(image_, view, bell_reach_px(sight), tuned::kMostOff_px, dots_);
         const BitsRead found = kernels_.read_bits(dots_, sight.pattern_from_image,
                                                   sight.displacement, nullptr, nullptr);
         bits.right = found.right;

@@ -7,6 +7,7 @@
 #include "core/attempts/rows.hpp"
 #include "core/attempts/steps.hpp"
 #include "core/attempts/tracked.hpp"
+#include "core/attempts/tuning.hpp"
 #include "core/decode/bit_lines.hpp"
 #include "core/detect/patch.hpp"
 #include "core/lattice/outwards.hpp"
@@ -14,8 +15,10 @@
 namespace dotpose::core {
 namespace {
 
-constexpr int kPatchWidth_px = 224;
-constexpr int kPatchHeight_px = 160;
+namespace tuned = tuning::first;
+
+constexpr int kPatchWidth_px = tuned::kPatchWidth_px;
+constexpr int kPatchHeight_px = tuned::kPatchHeight_px;
 
 /// The dots where a camera without distortion would see them.
 void straighten(const Lens& lens, FloatVec middle, PatchDots& dots) {
@@ -96,9 +99,8 @@ bool find_sight_around(const Kernels& kernels, const ImageView& image, const Opt
     const FloatVec from_centre{middle.x + from_middle.x, middle.y + from_middle.y};
     if (options.lens.k_q40 != 0) straighten(options.lens, from_centre, patch.dots);
     sight.shows_part = true;
-    // Where dots are displaced so far that their waves are faint, some discs show others.
-    for (const float central_dots : {30.0F, 20.0F, 45.0F, 25.0F, 37.0F}) {
-        for (const float by : {1.0F, 0.965F}) {
+    for (const float central_dots : tuned::kCentralDots) {
+        for (const float by : tuned::kSpacings) {
             const PatchView other{by * view.spacing_px, view.full_reach_px, central_dots};
             if (read_sight(kernels, options, other, from_centre, w, sight)) return true;
         }
@@ -132,7 +134,7 @@ bool locate_around(const Kernels& kernels, const ImageView& image, const Options
 /// Looks all over the image for dots, in patches that grow.
 bool locate_elsewhere(const Kernels& kernels, const ImageView& image, const Options& options,
                       Workspace& w) {
-    int looks_left = 4;
+    int looks_left = tuned::kMostLooks;
     for (const int scale : {1, 2, 4}) {
         const int width = kPatchWidth_px * scale;
         const int height = kPatchHeight_px * scale;

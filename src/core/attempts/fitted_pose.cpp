@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/attempts/steps.hpp"
+#include "core/attempts/tuning.hpp"
 #include "core/decode/nominal.hpp"
 #include "core/detect/undistort.hpp"
 #include "core/kernels/select.hpp"
@@ -14,11 +15,10 @@
 namespace dotpose::core {
 
 bool is_far_fetched(const PoseFit& fit, int bits, int bit_errors) {
-    constexpr float kMost = 0.57F;
     if (fit.displacement <= 0) return true;
     const float scatter = std::sqrt(fit.variance) / fit.displacement;
     const float contradicted = static_cast<float>(bit_errors) / static_cast<float>(bits);
-    return scatter + contradicted > kMost;
+    return scatter + contradicted > tuning::confirm::kMostImplausible;
 }
 
 bool fit_pattern(const Options& options, const ImageView* image, Workspace& w, PoseFit& fit) {

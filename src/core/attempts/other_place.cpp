@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "code/rolls.hpp"
+#include "core/attempts/tuning.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -44,16 +45,16 @@ float best_odds(const OtherCode& there) {
 }  // namespace
 
 void name_code_that_explains(const OtherCodes& others, CodeReading& reading) {
-    constexpr float kAsWell = 0.99F;
-    constexpr float kBetter = 1024;
     float most = 0;
     for (std::size_t i = 0; i < others.of.size(); ++i) {
         const auto other = static_cast<Profile>(i);
         if (other == reading.code) continue;
         const float elsewhere = best_odds(others.of[i]);
         const float here = others.of[i].here();
-        const bool is_here = here > kBetter && here > elsewhere;
-        if ((!is_here && elsewhere < kAsWell) || std::max(here, elsewhere) <= most) continue;
+        const bool is_here = here > tuning::any_code::kNamedHere && here > elsewhere;
+        if ((!is_here && elsewhere < tuning::any_code::kNamedElsewhere) ||
+            std::max(here, elsewhere) <= most)
+            continue;
         most = std::max(here, elsewhere);
         if (!is_here) {
             name_other_place(reading.code, other, others, reading);

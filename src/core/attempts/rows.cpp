@@ -2,6 +2,7 @@
 
 #include "core/attempts/fitted_pose.hpp"
 #include "core/attempts/steps.hpp"
+#include "core/attempts/tuning.hpp"
 #include "core/decode/likelihood.hpp"
 #include "core/decode/position.hpp"
 #include "core/decode/verify.hpp"
@@ -54,11 +55,8 @@ Fix finish_rows(const Options& options, Workspace& w) {
 }
 
 bool is_rough(const Fix& fix) {
-    // In px for dots that noise has moved, and in spacings for those that were printed badly.
-    constexpr float kRough_px = 0.30F;
-    constexpr float kRough = 0.027F;
     const float spacing_px = static_cast<float>(fix.spacing_px_q16) / 65536.0F;
-    return fix.residual_px >= std::max(kRough_px, kRough * spacing_px);
+    return fix.residual_px >= std::max(tuning::rows::kRough_px, tuning::rows::kRough * spacing_px);
 }
 
 }  // namespace dotpose::core

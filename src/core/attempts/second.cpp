@@ -2,6 +2,7 @@
 
 #include "core/attempts/fitted_pose.hpp"
 #include "core/attempts/steps.hpp"
+#include "core/attempts/tuning.hpp"
 #include "core/decode/likelihood.hpp"
 #include "core/decode/look.hpp"
 #include "core/decode/position.hpp"
@@ -15,12 +16,14 @@
 namespace dotpose::core {
 namespace {
 
-/// Filtered, noise is a third of what it was, and dots are paler and wider.
+namespace tuned = tuning::second;
+
+/// The thresholds of a filtered image.
 Options for_filtered(Options options) {
     ThresholdOptions& threshold = options.threshold;
     threshold.min_contrast = threshold.min_contrast / 2 + 1;
-    threshold.extent_q8 = (2 * threshold.extent_q8 + 2) / 3;
-    threshold.core_q8 = (9 * threshold.core_q8 + 9) / 10;
+    threshold.extent_q8 = (tuned::kExtent_3rds * threshold.extent_q8 + 2) / 3;
+    threshold.core_q8 = (tuned::kCore_10ths * threshold.core_q8 + 9) / 10;
     return options;
 }
 
@@ -39,8 +42,7 @@ Status find_grid_thoroughly(const Options& options, Workspace& w) {
     Status status = find_axes(centre_q8, kMaxSeeds, w);
     if (status != Status::ok) return status;
     const Lattice estimate = w.lattice;
-    // Between graphics, the connections of what is left of the dots may point anywhere.
-    for (const int most_turn_deg : {12, 45}) {
+    for (const int most_turn_deg : tuned::kMostTurns_deg) {
         w.lattice = estimate;
         climb_periodogram(w.found_dots(), first(w.seeds, w.seed_count), centre_q8, most_turn_deg,
                           w.lattice);
@@ -115,7 +117,7 @@ Status read_position(const Options& options, Workspace& w) {
 }
 
 Status look_until_certain(const ImageView& image, const Options& options, Workspace& w) {
-    for (const bool may_presume : {true, false, true}) {
+    for (const bool may_presume : tuned::kLooksPresume) {
         if (look_again(image, options, may_presume, w) == Status::ok) return Status::ok;
     }
     return Status::not_certain;

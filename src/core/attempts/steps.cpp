@@ -1,5 +1,6 @@
 #include "core/attempts/steps.hpp"
 
+#include "core/attempts/tuning.hpp"
 #include "core/decode/orientation.hpp"
 #include "core/decode/window.hpp"
 #include "core/detect/undistort.hpp"
@@ -79,8 +80,7 @@ Vec start_q8(const Workspace& w) {
     for (const Dot& dot : w.found_dots())
         sum_q4 = sum_q4 + Vec{dot.centre_q8.x >> 4, dot.centre_q8.y >> 4};
     const Vec mean_q8{sum_q4.x / w.dot_count * 16, sum_q4.y / w.dot_count * 16};
-    // A pattern that fills the view has its middle within a few hundredths of the centre.
-    constexpr int kFar = 4;
+    constexpr int kFar = tuning::rows::kFarPart;
     const bool is_far = magnitude(mean_q8.x - centre_q8.x) * kFar > centre_q8.x ||
                         magnitude(mean_q8.y - centre_q8.y) * kFar > centre_q8.y;
     return is_far ? mean_q8 : centre_q8;
@@ -99,9 +99,8 @@ Status find_axes(Vec start_q8, int most_seeds, Workspace& w) {
 }
 
 Status find_grid(const Options& options, Workspace& w) {
-    constexpr int kSeeds = 64;
     const Vec start = start_q8(w);
-    const Status status = find_axes(start, kSeeds, w);
+    const Status status = find_axes(start, tuning::rows::kSeeds, w);
     if (status != Status::ok) return status;
     find_origin(w.found_dots(), first(w.seeds, w.seed_count), start, w.lattice);
     const Status grown = grow_grid(w.found_dots(), options.lattice, start, w.lattice,

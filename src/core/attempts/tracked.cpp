@@ -5,27 +5,21 @@
 
 #include "core/attempts/confirm.hpp"
 #include "core/attempts/steps.hpp"
+#include "core/attempts/tuning.hpp"
 #include "core/fixed.hpp"
 #include "core/pose/refine.hpp"
 
 namespace dotpose::core {
 namespace {
 
-/// Dots so near one point of the image, in spacings, tell how far the prediction is off: few enough
-/// for a turn not to mix them up.
-constexpr float kNear = 2.6F;
-constexpr float kMostOff = 0.6F;
-constexpr int kFewestNear = 10;
-/// Spacings of planes that can be tracked.
-constexpr float kFinest_px = 5;
-constexpr float kCoarsest_px = 80;
+namespace tuned = tuning::tracked;
 
 /// Position, scale and turn of least squares; perspective and shear stay as predicted.
 bool fit_similarity(const Kernels& kernels, const MeasuredDots& dots, float reach_px,
                     float displacement, float most_off, FloatPlane& plane) {
     const FitSums sums =
         kernels.sum_similarity(dots, plane, displacement, reach_px, most_off * most_off);
-    if (sums.points < static_cast<float>(kFewestNear)) return false;
+    if (sums.points < static_cast<float>(tuned::kFewestNear)) return false;
     // Residual = shift + turn * place, as complex numbers: least squares in closed form.
     const float share = 1 / sums.points;
     const float right_x = sums.right[0];
@@ -50,8 +44,8 @@ bool fit_similarity(const Kernels& kernels, const MeasuredDots& dots, float reac
 
 /// How far the prediction may be off, px.
 int most_shift_px(const Prediction& prediction, float spacing_px) {
-    const float off =
-        std::clamp(3 * static_cast<float>(prediction.sigma_q16) / 65536 + 0.1F, 0.1F, kMostOff);
+    const float off = std::clamp(3 * static_cast<float>(prediction.sigma_q16) / 65536 + 0.1F, 0.1F,
+                                 tuned::kMostOff);
     return static_cast<int>(std::ceil(off * spacing_px));
 }
 
@@ -61,7 +55,7 @@ bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Optio
     FloatPlane& plane = sight.pattern_from_image;
     MeasuredDots& dots = w.measured;
     const float spacing = spacing_px(plane);
-    const float reach = kNear * spacing;
+    const float reach = tuned::kNear * spacing;
     CellsInView view = cells_in_view(image, options, sight, reach, dots.capacity(), w);
     view.window_on_dot = true;
     kernels.list_cells(view, dots);
@@ -76,14 +70,9 @@ bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Optio
     plane = recentred(plane, {static_cast<float>(-shift.x), static_cast<float>(-shift.y)});
     sight.typical_mass = kernels.measure_windows(
         image, view, {spacing, 0.3F, sight.depth_q8 * kCutOfDepth_q8 >> 8}, dots);
-    return fit_similarity(kernels, dots, reach, sight.displacement, 0.30F, plane) &&
-           fit_similarity(kernels, dots, reach, sight.displacement, 0.15F, plane);
+    return fit_similarity(kernels, dots, reach, sight.displacement, tuned::kFirstOff, plane) &&
+           fit_similarity(kernels, dots, reach, sight.displacement, tuned::kSecondOff, plane);
 }
-
-/// Where dots are looked for first, from the image centre, in shares of the image's sides: where
-/// one place is covered, another may not be.
-constexpr FloatVec kPoints[] = {
-    {0, 0}, {-0.25F, -0.22F}, {0.25F, 0.22F}, {0.25F, -0.22F}, {-0.25F, 0.22F}};
 
 /// The sight corrected by the dots near `from`, in px from the image centre.
 bool correct(const Kernels& kernels, const ImageView& image, const Options& options, FloatVec from,
@@ -117,8 +106,10 @@ bool take(const Prediction& prediction, const ImageView& image, const Options& o
     sight.displacement = static_cast<float>(prediction.displacement_q16) / 65536;
     const float spacing = spacing_px(sight.pattern_from_image);
     if (!is_in_code(sight.place) || !is_plausible(image, sight.pattern_from_image)) return false;
-    if (!(spacing > kFinest_px && spacing < kCoarsest_px)) return false;
-    if (!(sight.displacement > 0.05F && sight.displacement < 0.4F)) return false;
+    if (!(spacing > tuned::kFinest_px && spacing < tuned::kCoarsest_px)) return false;
+    if (!(sight.displacement > tuned::kLeastDisplacement &&
+          sight.displacement < tuned::kMostDisplacement))
+        return false;
     count_from_centre(options.profile, sight);
     return true;
 }
@@ -127,7 +118,7 @@ bool take(const Prediction& prediction, const ImageView& image, const Options& o
 /// other, until those near one bear it out.
 bool confirm_corrected(const Kernels& kernels, const ImageView& image, const Options& options,
                        const Sight& sight, int most_px, Workspace& w) {
-    for (const FloatVec share : kPoints) {
+    for (const FloatVec share : tuned::kPoints) {
         const FloatVec from{share.x * static_cast<float>(image.width_px),
                             share.y * static_cast<float>(image.height_px)};
         Sight there = sight;

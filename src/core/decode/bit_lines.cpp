@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "core/decode/search.hpp"
+#include "core/decode/tuning.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -57,7 +58,7 @@ Range lines_with_bits(const BitLines& lines, int most) {
 
 /// How much better some lines of the middle can be read backwards than forwards.
 int backwardness(const Kernels& kernels, const BitLines& lines) {
-    constexpr int kVoters = 5;
+    constexpr int kVoters = tuning::turns::kVotersOfBits;
     const Range range = lines_with_bits(lines, BitBlock::kSide);
     int sum = 0;
     for (int voter = 0; voter < kVoters; ++voter) {

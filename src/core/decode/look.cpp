@@ -5,6 +5,7 @@
 
 #include "core/decode/likelihood.hpp"
 #include "core/decode/nominal.hpp"
+#include "core/decode/tuning.hpp"
 #include "core/detect/level_at.hpp"
 #include "core/detect/level_sums.hpp"
 #include "core/detect/paper.hpp"
@@ -14,7 +15,7 @@
 namespace dotpose::core {
 namespace {
 
-constexpr std::size_t kMedianSample = 256;
+namespace tuned = tuning::look;
 
 Vec place_60th(Symbol symbol) {
     return {10 * dx(symbol), 10 * dy(symbol)};
@@ -137,7 +138,7 @@ void Eye::visit(const Grid& grid, Use use) const {
 void Eye::look_at(CellView& view) const {
     const auto spacing_q8 =
         static_cast<std::int32_t>(square_root(static_cast<std::uint64_t>(squared(view.u_q8))));
-    view.half_px = std::max<std::int32_t>((spacing_q8 / 5 + 128) >> 8, 1);
+    view.half_px = std::max<std::int32_t>((spacing_q8 / tuned::kShadePart + 128) >> 8, 1);
     for (std::size_t i = 0; i < view.places.size(); ++i) {
         PlaceView& place = view.places[i];
         if (!place.is_seen) continue;
@@ -150,8 +151,8 @@ void Eye::look_at(CellView& view) const {
 
 template <typename Shade>
 std::array<int, 4> Eye::darkest_around_q8(const CellView& view, Shade shade_q8) {
-    constexpr int kFar = 8;
-    constexpr int kDiagonal = 5;
+    constexpr int kFar = tuned::kBeside_60th;
+    constexpr int kDiagonal = tuned::kBesideDiagonally_60th;
     std::array<int, 4> darkest{};
     for (std::size_t i = 0; i < darkest.size(); ++i) {
         if (!view.places[i].is_seen) continue;
@@ -189,11 +190,11 @@ int Eye::light_q8(const CellView& view) const {
 
 /// What a cell's darkest place typically looks like: the medians over the cells.
 PlaceView typical_place(const Eye& eye, const Grid& grid) {
-    std::array<std::int32_t, kMedianSample> darkness;
-    std::array<std::int32_t, kMedianSample> shade;
+    std::array<std::int32_t, tuned::kMedianSample> darkness;
+    std::array<std::int32_t, tuned::kMedianSample> shade;
     std::size_t count = 0;
     int seen = 0;
-    const int every = grid.columns * grid.rows / static_cast<int>(kMedianSample) + 1;
+    const int every = grid.columns * grid.rows / static_cast<int>(tuned::kMedianSample) + 1;
     eye.visit(grid, [&](Vec, CellView& view) {
         if (view.places_seen() < 4) return;
         if (seen++ % every != 0) return;
@@ -215,9 +216,8 @@ class Ink {
         const PlaceView typical = typical_place(eye, grid);
         contrast_q8_ = typical.darkness_q8;
         // Between the shade of a dot and that of solid ink.
-        constexpr int kSolid_q8 = 230;
-        graphics_q8_ =
-            static_cast<int>(square_root(static_cast<std::uint64_t>(typical.shade_q8 * kSolid_q8)));
+        graphics_q8_ = static_cast<int>(
+            square_root(static_cast<std::uint64_t>(typical.shade_q8 * tuned::kSolidInk_q8)));
     }
 
     /// Darkness of a cell's places, and how far it is to be trusted.
@@ -248,15 +248,16 @@ class Ink {
             beside_q8 = std::max(beside_q8, around_q8);
         }
         if (hidden != 0) cell.dot = static_cast<std::uint16_t>(GridCell::kHidden + hidden);
-        look.light_q8 = std::min(eye_.light_q8(view), 1024);
-        // In hard frames bits were this much less sure than those of cells in plain view.
-        constexpr std::array<int, 5> kBySeen_q4{0, 6, 8, 10, 16};
-        look.trust_q4 = kBySeen_q4[static_cast<std::size_t>(view.places_seen())];
-        if (hidden != 0) look.trust_q4 = std::min(look.trust_q4, 10);
-        if (5 * beside_q8 > 3 * graphics_q8_) look.trust_q4 = std::min(look.trust_q4, 7);
-        // Too dark for a dot: dirt.
-        if (10 * darkest_q8 > 13 * contrast_q8_) look.trust_q4 = std::min(look.trust_q4, 12);
-        if (10 * darkest_q8 > 16 * contrast_q8_) look.trust_q4 = std::min(look.trust_q4, 6);
+        look.light_q8 = std::min(eye_.light_q8(view), tuned::kMostLight_q8);
+        look.trust_q4 = tuned::kTrustBySeen_q4[static_cast<std::size_t>(view.places_seen())];
+        const auto limit = [&](bool applies, int trust_q4) {
+            if (applies) look.trust_q4 = std::min(look.trust_q4, trust_q4);
+        };
+        limit(hidden != 0, tuned::kTrustCovered_q4);
+        limit(5 * beside_q8 > tuned::kNearGraphics_5ths * graphics_q8_,
+              tuned::kTrustNearGraphics_q4);
+        limit(10 * darkest_q8 > tuned::kDark_10ths * contrast_q8_, tuned::kTrustDark_q4);
+        limit(10 * darkest_q8 > tuned::kTooDark_10ths * contrast_q8_, tuned::kTrustTooDark_q4);
         return look;
     }
 
@@ -264,14 +265,15 @@ class Ink {
     bool is_crowded(const Look& look) const {
         std::array<int, 4> sorted = look.darkness_q8;
         std::sort(sorted.begin(), sorted.end());
-        return 3 * sorted[2] > 2 * contrast_q8_ && 4 * sorted[2] > 3 * sorted[3];
+        return 3 * sorted[2] > tuned::kSecondDot_3rds * contrast_q8_ &&
+               4 * sorted[2] > tuned::kSecondDot_4ths * sorted[3];
     }
 
     /// Weight of a bit, from the darkness at the places for 1 and for 0.
     std::int8_t weight(const Look& look, int one_q8, int zero_q8) const {
         // Noise is that of the sensor: the difference counts in grey levels, and against it the
         // contrast, both in proportion to the light.
-        const int difference = (one_q8 - zero_q8) * 300 / contrast_q8_;
+        const int difference = (one_q8 - zero_q8) * tuned::kGain / contrast_q8_;
         const int light_q16 = look.light_q8 * look.light_q8;
         // From some contrast on a bit gets no surer: what is wrong there is no noise.
         const int weight = static_cast<int>(
@@ -319,8 +321,7 @@ bool read_cells(const Eye& eye, Grid& grid, SetBits set_bits) {
         ++cells;
         crowded += ink.is_crowded(look);
     });
-    // Up to 0.25 in hard frames.
-    return 8 * crowded <= 3 * cells;
+    return 8 * crowded <= tuned::kMostCrowded_8ths * cells;
 }
 
 std::int8_t x_weight(const Ink& ink, const Ink::Look& look) {

@@ -1,13 +1,14 @@
 #include "core/decode/orientation.hpp"
 
 #include "core/decode/correlation.hpp"
+#include "core/decode/tuning.hpp"
 #include "core/decode/upright.hpp"
 
 namespace dotpose::core {
 namespace {
 
 /// So many lines of the middle half, which has the longest ones, settle the turn.
-constexpr int kVoters = 4;
+constexpr int kVoters = tuning::turns::kVoters;
 
 /// Those columns, or rows, of a region, and one of the bits of their cells.
 class Voters {
@@ -122,8 +123,9 @@ bool is_mirrored(const Grid& grid, const Region& region, std::int32_t upright) {
     // In a mirror image the projections of eq. 7 and 8 change places, and lines may run backwards.
     const Voters y_columns(grid, region, true, &GridCell::y);
     const Voters x_rows(grid, region, false, &GridCell::x);
-    // Lines of random bits reach about 60 % of what lines of the main sequence do.
-    const auto is_much = [&](std::int32_t mirrored) { return 4 * mirrored > 5 * upright; };
+    const auto is_much = [&](std::int32_t mirrored) {
+        return 4 * mirrored > tuning::turns::kMirrored_4ths * upright;
+    };
     const std::int32_t most_of_rows = most_possible(x_rows);
     if (!is_much(most_possible(y_columns) + most_of_rows)) return false;
     const std::int32_t columns = best_agreement(y_columns);

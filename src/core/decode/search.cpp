@@ -5,11 +5,14 @@
 #include "code/rolls.hpp"
 #include "core/decode/correlation.hpp"
 #include "core/decode/steps.hpp"
+#include "core/decode/tuning.hpp"
 
 namespace dotpose::core {
 namespace {
 
-constexpr int kChoices = 8;  // offsets tried in one line
+namespace tuned = tuning::search;
+
+constexpr int kChoices = tuned::kChoices;
 constexpr int kMaxRunLength = 8;
 
 /// The smallest offset with a score that there is.
@@ -188,7 +191,7 @@ Status status_of(const AxisReading& best) {
 }  // namespace
 
 Status find_axis(Profile profile, const Lines& lines, AxisReading& best) {
-    search_by_runs(profile, lines, {24, 64}, best);
+    search_by_runs(profile, lines, {tuned::kRuns, tuned::kReadings}, best);
     if (best.score < best.most_possible && lines.count() >= run_length(profile)) {
         search_by_steps(profile, lines, best);
     }
@@ -196,7 +199,7 @@ Status find_axis(Profile profile, const Lines& lines, AxisReading& best) {
 }
 
 Status find_axis_briefly(Profile profile, const Lines& lines, AxisReading& best) {
-    search_by_runs(profile, lines, {3, 8}, best);
+    search_by_runs(profile, lines, {tuned::kRunsBriefly, tuned::kReadingsBriefly}, best);
     return status_of(best);
 }
 

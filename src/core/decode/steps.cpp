@@ -5,6 +5,7 @@
 
 #include "code/basis.hpp"
 #include "code/rolls.hpp"
+#include "core/decode/tuning.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -45,7 +46,7 @@ StepLosses losses_of(const LineScores& line, const LineScores& next) {
 }
 
 /// Places of the first line in a secondary sequence, the likeliest first.
-constexpr std::size_t kChoices = 3;
+constexpr std::size_t kChoices = tuning::steps::kChoices;
 using Choices = std::array<std::uint32_t, kChoices>;
 
 Choices likeliest_places(const code::Secondary& sequence, std::size_t n,

@@ -3,16 +3,20 @@
 #include <algorithm>
 #include <array>
 
+#include "core/detect/tuning.hpp"
+
 namespace dotpose::core {
 namespace {
 
-constexpr int kSamplesPerSide = 12;
+namespace tuned = tuning::paper;
+
+constexpr int kSamplesPerSide = tuned::kSamplesPerSide;
 
 int blocks_along(int length_px, int side) {
     return (length_px - 1) / side + 1;
 }
 
-/// The level that a third of a block's pixels exceed; of some of them, evenly spread.
+/// The level that a part of a block's pixels exceed; of some of them, evenly spread.
 std::uint8_t paper_of_block(const ImageView& image, int u0, int v0, int side) {
     static_assert(kSamplesPerSide * kSamplesPerSide <= UINT8_MAX);
     std::array<std::uint8_t, 256> pixels_of_level{};
@@ -25,7 +29,7 @@ std::uint8_t paper_of_block(const ImageView& image, int u0, int v0, int side) {
         }
     }
     std::size_t level = pixels_of_level.size() - 1;
-    for (int above = pixels_of_level[level]; above < count - 2 * count / 3;)
+    for (int above = pixels_of_level[level]; above < count - tuned::kDarker_3rds * count / 3;)
         above += pixels_of_level[--level];
     return static_cast<std::uint8_t>(level);
 }
@@ -42,7 +46,7 @@ void visit_around(const PaperMap& map, int column, int row, Use use) {
 }  // namespace
 
 void measure_paper(const ImageView& image, PaperMap& map) {
-    map.block_px = std::min(image.width_px, image.height_px) / 10;
+    map.block_px = std::min(image.width_px, image.height_px) / tuned::kBlockPart;
     map.columns = blocks_along(image.width_px, map.block_px);
     map.rows = blocks_along(image.height_px, map.block_px);
     std::size_t blocks = 0;
@@ -64,7 +68,8 @@ void measure_paper(const ImageView& image, PaperMap& map) {
     for (block = 0; block < blocks; ++block) {
         std::uint8_t& level = map.levels[block];
         const std::uint8_t brightest = map.brightest[block];
-        level = 4 * level >= 3 * brightest ? std::max<std::uint8_t>(level, 1) : brightest;
+        level = 4 * level >= tuned::kCovered_4ths * brightest ? std::max<std::uint8_t>(level, 1)
+                                                              : brightest;
     }
 }
 

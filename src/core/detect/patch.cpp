@@ -5,16 +5,12 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/detect/tuning.hpp"
+
 namespace dotpose::core {
 namespace {
 
-/// Fewest px of a patch's side: 8 dots, 6 px apart.
-constexpr int kFewest_px = 48;
-/// Darkness of a smoothed dot, in grey levels, below which a tile counts as blank.
-constexpr int kLeastDarkness = 12;
-constexpr int kFewestTiles = 12;
-/// Minima lighter than this share of the typical dot's darkness, in 1/256, are noise.
-constexpr int kThreshold_q8 = 150;
+namespace tuned = tuning::patch;
 
 /// 2^24 / (n + 1), rounded up: a division for each tile takes a microsecond.
 constexpr auto kReciprocals_q24 = [] {
@@ -45,7 +41,7 @@ bool place_patch(const ImageView& image, int centre_u_px, int centre_v_px, int w
     patch.height_px = std::min({height_px, image.height_px, Patch::kMostHeight_px * scale}) / scale;
     patch.left_px = begin_of(centre_u_px, patch.width_px * scale, image.width_px);
     patch.top_px = begin_of(centre_v_px, patch.height_px * scale, image.height_px);
-    return patch.width_px >= kFewest_px && patch.height_px >= kFewest_px;
+    return patch.width_px >= tuned::kFewest_px && patch.height_px >= tuned::kFewest_px;
 }
 
 bool measure_contrast(Patch& patch) {
@@ -61,17 +57,17 @@ bool measure_contrast(Patch& patch) {
         for (int column = 0; column < columns; ++column) {
             const int paper = patch.brightest[tile(column, row)];
             const int darkness = paper + patch.darkness[tile(column, row)] - 255;
-            if (darkness < kLeastDarkness) continue;
+            if (darkness < tuned::kLeastDarkness) continue;
             ++counts[relative_darkness(darkness, paper)];
             ++dark_tiles;
         }
     }
-    if (dark_tiles < kFewestTiles) return false;
+    if (dark_tiles < tuned::kFewestTiles) return false;
     std::size_t median = 0;
     for (int below = counts[0]; 2 * below <= dark_tiles; below += counts[++median]) {
     }
     patch.depth_q8 = 4 * static_cast<int>(median) + 2;
-    const int share_q16 = patch.depth_q8 * kThreshold_q8;
+    const int share_q16 = patch.depth_q8 * tuned::kThreshold_q8;
     for (int row = 0; row < rows; ++row) {
         for (int column = 0; column < columns; ++column) {
             const int paper = patch.brightest[tile(column, row)];
@@ -85,9 +81,8 @@ bool measure_contrast(Patch& patch) {
 }
 
 void keep_isolated(Patch& patch) {
-    constexpr int kAway_px = 4;
-    constexpr int kDiagonally_px = 3;
-    constexpr int kMostDark = 2;
+    constexpr int kAway_px = tuned::kAway_px;
+    constexpr int kDiagonally_px = tuned::kDiagonally_px;
     constexpr std::array<std::array<int, 2>, 8> kAround{{{kAway_px, 0},
                                                          {-kAway_px, 0},
                                                          {0, kAway_px},
@@ -110,7 +105,7 @@ void keep_isolated(Patch& patch) {
         const int v = pixel_of(dots.y[i], patch.height_px);
         const auto tile = static_cast<std::size_t>(v / Patch::kTileHeight_px * Patch::kTilesPerRow +
                                                    u / Patch::kTileWidth_px);
-        if (patch.brightest[tile] + patch.darkness[tile] - 255 < kLeastDarkness) continue;
+        if (patch.brightest[tile] + patch.darkness[tile] - 255 < tuned::kLeastDarkness) continue;
         const int threshold = patch.thresholds[tile];
         int dark = 0;
         for (const auto& [du, dv] : kAround) {
@@ -118,7 +113,7 @@ void keep_isolated(Patch& patch) {
             const int y = std::clamp(v + dv, 0, patch.height_px - 1);
             dark += patch.row(patch.smoothed, y)[x] < threshold ? 1 : 0;
         }
-        if (dark > kMostDark) continue;
+        if (dark > tuned::kMostDark) continue;
         dots.x[kept] = dots.x[i];
         dots.y[kept++] = dots.y[i];
     }

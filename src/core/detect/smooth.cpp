@@ -5,9 +5,12 @@
 #include <cstddef>
 
 #include "core/detect/paper.hpp"
+#include "core/detect/tuning.hpp"
 
 namespace dotpose::core {
 namespace {
+
+namespace tuned = tuning::smooth;
 
 constexpr int kReach = 2;
 constexpr int kRows = 2 * kReach + 1;
@@ -69,8 +72,7 @@ void weight_down(const std::array<const std::uint16_t*, kRows>& rows, int width_
 /// Towards the border they shrink, and so stay even around the pixel: a gradient of the light does
 /// no harm.
 int half_side(int at, int length, int largest) {
-    constexpr int kSmallest = 4;
-    return std::max(std::min({largest, at, length - 1 - at}), kSmallest);
+    return std::max(std::min({largest, at, length - 1 - at}), tuned::kSmallestHalf_px);
 }
 
 /// Adds a row to the sums of the columns, or takes it off again. What is much darker than the paper
@@ -87,7 +89,7 @@ void add_row(const ImageView& image, int v, bool add, Smoothing& smoothing) {
         const int end = std::min(begin + block_px, image.width_px);
         for (int u = begin; u < end; ++u) {
             const std::uint32_t pixel = row[u];
-            const std::uint32_t level = 10 * pixel < 7 * paper ? paper : pixel;
+            const std::uint32_t level = 10 * pixel < tuned::kStroke_10ths * paper ? paper : pixel;
             sums[u] += (level ^ flip) - flip;
         }
     }
@@ -101,9 +103,8 @@ void move_sums(const ImageView& image, int begin, int end, Smoothing& smoothing)
         add_row(image, smoothing.sums_begin++, false, smoothing);
 }
 
-/// Level below which all is the same: graphics look no darker than a weak dot, and so do not hide
-/// the contrast of the dots near them.
-constexpr std::uint32_t kDarkest = kEvenLevel * 4 / 5;
+/// Level below which all is the same.
+constexpr std::uint32_t kDarkest = kEvenLevel * tuned::kDarkest_5ths / 5;
 
 /// Quotients, rounded down, without dividing. For n / d < 256 and d < 2^20 they are exact: the
 /// factor is too large by less than one, which makes n / d larger by less than n / 2^48 < 1 / d.

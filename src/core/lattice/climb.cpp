@@ -4,9 +4,12 @@
 #include <array>
 
 #include "core/fixed.hpp"
+#include "core/lattice/tuning.hpp"
 
 namespace dotpose::core {
 namespace {
+
+namespace tuned = tuning::climb;
 
 /// A wave whose crests are rows of a grid.
 struct Wave {
@@ -92,9 +95,11 @@ Wave best_around(const Wave& around, const Raster& raster, Power power) {
 template <typename Power>
 Wave climb(Wave wave, Power power) {
     const std::int32_t spacing_q16 = wave.spacing_q16;
-    for (int fineness = 1; fineness <= 8; fineness *= 2) {
-        wave =
-            best_around(wave, {kDegree_bam / fineness, spacing_q16 / 80 / fineness, 1, 1}, power);
+    for (int fineness = 1; fineness <= tuned::kFinest; fineness *= 2) {
+        wave = best_around(wave,
+                           {tuned::kClimbTurn_deg * kDegree_bam / fineness,
+                            spacing_q16 / tuned::kClimbStretchPart / fineness, 1, 1},
+                           power);
     }
     return wave;
 }
@@ -133,15 +138,19 @@ void climb_periodogram(std::span<const Dot> dots, std::span<const std::uint16_t>
                          lattice.u_q16.y / 2 - lattice.v_q16.x / 2}),
               static_cast<std::int32_t>(length_q16)};
     // A few cells wide, the peak is broad enough for a coarse raster to meet it.
-    const Periodogram near(dots, seeds, centre_q8, wave.spacing_q16 / 256 * 5);
-    wave = best_around(wave, {2 * kDegree_bam, wave.spacing_q16 / 40, most_turn_deg / 2, 4},
+    const Periodogram near(dots, seeds, centre_q8, wave.spacing_q16 / 256 * tuned::kNear_cells);
+    wave = best_around(wave,
+                       {tuned::kTurn_deg * kDegree_bam, wave.spacing_q16 / tuned::kStretchPart,
+                        most_turn_deg / tuned::kTurn_deg, tuned::kStretches},
                        [&](const Wave& w) { return near.power_of_square(w); });
     // A tilted camera sees the two at their own spacings and angles.
-    const Raster tilt{3 * kDegree_bam, wave.spacing_q16 / 25, 3, 3};
+    const Raster tilt{tuned::kTiltTurn_deg * kDegree_bam,
+                      wave.spacing_q16 / tuned::kTiltStretchPart, tuned::kTiltSteps,
+                      tuned::kTiltSteps};
     const auto near_power = [&](const Wave& w) { return near.power(w); };
     Wave first = best_around(wave, tilt, near_power);
     Wave second = best_around(wave.turned(kQuarter_bam), tilt, near_power);
-    const Periodogram wider(dots, seeds, centre_q8, wave.spacing_q16 / 256 * 8);
+    const Periodogram wider(dots, seeds, centre_q8, wave.spacing_q16 / 256 * tuned::kWider_cells);
     const auto wider_power = [&](const Wave& w) { return wider.power(w); };
     first = climb(first, wider_power);
     second = climb(second, wider_power);

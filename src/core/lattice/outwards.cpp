@@ -6,40 +6,30 @@
 
 #include "core/fixed.hpp"
 #include "core/float_plane.hpp"
+#include "core/lattice/tuning.hpp"
 
 namespace dotpose::core {
 namespace {
 
-constexpr int kFewestDots = 40;
-/// Dots near the middle whose waves are looked at.
-constexpr int kFewestCentralDots = 14;
-constexpr int kMostCentralDots = 64;
-/// Of the power that a grid without displacements would have: enough to stop, and enough to go on.
-constexpr float kClearWaves = 0.2F;
-constexpr float kFaintWaves = 0.12F;
-
-/// Of the smoothed patch, in its own px: finer grids melt together, and in coarser ones dots are
-/// not minima but areas.
-constexpr float kFinest_px = 5.2F;
-constexpr float kCoarsest_px = 40;
+namespace tuned = tuning::outwards;
 
 std::optional<Waves> find_waves(const Kernels& kernels, const Patch& patch, const PatchView& view) {
     const float spacing = view.spacing_px;
     const PatchDots& dots = patch.dots;
     const auto scale = static_cast<float>(patch.scale);
-    if (spacing < kFinest_px * scale || spacing > kCoarsest_px * scale) return {};
+    if (spacing < tuned::kFinest_px * scale || spacing > tuned::kCoarsest_px * scale) return {};
     // A disc that holds as many.
     const float radius_2 = view.central_dots * spacing * spacing / 3.14159265F;
-    alignas(64) std::array<float, kMostCentralDots + 8> x;
-    alignas(64) std::array<float, kMostCentralDots + 8> y;
+    alignas(64) std::array<float, tuned::kMostCentralDots + 8> x;
+    alignas(64) std::array<float, tuned::kMostCentralDots + 8> y;
     std::size_t count = 0;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(dots.count) && count < kMostCentralDots;
-         ++i) {
+    for (std::size_t i = 0;
+         i < static_cast<std::size_t>(dots.count) && count < tuned::kMostCentralDots; ++i) {
         x[count] = dots.x[i];
         y[count] = dots.y[i];
         count += dots.x[i] * dots.x[i] + dots.y[i] * dots.y[i] < radius_2 ? 1 : 0;
     }
-    if (count < kFewestCentralDots) return {};
+    if (count < tuned::kFewestCentralDots) return {};
     std::fill_n(x.begin() + count, 8, kNoDot_px);
     std::fill_n(y.begin() + count, 8, 0.0F);
     const float unit = static_cast<float>(count) * static_cast<float>(count);
@@ -49,9 +39,9 @@ std::optional<Waves> find_waves(const Kernels& kernels, const Patch& patch, cons
         const Waves waves =
             kernels.strongest_waves(x.data(), y.data(), static_cast<int>(count), by / spacing);
         if (waves.power > best.power) best = waves;
-        if (best.power > kClearWaves * unit) break;
+        if (best.power > tuned::kClearWaves * unit) break;
     }
-    if (best.power < kFaintWaves * unit) return {};
+    if (best.power < tuned::kFaintWaves * unit) return {};
     return best;
 }
 
@@ -146,18 +136,18 @@ bool solve_plane(const CellSums& sums, bool with_perspective, FloatPlane& plane)
     return true;
 }
 
-/// Half of the spacing, or twice, and the fit went astray.
+/// Whether the fit has not gone astray.
 bool is_plausible(const FloatPlane& plane, float first_spacing, float reach) {
     const float spacing = spacing_px(plane);
     const float fold = (std::abs(plane.tilt_x) + std::abs(plane.tilt_y)) * reach;
-    return spacing > 0.7F * first_spacing && spacing < 1.4F * first_spacing && fold < 0.7F;
+    return spacing > tuned::kLeastSpacing * first_spacing &&
+           spacing < tuned::kMostSpacing * first_spacing && fold < tuned::kMostFold;
 }
 
-/// How much farther the next round reaches, by the share of dots that sit well: a plane that is not
-/// right yet is made better where it is best.
+/// How much farther the next round reaches, by the share of dots that sit well.
 float growth(float share) {
-    if (share > 0.9F) return 1.8F;
-    return share > 0.8F ? 1.25F : 0.8F;
+    if (share > tuned::kWellShare) return tuned::kWellGrowth;
+    return share > tuned::kFairShare ? tuned::kFairGrowth : tuned::kPoorGrowth;
 }
 
 /// Dots around one, itself included, that tell how far dots are apart.
@@ -189,7 +179,7 @@ PatchView whole_view(const Patch& patch) {
 bool count_from_densest(Patch& patch, PatchView& view, FloatVec& from_middle_px) {
     PatchDots& dots = patch.dots;
     const int count = dots.count;
-    if (count < kFewestDots) return false;
+    if (count < tuned::kFewestDots) return false;
     // Some of them stand for all; of many, as noise has, fewer.
     constexpr int kMostCandidates = 64;
     constexpr int kFewestCandidates = 16;
@@ -218,7 +208,7 @@ bool count_from_densest(Patch& patch, PatchView& view, FloatVec& from_middle_px)
 }
 
 bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view, PatchGrid& grid) {
-    if (patch.dots.count < kFewestDots) return false;
+    if (patch.dots.count < tuned::kFewestDots) return false;
     const std::optional<Waves> waves = find_waves(kernels, patch, view);
     if (!waves) return false;
     FloatPlane& plane = grid.grid_from_image;
@@ -226,30 +216,30 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
     const float spacing = spacing_px(plane);
     const float full = view.full_reach_px;
     // Cells only: displacements are noise as yet.
-    CellPass pass{3 * spacing, 0.42F, 0};
+    CellPass pass{tuned::kFirstReach * spacing, tuned::kFirstMostOff, 0};
     CellSums sums;
     for (int round = 0; round < 2; ++round) {
         sums = kernels.sum_cells(patch.dots, plane, pass);
-        if (sums.used < 12 || !solve_plane(sums, false, plane)) return false;
+        if (sums.used < tuned::kFewestUsed || !solve_plane(sums, false, plane)) return false;
     }
     constexpr float kUndisplaced = 1.0F / 256;
     const float mean_square = sums.squares / sums.used;
     if (mean_square < kUndisplaced) return false;
-    grid.displacement = std::clamp(std::sqrt(mean_square), 0.11F, 0.32F);
+    grid.displacement =
+        std::clamp(std::sqrt(mean_square), tuned::kLeastDisplacement, tuned::kMostDisplacement);
     // Then the nearest of four places counts, which leaves a fifth of that noise.
     pass.displacement = grid.displacement;
-    // Wider circles around the four places would leave hardly any room between them.
-    constexpr float kMostOff = 0.18F;
-    pass.most_off = std::min(0.75F * grid.displacement, kMostOff);
-    constexpr int kMostRounds = 16;
-    for (int round = 0; round < kMostRounds; ++round) {
+    pass.most_off = std::min(tuned::kMostOffPart * grid.displacement, tuned::kMostOff);
+    for (int round = 0; round < tuned::kMostRounds; ++round) {
         pass.with_perspective = pass.reach_px > 4 * spacing;
         sums = kernels.sum_cells(patch.dots, plane, pass);
         const float share = sums.used / std::max(sums.seen, 1.0F);
-        if (sums.used < 12 || share < 0.4F || !solve_plane(sums, pass.with_perspective, plane))
+        if (sums.used < tuned::kFewestUsed || share < tuned::kLeastShare ||
+            !solve_plane(sums, pass.with_perspective, plane))
             return false;
         if (!is_plausible(plane, spacing, full)) return false;
-        if (pass.reach_px >= full && (share > 0.9F || round + 1 == kMostRounds)) break;
+        if (pass.reach_px >= full && (share > tuned::kWellShare || round + 1 == tuned::kMostRounds))
+            break;
         pass.reach_px = std::min(std::max(pass.reach_px * growth(share), 4 * spacing), full);
     }
     // Graphics may keep it from getting farther; what the grid has is enough to look at the bits.

@@ -4,16 +4,17 @@
 
 #include "core/lattice/axes.hpp"
 #include "core/lattice/regularity.hpp"
+#include "core/lattice/tuning.hpp"
 #include "core/plane_fit.hpp"
 
 namespace dotpose::core {
 namespace {
 
-/// Reach from which dots can tell the curvature of a lens from their displacements.
-constexpr int kLensReach_cells = 9;
+namespace tuned = tuning::refine;
+
 /// Cells beyond are not used: see PlaneFit.
 constexpr int kFarthest_cells = 250;
-constexpr std::size_t kMedianSample = 256;
+constexpr std::size_t kMedianSample = tuned::kMedianSample;
 
 /// Eq. 6: the median offset of the dots near the origin is the error of the origin. It is measured
 /// from the estimate, so the paper's o - median becomes a plus.
@@ -99,7 +100,7 @@ void fit_to_targets(std::span<const Dot> dots, Terms most, PlaneFromImage& plane
 /// within reach, displacements taken as noise, gives all terms at once, and reaches on from there.
 void fit(std::span<const Dot> dots, int reach_cells, const LatticeOptions& options,
          PlaneFromImage& plane) {
-    const Terms most = reach_cells < kLensReach_cells ? Terms::perspective : Terms::lens;
+    const Terms most = reach_cells < tuned::kLensReach_cells ? Terms::perspective : Terms::lens;
     fit_to_targets(dots, most, plane, [&](const GridPoint& g) {
         const bool is_near = larger_component(g.cell) <= reach_cells &&
                              larger_component(g.offset_q16) <= options.max_offset_q16;
@@ -110,7 +111,7 @@ void fit(std::span<const Dot> dots, int reach_cells, const LatticeOptions& optio
 /// The same with displacements known: each dot is taken to be at the nearest of its cell's four
 /// places. What is far from all of them is no dot.
 void fit_places(std::span<const Dot> dots, PlaneFromImage& plane) {
-    constexpr std::int32_t kFar_q16 = 65536 / 8;
+    constexpr std::int32_t kFar_q16 = tuned::kFar_q16;
     fit_to_targets(dots, Terms::lens, plane, [](const GridPoint& g) {
         if (larger_component(g.cell) > kFarthest_cells) return Target();
         const bool is_across = std::abs(g.offset_q16.x) > std::abs(g.offset_q16.y);
@@ -129,19 +130,17 @@ Status refine_grid(std::span<const Dot> dots, const LatticeOptions& options, Vec
     plane = plane_from_lattice(first, image_centre_q8);
     centre_origin(dots, plane);
     Judged found;
-    constexpr int kMostRounds = 4;
     const auto fit_and_judge = [&](int reach_cells) {
         fit(dots, reach_cells, options, plane);
         if (!is_nearly_square(plane)) return false;
         found = judge(dots, reach_cells, options, plane);
         return true;
     };
-    if (!fit_outwards(kMostRounds, found, fit_and_judge)) return Status::no_grid;
+    if (!fit_outwards(tuned::kMostRounds, found, fit_and_judge)) return Status::no_grid;
     fit(dots, found.farthest_cell, options, plane);
     found = judge(dots, found.farthest_cell, options, plane);
     const Status verdict = found.verdict(found.squared_offsets_q20 / std::max(found.dots, 1));
-    constexpr int kPlaceRounds = 2;
-    for (int round = 0; verdict == Status::ok && round < kPlaceRounds; ++round)
+    for (int round = 0; verdict == Status::ok && round < tuned::kPlaceRounds; ++round)
         fit_places(dots, plane);
     return verdict;
 }

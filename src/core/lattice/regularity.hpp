@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "core/lattice/tuning.hpp"
 #include "dotpose/status.hpp"
 
 namespace dotpose::core {
@@ -19,7 +20,9 @@ struct Regularity {
     int near_intersections = 0;
     int farthest_cell = 0;  ///< of all dots, within reach or not
 
-    bool is_settled() const { return 20 * near_intersections >= 19 * dots; }
+    bool is_settled() const {
+        return 20 * near_intersections >= tuning::regularity::kSettled_20th * dots;
+    }
 
     /// From the mean square of all offsets, in spacings^2. Dots anywhere in their cells would be
     /// near an intersection in half of the cases, at a mean of 1/6; displaced ones always, at 1/36;
@@ -27,7 +30,8 @@ struct Regularity {
     Status verdict(std::int64_t mean_square_q20) const {
         constexpr std::int64_t kScattered_q20 = (1 << 20) / 10;
         constexpr std::int64_t kUndisplaced_q20 = (1 << 20) / 256;
-        if (10 * near_intersections < 7 * dots || mean_square_q20 > kScattered_q20) {
+        if (10 * near_intersections < tuning::regularity::kFewest_10ths * dots ||
+            mean_square_q20 > kScattered_q20) {
             return Status::no_grid;
         }
         return mean_square_q20 < kUndisplaced_q20 ? Status::no_displacement : Status::ok;

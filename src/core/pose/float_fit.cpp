@@ -4,9 +4,12 @@
 #include <cmath>
 
 #include "core/pose/group_scatter.hpp"
+#include "core/pose/tuning.hpp"
 
 namespace dotpose::core {
 namespace {
+
+namespace tuned = tuning::fit;
 
 /// A plane's parameters in units of the reach; see ScaledPlane.
 Parameters distortions(const FloatPlane& p, float reach) {
@@ -40,40 +43,34 @@ FloatPlane changed(const FloatPlane& p, const Parameters& by, float reach) {
 }
 
 /// Squared deviations of a step after which no other is needed. The step ends so much off as the
-/// plane bends, and a fifth of a deviation does not matter.
+/// plane bends.
 float settled(const FloatPlane& p, float reach) {
-    constexpr float kLeast = 0.2F;
-    constexpr float kMost = 1000;
     const float bent =
         (std::abs(p.tilt_x) + std::abs(p.tilt_y)) * reach + std::abs(p.bend) * reach * reach;
-    return std::clamp(0.04F / (bent * bent + 1e-6F), kLeast, kMost);
+    return std::clamp(tuned::kBentSettled / (bent * bent + 1e-6F), tuned::kLeastSettled,
+                      tuned::kMostSettled);
 }
 
 /// Whether dots one beside the other are off each by itself, as those of flat paper are. Where they
 /// are not, blocks of them tell more (pose/uneven).
 bool is_plainly_even(const FittingDots& fitting) {
-    constexpr float kSuspect = 2.2F;  ///< deviations; few honest frames exceed it
     if (fitting.outliers > 3 + fitting.points / 50) return false;
     const GroupScatter runs{fitting.squares, fitting.squares_of_runs,
                             static_cast<float>(fitting.points), static_cast<float>(fitting.runs)};
-    return runs.excess() <= kSuspect;
+    return runs.excess() <= tuning::uneven::kSuspectRuns;
 }
 
 }  // namespace
 
 bool fit_plane(const Kernels& kernels, const MeasuredDots& dots, int reach_px, float limit,
                float displacement, FloatPlane& plane, PoseFit& fit) {
-    constexpr int kMostRounds = 5;
-    constexpr int kFewestDots = 20;
-    // Of a plane Gaussian 1 in 4,000 lies 4.1 sigma out.
-    constexpr float kOutlier = 16.6F;
     constexpr float kExact = 6e-8F;
     const auto reach = static_cast<float>(reach_px);
     fit.reach_px = reach_px;
     fit.is_plainly_even = false;
-    for (int round = 0; round < kMostRounds; ++round) {
+    for (int round = 0; round < tuned::kMostRoundsOfFloats; ++round) {
         const FitSums sums = kernels.sum_fit(dots, plane, displacement, reach, limit);
-        if (sums.points < kFewestDots) return false;
+        if (sums.points < tuned::kFewestDots) return false;
         fit.normal = Normal(sums);
         Parameters step;
         float moved = 0;
@@ -82,7 +79,7 @@ bool fit_plane(const Kernels& kernels, const MeasuredDots& dots, int reach_px, f
         fit.displacement = sums.projected / sums.points;
         const float bent_before = settled(plane, reach);
         plane = changed(plane, step, reach);
-        const float next_limit = kOutlier * fit.variance + kExact;
+        const float next_limit = tuned::kOutlier * fit.variance + kExact;
         const bool is_settled = moved < std::min(bent_before, settled(plane, reach));
         limit = next_limit;
         // Until the same dots would count again.

@@ -7,13 +7,14 @@
 #include "core/detect/surroundings.hpp"
 #include "core/detect/undistort.hpp"
 #include "core/plane.hpp"
+#include "core/pose/tuning.hpp"
 #include "core/vectors.hpp"
 
 namespace dotpose::core {
 namespace {
 
-constexpr int kMostIterations = 5;
-constexpr int kSettled_q8 = 4;
+namespace tuned = tuning::measure;
+
 constexpr int kMostHalf_px = 24;
 
 Vec rounded_px(Vec point_q8) {
@@ -38,8 +39,12 @@ struct Window {
     /// For dots that blur has made about a tenth of the spacing wide (one sigma).
     explicit Window(std::int32_t spacing_q8)
         : half_px(std::min<std::int32_t>(
-              std::max<std::int32_t>(spacing_q8 * 9 / 32 + 255, 768) / 256, kMostHalf_px)),
-          sigma_q8(std::max<std::int32_t>(spacing_q8 * 12 / 128, 230)) {}
+              std::max<std::int32_t>(spacing_q8 * tuned::kHalf_32nds / 32 + 255,
+                                     tuned::kLeastHalf_q8) /
+                  256,
+              kMostHalf_px)),
+          sigma_q8(std::max<std::int32_t>(spacing_q8 * tuned::kSigma_128ths / 128,
+                                          tuned::kLeastSigma_q8)) {}
 
     /// What of it lies in the image around a pixel, the neighbours of each included; nothing where
     /// the pixel itself does not. Dots at the border tell most of angle and tilt.
@@ -213,13 +218,12 @@ DotFit fit_dot(const Patch& patch, const RimLight& light, std::int32_t sigma_q8,
 
 /// The dot near a point; nothing outside the image, or where there is no dark spot.
 std::optional<Dot> measure(const ImageView& image, const Window& window, Vec start_q8) {
-    // The fit tells dirt from dots that were printed badly; a closer limit would cut off the tail
-    // of these, which costs accuracy and hides how much it was.
-    const std::int64_t farthest = 9 * std::int64_t{window.sigma_q8} * window.sigma_q8;
+    const std::int64_t farthest =
+        tuned::kFarthest_2 * std::int64_t{window.sigma_q8} * window.sigma_q8;
     const auto sigma_q8 = static_cast<float>(window.sigma_q8);
     Dot dot{start_q8, 0, 0};
     Patch patch;
-    for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+    for (int iteration = 0; iteration < tuned::kMostIterations; ++iteration) {
         const Vec pixel = rounded_px(dot.centre_q8);
         const auto box = window.box_around(image, pixel.x, pixel.y);
         if (!box) return {};
@@ -238,7 +242,7 @@ std::optional<Dot> measure(const ImageView& image, const Window& window, Vec sta
         const float mass = 16384 * fit->height / std::max(light.middle, 1.0F);
         dot.mass = static_cast<std::uint16_t>(std::min(mass, 65535.0F));
         if (squared(dot.centre_q8 - start_q8) > farthest) return {};
-        if (squared(step) < kSettled_q8 * kSettled_q8) break;
+        if (squared(step) < tuned::kSettled_q8 * tuned::kSettled_q8) break;
     }
     return dot;
 }
@@ -246,7 +250,7 @@ std::optional<Dot> measure(const ImageView& image, const Window& window, Vec sta
 /// Drops what is much lighter or much darker than the typical dot: paper where a dot is missing,
 /// dirt, graphics.
 void drop_strange(Grid& grid, std::span<Dot> dots) {
-    constexpr std::size_t kSample = 256;
+    constexpr std::size_t kSample = tuned::kMedianSample;
     std::array<std::int32_t, kSample> masses;
     std::size_t n = 0;
     const std::size_t step = dots.size() / kSample + 1;
@@ -256,7 +260,8 @@ void drop_strange(Grid& grid, std::span<Dot> dots) {
     for (GridCell& cell : grid.storage.first(static_cast<std::size_t>(grid.columns * grid.rows))) {
         if (!cell.has_dot()) continue;
         const int mass = dots[cell.dot].mass;
-        if (2 * mass < typical || 2 * mass > 3 * typical) cell.dot = GridCell::kNoDot;
+        if (2 * mass < typical || 2 * mass > tuned::kTooDark_halves * typical)
+            cell.dot = GridCell::kNoDot;
     }
 }
 

@@ -4,15 +4,14 @@
 
 #include "core/fixed.hpp"
 #include "core/pose/survey.hpp"
+#include "core/pose/tuning.hpp"
 
 namespace dotpose::core {
 namespace {
 
-constexpr float kPower30 = 1073741824.0F;
+namespace tuned = tuning::fit;
 
-/// A step so small, in squared deviations of the pose, needs no other after it: it would be smaller
-/// by far.
-constexpr float kSettled = 0.01F;
+constexpr float kPower30 = 1073741824.0F;
 
 /// What cameras and prints are like, with deviations of a tilt: the change of scale from the middle
 /// to the outermost dot, of which 2 degrees make about 0.01; of a shear, relative to the scale; of
@@ -40,9 +39,8 @@ class Scatter {
         const float spread = noise_noise_ / count_ - mean_noise * mean_noise;
         constexpr float kLeastSpread = 1e-4F;
         if (spread <= kLeastSpread * mean_noise * mean_noise || mean_square <= 0) return;
-        constexpr float kMostByNoise = 0.9F;
         const float slope = (noise_squares_ / count_ - mean_noise * mean_square) / spread;
-        by_noise_ = std::clamp(slope / mean_square, 0.0F, kMostByNoise / mean_noise);
+        by_noise_ = std::clamp(slope / mean_square, 0.0F, tuned::kMostByNoise / mean_noise);
         always_ = 1 - by_noise_ * mean_noise;
     }
     /// That the typical dot has, over that of a dot.
@@ -80,10 +78,8 @@ class Round {
             values[i] = squared_q30({x_q16[i] - sample.dx[i] * displacement_q16_,
                                      y_q16[i] - sample.dy[i] * displacement_q16_});
         }
-        // Squared distances of a plane Gaussian have their median at 1.39 sigma^2; 12 medians lie
-        // 4 sigma out, where 1 dot in 3,000 is lost by chance.
         const std::int64_t typical_q30 = median(std::span(values).first(sample.count));
-        limit_ = static_cast<float>(12 * typical_q30 + 64) / kPower30;
+        limit_ = static_cast<float>(tuned::kOutlier_medians * typical_q30 + 64) / kPower30;
     }
 
     /// Sums up all dots that are not too far off.
@@ -196,11 +192,10 @@ bool solve(const Parameters& distortions, float unit, PoseFit& fit, Parameters& 
 }
 
 bool refine_pose(const Observations& observations, PlaneFromImage& pose, PoseFit& fit) {
-    constexpr int kMostRounds = 4;
     const Survey survey(observations, pose.centre_q8);
     fit.reach_px = survey.reach_px();
     float moved = 1;
-    for (int i = 0; i < kMostRounds && moved > kSettled; ++i) {
+    for (int i = 0; i < tuned::kMostRounds && moved > tuned::kSettled; ++i) {
         const Round round(survey, pose);
         fit.normal = round.normal(observations.know_noise());
         PlaneFromImage better;

@@ -6,20 +6,18 @@
 
 #include "core/pose/dot_offsets.hpp"
 #include "core/pose/float_fit.hpp"
+#include "core/pose/tuning.hpp"
 
 namespace dotpose::core {
 namespace {
 
-/// Squared spacings within which dots of one side lie of a plane that is fitted to both.
-constexpr float kFarOff = 0.04F;
+namespace tuned = tuning::slip;
 
 /// What most of the dots near a point are off in common.
 bool find_common_offset(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                         FloatVec near, FloatVec& common) {
     constexpr std::size_t kMost = 256;
-    constexpr float kReach = 10;
-    constexpr float kAlike = 0.08F * 0.08F;
-    constexpr int kFewest = 8;
+    constexpr float kReach = tuned::kReach;
     std::array<FloatVec, kMost> offsets;
     std::size_t count = 0;
     for (std::size_t k = 0; k < static_cast<std::size_t>(dots.count) && count < kMost; ++k) {
@@ -34,13 +32,13 @@ bool find_common_offset(const MeasuredDots& dots, const FloatPlane& plane, float
         const auto alike = std::count_if(
             offsets.begin(), offsets.begin() + static_cast<std::ptrdiff_t>(count), [&](FloatVec o) {
                 const FloatVec d{o.x - offsets[i].x, o.y - offsets[i].y};
-                return d.x * d.x + d.y * d.y < kAlike;
+                return d.x * d.x + d.y * d.y < tuned::kAlike;
             });
         if (alike <= most) continue;
         most = static_cast<int>(alike);
         common = offsets[i];
     }
-    return most >= kFewest;
+    return most >= tuned::kFewestAlike;
 }
 
 }  // namespace
@@ -48,8 +46,6 @@ bool find_common_offset(const MeasuredDots& dots, const FloatPlane& plane, float
 OneSide::OneSide(Side side, MeasuredDots& dots, const FloatPlane& plane, FloatVec reference_px,
                  const Slip& slip)
     : dots_(dots) {
-    // The line is known to a spacing or so.
-    constexpr float kMargin = 0.8F;
     const float sign = side == Side::here ? 1 : -1;
     const FloatVec reference = plane_point(plane, reference_px);
     for (std::size_t k = 0; k < static_cast<std::size_t>(dots.count); ++k) {
@@ -57,7 +53,7 @@ OneSide::OneSide(Side side, MeasuredDots& dots, const FloatPlane& plane, FloatVe
         const FloatVec at = plane_point(plane, {dots.x[k], dots.y[k]});
         const float beyond = (at.x - reference.x) * slip.direction.x +
                              (at.y - reference.y) * slip.direction.y - slip.distance;
-        if (sign * beyond > -kMargin) dots.column[k] += kFar;
+        if (sign * beyond > -tuned::kMargin) dots.column[k] += kFar;
     }
 }
 
@@ -69,13 +65,12 @@ OneSide::~OneSide() {
 
 bool fit_this_side(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    Sides& sides) {
-    constexpr int kRounds = 3;
     const float displacement = sides.fit.displacement;
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < tuned::kRounds; ++round) {
         sides.slip = find_slip(dots, sides.plane, sides.fit, reference_px);
         if (sides.slip.gain < Slip::kPossible) return false;
         const OneSide only(OneSide::Side::here, dots, sides.plane, reference_px, sides.slip);
-        if (!fit_plane(kernels, dots, sides.fit.reach_px, kFarOff, displacement, sides.plane,
+        if (!fit_plane(kernels, dots, sides.fit.reach_px, tuned::kFarOff, displacement, sides.plane,
                        sides.fit))
             return false;
     }
@@ -93,7 +88,7 @@ bool fit_far_side(const Kernels& kernels, MeasuredDots& dots, FloatVec reference
     beyond.at_x += common.x;
     beyond.at_y += common.y;
     PoseFit fit = sides.fit;
-    return fit_plane(kernels, dots, fit.reach_px, kFarOff, fit.displacement, beyond, fit);
+    return fit_plane(kernels, dots, fit.reach_px, tuned::kFarOff, fit.displacement, beyond, fit);
 }
 
 }  // namespace dotpose::core

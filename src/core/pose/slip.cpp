@@ -5,25 +5,21 @@
 #include <cmath>
 
 #include "core/pose/dot_offsets.hpp"
+#include "core/pose/tuning.hpp"
 #include "core/vectors.hpp"
 
 namespace dotpose::core {
 namespace {
 
-/// What a dot says for a plane on which it lies, at most, and against one on which it does not, as
-/// natural logarithms of odds against dots that lie anywhere in their cells.
-constexpr float kOnPlane = 5;
-constexpr float kOffPlane = -4.5F;
-/// Dots of one part lie within so many deviations of where another has them, squared, for its
-/// displacement to be told from them.
-constexpr float kTogether = 36;
+namespace tuned = tuning::slip;
+
+constexpr float kOnPlane = tuned::kOnPlane;
+constexpr float kOffPlane = tuned::kOffPlane;
 constexpr std::size_t kMostDots = 1024;
 constexpr std::size_t kLines = 48;  ///< in each direction
 constexpr auto kLastLine = static_cast<std::int32_t>(kLines) - 1;
 constexpr int kDirections = 8;
-/// Spacings by which the reference point may lie beyond the line.
-constexpr float kBehind = 0.5F;
-constexpr float kFewestBeyond = 12;
+constexpr float kBehind = tuned::kBehind;
 
 /// Sums over dots of one part.
 struct PartSums {
@@ -96,7 +92,7 @@ class Search {
         PartSums beyond;
         for (std::size_t line = kLines; --line > 0;) {
             beyond += strips[line];
-            if (beyond.seen() < kFewestBeyond) continue;
+            if (beyond.seen() < tuned::kFewestBeyond) continue;
             const float gain = gain_of(beyond, all.less(beyond));
             if (gain <= best.gain) continue;
             best = {direction, static_cast<float>(line) / per_spacing - kBehind, gain};
@@ -107,7 +103,7 @@ class Search {
     PartSums sums_of(const DotOffset& dot) const {
         const float squared = dot.squared();
         const float on_plane = std::max(kOnPlane - squared / (2 * variance_), kOffPlane);
-        if (squared > kTogether * variance_) return {Four{1, on_plane}, Four{}, Four{}};
+        if (squared > tuned::kTogether * variance_) return {Four{1, on_plane}, Four{}, Four{}};
         const auto& [x, y] = dot.at;
         return {Four{1, on_plane, 1, squared}, Four{x, y, dot.off.x, dot.off.y},
                 Four{x * x + y * y, x * dot.off.y - y * dot.off.x}};

@@ -6,24 +6,24 @@
 
 #include "core/pose/group_scatter.hpp"
 #include "core/pose/sides.hpp"
+#include "core/pose/tuning.hpp"
 
 namespace dotpose::core {
 namespace {
 
-/// Dots so many deviations off, squared, say nothing of what their neighbours are off.
-constexpr float kOutlier = 16.6F;
+namespace tuned = tuning::uneven;
 
 /// What blocks of dots are off in common.
 class Blocks {
   public:
     Blocks(const Kernels& kernels, const MeasuredDots& dots, const FloatPlane& plane,
            const PoseFit& fit) {
-        constexpr int kManyDots = 1000;
-        const int side = fit.dots > kManyDots ? static_cast<int>(BlockSums::kMostAlong) : 6;
+        const int side = fit.dots > tuned::kManyDots ? static_cast<int>(BlockSums::kMostAlong)
+                                                     : tuned::kFewAlong;
         const auto reach_px = static_cast<float>(fit.reach_px);
         BlockSums sums;
-        kernels.sum_blocks(dots, plane, fit.displacement, kOutlier * fit.variance, reach_px, side,
-                           sums);
+        kernels.sum_blocks(dots, plane, fit.displacement, tuning::fit::kOutlier * fit.variance,
+                           reach_px, side, sums);
         side_ = 2 * reach_px / (static_cast<float>(side) * spacing_px(plane));
         for (int b = 0; b < side * side; ++b) {
             const BlockSums::Block& block = sums.all[static_cast<std::size_t>(b)];
@@ -54,16 +54,10 @@ Blocks blocks_here(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
     return {kernels, dots, sides.plane, sides.fit};
 }
 
-/// By so many deviations neighbours may be off alike more than chance explains. Of honest frames 3
-/// % exceed the one, and hardly one in 1,000 the other.
-constexpr float kSuspect = 2.5F;
-constexpr float kUneven = 5;
-
 bool may_be_uneven(const Blocks& blocks) {
-    constexpr float kFewOutliers = 3;
-    constexpr float kShareOfOutliers = 0.02F;
-    return blocks.scatter().excess() > kSuspect ||
-           blocks.outliers() > kFewOutliers + kShareOfOutliers * blocks.scatter().dots;
+    return blocks.scatter().excess() > tuned::kSuspect ||
+           blocks.outliers() >
+               tuned::kFewOutliers + tuned::kShareOfOutliers * blocks.scatter().dots;
 }
 
 /// What it leaves open that the pose may be that of either plane.
@@ -88,20 +82,17 @@ void add(float variance, std::size_t i, PoseFit& fit) {
 
 /// What dots that are off alike leave open.
 void widen_by_blocks(const Blocks& blocks, PoseFit& fit) {
-    constexpr float kOfPlace = 2;
-    constexpr float kOfTurn = 8;
     const float variance = blocks.scatter().variance_between();
-    add(kOfPlace * variance, 0, fit);
-    add(kOfPlace * variance, 1, fit);
-    add(kOfTurn * variance / (blocks.side() * blocks.side()), 2, fit);
+    add(tuned::kOfPlace * variance, 0, fit);
+    add(tuned::kOfPlace * variance, 1, fit);
+    add(tuned::kOfTurn * variance / (blocks.side() * blocks.side()), 2, fit);
     fit.surface = Surface::uneven;
 }
 
 /// Where the line passes so near the reference point that either side may hold it.
 void widen_near_line(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                      const Sides& sides, PoseFit& fit) {
-    constexpr float kNear = 1.2F;
-    if (sides.slip.distance > kNear) return;
+    if (sides.slip.distance > tuned::kNearLine) return;
     FloatPlane beyond;
     if (fit_far_side(kernels, dots, reference_px, sides, beyond))
         return add_difference(sides.plane, beyond, reference_px, 1, fit);
@@ -119,12 +110,12 @@ void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
     const bool has_line = fit_this_side(kernels, dots, reference_px, sides);
     const bool is_divided = has_line && sides.slip.gain > Slip::kCertain;
     if (is_divided &&
-        blocks_here(kernels, dots, reference_px, sides).scatter().excess() < kSuspect) {
+        blocks_here(kernels, dots, reference_px, sides).scatter().excess() < tuned::kSuspect) {
         plane = sides.plane;
         fit = sides.fit;
         fit.surface = Surface::divided;
     } else {
-        if (is_divided || blocks.scatter().excess() > kUneven) widen_by_blocks(blocks, fit);
+        if (is_divided || blocks.scatter().excess() > tuned::kUneven) widen_by_blocks(blocks, fit);
         if (!has_line) return;
         const float weight =
             (sides.slip.gain - Slip::kPossible) / (Slip::kCertain - Slip::kPossible);
