@@ -5,8 +5,8 @@
 
 #include "../tests/unit/calibrate/frames.hpp"
 #include "calibration_measures.hpp"
+#include "dotpose/files/sheet_file.hpp"
 #include "dotpose/tools/image_file.hpp"
-#include "dotpose/tools/sheet_file.hpp"
 
 namespace dotpose {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <fmt/core.h>
 
-#include <dotpose/tools/error.hpp>
+#include <dotpose/files/error.hpp>
 
 namespace fs = std::filesystem;
 using dotpose::Error;

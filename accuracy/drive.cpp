@@ -60,7 +60,7 @@ DriveReading reading_of(const cli::Reading& reading) {
     const cli::Record& record = reading.record;
     told.has_fix = record.fix.status == Status::ok && record.place;
     if (told.has_fix) {
-        const auto world = world_pose(*record.place);
+        const auto world = world_place(*record.place);
         told.raw = {world->x_m * 1000, world->y_m * 1000, world->yaw_rad};
     }
     const Track& track = reading.track;

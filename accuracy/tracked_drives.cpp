@@ -46,7 +46,7 @@ void count(const cli::Record& record, const test::DriveState& truth, TrackedTall
         ++tally.none;
         return;
     }
-    const auto world = record.place ? world_pose(*record.place) : std::nullopt;
+    const auto world = record.place ? world_place(*record.place) : std::nullopt;
     const bool is_tracked = fix.attempt == Attempt::tracked;
     bool is_wrong = !world || truth.is_lifted;
     double error_mm = 0;

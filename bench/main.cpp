@@ -18,7 +18,7 @@
 
 #include <fmt/core.h>
 
-#include <dotpose/tools/error.hpp>
+#include <dotpose/files/error.hpp>
 
 #include "../accuracy/document.hpp"
 #include "benchmarks.hpp"

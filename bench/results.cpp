@@ -4,7 +4,7 @@
 
 #include <unistd.h>
 
-#include <dotpose/tools/error.hpp>
+#include <dotpose/files/error.hpp>
 
 namespace dotpose::bench {
 namespace {

@@ -9,20 +9,24 @@ string(REGEX REPLACE "/$" "" DOTPOSE_PREFIX_FROM_PC "${DOTPOSE_PREFIX_FROM_PC}")
 
 # Who links the static library links what it uses; a shared one brings that along.
 if(NOT BUILD_SHARED_LIBS)
+    set(DOTPOSE_FILES_PC_REQUIRES ", yaml-cpp")
     set(DOTPOSE_PC_REQUIRES
-        ", libpng, libtiff-4, fmt, GraphicsMagick, librsvg-2.0, libqpdf, yaml-cpp")
+        ", libpng, libtiff-4, fmt, GraphicsMagick, librsvg-2.0, libqpdf")
     set(DOTPOSE_PC_LIBS " -lceres -lglog -pthread")
 endif()
 
 # A header without its library would only fail when the user links.
-set(tools_headers)
-if(NOT DOTPOSE_BUILD_TOOLS)
-    set(tools_headers PATTERN tools EXCLUDE)
-endif()
-install(DIRECTORY include/dotpose TYPE INCLUDE FILES_MATCHING PATTERN "*.hpp" ${tools_headers})
+set(without)
+foreach(library IN ITEMS files tools)
+    string(TOUPPER ${library} upper)
+    if(NOT DOTPOSE_BUILD_${upper})
+        list(APPEND without PATTERN ${library} EXCLUDE)
+    endif()
+endforeach()
+install(DIRECTORY include/dotpose TYPE INCLUDE FILES_MATCHING PATTERN "*.hpp" ${without})
 
-# Two export sets: who only wants the core must not need libpng to be found.
-foreach(target IN ITEMS dotpose dotpose_tools)
+# An export set each: who only wants the core must not need yaml-cpp, nor libpng, to be found.
+foreach(target IN ITEMS dotpose dotpose_files dotpose_tools)
     if(TARGET ${target})
         install(TARGETS ${target} EXPORT ${target}
                 ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}

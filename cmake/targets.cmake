@@ -1,6 +1,6 @@
 # dotpose_layer(NAME [PURE] [USES target...])
 #
-# One directory of src/ is one layer and one object library dotpose_NAME. The layers are put together
+# One directory of src/ is one layer and one object library dotpose_NAME_layer. The layers are put together
 # into the installed libraries in src/CMakeLists.txt. A directory without sources gives no target.
 # PURE: may use no heap, exceptions, RTTI or dependency (scripts/check-core-symbols proves it).
 function(dotpose_layer name)
@@ -9,7 +9,7 @@ function(dotpose_layer name)
     if(NOT sources)
         return()
     endif()
-    set(target dotpose_${name})
+    set(target dotpose_${name}_layer)
     add_library(${target} OBJECT ${sources})
     target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/include
                                                 ${PROJECT_SOURCE_DIR}/src)
@@ -42,8 +42,8 @@ function(dotpose_library name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LAYERS;PUBLIC;PRIVATE")
     set(objects)
     foreach(layer IN LISTS arg_LAYERS)
-        if(TARGET dotpose_${layer})
-            list(APPEND objects $<TARGET_OBJECTS:dotpose_${layer}>)
+        if(TARGET dotpose_${layer}_layer)
+            list(APPEND objects $<TARGET_OBJECTS:dotpose_${layer}_layer>)
         endif()
     endforeach()
     if(NOT objects)

@@ -21,7 +21,7 @@
 
 #include <fmt/core.h>
 
-#include <dotpose/tools/error.hpp>
+#include <dotpose/files/error.hpp>
 
 #include "../accuracy/document.hpp"
 

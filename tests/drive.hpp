@@ -9,8 +9,8 @@
 #include <numbers>
 #include <vector>
 
+#include "dotpose/files/sheet_file.hpp"
 #include "dotpose/tools/print.hpp"
-#include "dotpose/tools/sheet_file.hpp"
 #include "dotpose/tools/simulate.hpp"
 
 namespace dotpose::test {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "dotpose/code.hpp"
+#include "dotpose/files/sheet.hpp"
 #include "dotpose/tools/grey_image.hpp"
-#include "dotpose/tools/sheet.hpp"
 
 namespace dotpose::test {
 

@@ -10,12 +10,12 @@
 
 #include "commands.hpp"
 #include "common.hpp"
-#include "dotpose/tools/error.hpp"
-#include "dotpose/tools/sheet_file.hpp"
+#include "dotpose/files/error.hpp"
+#include "dotpose/files/sheet_file.hpp"
+#include "files/output_file.hpp"
 #include "fleet_state.hpp"
 #include "mqtt_arguments.hpp"
 #include "path_memory.hpp"
-#include "print/output_file.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"
 #include "terminal_text.hpp"
@@ -45,7 +45,7 @@ class FleetView {
   public:
     explicit FleetView(const FleetArguments& arguments)
         : map_path_(arguments.map), on_terminal_(isatty(STDOUT_FILENO) == 1) {
-        if (!map_path_.empty()) print::require_writable(map_path_);
+        if (!map_path_.empty()) files::require_writable(map_path_);
         if (arguments.sheets.empty()) return;
         map_id_ = std::filesystem::path(arguments.sheets).stem().string();
         sheets_ = map_sheets(read_sheets(arguments.sheets), Plane::sheet_world);
@@ -65,7 +65,7 @@ class FleetView {
     /// table goes on without the map; for the last map, it is an error.
     void write_map(const FleetState& fleet, bool is_last) {
         try {
-            print::OutputFile file(map_path_);
+            files::OutputFile file(map_path_);
             file.write(draw::draw_map(map_of(fleet, map_shown(fleet), sheets_)));
             file.commit();
             is_failing_ = false;

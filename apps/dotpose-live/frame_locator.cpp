@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "dotpose/tools/error.hpp"
+#include "dotpose/files/error.hpp"
 #include "page_cut.hpp"
 
 namespace dotpose::cli {
@@ -16,25 +16,6 @@ constexpr double kNm_per_mm = 1e6;
 std::int32_t bam(double angle_rad) {
     const auto turned = std::llround(angle_rad / std::numbers::pi * 2147483648.0);
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(turned));
-}
-
-/// Converts the covariance of a fix to the world: it is rotated like the sheet, and y and the angle
-/// change their sign.
-std::array<std::array<float, 3>, 3> turned(const std::array<std::array<float, 3>, 3>& covariance,
-                                           double sheet_yaw_rad) {
-    const auto c = static_cast<float>(std::cos(sheet_yaw_rad));
-    const auto s = static_cast<float>(std::sin(sheet_yaw_rad));
-    const std::array<std::array<float, 3>, 3> turn = {{{c, s, 0}, {s, -c, 0}, {0, 0, -1}}};
-    std::array<std::array<float, 3>, 3> result{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t j = 0; j < 3; ++j) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                for (std::size_t l = 0; l < 3; ++l)
-                    result[i][j] += turn[i][k] * covariance[k][l] * turn[j][l];
-            }
-        }
-    }
-    return result;
 }
 
 }  // namespace
@@ -155,14 +136,14 @@ std::optional<Sighting> FrameLocator::sighting_of(const Found& found, std::int64
     fix.spacing_nm = static_cast<std::int32_t>(std::lround(spacing * kNm_per_mm));
     Sighting sighting = dotpose::sighting_of(fix, time_us);
     if (plane_ == Plane::pattern) return sighting;
-    const auto world = found.place ? world_pose(*found.place) : std::nullopt;
+    const auto world = found.place ? world_place(*found.place) : std::nullopt;
     if (!world) return std::nullopt;
     sighting.plane = 0;
     sighting.is_y_up = true;
     sighting.x_nm = std::llround(world->x_m * 1e9);
     sighting.y_nm = std::llround(world->y_m * 1e9);
     sighting.theta_bam = bam(world->yaw_rad);
-    sighting.covariance = turned(sighting.covariance, found.place->entry->world->yaw_rad);
+    sighting.covariance = world_covariance(sighting.covariance, found.place->entry->world->yaw_rad);
     return sighting;
 }
 

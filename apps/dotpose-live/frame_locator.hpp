@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "dotpose/code_evidence.hpp"
+#include "dotpose/files/sheet.hpp"
+#include "dotpose/files/sheet_place.hpp"
 #include "dotpose/tools/heap_locator.hpp"
-#include "dotpose/tools/sheet.hpp"
-#include "dotpose/tools/sheet_file.hpp"
 #include "dotpose/track.hpp"
 #include "locate_record.hpp"
 #include "video/frame_source.hpp"

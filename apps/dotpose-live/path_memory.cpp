@@ -20,7 +20,7 @@ draw::Point in_plane(const SheetEntry& entry, Plane plane, double x_mm, double y
     place.entry = &entry;
     place.x_mm = x_mm;
     place.y_mm = y_mm;
-    const auto world = world_pose(place);
+    const auto world = world_place(place);
     return {world->x_m * kMm_per_m, world->y_m * kMm_per_m};
 }
 

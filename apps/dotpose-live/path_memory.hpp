@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "dotpose/tools/sheet_file.hpp"
+#include "dotpose/files/sheet_file.hpp"
 #include "dotpose/track.hpp"
 #include "draw/track_map.hpp"
 #include "frame_locator.hpp"

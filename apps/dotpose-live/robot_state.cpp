@@ -9,8 +9,8 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include "dotpose/tools/error.hpp"
-#include "print/input_file.hpp"
+#include "dotpose/files/error.hpp"
+#include "files/input_file.hpp"
 #include "reading_fields.hpp"
 
 namespace dotpose::cli {
@@ -153,7 +153,7 @@ std::optional<RobotState> parse_state(const std::string& text) {
     constexpr double kMost_m_s = 1e4;
     constexpr double kMost_rad = 1e4;
     try {
-        const auto json = print::parse_json(text);
+        const auto json = files::parse_json(text);
         RobotState state;
         const auto& id = json.at("headerId");
         const auto sent_us = parse_timestamp(json.at("timestamp").get<std::string>());

@@ -8,7 +8,7 @@
 
 #include "commands.hpp"
 #include "common.hpp"
-#include "dotpose/tools/error.hpp"
+#include "dotpose/files/error.hpp"
 #include "dotpose/tools/image_file.hpp"
 #include "exit_codes.hpp"
 #include "failure_hint.hpp"

@@ -10,9 +10,9 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include "dotpose/files/error.hpp"
 #include "dotpose/pose_packet.hpp"
-#include "dotpose/tools/error.hpp"
-#include "print/output_file.hpp"
+#include "files/output_file.hpp"
 #include "reading_fields.hpp"
 #include "robot_state.hpp"
 #include "terminal_text.hpp"
@@ -103,7 +103,7 @@ WatchOutputs::WatchOutputs(const OutputOptions& options, const FrameLocator& loc
       screen_(options.screen),
       begun_(std::chrono::steady_clock::now()) {
     for (const std::string& late : {options.map, options.screen.record}) {
-        if (!late.empty()) print::require_writable(late);
+        if (!late.empty()) files::require_writable(late);
     }
     const std::string header = csv_header_of_readings(!locator.sheets().empty());
     if (options.format == RecordFormat::csv) write_line(header);
@@ -203,7 +203,7 @@ void WatchOutputs::finish() {
              newest_.is_lost ? std::nullopt : std::optional(newest_.pose.theta_rad()),
              newest_.is_lost});
     }
-    print::OutputFile file(options_.map);
+    files::OutputFile file(options_.map);
     file.write(draw::draw_map(map));
     file.commit();
 }

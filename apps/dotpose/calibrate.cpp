@@ -13,7 +13,7 @@
 #include "calibrate_report.hpp"
 #include "commands.hpp"
 #include "common.hpp"
-#include "dotpose/tools/camera_file.hpp"
+#include "dotpose/files/camera_file.hpp"
 #include "dotpose/tools/frame_file.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"

@@ -6,6 +6,8 @@
 
 #include <fmt/core.h>
 
+#include "dotpose/files/profile_names.hpp"
+
 namespace dotpose::cli {
 namespace {
 

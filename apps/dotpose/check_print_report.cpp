@@ -10,6 +10,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include "dotpose/files/profile_names.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {

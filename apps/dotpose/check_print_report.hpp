@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "dotpose/files/sheet_file.hpp"
 #include "dotpose/tools/check_print.hpp"
-#include "dotpose/tools/sheet_file.hpp"
 
 namespace dotpose::cli {
 

@@ -11,10 +11,11 @@
 
 #include <fmt/core.h>
 
-#include "dotpose/tools/camera_file.hpp"
+#include "dotpose/files/camera_file.hpp"
+#include "dotpose/files/profile_names.hpp"
+#include "dotpose/files/sheet_file.hpp"
 #include "dotpose/tools/image_file.hpp"
 #include "dotpose/tools/option_names.hpp"
-#include "dotpose/tools/sheet_file.hpp"
 
 namespace dotpose::cli {
 namespace {

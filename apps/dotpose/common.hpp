@@ -10,10 +10,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
+#include "dotpose/files/camera.hpp"
+#include "dotpose/files/sheet.hpp"
 #include "dotpose/options.hpp"
-#include "dotpose/tools/camera.hpp"
 #include "dotpose/tools/print.hpp"
-#include "dotpose/tools/sheet.hpp"
 #include "dotpose/tools/simulate.hpp"
 #include "fields.hpp"
 

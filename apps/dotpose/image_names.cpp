@@ -4,8 +4,8 @@
 #include <iostream>
 #include <utility>
 
-#include "dotpose/tools/error.hpp"
-#include "print/input_file.hpp"
+#include "dotpose/files/error.hpp"
+#include "files/input_file.hpp"
 
 namespace dotpose::cli {
 
@@ -31,7 +31,7 @@ std::optional<std::string> ImageNames::next() {
 std::optional<std::string> ImageNames::next_of_list() {
     std::string line;
     try {
-        while (list_ != nullptr && print::next_line(*list_, line)) {
+        while (list_ != nullptr && files::next_line(*list_, line)) {
             if (!line.empty()) return line;
         }
     } catch (const Error& error) {

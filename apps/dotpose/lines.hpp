@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "dotpose/tools/error.hpp"
+#include "dotpose/files/error.hpp"
 
 namespace dotpose::cli {
 

@@ -17,8 +17,8 @@
 
 #include "commands.hpp"
 #include "common.hpp"
+#include "dotpose/files/error.hpp"
 #include "dotpose/pose_packet.hpp"
-#include "dotpose/tools/error.hpp"
 #include "fields.hpp"
 #include "lines.hpp"
 #include "progress.hpp"

@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "commands.hpp"
-#include "dotpose/tools/error.hpp"
+#include "dotpose/files/error.hpp"
 
 namespace dotpose::cli {
 namespace {

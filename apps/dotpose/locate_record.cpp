@@ -9,6 +9,7 @@
 
 #include <fmt/core.h>
 
+#include "dotpose/files/profile_names.hpp"
 #include "dotpose/locate.hpp"
 #include "dotpose/tools/image_file.hpp"
 
@@ -29,7 +30,7 @@ std::vector<Field> sheet_fields(const std::optional<SheetPlace>& place) {
     fields[0].text = place->entry->name;
     fields[1].text = decimal(place->x_mm, 6);
     fields[2].text = decimal(place->y_mm, 6);
-    if (const auto world = world_pose(*place)) {
+    if (const auto world = world_place(*place)) {
         fields[3].text = decimal(world->x_m, 9);
         fields[4].text = decimal(world->y_m, 9);
         fields[5].text = decimal(world->yaw_rad, 8);

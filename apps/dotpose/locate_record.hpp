@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "dotpose/code_evidence.hpp"
+#include "dotpose/files/sheet_place.hpp"
 #include "dotpose/fix.hpp"
-#include "dotpose/tools/sheet_file.hpp"
 #include "fields.hpp"
 
 namespace dotpose::cli {

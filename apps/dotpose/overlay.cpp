@@ -8,7 +8,7 @@
 
 #include "commands.hpp"
 #include "common.hpp"
-#include "print/output_file.hpp"
+#include "files/output_file.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"
 #include "sheet_entries.hpp"
@@ -49,7 +49,7 @@ void run(OverlayArguments& arguments) {
     catch_interrupts();
     std::optional<SheetReservation> reservation;
     if (arguments.entries.given()) {
-        print::require_writable(arguments.out);
+        files::require_writable(arguments.out);
         options.place = [&](std::span<OverlaidPage> pages) {
             const auto enter_all = [&](SheetFile& file) {
                 for (auto& [number, sheet] : pages)

@@ -4,10 +4,10 @@
 
 #include <optional>
 
+#include "dotpose/files/sheet_place.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/options.hpp"
 #include "dotpose/tools/grey_image.hpp"
-#include "dotpose/tools/sheet_file.hpp"
 
 namespace dotpose::cli {
 

@@ -10,8 +10,8 @@
 
 #include <fmt/core.h>
 
+#include "dotpose/files/camera.hpp"
 #include "dotpose/locate.hpp"
-#include "dotpose/tools/camera.hpp"
 #include "dotpose/tools/grey_image.hpp"
 
 namespace dotpose::cli {

@@ -2,8 +2,8 @@
 
 #include <fmt/core.h>
 
+#include "dotpose/files/error.hpp"
 #include "dotpose/tools/draw.hpp"
-#include "dotpose/tools/error.hpp"
 
 namespace dotpose::cli {
 

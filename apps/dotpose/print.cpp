@@ -11,7 +11,7 @@
 #include "commands.hpp"
 #include "common.hpp"
 #include "dotpose/tools/test_page.hpp"
-#include "print/output_file.hpp"
+#include "files/output_file.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"
 #include "sheet_entries.hpp"
@@ -108,7 +108,7 @@ void run(const PrintArguments& arguments) {
     };
     std::optional<SheetReservation> reservation;
     if (arguments.entries.given()) {
-        print::require_writable(arguments.out);
+        files::require_writable(arguments.out);
         catch_interrupts();
         const auto enter_all = [&](SheetFile& file) {
             for (std::size_t i = 0; i < sheets.size(); ++i)

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
-#include "dotpose/tools/error.hpp"
-#include "print/output_file.hpp"
+#include "dotpose/files/error.hpp"
+#include "files/output_file.hpp"
 #include "run_files.hpp"
 #include "run_log.hpp"
 #include "terminal_text.hpp"
@@ -81,7 +81,7 @@ void run(const ReplayArguments& arguments) {
     RunFiles files;
     files.reads("", arguments.log);
     files.writes("-o", arguments.out, Content::svg);
-    if (!arguments.out.empty()) print::require_writable(arguments.out);
+    if (!arguments.out.empty()) files::require_writable(arguments.out);
     const auto rows = read_log(arguments.log);
     const RunStatistics statistics = statistics_of(rows);
     if (arguments.json) {
@@ -90,7 +90,7 @@ void run(const ReplayArguments& arguments) {
         print_text(statistics);
     }
     if (arguments.out.empty()) return;
-    print::OutputFile file(arguments.out);
+    files::OutputFile file(arguments.out);
     file.write(draw_run(rows, std::filesystem::path(arguments.log).filename().string()));
     file.commit();
 }

@@ -9,9 +9,9 @@
 
 #include <fmt/core.h>
 
-#include "dotpose/tools/error.hpp"
+#include "dotpose/files/error.hpp"
 #include "evaluate/csv.hpp"
-#include "print/input_file.hpp"
+#include "files/input_file.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -101,11 +101,11 @@ std::vector<LogRow> read_log(const std::filesystem::path& path) {
     if (std::filesystem::is_directory(path) || !file) throw Error("cannot read " + path.string());
     int number = 1;
     try {
-        if (!print::next_line(file, line)) throw Error("it is empty");
+        if (!files::next_line(file, line)) throw Error("it is empty");
         const auto columns = columns_of(line);
         const std::size_t width = cells_of(line).size();
         std::vector<LogRow> rows;
-        while (print::next_line(file, line)) {
+        while (files::next_line(file, line)) {
             ++number;
             if (rows.size() == kMostLogRows) {
                 throw Error(fmt::format("more than {} frames", kMostLogRows));

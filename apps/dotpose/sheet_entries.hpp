@@ -8,7 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "dotpose/tools/sheet_file.hpp"
+#include "dotpose/files/sheet_file.hpp"
 
 namespace dotpose::cli {
 

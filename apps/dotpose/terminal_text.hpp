@@ -3,12 +3,12 @@
 
 #include <string_view>
 
-#include "print/printable.hpp"
+#include "files/printable.hpp"
 
 namespace dotpose::cli {
 
-using print::printable;
-using print::with_escaped_controls;
+using files::printable;
+using files::with_escaped_controls;
 
 /// Writes "dotpose: MESSAGE" to standard error, as one printable line.
 void tell(std::string_view message);

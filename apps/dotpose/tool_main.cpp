@@ -4,7 +4,7 @@
 #include <exception>
 
 #include "common.hpp"
-#include "dotpose/tools/error.hpp"
+#include "dotpose/files/error.hpp"
 #include "exit_codes.hpp"
 #include "terminal_text.hpp"
 

@@ -14,7 +14,7 @@
 #include "calibrate/print_findings.hpp"
 #include "calibrate/print_measures.hpp"
 #include "calibrate/print_view.hpp"
-#include "dotpose/tools/sheet_file.hpp"
+#include "dotpose/files/profile_names.hpp"
 #include "dotpose/tools/test_page.hpp"
 
 namespace dotpose {

@@ -9,6 +9,7 @@
 #include <Eigen/LU>
 
 #include "calibrate/dot_fit.hpp"
+#include "dotpose/files/sheet_place.hpp"
 
 namespace dotpose::calibrate {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "dotpose/code_evidence.hpp"
+#include "dotpose/files/camera.hpp"
 #include "dotpose/image.hpp"
-#include "dotpose/tools/camera.hpp"
 #include "dotpose/tools/heap_locator.hpp"
 
 namespace dotpose::calibrate {

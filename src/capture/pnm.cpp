@@ -4,7 +4,7 @@
 #include <string>
 
 #include "capture/image_format.hpp"
-#include "dotpose/tools/error.hpp"
+#include "dotpose/files/error.hpp"
 #include "dotpose/tools/image_file.hpp"
 
 namespace dotpose::capture {

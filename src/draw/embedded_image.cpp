@@ -7,7 +7,7 @@
 
 #include <png.h>
 
-#include "dotpose/tools/error.hpp"
+#include "dotpose/files/error.hpp"
 
 namespace dotpose::draw {
 namespace {

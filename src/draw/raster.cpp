@@ -9,7 +9,7 @@
 #include <fmt/core.h>
 #include <librsvg/rsvg.h>
 
-#include "dotpose/tools/error.hpp"
+#include "dotpose/files/error.hpp"
 #include "draw/svg.hpp"
 
 namespace dotpose::draw {

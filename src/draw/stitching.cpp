@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "dotpose/files/sheet_place.hpp"
 #include "dotpose/tools/calibrate.hpp"
 #include "draw/two_panels.hpp"
 
@@ -31,7 +32,7 @@ struct Disagreement {
 /// Converts a point of a sheet to world mm, with y down as on the drawing. The sheet must have a
 /// place in the world.
 Point in_world(const SheetEntry& entry, double x_mm, double y_mm) {
-    const WorldPose place = world_pose({&entry, x_mm, y_mm, 0}).value();
+    const WorldPlace place = world_place({&entry, x_mm, y_mm, 0, {}}).value();
     return {1000 * place.x_m, -1000 * place.y_m};
 }
 Point in_world_from_first(const SheetEntry& entry, double x_mm, double y_mm) {

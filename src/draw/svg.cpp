@@ -8,7 +8,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "dotpose/tools/error.hpp"
+#include "dotpose/files/error.hpp"
 
 namespace dotpose::draw {
 namespace {

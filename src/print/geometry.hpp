@@ -1,16 +1,11 @@
 /// Positions of dots on a sheet, in mm, as the writers of all file formats compute them.
 #pragma once
 
-#include "dotpose/tools/sheet.hpp"
+#include "dotpose/files/sheet.hpp"
 
 namespace dotpose::print {
 
 inline constexpr double kInch_mm = 25.4;
-
-/// Largest distance of ink from its grid intersection, along x or y.
-inline double reach_mm(const Pattern& pattern) {
-    return pattern.displacement_mm + pattern.dot_mm / 2;
-}
 
 /// x of the centre of a dot in column `i` of the sheet, displaced by `dx` (-1, 0 or 1).
 inline double dot_x_mm(const Sheet& sheet, int i, int dx) {

@@ -43,7 +43,8 @@ void set_information(QPDF& pdf, const std::string& title) {
 
 }  // namespace
 
-void write_pdf(std::span<const Sheet> sheets, const PrintOptions& options, OutputFile& file) {
+void write_pdf(std::span<const Sheet> sheets, const PrintOptions& options,
+               files::OutputFile& file) {
     QPDF pdf;
     pdf.emptyPDF();
     const auto rows = std::make_shared<RowCount>();
@@ -74,7 +75,7 @@ void write_pdf(std::span<const Sheet> sheets, const PrintOptions& options, Outpu
     write_document(pdf, *rows, file);
 }
 
-void write_pdf_page(const PrintPage& page, const PrintOptions& options, OutputFile& file) {
+void write_pdf_page(const PrintPage& page, const PrintOptions& options, files::OutputFile& file) {
     QPDF pdf;
     pdf.emptyPDF();
     const auto rows = std::make_shared<RowCount>();

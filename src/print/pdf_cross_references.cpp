@@ -12,7 +12,7 @@
 #include <qpdf/QPDFExc.hh>
 #include <qpdf/QPDFTokenizer.hh>
 
-#include "dotpose/tools/error.hpp"
+#include "dotpose/files/error.hpp"
 
 namespace dotpose::print {
 namespace {

@@ -4,14 +4,15 @@
 #include <qpdf/Pipeline.hh>
 #include <qpdf/QPDF.hh>
 
-#include "output_file.hpp"
+#include "files/output_file.hpp"
 #include "pdf_dots.hpp"
 
 namespace dotpose::print {
 
 class FilePipeline : public Pipeline {
   public:
-    explicit FilePipeline(OutputFile& file) : Pipeline("output file", nullptr), file_(file) {}
+    explicit FilePipeline(files::OutputFile& file)
+        : Pipeline("output file", nullptr), file_(file) {}
 
     void write(unsigned char const* data, std::size_t size_bytes) override {
         file_.write(data, size_bytes);
@@ -20,11 +21,11 @@ class FilePipeline : public Pipeline {
     void finish() override {}
 
   private:
-    OutputFile& file_;
+    files::OutputFile& file_;
 };
 
 /// Writes `pdf` into `file` and leaves the commit to the caller. Throws the exception that `rows`
 /// keeps, or Error if the file cannot be written or qpdf fails.
-void write_document(QPDF& pdf, const RowCount& rows, OutputFile& file);
+void write_document(QPDF& pdf, const RowCount& rows, files::OutputFile& file);
 
 }  // namespace dotpose::print

@@ -11,7 +11,7 @@
 #include <qpdf/Pl_Concatenate.hh>
 #include <qpdf/Pl_QPDFTokenizer.hh>
 
-#include "dotpose/tools/error.hpp"
+#include "dotpose/files/error.hpp"
 #include "pdf_ink.hpp"
 
 namespace dotpose::print {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "dotpose/tools/sheet.hpp"
+#include "dotpose/files/sheet.hpp"
 
 namespace dotpose::print {
 

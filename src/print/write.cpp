@@ -4,8 +4,8 @@
 #include <fmt/core.h>
 
 #include "dotpose/tools/print.hpp"
+#include "files/output_file.hpp"
 #include "lower_case.hpp"
-#include "output_file.hpp"
 #include "writers.hpp"
 
 namespace dotpose {
@@ -40,7 +40,7 @@ void write_sheets(std::span<const Sheet> sheets, const std::filesystem::path& pa
         }
     }
     const Sheet& sheet = sheets.front();
-    print::OutputFile file(path);
+    files::OutputFile file(path);
     const auto rows = [&](const print::RowSink& sink) {
         print::rasterize(sheet, options.dpi, options.progress, sink);
     };

@@ -13,7 +13,7 @@
 #include <string>
 #include <thread>
 
-#include "dotpose/tools/error.hpp"
+#include "dotpose/files/error.hpp"
 
 struct mosquitto;
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "dotpose/tools/error.hpp"
+#include "dotpose/files/error.hpp"
 #include "dotpose/tools/grey_image.hpp"
 
 namespace dotpose::video {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "dotpose/files/error.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/options.hpp"
-#include "dotpose/tools/error.hpp"
 #include "dotpose/trace.hpp"
 #include "draw/track_map.hpp"
 

@@ -7,8 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "../scanned_page.hpp"
+#include "dotpose/files/profile_names.hpp"
+#include "dotpose/files/sheet_file.hpp"
 #include "dotpose/tools/print.hpp"
-#include "dotpose/tools/sheet_file.hpp"
 #include "locate_command.hpp"
 
 namespace dotpose::test {

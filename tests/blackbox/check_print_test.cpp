@@ -9,9 +9,9 @@
 
 #include "../jpeg.hpp"
 #include "../scanned_page.hpp"
+#include "dotpose/files/sheet_file.hpp"
 #include "dotpose/tools/image_file.hpp"
 #include "dotpose/tools/print.hpp"
-#include "dotpose/tools/sheet_file.hpp"
 #include "dotpose/tools/simulate.hpp"
 #include "dotpose/tools/test_page.hpp"
 #include "tool_command.hpp"

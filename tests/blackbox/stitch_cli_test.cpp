@@ -7,7 +7,7 @@
 
 #include <gmock/gmock.h>
 
-#include "dotpose/tools/sheet_file.hpp"
+#include "dotpose/files/sheet_file.hpp"
 #include "locate_command.hpp"
 
 namespace dotpose::test {

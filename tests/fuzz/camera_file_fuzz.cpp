@@ -1,7 +1,7 @@
 // Any file: `read_camera` gives a camera that images can be located with, or throws Error.
 #include <cstdlib>
 
-#include "dotpose/tools/camera_file.hpp"
+#include "dotpose/files/camera_file.hpp"
 #include "reads_or_refuses.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

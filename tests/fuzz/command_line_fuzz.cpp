@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common.hpp"
-#include "dotpose/tools/error.hpp"
+#include "dotpose/files/error.hpp"
 
 namespace {
 

@@ -4,14 +4,14 @@
 #include <sstream>
 #include <string>
 
-#include "dotpose/tools/error.hpp"
-#include "print/input_file.hpp"
+#include "dotpose/files/error.hpp"
+#include "files/input_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     std::istringstream stream({reinterpret_cast<const char*>(data), size});
     std::string joined;
     try {
-        for (std::string line; dotpose::print::next_line(stream, line);) {
+        for (std::string line; dotpose::files::next_line(stream, line);) {
             if (line.size() > 65536 || line.find('\n') != std::string::npos) std::abort();
             joined += line + '\n';
         }

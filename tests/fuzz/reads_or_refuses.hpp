@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "dotpose/tools/error.hpp"
+#include "dotpose/files/error.hpp"
 #include "memory_file.hpp"
 
 namespace dotpose::fuzz {

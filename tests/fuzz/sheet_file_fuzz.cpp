@@ -1,7 +1,7 @@
 // Any file: `read_sheets` gives sheets that can be printed, or throws Error.
 #include <cstdlib>
 
-#include "dotpose/tools/sheet_file.hpp"
+#include "dotpose/files/sheet_file.hpp"
 #include "reads_or_refuses.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

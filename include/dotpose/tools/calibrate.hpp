@@ -20,11 +20,11 @@
 #include <string>
 #include <vector>
 
-#include "dotpose/tools/camera.hpp"
-#include "dotpose/tools/error.hpp"
+#include "dotpose/files/camera.hpp"
+#include "dotpose/files/error.hpp"
+#include "dotpose/files/sheet.hpp"
+#include "dotpose/files/sheet_file.hpp"
 #include "dotpose/tools/grey_image.hpp"
-#include "dotpose/tools/sheet.hpp"
-#include "dotpose/tools/sheet_file.hpp"
 
 #pragma GCC visibility push(default)
 

@@ -22,10 +22,10 @@
 #include <string>
 #include <vector>
 
+#include "dotpose/files/error.hpp"
+#include "dotpose/files/sheet.hpp"
 #include "dotpose/image.hpp"
-#include "dotpose/tools/error.hpp"
 #include "dotpose/tools/image_file.hpp"
-#include "dotpose/tools/sheet.hpp"
 
 #pragma GCC visibility push(default)
 

@@ -13,9 +13,9 @@
 #include <span>
 #include <string>
 
+#include "dotpose/files/error.hpp"
+#include "dotpose/files/sheet.hpp"
 #include "dotpose/image.hpp"
-#include "dotpose/tools/error.hpp"
-#include "dotpose/tools/sheet.hpp"
 #include "dotpose/trace.hpp"
 
 #pragma GCC visibility push(default)

@@ -19,9 +19,9 @@
 #include <string>
 #include <vector>
 
+#include "dotpose/files/error.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/options.hpp"
-#include "dotpose/tools/error.hpp"
 #include "dotpose/tools/grey_image.hpp"
 #include "dotpose/tools/outcome.hpp"
 #include "dotpose/tools/simulate.hpp"

@@ -18,7 +18,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "dotpose/tools/error.hpp"
+#include "dotpose/files/error.hpp"
 #include "dotpose/tools/grey_image.hpp"
 
 #pragma GCC visibility push(default)

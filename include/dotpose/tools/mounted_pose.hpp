@@ -6,9 +6,9 @@
 ///     const Fix fix = with_camera(seen, camera, locator.trace());
 #pragma once
 
+#include "dotpose/files/camera.hpp"
+#include "dotpose/files/sheet.hpp"
 #include "dotpose/fix.hpp"
-#include "dotpose/tools/camera.hpp"
-#include "dotpose/tools/sheet.hpp"
 #include "dotpose/trace.hpp"
 
 #pragma GCC visibility push(default)

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "dotpose/tools/error.hpp"
-#include "dotpose/tools/sheet.hpp"
+#include "dotpose/files/error.hpp"
+#include "dotpose/files/sheet.hpp"
 
 #pragma GCC visibility push(default)
 

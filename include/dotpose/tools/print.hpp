@@ -18,17 +18,13 @@
 #include <string_view>
 #include <vector>
 
-#include "dotpose/tools/error.hpp"
-#include "dotpose/tools/sheet.hpp"
+#include "dotpose/files/error.hpp"
+#include "dotpose/files/sheet.hpp"
 
 #pragma GCC visibility push(default)
 
 namespace dotpose {
 
-/// Largest width and height of a page, in mm.
-inline constexpr double kMaxPage_mm = 100'000;
-/// Fewest columns and rows of a sheet: smaller regions cannot be read (paper section III-A.3).
-inline constexpr int kMinSheetCells = 8;
 /// Most pages of one document.
 inline constexpr int kMaxPages = 10'000;
 /// Largest accepted resolution of PNG, TIFF and PDF files.
@@ -72,11 +68,6 @@ Sheet make_sheet(const SheetOptions& options);
 ///
 /// Throws BadArgument: see `make_sheet`; also if `pages` is not 1 to kMaxPages.
 std::vector<Sheet> make_sheets(const SheetOptions& options, int pages);
-
-/// Checks a sheet, whoever filled it: lengths positive and finite, dots apart from each other,
-/// section below kSections, at least kMinSheetCells columns and rows, region inside the code plane,
-/// all ink on the page. Throws BadArgument naming the first value that is wrong.
-void validate(const Sheet& sheet);
 
 /// Checks that a printer of this resolution can show the pattern: the displacement is at least one
 /// printer pixel and at least one white pixel parts any two dots. Throws BadArgument.

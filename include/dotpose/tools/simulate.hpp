@@ -25,10 +25,10 @@
 #include <vector>
 
 #include "dotpose/code.hpp"
-#include "dotpose/tools/error.hpp"
+#include "dotpose/files/error.hpp"
+#include "dotpose/files/sheet.hpp"
 #include "dotpose/tools/grey_image.hpp"
 #include "dotpose/tools/random.hpp"
-#include "dotpose/tools/sheet.hpp"
 
 #pragma GCC visibility push(default)
 

@@ -14,9 +14,9 @@
 #include <optional>
 #include <vector>
 
-#include "dotpose/tools/error.hpp"
+#include "dotpose/files/error.hpp"
+#include "dotpose/files/sheet.hpp"
 #include "dotpose/tools/print.hpp"
-#include "dotpose/tools/sheet.hpp"
 
 #pragma GCC visibility push(default)
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "dotpose/code.hpp"
-#include "dotpose/tools/error.hpp"
-#include "dotpose/tools/sheet.hpp"
+#include "dotpose/files/error.hpp"
+#include "dotpose/files/sheet.hpp"
 #include "dotpose/tools/simulate.hpp"
 
 #pragma GCC visibility push(default)

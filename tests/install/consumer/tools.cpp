@@ -1,8 +1,8 @@
 #include <cstdio>
 #include <filesystem>
 
+#include <dotpose/files/camera_file.hpp>
 #include <dotpose/tools/calibrate.hpp>
-#include <dotpose/tools/camera_file.hpp>
 #include <dotpose/tools/draw.hpp>
 #include <dotpose/tools/heap_locator.hpp>
 #include <dotpose/tools/image_file.hpp>

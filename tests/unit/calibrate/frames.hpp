@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "dotpose/files/sheet_file.hpp"
 #include "dotpose/tools/heap_locator.hpp"
 #include "dotpose/tools/mounted_pose.hpp"
-#include "dotpose/tools/sheet_file.hpp"
 #include "dotpose/tools/simulate.hpp"
 
 namespace dotpose::calibrate_test {

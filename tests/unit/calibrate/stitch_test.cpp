@@ -86,7 +86,7 @@ TEST(StitchSheets, FindsHowFourSheetsLieAndHowLongTheyWerePrinted) {
         const auto place =
             find_sheet(stitching.sheets, Profile::anoto,
                        with_camera(fix, camera, locator.trace(), seen->entry->print_scale()));
-        const WorldPose found = world_pose(place.value()).value();
+        const WorldPlace found = world_place(place.value()).value();
         EXPECT_NEAR(1000 * found.x_m, x_mm + 20 * std::cos(kTheta_rad), 0.02);
         EXPECT_NEAR(-1000 * found.y_m, y_mm + 20 * std::sin(kTheta_rad), 0.02);
         EXPECT_NEAR(-found.yaw_rad, kTheta_rad, 0.03 * kDegree_rad);

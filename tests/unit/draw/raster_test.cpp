@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "../../temporary_directory.hpp"
-#include "dotpose/tools/error.hpp"
+#include "dotpose/files/error.hpp"
 #include "dotpose/tools/image_file.hpp"
 #include "draw/svg.hpp"
 

@@ -1,0 +1,37 @@
+/// Camera files: a `Camera` as YAML.
+///
+///     const Camera camera = read_camera("camera.yaml");
+///     Options options;
+///     use_camera(camera, image.width_px, image.height_px, options);
+///
+/// `read_camera` also reads the `camera_info` files of ROS (`plumb_bob`) and converts their lens.
+#pragma once
+
+#include <filesystem>
+
+#include "dotpose/files/camera.hpp"
+#include "dotpose/files/error.hpp"
+
+#pragma GCC visibility push(default)
+
+namespace dotpose {
+
+/// Version of the format that is written, and the only one that is read.
+inline constexpr int kCameraFileVersion = 1;
+
+/// Reads a camera file, or a camera_info file of ROS. Throws Error, naming the file and the key
+/// concerned: the file cannot be read, is neither, is of another version, a key is missing, not
+/// known, of the wrong type or out of range; a distortion model other than plumb_bob, or one that
+/// eq. 2 cannot follow to within 0.5 px rms.
+Camera read_camera(const std::filesystem::path& path);
+
+/// Whether it is a camera_info file of ROS, which `write_camera` would turn into one of another
+/// format. Throws Error: the file cannot be read.
+bool is_camera_info(const std::filesystem::path& path);
+
+/// Writes the file, whole or not at all. Throws Error, or BadArgument as `validate`.
+void write_camera(const std::filesystem::path& path, const Camera& camera);
+
+}  // namespace dotpose
+
+#pragma GCC visibility pop

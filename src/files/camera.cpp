@@ -1,0 +1,180 @@
+// A camera's geometry, and its use in `locate`.
+#include "dotpose/files/camera.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include <fmt/core.h>
+
+#include "dotpose/locate.hpp"
+
+namespace dotpose {
+namespace {
+
+constexpr double kFarthestCentre_px = 1000;
+/// Far outside any image, and far inside what the fixed-point pose can express.
+constexpr double kFarthestReference_px = 10'000;
+constexpr double kLongestFocal_px = 1e6;
+constexpr double kLeastStretch = 0.5;
+constexpr double kMostStretch = 2;
+
+PixelPoint image_centre(const Camera& camera) {
+    return {(camera.width_px - 1) / 2.0, (camera.height_px - 1) / 2.0};
+}
+
+void require(bool is_good, const char* key, const std::string& why) {
+    if (!is_good) throw BadArgument(fmt::format("{} {}", key, why));
+}
+
+void require_near(PixelPoint point, const Camera& camera, double limit_px, const char* key) {
+    const PixelPoint middle = image_centre(camera);
+    const bool is_near =
+        std::abs(point.u - middle.u) <= limit_px && std::abs(point.v - middle.v) <= limit_px;
+    require(is_near, key, fmt::format("is more than {} px off the image centre", limit_px));
+}
+
+void require_lens(const Camera& camera) {
+    const double last_u = camera.width_px - 1;
+    const double last_v = camera.height_px - 1;
+    for (const double u : {0.0, last_u}) {
+        for (const double v : {0.0, last_v}) {
+            const double du = u - camera.centre_px.u;
+            const double dv = v - camera.centre_px.v;
+            const double stretch = 1 + camera.k_per_px2 * (du * du + dv * dv);
+            require(stretch >= kLeastStretch && stretch <= kMostStretch, "k_per_px2",
+                    fmt::format("{:g} folds an image of {} x {} px", camera.k_per_px2,
+                                camera.width_px, camera.height_px));
+        }
+    }
+}
+
+void require_paper(const PaperScale& paper, const Camera& camera) {
+    // From a microscope's to that of a camera over a hall.
+    const auto is_length = [](double mm) { return mm >= 1e-6 && mm <= 1e3; };
+    require(is_length(paper.mm_per_px_x) && is_length(paper.mm_per_px_y), "mm_per_px",
+            "must be from 0.000001 to 1000");
+    require(std::abs(paper.skew) <= 0.5, "skew", "must be from -0.5 to 0.5");
+    // The horizon, where the divisor of on_paper is 0, lies far outside of the image.
+    const double most_u =
+        std::max(std::abs(camera.centre_px.u), std::abs(camera.width_px - 1 - camera.centre_px.u));
+    const double most_v =
+        std::max(std::abs(camera.centre_px.v), std::abs(camera.height_px - 1 - camera.centre_px.v));
+    const double change =
+        std::abs(paper.perspective_u) * most_u + std::abs(paper.perspective_v) * most_v;
+    require(change <= 0.75, "perspective_per_px", "puts the horizon into the image");
+}
+
+}  // namespace
+
+void validate(const Camera& camera) {
+    const auto is_side = [](int px) { return px >= kMinFrameSide_px && px <= kMaxFrameSide_px; };
+    const auto side_range = fmt::format("must be {} to {}", kMinFrameSide_px, kMaxFrameSide_px);
+    require(is_side(camera.width_px), "width_px", side_range);
+    require(is_side(camera.height_px), "height_px", side_range);
+    require_near(camera.centre_px, camera, kFarthestCentre_px, "centre_px");
+    require_lens(camera);
+    if (camera.paper) require_paper(*camera.paper, camera);
+    if (camera.focal_px) {
+        require(*camera.focal_px >= 1 && *camera.focal_px <= kLongestFocal_px, "focal_px",
+                fmt::format("must be from 1 to {:g}", kLongestFocal_px));
+    }
+    if (camera.tilt) {
+        const auto is_tilt = [](double rad) { return std::abs(rad) < std::numbers::pi / 2; };
+        require(is_tilt(camera.tilt->x_rad) && is_tilt(camera.tilt->y_rad), "tilt_rad",
+                "must be below a quarter turn");
+    }
+    if (camera.reference_px) {
+        require_near(*camera.reference_px, camera, kFarthestReference_px, "reference_px");
+    }
+    require(std::abs(camera.theta_offset_rad) <= 2 * std::numbers::pi, "theta_offset_rad",
+            "must be at most a full turn");
+    if (camera.exposure_us) {
+        require(*camera.exposure_us > 0 && std::isfinite(*camera.exposure_us), "exposure_us",
+                "must be above 0");
+    }
+    if (camera.gain) {
+        require(*camera.gain > 0 && std::isfinite(*camera.gain), "gain", "must be above 0");
+    }
+}
+
+PixelPoint undistorted(const Camera& camera, PixelPoint pixel) {
+    const double du = pixel.u - camera.centre_px.u;
+    const double dv = pixel.v - camera.centre_px.v;
+    const double shrink = 1 / (1 + camera.k_per_px2 * (du * du + dv * dv));
+    return {camera.centre_px.u + shrink * du, camera.centre_px.v + shrink * dv};
+}
+
+PixelPoint distorted(const Camera& camera, PixelPoint point) {
+    const double du = point.u - camera.centre_px.u;
+    const double dv = point.v - camera.centre_px.v;
+    // Eq. 2 solved for r_d: the root that goes to r_u with k.
+    const double root = std::sqrt(std::max(1 - 4 * camera.k_per_px2 * (du * du + dv * dv), 0.0));
+    const double stretch = 2 / (1 + root);
+    return {camera.centre_px.u + stretch * du, camera.centre_px.v + stretch * dv};
+}
+
+CameraPoint on_paper(const Camera& camera, PixelPoint point) {
+    const PaperScale& paper = camera.paper.value();
+    const double a = point.u - camera.centre_px.u;
+    const double b = point.v - camera.centre_px.v;
+    const double divisor = 1 + paper.perspective_u * a + paper.perspective_v * b;
+    return {paper.mm_per_px_x * (a + paper.skew * b) / divisor, paper.mm_per_px_y * b / divisor};
+}
+
+PixelPoint on_image(const Camera& camera, CameraPoint point) {
+    const PaperScale& paper = camera.paper.value();
+    // Without the divisor: (a, b) = divisor * (flat_a, flat_b), and the divisor is linear in both.
+    const double flat_b = point.y_mm / paper.mm_per_px_y;
+    const double flat_a = point.x_mm / paper.mm_per_px_x - paper.skew * flat_b;
+    const double divisor = 1 / (1 - paper.perspective_u * flat_a - paper.perspective_v * flat_b);
+    return {camera.centre_px.u + divisor * flat_a, camera.centre_px.v + divisor * flat_b};
+}
+
+double image_axis_rad(const Camera& camera, PixelPoint point) {
+    const CameraPoint from = on_paper(camera, {point.u - 0.5, point.v});
+    const CameraPoint to = on_paper(camera, {point.u + 0.5, point.v});
+    return std::atan2(to.y_mm - from.y_mm, to.x_mm - from.x_mm);
+}
+
+CameraPoint from_image_centre(const Camera& camera, PixelPoint point) {
+    const CameraPoint middle = on_paper(camera, image_centre(camera));
+    const CameraPoint at = on_paper(camera, point);
+    const double angle = image_axis_rad(camera, image_centre(camera));
+    const double x = at.x_mm - middle.x_mm;
+    const double y = at.y_mm - middle.y_mm;
+    return {std::cos(angle) * x + std::sin(angle) * y, std::cos(angle) * y - std::sin(angle) * x};
+}
+
+PixelPoint pixel_from_image_centre(const Camera& camera, CameraPoint point) {
+    const CameraPoint middle = on_paper(camera, image_centre(camera));
+    const double angle = image_axis_rad(camera, image_centre(camera));
+    const double c = std::cos(angle);
+    const double s = std::sin(angle);
+    return on_image(camera, {middle.x_mm + c * point.x_mm - s * point.y_mm,
+                             middle.y_mm + s * point.x_mm + c * point.y_mm});
+}
+
+std::optional<PixelPoint> reference_in(const Camera& other, const Camera& camera) {
+    if (!camera.reference_px || !camera.paper || !other.paper) return camera.reference_px;
+    return pixel_from_image_centre(other, from_image_centre(camera, *camera.reference_px));
+}
+
+void use_camera(const Camera& camera, int width_px, int height_px, Options& options) {
+    if (camera.width_px != width_px || camera.height_px != height_px) {
+        throw BadArgument(fmt::format("the camera file is for images of {} x {} px, not {} x {} px",
+                                      camera.width_px, camera.height_px, width_px, height_px));
+    }
+    const PixelPoint middle = image_centre(camera);
+    const auto q8 = [](double px) { return static_cast<std::int32_t>(std::lround(px * 256)); };
+    options.lens = Lens::from_k(camera.k_per_px2);
+    options.lens.centre_dx_q8 = q8(camera.centre_px.u - middle.u);
+    options.lens.centre_dy_q8 = q8(camera.centre_px.v - middle.v);
+    if (camera.paper) options.show_stages = true;  // with_camera fits their dots
+    if (camera.reference_px) {
+        options.reference_dx_q8 = q8(camera.reference_px->u - middle.u);
+        options.reference_dy_q8 = q8(camera.reference_px->v - middle.v);
+    }
+}
+
+}  // namespace dotpose

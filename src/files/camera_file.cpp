@@ -1,0 +1,150 @@
+#include "dotpose/files/camera_file.hpp"
+
+#include <fmt/core.h>
+
+#include "files/output_file.hpp"
+#include "files/ros_camera.hpp"
+#include "files/yaml_reader.hpp"
+
+namespace dotpose {
+namespace {
+
+using files::YamlMap;
+
+constexpr const char* kFormat = "dotpose-camera";
+
+PixelPoint point(const YamlMap& file, const char* key) {
+    const auto numbers = file.numbers(key, 2);
+    return {numbers[0], numbers[1]};
+}
+
+std::optional<double> optional_number(const YamlMap& file, const char* key) {
+    return file.has(key) ? std::optional(file.number(key)) : std::nullopt;
+}
+
+PaperScale read_paper(const YamlMap& file) {
+    const auto scale = file.numbers("mm_per_px", 2);
+    PaperScale paper{scale[0], scale[1], file.has("skew") ? file.number("skew") : 0, 0, 0};
+    if (file.has("perspective_per_px")) {
+        const PixelPoint perspective = point(file, "perspective_per_px");
+        paper.perspective_u = perspective.u;
+        paper.perspective_v = perspective.v;
+    }
+    return paper;
+}
+
+Camera read_native(const YamlMap& file) {
+    if (!file.has("format")) file.fail("format", "is missing: this is no camera file");
+    if (file.text("format") != kFormat) {
+        file.fail("format", fmt::format("is '{}': this is no camera file", file.text("format")));
+    }
+    if (file.integer("version") != kCameraFileVersion) {
+        file.fail("version", fmt::format("is {}; this program reads version {}",
+                                         file.integer("version"), kCameraFileVersion));
+    }
+    file.allow_only({"format", "version", "width_px", "height_px", "k_per_px2", "centre_px",
+                     "mm_per_px", "skew", "perspective_per_px", "focal_px", "tilt_rad",
+                     "reference_px", "theta_offset_rad", "exposure_us", "gain", "sigma"});
+    Camera camera;
+    camera.width_px = file.integer("width_px");
+    camera.height_px = file.integer("height_px");
+    camera.k_per_px2 = file.number("k_per_px2");
+    camera.centre_px = point(file, "centre_px");
+    if (file.has("mm_per_px")) camera.paper = read_paper(file);
+    camera.focal_px = optional_number(file, "focal_px");
+    if (file.has("tilt_rad")) {
+        const PixelPoint tilt = point(file, "tilt_rad");
+        camera.tilt = Tilt{tilt.u, tilt.v};
+    }
+    if (file.has("reference_px")) camera.reference_px = point(file, "reference_px");
+    camera.theta_offset_rad = optional_number(file, "theta_offset_rad").value_or(0);
+    camera.exposure_us = optional_number(file, "exposure_us");
+    camera.gain = optional_number(file, "gain");
+    if (file.has("sigma")) {
+        const YamlMap sigma = file.map("sigma");
+        for (const std::string& key : sigma.keys())
+            camera.sigma[key] = sigma.number(key);
+    }
+    return camera;
+}
+
+/// Short enough to read, and exact to far below any standard deviation.
+std::string text_of(double value) {
+    return fmt::format("{:.10g}", value);
+}
+
+class Writer {
+  public:
+    void line(const std::string& key, const std::string& value, const char* comment = "") {
+        text_ += fmt::format("{}: {}{}{}\n", key, value, *comment != '\0' ? "  # " : "", comment);
+    }
+    void line(const char* key, double value, const char* comment = "") {
+        line(key, text_of(value), comment);
+    }
+    void line(const char* key, double first, double second, const char* comment = "") {
+        line(key, fmt::format("[{}, {}]", text_of(first), text_of(second)), comment);
+    }
+    const std::string& text() const { return text_; }
+
+  private:
+    std::string text_;
+};
+
+std::string yaml_of(const Camera& camera) {
+    Writer out;
+    out.line("format", kFormat);
+    out.line("version", kCameraFileVersion);
+    out.line("width_px", camera.width_px);
+    out.line("height_px", camera.height_px);
+    out.line("k_per_px2", camera.k_per_px2, "p = centre + r / (1 + k |r|^2)");
+    out.line("centre_px", camera.centre_px.u, camera.centre_px.v, "of the distortion");
+    if (const auto& paper = camera.paper) {
+        out.line("mm_per_px", paper->mm_per_px_x, paper->mm_per_px_y,
+                 "on the paper, at the centre");
+        out.line("skew", paper->skew);
+        out.line("perspective_per_px", paper->perspective_u, paper->perspective_v);
+    }
+    if (camera.focal_px) out.line("focal_px", *camera.focal_px);
+    if (camera.tilt) out.line("tilt_rad", camera.tilt->x_rad, camera.tilt->y_rad);
+    if (camera.reference_px) {
+        out.line("reference_px", camera.reference_px->u, camera.reference_px->v,
+                 "the point whose pose is wanted, undistorted");
+    }
+    if (camera.theta_offset_rad != 0) {
+        out.line("theta_offset_rad", camera.theta_offset_rad, "heading minus image x axis");
+    }
+    if (camera.exposure_us) out.line("exposure_us", *camera.exposure_us);
+    if (camera.gain) out.line("gain", *camera.gain);
+    if (!camera.sigma.empty()) out.line("sigma", "", "standard deviations");
+    for (const auto& [key, value] : camera.sigma)
+        out.line("  " + key, fmt::format("{:.3g}", value));
+    return out.text();
+}
+
+}  // namespace
+
+Camera read_camera(const std::filesystem::path& path) {
+    const YamlMap file(path);
+    const Camera camera =
+        files::is_camera_info(file) ? files::camera_from_camera_info(file) : read_native(file);
+    try {
+        validate(camera);
+    } catch (const BadArgument& error) {
+        throw Error(fmt::format("{}: {}", path.string(), error.what()));
+    }
+    return camera;
+}
+
+bool is_camera_info(const std::filesystem::path& path) {
+    return files::is_camera_info(YamlMap(path));
+}
+
+void write_camera(const std::filesystem::path& path, const Camera& camera) {
+    validate(camera);
+    files::OutputFile file(path);
+    file.write(yaml_of(camera));
+    file.require_good();
+    file.commit();
+}
+
+}  // namespace dotpose

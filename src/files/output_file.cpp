@@ -1,0 +1,113 @@
+#include "files/output_file.hpp"
+
+#include <cerrno>
+#include <random>
+#include <system_error>
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "dotpose/files/error.hpp"
+#include "files/system_error.hpp"
+
+namespace dotpose::files {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr int kNameAttempts = 100;
+
+}  // namespace
+
+fs::path without_links(fs::path path) {
+    constexpr int kMostLinks = 40;  // as many as Linux follows
+    std::error_code error;
+    for (int i = 0; i < kMostLinks && fs::is_symlink(path, error); ++i) {
+        const fs::path target = fs::read_symlink(path, error);
+        if (error) break;
+        path = path.parent_path() / target;
+    }
+    return path;
+}
+
+OutputFile::OutputFile(const fs::path& target) : target_(without_links(target)) {
+    std::error_code error;
+    const fs::file_status status = fs::status(target_, error);
+    if (fs::is_directory(status)) throw_system("write", target_, EISDIR);
+    if (fs::exists(status) && !fs::is_regular_file(status)) {
+        throw Error(fmt::format("cannot write {}: it is not a regular file", target_.string()));
+    }
+    // Renaming onto a file needs no permission to write it, so it would replace a write-protected
+    // one.
+    if (fs::exists(status) && access(target_.c_str(), W_OK) != 0) {
+        throw_system("write", target_, errno);
+    }
+    open_temporary();
+    if (fs::exists(status)) fs::permissions(temporary_, status.permissions(), error);
+}
+
+OutputFile::~OutputFile() {
+    if (stream_ == nullptr) return;
+    std::fclose(stream_);
+    unlink(temporary_.c_str());
+}
+
+void OutputFile::open_temporary() {
+    std::random_device random;
+    int descriptor = -1;
+    for (int attempt = 0; attempt < kNameAttempts && descriptor < 0; ++attempt) {
+        temporary_ = target_;
+        temporary_.replace_filename(
+            fmt::format(".{:.200}.{:08x}.tmp", target_.filename().string(), random()));
+        // open, not mkstemp: the mode then follows the user's umask.
+        descriptor = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (descriptor < 0 && errno != EEXIST) break;
+    }
+    if (descriptor < 0) throw_system("create", target_, errno);
+    stream_ = fdopen(descriptor, "wb");
+    if (stream_ == nullptr) {
+        const int error_number = errno;
+        close(descriptor);
+        unlink(temporary_.c_str());
+        throw_system("create", target_, error_number);
+    }
+}
+
+void OutputFile::fail() noexcept {
+    if (error_number_ == 0) error_number_ = errno != 0 ? errno : EIO;
+}
+
+void OutputFile::write(const void* data, std::size_t size_bytes) noexcept {
+    if (error_number_ != 0 || size_bytes == 0) return;
+    errno = 0;
+    if (std::fwrite(data, 1, size_bytes, stream_) != size_bytes) fail();
+}
+
+std::int64_t OutputFile::seek(std::int64_t offset, int whence) noexcept {
+    errno = 0;
+    if (fseeko(stream_, offset, whence) != 0) fail();
+    return ftello(stream_);
+}
+
+void OutputFile::require_good() const {
+    if (error_number_ != 0) throw_system("write", target_, error_number_);
+}
+
+void OutputFile::commit() {
+    require_good();
+    std::FILE* stream = stream_;
+    stream_ = nullptr;
+    // Network file systems report a full disk only when the file is closed.
+    if (std::fclose(stream) != 0 || std::rename(temporary_.c_str(), target_.c_str()) != 0) {
+        const int error_number = errno;
+        unlink(temporary_.c_str());
+        throw_system("write", target_, error_number);
+    }
+}
+
+void require_writable(const fs::path& target) {
+    const OutputFile never_committed(target);
+}
+
+}  // namespace dotpose::files

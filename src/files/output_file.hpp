@@ -1,0 +1,60 @@
+/// Writes files so that they appear complete or not at all.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <string_view>
+
+// The tools library calls them too.
+#pragma GCC visibility push(default)
+
+namespace dotpose::files {
+
+/// Follows symbolic links and returns the path of the file that they lead to, which need not exist
+/// yet.
+std::filesystem::path without_links(std::filesystem::path path);
+
+/// Writes to a temporary file beside the target; `commit` renames it, the destructor of an
+/// uncommitted file removes it. Symbolic links are followed, the mode of an old file is kept.
+class OutputFile {
+  public:
+    /// Throws Error if the target is no regular file or nothing can be created beside it.
+    explicit OutputFile(const std::filesystem::path& target);
+    ~OutputFile();
+    OutputFile(const OutputFile&) = delete;
+    OutputFile& operator=(const OutputFile&) = delete;
+
+    /// Appends. Never throws, so that C libraries may call it: the first failure is kept for
+    /// `require_good`, and what comes after it is dropped.
+    void write(const void* data, std::size_t size_bytes) noexcept;
+    void write(std::string_view text) noexcept { write(text.data(), text.size()); }
+
+    /// Moves the position of the next write, like fseeko; returns the new position in bytes from
+    /// the start of the file.
+    std::int64_t seek(std::int64_t offset, int whence) noexcept;
+
+    /// Throws Error with the system's reason if a write failed, for example a full disk.
+    void require_good() const;
+
+    /// Closes the temporary file and renames it to the target. Throws Error.
+    void commit();
+
+  private:
+    void open_temporary();
+    void fail() noexcept;
+
+    std::filesystem::path target_;
+    std::filesystem::path temporary_;
+    std::FILE* stream_ = nullptr;
+    int error_number_ = 0;
+};
+
+/// Throws Error, as OutputFile does, if the file could not be created. Call it before a long
+/// computation whose result goes into the file.
+void require_writable(const std::filesystem::path& target);
+
+}  // namespace dotpose::files
+
+#pragma GCC visibility pop

@@ -1,0 +1,23 @@
+/// Makes text from files, file names and networks safe to show on a terminal.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+// The tools library calls them too.
+#pragma GCC visibility push(default)
+
+namespace dotpose::files {
+
+/// Returns the text with U+FFFD in place of every byte that is not UTF-8 and of every character
+/// that moves the cursor, starts a terminal command, breaks the line or changes the direction of
+/// writing. The result cannot control a terminal or look like another line of output.
+std::string printable(std::string_view text);
+
+/// Returns JSON text with the control characters U+007F to U+009F, which JSON allows unescaped, as
+/// \u escapes. The JSON value stays the same, and a terminal does not obey it.
+std::string with_escaped_controls(std::string_view json);
+
+}  // namespace dotpose::files
+
+#pragma GCC visibility pop

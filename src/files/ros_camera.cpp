@@ -1,0 +1,79 @@
+#include "files/ros_camera.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "files/division_model.hpp"
+
+namespace dotpose::files {
+namespace {
+
+/// What eq. 2 may be off plumb_bob, rms over the image.
+constexpr double kLargestMisfit_px = 0.5;
+
+/// Focal lengths, centres and distortion coefficients of cameras are far below these; a fit to
+/// larger ones may overflow.
+constexpr double kMostPx = 1e6;
+constexpr double kMostDistortion = 1e3;
+
+/// The list under a key of camera_calibration_parsers' matrices, or of a printed message.
+std::vector<double> coefficients(const YamlMap& file, const char* nested, const char* lower,
+                                 const char* upper, std::size_t count) {
+    if (file.has(nested)) return file.map(nested).numbers("data", count);
+    return file.numbers(file.has(lower) ? lower : file.has(upper) ? upper : nested, count);
+}
+
+}  // namespace
+
+bool is_camera_info(const YamlMap& file) {
+    return file.has("distortion_model") || file.has("camera_matrix") ||
+           file.has("distortion_coefficients");
+}
+
+Camera camera_from_camera_info(const YamlMap& file) {
+    Camera camera;
+    camera.width_px = file.integer(file.has("width") ? "width" : "image_width");
+    camera.height_px = file.integer(file.has("height") ? "height" : "image_height");
+    const std::string model = file.text("distortion_model");
+    if (model != "plumb_bob") {
+        file.fail("distortion_model", fmt::format("is '{}'; only plumb_bob can be read", model));
+    }
+    const auto matrix = coefficients(file, "camera_matrix", "k", "K", 9);
+    const char* matrix_key = file.has("camera_matrix") ? "camera_matrix"
+                             : file.has("k")           ? "k"
+                                                       : "K";
+    if (!(matrix[0] > 0 && matrix[4] > 0)) {
+        file.fail(matrix_key, "has no focal lengths above 0: this camera was never calibrated");
+    }
+    const auto is_focal = [](double px) { return px >= 1 && px <= kMostPx; };
+    const auto is_centre = [](double px) { return std::abs(px) <= kMostPx; };
+    if (!is_focal(matrix[0]) || !is_focal(matrix[4]) || !is_centre(matrix[2]) ||
+        !is_centre(matrix[5])) {
+        file.fail(matrix_key, "has focal lengths, or a centre, that no camera has");
+    }
+    auto d = coefficients(file, "distortion_coefficients", "d", "D", 0);
+    if (d.size() != 4 && d.size() != 5) {
+        file.fail("distortion_coefficients", "must be k1, k2, t1, t2 and k3");
+    }
+    if (std::ranges::any_of(d, [](double k) { return std::abs(k) > kMostDistortion; })) {
+        file.fail("distortion_coefficients", "are larger than those of any lens");
+    }
+    d.resize(5);
+    const PlumbBob lens{matrix[0], matrix[4], matrix[2], matrix[5], d[0], d[1], d[2], d[3], d[4]};
+    camera.focal_px = std::sqrt(lens.fx * lens.fy);
+    const double misfit_px = fit_division_model(lens, camera);
+    if (!(misfit_px <= kLargestMisfit_px)) {
+        file.fail(
+            "distortion_coefficients",
+            fmt::format("describe a lens that one coefficient cannot follow (it would be {:.1f} "
+                        "px off): use 'dotpose calibrate'",
+                        misfit_px));
+    }
+    return camera;
+}
+
+}  // namespace dotpose::files

@@ -1,0 +1,21 @@
+/// Reads and writes the text of a sheet file, whose format is in docs/sheet-files.md.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dotpose/files/sheet_file.hpp"
+
+namespace dotpose::files {
+
+/// Parses the text of a sheet file. `file` is the name of the file in error messages. Throws Error
+/// like `read_sheets`.
+std::vector<SheetEntry> sheets_from_json(const std::string& text, const std::string& file);
+
+/// Writes the text of a sheet file. Keys of `old_text`, a valid sheet file, that this version does
+/// not know are kept.
+std::string json_from_sheets(const std::vector<SheetEntry>& sheets,
+                             const std::optional<std::string>& old_text);
+
+}  // namespace dotpose::files

@@ -1,0 +1,142 @@
+#include "files/sheet_list.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <set>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include "files/printable.hpp"
+
+namespace dotpose {
+namespace {
+
+constexpr double kLeastPrintScale = 0.5;
+constexpr double kMostPrintScale = 2;
+
+/// The cells from `first` to `end` - 1 along one axis.
+struct Range {
+    std::int64_t first = 0;
+    std::int64_t end = 0;
+};
+
+Range columns_of(const Sheet& sheet) {
+    return {sheet.origin.x, std::int64_t{sheet.origin.x} + sheet.columns};
+}
+Range rows_of(const Sheet& sheet) {
+    return {sheet.origin.y, std::int64_t{sheet.origin.y} + sheet.rows};
+}
+bool overlap(Range a, Range b) {
+    return a.first < b.end && b.first < a.end;
+}
+/// Extends a range by the gap that is kept on both sides of it.
+Range with_gap(Range range) {
+    return {range.first - kSheetGap_cells, range.end + kSheetGap_cells};
+}
+
+void validate_name(const std::string& name) {
+    if (name.empty()) throw BadArgument("a sheet needs a name that is not empty");
+    try {
+        (void)nlohmann::json(name).dump();
+    } catch (const nlohmann::json::exception&) {
+        throw BadArgument("the name of a sheet must be text in UTF-8");
+    }
+    if (files::printable(name) != name) {
+        throw BadArgument(
+            "the name of a sheet may not contain control characters, nor such as break the line "
+            "or turn the direction of writing");
+    }
+}
+
+/// Finds the leftmost column from which `columns` columns are free in these rows, or none.
+std::optional<std::uint32_t> free_column(const std::vector<SheetEntry>& sheets, Range rows,
+                                         int columns) {
+    std::vector<Range> taken;
+    for (const SheetEntry& entry : sheets) {
+        if (overlap(with_gap(rows_of(entry.sheet)), rows))
+            taken.push_back(with_gap(columns_of(entry.sheet)));
+    }
+    std::ranges::sort(taken, {}, &Range::first);
+    std::int64_t x = kSheetGap_cells;
+    for (const Range& range : taken) {
+        if (range.first >= x + columns) break;
+        x = std::max(x, range.end);
+    }
+    if (x + columns + kSheetGap_cells > kPositionsPerAxis) return std::nullopt;
+    return static_cast<std::uint32_t>(x);
+}
+
+}  // namespace
+
+void validate(const SheetEntry& entry) {
+    validate_name(entry.name);
+    if (entry.page < 1) {
+        throw BadArgument(fmt::format("page {}: the number must be 1 or more", entry.page));
+    }
+    for (const double scale : {entry.print_scale_x, entry.print_scale_y}) {
+        if (scale >= kLeastPrintScale && scale <= kMostPrintScale) continue;
+        throw BadArgument(fmt::format("a print scale of {:g}: it must be {:g} to {:g}", scale,
+                                      kLeastPrintScale, kMostPrintScale));
+    }
+    if (const auto& world = entry.world) {
+        for (const double value : {world->x_m, world->y_m, world->yaw_rad}) {
+            if (!std::isfinite(value)) throw BadArgument("the world pose must be finite numbers");
+        }
+    }
+    validate(entry.sheet);
+}
+
+bool overlap(const Sheet& a, const Sheet& b) {
+    const auto is_microdots = [](const Sheet& sheet) {
+        return sheet.pattern.profile == Profile::microdots;
+    };
+    return is_microdots(a) == is_microdots(b) && a.pattern.section == b.pattern.section &&
+           overlap(columns_of(a), columns_of(b)) && overlap(rows_of(a), rows_of(b));
+}
+
+void files::check_beside(const SheetEntry& entry, const std::vector<SheetEntry>& sheets,
+                         const SheetEntry* ignored) {
+    validate(entry);
+    for (const SheetEntry& other : sheets) {
+        if (&other == ignored) continue;
+        if (other.name == entry.name) {
+            throw BadArgument(
+                fmt::format("there already is a sheet '{}'{}", entry.name,
+                            other.is_reserved
+                                ? ", reserved by a print that goes on or was stopped: its page may "
+                                  "exist, so take another name"
+                                : ""));
+        }
+        if (overlap(entry.sheet, other.sheet)) {
+            const Range columns = columns_of(other.sheet);
+            const Range rows = rows_of(other.sheet);
+            throw BadArgument(fmt::format(
+                "sheet '{}' would share cells with sheet '{}', which has {},{} to {},{}",
+                entry.name, other.name, columns.first, rows.first, columns.end - 1, rows.end - 1));
+        }
+    }
+}
+
+void files::append(const SheetEntry& entry, std::vector<SheetEntry>& sheets) {
+    check_beside(entry, sheets);
+    sheets.push_back(entry);
+}
+
+Cell files::free_origin(const std::vector<SheetEntry>& sheets, int columns, int rows) {
+    // The topmost free region starts at the top of the plane or directly below another region.
+    std::set<std::int64_t> tops = {kSheetGap_cells};
+    for (const SheetEntry& entry : sheets)
+        tops.insert(with_gap(rows_of(entry.sheet)).end);
+    for (const std::int64_t top : tops) {
+        if (top + rows + kSheetGap_cells > kPositionsPerAxis) break;
+        if (const auto x = free_column(sheets, {top, top + rows}, columns)) {
+            return {*x, static_cast<std::uint32_t>(top)};
+        }
+    }
+    throw BadArgument(fmt::format("no free region of {} x {} cells is left", columns, rows));
+}
+
+}  // namespace dotpose

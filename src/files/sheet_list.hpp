@@ -1,0 +1,22 @@
+/// Checks on all sheets of a file together: names and cells are unique.
+#pragma once
+
+#include <vector>
+
+#include "dotpose/files/sheet_file.hpp"
+
+namespace dotpose::files {
+
+/// Throws BadArgument if `entry` is invalid, or if one of `sheets` other than `ignored` has its
+/// name or shares cells with it.
+void check_beside(const SheetEntry& entry, const std::vector<SheetEntry>& sheets,
+                  const SheetEntry* ignored = nullptr);
+
+/// Appends `entry` to `sheets`. Throws BadArgument like `check_beside`.
+void append(const SheetEntry& entry, std::vector<SheetEntry>& sheets);
+
+/// Returns the top left cell of a free region of this size, as SheetFile::allocate describes.
+/// Throws BadArgument if there is none.
+Cell free_origin(const std::vector<SheetEntry>& sheets, int columns, int rows);
+
+}  // namespace dotpose::files

@@ -1,0 +1,101 @@
+// Regions that are reserved in a sheet file while their pages are written.
+#include <algorithm>
+#include <system_error>
+
+#include <fmt/core.h>
+
+#include "dotpose/files/sheet_file.hpp"
+#include "files/output_file.hpp"
+
+namespace dotpose {
+namespace fs = std::filesystem;
+namespace {
+
+const SheetEntry* find(const SheetFile& file, const std::string& name) {
+    const auto found = std::ranges::find(file.sheets(), name, &SheetEntry::name);
+    return found == file.sheets().end() ? nullptr : &*found;
+}
+
+/// Whether a sheet is still the reserved one, and not another sheet that was given its name.
+bool is_same_region(const Sheet& a, const Sheet& b) {
+    return a.origin == b.origin && a.columns == b.columns && a.rows == b.rows &&
+           a.pattern.profile == b.pattern.profile && a.pattern.section == b.pattern.section;
+}
+
+}  // namespace
+
+SheetReservation::SheetReservation(const fs::path& path,
+                                   const std::function<void(SheetFile&)>& enter,
+                                   const SheetFileWait& wait)
+    : path_(path), wait_(wait) {
+    SheetFile file(path_, wait_);
+    const std::size_t before = file.sheets().size();
+    enter(file);
+    for (std::size_t i = before; i < file.sheets().size(); ++i) {
+        SheetEntry entry = file.sheets()[i];
+        entry.is_reserved = true;
+        file.replace(entry);
+        entries_.push_back(entry);
+    }
+    text_before_ = file.text_;
+    try {
+        file.save();
+    } catch (const Error&) {
+        entries_.clear();
+        throw;
+    }
+    text_reserved_ = file.text_;
+}
+
+SheetReservation::~SheetReservation() {
+    if (entries_.empty()) return;
+    try {
+        release();
+    } catch (const Error& error) {
+        wait_.tell(
+            fmt::format("{}; what was reserved in {} stays so", error.what(), path_.string()));
+    }
+}
+
+void SheetReservation::confirm() {
+    // If this fails, the entries stay in the file with the mark that they are reserved, so no other
+    // sheet gets their regions.
+    const std::vector<SheetEntry> entries = std::move(entries_);
+    entries_.clear();
+    SheetFile file(path_, wait_);
+    for (SheetEntry entry : entries) {
+        // The entry is read anew, because it may have been given a place in the world meanwhile.
+        const SheetEntry* now = find(file, entry.name);
+        if (now != nullptr && !is_same_region(now->sheet, entry.sheet)) {
+            throw Error(fmt::format("somebody gave the name '{}' in {} to another sheet meanwhile",
+                                    entry.name, path_.string()));
+        }
+        if (now != nullptr) entry = *now;
+        entry.is_reserved = false;
+        now != nullptr ? file.replace(entry) : file.add(entry);
+    }
+    file.save();
+}
+
+void SheetReservation::release() {
+    SheetFile file(path_, wait_);
+    if (file.text_ == text_reserved_) {
+        if (!text_before_) {
+            fs::remove(file.path_);
+            return;
+        }
+        files::OutputFile old(file.path_);
+        old.write(*text_before_);
+        old.commit();
+        return;
+    }
+    for (const SheetEntry& entry : entries_) {
+        const SheetEntry* now = find(file, entry.name);
+        if (now != nullptr && now->is_reserved && is_same_region(now->sheet, entry.sheet)) {
+            file.remove(entry.name);
+        }
+    }
+    file.save();
+}
+
+}  // namespace dotpose

@@ -1,0 +1,43 @@
+// Reads values of a YAML file, with errors that name the file and the key.
+#pragma once
+
+#include <filesystem>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include <yaml-cpp/yaml.h>
+
+namespace dotpose::files {
+
+/// One mapping of a file.
+class YamlMap {
+  public:
+    /// Throws Error: the file cannot be read, is no YAML, or holds no mapping.
+    explicit YamlMap(const std::filesystem::path& path);
+
+    bool has(const std::string& key) const { return static_cast<bool>(node_[key]); }
+    std::string text(const std::string& key) const;
+    int integer(const std::string& key) const;
+    double number(const std::string& key) const;
+    /// A list of exactly `count` numbers; of any length if it is 0.
+    std::vector<double> numbers(const std::string& key, std::size_t count) const;
+    YamlMap map(const std::string& key) const;
+    std::vector<std::string> keys() const;
+
+    /// Throws Error if a key is none of these.
+    void allow_only(std::initializer_list<const char*> keys) const;
+    [[noreturn]] void fail(const std::string& key, const std::string& what) const;
+
+  private:
+    YamlMap(std::string file, std::string prefix, const YAML::Node& node)
+        : file_(std::move(file)), prefix_(std::move(prefix)), node_(node) {}
+    YAML::Node value(const std::string& key) const;
+    double finite(const YAML::Node& node, const std::string& key) const;
+
+    std::string file_;
+    std::string prefix_;  ///< of keys in messages
+    YAML::Node node_;
+};
+
+}  // namespace dotpose::files

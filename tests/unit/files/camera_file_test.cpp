@@ -1,0 +1,290 @@
+// Camera files: their keys, their errors, their geometry; and those of ROS.
+#include "dotpose/files/camera_file.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "../../temporary_directory.hpp"
+#include "dotpose/tools/random.hpp"
+#include "frames.hpp"
+
+namespace dotpose {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::string kWhole = R"(format: dotpose-camera
+version: 1
+width_px: 188
+height_px: 120
+k_per_px2: -8.7e-06
+centre_px: [93.75, 59.25]
+mm_per_px: [0.046, 0.0461]
+skew: 0.001
+perspective_per_px: [1e-05, -2e-05]
+focal_px: 348
+tilt_rad: [0.1, -0.05]
+reference_px: [400.5, -12]
+theta_offset_rad: 1.5
+exposure_us: 130
+gain: 2
+sigma:
+  k_per_px2: 2e-08
+)";
+
+class CameraFile : public testing::Test {
+  protected:
+    Camera read(const std::string& text) const {
+        std::ofstream(path_) << text;
+        return read_camera(path_);
+    }
+    std::string refusal(const std::string& text) const {
+        try {
+            read(text);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "not refused";
+    }
+    /// What is said of the whole file with one part replaced.
+    std::string refusal_with(const std::string& part, const std::string& other) const {
+        std::string text = kWhole;
+        text.replace(text.find(part), part.size(), other);
+        return refusal(text);
+    }
+
+    test::TemporaryDirectory directory_;
+    std::filesystem::path path_ = directory_.path() / "camera.yaml";
+};
+
+void expect_whole(const Camera& camera) {
+    EXPECT_EQ(camera.width_px, 188);
+    EXPECT_EQ(camera.height_px, 120);
+    EXPECT_DOUBLE_EQ(camera.k_per_px2, -8.7e-6);
+    EXPECT_DOUBLE_EQ(camera.centre_px.u, 93.75);
+    EXPECT_DOUBLE_EQ(camera.centre_px.v, 59.25);
+    EXPECT_DOUBLE_EQ(camera.paper.value().mm_per_px_x, 0.046);
+    EXPECT_DOUBLE_EQ(camera.paper.value().mm_per_px_y, 0.0461);
+    EXPECT_DOUBLE_EQ(camera.paper.value().skew, 0.001);
+    EXPECT_DOUBLE_EQ(camera.paper.value().perspective_u, 1e-5);
+    EXPECT_DOUBLE_EQ(camera.paper.value().perspective_v, -2e-5);
+    EXPECT_DOUBLE_EQ(camera.focal_px.value(), 348);
+    EXPECT_DOUBLE_EQ(camera.tilt.value().x_rad, 0.1);
+    EXPECT_DOUBLE_EQ(camera.tilt.value().y_rad, -0.05);
+    EXPECT_DOUBLE_EQ(camera.reference_px.value().u, 400.5);
+    EXPECT_DOUBLE_EQ(camera.reference_px.value().v, -12);
+    EXPECT_DOUBLE_EQ(camera.theta_offset_rad, 1.5);
+    EXPECT_DOUBLE_EQ(camera.exposure_us.value(), 130);
+    EXPECT_DOUBLE_EQ(camera.gain.value(), 2);
+    EXPECT_DOUBLE_EQ(camera.sigma.at("k_per_px2"), 2e-8);
+}
+
+TEST_F(CameraFile, IsReadAndWrittenWithAllKeys) {
+    const Camera camera = read(kWhole);
+    expect_whole(camera);
+    write_camera(path_, camera);
+    expect_whole(read_camera(path_));
+}
+
+TEST_F(CameraFile, NeedsTheLensOnly) {
+    const Camera camera = read(
+        "{format: dotpose-camera, version: 1, width_px: 640, height_px: 480, k_per_px2: 0, "
+        "centre_px: [319.5, 239.5]}");
+    EXPECT_FALSE(camera.paper || camera.focal_px || camera.tilt || camera.reference_px);
+    EXPECT_EQ(camera.theta_offset_rad, 0);
+}
+
+TEST_F(CameraFile, WrongFilesAreRefusedByKey) {
+    EXPECT_THAT(refusal_with("format: dotpose-camera", "format: dotpose-sheets"),
+                HasSubstr(": format is 'dotpose-sheets'"));
+    EXPECT_THAT(refusal_with("version: 1", "version: 2"), HasSubstr("version is 2"));
+    EXPECT_THAT(refusal_with("k_per_px2: -8.7e-06\n", ""), HasSubstr("k_per_px2 is missing"));
+    EXPECT_THAT(refusal_with("k_per_px2: -8.7e-06", "k_per_px2: barrel"),
+                HasSubstr("k_per_px2 must be a number"));
+    EXPECT_THAT(refusal_with("-8.7e-06", ".nan"), HasSubstr("k_per_px2 must be finite"));
+    EXPECT_THAT(refusal_with("-8.7e-06", "-8.7e-03"), HasSubstr("k_per_px2 -0.0087 folds"));
+    EXPECT_THAT(refusal_with("[93.75, 59.25]", "93.75"),
+                HasSubstr("centre_px must be a list of numbers"));
+    EXPECT_THAT(refusal_with("[93.75, 59.25]", "[93.75, 59.25, 1]"),
+                HasSubstr("centre_px must be a list of 2 numbers"));
+    EXPECT_THAT(refusal_with("[93.75, 59.25]", "[2000, 59.25]"), HasSubstr("centre_px is more"));
+    EXPECT_THAT(refusal_with("width_px: 188", "width_px: 18.5"),
+                HasSubstr("width_px must be a whole number"));
+    EXPECT_THAT(refusal_with("width_px: 188", "width_px: 8"), HasSubstr("width_px must be 64"));
+    EXPECT_THAT(refusal_with("[0.046, 0.0461]", "[0, 0.0461]"), HasSubstr("mm_per_px must be"));
+    EXPECT_THAT(refusal_with("reference_px", "refrence_px"),
+                HasSubstr("refrence_px is no key of a camera file"));
+    EXPECT_THAT(refusal_with("  k_per_px2: 2e-08", "  k_per_px2: [1]"),
+                HasSubstr("sigma.k_per_px2 must be a number"));
+    EXPECT_THAT(refusal_with("gain: 2", "gain: -2"), HasSubstr("gain must be above 0"));
+}
+
+TEST_F(CameraFile, ForeignFilesAreRefused) {
+    EXPECT_THAT(refusal("name: a robot\n"), HasSubstr("format is missing: this is no camera file"));
+    EXPECT_THAT(refusal("just words"), HasSubstr("no camera file"));
+    EXPECT_THAT(refusal("a: [1, 2"), HasSubstr("not YAML: line"));
+    EXPECT_THAT(refusal(""), HasSubstr("no camera file"));
+    std::filesystem::remove(path_);
+    EXPECT_THROW(read_camera(path_), Error);
+    try {
+        read_camera("/no/such/file.yaml");
+        FAIL() << "not refused";
+    } catch (const Error& error) {
+        EXPECT_STREQ(error.what(), "cannot read /no/such/file.yaml");
+    }
+}
+
+TEST(CameraGeometry, IsEquations1And2AndTheirInverse) {
+    Camera camera;
+    camera.width_px = 188;
+    camera.height_px = 120;
+    camera.k_per_px2 = -8.7e-6;
+    camera.centre_px = {95, 58};
+    camera.paper = PaperScale{0.046, 0.047, 0.02, 1e-4, -2e-4};
+    Rng rng(71);
+    for (int i = 0; i < 200; ++i) {
+        const PixelPoint pixel{rng.uniform(0, 187), rng.uniform(0, 119)};
+        const double du = pixel.u - 95;
+        const double dv = pixel.v - 58;
+        const double divisor = 1 - 8.7e-6 * (du * du + dv * dv);
+        const PixelPoint straight = undistorted(camera, pixel);
+        ASSERT_NEAR(straight.u, 95 + du / divisor, 1e-9);
+        ASSERT_NEAR(straight.v, 58 + dv / divisor, 1e-9);
+        const PixelPoint again = distorted(camera, straight);
+        ASSERT_NEAR(again.u, pixel.u, 1e-9);
+        ASSERT_NEAR(again.v, pixel.v, 1e-9);
+        const PixelPoint there = on_image(camera, on_paper(camera, straight));
+        ASSERT_NEAR(there.u, straight.u, 1e-9);
+        ASSERT_NEAR(there.v, straight.v, 1e-9);
+    }
+}
+
+TEST(CameraGeometry, TheScaleIsThatOfATiltedCamera) {
+    // The simulator's pinhole, and the view that its pixels have of the paper.
+    CameraModel model;
+    CameraPose pose;
+    pose.tilt_x_rad = 0.3;
+    pose.tilt_y_rad = -0.2;
+    const Projection projection(model, pose);
+    const double f = model.working_distance_mm / model.mm_per_px;
+    Camera camera;
+    camera.centre_px = {93.5, 59.5};
+    // The paper's normal: its axes are (cy, sx sy, -cx sy) and (0, cx, sx). The divisor is 0 where
+    // rays are at right angles to it.
+    const double nx = std::sin(-0.2);
+    const double ny = -std::sin(0.3) * std::cos(-0.2);
+    const double nz = std::cos(0.3) * std::cos(-0.2);
+    // The first order by differences.
+    const double h = 1e-4;
+    const auto at = [&](double u, double v) { return projection.offset_from_pixel({u, v}); };
+    const double x_u = (at(93.5 + h, 59.5).x - at(93.5 - h, 59.5).x) / (2 * h);
+    const double x_v = (at(93.5, 59.5 + h).x - at(93.5, 59.5 - h).x) / (2 * h);
+    const double y_v = (at(93.5, 59.5 + h).y - at(93.5, 59.5 - h).y) / (2 * h);
+    camera.paper = PaperScale{x_u, y_v, x_v / x_u, nx / (nz * f), ny / (nz * f)};
+    for (const auto& [u, v] : {std::pair(10.0, 20.0), std::pair(180.0, 100.0)}) {
+        const CameraPoint point = on_paper(camera, {u, v});
+        EXPECT_NEAR(point.x_mm, at(u, v).x, 1e-6);
+        EXPECT_NEAR(point.y_mm, at(u, v).y, 1e-6);
+    }
+}
+
+const std::string kRos = R"(image_width: 640
+image_height: 480
+camera_name: down
+camera_matrix:
+  rows: 3
+  cols: 3
+  data: [600, 0, 330, 0, 600, 236, 0, 0, 1]
+distortion_model: plumb_bob
+distortion_coefficients:
+  rows: 1
+  cols: 5
+  data: [-0.25, 0.1, 0, 0, 0]
+rectification_matrix:
+  rows: 3
+  cols: 3
+  data: [1, 0, 0, 0, 1, 0, 0, 0, 1]
+)";
+
+/// OpenCV's lens, forwards: where the camera of kRos sees a direction.
+PixelPoint seen_by_ros(double x, double y) {
+    const double r2 = x * x + y * y;
+    const double radial = 1 - 0.25 * r2 + 0.1 * r2 * r2;
+    return {330 + 600 * radial * x, 236 + 600 * radial * y};
+}
+
+TEST_F(CameraFile, ALensOfRosIsConvertedNotRelabelled) {
+    const Camera camera = read(kRos);
+    EXPECT_EQ(camera.width_px, 640);
+    EXPECT_NEAR(camera.focal_px.value(), 600, 1e-9);
+    EXPECT_NEAR(camera.centre_px.u, 330, 2);
+    EXPECT_NEAR(camera.centre_px.v, 236, 2);
+    // Straight lines are straight again, all over the image: to what one coefficient can do.
+    for (const double offset : {-0.3, -0.1, 0.2, 0.3}) {
+        for (const bool is_row : {true, false}) {
+            const auto point = [&](double along) {
+                return undistorted(
+                    camera, is_row ? seen_by_ros(along, offset) : seen_by_ros(offset, along));
+            };
+            const double reach = is_row ? 0.48 : 0.36;
+            const PixelPoint a = point(-reach);
+            const PixelPoint b = point(reach);
+            const double length = std::hypot(b.u - a.u, b.v - a.v);
+            for (double along = -reach; along < reach; along += 0.04) {
+                const PixelPoint p = point(along);
+                const double off = ((b.u - a.u) * (p.v - a.v) - (b.v - a.v) * (p.u - a.u)) / length;
+                EXPECT_NEAR(off, 0, 0.5) << offset << " " << along;
+            }
+        }
+    }
+}
+
+TEST_F(CameraFile, APrintedMessageOfRosIsReadAsWell) {
+    const Camera camera = read(
+        "header: {frame_id: down}\nheight: 480\nwidth: 640\ndistortion_model: plumb_bob\n"
+        "D: [-0.25, 0.1, 0, 0, 0]\nK: [600, 0, 330, 0, 600, 236, 0, 0, 1]\n---\n");
+    const Camera same = read(kRos);
+    EXPECT_EQ(camera.k_per_px2, same.k_per_px2);
+    EXPECT_EQ(camera.centre_px.u, same.centre_px.u);
+}
+
+TEST_F(CameraFile, OtherLensesOfRosAreRefusedByKey) {
+    const auto with = [&](const std::string& part, const std::string& other) {
+        std::string text = kRos;
+        text.replace(text.find(part), part.size(), other);
+        return refusal(text);
+    };
+    EXPECT_THAT(with("plumb_bob", "equidistant"),
+                HasSubstr("distortion_model is 'equidistant'; only plumb_bob"));
+    EXPECT_THAT(with("[600, 0,", "[0, 0,"), HasSubstr("camera_matrix has no focal lengths"));
+    EXPECT_THAT(with("[-0.25, 0.1, 0, 0, 0]", "[-0.25, 0.05]"),
+                HasSubstr("distortion_coefficients must be"));
+    EXPECT_THAT(with("[-0.25, 0.1, 0, 0, 0]", "[0.9, -9.0, 0, 0, 30]"),
+                HasSubstr("distortion_coefficients describe a lens"));
+    EXPECT_THAT(with("image_width: 640\n", ""), HasSubstr("image_width is missing"));
+}
+
+TEST(UseCamera, SetsLensAndReferenceForItsOwnSizeOnly) {
+    Camera camera;
+    camera.width_px = 188;
+    camera.height_px = 120;
+    camera.k_per_px2 = -8.7e-6;
+    camera.centre_px = {94, 58.5};
+    camera.reference_px = PixelPoint{-6.5, 61.5};
+    Options options;
+    use_camera(camera, 188, 120, options);
+    EXPECT_NEAR(options.lens.k_q40 * 0x1p-40, -8.7e-6, 1e-12);
+    EXPECT_EQ(options.lens.centre_dx_q8, 128);
+    EXPECT_EQ(options.lens.centre_dy_q8, -256);
+    EXPECT_EQ(options.reference_dx_q8, -100 * 256);
+    EXPECT_EQ(options.reference_dy_q8, 2 * 256);
+    EXPECT_THROW(use_camera(camera, 189, 120, options), BadArgument);
+}
+
+}  // namespace
+}  // namespace dotpose
