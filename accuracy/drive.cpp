@@ -12,8 +12,8 @@
 #include "../tests/drive_errors.hpp"
 #include "../tests/temporary_directory.hpp"
 #include "counting.hpp"
+#include "dotpose/tools/follower.hpp"
 #include "evaluate/plot.hpp"
-#include "frame_locator.hpp"
 #include "reading_fields.hpp"
 
 namespace dotpose {
@@ -55,15 +55,14 @@ struct Run {
     std::string events;
 };
 
-DriveReading reading_of(const cli::Reading& reading) {
+DriveReading reading_of(const Followed& now) {
     DriveReading told;
-    const cli::Record& record = reading.record;
-    told.has_fix = record.fix.status == Status::ok && record.place;
+    told.has_fix = now.located.fix.status == Status::ok && now.located.place;
     if (told.has_fix) {
-        const auto world = world_place(*record.place);
+        const auto world = world_place(*now.located.place);
         told.raw = {world->x_m * 1000, world->y_m * 1000, world->yaw_rad};
     }
-    const Track& track = reading.track;
+    const Track& track = now.track;
     const TrackedPose& pose = track.pose;
     told.is_believed = track.verdict == Verdict::believed;
     told.events = cli::event_names(track.events);
@@ -81,17 +80,17 @@ Run follow(const Arguments& arguments, double speed_mm_s, const Kind& kind,
     if (!kind.has_printing_errors) imperfections.jitter_mm = imperfections.missing = 0;
     const test::DriveCamera camera(arguments.width_px, arguments.height_px, imperfections);
     const Drive drive({.speed_mm_s = speed_mm_s});
-    cli::LocatorOptions options;
-    options.sheets = sheets;
+    FollowerOptions options;
+    options.sheets = read_sheets(sheets);
+    options.locate.show_stages = true;  // as `dotpose watch` does
     options.track.max_speed_mm_s = 400;
-    cli::FrameLocator locator(options);
+    Follower follower(options);
     Run run;
     for (int index = 0; index < drive.frames() && !cli::interrupted(); ++index) {
-        video::Frame frame;
-        frame.image = camera.frame(drive, index);
-        frame.index = index;
-        frame.time_us = std::llround(index * 1e6 / test::kDriveFps);
-        const Sample sample{index / test::kDriveFps, drive.at(index), reading_of(locator(frame))};
+        const GreyImage image = camera.frame(drive, index);
+        const auto time_us = std::llround(index * 1e6 / test::kDriveFps);
+        const Sample sample{index / test::kDriveFps, drive.at(index),
+                            reading_of(follower.follow(image.view(), time_us))};
         run.errors.add(sample.truth, sample.reading);
         if (!sample.reading.events.empty()) {
             run.events += fmt::format("{}{} {}", run.events.empty() ? "" : ", ",

@@ -7,7 +7,7 @@
 
 #include "../tests/drive_errors.hpp"
 #include "../tests/temporary_directory.hpp"
-#include "frame_locator.hpp"
+#include "dotpose/tools/follower.hpp"
 
 namespace dotpose {
 namespace {
@@ -40,13 +40,13 @@ struct DriveTallies {
 };
 
 /// Counts a frame like TrackedTally::count, but compares poses in the world.
-void count(const cli::Record& record, const test::DriveState& truth, TrackedTally& tally) {
-    const Fix& fix = record.fix;
+void count(const Located& located, const test::DriveState& truth, TrackedTally& tally) {
+    const Fix& fix = located.fix;
     if (fix.status != Status::ok) {
         ++tally.none;
         return;
     }
-    const auto world = record.place ? world_place(*record.place) : std::nullopt;
+    const auto world = located.place ? world_place(*located.place) : std::nullopt;
     const bool is_tracked = fix.attempt == Attempt::tracked;
     bool is_wrong = !world || truth.is_lifted;
     double error_mm = 0;
@@ -68,27 +68,26 @@ void follow(const DriveKind& kind, const std::string& sheets, DriveTally& tally)
     const CameraModel camera;
     const test::DriveCamera drive_camera(camera.width_px, camera.height_px);
     const test::Drive drive({.speed_mm_s = kind.speed_mm_s});
-    cli::LocatorOptions options;
-    options.sheets = sheets;
+    FollowerOptions options;
+    options.sheets = read_sheets(sheets);
+    options.locate.show_stages = true;  // as `dotpose watch` does
     options.track.max_speed_mm_s = 400;
-    cli::FrameLocator locator(options);
+    Follower follower(options);
     constexpr int kSettled = 3;
     int since_put_down = 0;
     for (int index = 0; index < drive.frames() && !cli::interrupted(); index += kind.every) {
-        video::Frame frame;
-        frame.image = drive_camera.frame(drive, index);
-        frame.index = index;
-        frame.time_us = std::llround(index * 1e6 / test::kDriveFps);
+        const GreyImage image = drive_camera.frame(drive, index);
+        const auto time_us = std::llround(index * 1e6 / test::kDriveFps);
         const test::DriveState truth = drive.at(index);
-        const cli::Record record = locator(frame).record;
+        const Located located = follower.follow(image.view(), time_us).located;
         if (truth.is_lifted) {
             since_put_down = 0;
             // A fix of a lifted robot is wrong; frames without a fix are not counted.
-            if (record.fix.status == Status::ok) count(record, truth, tally.seen);
+            if (located.fix.status == Status::ok) count(located, truth, tally.seen);
             continue;
         }
-        count(record, truth, tally.seen);
-        if (++since_put_down >= kSettled) count(record, truth, tally.settled);
+        count(located, truth, tally.seen);
+        if (++since_put_down >= kSettled) count(located, truth, tally.settled);
     }
 }
 

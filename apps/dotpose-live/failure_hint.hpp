@@ -6,7 +6,7 @@
 #include <string>
 
 #include "dotpose/image.hpp"
-#include "frame_locator.hpp"
+#include "reading.hpp"
 
 namespace dotpose::cli {
 

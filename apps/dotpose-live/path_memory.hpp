@@ -8,7 +8,7 @@
 #include "dotpose/files/sheet_file.hpp"
 #include "dotpose/track.hpp"
 #include "draw/track_map.hpp"
-#include "frame_locator.hpp"
+#include "reading.hpp"
 #include "video/screen.hpp"
 
 namespace dotpose::cli {

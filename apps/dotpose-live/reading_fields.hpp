@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fields.hpp"
-#include "frame_locator.hpp"
+#include "reading.hpp"
 
 namespace dotpose::cli {
 

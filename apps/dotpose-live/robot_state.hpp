@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "frame_locator.hpp"
+#include "reading.hpp"
 
 namespace dotpose::cli {
 

@@ -12,9 +12,10 @@
 #include "dotpose/tools/image_file.hpp"
 #include "exit_codes.hpp"
 #include "failure_hint.hpp"
-#include "frame_locator.hpp"
+#include "follower_arguments.hpp"
 #include "mqtt_arguments.hpp"
 #include "progress.hpp"
+#include "reading.hpp"
 #include "robot_state.hpp"
 #include "run_files.hpp"
 #include "terminal_text.hpp"
@@ -36,7 +37,7 @@ constexpr const char* kExamples =
 
 struct WatchArguments {
     video::SourceOptions source;
-    LocatorOptions locator;
+    FollowerArguments follower;
     OutputOptions outputs;
     MqttArguments mqtt;
     bool has_no_window = false;
@@ -55,7 +56,7 @@ void require_apart(const WatchArguments& arguments) {
     const OutputOptions& outputs = arguments.outputs;
     RunFiles files;
     files.reads("", video::files_of(arguments.source.name));
-    files.reads("--sheets", arguments.locator.sheets);
+    arguments.follower.add_files(files);
     files.reads("--mqtt-ca", arguments.mqtt.ca_file());
     files.writes_lines(outputs.out, content_of(outputs.format));
     files.writes("--log", outputs.log, Content::csv);
@@ -65,14 +66,21 @@ void require_apart(const WatchArguments& arguments) {
 }
 
 /// Writes to standard error why most frames fail, and whether another code explains them.
-void tell_once_in_a_while(const Reading& reading, ImageView image, const FrameLocator& locator,
+void tell_once_in_a_while(const Reading& reading, ImageView image, const Follower& follower,
                           FailureHint& hint, bool& is_warned) {
-    const std::string advice = hint.after(reading, image, locator.options());
+    const std::string advice = hint.after(reading, image, follower.used_options());
     if (!advice.empty()) tell(advice);
     const std::string doubt = is_warned ? std::string() : warning(reading.record);
     if (doubt.empty()) return;
     tell(fmt::format("frame {}: {}", reading.index, doubt));
     is_warned = true;
+}
+
+FollowerOptions options_of(const WatchArguments& arguments) {
+    FollowerOptions options = arguments.follower.read();
+    options.locate.show_stages = true;  // for window and recording
+    options.track.spacing_mm = static_cast<float>(options.spacing_mm);
+    return options;
 }
 
 /// Returns the exit status.
@@ -83,11 +91,11 @@ int run(WatchArguments& arguments) {
     arguments.source.stop = interrupted;
     arguments.source.tell = tell;
     const auto source = video::open_source(arguments.source);
-    FrameLocator locator(arguments.locator);
-    arguments.outputs.world_map = std::filesystem::path(arguments.locator.sheets).stem().string();
+    Follower follower(options_of(arguments));
+    arguments.outputs.world_map = std::filesystem::path(arguments.follower.sheets).stem().string();
     if (source->rate() > 0) arguments.outputs.screen.fps = source->rate();
     arguments.outputs.screen.has_window = !arguments.has_no_window && video::has_display();
-    WatchOutputs outputs(arguments.outputs, locator);
+    WatchOutputs outputs(arguments.outputs, follower);
     int exit_code = 0;
     try {
         video::Frame frame;
@@ -95,8 +103,9 @@ int run(WatchArguments& arguments) {
         bool is_warned = false;
         bool goes_on = true;
         while (goes_on && source->next(frame)) {
-            const Reading reading = locator(frame);
-            tell_once_in_a_while(reading, frame.image.view(), locator, hint, is_warned);
+            if (arguments.follower.is_inverted) invert(frame.image);
+            const Reading reading = read(frame, follower);
+            tell_once_in_a_while(reading, frame.image.view(), follower, hint, is_warned);
             goes_on = outputs.take(frame, reading, source->dropped());
             if (arguments.frames > 0 && outputs.tally().frames >= arguments.frames) break;
         }
@@ -233,20 +242,12 @@ void add_watch(CLI::App& app, int& exit_code) {
         app.add_subcommand("watch", "Follow a camera live, or a video frame by frame");
     command->footer(kExamples);
     add_source_options(*command, arguments->source);
-    LocatorOptions& locator = arguments->locator;
-    add_spacing_option(*command, locator.spacing_mm);
-    add_code_option(*command, locator.code);
-    add_sheets_option(*command, locator.sheets,
-                      "Sheet file: also tell the sheet, and track the robot in the world")
-        ->excludes(command->get_option("--spacing"), command->get_option("--code"));
-    command->add_flag("--inverted", locator.is_inverted, "The dots are white on black");
-    add_lens_option(*command, locator.locate.lens);
-    add_attempt_options(*command, locator.locate);
-    add_track_options(*command, locator.track);
+    add_follower_options(*command, arguments->follower,
+                         "Sheet file: also tell the sheet, and track the robot in the world");
+    add_track_options(*command, arguments->follower.options.track);
     add_output_options(*command, *arguments);
     add_publish_options(*command, arguments->outputs, arguments->mqtt);
     command->callback([arguments, &exit_code] {
-        arguments->locator.track.spacing_mm = static_cast<float>(arguments->locator.spacing_mm);
         arguments->outputs.mqtt = arguments->mqtt.options();
         exit_code = run(*arguments);
     });

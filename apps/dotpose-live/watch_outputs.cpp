@@ -95,17 +95,17 @@ void StateOutput::take(const Reading& reading) {
     publisher_.publish(state_topic(robot_), json_of(state));
 }
 
-WatchOutputs::WatchOutputs(const OutputOptions& options, const FrameLocator& locator)
+WatchOutputs::WatchOutputs(const OutputOptions& options, const Follower& follower)
     : options_(options),
-      locator_(locator),
-      sheets_(map_sheets(locator.sheets(), locator.plane())),
+      follower_(follower),
+      sheets_(map_sheets(follower.sheets(), plane_of(follower))),
       lines_(std::in_place, options.out),
       screen_(options.screen),
       begun_(std::chrono::steady_clock::now()) {
     for (const std::string& late : {options.map, options.screen.record}) {
         if (!late.empty()) files::require_writable(late);
     }
-    const std::string header = csv_header_of_readings(!locator.sheets().empty());
+    const std::string header = csv_header_of_readings(!follower.sheets().empty());
     if (options.format == RecordFormat::csv) write_line(header);
     if (!options.log.empty()) {
         log_.emplace(options.log);
@@ -143,7 +143,7 @@ void WatchOutputs::write_line(const std::string& line) {
 void WatchOutputs::write_packet(const Reading& reading) {
     if (!packets_) return;
     try {
-        packets_->write(reading, locator_.options().profile);
+        packets_->write(reading, follower_.used_options().profile);
     } catch (const ReaderLeft& error) {
         tell(error.what());
         packets_.reset();
@@ -160,9 +160,9 @@ bool WatchOutputs::show(const video::Frame& frame, const Reading& reading, std::
     const TrackedPose& pose = reading.track.pose;
     video::Scene scene;
     scene.image = frame.image.view();
-    scene.trace = locator_.trace();
+    scene.trace = follower_.trace();
     scene.is_good = ok;
-    scene.y_up = locator_.plane() == Plane::sheet_world;
+    scene.y_up = reading.plane == Plane::sheet_world;
     scene.path = path_.marks();
     scene.sheets = sheets_;
     scene.lines.push_back(fmt::format("frame {}   {:.3f} s   {}", reading.index,
@@ -192,7 +192,7 @@ void WatchOutputs::finish() {
     if (options_.map.empty()) return;
     draw::Map map;
     map.title = fmt::format("{} frames, {} fixes", tally_.frames, tally_.fixes);
-    map.y_up = locator_.plane() == Plane::sheet_world;
+    map.y_up = follower_.is_in_world();
     map.sheets = sheets_;
     if (!path_.marks().empty()) {
         const video::PathMark& last = path_.marks().back();

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "fields.hpp"
-#include "frame_locator.hpp"
 #include "lines.hpp"
 #include "path_memory.hpp"
 #include "publish/mqtt.hpp"
+#include "reading.hpp"
 #include "video/screen.hpp"
 
 namespace dotpose::cli {
@@ -81,7 +81,7 @@ class StateOutput {
 class WatchOutputs {
   public:
     /// Throws Error if something cannot be opened.
-    WatchOutputs(const OutputOptions& options, const FrameLocator& locator);
+    WatchOutputs(const OutputOptions& options, const Follower& follower);
 
     /// Writes the outputs of a frame. Returns false if the user closed the window or all outputs
     /// have lost their readers. Throws Error if an output cannot be written.
@@ -101,7 +101,7 @@ class WatchOutputs {
     bool is_anything_left() const;
 
     OutputOptions options_;
-    const FrameLocator& locator_;
+    const Follower& follower_;
     std::vector<draw::MapSheet> sheets_;
     std::optional<Lines> lines_;
     std::optional<Lines> log_;

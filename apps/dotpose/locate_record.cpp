@@ -134,6 +134,21 @@ std::string plain_reason(const Record& record) {
 
 }  // namespace
 
+Record record_of(const Located& located, const Follower& follower) {
+    Record record;
+    record.fix = located.fix;
+    record.reading = located.reading;
+    record.code_is_given = located.code_is_given;
+    record.spacing_mm = located.spacing_mm;
+    record.has_sheets = !follower.sheets().empty();
+    record.place = located.place;
+    record.width_px = follower.image().width_px;
+    record.height_px = follower.image().height_px;
+    record.min_dots = follower.used_options().lattice.min_dots;
+    record.max_p_wrong_log2 = follower.used_options().integrity.max_p_wrong_log2;
+    return record;
+}
+
 std::string warning(const Record& record) {
     const CodeReading& reading = record.reading;
     if (!record.code_is_given || !reading.has_other) return {};

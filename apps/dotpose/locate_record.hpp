@@ -5,9 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "dotpose/code_evidence.hpp"
-#include "dotpose/files/sheet_place.hpp"
-#include "dotpose/fix.hpp"
+#include "dotpose/tools/follower.hpp"
 #include "fields.hpp"
 
 namespace dotpose::cli {
@@ -27,6 +25,9 @@ struct Record {
     int min_dots = 0;          ///< fewest dots with which locating is tried
     int max_p_wrong_log2 = 0;  ///< positions that may be wrong with more than 2^this are refused
 };
+
+/// The record of an image that was just located; file name, time and advice are left open.
+Record record_of(const Located& located, const Follower& follower);
 
 /// Returns a warning if the user gave a profile and another one explains the frame; else empty.
 std::string warning(const Record& record);

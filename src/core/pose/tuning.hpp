@@ -1,8 +1,8 @@
 // Tuning: the numbers of fitting the pose that were found by trying rather than derived. Those of
 // the second attempt were found on the hard frames that decode/tuning.hpp names; where a line says
 // what other values do, these are frames located, and the median and 95 % of their errors, by
-// `dotpose evaluate --preset hard --frames 2000 --seed 404`: 1,994, 2.21 and 5.42 µm with the values
-// as they are.
+// `dotpose evaluate --preset hard --frames 2000 --seed 404`: 1,994, 2.21 and 5.42 µm with the
+// values as they are.
 #pragma once
 
 namespace dotpose::core::tuning {

@@ -1,14 +1,13 @@
-#include "page_cut.hpp"
+#include "follow/page_cut.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 
-#include "core/detect/undistort.hpp"
-#include "core/plane.hpp"
+#include "dotpose/files/camera.hpp"
 
-namespace dotpose::cli {
+namespace dotpose::follow_detail {
 namespace {
 
 /// Maps pixels to a page. Tilt and lens distortion are neglected, so it is exact to some pixels.
@@ -77,37 +76,47 @@ std::optional<GreyImage> cut_to(ImageView image, const Region& region) {
 class PixelsAmongDots {
   public:
     PixelsAmongDots(ImageView image, const Options& options, const Fix& fix, const Sheet& sheet)
-        : lens_(options.lens),
-          centre_q8_{(image.width_px - 1) * 128, (image.height_px - 1) * 128},
-          plane_(fix.pattern_from_image),
-          left_q16_(cells_q16(fix.place.cell.x, sheet.origin.x)),
-          top_q16_(cells_q16(fix.place.cell.y, sheet.origin.y)),
-          width_q16_(std::int64_t{sheet.columns} << 16),
-          height_q16_(std::int64_t{sheet.rows} << 16) {}
+        : plane_(fix.pattern_from_image),
+          left_(cells(fix.place.cell.x, sheet.origin.x)),
+          top_(cells(fix.place.cell.y, sheet.origin.y)),
+          columns_(sheet.columns),
+          rows_(sheet.rows) {
+        camera_.k_per_px2 = options.lens.k_q40 * 0x1p-40;
+        camera_.centre_px = {(image.width_px - 1) / 2.0 + options.lens.centre_dx_q8 / 256.0,
+                             (image.height_px - 1) / 2.0 + options.lens.centre_dy_q8 / 256.0};
+    }
 
     bool holds(int u, int v) const {
-        const Vec point_q8 = core::undistorted(lens_, centre_q8_, {u * 256, v * 256});
-        const Vec at_q16 = core::plane_point_q16(plane_, point_q8);
-        const std::int64_t x_q16 = at_q16.x - left_q16_;
-        const std::int64_t y_q16 = at_q16.y - top_q16_;
-        return x_q16 >= 0 && x_q16 < width_q16_ && y_q16 >= 0 && y_q16 < height_q16_;
+        const PixelPoint seen = undistorted(camera_, {double(u), double(v)});
+        const double du = seen.u - plane_.centre_q8.x / 256.0;
+        const double dv = seen.v - plane_.centre_q8.y / 256.0;
+        const double divisor =
+            1 + (plane_.perspective_q30.x * du + plane_.perspective_q30.y * dv) * 0x1p-30 +
+            plane_.lens_q40 * 0x1p-40 * (du * du + dv * dv);
+        const auto from_first_dot = [&](std::int32_t at_q16, std::int32_t du_q24,
+                                        std::int32_t dv_q24, double first) {
+            return at_q16 / 65536.0 + (du_q24 * du + dv_q24 * dv) * 0x1p-24 / divisor - first;
+        };
+        const double x =
+            from_first_dot(plane_.at_centre_q16.x, plane_.du_q24.x, plane_.dv_q24.x, left_);
+        const double y =
+            from_first_dot(plane_.at_centre_q16.y, plane_.du_q24.y, plane_.dv_q24.y, top_);
+        return x >= 0 && x < columns_ && y >= 0 && y < rows_;
     }
 
   private:
-    /// Returns the signed distance from a cell to the edge of the region, which is half a cell
-    /// before its first cell, the shorter way around the cyclic plane.
-    static std::int64_t cells_q16(std::uint32_t from, std::uint32_t first) {
-        const double cells = std::remainder(double(first) - double(from), kPositionsPerAxis);
-        return std::llround(cells * 65536) - 32768;
+    /// Returns the signed distance in cells from a cell to the edge of the region, which is half a
+    /// cell before its first cell, the shorter way around the cyclic plane.
+    static double cells(std::uint32_t from, std::uint32_t first) {
+        return std::remainder(double(first) - double(from), kPositionsPerAxis) - 0.5;
     }
 
-    Lens lens_;
-    Vec centre_q8_;
+    Camera camera_;
     PlaneFromImage plane_;
-    std::int64_t left_q16_;
-    std::int64_t top_q16_;
-    std::int64_t width_q16_;
-    std::int64_t height_q16_;
+    double left_;
+    double top_;
+    int columns_;
+    int rows_;
 };
 
 }  // namespace
@@ -122,4 +131,4 @@ std::optional<GreyImage> cut_to_dots(ImageView image, const Options& options, co
     return cut_to(image, PixelsAmongDots(image, options, fix, sheet));
 }
 
-}  // namespace dotpose::cli
+}  // namespace dotpose::follow_detail

@@ -6,7 +6,7 @@
 #include "dotpose/options.hpp"
 #include "dotpose/tools/grey_image.hpp"
 
-namespace dotpose::cli {
+namespace dotpose::follow_detail {
 
 /// Returns the smallest factor by which an image of this size has to be reduced. It is 1 if the
 /// image can be located as it is, or if it would become too small.
@@ -23,4 +23,4 @@ Options reduced(const Options& options, const GreyImage& image, int by);
 /// Converts the fix of an image reduced by `by` to pixels of the original image.
 Fix in_whole_pixels(const Fix& fix, int by);
 
-}  // namespace dotpose::cli
+}  // namespace dotpose::follow_detail

@@ -9,7 +9,7 @@
 #include "dotpose/options.hpp"
 #include "dotpose/tools/grey_image.hpp"
 
-namespace dotpose::cli {
+namespace dotpose::follow_detail {
 
 /// Returns the image with everything outside of the page painted over, or none if all of the image
 /// shows the page. `fix` and `place` are the results for the image with `options`.
@@ -22,4 +22,4 @@ std::optional<GreyImage> cut_to_page(ImageView image, const Options& options, co
 std::optional<GreyImage> cut_to_dots(ImageView image, const Options& options, const Fix& fix,
                                      const Sheet& sheet);
 
-}  // namespace dotpose::cli
+}  // namespace dotpose::follow_detail

@@ -1,4 +1,4 @@
-#include "reduced_image.hpp"
+#include "follow/reduced_image.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "dotpose/locate.hpp"
 
-namespace dotpose::cli {
+namespace dotpose::follow_detail {
 
 int reduction_of(int width_px, int height_px) {
     const int by = (std::max(width_px, height_px) + kMaxFrameSide_px - 1) / kMaxFrameSide_px;
@@ -60,4 +60,4 @@ Fix in_whole_pixels(const Fix& fix, int by) {
     return result;
 }
 
-}  // namespace dotpose::cli
+}  // namespace dotpose::follow_detail

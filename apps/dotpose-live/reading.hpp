@@ -1,0 +1,27 @@
+/// What one frame of `dotpose watch` told, alone and together with those before it.
+#pragma once
+
+#include <cstdint>
+
+#include "dotpose/tools/follower.hpp"
+#include "locate_record.hpp"
+#include "video/frame_source.hpp"
+
+namespace dotpose::cli {
+
+/// In which plane a robot is tracked: the bare pattern, or the world of a sheet file.
+enum class Plane { pattern, sheet_world };
+Plane plane_of(const Follower& follower);
+
+struct Reading {
+    std::int64_t index = 0;
+    std::int64_t time_us = 0;
+    Record record;  ///< `p_wrong` with the tracker's prior, where the fix needed that
+    Track track;
+    Plane plane = Plane::pattern;
+};
+
+/// Follows the robot to this frame.
+Reading read(const video::Frame& frame, Follower& follower);
+
+}  // namespace dotpose::cli

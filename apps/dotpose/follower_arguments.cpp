@@ -1,0 +1,72 @@
+#include "follower_arguments.hpp"
+
+#include <cmath>
+
+#include <fmt/core.h>
+
+namespace dotpose::cli {
+namespace {
+
+/// Largest distance of a reference point from the image centre: far outside of any image, but well
+/// within the range of the fixed-point pose.
+constexpr double kFarthestReference_px = 10'000;
+
+PixelPoint parse_reference(const std::string& text) {
+    PixelPoint point;
+    const std::size_t comma = text.find(',');
+    const auto parse = [](const std::string& number, double& value) {
+        return CLI::detail::lexical_cast(number, value) && std::abs(value) <= kFarthestReference_px;
+    };
+    if (comma == std::string::npos || !parse(text.substr(0, comma), point.u) ||
+        !parse(text.substr(comma + 1), point.v)) {
+        throw CLI::ValidationError(
+            "--reference",
+            fmt::format("'{}' must be two numbers from {} to {} with a comma between", text,
+                        -kFarthestReference_px, kFarthestReference_px));
+    }
+    return point;
+}
+
+}  // namespace
+
+void FollowerArguments::add_files(RunFiles& files) const {
+    files.reads("--sheets", sheets);
+    files.reads("--camera", camera.path);
+}
+
+FollowerOptions FollowerArguments::read() const {
+    FollowerOptions result = options;
+    result.camera = camera.camera;
+    if (sheets.empty()) return result;
+    result.sheets = read_sheets(sheets);
+    if (result.sheets.empty()) throw Error(sheets + " has no sheets");
+    return result;
+}
+
+void add_follower_options(CLI::App& command, FollowerArguments& arguments,
+                          const std::string& sheets_help) {
+    FollowerOptions& options = arguments.options;
+    add_spacing_option(command, options.spacing_mm);
+    add_code_option(command, options.code);
+    add_sheets_option(command, arguments.sheets, sheets_help)
+        ->excludes(command.get_option("--spacing"), command.get_option("--code"));
+    command.add_flag("--inverted", arguments.is_inverted, "The dots are white on black");
+    add_camera_option(command, arguments.camera,
+                      "Camera file, of 'dotpose calibrate' or ROS: lens, reference, heading")
+        ->excludes(add_lens_option(command, options.locate.lens));
+    command
+        .add_option_function<std::string>(
+            "--reference",
+            [&options](const std::string& text) { options.reference_px = parse_reference(text); },
+            "Pixel whose place is wanted; (0, 0) is the centre of the first pixel, undistorted")
+        ->type_name("U,V")
+        ->default_str("image centre");
+    add_attempt_options(command, options.locate);
+}
+
+void invert(GreyImage& image) {
+    for (std::uint8_t& grey : image.pixels)
+        grey = static_cast<std::uint8_t>(255 - grey);
+}
+
+}  // namespace dotpose::cli

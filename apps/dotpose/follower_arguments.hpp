@@ -1,0 +1,34 @@
+/// The options of all commands that locate images: code, spacing, sheets, camera, effort.
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "common.hpp"
+#include "dotpose/tools/follower.hpp"
+#include "run_files.hpp"
+
+namespace dotpose::cli {
+
+struct FollowerArguments {
+    std::string sheets;  ///< path of the sheet file; empty for none
+    CameraArgument camera;
+    bool is_inverted = false;
+    FollowerOptions options;  ///< without the files
+
+    /// Names the files that are read.
+    void add_files(RunFiles& files) const;
+
+    /// Reads the sheet file. Throws Error if it cannot be read or has no sheets.
+    FollowerOptions read() const;
+};
+
+/// Adds the options. `sheets_help` says what the sheet file does for this command.
+void add_follower_options(CLI::App& command, FollowerArguments& arguments,
+                          const std::string& sheets_help);
+
+/// Makes white dots on black dark dots on white.
+void invert(GreyImage& image);
+
+}  // namespace dotpose::cli

@@ -1,0 +1,77 @@
+// What single images and sequences have in common: options, sheets, camera file.
+#include "dotpose/tools/follower.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "dotpose/tools/mounted_pose.hpp"
+
+namespace dotpose {
+
+Follower::Follower(const FollowerOptions& options)
+    : options_(options),
+      unplaced_spacing_mm_(options.spacing_mm),
+      used_(options.locate),
+      tracker_(options.track) {
+    if (options.code) profiles_ = {*options.code};
+    if (!options.sheets.empty()) use_sheets();
+}
+
+void Follower::use_sheets() {
+    profiles_.clear();
+    unplaced_spacing_mm_ = options_.sheets.front().sheet.pattern.spacing_mm;
+    for (const SheetEntry& entry : options_.sheets) {
+        const Pattern& pattern = entry.sheet.pattern;
+        if (std::ranges::find(profiles_, pattern.profile) == profiles_.end()) {
+            profiles_.push_back(pattern.profile);
+        }
+        if (pattern.spacing_mm != unplaced_spacing_mm_) {
+            unplaced_spacing_mm_ = std::numeric_limits<double>::quiet_NaN();
+        }
+        if (entry.world) is_in_world_ = true;
+    }
+}
+
+void Follower::use_options_for(int width_px, int height_px) {
+    used_ = options_.locate;
+    if (options_.camera) use_camera(*options_.camera, width_px, height_px, used_);
+    if (options_.reference_px) {
+        const auto from_centre_q8 = [](double px, int side_px) {
+            return static_cast<std::int32_t>(std::lround((px - (side_px - 1) / 2.0) * 256));
+        };
+        used_.reference_dx_q8 = from_centre_q8(options_.reference_px->u, width_px);
+        used_.reference_dy_q8 = from_centre_q8(options_.reference_px->v, height_px);
+    }
+}
+
+Locator& Follower::locator(const Options& options) {
+    locator_.set_options(options);
+    return locator_;
+}
+
+/// Applies the camera file to the fix that was located last.
+Fix Follower::by_camera_file(const Fix& seen, const std::optional<SheetPlace>& place) const {
+    if (!options_.camera) return seen;
+    return with_camera(seen, *options_.camera, locator_.trace(),
+                       place ? place->entry->print_scale() : AxisScale{});
+}
+
+double Follower::spacing_mm(const std::optional<SheetPlace>& place) const {
+    return place ? place->entry->sheet.pattern.spacing_mm : unplaced_spacing_mm_;
+}
+
+Located Follower::located(const Found& found, const Fix& fix) const {
+    Located result;
+    result.fix = fix;
+    result.reading = found.reading;
+    result.place = find_sheet(options_.sheets, found.reading.code, fix);
+    result.spacing_mm = spacing_mm(result.place);
+    result.fix.spacing_nm = std::isfinite(result.spacing_mm)
+                                ? static_cast<std::int32_t>(std::lround(result.spacing_mm * 1e6))
+                                : 0;
+    result.code_is_given = !profiles_.empty();
+    return result;
+}
+
+}  // namespace dotpose

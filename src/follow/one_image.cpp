@@ -1,0 +1,81 @@
+// Locating an image by itself.
+#include "dotpose/tools/follower.hpp"
+#include "follow/page_cut.hpp"
+#include "follow/reduced_image.hpp"
+
+namespace dotpose {
+
+using namespace follow_detail;
+
+Located Follower::locate(const GreyImage& image) {
+    use_options_for(image.width_px, image.height_px);
+    image_ = image.view();
+    // A camera file is for images of one size.
+    const int by = options_.camera ? 1 : reduction_of(image.width_px, image.height_px);
+    if (by > 1) {
+        used_ = reduced(used_, image, by);
+        reduced_ = reduced(image, by);
+        image_ = reduced_.view();
+    }
+    const Found found = read();
+    Located result = located(found, in_whole_pixels(found.fix, by));
+    result.reduced_by = by;
+    return result;
+}
+
+/// Returns the first fix that lies on a sheet of its profile. If there is none, it returns the
+/// first fix, or without any fix the result for the first profile.
+Follower::Found Follower::read() {
+    if (profiles_.empty()) {
+        const CodeReading reading = locator(used_).locate_in_any_code(image_, evidence_);
+        evidence_ = reading.evidence;
+        used_.profile = reading.code;
+        return {reading.fix, by_camera_file(reading.fix, {}), {}, reading};
+    }
+    Profile best = profiles_.front();
+    bool is_found = false;
+    Found found;
+    for (const Profile profile : profiles_) {
+        found = read_in(profile);
+        if (profiles_.size() == 1 || find_sheet(options_.sheets, profile, found.fix)) return found;
+        if (found.fix.status == Status::ok && !is_found) {
+            best = profile;
+            is_found = true;
+        }
+    }
+    // Unless it was the last profile, the image is located again in the best one, so that the trace
+    // matches the fix.
+    return used_.profile == best ? found : read_in(best);
+}
+
+Follower::Found Follower::read_in(Profile profile) {
+    used_.profile = profile;
+    const CodeReading reading = locator(used_).locate_in_code(image_);
+    const auto place = find_sheet(options_.sheets, profile, reading.fix);
+    const Fix seen = place ? without_surroundings(reading.fix, *place) : reading.fix;
+    return {seen, by_camera_file(seen, place), place, reading};
+}
+
+/// Locates an image on a known sheet again without the area beside its dots: labels and the table
+/// there are no evidence against the fix.
+Fix Follower::without_surroundings(const Fix& fix, const SheetPlace& place) {
+    if (fix.bit_errors == 0) return fix;
+    const auto cut = cut_to_dots(image_, used_, fix, place.entry->sheet);
+    if (!cut) return fix;
+    Fix again = locator(used_).locate(cut->view(), Prediction::like(fix));
+    const auto place_again = find_sheet(options_.sheets, used_.profile, again);
+    const bool is_better = place_again && place_again->entry == place.entry &&
+                           again.bit_errors < fix.bit_errors &&
+                           again.dots_used + fix.bit_errors >= fix.dots_used;
+    if (!is_better) {
+        // The trace must hold the results of the fix that is returned.
+        (void)locator(used_).locate(image_);
+        return fix;
+    }
+    if (again.attempt == Attempt::tracked) again.attempt = fix.attempt;
+    // The bound of the first fix takes all codes into account, so it is kept.
+    again.p_wrong_log2 = fix.p_wrong_log2;
+    return again;
+}
+
+}  // namespace dotpose

@@ -1,0 +1,155 @@
+// Following a robot through the images of a sequence, with the tracker's predictions and its prior.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "dotpose/tools/follower.hpp"
+#include "follow/page_cut.hpp"
+
+namespace dotpose {
+namespace {
+
+using namespace follow_detail;
+
+constexpr double kNm_per_mm = 1e6;
+
+std::int32_t bam(double angle_rad) {
+    const auto turned = std::llround(angle_rad / std::numbers::pi * 2147483648.0);
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(turned));
+}
+
+}  // namespace
+
+Followed Follower::follow(ImageView image, std::int64_t time_us) {
+    use_options_for(image.width_px, image.height_px);
+    if (seen_) used_.profile = seen_->profile;
+    image_ = image;
+    Found found = find(options_.track.max_p_wrong_log2, predict(time_us));
+    const Fix strict = found.fix;
+    if (strict.status == Status::not_certain && tracker_.has_prior()) {
+        // The image is located without a prediction: the tracker applies its prior to the result,
+        // which must not depend on the prior already.
+        found = find(options_.track.max_weak_p_wrong_log2, {});
+    }
+    const auto sighting = sighting_of(found, time_us);
+    Followed result;
+    result.track = tracker_.update(time_us, sighting ? &*sighting : nullptr);
+    // A fix with a weak bound counts only if the tracker accepted it with its prior.
+    const bool is_with_prior = result.track.verdict == Verdict::with_prior;
+    const bool is_fix = strict.status == Status::ok || is_with_prior;
+    if (is_fix) {
+        remember(found, sighting);
+    } else if (!tracker_.has_prior()) {
+        seen_.reset();
+    }
+    result.located = located(found, is_fix ? found.fix : strict);
+    result.located.reading.fix = result.located.fix;
+    result.located.reading.evidence = evidence_;
+    if (is_with_prior) result.located.fix.p_wrong_log2 = result.track.p_wrong_log2;
+    return result;
+}
+
+void Follower::remember(const Found& found, const std::optional<Sighting>& sighting) {
+    seen_ = Seen{found.fix, found.reading.code, sighting};
+    if (profiles_.empty()) {
+        evidence_ = found.reading.evidence;
+    } else {
+        std::ranges::iter_swap(profiles_.begin(), std::ranges::find(profiles_, found.reading.code));
+    }
+}
+
+/// Where the pattern will be seen.
+std::optional<Prediction> Follower::predict(std::int64_t time_us) const {
+    if (!seen_) return std::nullopt;
+    if (!seen_->sighting) return Prediction::like(seen_->fix);
+    return tracker_.predict(time_us, seen_->fix, *seen_->sighting, used_);
+}
+
+/// Returns the first fix that lies on a sheet of its profile. If there is none, it returns the
+/// first fix, or without any fix the result for the last profile.
+Follower::Found Follower::find(int max_p_wrong_log2, const std::optional<Prediction>& expected) {
+    used_.integrity.max_p_wrong_log2 = max_p_wrong_log2;
+    if (profiles_.empty()) return look_in_any_code(expected);
+    Found best;
+    for (const Profile profile : profiles_) {
+        used_.profile = profile;
+        const bool is_expected = expected && seen_ && seen_->profile == profile;
+        Found found = look(image_, used_, is_expected ? expected : std::nullopt);
+        if (options_.sheets.size() > 1) found = without_neighbours(found);
+        if (found.place) return found;
+        if (best.seen.status != Status::ok) best = found;
+    }
+    return best;
+}
+
+Follower::Found Follower::look(ImageView image, const Options& options,
+                               const std::optional<Prediction>& expected) {
+    // The user may have named a wrong code, so without a prediction the other codes are tried as
+    // well, to warn about them.
+    if (!expected && options_.sheets.empty()) {
+        const CodeReading reading = locator(options).locate_in_code(image);
+        return {reading.fix, by_camera_file(reading.fix, {}), {}, reading};
+    }
+    Fix fix = expected ? locator(options).locate(image, *expected) : locator(options).locate(image);
+    auto place = find_sheet(options_.sheets, options.profile, fix);
+    // A tracked image whose centre has left the page may show another page there.
+    if (fix.status == Status::ok && fix.attempt == Attempt::tracked && !place &&
+        !options_.sheets.empty()) {
+        fix = locator(options).locate(image);
+        place = find_sheet(options_.sheets, options.profile, fix);
+    }
+    return {fix, by_camera_file(fix, place), place, {fix, options.profile, {}}};
+}
+
+Follower::Found Follower::look_in_any_code(const std::optional<Prediction>& expected) {
+    const CodeReading reading =
+        expected && seen_ ? locator(used_).locate_in_any_code(image_, *expected, evidence_)
+                          : locator(used_).locate_in_any_code(image_, evidence_);
+    used_.profile = reading.code;
+    return {reading.fix, by_camera_file(reading.fix, {}), {}, reading};
+}
+
+/// Locates an image across the edge of a page again, without the part beyond the edge, if enough
+/// dots are left.
+Follower::Found Follower::without_neighbours(const Found& found) {
+    Found guess = found;
+    if (found.seen.status == Status::not_certain) {
+        // If the image shows two patterns, the one that is read better is accepted here, because it
+        // is only used to find the edge of its page.
+        Options any = used_;
+        any.integrity = {.max_p_wrong_log2 = 0, .max_bit_error_q8 = 128};
+        guess = look(image_, any, {});
+    }
+    if (!guess.place) return found;
+    const auto cut = cut_to_page(image_, used_, guess.seen, *guess.place);
+    if (!cut) return found;
+    Found again = look(cut->view(), used_, Prediction::like(guess.seen));
+    if (!again.place || again.place->entry != guess.place->entry) return found;
+    // The prediction for the second call came from the same image, so it is no tracked fix.
+    if (again.fix.attempt == Attempt::tracked) {
+        again.seen.attempt = again.fix.attempt = guess.seen.attempt;
+    }
+    return again;
+}
+
+std::optional<Sighting> Follower::sighting_of(const Found& found, std::int64_t time_us) const {
+    const auto place = find_sheet(options_.sheets, found.reading.code, found.fix);
+    const double spacing = spacing_mm(place);
+    if (found.fix.status != Status::ok || !std::isfinite(spacing)) return std::nullopt;
+    Fix fix = found.fix;
+    fix.spacing_nm = static_cast<std::int32_t>(std::lround(spacing * kNm_per_mm));
+    Sighting sighting = dotpose::sighting_of(fix, time_us);
+    if (!is_in_world_) return sighting;
+    const auto world = place ? world_place(*place) : std::nullopt;
+    if (!world) return std::nullopt;
+    sighting.plane = 0;
+    sighting.is_y_up = true;
+    sighting.x_nm = std::llround(world->x_m * 1e9);
+    sighting.y_nm = std::llround(world->y_m * 1e9);
+    sighting.theta_bam = bam(world->yaw_rad);
+    sighting.covariance = world_covariance(sighting.covariance, place->entry->world->yaw_rad);
+    return sighting;
+}
+
+}  // namespace dotpose
