@@ -11,7 +11,8 @@
 ///         const Track& track = tracker.update(time_us, ok ? &sighting : nullptr);
 ///     }
 ///
-/// `predict` tells where the next frame will show the pattern; examples/follow.cpp has such a loop.
+/// `predict` tells where the next frame will show the pattern; examples/follow_robot.cpp has such a
+/// loop.
 ///
 /// Frames: any plane in mm, as long as the sightings agree on it: the pattern frame, or the world
 /// of a sheet file, where a robot may drive from sheet to sheet. Positions are whole nanometres,

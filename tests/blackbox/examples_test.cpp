@@ -42,7 +42,7 @@ TEST_F(Examples, FollowGoesWithTheRobot) {
         const std::string name = "f" + std::to_string(100 + i) + ".pgm";
         write_pgm(directory_ / name, camera.frame(drive, first + i).view());
     }
-    ASSERT_EQ(run_example("follow 200 f*.pgm"), 0);
+    ASSERT_EQ(run_example("follow_robot 200 f*.pgm"), 0);
     const auto lines = lines_of(output_);
     ASSERT_EQ(lines.size(), 30U);
     for (std::size_t i = 0; i < 12; ++i) {

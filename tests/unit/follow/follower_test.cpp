@@ -1,0 +1,143 @@
+// A Follower on simulated robots: the camera sits off the robot's centre and looks at the bare
+// pattern or at a sheet.
+#include "dotpose/tools/follower.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "../calibrate/frames.hpp"
+
+namespace dotpose {
+namespace {
+
+using namespace calibrate_test;
+
+constexpr std::uint64_t kSeed = 2411;
+constexpr double kPivotCells_x = kPivot_x_mm / kDefaultSpacing_mm;
+constexpr double kPivotCells_y = kPivot_y_mm / kDefaultSpacing_mm;
+
+/// The camera file of a robot whose camera sits at `kCameraOnRobot_mm` and is turned against it:
+/// its centre is the reference point.
+Camera mounted_camera(const CameraModel& model, double theta_offset_rad) {
+    Camera camera = true_camera(model);
+    camera.reference_px = PixelPoint{camera.centre_px.u - kCameraOnRobot_mm.x / model.mm_per_px,
+                                     camera.centre_px.v - kCameraOnRobot_mm.y / model.mm_per_px};
+    camera.theta_offset_rad = theta_offset_rad;
+    return camera;
+}
+
+/// A sheet whose region holds the place where the robot turns.
+SheetEntry sheet_around_pivot() {
+    SheetEntry entry;
+    entry.name = "floor";
+    entry.sheet.columns = entry.sheet.rows = 400;
+    entry.sheet.origin = {static_cast<std::uint32_t>(kPivotCells_x) - 200,
+                          static_cast<std::uint32_t>(kPivotCells_y) - 200};
+    entry.sheet.width_mm = entry.sheet.height_mm = 400 * kDefaultSpacing_mm;
+    return entry;
+}
+
+double turn_between(double a_rad, double b_rad) {
+    return std::abs(std::remainder(a_rad - b_rad, 2 * std::numbers::pi));
+}
+
+TEST(Follower, TellsWhereTheRobotIsByItsCameraFile) {
+    const CameraModel model;
+    FollowerOptions options;
+    options.code = Profile::anoto;
+    options.camera = mounted_camera(model, 30 * kDegree_rad);
+    Follower follower(options);
+    // The robot turns on the spot: its centre stays where it is.
+    int tracked = 0;
+    constexpr int kFrames = 30;
+    for (int i = 0; i < kFrames; ++i) {
+        SCOPED_TRACE(testing::Message() << "frame " << i << ", seed " << kSeed);
+        const double theta_rad = 0.01 * i;
+        const GreyImage image = robot_frame(model, kSeed, i, kPivot_x_mm, kPivot_y_mm, theta_rad);
+        const Followed now = follower.follow(image.view(), 10'000 * i);
+        const Fix& fix = now.located.fix;
+        ASSERT_EQ(fix.status, Status::ok);
+        EXPECT_NEAR(fix.x_mm(), kPivot_x_mm, 0.03);
+        EXPECT_NEAR(fix.y_mm(), kPivot_y_mm, 0.03);
+        EXPECT_LT(turn_between(fix.theta_rad(), theta_rad + 30 * kDegree_rad), 0.003);
+        EXPECT_NEAR(now.track.pose.x_mm(), kPivot_x_mm, 0.05);
+        EXPECT_LT(turn_between(now.track.pose.theta_rad(), theta_rad + 30 * kDegree_rad), 0.01);
+        tracked += fix.attempt == Attempt::tracked ? 1 : 0;
+    }
+    // The mount turns predictions as well: the pattern is found where it is expected.
+    EXPECT_GE(tracked, kFrames - 3);
+    EXPECT_FALSE(follower.is_in_world());
+}
+
+TEST(Follower, SinglyAndInASequenceImagesGiveThePlaceOnTheSheet) {
+    const CameraModel model;
+    FollowerOptions options;
+    options.sheets = {sheet_around_pivot()};
+    options.sheets[0].world = WorldPose{1, 2, 0};
+    Follower follower(options);
+    EXPECT_TRUE(follower.is_in_world());
+    for (int i = 0; i < 5; ++i) {
+        SCOPED_TRACE(testing::Message() << "frame " << i << ", seed " << kSeed);
+        const GreyImage image = robot_frame(model, kSeed, i, kPivot_x_mm, kPivot_y_mm, 1);
+        const Located alone = follower.locate(image);
+        const Located next = follower.follow(image.view(), 10'000 * i).located;
+        ASSERT_TRUE(alone.place && next.place);
+        EXPECT_EQ(alone.place->entry->name, "floor");
+        EXPECT_TRUE(alone.code_is_given);
+        EXPECT_DOUBLE_EQ(alone.spacing_mm, kDefaultSpacing_mm);
+        // The camera's centre, from the first intersection of the sheet.
+        const double x_mm = kPivot_x_mm + std::cos(1.0) * kCameraOnRobot_mm.x -
+                            std::sin(1.0) * kCameraOnRobot_mm.y -
+                            options.sheets[0].sheet.origin.x * kDefaultSpacing_mm;
+        EXPECT_NEAR(alone.place->x_mm - alone.place->entry->sheet.origin_x_mm, x_mm, 0.01);
+        EXPECT_NEAR(next.place->x_mm, alone.place->x_mm, 0.01);
+        EXPECT_NEAR(next.place->y_mm, alone.place->y_mm, 0.01);
+    }
+}
+
+TEST(Follower, AReferencePointReplacesThatOfTheCameraFile) {
+    const CameraModel model;
+    const GreyImage image = robot_frame(model, kSeed, 0, kPivot_x_mm, kPivot_y_mm, 0.5);
+    FollowerOptions options;
+    options.code = Profile::anoto;
+    options.camera = mounted_camera(model, 0);
+    options.reference_px = PixelPoint{(model.width_px - 1) / 2.0, (model.height_px - 1) / 2.0};
+    const Fix fix = Follower(options).locate(image).fix;
+    ASSERT_EQ(fix.status, Status::ok);
+    // The image centre lies off the robot's by the place of the camera on it.
+    EXPECT_NEAR(std::hypot(fix.x_mm() - kPivot_x_mm, fix.y_mm() - kPivot_y_mm),
+                std::hypot(kCameraOnRobot_mm.x, kCameraOnRobot_mm.y), 0.01);
+}
+
+TEST(Follower, ImagesOfAnotherSizeThanTheCamerasAreRefused) {
+    FollowerOptions options;
+    options.camera = true_camera({});
+    Follower follower(options);
+    const GreyImage image{std::vector<std::uint8_t>(100 * 100, 200), 100, 100};
+    EXPECT_THROW(follower.locate(image), BadArgument);
+    EXPECT_THROW(follower.follow(image.view(), 0), BadArgument);
+}
+
+TEST(Follower, LargeImagesAreReduced) {
+    dotpose::Setup setup;
+    setup.camera.width_px = kMaxFrameSide_px + 2;
+    setup.camera.height_px = 400;
+    setup.camera.mm_per_px = kDefaultSpacing_mm / 24;
+    setup.camera.working_distance_mm = 2000;
+    const Shot shot = draw_shot(setup, 1);
+    FollowerOptions options;
+    options.code = Profile::anoto;
+    Follower follower(options);
+    const Located located = follower.locate(render(shot));
+    ASSERT_EQ(located.fix.status, Status::ok) << message(located.fix.status);
+    EXPECT_EQ(located.reduced_by, 2);
+    EXPECT_EQ(follower.image().width_px, (kMaxFrameSide_px + 2) / 2);
+    EXPECT_NEAR(located.fix.spacing_px(), 24, 0.3);
+    EXPECT_NEAR(located.fix.x_grid() - shot.pose.cell.x, shot.pose.fraction_x, 0.05);
+}
+
+}  // namespace
+}  // namespace dotpose
