@@ -15,6 +15,7 @@
 
 #include <fmt/core.h>
 
+#include "dotpose/tools/score.hpp"
 #include "dotpose/tools/simulate.hpp"
 #include "evaluate_all.hpp"
 

@@ -16,6 +16,7 @@
 #include <fmt/core.h>
 
 #include "../tests/limit_frames.hpp"
+#include "dotpose/tools/score.hpp"
 #include "evaluate_all.hpp"
 
 namespace {

@@ -19,6 +19,7 @@
 #include <fmt/core.h>
 
 #include "../tests/slipped_frames.hpp"
+#include "dotpose/tools/score.hpp"
 #include "evaluate_all.hpp"
 
 namespace {
