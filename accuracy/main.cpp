@@ -26,7 +26,7 @@
 #include <dotpose/tools/score.hpp>
 #include <dotpose/tools/sweep.hpp>
 
-#include "document.hpp"
+#include "../reports/document.hpp"
 
 namespace {
 

@@ -12,8 +12,8 @@
 
 #include <fmt/core.h>
 
+#include "../reports/document.hpp"
 #include "counting.hpp"
-#include "document.hpp"
 #include "tracked_drives.hpp"
 #include "tracked_frames.hpp"
 #include "tracked_wrong.hpp"

@@ -52,7 +52,7 @@ void try_offsets(const Shot& shot, TrackedTallies& tallies) {
     const GreyImage image = render(shot);
     const Fix fresh = Locator(memory()).locate(image.view());
     if (fresh.status != Status::ok) return;
-    const Truth truth = Truth::of(shot);
+    const TrueView truth = TrueView::of(shot);
     ++tallies[0].afresh;
     tallies[0].errors_um.push_back(truth.error_um(fresh));
     Rng rng(shot.seed, 77);
@@ -153,7 +153,7 @@ void try_changes(const Counting& counting, std::uint64_t index, TrackedTallies& 
         const GreyImage next = is_lifted ? nothing_in_focus(shot, rng) : render(shot);
         tallies[static_cast<std::size_t>(change)].count(
             Locator(memory()).locate(next.view(), Prediction::like(seen)),
-            is_lifted ? std::nullopt : std::optional(Truth::of(shot)));
+            is_lifted ? std::nullopt : std::optional(TrueView::of(shot)));
     }
 }
 

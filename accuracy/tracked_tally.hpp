@@ -18,11 +18,11 @@
 namespace dotpose {
 
 /// The true pose of the image centre.
-struct Truth {
+struct TrueView {
     CameraPose pose;
     Section section;
 
-    static Truth of(const Shot& shot) { return {shot.pose, shot.page.pattern.section}; }
+    static TrueView of(const Shot& shot) { return {shot.pose, shot.page.pattern.section}; }
 
     double error_um(const Fix& fix) const {
         return 1000 * kDefaultSpacing_mm *
@@ -56,7 +56,7 @@ struct TrackedTally {
     std::vector<double> errors_um;    ///< position errors of right fixes that use the prediction
 
     /// Counts a fix. Without a true pose, every fix is wrong.
-    void count(const Fix& fix, const std::optional<Truth>& truth) {
+    void count(const Fix& fix, const std::optional<TrueView>& truth) {
         if (fix.status != Status::ok) {
             ++none;
             return;

@@ -167,7 +167,7 @@ void try_all(const Counting& counting, std::uint64_t index, TrackedTallies& tall
         const Prediction prediction = predicted(kind, views, rng);
         if (kind < blank) {
             tallies[kind].count(Locator(memory()).locate(views.image.view(), prediction),
-                                Truth::of(views.shot));
+                                TrueView::of(views.shot));
         } else {
             const GreyImage image = without_code(kind, views.shot, rng);
             tallies[kind].count(Locator(memory()).locate(image.view(), prediction), std::nullopt);

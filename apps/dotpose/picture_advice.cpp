@@ -31,28 +31,37 @@ int paper_level(ImageView image) {
     return level;
 }
 
-/// Returns the middle of an image, at most `side_px` wide and high, enlarged with linear
-/// interpolation.
-GreyImage enlarged_middle(ImageView image, int side_px, int by) {
+/// Returns an image of `width_px` x `height_px`, interpolated linearly between the pixels of another
+/// one: `in_image(u, v)` is the point of that at which pixel (u, v) is taken. Outside of the image,
+/// it repeats the pixels of the border.
+template <typename InImage>
+GreyImage resampled(const ImageView& image, int width_px, int height_px, InImage in_image) {
+    GreyImage result{{}, width_px, height_px};
+    for (int k = 0; k < width_px * height_px; ++k) {
+        const PixelPoint at = in_image(k % width_px, k / width_px);
+        const double u = std::clamp(at.u, 0.0, image.width_px - 1.001);
+        const double v = std::clamp(at.v, 0.0, image.height_px - 1.001);
+        const std::uint8_t* upper = image.row(static_cast<int>(v)) + static_cast<int>(u);
+        const std::uint8_t* lower = upper + image.stride_bytes;
+        const double right = u - std::floor(u);
+        const double down = v - std::floor(v);
+        const double level = (upper[0] * (1 - right) + upper[1] * right) * (1 - down) +
+                             (lower[0] * (1 - right) + lower[1] * right) * down;
+        result.pixels.push_back(static_cast<std::uint8_t>(std::lround(level)));
+    }
+    return result;
+}
+
+/// Returns the middle of an image, at most `side_px` wide and high, enlarged.
+GreyImage enlarged_middle(const ImageView& image, int side_px, int by) {
     const int width_px = std::min(image.width_px, side_px) - 1;
     const int height_px = std::min(image.height_px, side_px) - 1;
     const int left = (image.width_px - 1 - width_px) / 2;
     const int top = (image.height_px - 1 - height_px) / 2;
-    GreyImage result{{}, width_px * by, height_px * by};
-    for (int v = 0; v < result.height_px; ++v) {
-        const std::uint8_t* upper = image.row(top + v / by) + left;
-        const std::uint8_t* lower = image.row(top + v / by + 1) + left;
-        const int down = v % by;
-        for (int u = 0; u < result.width_px; ++u) {
-            const int right = u % by;
-            const auto along = [&](const std::uint8_t* row) {
-                return row[u / by] * (by - right) + row[u / by + 1] * right;
-            };
-            const int sum = along(upper) * (by - down) + along(lower) * down;
-            result.pixels.push_back(static_cast<std::uint8_t>((sum + by * by / 2) / (by * by)));
-        }
-    }
-    return result;
+    return resampled(image, width_px * by, height_px * by, [&](int u, int v) {
+        const double pixel = by;
+        return PixelPoint{left + u / pixel, top + v / pixel};
+    });
 }
 
 /// Returns the spacing in the image if the pattern can be read after the image is enlarged.
@@ -88,27 +97,15 @@ struct Stretch {
     }
 };
 
-/// Returns the stretched middle of an image, a square of at most `side_px`. Where it is outside of
-/// the image, it repeats the pixels of the border.
-GreyImage stretched_middle(ImageView image, int side_px, const Stretch& stretch) {
+/// Returns the stretched middle of an image, a square of at most `side_px`, whose corners may be
+/// outside of the image.
+GreyImage stretched_middle(const ImageView& image, int side_px, const Stretch& stretch) {
     const int side = std::min({image.width_px, image.height_px, side_px});
-    GreyImage result{{}, side, side};
-    for (int k = 0; k < side * side; ++k) {
-        const PixelPoint step =
-            stretch.in_image({k % side - 0.5 * (side - 1), k / side - 0.5 * (side - 1)});
-        const double u =
-            std::clamp(0.5 * (image.width_px - 1) + step.u, 0.0, image.width_px - 1.001);
-        const double v =
-            std::clamp(0.5 * (image.height_px - 1) + step.v, 0.0, image.height_px - 1.001);
-        const std::uint8_t* upper = image.row(static_cast<int>(v)) + static_cast<int>(u);
-        const std::uint8_t* lower = upper + image.stride_bytes;
-        const double right = u - std::floor(u);
-        const double down = v - std::floor(v);
-        const double level = (upper[0] * (1 - right) + upper[1] * right) * (1 - down) +
-                             (lower[0] * (1 - right) + lower[1] * right) * down;
-        result.pixels.push_back(static_cast<std::uint8_t>(std::lround(level)));
-    }
-    return result;
+    return resampled(image, side, side, [&](int u, int v) {
+        const PixelPoint step = stretch.in_image({u - 0.5 * (side - 1), v - 0.5 * (side - 1)});
+        return PixelPoint{0.5 * (image.width_px - 1) + step.u,
+                          0.5 * (image.height_px - 1) + step.v};
+    });
 }
 
 /// Returns the tilt of the sheet if the pattern can be read after the image is stretched.

@@ -155,7 +155,7 @@ using Matrix3 = std::array<Vector3, 3>;
 using Vector9 = std::array<float, 9>;
 using Covariance9 = std::array<Vector9, 9>;
 
-struct Motion {
+struct MotionEstimate {
     TrackedPose pose;
     Vector3 acceleration{};    ///< mm/s^2, rad/s^2
     Covariance9 covariance{};  ///< of (x, y, theta), their velocities and accelerations
@@ -194,10 +194,10 @@ class Tracker {
 
   private:
     /// The motion of which `seen` is the newest sighting; null if there is none.
-    const track::Motion* following(const Sighting& seen) const;
-    Verdict judge(const track::Motion& prediction, const Sighting& sighting);
+    const track::MotionEstimate* following(const Sighting& seen) const;
+    Verdict judge(const track::MotionEstimate& prediction, const Sighting& sighting);
     bool is_confirmed(const Sighting& sighting);
-    void restart(const track::Motion& motion);
+    void restart(const track::MotionEstimate& motion);
     void watch_motion();
 
     TrackOptions options_;
@@ -205,10 +205,10 @@ class Tracker {
     bool was_seen_ = false;
     bool has_frame_ = false;
     std::int64_t newest_us_ = 0;
-    track::Motion last_;  ///< at the last believed sighting
+    track::MotionEstimate last_;  ///< at the last believed sighting
     /// At the newest sighting that contradicts, followed like the believed ones: where the robot is
     /// if it was put somewhere else.
-    track::Motion candidate_;
+    track::MotionEstimate candidate_;
     int agreeing_ = 0;  ///< sightings that the candidate was made of
     TrackedPose rest_;  ///< from where movement is counted
 };

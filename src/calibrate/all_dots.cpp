@@ -16,7 +16,7 @@ constexpr double kMostReach = 1.0 / 3;
 
 struct Candidate {
     double off;  ///< spacings
-    SightedDot dot;
+    LocatedDot dot;
 };
 
 /// A blob as the dot of the intersection that is nearest to where it should be.
@@ -34,9 +34,9 @@ Candidate candidate(PixelPoint pixel, const Place& start, double x, double y, do
 }  // namespace
 
 void take_all_dots(const LensFit& fit, const FitSetting& setting, Profile profile,
-                   std::vector<Sighting>& frames) {
+                   std::vector<LocatedFrame>& frames) {
     for (std::size_t i = 0; i < frames.size(); ++i) {
-        Sighting& frame = frames[i];
+        LocatedFrame& frame = frames[i];
         const double reach =
             std::clamp(kReach_sigmas * fit.residual_px / frame.spacing_px, kLeastReach, kMostReach);
         std::map<std::pair<int, int>, Candidate> nearest;

@@ -14,6 +14,6 @@ namespace dotpose::calibrate {
 /// has wrong. What is left tells too little perspective: by three deviations at 8 degrees, measured
 /// by the unit test ASlightTiltTellsAnUnbiasedFocalLength without this.
 void take_all_dots(const LensFit& fit, const FitSetting& setting, Profile profile,
-                   std::vector<Sighting>& frames);
+                   std::vector<LocatedFrame>& frames);
 
 }  // namespace dotpose::calibrate

@@ -1,4 +1,5 @@
-// The calibration of a lens: frames -> sightings -> fit -> the same once more with the lens known
+// The calibration of a lens: frames -> located frames -> fit -> the same once more with the lens
+// known
 // -> once more with all dots -> camera and verdict.
 #include <algorithm>
 #include <array>
@@ -11,8 +12,8 @@
 
 #include "calibrate/all_dots.hpp"
 #include "calibrate/lens_fit.hpp"
+#include "calibrate/located_frame.hpp"
 #include "calibrate/paper_view.hpp"
-#include "calibrate/sighting.hpp"
 #include "dotpose/tools/calibrate.hpp"
 #include "dotpose/tools/print.hpp"
 
@@ -84,7 +85,8 @@ Lens lens_of(const Camera& camera) {
 
 /// By how much the residuals of one frame shrink, in units of their variance, if this frame alone
 /// may have its own scale, shear and perspective. By chance: 5.
-double gain_of_own_view(const Sighting& frame, const std::vector<std::array<double, 2>>& residuals,
+double gain_of_own_view(const LocatedFrame& frame,
+                        const std::vector<std::array<double, 2>>& residuals,
                         const std::vector<char>& is_outlier, const FitSetting& setting,
                         double sigma_px) {
     using Parameters = Eigen::Matrix<double, 8, 1>;
@@ -107,14 +109,14 @@ double gain_of_own_view(const Sighting& frame, const std::vector<std::array<doub
 }
 
 /// Whether heights and tilts of the frames differ by more than chance.
-bool is_held_by_hand(const std::vector<Sighting>& sightings, const FitSetting& setting,
+bool is_held_by_hand(const std::vector<LocatedFrame>& located, const FitSetting& setting,
                      const LensFit& mounted) {
     double gain = 0;
-    for (std::size_t i = 0; i < sightings.size(); ++i) {
-        gain += gain_of_own_view(sightings[i], mounted.residuals_px[i], mounted.is_outlier[i],
+    for (std::size_t i = 0; i < located.size(); ++i) {
+        gain += gain_of_own_view(located[i], mounted.residuals_px[i], mounted.is_outlier[i],
                                  setting, mounted.residual_px);
     }
-    const double by_chance = 5 * static_cast<double>(sightings.size());
+    const double by_chance = 5 * static_cast<double>(located.size());
     constexpr double kBeyondDoubt = 6;  // standard deviations
     return gain > by_chance + kBeyondDoubt * std::sqrt(2 * by_chance);
 }
@@ -124,12 +126,12 @@ struct Fits {
     LensFit after;
 };
 
-Fits fit_all(const std::vector<Sighting>& sightings, const FitSetting& setting) {
+Fits fit_all(const std::vector<LocatedFrame>& located, const FitSetting& setting) {
     Fits fits;
-    fits.before = fit_lens(sightings, setting, Stand::ideal);
-    fits.after = fit_lens(sightings, setting, Stand::mounted, &fits.before);
-    if (is_held_by_hand(sightings, setting, fits.after)) {
-        fits.after = fit_lens(sightings, setting, Stand::by_hand, &fits.after);
+    fits.before = fit_lens(located, setting, Stand::ideal);
+    fits.after = fit_lens(located, setting, Stand::mounted, &fits.before);
+    if (is_held_by_hand(located, setting, fits.after)) {
+        fits.after = fit_lens(located, setting, Stand::by_hand, &fits.after);
     }
     return fits;
 }
@@ -164,10 +166,11 @@ Camera camera_of(const LensFit& fit, const FitSetting& setting) {
 }
 
 /// Whether all frames show about the same dots.
-bool is_same_place(const std::vector<Sighting>& sightings, const LensFit& fit, double spacing_mm) {
-    for (std::size_t i = 1; i < sightings.size(); ++i) {
-        const Cell a = sightings[0].place.cell;
-        const Cell b = sightings[i].place.cell;
+bool is_same_place(const std::vector<LocatedFrame>& located, const LensFit& fit,
+                   double spacing_mm) {
+    for (std::size_t i = 1; i < located.size(); ++i) {
+        const Cell a = located[0].place.cell;
+        const Cell b = located[i].place.cell;
         const double dx = double(b.x) - a.x + (fit.poses[i][0] - fit.poses[0][0]) / spacing_mm;
         const double dy = double(b.y) - a.y + (fit.poses[i][1] - fit.poses[0][1]) / spacing_mm;
         if (std::hypot(dx, dy) > kSamePlace) return false;
@@ -218,42 +221,40 @@ void judge(bool is_same, LensCalibration& result) {
 }
 
 /// All but the verdict.
-void describe(const std::vector<Sighting>& sightings, const Fits& fits, LensCalibration& result) {
+void describe(const std::vector<LocatedFrame>& located, const Fits& fits, LensCalibration& result) {
     result.is_mounted = fits.after.stand != Stand::by_hand;
     result.residual_before_px = fits.before.residual_px;
     result.residual_px = fits.after.residual_px;
     result.dots = fits.after.dots;
-    const auto frames = static_cast<double>(sightings.size());
-    for (std::size_t i = 0; i < sightings.size(); ++i) {
-        const Sighting& sighting = sightings[i];
-        result.px_per_spacing += sighting.spacing_px / frames;
-        result.dot_width += sighting.dot_width / frames;
-        for (std::size_t k = 0; k < sighting.dots.size(); ++k) {
+    const auto frames = static_cast<double>(located.size());
+    for (std::size_t i = 0; i < located.size(); ++i) {
+        const LocatedFrame& frame = located[i];
+        result.px_per_spacing += frame.spacing_px / frames;
+        result.dot_width += frame.dot_width / frames;
+        for (std::size_t k = 0; k < frame.dots.size(); ++k) {
             if (fits.after.is_outlier[i][k]) {
                 ++result.outliers;
                 continue;
             }
             const auto& before = fits.before.residuals_px[i][k];
             const auto& after = fits.after.residuals_px[i][k];
-            result.seen.push_back({sighting.frame,
-                                   sighting.dots[k].pixel,
-                                   {before[0], before[1]},
-                                   {after[0], after[1]}});
+            result.seen.push_back(
+                {frame.index, frame.dots[k].pixel, {before[0], before[1]}, {after[0], after[1]}});
         }
     }
     measure_coverage(result);
 }
 
-std::vector<Sighting> sight_first(int frames, Series& series, Sighter& sighter,
-                                  LensCalibration& result) {
-    std::vector<Sighting> sightings;
+std::vector<LocatedFrame> read_first(int frames, Series& series, FrameReader& reader,
+                                     LensCalibration& result) {
+    std::vector<LocatedFrame> located;
     for (int i = 0; i < frames; ++i) {
         const auto image = series.first_look(i);
         if (!image) {
             ++result.duplicates;
-        } else if (auto sighting = sighter.sight(image->view())) {
-            sighting->frame = i;
-            sightings.push_back(std::move(*sighting));
+        } else if (auto frame = reader.read(image->view())) {
+            frame->index = i;
+            located.push_back(std::move(*frame));
         }
         series.step();
     }
@@ -261,32 +262,32 @@ std::vector<Sighting> sight_first(int frames, Series& series, Sighter& sighter,
         throw Error(
             fmt::format("all {} frames are the same image: move the camera between them", frames));
     }
-    if (sightings.empty()) {
+    if (located.empty()) {
         throw Error(
             fmt::format("no pattern was found in any of the {} frames: look at one of them with "
                         "'dotpose locate --draw', and see that the dots are in focus, dark on "
                         "light, 6 to 60 px apart, and of this --code",
                         frames));
     }
-    if (sightings.size() == 1) {
+    if (located.size() == 1) {
         throw Error(
             fmt::format("only 1 of {} frames shows a pattern that can be located: take {} "
                         "to 50 at different places and angles",
                         frames, kWantedFrames));
     }
-    return sightings;
+    return located;
 }
 
-std::vector<Sighting> sight_again(const std::vector<Sighting>& first, Series& series,
-                                  Sighter& sighter) {
-    std::vector<Sighting> sightings;
-    for (const Sighting& before : first) {
-        auto sighting = sighter.sight(series.look_again(before.frame).view());
-        sightings.push_back(sighting ? std::move(*sighting) : before);
-        sightings.back().frame = before.frame;
+std::vector<LocatedFrame> read_again(const std::vector<LocatedFrame>& first, Series& series,
+                                     FrameReader& reader) {
+    std::vector<LocatedFrame> located;
+    for (const LocatedFrame& before : first) {
+        auto frame = reader.read(series.look_again(before.index).view());
+        located.push_back(frame ? std::move(*frame) : before);
+        located.back().index = before.index;
         series.step();
     }
-    return sightings;
+    return located;
 }
 
 }  // namespace
@@ -322,19 +323,19 @@ LensCalibration calibrate_lens(int frames, const FrameAt& frame_at,
     LensCalibration result;
     result.frames = frames;
     Series series(frames, frame_at, options);
-    Sighter sighter(given_code(options));
-    const auto first = sight_first(frames, series, sighter, result);
+    FrameReader reader(given_code(options));
+    const auto first = read_first(frames, series, reader, result);
     const FitSetting setting{series.width_px, series.height_px, options.pattern.spacing_mm};
     // Only with the lens known are dots found out to the corners.
-    sighter.use_lens(lens_of(camera_of(fit_all(first, setting).after, setting)));
-    auto sightings = sight_again(first, series, sighter);
-    take_all_dots(fit_all(sightings, setting).after, setting, sighter.profile(), sightings);
-    const Fits fits = fit_all(sightings, setting);
-    result.code = sighter.profile();
-    result.located = static_cast<int>(sightings.size());
+    reader.use_lens(lens_of(camera_of(fit_all(first, setting).after, setting)));
+    auto located = read_again(first, series, reader);
+    take_all_dots(fit_all(located, setting).after, setting, reader.profile(), located);
+    const Fits fits = fit_all(located, setting);
+    result.code = reader.profile();
+    result.located = static_cast<int>(located.size());
     result.camera = camera_of(fits.after, setting);
-    describe(sightings, fits, result);
-    judge(is_same_place(sightings, fits.after, setting.spacing_mm), result);
+    describe(located, fits, result);
+    judge(is_same_place(located, fits.after, setting.spacing_mm), result);
     return result;
 }
 

@@ -135,7 +135,7 @@ void add_prior(ceres::Problem& problem, const Prior<kSize>& prior,
         block.data());
 }
 
-Seen seen_of(const SightedDot& dot, const Sighting& frame, const FitSetting& setting) {
+Seen seen_of(const LocatedDot& dot, const LocatedFrame& frame, const FitSetting& setting) {
     const double reach_px = setting.reach_px();
     const double mm = setting.spacing_mm;
     return {(dot.pixel.u - (setting.width_px - 1) / 2.0) / reach_px,
@@ -149,12 +149,12 @@ Seen seen_of(const SightedDot& dot, const Sighting& frame, const FitSetting& set
 }
 
 /// The similarity from undistorted px to mm that fits best: place, turn, mm per px.
-std::array<double, 6> first_pose(const Sighting& frame, const FitSetting& setting,
+std::array<double, 6> first_pose(const LocatedFrame& frame, const FitSetting& setting,
                                  const SharedModel& camera) {
     using Complex = std::complex<double>;
     std::vector<std::array<Complex, 2>> pairs;
     std::array<Complex, 2> mean{};
-    for (const SightedDot& dot : frame.dots) {
+    for (const LocatedDot& dot : frame.dots) {
         const Seen seen = seen_of(dot, frame, setting);
         const auto [a, b] = seen.undistorted(camera.lens.data());
         pairs.push_back({Complex(a, b), Complex(seen.nominal_x, seen.nominal_y)});
@@ -172,10 +172,10 @@ std::array<double, 6> first_pose(const Sighting& frame, const FitSetting& settin
     return {place.real(), place.imag(), std::arg(map), std::abs(map), 0, 0};
 }
 
-void start_from_nothing(const std::vector<Sighting>& frames, const FitSetting& setting,
+void start_from_nothing(const std::vector<LocatedFrame>& frames, const FitSetting& setting,
                         LensFit& fit) {
     double mm_per_px = 0;
-    for (const Sighting& frame : frames) {
+    for (const LocatedFrame& frame : frames) {
         fit.poses.push_back(first_pose(frame, setting, fit.camera));
         mm_per_px += fit.poses.back()[3] / static_cast<double>(frames.size());
     }
@@ -191,7 +191,7 @@ double median_of(std::vector<double> values) {
 
 class Fitter {
   public:
-    Fitter(const std::vector<Sighting>& frames, const FitSetting& setting, LensFit& fit)
+    Fitter(const std::vector<LocatedFrame>& frames, const FitSetting& setting, LensFit& fit)
         : frames_(frames), setting_(setting), fit_(fit) {}
 
     void run() {
@@ -321,7 +321,7 @@ class Fitter {
             fit_.sigma.paper[static_cast<std::size_t>(i)] = sigma(3 + i);
     }
 
-    const std::vector<Sighting>& frames_;
+    const std::vector<LocatedFrame>& frames_;
     const FitSetting& setting_;
     LensFit& fit_;
 };
@@ -332,7 +332,7 @@ double FitSetting::reach_px() const {
     return std::hypot(width_px, height_px) / 2;
 }
 
-LensFit fit_lens(const std::vector<Sighting>& frames, const FitSetting& setting, Stand stand,
+LensFit fit_lens(const std::vector<LocatedFrame>& frames, const FitSetting& setting, Stand stand,
                  const LensFit* start) {
     LensFit fit;
     if (start != nullptr) fit = *start;
@@ -343,7 +343,7 @@ LensFit fit_lens(const std::vector<Sighting>& frames, const FitSetting& setting,
     }
     fit.residuals_px.clear();
     fit.is_outlier.clear();
-    for (const Sighting& frame : frames) {
+    for (const LocatedFrame& frame : frames) {
         fit.residuals_px.emplace_back(frame.dots.size());
         fit.is_outlier.emplace_back(frame.dots.size(), 0);
     }

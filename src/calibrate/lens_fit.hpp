@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "calibrate/sighting.hpp"
+#include "calibrate/located_frame.hpp"
 
 namespace dotpose::calibrate {
 
@@ -53,7 +53,7 @@ struct FitSetting {
 
 /// Starts from `start` if there is one. Dots that lie more than four standard deviations off are
 /// left out.
-LensFit fit_lens(const std::vector<Sighting>& frames, const FitSetting& setting, Stand stand,
+LensFit fit_lens(const std::vector<LocatedFrame>& frames, const FitSetting& setting, Stand stand,
                  const LensFit* start = nullptr);
 
 /// Where a fit has a pixel of one of its frames on the paper: mm from the intersection where the

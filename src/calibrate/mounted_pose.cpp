@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "calibrate/dot_fit.hpp"
-#include "calibrate/sighting.hpp"
+#include "calibrate/located_frame.hpp"
 
 namespace dotpose {
 namespace {
@@ -30,11 +30,11 @@ Eigen::Matrix<double, 2, 4> rows_at(double x, double y) {
     return Eigen::Matrix<double, 2, 4>{{1, 0, x, -y}, {0, 1, y, x}};
 }
 
-PoseFit fit_pose(const std::vector<SightedDot>& dots, const Camera& camera,
+PoseFit fit_pose(const std::vector<LocatedDot>& dots, const Camera& camera,
                  const AxisScale& print) {
     std::vector<CameraPoint> points;
     CameraPoint middle;
-    for (const SightedDot& dot : dots) {
+    for (const LocatedDot& dot : dots) {
         points.push_back(on_paper(camera, dot.pixel));
         middle.x_mm += points.back().x_mm / static_cast<double>(dots.size());
         middle.y_mm += points.back().y_mm / static_cast<double>(dots.size());

@@ -39,9 +39,9 @@ Fix moved_to(const Fix& fix, const Trace& trace, Vec step) {
     return result;
 }
 
-Vec mean_step(const std::vector<SightedDot>& dots) {
+Vec mean_step(const std::vector<LocatedDot>& dots) {
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-    for (const SightedDot& dot : dots)
+    for (const LocatedDot& dot : dots)
         sum += Eigen::Vector2d(dot.step.x, dot.step.y);
     sum /= static_cast<double>(std::max<std::size_t>(dots.size(), 1));
     return {static_cast<std::int32_t>(std::lround(sum.x())),
@@ -68,10 +68,10 @@ std::optional<NominalPlace> place_beyond(const SheetEntry& entry, Profile profil
 
 /// By a camera whose view is known: an affine map fitted to the dots. `first`: where the steps
 /// start.
-void see_with_scale(const std::vector<SightedDot>& dots, const Camera& camera,
+void see_with_scale(const std::vector<LocatedDot>& dots, const Camera& camera,
                     const Eigen::Vector2d& first, double spacing_mm, SheetView& view) {
     std::vector<Eigen::Vector2d> points;
-    for (const SightedDot& dot : dots) {
+    for (const LocatedDot& dot : dots) {
         const CameraPoint point = on_paper(camera, dot.pixel);
         points.emplace_back(point.x_mm, point.y_mm);
         view.middle += points.back() / static_cast<double>(dots.size());
@@ -215,7 +215,7 @@ std::optional<SheetView> SeamLocator::view_in(const GreyImage& image, const Part
 std::optional<SheetView> SeamLocator::view_of(const Fix& fix, const Camera& camera,
                                               Profile profile) const {
     const Trace trace = locator_.trace();
-    std::vector<SightedDot> dots = dots_read(trace);
+    std::vector<LocatedDot> dots = dots_read(trace);
     const auto sheet = find_sheet(sheets_, profile, moved_to(fix, trace, mean_step(dots)));
     if (!sheet) return std::nullopt;
     const SheetEntry& entry = *sheet->entry;
@@ -223,7 +223,7 @@ std::optional<SheetView> SeamLocator::view_of(const Fix& fix, const Camera& came
     SheetView view;
     view.sheet = static_cast<std::size_t>(&entry - sheets_.data());
     // What lies beyond the sheet's edge are dots of another one.
-    std::erase_if(dots, [&](const SightedDot& dot) {
+    std::erase_if(dots, [&](const LocatedDot& dot) {
         const Cell cell = moved(profile, trace.decoding.place, dot.step.x, dot.step.y).cell;
         const bool is_on = cell.x - entry.sheet.origin.x < unsigned(entry.sheet.columns) &&
                            cell.y - entry.sheet.origin.y < unsigned(entry.sheet.rows);

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "calibrate/sighting.hpp"
+#include "calibrate/located_frame.hpp"
 #include "dotpose/tools/calibrate.hpp"
 #include "dotpose/tools/heap_locator.hpp"
 

@@ -44,7 +44,7 @@ std::int32_t turned(std::int32_t theta_bam, float angle_rad) {
 }
 
 /// Adds a step to the state.
-void move(Motion& motion, const Vector9& step) {
+void move(MotionEstimate& motion, const Vector9& step) {
     constexpr float kNm_per_mm = 1e6F;
     TrackedPose& pose = motion.pose;
     pose.x_nm += static_cast<std::int64_t>(step[0] * kNm_per_mm);
@@ -94,7 +94,7 @@ void add_noise(Covariance9& covariance, std::size_t axis, float variance, const 
 
 /// Sets the covariance of the pose. If sightings scatter less than their covariances predict, the
 /// rest of their errors is common to all of them, and averaging does not reduce it.
-void set_pose_covariance(Motion& motion) {
+void set_pose_covariance(MotionEstimate& motion) {
     const float common = std::max(1 - motion.scatter, 0.0F);
     for (std::size_t i = 0; i < 6; ++i) {
         for (std::size_t j = 0; j < 6; ++j) {
@@ -176,8 +176,8 @@ TrackedPose pose_of(const Sighting& sighting) {
     return pose;
 }
 
-Motion started_at(const Sighting& sighting, const TrackOptions& options) {
-    Motion motion;
+MotionEstimate started_at(const Sighting& sighting, const TrackOptions& options) {
+    MotionEstimate motion;
     motion.pose = pose_of(sighting);
     motion.noise = noise_of(sighting, options);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -190,9 +190,10 @@ Motion started_at(const Sighting& sighting, const TrackOptions& options) {
     return motion;
 }
 
-Motion predicted(const Motion& motion, std::int64_t time_us, const TrackOptions& options) {
+MotionEstimate predicted(const MotionEstimate& motion, std::int64_t time_us,
+                         const TrackOptions& options) {
     const float dt_s = static_cast<float>(time_us - motion.pose.time_us) * 1e-6F;
-    Motion later = motion;
+    MotionEstimate later = motion;
     later.pose.time_us = time_us;
     const TrackedPose& pose = motion.pose;
     const Vector3& a = motion.acceleration;
@@ -222,7 +223,7 @@ Vector3 difference(const TrackedPose& a, const TrackedPose& b) {
             static_cast<float>(static_cast<std::int32_t>(turn)) * kRad_per_bam};
 }
 
-Innovation innovation(const Motion& predicted, const Sighting& sighting,
+Innovation innovation(const MotionEstimate& predicted, const Sighting& sighting,
                       const TrackOptions& options) {
     Innovation result;
     result.difference = difference(predicted.pose, pose_of(sighting));
@@ -234,11 +235,11 @@ Innovation innovation(const Motion& predicted, const Sighting& sighting,
     return result;
 }
 
-Motion fitted(const Motion& predicted, const Sighting& sighting, float dt_s,
-              const TrackOptions& options) {
+MotionEstimate fitted(const MotionEstimate& predicted, const Sighting& sighting, float dt_s,
+                      const TrackOptions& options) {
     const Vector3 differences = difference(predicted.pose, pose_of(sighting));
     const Matrix3 noise = noise_of(sighting, options);
-    Motion motion = predicted;
+    MotionEstimate motion = predicted;
     const Vector3 effect = {dt_s * dt_s / 2, dt_s, 1};
     for (std::size_t i = 0; i < 3; ++i) {
         const float moved = differences[i];
@@ -265,14 +266,15 @@ Motion fitted(const Motion& predicted, const Sighting& sighting, float dt_s,
     return motion;
 }
 
-Motion corrected(const Motion& predicted, const Sighting& sighting, const TrackOptions& options) {
+MotionEstimate corrected(const MotionEstimate& predicted, const Sighting& sighting,
+                         const TrackOptions& options) {
     const Innovation found = innovation(predicted, sighting, options);
     const Matrix3 inverse_s = inverse(found.covariance);
     std::array<Vector9, 3> pose_rows{};
     std::copy_n(predicted.covariance.begin(), 3, pose_rows.begin());
     const auto weighted = product(inverse_s, pose_rows);  // S^-1 H P, the transpose of the gain K
 
-    Motion motion = predicted;
+    MotionEstimate motion = predicted;
     Vector9 step{};
     float distance = 0;  // squared Mahalanobis distance, which is 3 in the mean
     for (std::size_t k = 0; k < 3; ++k) {

@@ -16,10 +16,10 @@ inline constexpr float kRad_per_bam = 1.46291808e-9F;  // pi / 2^31
 TrackedPose pose_of(const Sighting& sighting);
 
 /// Returns the state after the first sighting, in which the velocities are not known.
-Motion started_at(const Sighting& sighting, const TrackOptions& options);
+MotionEstimate started_at(const Sighting& sighting, const TrackOptions& options);
 
 /// Returns the state that is expected at a later time.
-Motion predicted(const Motion& motion, std::int64_t time_us, const TrackOptions& options);
+MotionEstimate predicted(const MotionEstimate& motion, std::int64_t time_us, const TrackOptions& options);
 
 /// Returns b - a in mm, mm and rad in [-pi, pi).
 Vector3 difference(const TrackedPose& a, const TrackedPose& b);
@@ -29,15 +29,15 @@ struct Innovation {
     Vector3 difference{};
     Matrix3 covariance{};
 };
-Innovation innovation(const Motion& predicted, const Sighting& sighting,
+Innovation innovation(const MotionEstimate& predicted, const Sighting& sighting,
                       const TrackOptions& options);
 
 /// Returns the prediction with its agility, and its covariance accordingly, adapted to the
 /// sighting. The sighting before this one was `dt_s` earlier.
-Motion fitted(const Motion& predicted, const Sighting& sighting, float dt_s,
+MotionEstimate fitted(const MotionEstimate& predicted, const Sighting& sighting, float dt_s,
               const TrackOptions& options);
 
 /// Returns the prediction corrected by the sighting.
-Motion corrected(const Motion& predicted, const Sighting& sighting, const TrackOptions& options);
+MotionEstimate corrected(const MotionEstimate& predicted, const Sighting& sighting, const TrackOptions& options);
 
 }  // namespace dotpose::track

@@ -52,8 +52,8 @@ float sigma(const Covariance6& predicted, const Sighting& seen, std::size_t axis
 
 }  // namespace
 
-const Motion* Tracker::following(const Sighting& seen) const {
-    const auto ends_at = [&](const Motion& motion) {
+const MotionEstimate* Tracker::following(const Sighting& seen) const {
+    const auto ends_at = [&](const MotionEstimate& motion) {
         return motion.pose.time_us == seen.time_us && motion.pose.plane == seen.plane;
     };
     if (!track_.is_lost && ends_at(last_)) return &last_;
@@ -63,7 +63,7 @@ const Motion* Tracker::following(const Sighting& seen) const {
 Prediction Tracker::predict(std::int64_t time_us, const Fix& newest, const Sighting& seen,
                             const Options& options) const {
     const Prediction as_seen = Prediction::like(newest);
-    const Motion* followed = following(seen);
+    const MotionEstimate* followed = following(seen);
     const std::int64_t last_us = seen.time_us;
     if (followed == nullptr || seen.spacing_nm <= 0 || time_us <= last_us) return as_seen;
     const auto gap_us = static_cast<std::uint64_t>(time_us) - static_cast<std::uint64_t>(last_us);

@@ -47,7 +47,7 @@ bool is_within(const Vector3& difference, const Vector3& limits) {
 
 /// Whether a robot that was at `from` can be at `sighting` within the limits of speed and turn
 /// rate.
-bool is_reachable(const Motion& from, const Sighting& sighting, const TrackOptions& options) {
+bool is_reachable(const MotionEstimate& from, const Sighting& sighting, const TrackOptions& options) {
     if (from.pose.plane != sighting.plane) return false;
     const float dt = seconds(from.pose.time_us, sighting.time_us);
     const Innovation found = innovation(from, sighting, options);
@@ -111,7 +111,8 @@ const Track& Tracker::update(std::int64_t time_us, const Sighting* sighting) {
     newest_us_ = time_us;
     track_.verdict = Verdict::none;
     track_.p_wrong_log2 = 0;
-    const Motion prediction = was_seen_ ? predicted(last_, time_us, options_) : Motion{};
+    const MotionEstimate prediction =
+        was_seen_ ? predicted(last_, time_us, options_) : MotionEstimate{};
     track_.pose = prediction.pose;
     if (sighting != nullptr) track_.verdict = judge(prediction, *sighting);
     if (track_.verdict != Verdict::believed && track_.verdict != Verdict::with_prior) {
@@ -125,7 +126,7 @@ const Track& Tracker::update(std::int64_t time_us, const Sighting* sighting) {
     return track_;
 }
 
-Verdict Tracker::judge(const Motion& prediction, const Sighting& sighting) {
+Verdict Tracker::judge(const MotionEstimate& prediction, const Sighting& sighting) {
     const bool is_weak = sighting.p_wrong_log2 > options_.max_p_wrong_log2;
     track_.p_wrong_log2 = sighting.p_wrong_log2;
     bool is_possible = !was_seen_;
@@ -166,7 +167,7 @@ bool Tracker::is_confirmed(const Sighting& sighting) {
     if (agreeing_ > 0 && is_reachable(candidate_, sighting, options_)) {
         ++agreeing_;
         const float dt_s = seconds(candidate_.pose.time_us, sighting.time_us);
-        const Motion expected = predicted(candidate_, sighting.time_us, options_);
+        const MotionEstimate expected = predicted(candidate_, sighting.time_us, options_);
         candidate_ = corrected(fitted(expected, sighting, dt_s, options_), sighting, options_);
     } else {
         agreeing_ = 1;
@@ -175,7 +176,7 @@ bool Tracker::is_confirmed(const Sighting& sighting) {
     return agreeing_ >= options_.confirmations;
 }
 
-void Tracker::restart(const Motion& motion) {
+void Tracker::restart(const MotionEstimate& motion) {
     track_.events.fix = track_.is_lost;
     track_.is_lost = false;
     // A robot that was lifted and put elsewhere has moved, even if it rests now.

@@ -34,7 +34,7 @@ constexpr int kResolution_dpi = 1200;
 constexpr double kTolerance_mm = 0.03;
 
 /// Where a frame was taken.
-struct Truth {
+struct TakenFrame {
     int page = 1;
     Vec2 at_mm;
     double theta_rad = 0;
@@ -74,32 +74,32 @@ class OverlaidBook : public testing::TestWithParam<Camera> {
     }
 
     /// Frames of random places; their names, in the order of the list, stand in list.txt.
-    std::vector<Truth> take_frames() const {
+    std::vector<TakenFrame> take_frames() const {
         constexpr std::uint64_t kSeed = 41;
         fmt::print("seed {}\n", kSeed);
         Rng rng(kSeed);
-        std::vector<Truth> truths(static_cast<std::size_t>(GetParam().places));
-        for (Truth& truth : truths) {
-            truth.page = 1 + static_cast<int>(rng.uniform() * kPages);
-            truth.at_mm = {kEdge_mm + rng.uniform() * (kPageWidth_mm - 2 * kEdge_mm),
+        std::vector<TakenFrame> taken(static_cast<std::size_t>(GetParam().places));
+        for (TakenFrame& frame : taken) {
+            frame.page = 1 + static_cast<int>(rng.uniform() * kPages);
+            frame.at_mm = {kEdge_mm + rng.uniform() * (kPageWidth_mm - 2 * kEdge_mm),
                            kEdge_mm + rng.uniform() * (kPageHeight_mm - 2 * kEdge_mm)};
-            truth.theta_rad = (2 * rng.uniform() - 1) * std::numbers::pi;
+            frame.theta_rad = (2 * rng.uniform() - 1) * std::numbers::pi;
         }
-        std::ranges::stable_sort(truths, {}, &Truth::page);
+        std::ranges::stable_sort(taken, {}, &TakenFrame::page);
         std::ofstream list(directory_.path() / "list.txt");
         GreyPage page;
-        for (std::size_t i = 0; i < truths.size(); ++i) {
-            const Truth& truth = truths[i];
-            if (i == 0 || truth.page != truths[i - 1].page) {
+        for (std::size_t i = 0; i < taken.size(); ++i) {
+            const TakenFrame& frame = taken[i];
+            if (i == 0 || frame.page != taken[i - 1].page) {
                 const fs::path pdf = directory_.path() / "out.pdf";
                 page = GetParam().is_infrared
-                           ? render_black(pdf, kResolution_dpi, truth.page)
-                           : render("pdftoppm", pdf, kResolution_dpi, truth.page);
+                           ? render_black(pdf, kResolution_dpi, frame.page)
+                           : render("pdftoppm", pdf, kResolution_dpi, frame.page);
             }
             const ImageView view{page.grey.data(), page.width_px, page.height_px, page.width_px};
-            const PageImage seen{view, 25.4 / kResolution_dpi, truth.at_mm};
+            const PageImage seen{view, 25.4 / kResolution_dpi, frame.at_mm};
             CameraPose pose;
-            pose.theta_rad = truth.theta_rad;
+            pose.theta_rad = frame.theta_rad;
             const std::string name = fmt::format("{}.pgm", i);
             write_pgm(directory_.path() / name,
                       dotpose::render(seen, CameraModel{}, pose,
@@ -107,7 +107,7 @@ class OverlaidBook : public testing::TestWithParam<Camera> {
                           .view());
             list << name << '\n';
         }
-        return truths;
+        return taken;
     }
 
     test::TemporaryDirectory directory_;
@@ -115,24 +115,24 @@ class OverlaidBook : public testing::TestWithParam<Camera> {
 
 TEST_P(OverlaidBook, is_located_on_the_right_page_in_the_right_place) {
     make_book();
-    const std::vector<Truth> truths = take_frames();
+    const std::vector<TakenFrame> taken = take_frames();
     std::istringstream lines(
         in_directory("'" DOTPOSE_TOOL "' locate --sheets sheets.json --list list.txt"));
     int found = 0;
     double largest_mm = 0;
-    for (const Truth& truth : truths) {
+    for (const TakenFrame& frame : taken) {
         std::string line;
         ASSERT_TRUE(std::getline(lines, line));
         const json record = json::parse(line);
         if (record["status"] != "ok") continue;
         ++found;
-        EXPECT_EQ(record["sheet"], fmt::format("book-{}", truth.page)) << line;
-        const double error_mm = std::hypot(record["x_sheet_mm"].get<double>() - truth.at_mm.x,
-                                           record["y_sheet_mm"].get<double>() - truth.at_mm.y);
+        EXPECT_EQ(record["sheet"], fmt::format("book-{}", frame.page)) << line;
+        const double error_mm = std::hypot(record["x_sheet_mm"].get<double>() - frame.at_mm.x,
+                                           record["y_sheet_mm"].get<double>() - frame.at_mm.y);
         EXPECT_LE(error_mm, kTolerance_mm) << line;
         largest_mm = std::max(largest_mm, error_mm);
         const double theta_rad = record["theta_deg"].get<double>() * std::numbers::pi / 180;
-        EXPECT_NEAR(std::remainder(theta_rad - truth.theta_rad, 2 * std::numbers::pi), 0, 0.01)
+        EXPECT_NEAR(std::remainder(theta_rad - frame.theta_rad, 2 * std::numbers::pi), 0, 0.01)
             << line;
     }
     fmt::print("{} of {} places found, largest error {:.1f} um\n", found, GetParam().places,

@@ -128,7 +128,7 @@ TEST(Filter, ItsCovarianceIsThatOfItsErrors) {
     for (std::uint64_t run = 0; run < kRuns; ++run) {
         Rng rng(31, run);
         ModelRobot robot(rng);
-        Motion motion;
+        MotionEstimate motion;
         for (int frame = 0; frame < 60; ++frame) {
             if (frame > 0) robot.drive_on(rng);
             const double common = rng.normal();

@@ -1,4 +1,4 @@
-#include "calibrate/sighting.hpp"
+#include "calibrate/located_frame.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,13 +12,13 @@ constexpr std::array kCornerStretches = {0.0, -0.06, -0.12, -0.18, -0.25, 0.06, 
 
 /// The distance from the dots' centres at which they are half as dark as in the middle, by the
 /// mean profile of all dots, in spacings.
-double half_width(const ImageView& image, const std::vector<SightedDot>& dots, double spacing_px) {
+double half_width(const ImageView& image, const std::vector<LocatedDot>& dots, double spacing_px) {
     constexpr int kBins = 10;
     constexpr double kReach = 0.35;  // spacings; neighbours may be 2/3 away
     std::array<double, kBins> sums{};
     std::array<double, kBins> counts{};
     const int reach_px = static_cast<int>(std::ceil(kReach * spacing_px));
-    for (const SightedDot& dot : dots) {
+    for (const LocatedDot& dot : dots) {
         const int u0 = static_cast<int>(std::lround(dot.pixel.u));
         const int v0 = static_cast<int>(std::lround(dot.pixel.v));
         for (int v = std::max(v0 - reach_px, 0); v <= std::min(v0 + reach_px, image.height_px - 1);
@@ -49,10 +49,10 @@ double half_width(const ImageView& image, const std::vector<SightedDot>& dots, d
 
 }  // namespace
 
-std::vector<SightedDot> dots_read(const Trace& trace) {
+std::vector<LocatedDot> dots_read(const Trace& trace) {
     const Profile profile = trace.options.profile;
     const Region& grid = trace.grid.region;
-    std::vector<SightedDot> result;
+    std::vector<LocatedDot> result;
     for (int j = grid.j0; j < grid.j0 + grid.rows; ++j) {
         for (int i = grid.i0; i < grid.i0 + grid.columns; ++i) {
             const GridCell& cell = trace.grid.at(i, j);
@@ -68,13 +68,13 @@ std::vector<SightedDot> dots_read(const Trace& trace) {
     return result;
 }
 
-Sighter::Sighter(std::optional<Profile> profile) : reader_(profile) {
+FrameReader::FrameReader(std::optional<Profile> profile) : reader_(profile) {
     Options options;
     options.show_stages = true;
     locator_.set_options(options);
 }
 
-std::optional<Sighting> Sighter::sight(const ImageView& image) {
+std::optional<LocatedFrame> FrameReader::read(const ImageView& image) {
     if (locate_with(image, lens_)) return read_trace(image);
     if (is_known_) return std::nullopt;
     const double reach_px = std::hypot(image.width_px, image.height_px) / 2;
@@ -87,14 +87,14 @@ std::optional<Sighting> Sighter::sight(const ImageView& image) {
     return std::nullopt;
 }
 
-bool Sighter::locate_with(const ImageView& image, const Lens& lens) {
+bool FrameReader::locate_with(const ImageView& image, const Lens& lens) {
     Options options = locator_.options();
     options.lens = lens;
     locator_.set_options(options);
     return reader_.locate(image, locator_).status == Status::ok;
 }
 
-Sighting Sighter::read_trace(const ImageView& image) const {
+LocatedFrame FrameReader::read_trace(const ImageView& image) const {
     const Trace trace = locator_.trace();
     const Lens& lens = trace.options.lens;
     // The lens that was used, as it was rounded.
@@ -102,17 +102,17 @@ Sighting Sighter::read_trace(const ImageView& image) const {
     used.k_per_px2 = lens.k_q40 * 0x1p-40;
     used.centre_px = {(image.width_px - 1) / 2.0 + lens.centre_dx_q8 / 256.0,
                       (image.height_px - 1) / 2.0 + lens.centre_dy_q8 / 256.0};
-    Sighting sighting;
-    sighting.place = trace.decoding.place;
-    sighting.spacing_px = trace.fix.spacing_px();
-    sighting.dots = dots_read(trace);
-    for (SightedDot& dot : sighting.dots)
+    LocatedFrame located;
+    located.place = trace.decoding.place;
+    located.spacing_px = trace.fix.spacing_px();
+    located.dots = dots_read(trace);
+    for (LocatedDot& dot : located.dots)
         dot.pixel = distorted(used, dot.pixel);
     for (const Dot& dot : trace.dots)
-        sighting.blobs.push_back(
+        located.blobs.push_back(
             distorted(used, {dot.centre_q8.x / 256.0, dot.centre_q8.y / 256.0}));
-    sighting.dot_width = 2 * half_width(image, sighting.dots, sighting.spacing_px);
-    return sighting;
+    located.dot_width = 2 * half_width(image, located.dots, located.spacing_px);
+    return located;
 }
 
 }  // namespace dotpose::calibrate

@@ -23,7 +23,7 @@
 
 #include <dotpose/files/error.hpp>
 
-#include "../accuracy/document.hpp"
+#include "document.hpp"
 
 namespace {
 
@@ -89,7 +89,7 @@ std::string line_of(const Run& run) {
     return line;
 }
 
-/// Reads the counts that the plugin firmware/count.cpp has written.
+/// Reads the counts that the plugin reports/count.cpp has written.
 void read_counts(const fs::path& path, Run& run) {
     std::istringstream lines(read_document(path));
     std::string line;

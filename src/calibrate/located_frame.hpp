@@ -1,4 +1,4 @@
-// Sightings: the dots of one frame as pixels, each with the place where the code has it printed.
+// Located frames: the dots of each as pixels, with the places where the code has them printed.
 #pragma once
 
 #include <optional>
@@ -11,29 +11,29 @@
 
 namespace dotpose::calibrate {
 
-struct SightedDot {
+struct LocatedDot {
     PixelPoint pixel;
     Vec step;  ///< its intersection, in spacings from the frame's `place`
     Symbol symbol = Symbol::up;
 };
 
 /// The dots that `locate` read, as undistorted pixels; they start at `trace.decoding.place`.
-std::vector<SightedDot> dots_read(const Trace& trace);
+std::vector<LocatedDot> dots_read(const Trace& trace);
 
-struct Sighting {
-    int frame = 0;                  ///< its index
+struct LocatedFrame {
+    int index = 0;                  ///< of the frame
     Place place;                    ///< where the steps start
-    std::vector<SightedDot> dots;   ///< pixels in the image as it is, distorted
+    std::vector<LocatedDot> dots;   ///< pixels in the image as it is, distorted
     std::vector<PixelPoint> blobs;  ///< all that look like dots, in the image as it is
     double dot_width = 0;           ///< at half depth, in spacings
     double spacing_px = 0;
 };
 
 /// Locates frames with a lens that may be known or not.
-class Sighter {
+class FrameReader {
   public:
     /// Without a profile, it is found out from the frames.
-    explicit Sighter(std::optional<Profile> profile);
+    explicit FrameReader(std::optional<Profile> profile);
 
     /// From now on the lens is known.
     void use_lens(const Lens& lens) {
@@ -43,11 +43,11 @@ class Sighter {
     /// That of the frames, as far as is known by now.
     Profile profile() const { return reader_.code(); }
     /// Nothing if the frame cannot be located.
-    std::optional<Sighting> sight(const ImageView& image);
+    std::optional<LocatedFrame> read(const ImageView& image);
 
   private:
     bool locate_with(const ImageView& image, const Lens& lens);
-    Sighting read_trace(const ImageView& image) const;
+    LocatedFrame read_trace(const ImageView& image) const;
 
     CodeReader reader_;
     Lens lens_;
