@@ -2,6 +2,8 @@
 
 #include <bit>
 
+#include "core/symmetric.hpp"
+
 namespace dotpose::core {
 namespace {
 
@@ -58,21 +60,19 @@ bool AffineFit::solve(int fraction_bits, AffineMap& map) const {
     if (n_ < 3) return false;
     const Moments m = source_moments();
     const int source_shift = normalising_shift(std::max(m.xx, m.yy));
-    const std::int64_t xx = shifted(m.xx, source_shift);
-    const std::int64_t xy = shifted(m.xy, source_shift);
-    const std::int64_t yy = shifted(m.yy, source_shift);
-    const std::int64_t determinant = xx * yy - xy * xy;
+    const Symmetric2<std::int64_t> spread{shifted(m.xx, source_shift), shifted(m.xy, source_shift),
+                                          shifted(m.yy, source_shift)};
+    const std::int64_t determinant = spread.determinant();
     // Points spread a thousand times less across than along count as a line.
     if (determinant < std::int64_t{1} << 40) return false;
 
     const auto solve_one = [&](std::int64_t sx_t, std::int64_t sy_t, std::int32_t& dx,
                                std::int32_t& dy) {
         const int shift = normalising_shift(std::max(magnitude(sx_t), magnitude(sy_t)));
-        const std::int64_t x = shifted(sx_t, shift);
-        const std::int64_t y = shifted(sy_t, shift);
+        const auto [x, y] = spread.solve_scaled(shifted(sx_t, shift), shifted(sy_t, shift));
         const int scale = fraction_bits + source_shift - shift;
-        dx = scaled_quotient(x * yy - y * xy, determinant, scale);
-        dy = scaled_quotient(y * xx - x * xy, determinant, scale);
+        dx = scaled_quotient(x, determinant, scale);
+        dy = scaled_quotient(y, determinant, scale);
     };
     solve_one(centred(sxtx_, sx_, tx_, n_), centred(sytx_, sy_, tx_, n_), map.dx.x, map.dy.x);
     solve_one(centred(sxty_, sx_, ty_, n_), centred(syty_, sy_, ty_, n_), map.dx.y, map.dy.y);
@@ -80,22 +80,6 @@ bool AffineFit::solve(int fraction_bits, AffineMap& map) const {
     map.offset_x = divide_rounded(tx_ * one - map.dx.x * sx_ - map.dy.x * sy_, n_);
     map.offset_y = divide_rounded(ty_ * one - map.dx.y * sx_ - map.dy.y * sy_, n_);
     return true;
-}
-
-std::int32_t scaled_quotient(std::int64_t numerator, std::int64_t denominator, int shift) {
-    if (shift > 0) {
-        // The numerator gets 62 bits, if it takes so many.
-        const auto bits = std::bit_width(static_cast<std::uint64_t>(magnitude(numerator)));
-        const int up = std::clamp(62 - static_cast<int>(bits), 0, shift);
-        numerator *= std::int64_t{1} << up;
-        shift -= up;
-        denominator >>= shift;
-        shift = 0;
-    }
-    denominator = std::max<std::int64_t>(denominator, 1);
-    if (shift < 0) return shift_rounded(divide_rounded(numerator, denominator), -shift);
-    const std::int64_t half = denominator / 2;
-    return short_quotient(numerator >= 0 ? numerator + half : numerator - half, denominator);
 }
 
 }  // namespace dotpose::core

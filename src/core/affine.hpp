@@ -39,8 +39,4 @@ class AffineFit {
     std::int64_t sxtx_ = 0, sxty_ = 0, sytx_ = 0, syty_ = 0;
 };
 
-/// numerator * 2^shift / denominator, rounded to nearest. |numerator| < 2^62,
-/// 0 < denominator < 2^62, the result must fit 31 bits.
-std::int32_t scaled_quotient(std::int64_t numerator, std::int64_t denominator, int shift);
-
 }  // namespace dotpose::core

@@ -2,7 +2,7 @@
 
 #include <bit>
 
-#include "core/affine.hpp"
+#include "core/symmetric.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -42,23 +42,22 @@ bool CellFit::solve(int bits, PlaneFromImage& plane) {
     const std::int64_t mxx = moment(all_.xx, p_.x, p_.x);
     const std::int64_t myy = moment(all_.yy, p_.y, p_.y);
     const int shift = excess_bits(std::max(mxx, myy), 30);
-    const std::int64_t xx = mxx >> shift;
-    const std::int64_t yy = myy >> shift;
-    const std::int64_t xy = moment(all_.xy, p_.x, p_.y) >> shift;
-    const std::int64_t determinant = xx * yy - xy * xy;
+    const Symmetric2<std::int64_t> spread{mxx >> shift, moment(all_.xy, p_.x, p_.y) >> shift,
+                                          myy >> shift};
+    const std::int64_t determinant = spread.determinant();
+    const std::int64_t trace = spread.xx + spread.yy;
     // Dots spread 16 times less across than along count as a line.
-    if (determinant <= 0 || determinant >> 8 < (xx + yy) * (xx + yy) >> 18) return false;
+    if (determinant <= 0 || determinant >> 8 < trace * trace >> 18) return false;
 
     const auto solve_one = [&](std::int32_t sum, std::int64_t of_x, std::int64_t of_y,
                                std::int32_t& du_q24, std::int32_t& dv_q24) {
         const std::int64_t mx = moment(of_x, sum, p_.x);
         const std::int64_t my = moment(of_y, sum, p_.y);
         const int own = excess_bits(std::max(magnitude(mx), magnitude(my)), 29);
-        const std::int64_t x = mx >> own;
-        const std::int64_t y = my >> own;
+        const auto [x, y] = spread.solve_scaled(mx >> own, my >> own);
         const int scale = 24 + 3 + own - shift - bits;
-        du_q24 = scaled_quotient(x * yy - y * xy, determinant, scale);
-        dv_q24 = scaled_quotient(y * xx - x * xy, determinant, scale);
+        du_q24 = scaled_quotient(x, determinant, scale);
+        dv_q24 = scaled_quotient(y, determinant, scale);
         const std::int64_t slope = std::int64_t{du_q24} * p_.x + std::int64_t{dv_q24} * p_.y;
         return static_cast<std::int32_t>(
             quotient((sum * 65536LL >> bits) - (slope >> 11), count()));

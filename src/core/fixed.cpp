@@ -65,6 +65,22 @@ std::int32_t short_quotient(std::int64_t n, std::int64_t d) {
     return static_cast<std::int32_t>(n < 0 ? 0 - quotient : quotient);
 }
 
+std::int32_t scaled_quotient(std::int64_t numerator, std::int64_t denominator, int shift) {
+    if (shift > 0) {
+        // The numerator gets 62 bits, if it takes so many.
+        const auto bits = std::bit_width(static_cast<std::uint64_t>(magnitude(numerator)));
+        const int up = std::clamp(62 - static_cast<int>(bits), 0, shift);
+        numerator *= std::int64_t{1} << up;
+        shift -= up;
+        denominator >>= shift;
+        shift = 0;
+    }
+    denominator = std::max<std::int64_t>(denominator, 1);
+    if (shift < 0) return shift_rounded(divide_rounded(numerator, denominator), -shift);
+    const std::int64_t half = denominator / 2;
+    return short_quotient(numerator >= 0 ? numerator + half : numerator - half, denominator);
+}
+
 std::int64_t log2_q16(std::uint32_t n) {
     // Bit by bit: squaring doubles the logarithm.
     int whole = 0;

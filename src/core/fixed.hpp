@@ -56,6 +56,10 @@ constexpr std::int64_t divide_rounded(std::int64_t n, std::int64_t d) {
 /// half as long as any quotient.
 std::int32_t short_quotient(std::int64_t n, std::int64_t d);
 
+/// numerator * 2^shift / denominator, rounded to nearest. |numerator| < 2^62,
+/// 0 < denominator < 2^62, the result must fit 31 bits.
+std::int32_t scaled_quotient(std::int64_t numerator, std::int64_t denominator, int shift);
+
 inline constexpr std::int64_t kOne_q30 = std::int64_t{1} << 30;
 
 /// The quotients of both components, likewise.

@@ -3,9 +3,30 @@
 
 #include <cmath>
 
-#include "core/kernels/kernels.hpp"
+#include "core/plane.hpp"
 
 namespace dotpose::core {
+
+/// PlaneFromImage in single precision: in spacings, from px,
+/// pattern = at + (du x + dv y) / (1 + tilt . (x, y) + bend (x^2 + y^2)).
+struct FloatPlane {
+    float at_x = 0;
+    float at_y = 0;
+    float du_x = 0;
+    float du_y = 0;
+    float dv_x = 0;
+    float dv_y = 0;
+    float tilt_x = 0;
+    float tilt_y = 0;
+    float bend = 0;
+};
+
+/// A lens of eq. 1-2, for points counted from the plane's centre.
+struct FloatLens {
+    float k = 0;  ///< per px^2
+    float centre_x = 0;
+    float centre_y = 0;
+};
 
 struct FloatVec {
     float x = 0;

@@ -113,18 +113,23 @@ class Contest {
 /// lines, modulo 63.
 using Growth = std::array<std::uint8_t, kMaxLines>;
 
+/// From the rolls that a sequence has in so many lines.
+inline void grow(const std::uint8_t* own, const std::uint8_t* rival, std::size_t lines,
+                 Growth& growth) {
+    static_assert(kMaxLines <= code::kLinesAhead);
+    for (std::size_t line = 0; line < lines; ++line) {
+        // What is negative is large without a sign: no branch, so that it is done in vectors.
+        const auto grown = static_cast<std::uint8_t>(rival[line] - own[line]);
+        growth[line] = std::min(grown, static_cast<std::uint8_t>(grown + kSections));
+    }
+}
+
 /// Of a rival whose place differs in one sequence only.
 inline void grow(const Contest& contest, std::size_t sequence, std::uint32_t rival_place,
                  Growth& growth) {
-    static_assert(kMaxLines <= code::kLinesAhead);
     const std::uint8_t* rolls = contest.basis[sequence].rolls;
-    const std::uint8_t* own = rolls + contest.places[sequence];
-    const std::uint8_t* rival = rolls + rival_place;
-    for (int line = 0; line < contest.count(); ++line) {
-        const int grown = rival[line] - own[line];
-        growth[static_cast<std::size_t>(line)] =
-            static_cast<std::uint8_t>(grown < 0 ? grown + kSections : grown);
-    }
+    grow(rolls + contest.places[sequence], rolls + rival_place,
+         static_cast<std::size_t>(contest.count()), growth);
 }
 
 /// What a rival that shares the line `shared`, and none before, has lost when that gets hopeless,

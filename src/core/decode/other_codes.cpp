@@ -117,14 +117,9 @@ class OtherPlaces {
 
     Growth growth_to(std::uint32_t place) const {
         Growth growth;
-        const std::uint8_t* own = contest_.basis[kA4].rolls + contest_.places[kA4];
-        const std::uint8_t* rival = theirs_.rolls + place;
-        // Of all lines that the tables have, so that it is done in vectors. What is negative is
-        // large without a sign.
-        for (std::size_t line = 0; line < growth.size(); ++line) {
-            const auto grown = static_cast<std::uint8_t>(rival[line] - own[line]);
-            growth[line] = std::min(grown, static_cast<std::uint8_t>(grown + kSections));
-        }
+        // Of as many lines as the tables have: a number that the compiler knows is done faster.
+        grow(contest_.basis[kA4].rolls + contest_.places[kA4], theirs_.rolls + place, growth.size(),
+             growth);
         return growth;
     }
 

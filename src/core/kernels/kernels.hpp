@@ -9,25 +9,11 @@
 #include <span>
 
 #include "code/tables.hpp"
+#include "core/float_plane.hpp"
 #include "core/patch.hpp"
-#include "core/plane.hpp"
 #include "dotpose/image.hpp"
 
 namespace dotpose::core {
-
-/// PlaneFromImage in single precision: in spacings, from px,
-/// pattern = at + (du x + dv y) / (1 + tilt . (x, y) + bend (x^2 + y^2)).
-struct FloatPlane {
-    float at_x = 0;
-    float at_y = 0;
-    float du_x = 0;
-    float du_y = 0;
-    float dv_x = 0;
-    float dv_y = 0;
-    float tilt_x = 0;
-    float tilt_y = 0;
-    float bend = 0;
-};
 
 /// A plane wave, in turns: cos(2 pi (kx x + ky y) - phase).
 struct Waves {
@@ -57,13 +43,6 @@ struct CellSums {
     std::array<float, 6> i{};       ///< the same times i
     std::array<float, 6> j{};       ///< the same times j
     std::array<float, 6> square{};  ///< the same times i^2 + j^2
-};
-
-/// A lens of eq. 1-2, for points counted from the plane's centre.
-struct FloatLens {
-    float k = 0;  ///< per px^2
-    float centre_x = 0;
-    float centre_y = 0;
 };
 
 /// Columns and rows of cells that an image may show, turned by any angle.

@@ -7,6 +7,7 @@
 #include "core/fixed.hpp"
 #include "core/float_plane.hpp"
 #include "core/lattice/tuning.hpp"
+#include "core/symmetric.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -115,17 +116,19 @@ bool solve_plane(const CellSums& sums, bool with_perspective, FloatPlane& plane)
         const auto iy = inverse(with_y(sums.i));
         const auto jx = inverse(with_x(sums.j));
         const auto jy = inverse(with_y(sums.j));
-        const float xx = sums.square[3] - inner(ix, with_x(sums.i)) - inner(jx, with_x(sums.j));
-        const float xy = sums.square[4] - inner(ix, with_y(sums.i)) - inner(jx, with_y(sums.j));
-        const float yy = sums.square[5] - inner(iy, with_y(sums.i)) - inner(jy, with_y(sums.j));
+        const Symmetric2<float> left{
+            sums.square[3] - inner(ix, with_x(sums.i)) - inner(jx, with_x(sums.j)),
+            sums.square[4] - inner(ix, with_y(sums.i)) - inner(jx, with_y(sums.j)),
+            sums.square[5] - inner(iy, with_y(sums.i)) - inner(jy, with_y(sums.j))};
         const float right_x =
             inner(ix, right_of(sums.i)) + inner(jx, right_of(sums.j)) - sums.square[1];
         const float right_y =
             inner(iy, right_of(sums.i)) + inner(jy, right_of(sums.j)) - sums.square[2];
-        const float determinant = xx * yy - xy * xy;
-        if (!(determinant > 1e-4F * xx * yy)) return false;
-        g = (yy * right_x - xy * right_y) / determinant;
-        h = (xx * right_y - xy * right_x) / determinant;
+        const float determinant = left.determinant();
+        if (!(determinant > 1e-4F * left.xx * left.yy)) return false;
+        const auto [x, y] = left.solve_scaled(right_x, right_y);
+        g = x / determinant;
+        h = y / determinant;
         for (std::size_t k = 0; k < 3; ++k) {
             i[k] += g * ix[k] + h * iy[k];
             j[k] += g * jx[k] + h * jy[k];

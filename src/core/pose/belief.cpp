@@ -4,24 +4,14 @@
 #include <cmath>
 #include <tuple>
 
+#include "core/symmetric.hpp"
+
 namespace dotpose::core {
 namespace {
 
 using Pair = std::array<float, 2>;
 
-/// A symmetric matrix.
-struct Symmetric {
-    float xx;
-    float xy;
-    float yy;
-
-    float determinant() const { return xx * yy - xy * xy; }
-    Symmetric inverse() const {
-        const float d = determinant();
-        return {yy / d, -xy / d, xx / d};
-    }
-    Pair operator*(const Pair& v) const { return {xx * v[0] + xy * v[1], xy * v[0] + yy * v[1]}; }
-};
+using Symmetric = Symmetric2<float>;
 
 /// Of the whitened terms, in units of the noise's variance, if the terms' own were 1.
 Symmetric spread_of(const FurtherTerms& terms, const Normal& normal, float variance) {

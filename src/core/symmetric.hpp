@@ -1,0 +1,29 @@
+// Symmetric systems of two equations, which least squares of two unknowns end in.
+#pragma once
+
+#include <array>
+
+namespace dotpose::core {
+
+/// A symmetric matrix. The caller sees to it that products of two elements do not overflow.
+template <typename Number>
+struct Symmetric2 {
+    Number xx;
+    Number xy;
+    Number yy;
+
+    constexpr Number determinant() const { return xx * yy - xy * xy; }
+    /// The solution of matrix * solution = (x, y), times the determinant: Cramer's rule.
+    constexpr std::array<Number, 2> solve_scaled(Number x, Number y) const {
+        return {x * yy - y * xy, y * xx - x * xy};
+    }
+    constexpr Symmetric2 inverse() const {
+        const Number d = determinant();
+        return {yy / d, -xy / d, xx / d};
+    }
+    constexpr std::array<Number, 2> operator*(const std::array<Number, 2>& v) const {
+        return {xx * v[0] + xy * v[1], xy * v[0] + yy * v[1]};
+    }
+};
+
+}  // namespace dotpose::core
