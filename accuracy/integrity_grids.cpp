@@ -1,11 +1,11 @@
 #include "integrity_grids.hpp"
 
-#include "core/decode/confidence.hpp"
 #include "core/decode/nominal.hpp"
 #include "core/decode/position.hpp"
 #include "core/decode/upright.hpp"
-#include "core/decode/verify.hpp"
 #include "core/decode/window.hpp"
+#include "core/integrity/confidence.hpp"
+#include "core/integrity/verify.hpp"
 #include "dotpose/tools/random.hpp"
 
 namespace dotpose {

@@ -31,9 +31,9 @@ int paper_level(ImageView image) {
     return level;
 }
 
-/// Returns an image of `width_px` x `height_px`, interpolated linearly between the pixels of another
-/// one: `in_image(u, v)` is the point of that at which pixel (u, v) is taken. Outside of the image,
-/// it repeats the pixels of the border.
+/// Returns an image of `width_px` x `height_px`, interpolated linearly between the pixels of
+/// another one: `in_image(u, v)` is the point of that at which pixel (u, v) is taken. Outside of
+/// the image, it repeats the pixels of the border.
 template <typename InImage>
 GreyImage resampled(const ImageView& image, int width_px, int height_px, InImage in_image) {
     GreyImage result{{}, width_px, height_px};

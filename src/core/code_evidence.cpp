@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/odds.hpp"
+#include "core/math/odds.hpp"
 #include "dotpose/locate.hpp"
 
 namespace dotpose {

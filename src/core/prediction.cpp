@@ -1,7 +1,7 @@
 #include "dotpose/prediction.hpp"
 
-#include "core/fixed.hpp"
-#include "core/plane.hpp"
+#include "core/math/fixed.hpp"
+#include "core/math/plane.hpp"
 
 namespace dotpose {
 namespace {

@@ -19,7 +19,8 @@ TrackedPose pose_of(const Sighting& sighting);
 MotionEstimate started_at(const Sighting& sighting, const TrackOptions& options);
 
 /// Returns the state that is expected at a later time.
-MotionEstimate predicted(const MotionEstimate& motion, std::int64_t time_us, const TrackOptions& options);
+MotionEstimate predicted(const MotionEstimate& motion, std::int64_t time_us,
+                         const TrackOptions& options);
 
 /// Returns b - a in mm, mm and rad in [-pi, pi).
 Vector3 difference(const TrackedPose& a, const TrackedPose& b);
@@ -35,9 +36,10 @@ Innovation innovation(const MotionEstimate& predicted, const Sighting& sighting,
 /// Returns the prediction with its agility, and its covariance accordingly, adapted to the
 /// sighting. The sighting before this one was `dt_s` earlier.
 MotionEstimate fitted(const MotionEstimate& predicted, const Sighting& sighting, float dt_s,
-              const TrackOptions& options);
+                      const TrackOptions& options);
 
 /// Returns the prediction corrected by the sighting.
-MotionEstimate corrected(const MotionEstimate& predicted, const Sighting& sighting, const TrackOptions& options);
+MotionEstimate corrected(const MotionEstimate& predicted, const Sighting& sighting,
+                         const TrackOptions& options);
 
 }  // namespace dotpose::track

@@ -47,7 +47,8 @@ bool is_within(const Vector3& difference, const Vector3& limits) {
 
 /// Whether a robot that was at `from` can be at `sighting` within the limits of speed and turn
 /// rate.
-bool is_reachable(const MotionEstimate& from, const Sighting& sighting, const TrackOptions& options) {
+bool is_reachable(const MotionEstimate& from, const Sighting& sighting,
+                  const TrackOptions& options) {
     if (from.pose.plane != sighting.plane) return false;
     const float dt = seconds(from.pose.time_us, sighting.time_us);
     const Innovation found = innovation(from, sighting, options);

@@ -11,8 +11,8 @@
 
 #include "code/basis.hpp"
 #include "core/decode/position.hpp"
-#include "core/decode/verify.hpp"
 #include "core/decode/window.hpp"
+#include "core/integrity/verify.hpp"
 #include "dotpose/tools/random.hpp"
 
 namespace dotpose {

@@ -14,9 +14,9 @@
 #include "core/attempts/steps.hpp"
 #include "core/attempts/tracked.hpp"
 #include "core/attempts/tuning.hpp"
-#include "core/decode/verify.hpp"
+#include "core/integrity/verify.hpp"
 #include "core/locate.hpp"
-#include "core/odds.hpp"
+#include "core/math/odds.hpp"
 
 namespace dotpose::core {
 namespace {

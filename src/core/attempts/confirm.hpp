@@ -2,8 +2,8 @@
 // measure the dots where it has them, compare their bits, fit the pose.
 #pragma once
 
-#include "core/float_plane.hpp"
 #include "core/kernels/select.hpp"
+#include "core/math/float_plane.hpp"
 #include "core/workspace.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/options.hpp"

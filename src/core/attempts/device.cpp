@@ -4,8 +4,8 @@
 #include "core/decode/likelihood.hpp"
 #include "core/decode/nominal.hpp"
 #include "core/decode/position.hpp"
-#include "core/decode/verify.hpp"
 #include "core/decode/window.hpp"
+#include "core/integrity/verify.hpp"
 #include "core/pose/affine_pose.hpp"
 #include "core/pose/subgrid.hpp"
 

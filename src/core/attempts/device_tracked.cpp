@@ -2,13 +2,13 @@
 
 #include "core/attempts/steps.hpp"
 #include "core/decode/read_dots.hpp"
-#include "core/decode/verify.hpp"
 #include "core/detect/newest_rows.hpp"
-#include "core/fixed.hpp"
+#include "core/integrity/verify.hpp"
 #include "core/lattice/coded_cells.hpp"
 #include "core/lattice/predicted.hpp"
 #include "core/lattice/shift.hpp"
 #include "core/lattice/turn.hpp"
+#include "core/math/fixed.hpp"
 #include "core/pose/subgrid.hpp"
 #include "core/pose/tracked_pose.hpp"
 

@@ -1,7 +1,7 @@
 // The pose of the attempts that have floating point: fitted to all dots in view.
 #pragma once
 
-#include "core/pose/refine.hpp"
+#include "core/pose/refine_pose.hpp"
 #include "core/workspace.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/options.hpp"

@@ -5,8 +5,8 @@
 #include "core/attempts/tuning.hpp"
 #include "core/decode/likelihood.hpp"
 #include "core/decode/position.hpp"
-#include "core/decode/verify.hpp"
 #include "core/decode/window.hpp"
+#include "core/integrity/verify.hpp"
 #include "core/kernels/select.hpp"
 
 namespace dotpose::core {

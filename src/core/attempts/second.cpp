@@ -6,12 +6,12 @@
 #include "core/decode/likelihood.hpp"
 #include "core/decode/look.hpp"
 #include "core/decode/position.hpp"
-#include "core/decode/verify.hpp"
 #include "core/decode/window.hpp"
 #include "core/detect/smooth.hpp"
+#include "core/integrity/verify.hpp"
 #include "core/kernels/select.hpp"
 #include "core/lattice/climb.hpp"
-#include "core/lattice/refine.hpp"
+#include "core/lattice/refine_grid.hpp"
 
 namespace dotpose::core {
 namespace {

@@ -4,12 +4,12 @@
 #include "core/decode/orientation.hpp"
 #include "core/decode/window.hpp"
 #include "core/detect/undistort.hpp"
-#include "core/fixed.hpp"
 #include "core/lattice/axes.hpp"
 #include "core/lattice/grow.hpp"
 #include "core/lattice/neighbours.hpp"
 #include "core/lattice/origin.hpp"
-#include "core/plane.hpp"
+#include "core/math/fixed.hpp"
+#include "core/math/plane.hpp"
 
 namespace dotpose::core {
 namespace {

@@ -6,8 +6,8 @@
 #include "core/attempts/confirm.hpp"
 #include "core/attempts/steps.hpp"
 #include "core/attempts/tuning.hpp"
-#include "core/fixed.hpp"
-#include "core/pose/refine.hpp"
+#include "core/math/fixed.hpp"
+#include "core/pose/refine_pose.hpp"
 
 namespace dotpose::core {
 namespace {

@@ -3,7 +3,7 @@
 // each protects, and what measured it where that is known.
 #pragma once
 
-#include "core/float_plane.hpp"
+#include "core/math/float_plane.hpp"
 
 namespace dotpose::core::tuning {
 

@@ -1,6 +1,6 @@
 #include "core/decode/likelihood.hpp"
 
-#include "core/cells.hpp"
+#include "core/math/cells.hpp"
 
 namespace dotpose::core {
 namespace {

@@ -10,7 +10,7 @@
 #include "core/detect/level_sums.hpp"
 #include "core/detect/paper.hpp"
 #include "core/detect/undistort.hpp"
-#include "core/plane.hpp"
+#include "core/math/plane.hpp"
 
 namespace dotpose::core {
 namespace {

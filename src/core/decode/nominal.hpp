@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "core/fixed.hpp"
+#include "core/math/fixed.hpp"
 #include "core/stages.hpp"
 #include "dotpose/code.hpp"
 

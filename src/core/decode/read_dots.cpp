@@ -4,9 +4,9 @@
 
 #include "core/by_itself.hpp"
 #include "core/detect/near_dot.hpp"
-#include "core/fixed.hpp"
 #include "core/lattice/coded_cells.hpp"
 #include "core/lattice/predicted.hpp"
+#include "core/math/fixed.hpp"
 
 namespace dotpose::core {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "code/rolls.hpp"
 #include "core/decode/correlation.hpp"
-#include "core/decode/steps.hpp"
+#include "core/decode/step_search.hpp"
 #include "core/decode/tuning.hpp"
 
 namespace dotpose::core {

@@ -68,11 +68,11 @@ inline constexpr int kRunsBriefly = 3;
 inline constexpr int kReadingsBriefly = 8;
 }  // namespace search
 
-/// The position from the steps between neighbouring lines (decode/steps).
-namespace steps {
+/// The position from the steps between neighbouring lines (decode/step_search).
+namespace step_search {
 /// Places kept of each secondary sequence: their fourth power of positions is compared.
 inline constexpr std::size_t kChoices = 3;
-}  // namespace steps
+}  // namespace step_search
 
 /// Which way is up (decode/orientation, decode/bit_lines).
 namespace turns {

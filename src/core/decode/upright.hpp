@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/fixed.hpp"
+#include "core/math/fixed.hpp"
 #include "core/stages.hpp"
 
 namespace dotpose::core {

@@ -5,7 +5,7 @@
 
 #include "core/detect/light.hpp"
 #include "core/detect/runs.hpp"
-#include "core/fixed.hpp"
+#include "core/math/fixed.hpp"
 
 namespace dotpose::core {
 namespace {

@@ -1,6 +1,6 @@
 #include "core/detect/near_dot.hpp"
 
-#include "core/fixed.hpp"
+#include "core/math/fixed.hpp"
 
 namespace dotpose::core {
 

@@ -1,6 +1,6 @@
 #include "core/detect/undistort.hpp"
 
-#include "core/plane.hpp"
+#include "core/math/plane.hpp"
 
 namespace dotpose::core {
 namespace {

@@ -9,7 +9,7 @@
 #include <span>
 
 #include "code/tables.hpp"
-#include "core/float_plane.hpp"
+#include "core/math/float_plane.hpp"
 #include "core/patch.hpp"
 #include "dotpose/image.hpp"
 

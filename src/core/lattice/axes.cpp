@@ -4,7 +4,7 @@
 #include <bit>
 
 #include "core/by_itself.hpp"
-#include "core/fixed.hpp"
+#include "core/math/fixed.hpp"
 
 namespace dotpose::core {
 namespace {

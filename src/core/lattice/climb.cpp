@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "core/fixed.hpp"
 #include "core/lattice/tuning.hpp"
+#include "core/math/fixed.hpp"
 
 namespace dotpose::core {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "code/rolls.hpp"
 #include "code/tables.hpp"
-#include "core/fixed.hpp"
+#include "core/math/fixed.hpp"
 
 namespace dotpose::core {
 

@@ -3,10 +3,10 @@
 #include <array>
 
 #include "core/by_itself.hpp"
-#include "core/cell_fit.hpp"
-#include "core/cells.hpp"
+#include "core/fit/affine_fit_int32.hpp"
 #include "core/lattice/axes.hpp"
 #include "core/lattice/regularity.hpp"
+#include "core/math/cells.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -129,7 +129,7 @@ class Fits {
     bool remembers() const { return dots_.size() <= before_.size(); }
 
     Regularity sum_up(int reach_cells, const Cells& cells) {
-        CellFit sums;
+        AffineFitInt32 sums;
         const Square near = near_;
         const Regularity found =
             look_at(dots_, reach_cells, cells, [&](const Dot& dot, Vec c, bool is_within) {
@@ -159,7 +159,7 @@ class Fits {
 
     std::span<const Dot> dots_;
     Square near_;
-    CellFit sums_;
+    AffineFitInt32 sums_;
     std::array<Used, 384> before_;  ///< of each dot, unless there are too many
 };
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/by_itself.hpp"
-#include "core/fixed.hpp"
+#include "core/math/fixed.hpp"
 
 namespace dotpose::core {
 namespace {

@@ -1,7 +1,7 @@
 // Neighbours: the four nearest dots of each dot near the image centre, and the symmetric edges
 // among them. Paper section II-B.2. differs: the paper connects all dots; here the dots nearest the
-// centre (seeds), at most kMaxSeeds, give the first grid, which then grows outwards (refine.hpp).
-// The time stays bounded in any image.
+// centre (seeds), at most kMaxSeeds, give the first grid, which then grows outwards
+// (refine_grid.hpp). The time stays bounded in any image.
 #pragma once
 
 #include "core/stages.hpp"

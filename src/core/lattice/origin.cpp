@@ -1,6 +1,6 @@
 #include "core/lattice/origin.hpp"
 
-#include "core/cells.hpp"
+#include "core/math/cells.hpp"
 
 namespace dotpose::core {
 namespace {

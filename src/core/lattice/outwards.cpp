@@ -4,10 +4,10 @@
 #include <cmath>
 #include <optional>
 
-#include "core/fixed.hpp"
-#include "core/float_plane.hpp"
 #include "core/lattice/tuning.hpp"
-#include "core/symmetric.hpp"
+#include "core/math/fixed.hpp"
+#include "core/math/float_plane.hpp"
+#include "core/math/symmetric2.hpp"
 
 namespace dotpose::core {
 namespace {

@@ -3,8 +3,8 @@
 // II-B.2 and II-B.3.
 #pragma once
 
-#include "core/float_plane.hpp"
 #include "core/kernels/kernels.hpp"
+#include "core/math/float_plane.hpp"
 
 namespace dotpose::core {
 

@@ -2,7 +2,7 @@
 
 #include "core/detect/near_dot.hpp"
 #include "core/detect/newest_rows.hpp"
-#include "core/plane.hpp"
+#include "core/math/plane.hpp"
 
 namespace dotpose::core {
 namespace {

@@ -1,7 +1,7 @@
 // Predicted: where a prediction has the cells of the grid in the image.
 #pragma once
 
-#include "core/fixed.hpp"
+#include "core/math/fixed.hpp"
 #include "core/stages.hpp"
 #include "dotpose/options.hpp"
 #include "dotpose/prediction.hpp"

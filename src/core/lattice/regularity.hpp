@@ -9,6 +9,9 @@
 
 namespace dotpose::core {
 
+/// Of a dot from its intersection, in spacings, as the pattern is usually printed.
+inline constexpr std::int32_t kDisplacement_q16 = 65536 / 6;
+
 /// How far, in cells, the first estimate can be trusted: 3 % of error in the spacing, 1 degree in
 /// the direction and 1/20 cell in the origin, added up, stay under the 1/3 cell that tells a
 /// displaced dot from one of the next cell.

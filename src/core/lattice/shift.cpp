@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "core/detect/newest_rows.hpp"
-#include "core/fixed.hpp"
 #include "core/lattice/coded_cells.hpp"
 #include "core/lattice/predicted.hpp"
+#include "core/math/fixed.hpp"
 
 namespace dotpose::core {
 

@@ -15,8 +15,8 @@ inline constexpr int kSettled_20th = 19;
 inline constexpr int kFewest_10ths = 7;
 }  // namespace regularity
 
-/// The exact grid of the second attempt (lattice/refine).
-namespace refine {
+/// The exact grid of the second attempt (lattice/refine_grid).
+namespace refine_grid {
 /// Reach from which dots can tell the curvature of a lens from their displacements, in cells: from
 /// fewer, chance bends the grid. Half or twice as many: 1,994.
 inline constexpr int kLensReach_cells = 9;
@@ -31,7 +31,7 @@ inline constexpr int kFar_q16 = 65536 / 8;
 /// Rounds through the dots' nearest places: the second one goes through what the first makes
 /// better.
 inline constexpr int kPlaceRounds = 2;
-}  // namespace refine
+}  // namespace refine_grid
 
 /// The first grid of the second attempt, from the periodogram (lattice/climb).
 namespace climb {

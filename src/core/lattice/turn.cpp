@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "core/detect/near_dot.hpp"
-#include "core/fixed.hpp"
 #include "core/lattice/coded_cells.hpp"
 #include "core/lattice/predicted.hpp"
+#include "core/math/fixed.hpp"
 
 namespace dotpose::core {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "core/cell_fit.hpp"
-#include "core/cells.hpp"
+#include "core/fit/affine_fit_int32.hpp"
+#include "core/math/cells.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -32,7 +32,7 @@ std::int32_t squared_q16(Vec a_q16) {
 }
 
 /// By itself, so that small processors need not move what else they keep in registers.
-[[gnu::noinline]] void add(CellFit& fit, Vec p, Vec target) {
+[[gnu::noinline]] void add(AffineFitInt32& fit, Vec p, Vec target) {
     fit.add(p, target);
 }
 
@@ -75,7 +75,7 @@ int fit_affine_pose(const Observations& observations, PlaneFromImage& pose,
     // Where dots were printed, in 1/64 cells: at most 2^15 of them.
     constexpr int kTargetBits = 6;
     const auto targets = displacements(shift_rounded(displacement_q16, 16 - kTargetBits));
-    CellFit fit;
+    AffineFitInt32 fit;
     observations.visit([&](const Observation& o) {
         const Vec p = cells.from_centre_q3(o.image_point_q8);
         if (squared_residual_q16(offset_q16(o, p), o.symbol) > limit_q16) return;

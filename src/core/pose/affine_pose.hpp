@@ -1,6 +1,6 @@
 // Affine pose: the pose from all dots, in integers, for a camera that looks straight at the paper
 // through a lens that does not bend, or whose bend was taken out. Devices without floating point
-// stop here; others continue with refine.hpp.
+// stop here; others continue with refine_pose.hpp.
 #pragma once
 
 #include "core/pose/observations.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "core/symmetric.hpp"
+#include "core/math/symmetric2.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -14,7 +14,7 @@ using Pair = std::array<float, 2>;
 using Symmetric = Symmetric2<float>;
 
 /// Of the whitened terms, in units of the noise's variance, if the terms' own were 1.
-Symmetric spread_of(const FurtherTerms& terms, const Normal& normal, float variance) {
+Symmetric spread_of(const FurtherTerms& terms, const PlaneNormalFloat& normal, float variance) {
     const std::size_t i = terms.first;
     const float scale = 1 / variance;
     const float a = normal.factor(i, i);
@@ -81,8 +81,8 @@ Belief mixed(const Posteriors& kinds, float variance) {
 
 }  // namespace
 
-Belief belief_in(const FurtherTerms& terms, const Normal& normal, const Parameters& whitened,
-                 float variance, float unit) {
+Belief belief_in(const FurtherTerms& terms, const PlaneNormalFloat& normal,
+                 const Parameters& whitened, float variance, float unit) {
     const Pair seen{whitened[terms.first], terms.count > 1 ? whitened[terms.first + 1] : 0.0F};
     const Symmetric spread = spread_of(terms, normal, variance);
     Posteriors kinds;

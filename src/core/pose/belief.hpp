@@ -6,7 +6,7 @@
 #include <array>
 #include <cstddef>
 
-#include "core/pose/normal.hpp"
+#include "core/fit/plane_normal_float.hpp"
 
 namespace dotpose::core {
 
@@ -30,7 +30,7 @@ struct Belief {
 
 /// By the rule of Bayes. `whitened`: the terms as fitted, from normal.times_transposed; `variance`
 /// is that of each element of it; `unit` that in which the deviations are given.
-Belief belief_in(const FurtherTerms& terms, const Normal& normal, const Parameters& whitened,
-                 float variance, float unit);
+Belief belief_in(const FurtherTerms& terms, const PlaneNormalFloat& normal,
+                 const Parameters& whitened, float variance, float unit);
 
 }  // namespace dotpose::core

@@ -1,7 +1,7 @@
 // Covariance of the pose from the residuals of its fit.
 #pragma once
 
-#include "core/pose/refine.hpp"
+#include "core/pose/refine_pose.hpp"
 #include "dotpose/fix.hpp"
 
 namespace dotpose::core {

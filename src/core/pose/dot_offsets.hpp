@@ -1,7 +1,7 @@
 // Dot offsets: where dots lie in the pattern, and how far from where the code has them.
 #pragma once
 
-#include "core/float_plane.hpp"
+#include "core/math/float_plane.hpp"
 
 namespace dotpose::core {
 

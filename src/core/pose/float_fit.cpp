@@ -71,7 +71,7 @@ bool fit_plane(const Kernels& kernels, const MeasuredDots& dots, int reach_px, f
     for (int round = 0; round < tuned::kMostRoundsOfFloats; ++round) {
         const FitSums sums = kernels.sum_fit(dots, plane, displacement, reach, limit);
         if (sums.points < tuned::kFewestDots) return false;
-        fit.normal = Normal(sums);
+        fit.normal = PlaneNormalFloat(sums);
         Parameters step;
         float moved = 0;
         if (!solve(distortions(plane, reach), scale_of(plane, reach), fit, step, moved))

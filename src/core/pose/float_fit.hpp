@@ -2,8 +2,8 @@
 // does, for dots in vectors and a plane in single precision. differs: the paper stops at eq. 12.
 #pragma once
 
-#include "core/float_plane.hpp"
-#include "core/pose/refine.hpp"
+#include "core/math/float_plane.hpp"
+#include "core/pose/refine_pose.hpp"
 
 namespace dotpose::core {
 

@@ -6,9 +6,10 @@
 
 #include "core/detect/surroundings.hpp"
 #include "core/detect/undistort.hpp"
-#include "core/plane.hpp"
+#include "core/lattice/regularity.hpp"
+#include "core/math/plane.hpp"
+#include "core/math/vectors.hpp"
 #include "core/pose/tuning.hpp"
-#include "core/vectors.hpp"
 
 namespace dotpose::core {
 namespace {

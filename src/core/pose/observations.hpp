@@ -3,7 +3,7 @@
 
 #include "core/decode/nominal.hpp"
 #include "core/detect/paper.hpp"
-#include "core/plane.hpp"
+#include "core/math/plane.hpp"
 
 namespace dotpose::core {
 

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "core/math/vectors.hpp"
 #include "core/pose/dot_offsets.hpp"
 #include "core/pose/tuning.hpp"
-#include "core/vectors.hpp"
 
 namespace dotpose::core {
 namespace {

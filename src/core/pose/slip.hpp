@@ -2,8 +2,8 @@
 // where a printer fed the paper badly, or two sheets are butted. differs: the paper has one plane.
 #pragma once
 
-#include "core/float_plane.hpp"
-#include "core/pose/refine.hpp"
+#include "core/math/float_plane.hpp"
+#include "core/pose/refine_pose.hpp"
 
 namespace dotpose::core {
 

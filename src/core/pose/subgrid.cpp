@@ -1,6 +1,6 @@
 #include "core/pose/subgrid.hpp"
 
-#include "core/plane.hpp"
+#include "core/math/plane.hpp"
 
 namespace dotpose::core {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <bit>
 
-#include "core/affine.hpp"
-#include "core/cell_fit.hpp"
-#include "core/fixed.hpp"
+#include "core/fit/affine_fit_int32.hpp"
+#include "core/fit/affine_fit_int64.hpp"
 #include "core/lattice/predicted.hpp"
+#include "core/math/fixed.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -21,11 +21,11 @@ int excess_bits(const Tracking& tracking) {
 }
 
 /// How far off the cells dots are, as a plane over the cells. Its points are counted by their mass.
-CellFit fit_of_offsets(const Tracking& tracking, int excess) {
+AffineFitInt32 fit_of_offsets(const Tracking& tracking, int excess) {
     std::int32_t mass = 0;
     Vec cells;
     Vec off_q8;
-    CellFit::Products<std::int32_t> sums;
+    AffineFitInt32::Products<std::int32_t> sums;
     for (int j = tracking.first_cell; j <= tracking.last_cell; ++j) {
         const TrackedRow& row = tracking.grid_rows[static_cast<std::size_t>(j)];
         if (row.mass == 0) continue;
@@ -102,7 +102,7 @@ std::int32_t longer_q12(const Tracking& tracking, int excess, std::int32_t mass)
 int fit_tracked_pose(const Tracking& tracking, PlaneFromImage& pattern_from_image,
                      std::int32_t& displacement_q16) {
     const int excess = excess_bits(tracking);
-    CellFit fit = fit_of_offsets(tracking, excess);
+    AffineFitInt32 fit = fit_of_offsets(tracking, excess);
     const std::int32_t length_q12 = tracking.displacement_q12;
     displacement_q16 =
         16 * (length_q12 + ((length_q12 * longer_q12(tracking, excess, fit.count())) >> 12));

@@ -30,7 +30,7 @@ inline constexpr int kTooDark_halves = 3;
 inline constexpr int kMedianSample = 256;
 }  // namespace measure
 
-/// The pose from all dots (pose/refine, pose/float_fit).
+/// The pose from all dots (pose/refine_pose, pose/float_fit).
 namespace fit {
 /// Rounds of Gauss and Newton, at most.
 inline constexpr int kMostRounds = 4;

@@ -3,8 +3,8 @@
 // exact as dots that scatter each by itself would make it. differs: the paper has one plane.
 #pragma once
 
-#include "core/float_plane.hpp"
-#include "core/pose/refine.hpp"
+#include "core/math/float_plane.hpp"
+#include "core/pose/refine_pose.hpp"
 
 namespace dotpose::core {
 

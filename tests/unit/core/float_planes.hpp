@@ -1,7 +1,7 @@
 // Planes of tilted cameras at random, and their formula in double precision.
 #pragma once
 
-#include "core/float_plane.hpp"
+#include "core/math/float_plane.hpp"
 #include "geometry.hpp"
 
 namespace dotpose::core_test {

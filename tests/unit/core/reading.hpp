@@ -5,7 +5,7 @@
 
 #include "core/decode/likelihood.hpp"
 #include "core/decode/window.hpp"
-#include "core/plane.hpp"
+#include "core/math/plane.hpp"
 #include "geometry.hpp"
 
 namespace dotpose::core_test {

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "../geometry.hpp"
-#include "core/fixed.hpp"
 #include "core/kernels/select.hpp"
+#include "core/math/fixed.hpp"
 
 namespace dotpose::core_test {
 namespace {

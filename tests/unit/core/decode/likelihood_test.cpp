@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "../geometry.hpp"
-#include "core/plane.hpp"
+#include "core/math/plane.hpp"
 
 namespace dotpose::core_test {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "../geometry.hpp"
 #include "core/lattice/neighbours.hpp"
-#include "core/plane.hpp"
+#include "core/math/plane.hpp"
 
 namespace dotpose::core_test {
 namespace {

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/lattice/grow.hpp"
-#include "core/lattice/refine.hpp"
+#include "core/lattice/refine_grid.hpp"
 #include "grids.hpp"
 
 namespace dotpose::core_test {

@@ -17,14 +17,14 @@ constexpr FurtherTerms kTwo{kTilt, 2, {{{0.3F, 0}, {0.5F, 0.02F}, {0.2F, 0.2F}}}
 constexpr FurtherTerms kOne{kBend, 1, {{{0.6F, 0}, {0.3F, 0.02F}, {0.1F, 0.2F}}}};
 
 /// Equations of points that tell all parameters, some of them together only.
-Normal random_normal(Rng& rng) {
+PlaneNormalFloat random_normal(Rng& rng) {
     const auto random = [&] {
         Four values;
         for (int i = 0; i < 4; ++i)
             values[i] = static_cast<float>(rng.uniform(-1, 1));
         return values;
     };
-    NormalSums sums;
+    PlaneSumsFloat sums;
     for (int i = 0; i < 8; ++i) {
         Sights sights;
         for (FourVecs* each : {&sights.scale, &sights.tilt_x, &sights.tilt_y, &sights.bend})
@@ -33,7 +33,7 @@ Normal random_normal(Rng& rng) {
         sights.tilt_y.y += sights.tilt_x.y;
         sums.add(sights, {{Four{}, Four{}}, Four{1, 1, 1, 1}});
     }
-    Normal normal(sums);
+    PlaneNormalFloat normal(sums);
     EXPECT_TRUE(normal.decompose());
     return normal;
 }
@@ -47,7 +47,7 @@ struct Integral {
     double mean[2] = {};
     double covariance[2][2] = {};
 
-    Integral(const FurtherTerms& terms, const Normal& normal, const double (&seen)[2],
+    Integral(const FurtherTerms& terms, const PlaneNormalFloat& normal, const double (&seen)[2],
              double variance, double unit) {
         const std::size_t i = terms.first;
         const double a = normal.factor(i, i);
@@ -102,7 +102,7 @@ struct Integral {
 void expect_integral(const FurtherTerms& terms, Rng& rng) {
     for (int i = 0; i < 30; ++i) {
         SCOPED_TRACE(testing::Message() << "case " << i << ", seed " << kSeed);
-        const Normal normal = random_normal(rng);
+        const PlaneNormalFloat normal = random_normal(rng);
         const double variance = rng.uniform(0.01, 0.05);
         const double unit = rng.uniform(0.5, 2);
         const double reach = 5 * std::sqrt(variance) * rng.uniform();
@@ -134,7 +134,7 @@ TEST(Belief, OfOneTermIsTheIntegralOverAllItMightBe) {
 
 TEST(Belief, WhatIsSeenBeyondDoubtIsKept) {
     Rng rng(kSeed);
-    const Normal normal = random_normal(rng);
+    const PlaneNormalFloat normal = random_normal(rng);
     Parameters whitened{};
     whitened[kTilt] = 0.1F;
     whitened[kTilt + 1] = -0.2F;
@@ -145,7 +145,7 @@ TEST(Belief, WhatIsSeenBeyondDoubtIsKept) {
 }
 
 TEST(Belief, TermsThatNothingTellsAreNone) {
-    const Belief belief = belief_in(kTwo, Normal{}, Parameters{}, 0.01F, 1);
+    const Belief belief = belief_in(kTwo, PlaneNormalFloat{}, Parameters{}, 0.01F, 1);
     EXPECT_EQ(belief.mean[0], 0);
     EXPECT_EQ(belief.covariance[1][1], 0);
 }

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/pose/covariance.hpp"
-#include "core/pose/refine.hpp"
+#include "core/pose/refine_pose.hpp"
 #include "core/pose/subgrid.hpp"
 #include "poses.hpp"
 

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "../reading.hpp"
-#include "core/plane.hpp"
+#include "core/math/plane.hpp"
 
 namespace dotpose::core_test {
 

@@ -1,0 +1,117 @@
+#include "core/decode/step_search.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "code/basis.hpp"
+#include "code/rolls.hpp"
+#include "core/decode/tuning.hpp"
+
+namespace dotpose::core {
+namespace {
+
+constexpr std::size_t kSequences = 4;
+constexpr std::size_t kDigits = 3;
+constexpr std::size_t kStepSizes = code::kLargestDelta - code::kSmallestDelta + 1;
+
+/// By sequence and digit: how much less two lines agree if that digit is in the step between them.
+using StepLosses = std::array<std::array<std::int32_t, kDigits>, kSequences>;
+
+/// The most that both lines agree with the main sequence, the second at the roll of the first and
+/// `step`.
+int best_agreement(const LineScores& line, const LineScores& next, std::size_t step) {
+    std::int16_t best = INT16_MIN;
+    const std::size_t whole = kSections - step;
+    for (std::size_t roll = 0; roll < whole; ++roll)
+        best = std::max(best, static_cast<std::int16_t>(line[roll] + next[roll + step]));
+    for (std::size_t roll = whole; roll < kSections; ++roll)
+        best = std::max(best, static_cast<std::int16_t>(line[roll] + next[roll - whole]));
+    return best;
+}
+
+StepLosses losses_of(const LineScores& line, const LineScores& next) {
+    std::array<std::int32_t, kStepSizes> agreements;
+    for (std::size_t i = 0; i < kStepSizes; ++i)
+        agreements[i] = best_agreement(line, next, i + code::kSmallestDelta);
+    const std::int32_t most = *std::max_element(agreements.begin(), agreements.end());
+    StepLosses losses;
+    losses.fill({INT32_MAX, INT32_MAX, INT32_MAX});
+    for (std::size_t i = 0; i < kStepSizes; ++i) {
+        for (std::size_t n = 0; n < kSequences; ++n) {
+            std::int32_t& least = losses[n][code::kDigitsOfDelta[i][n]];
+            least = std::min(least, most - agreements[i]);
+        }
+    }
+    return losses;
+}
+
+/// Places of the first line in a secondary sequence, the likeliest first.
+constexpr std::size_t kChoices = tuning::step_search::kChoices;
+using Choices = std::array<std::uint32_t, kChoices>;
+
+Choices likeliest_places(const code::Secondary& sequence, std::size_t n,
+                         std::span<const StepLosses> steps) {
+    Choices places{};
+    std::array<std::int32_t, kChoices> losses;
+    losses.fill(INT32_MAX);
+    for (std::uint32_t first = 0; first < sequence.length; ++first) {
+        std::int32_t loss = 0;
+        std::uint32_t place = first;
+        for (const StepLosses& step : steps) {
+            loss += step[n][sequence.digits[place]];
+            place = place + 1 == sequence.length ? 0 : place + 1;
+        }
+        if (loss >= losses.back()) continue;
+        std::size_t rank = kChoices - 1;
+        for (; rank > 0 && loss < losses[rank - 1]; --rank) {
+            losses[rank] = losses[rank - 1];
+            places[rank] = places[rank - 1];
+        }
+        losses[rank] = loss;
+        places[rank] = first;
+    }
+    return places;
+}
+
+/// Sum over all lines for the hypothesis that the first stands at `position`, at the best roll.
+AxisReading evaluate(Profile profile, const Lines& lines, std::uint32_t position) {
+    std::array<std::uint8_t, kMaxLines> rolls;
+    code::follow_rolls(profile, position, 0, std::span(rolls).first(lines.all.size()));
+    std::array<std::int32_t, kSections> sums{};
+    for (int i = 0; i < lines.count(); ++i) {
+        const std::size_t ahead = rolls[static_cast<std::size_t>(i)];
+        const std::size_t whole = kSections - ahead;
+        for (std::size_t roll = 0; roll < whole; ++roll)
+            sums[roll] += lines[i][roll + ahead];
+        for (std::size_t roll = whole; roll < kSections; ++roll)
+            sums[roll] += lines[i][roll - whole];
+    }
+    const auto best = std::max_element(sums.begin(), sums.end());
+    return {position, static_cast<std::uint8_t>(best - sums.begin()), *best, 0};
+}
+
+}  // namespace
+
+void search_by_steps(Profile profile, const Lines& lines, AxisReading& best) {
+    std::array<StepLosses, kMaxLines - 1> storage;
+    const auto steps = std::span(storage).first(lines.all.size() - 1);
+    for (std::size_t i = 0; i < steps.size(); ++i)
+        steps[i] = losses_of(lines.all[i].scores, lines.all[i + 1].scores);
+    const code::Basis& basis = code::basis(profile);
+    std::array<Choices, kSequences> choices;
+    for (std::size_t n = 0; n < kSequences; ++n)
+        choices[n] = likeliest_places(basis[n], n, steps);
+    constexpr std::size_t kWays = kChoices * kChoices * kChoices * kChoices;
+    for (std::size_t way = 0; way < kWays; ++way) {
+        std::array<std::uint32_t, kSequences> places;
+        std::size_t rest = way;
+        for (std::size_t n = 0; n < kSequences; ++n, rest /= kChoices)
+            places[n] = choices[n][rest % kChoices];
+        AxisReading reading = evaluate(profile, lines, code::position_at(basis, places));
+        if (reading.score <= best.score) continue;
+        reading.most_possible = best.most_possible;
+        best = reading;
+    }
+}
+
+}  // namespace dotpose::core

@@ -1,0 +1,74 @@
+// Least squares of an affine map from image points to the grid, in integers of 32 bits, which small
+// processors add up quickly.
+#pragma once
+
+#include "core/math/fixed.hpp"
+#include "core/stages.hpp"
+
+namespace dotpose::core {
+
+class AffineFitInt32 {
+  public:
+    template <typename Int>
+    struct Products {
+        Int xx = 0, xy = 0, yy = 0;
+        Int ix = 0, iy = 0, jx = 0, jy = 0;
+
+        /// `weighted` is p, as often as it counts.
+        [[gnu::always_inline]] void add(const Vec& p, const Vec& weighted, const Vec& target) {
+            xx += weighted.x * p.x;
+            xy += weighted.x * p.y;
+            yy += weighted.y * p.y;
+            ix += target.x * p.x;
+            iy += target.x * p.y;
+            jx += target.y * p.x;
+            jy += target.y * p.y;
+        }
+    };
+
+    AffineFitInt32() = default;
+    /// Of points that were counted and added up elsewhere.
+    AffineFitInt32(std::int32_t count, const Vec& p, const Vec& target,
+                   const Products<std::int32_t>& sums)
+        : changes_(count), p_(p), target_(target), recent_(sums) {}
+
+    /// Image points in 1/8 px from the plane's centre, within 2048 px; targets within 2^15.
+    [[gnu::always_inline]] void add(const Vec& p, const Vec& target) { change(p, p, target); }
+    /// Adds it (weight 1), or takes it away again (-1).
+    [[gnu::always_inline]] void count(const Vec& p, const Vec& target, int weight) {
+        unused_ += 1 - weight;
+        change(p, Vec{weight * p.x, weight * p.y}, Vec{weight * target.x, weight * target.y});
+    }
+    int count() const { return changes_ - unused_; }
+    /// Sets all of the plane but its centre, perspective and lens; targets were in 2^-bits cells.
+    /// False where the points lie on one line.
+    bool solve(int bits, PlaneFromImage& plane);
+
+  private:
+    /// Image points from -kNear to kNear - 1: products of so many of them, and one of a point that
+    /// is farther off, fit 32 bits, which small processors add up three times as fast.
+    static constexpr std::uint32_t kNear = 1024;
+    static constexpr int kMostRecent = 32;
+    static std::uint32_t offset(std::int32_t a) { return static_cast<std::uint32_t>(a) + kNear; }
+
+    [[gnu::always_inline]] void change(const Vec& p, const Vec& weighted, const Vec& target) {
+        p_ = p_ + weighted;
+        target_ = target_ + target;
+        recent_.add(p, weighted, target);
+        ++changes_;
+        const bool is_far = (offset(p.x) | offset(p.y)) / (2 * kNear) != 0;
+        if (is_far || changes_ % kMostRecent == 0) carry_over();
+    }
+    void carry_over();
+    /// n^2 times the covariance of what has this sum of products and these sums.
+    std::int64_t moment(std::int64_t products, std::int32_t a, std::int32_t b) const;
+
+    std::int32_t changes_ = 0;
+    std::int32_t unused_ = 0;  ///< by so much there are fewer points than changes
+    Vec p_;
+    Vec target_;
+    Products<std::int32_t> recent_;
+    Products<std::int64_t> all_;
+};
+
+}  // namespace dotpose::core

@@ -1,0 +1,42 @@
+// Least squares of an affine map between two sets of points, in integers of 64 bits.
+#pragma once
+
+#include <cstdint>
+
+#include "core/math/fixed.hpp"
+
+namespace dotpose::core {
+
+/// target = offset + dx * source.x + dy * source.y, all times 2^fraction_bits.
+struct AffineMap {
+    Vec dx;
+    Vec dy;
+    std::int64_t offset_x = 0;
+    std::int64_t offset_y = 0;
+};
+
+/// Collects point pairs; |source|, |target| < 2^24, at most 2^14 of them.
+class AffineFitInt64 {
+  public:
+    void add(Vec source, Vec target);
+    int count() const { return static_cast<int>(n_); }
+    /// False where the points lie on one line. The entries of dx and dy must fit 31 bits.
+    bool solve(int fraction_bits, AffineMap& map) const;
+
+    /// Second moments of the sources about their mean: n times their covariance.
+    struct Moments {
+        std::int64_t xx = 0;
+        std::int64_t xy = 0;
+        std::int64_t yy = 0;
+    };
+    Moments source_moments() const;
+    Vec source_mean() const;
+
+  private:
+    std::int64_t n_ = 0;
+    std::int64_t sx_ = 0, sy_ = 0, tx_ = 0, ty_ = 0;
+    std::int64_t sxsx_ = 0, sxsy_ = 0, sysy_ = 0;
+    std::int64_t sxtx_ = 0, sxty_ = 0, sytx_ = 0, syty_ = 0;
+};
+
+}  // namespace dotpose::core

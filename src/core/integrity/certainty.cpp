@@ -1,0 +1,357 @@
+#include "core/integrity/certainty.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "code/rolls.hpp"
+#include "code/unshared_lines.hpp"
+#include "core/integrity/least_losses.hpp"
+#include "core/integrity/other_codes.hpp"
+#include "core/integrity/quick_rivals.hpp"
+#include "core/integrity/rival_sets.hpp"
+#include "core/integrity/rivals.hpp"
+#include "core/integrity/seam_rivals.hpp"
+#include "core/integrity/unshared_lines.hpp"
+#include "core/math/fixed.hpp"
+#include "core/math/vectors.hpp"
+
+namespace dotpose::core {
+namespace {
+
+/// Shifts at which a rival shares no line.
+constexpr float kShifts = kSections - 1;
+/// Odds at which single rivals are counted that have less; and how many there are, with all their
+/// shifts.
+constexpr int kPassedOver_q8 = -52 * 256;
+constexpr float kPassedOver = 2.3e-16F;
+constexpr float kSingles = 741;
+
+/// 2^n as it is, -126 <= n < 128.
+constexpr float power_of_two_exactly(int n) {
+    return std::bit_cast<float>(static_cast<std::uint32_t>(n + 127) << 23);
+}
+
+/// 2^(n / 256), rounded up by a little; 2^-100 for less.
+constexpr float power_of_two(int n_q8) {
+    const int n = std::max(n_q8, -100 * 256);
+    const int whole = n >> 8;
+    return static_cast<float>(exp2_q16(n - whole * 256)) * 1.02F * power_of_two_exactly(whole - 16);
+}
+
+/// Contest::odds without a library's call.
+float odds_of(const Contest& contest, int lost) {
+    const int log2_q8 = std::max(contest.log2_odds_q8(lost), kNegligible_q8);
+    const int whole = log2_q8 >> 8;
+    return static_cast<float>(static_cast<std::int32_t>(exp2_q16(log2_q8 - whole * 256))) *
+           power_of_two_exactly(whole - 16);
+}
+
+/// What adds up to less is as good as nothing, and slow to reckon with.
+constexpr float kNothing = 1e-30F;
+
+/// Something of every set of rivals, in whole vectors.
+struct OfSets {
+    std::array<Four, 2> part;
+
+    static OfSets of(float value) { return {{Four{} + value, Four{} + value}}; }
+};
+
+/// The same in numbers.
+using NumbersOfSets = std::array<float, 8>;
+template <typename Number>
+constexpr NumbersOfSets of_each_set(Number number) {
+    NumbersOfSets numbers{};
+    for (std::size_t i = 0; i < kRivalSets.size(); ++i)
+        numbers[i] = number(kRivalSets[i]);
+    return numbers;
+}
+constexpr NumbersOfSets kEqual =
+    of_each_set([](const RivalSet& set) { return power_of_two(set.equal_q8 + kUnevenness_q8); });
+constexpr NumbersOfSets kRivals =
+    of_each_set([](const RivalSet& set) { return power_of_two(set.rivals_q8); });
+
+/// The expectation of `quick_rivals.cpp` in floating point, for all sets at once: rivals that share
+/// no line are lumped together, those that share the last ones counted by how many.
+float far_rivals(const Contest& contest) {
+    constexpr float kUnevenness = 1.03F;
+    const int most = contest.most_shared();
+    // Those that share the lines up to one, but not it; and of all that share the first line, what
+    // comes out as 1. Before that there is nobody.
+    std::array<OfSets, kMostShared + kMaxLines> storage;
+    std::fill_n(storage.begin(), kMostShared, OfSets::of(0));
+    OfSets* apart = &storage[kMostShared];
+    OfSets sum;
+    const float first = kShifts * odds_of(contest, contest.least_loss(0));
+    for (std::size_t i = 0; i < 2; ++i) {
+        apart[-1].part[i] = 1 / four_at(&kEqual[4 * i]);
+        apart->part[i] = Four{} + first;
+        sum.part[i] = Four{} + (first + 1);
+    }
+    for (int line = 1; line < contest.count(); ++line) {
+        const float best = odds_of(contest, contest.least_loss(line));
+        ++apart;
+        for (std::size_t i = 0; i < 2; ++i) {
+            const Four equally = four_at(&kEqual[4 * i]);
+            const Four by_one = (Four{} + best) * kUnevenness;
+            const Four by_all = kShifts * best * equally;
+            const Four now = sum.part[i] * (by_one < by_all ? by_one : by_all);
+            apart->part[i] = now > kNothing ? now : Four{} + kNothing;
+            Four shared = (apart - most)->part[i];
+            for (int n = most - 1; n > 0; --n)
+                shared = shared * equally + (apart - n)->part[i];
+            sum.part[i] = apart->part[i] + shared * equally;
+        }
+    }
+    float all = 0;
+    for (std::size_t i = 0; i < kRivalSets.size(); ++i)
+        all += sum.part[i / 4][i % 4] * kRivals[i];
+    return all;
+}
+
+/// Odds of the rivals that share no line: those at the same position in other sections, and those
+/// that differ in one sequence, at shifts which no line shows.
+float sharing_none(const Contest& contest) {
+    int lost = 0;
+    for (int line = 0; line < contest.count(); ++line)
+        lost += contest.least_loss(line);
+    return (1 + kSingles) * kShifts * odds_of(contest, lost);
+}
+
+/// What every line costs at least who does not share it, the dearest first. Bits count alike here,
+/// so losses are whole bits.
+constexpr int kBit = 2 * 127;  // of score
+std::size_t sort_losses(const Contest& contest, std::span<LineLoss> losses) {
+    const auto count = static_cast<std::size_t>(contest.count());
+    for (std::size_t line = 0; line < count; ++line) {
+        const int bits = std::max(contest.least_loss(static_cast<int>(line)), 0) / kBit;
+        std::size_t i = line;
+        for (; i > 0 && losses[i - 1].loss < bits; --i)
+            losses[i] = losses[i - 1];
+        losses[i] = {static_cast<std::uint8_t>(line), static_cast<std::uint8_t>(bits)};
+    }
+    return count;
+}
+
+/// What a position loses whose place differs in one sequence, and that shares a line.
+int loss_of(const Contest& contest, std::size_t sequence, std::uint32_t place, int shared) {
+    const std::uint8_t* own = contest.basis[sequence].rolls + contest.places[sequence];
+    const std::uint8_t* rival = contest.basis[sequence].rolls + place;
+    const int base = rival[shared] - own[shared];
+    int lost = 0;
+    for (int line = 0; line < contest.count(); ++line) {
+        int shift = rival[line] - own[line] - base;
+        shift += shift < 0 ? kSections : 0;
+        shift -= shift >= kSections ? kSections : 0;
+        lost += contest.loss(line, shift < 0 ? shift + kSections : shift);
+    }
+    return lost;
+}
+
+/// Those of a sequence that share a line, as far as a table tells how many lines they do not share
+/// at least: of those in the middle of the view, since any number of them will do.
+float rivals_by_table(const Contest& contest, const UnsharedLines& unshared, std::size_t sequence) {
+    const int lost = unshared.least_loss(sequence, Sharing::at_one_shift) - contest.most_regained();
+    // At most as many shifts as there are lines.
+    return static_cast<float>(contest.count() * contest.basis[sequence].length) *
+           odds_of(contest, std::max(lost, 0));
+}
+
+/// Odds of rivals that differ in one sequence and share a line, by the table that tells most of
+/// each sequence. Sequences for which no table tells less than `enough` are not counted, and stay
+/// in `sequences`.
+float rivals_by_tables(const Contest& contest, float enough, unsigned& sequences) {
+    float sum = 0;
+    for (std::size_t table = code::kUnsharedOf.size(); table-- > 0 && sequences != 0;) {
+        if (code::kUnsharedOf[table] > contest.count()) continue;
+        const UnsharedLines unshared(contest, code::kUnsharedOf[table]);
+        for (unsigned rest = sequences; rest != 0; rest &= rest - 1) {
+            const int sequence = std::countr_zero(rest);
+            const float odds =
+                rivals_by_table(contest, unshared, static_cast<std::size_t>(sequence));
+            if (odds > enough) continue;
+            sum += odds;
+            sequences ^= 1U << sequence;
+        }
+    }
+    return sum;
+}
+
+/// Rivals that differ in one sequence: where the table does not tell, all that lose so little that
+/// they may count, one by one. 1 if there are too many.
+float single_rivals(const Kernels& kernels, const Contest& contest, float limit) {
+    unsigned sequences = 15;
+    float sum = rivals_by_tables(contest, limit / 12, sequences);
+    if (sequences == 0) return sum;
+    std::array<LineLoss, kMaxLines> storage;
+    const std::size_t lines = sort_losses(contest, storage);
+    const int enough = (contest.loss_for(kPassedOver_q8) + contest.most_regained()) / kBit + 1;
+    sum += kSingles * kPassedOver * static_cast<float>(lines);
+    SimilarPlaceList list;
+    if (!kernels.list_similar_places(contest.basis, contest.places, sequences,
+                                     std::span(storage).first(lines), enough, list)) {
+        return 1;
+    }
+    for (const auto& [sequence, place, line] :
+         std::span(list.places).first(static_cast<std::size_t>(list.count)))
+        sum += odds_of(contest, loss_of(contest, sequence, place, line));
+    return sum;
+}
+
+/// Odds of all rivals but those beyond seams.
+float rivals(const Kernels& kernels, const Contest& contest, float limit) {
+    return far_rivals(contest) + sharing_none(contest) + single_rivals(kernels, contest, limit);
+}
+
+float seam_rivals(const Kernels& kernels, const Contest& contest) {
+    return power_of_two(std::max(seam_rivals_log2_q8(kernels, contest), -100 * 256));
+}
+
+/// What is asked of an axis.
+struct Asked {
+    Profile profile;
+    Axis axis;
+    int odds_per_bit_q8;
+    int limit_log2;
+    OtherCodes* others;  ///< null: nobody asks
+};
+
+void weigh_others(const Kernels& kernels, const Contest& contest, const Asked& asked) {
+    if (asked.others == nullptr) return;
+    weigh_other_codes(kernels, contest, asked.profile, asked.axis, *asked.others);
+}
+
+bool is_code_in_question(const Asked& asked) {
+    return asked.others != nullptr && asked.others->log2_in_question_q8 >= 0;
+}
+
+/// Probability that chance agrees as well.
+float chance_of(const Confidence& bits, const Asked& asked) {
+    if (!is_code_in_question(asked))
+        return std::ldexp(1.0F, chance_log2(bits, asked.odds_per_bit_q8));
+    return power_of_two(
+        chance_log2_q8(bits, asked.odds_per_bit_q8, asked.others->log2_in_question_q8));
+}
+
+/// How many profiles may have such rivals.
+float codes_in_question(const Asked& asked) {
+    return !is_code_in_question(asked) ? 1 : power_of_two(asked.others->log2_in_question_q8);
+}
+
+/// Probability that one axis is wrong; where it is above the limit, no more than that.
+float axis_wrong(const Kernels& kernels, const Confidence& bits, const Lines& lines,
+                 const AxisReading& reading, const Asked& asked) {
+    const int limit_log2 = asked.limit_log2;
+    const float limit = std::ldexp(1.0F, limit_log2);
+    const float chance = chance_of(bits, asked);
+    if (chance > limit || lines.count() <= kMostShared) return 1;
+    const Contest contest(asked.profile, lines, reading, asked.odds_per_bit_q8);
+    const float codes = codes_in_question(asked);
+    const auto with = [&](float rivals) { return chance + codes * rivals; };
+    float sum = with(rivals(kernels, contest, limit));
+    if (sum > limit) sum = with(power_of_two(quick_rivals_log2_q8(contest, 256 * limit_log2)));
+    if (sum > limit) {
+        sum = with(std::ldexp(1.0F, rivals_log2(asked.profile, contest, limit_log2)));
+    }
+    if (sum > limit) return 1;
+    weigh_others(kernels, contest, asked);
+    return sum + seam_rivals(kernels, contest);
+}
+
+/// Probability that one axis is wrong, by bits alone, without scores of lines. It is never less
+/// than by scores.
+float axis_wrong(const Kernels& kernels, const AxisBits& axis, const Asked& asked) {
+    const float limit = std::ldexp(1.0F, asked.limit_log2);
+    const float chance = chance_of(axis.confidence, asked);
+    if (chance > limit || axis.lines.size() <= kMostShared) return 1;
+    const Contest contest(asked.profile, axis.lines, axis.reading, asked.odds_per_bit_q8);
+    const float sum = chance + codes_in_question(asked) * rivals(kernels, contest, limit);
+    if (sum > limit) return 1;
+    weigh_others(kernels, contest, asked);
+    return sum + seam_rivals(kernels, contest);
+}
+
+/// Odds of a bit, by both axes: they are read from the same dots, and so are misread alike. 0 where
+/// nothing is known, or too many bits are wrong.
+int odds_of_bits_q8(const Confidence& x, const Confidence& y, const IntegrityOptions& options,
+                    Fix& fix) {
+    fix.bit_errors = x.wrong() + y.wrong();
+    for (const Confidence* bits : {&x, &y}) {
+        // Two patterns in view.
+        if (256 * bits->wrong() > bits->bits() * options.max_bit_error_q8) return 0;
+    }
+    Confidence both = x;
+    both.add(y);
+    return odds_per_bit_q8(both);
+}
+
+bool is_within_limit(float wrong, int limit_log2, Fix& fix) {
+    int exponent = 0;
+    std::frexp(wrong, &exponent);  // wrong < 2^exponent
+    fix.p_wrong_log2 = std::min(exponent, 0);
+    return fix.p_wrong_log2 <= limit_log2;
+}
+
+/// What the first column and the first row were read as.
+std::array<AxisReading, 2> readings_at(const Place& corner, Profile profile) {
+    const auto& [cell, section] = corner;
+    const auto roll = [&](std::uint32_t position, int own_section, std::uint32_t cross) {
+        return static_cast<std::uint8_t>(code::roll_from(profile, position, own_section, cross));
+    };
+    return {AxisReading{cell.x, roll(cell.x, section.u, cell.y), 0, 0},
+            AxisReading{cell.y, roll(cell.y, section.v, cell.x), 0, 0}};
+}
+
+}  // namespace
+
+bool is_plainly_certain(const Kernels& kernels, const std::array<AxisBits, 2>& axes,
+                        Profile profile, const IntegrityOptions& options, Fix& fix,
+                        OtherCodes* others) {
+    const auto& [x, y] = axes;
+    const int odds_q8 = odds_of_bits_q8(x.confidence, y.confidence, options, fix);
+    if (odds_q8 == 0) return false;
+    const int limit = options.max_p_wrong_log2;
+    const float x_wrong = axis_wrong(kernels, x, {profile, Axis::x, odds_q8, limit, others});
+    if (x_wrong >= 1) return false;
+    const float y_wrong = axis_wrong(kernels, y, {profile, Axis::y, odds_q8, limit, others});
+    return is_within_limit(x_wrong + y_wrong, limit, fix);
+}
+
+Evidence evidence_of(const Kernels& kernels, Profile profile, const Place& place,
+                     const BitBlock& block, const std::array<Confidence, 2>& bits,
+                     std::span<ScoredLine> storage) {
+    const BlockLines lines = score_block(kernels, block, storage);
+    const Place corner = moved(profile, place, lines.first_column - BitBlock::kMiddle,
+                               lines.first_row - BitBlock::kMiddle);
+    return {corner, bits, lines.columns, lines.rows};
+}
+
+bool is_certain(const Kernels& kernels, const Evidence& evidence, Profile profile,
+                const IntegrityOptions& options, Fix& fix, OtherCodes* others) {
+    const auto& [x_bits, y_bits] = evidence.bits;
+    const int odds_q8 = odds_of_bits_q8(x_bits, y_bits, options, fix);
+    if (odds_q8 == 0) return false;
+    const auto [x, y] = readings_at(evidence.corner, profile);
+    const int limit = options.max_p_wrong_log2;
+    const float x_wrong = axis_wrong(kernels, x_bits, evidence.columns, x,
+                                     {profile, Axis::x, odds_q8, limit, others});
+    if (x_wrong >= 1) return false;
+    const float y_wrong =
+        axis_wrong(kernels, y_bits, evidence.rows, y, {profile, Axis::y, odds_q8, limit, others});
+    return is_within_limit(x_wrong + y_wrong, limit, fix);
+}
+
+void weigh_other_codes(const Kernels& kernels, const Evidence& evidence, Profile profile,
+                       OtherCodes& others) {
+    Confidence both = evidence.bits[0];
+    both.add(evidence.bits[1]);
+    const int odds_q8 = odds_per_bit_q8(both);
+    if (odds_q8 == 0) return;
+    const auto [x, y] = readings_at(evidence.corner, profile);
+    weigh_other_codes(kernels, Contest(profile, evidence.columns, x, odds_q8), profile, Axis::x,
+                      others);
+    weigh_other_codes(kernels, Contest(profile, evidence.rows, y, odds_q8), profile, Axis::y,
+                      others);
+}
+
+}  // namespace dotpose::core

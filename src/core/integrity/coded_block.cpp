@@ -1,0 +1,79 @@
+#include "core/integrity/coded_block.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "code/tables.hpp"
+
+namespace dotpose::core {
+namespace {
+
+/// The first line and cell of the middle, as a cell, and as an index of a block.
+constexpr int kFirst = -kMostTracked / 2;
+constexpr auto kFirstOfBlock = static_cast<std::size_t>(BitBlock::kMiddle + kFirst);
+
+/// The longest of the stretches of ones.
+std::uint32_t longest_stretch(std::uint32_t bits) {
+    if (const std::uint32_t beyond = bits + (bits & (0 - bits)); (beyond & bits) == 0) return bits;
+    std::uint32_t longest = 0;
+    int most = 0;
+    for (std::uint32_t rest = bits; rest != 0;) {
+        const int first = std::countr_zero(rest);
+        const int length = std::countr_one(rest >> first);
+        const std::uint32_t stretch = ~std::uint32_t{0} >> (32 - length) << first;
+        if (length > most) longest = stretch;
+        most = std::max(most, length);
+        rest &= ~stretch;
+    }
+    return longest;
+}
+
+}  // namespace
+
+/// The lines from `first_line` on have `rolls` at the cell `first_cell`.
+CodedBlock::Half CodedBlock::half(const BitLines& lines, const std::uint8_t* rolls, int first_line,
+                                  int count, int first_cell) {
+    Half half;
+    // Cells beyond the view have no bits, whatever the roll.
+    const int ahead = ((kFirst - first_cell) % kSections + kSections) % kSections;
+    const int begin = std::max(first_line, kFirst);
+    const int end = std::min(first_line + count, kFirst + kMostTracked);
+    for (int line = begin; line < end; ++line) {
+        const auto i = static_cast<std::size_t>(line - kFirst);
+        const auto seen =
+            static_cast<std::uint32_t>(lines.valid[kFirstOfBlock + i] >> kFirstOfBlock);
+        const auto bits =
+            static_cast<std::uint32_t>(lines.bits[kFirstOfBlock + i] >> kFirstOfBlock);
+        const int there = rolls[line - first_line] + ahead;
+        const int roll = there < kSections ? there : there - kSections;
+        const std::uint32_t code = code::kMainWords[static_cast<std::size_t>(roll)];
+        const std::uint32_t wrong = (bits ^ code) & seen;
+        // Bits beyond a gap would speak against rivals, too, but tables tell stretches apart.
+        half.lines[i] = {code, wrong == 0 ? longest_stretch(seen) : seen, wrong};
+        if (seen == 0) continue;
+        if (half.end == 0) {
+            half.first = i;
+            half.reading.roll = static_cast<std::uint8_t>(roll);
+        }
+        half.end = i + 1;
+    }
+    return half;
+}
+
+CodedBlock::CodedBlock(Profile profile, const Place& place, const CellsInView& view,
+                       const BitBlock& block)
+    : x_(half(block.columns, view.column_rolls, view.first_column, view.columns, view.first_row)),
+      y_(half(block.rows, view.row_rolls, view.first_row, view.rows, view.first_column)) {
+    const Place corner = moved(profile, place, kFirst + static_cast<int>(x_.first),
+                               kFirst + static_cast<int>(y_.first));
+    x_.reading.position = corner.cell.x;
+    y_.reading.position = corner.cell.y;
+}
+
+AxisBits CodedBlock::axis(Axis axis, const Confidence& confidence) const {
+    const Half& half = axis == Axis::x ? x_ : y_;
+    return {std::span(half.lines).subspan(half.first, half.end - half.first), half.reading,
+            confidence};
+}
+
+}  // namespace dotpose::core

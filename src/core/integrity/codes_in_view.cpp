@@ -1,0 +1,47 @@
+#include "core/integrity/codes_in_view.hpp"
+
+#include "code/rolls.hpp"
+
+namespace dotpose::core {
+namespace {
+
+/// Odds that need no closer look: of a profile, and of places elsewhere.
+constexpr float kSettled = 1e-12F;
+constexpr float kNoDoubt = 1e-10F;
+
+/// Whether two profiles differ in the rolls of lines from a position on.
+bool differ_from(std::uint32_t position, Profile read, Profile other) {
+    std::array<std::uint8_t, BitBlock::kSide> own;
+    std::array<std::uint8_t, BitBlock::kSide> theirs;
+    code::follow_rolls(read, position, roll(read, position), own);
+    code::follow_rolls(other, position, roll(other, position), theirs);
+    return own != theirs;
+}
+
+/// Whether profiles still in question have other symbols in view than the one read, or explain them
+/// at another place.
+bool tells_more(Profile read, const Place& place, bool has_more_lines, const OtherCodes& others) {
+    const Place corner = moved(read, place, -BitBlock::kMiddle, -BitBlock::kMiddle);
+    for (std::size_t i = 0; i < others.of.size(); ++i) {
+        const auto other = static_cast<Profile>(i);
+        if (other == read) continue;
+        if (others.of[i].elsewhere() > kNoDoubt) return true;
+        if (!has_more_lines || others.of[i].here() < kSettled) continue;
+        if (differ_from(corner.cell.x, read, other) || differ_from(corner.cell.y, read, other)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace
+
+void weigh_codes_in_view(const Kernels& kernels, Profile read, const Place& place,
+                         const BitBlock& block, const std::array<Confidence, 2>& bits,
+                         bool has_more_lines, std::span<ScoredLine> storage, OtherCodes& others) {
+    if (!tells_more(read, place, has_more_lines, others)) return;
+    weigh_other_codes(kernels, evidence_of(kernels, read, place, block, bits, storage), read,
+                      others);
+}
+
+}  // namespace dotpose::core

@@ -1,0 +1,95 @@
+#include "core/integrity/confidence.hpp"
+
+#include <algorithm>
+
+#include "core/math/fixed.hpp"
+
+namespace dotpose::core {
+namespace {
+
+/// log2(1 + 2^-n) in 2^-16, n = 0, 1/2, 1, ..., rounded up.
+constexpr std::array<std::int32_t, 34> kLog2OfOneAnd{
+    65536, 50565, 38337, 28623, 21098, 15391, 11137, 8009, 5732, 4089, 2910, 2067,
+    1466,  1039,  736,   521,   369,   261,   185,   131,  93,   66,   47,   33,
+    24,    17,    12,    9,     6,     5,     3,     3,    2,    2};
+
+/// The function is convex: between two places it is below the chord.
+int log2_of_one_and_q16(int n_q8) {
+    const auto i = static_cast<std::size_t>(n_q8 >> 7);
+    return kLog2OfOneAnd[i] - ((kLog2OfOneAnd[i] - kLog2OfOneAnd[i + 1]) * (n_q8 & 127) >> 7);
+}
+
+int log_odds_q8(int odds_per_bit_q8, int level) {
+    // 129 / 2^14 is 1 / 127.
+    return (odds_per_bit_q8 * Confidence::weight_of(level) * 129) >> 14;
+}
+
+/// Share of bits that are wrong at such odds, in 2^-16.
+std::uint32_t wrong_share_q16(int log_odds_q8) {
+    if (log_odds_q8 >= 15 * 256) return 1;
+    return UINT32_MAX / (65536 + static_cast<std::uint32_t>(exp2_q16(log_odds_q8)));
+}
+
+/// Chernoff's bound for one hypothesis.
+std::int64_t agreement_log2_q16(const Confidence& axis, int odds_per_bit_q8) {
+    std::int64_t sum_q16 = 0;
+    for (int level = 0; level < Confidence::kLevels; ++level) {
+        const int bits = axis.bits(level);
+        if (bits == 0) continue;
+        const int y_q8 = log_odds_q8(odds_per_bit_q8, level);
+        sum_q16 += std::int64_t{bits} * (log2_of_one_and_q16(y_q8) - 65536) +
+                   std::int64_t{axis.wrong(level)} * (y_q8 * 256);
+    }
+    return sum_q16;
+}
+
+}  // namespace
+
+int odds_per_bit_q8(const Confidence& confidence) {
+    struct Weighted {
+        std::uint8_t level;
+        std::uint32_t weight;  ///< of all bits of the level
+    };
+    std::array<Weighted, Confidence::kLevels> levels;
+    std::size_t count = 0;
+    std::uint32_t allowed = 2 * 127;
+    // From where most is expected to be wrong, so that it is soon too much.
+    for (int level = Confidence::kLevels; level-- > 0;) {
+        const int bits = confidence.bits(level);
+        if (bits == 0) continue;
+        const int weight = Confidence::weight_of(level);
+        levels[count++] = {static_cast<std::uint8_t>(level),
+                           static_cast<std::uint32_t>(bits * weight)};
+        allowed += static_cast<std::uint32_t>(weight * confidence.wrong(level));
+    }
+    const std::uint64_t allowed_q16 = std::uint64_t{allowed} << 16;
+    int odds_q8 = 0;
+    // Bisection: the larger the odds, the less is expected to be wrong.
+    for (int step_q8 = 8 * 256; step_q8 >= 8; step_q8 /= 2) {
+        std::uint64_t expected_q16 = 0;
+        for (std::size_t i = 0; i < count && expected_q16 <= allowed_q16; ++i) {
+            const auto [level, weight] = levels[i];
+            expected_q16 +=
+                std::uint64_t{weight} * wrong_share_q16(log_odds_q8(odds_q8 + step_q8, level));
+        }
+        if (expected_q16 > allowed_q16) odds_q8 += step_q8;
+    }
+    return odds_q8;
+}
+
+int chance_log2_q8(const Confidence& axis, int odds_per_bit_q8, int log2_times_q8) {
+    constexpr int kBeyondDoubt_q8 = 16 * 256;
+    // log2(410815348 * 63 * 4) = 36.59
+    constexpr int kHypotheses_q8 = 9368;
+    const std::int64_t best_q16 = std::min(agreement_log2_q16(axis, odds_per_bit_q8),
+                                           agreement_log2_q16(axis, kBeyondDoubt_q8));
+    return static_cast<int>(best_q16 >> 8) + 1 + kHypotheses_q8 + log2_times_q8;
+}
+
+int chance_log2(const Confidence& axis, int odds_per_bit_q8) {
+    // log2(410815348 * 63 * 4) = 36.6
+    const std::int64_t sum_q16 = 37 * 65536 + agreement_log2_q16(axis, odds_per_bit_q8);
+    return static_cast<int>(std::min<std::int64_t>(sum_q16 >> 16, 36)) + 1;
+}
+
+}  // namespace dotpose::core

@@ -1,0 +1,50 @@
+#include "core/integrity/least_losses.hpp"
+
+#include <algorithm>
+
+namespace dotpose::core {
+
+OneSide least_losses(const Contest& contest, bool from_last) {
+    const int count = contest.count();
+    const int most_shared = contest.most_shared();
+    OneSide least;
+    OneSide with_last;  // of who does not share the last of the n lines
+    with_last[0] = 0;
+    int lowest = 0;  // where the least of these is that shares no more lines than one can
+    for (int n = 0;; ++n) {
+        const int last = with_last[static_cast<std::size_t>(n)];
+        if (last <= with_last[static_cast<std::size_t>(lowest)]) {
+            lowest = n;
+        } else if (lowest < n - most_shared) {
+            const int* at = with_last.data();
+            lowest = static_cast<int>(std::min_element(at + n - most_shared, at + n + 1) - at);
+        }
+        const int here = with_last[static_cast<std::size_t>(lowest)];
+        least[static_cast<std::size_t>(n)] = here;
+        if (n == count) return least;
+        const int line = from_last ? count - 1 - n : n;
+        with_last[static_cast<std::size_t>(n + 1)] = here + std::max(contest.least_loss(line), 0);
+    }
+}
+
+int least_loss_with_border(const Contest& contest) {
+    const auto count = static_cast<std::size_t>(contest.count());
+    const OneSide before = least_losses(contest, false);
+    const OneSide beyond = least_losses(contest, true);
+    int least = before[0] + beyond[count];
+    for (std::size_t n = 1; n < count; ++n)
+        least = std::min(least, before[n] + beyond[count - n]);
+    return least;
+}
+
+bool surely_lose_with_border(const Contest& contest, int enough) {
+    const int most_shared = 2 * contest.most_shared();
+    int in_a_row = 0;
+    for (int line = 0; line < contest.count(); ++line) {
+        in_a_row = contest.least_loss(line) >= enough ? in_a_row + 1 : 0;
+        if (in_a_row > most_shared) return true;
+    }
+    return false;
+}
+
+}  // namespace dotpose::core

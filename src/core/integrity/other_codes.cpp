@@ -1,0 +1,255 @@
+#include "core/integrity/other_codes.hpp"
+
+#include <algorithm>
+#include <span>
+
+#include "code/unshared_codes.hpp"
+#include "core/integrity/similar_places.hpp"
+#include "core/integrity/unshared_lines.hpp"
+
+namespace dotpose::core {
+namespace {
+
+/// The sequence in which profiles differ.
+constexpr std::size_t kA4 = 3;
+/// Odds at which places are counted that are not looked at, since they have less.
+constexpr int kPassedOver_q8 = -52 * 256;
+constexpr float kPassedOver = 2.3e-16F;
+/// Summed odds that need no closer look.
+constexpr float kEnough = 1e-13F;
+
+/// What places lose at least in lines that they do not share.
+struct Losses {
+    explicit Losses(const Contest& contest)
+        : enough(contest.loss_for(kPassedOver_q8) + contest.most_regained()), unshared(contest) {
+        for (int line = 0; line < contest.count(); ++line) {
+            const int least = contest.least_loss(line);
+            const int eighths = std::max(least, 0) / kUnit;
+            of[static_cast<std::size_t>(line)] = static_cast<std::uint16_t>(eighths);
+            all += eighths;
+            at_best += least;
+        }
+    }
+
+    /// Of all steps, in parts of which `StepLosses::kEnough` make up what is enough.
+    StepLosses of_steps(const Contest& contest) const {
+        StepLosses steps;
+        steps.count = contest.count() - 1;
+        const int part = (enough + StepLosses::kEnough - 1) / StepLosses::kEnough;
+        for (int step = 0; step < steps.count; ++step) {
+            const int lost = std::min(contest.least_loss_of_step(step), enough);
+            steps.parts[static_cast<std::size_t>(step)] = static_cast<std::uint8_t>(lost / part);
+        }
+        return steps;
+    }
+
+    /// Whether those have lost enough who share no more than that.
+    bool are_enough(int all_but) const { return kUnit * (all - all_but) > enough; }
+
+    /// Scores are counted in such units, rounded down, where their sum must fit into 16 bits.
+    static constexpr int kUnit = 8;
+    int enough;                               ///< to be passed over
+    int all = 0;                              ///< units, of those who share no line
+    int at_best = 0;                          ///< likewise, with what they win back
+    std::array<std::uint16_t, kMaxLines> of;  ///< units, of each line
+    UnsharedLines unshared;
+};
+
+/// Sums up the places of one other profile.
+class OtherPlaces {
+  public:
+    OtherPlaces(const Contest& contest, const Losses& losses, Profile read, Profile other)
+        : contest_(contest),
+          losses_(losses),
+          count_(static_cast<std::size_t>(contest.count())),
+          theirs_(code::basis(other)[kA4]),
+          shift_here_(modulo(roll(other, contest.position) - roll(read, contest.position))) {
+        const Growth growth = growth_to(contest.places[kA4]);
+        int lost = 0;
+        for (std::size_t line = 0; line < count_ && !contest_.is_hopeless(lost); ++line) {
+            const int grown = growth[line] - growth[0] + shift_here_;
+            lost += contest_.loss(static_cast<int>(line), modulo(grown % kSections));
+        }
+        result_.here = contest_.odds(lost);
+    }
+
+    /// Those elsewhere, if a table tells that there is no more than `enough` of them: so much.
+    bool add_by_table(Profile read, Profile other, float enough) {
+        const auto& table =
+            code::kUnsharedInOther[static_cast<std::size_t>(read)][static_cast<std::size_t>(other)];
+        const int lost = losses_.unshared.least_loss(table) - contest_.most_regained();
+        // At most as many shifts as there are lines; and those that no line shows.
+        const float all =
+            static_cast<float>(theirs_.length * count_) * contest_.odds(std::max(lost, 0)) +
+            sharing_none();
+        if (all <= enough) result_.elsewhere = all;
+        return all <= enough;
+    }
+
+    /// The same place of a4 at its other shifts, and all places that share no line.
+    void add_unsimilar() {
+        const std::uint32_t place = contest_.places[kA4];
+        add(place, growth_to(place), shift_here_);
+        add_sharing_none();
+    }
+
+    /// One that stands elsewhere in a4, at all shifts that some line shows.
+    void add(std::uint32_t place) { add(place, kNoShift); }
+    /// So many that are passed over.
+    void add_passed_over(int places) {
+        result_.elsewhere += static_cast<float>(places * contest_.count()) * kPassedOver;
+    }
+    const OtherAxis& result() {
+        // Nobody asks for the position of one that explains little.
+        constexpr float kWorthNaming = 1e-6F;
+        if (result_.best < kWorthNaming) return result_;
+        auto places = contest_.places;
+        places[kA4] = best_place_;
+        result_.position = code::position_at(contest_.basis, places);
+        return result_;
+    }
+
+  private:
+    static constexpr int kNoShift = -1;
+    static constexpr std::uint16_t kCounted = UINT16_MAX;
+
+    static int modulo(int shift) { return shift < 0 ? shift + kSections : shift; }
+
+    Growth growth_to(std::uint32_t place) const {
+        Growth growth;
+        // Of as many lines as the tables have: a number that the compiler knows is done faster.
+        grow(contest_.basis[kA4].rolls + contest_.places[kA4], theirs_.rolls + place, growth.size(),
+             growth);
+        return growth;
+    }
+
+    /// Those that share no line, lumped together.
+    float sharing_none() const {
+        return static_cast<float>(theirs_.length * (kSections - 1)) *
+               contest_.odds(losses_.at_best);
+    }
+
+    /// One by one, if lumped together they are too much.
+    void add_sharing_none() {
+        const float all = sharing_none();
+        if (all <= kEnough) {
+            result_.elsewhere += all;
+            return;
+        }
+        for (std::uint32_t place = 0; place < theirs_.length; ++place) {
+            const int left_out = place == contest_.places[kA4] ? shift_here_ : kNoShift;
+            add_unshared(place, growth_to(place), left_out);
+        }
+    }
+
+    /// A place at all shifts that no line shows.
+    void add_unshared(std::uint32_t place, const Growth& growth, int shift_left_out) {
+        const auto grown = std::span(growth).first(static_cast<std::size_t>(contest_.count()));
+        for (int shift = 0; shift < kSections; ++shift) {
+            const int base = modulo(growth[0] - shift);
+            if (shift == shift_left_out || std::ranges::find(grown, base) != grown.end()) continue;
+            int lost = 0;
+            for (int line = 0; line < contest_.count() && !contest_.is_hopeless(lost); ++line)
+                lost += contest_.loss(line, grown[static_cast<std::size_t>(line)] - base);
+            count(place, shift, contest_.odds(lost));
+        }
+    }
+
+    void add(std::uint32_t place, int shift_left_out) {
+        add(place, growth_to(place), shift_left_out);
+    }
+
+    void add(std::uint32_t place, const Growth& growth, int shift_left_out) {
+        // What those lines are worth that are shared at each shift, as bases of the growth.
+        std::array<std::uint16_t, kSections + 1> shared{};
+        std::uint16_t most = 0;
+        for (std::size_t line = 0; line < count_; ++line) {
+            std::uint16_t& here = shared[growth[line]];
+            here = static_cast<std::uint16_t>(here + losses_.of[line]);
+            most = std::max(most, here);
+        }
+        if (losses_.are_enough(most) && shift_left_out == kNoShift) {
+            add_passed_over(1);
+            return;
+        }
+        for (int line = 0; line < contest_.count(); ++line) {
+            const int base = growth[static_cast<std::size_t>(line)];
+            std::uint16_t& kept = shared[static_cast<std::size_t>(base)];
+            if (kept == kCounted) continue;
+            const bool is_passed_over = losses_.are_enough(kept);
+            kept = kCounted;
+            const int shift = modulo(growth[0] - base);
+            if (shift == shift_left_out) continue;
+            if (is_passed_over) {
+                result_.elsewhere += kPassedOver;
+                continue;
+            }
+            const auto lost = loss_of_growth(contest_, growth, line);
+            if (lost) count(place, shift, contest_.odds(*lost));
+        }
+    }
+
+    /// A place whose roll of the first line is larger by `shift`.
+    void count(std::uint32_t place, int shift, float odds) {
+        result_.elsewhere += odds;
+        if (odds <= result_.best) return;
+        result_.best = odds;
+        result_.roll = static_cast<std::uint8_t>(shift);
+        best_place_ = place;
+    }
+
+    const Contest& contest_;
+    const Losses& losses_;
+    const std::size_t count_;
+    const code::Secondary& theirs_;
+    int shift_here_;
+    std::uint32_t best_place_ = 0;
+    OtherAxis result_;
+};
+
+/// `across`: odds of the other profile by the other axis, as far as they are known.
+OtherAxis weigh(const Kernels& kernels, const Contest& contest, const Losses& losses, Profile read,
+                Profile other, float across) {
+    OtherPlaces others(contest, losses, read, other);
+    if (others.add_by_table(read, other, kEnough / std::max(across, kEnough))) {
+        return others.result();
+    }
+    others.add_unsimilar();
+    // Digits as they were read, looked for where the other profile has them.
+    code::Secondary a4 = code::basis(other)[kA4];
+    a4.digits = contest.basis[kA4].digits;
+    const PlaceBits similar =
+        kernels.find_similar_places(a4, contest.places[kA4], losses.of_steps(contest));
+    int added = 0;
+    for (std::uint32_t word = 0; word < similar.size(); ++word) {
+        visit_places(similar[word], word, [&](std::uint32_t place) {
+            others.add(place);
+            ++added;
+        });
+    }
+    others.add_passed_over(a4.length - 1 - added);
+    return others.result();
+}
+
+}  // namespace
+
+OtherAxis weigh_other_code(const Kernels& kernels, const Contest& contest, Profile read,
+                           Profile other) {
+    return weigh(kernels, contest, Losses(contest), read, other, 1);
+}
+
+void weigh_other_codes(const Kernels& kernels, const Contest& contest, Profile read, Axis axis,
+                       OtherCodes& others) {
+    (axis == Axis::x ? others.first.x : others.first.y) = contest.position;
+    const Losses losses(contest);
+    for (std::size_t i = 0; i < others.of.size(); ++i) {
+        const auto other = static_cast<Profile>(i);
+        if (other == read) continue;
+        auto& [x, y] = others.of[i];
+        // The columns come first.
+        const float across = axis == Axis::x ? 1 : x.here + x.elsewhere;
+        (axis == Axis::x ? x : y) = weigh(kernels, contest, losses, read, other, across);
+    }
+}
+
+}  // namespace dotpose::core

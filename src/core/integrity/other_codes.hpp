@@ -1,0 +1,20 @@
+// Other codes: which places of the other profiles explain an axis as well as the one that was read?
+// Profiles share all sequences but a4, so these are the places that differ from it in a4 alone.
+// docs/integrity.md derives the sums.
+#pragma once
+
+#include "core/integrity/contest.hpp"
+#include "core/kernels/kernels.hpp"
+#include "core/other_codes.hpp"
+
+namespace dotpose::core {
+
+/// Odds of the places in the profile `other`, against the reading of a contest in `read`.
+OtherAxis weigh_other_code(const Kernels& kernels, const Contest& contest, Profile read,
+                           Profile other);
+
+/// The same in all other profiles.
+void weigh_other_codes(const Kernels& kernels, const Contest& contest, Profile read, Axis axis,
+                       OtherCodes& others);
+
+}  // namespace dotpose::core

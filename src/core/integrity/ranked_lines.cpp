@@ -1,0 +1,70 @@
+#include "core/integrity/ranked_lines.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+
+namespace dotpose::core {
+
+static_assert(code::kA4Restored.size() == code::kA4Published.size() &&
+              code::kA4Restored.size() == code::kA4Microdots.size());
+
+RankedLines::RankedLines(const Contest& of) : contest(of) {
+    for (int line = 0; line < count(); ++line) {
+        for (int shift = 0; shift < kSections; ++shift) {
+            odds_[static_cast<std::size_t>(line)][static_cast<std::size_t>(shift)] =
+                contest.odds(contest.loss(line, shift));
+        }
+    }
+    rank_lines();
+    look_up_losses();
+    grow_places();
+}
+
+/// By the mean odds of a rival that does not share the line.
+void RankedLines::rank_lines() {
+    std::array<float, kMaxLines> sums;
+    for (int line = 0; line < count(); ++line) {
+        const auto others = std::span(odds(line)).subspan(1);
+        sums[static_cast<std::size_t>(line)] = std::accumulate(others.begin(), others.end(), 0.0F);
+    }
+    const auto end = lines_.begin() + count();
+    std::iota(lines_.begin(), end, std::uint8_t{0});
+    std::sort(lines_.begin(), end, [&](std::uint8_t a, std::uint8_t b) {
+        return sums[a] != sums[b] ? sums[a] < sums[b] : a < b;
+    });
+    for (int n = 0; n < count(); ++n)
+        ranks_[lines_[static_cast<std::size_t>(n)]] = static_cast<std::uint8_t>(n);
+}
+
+void RankedLines::look_up_losses() {
+    for (int rank = count(); rank < 8; ++rank)
+        losses_[static_cast<std::size_t>(rank)].fill(0);
+    for (int rank = 0; rank < count(); ++rank) {
+        auto& losses = losses_[static_cast<std::size_t>(rank)];
+        for (int shift = 0; shift < kSections; ++shift) {
+            losses[static_cast<std::size_t>(shift)] =
+                static_cast<std::int16_t>(contest.loss(line(rank), shift));
+        }
+        for (std::size_t further = kSections; further < losses.size(); ++further)
+            losses[further] = losses[further - kSections];
+    }
+}
+
+void RankedLines::grow_places() {
+    for (std::size_t k = 0; k < kFirsts.size(); ++k) {
+        for (std::uint32_t place = 0; place < contest.basis[k].length; ++place) {
+            Growth by_line;
+            grow(contest, k, place, by_line);
+            Grown& grown = grown_[kFirsts[k] + place];
+            grown.first = 0;
+            for (int rank = 0; rank < count(); ++rank) {
+                const std::uint8_t here = by_line[static_cast<std::size_t>(line(rank))];
+                grown.all[static_cast<std::size_t>(rank)] = here;
+                if (rank < 8) grown.first |= EightGrowths{here} << 8 * rank;
+            }
+        }
+    }
+}
+
+}  // namespace dotpose::core

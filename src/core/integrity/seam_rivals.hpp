@@ -1,0 +1,18 @@
+// Seam rivals: is a seam in view, between two sections that show the same place, a better
+// explanation of the lines than the position found? docs/integrity.md derives it.
+#pragma once
+
+#include "core/integrity/contest.hpp"
+#include "core/kernels/kernels.hpp"
+
+namespace dotpose::core {
+
+/// Summed odds of the positions that differ in one sequence and are seen with one shift up to a
+/// border between two lines and with another one beyond it, as far as they explain the lines about
+/// as well as the position found. In 2^-8 powers of two.
+int seam_rivals_log2_q8(const Contest& contest);
+
+/// The same sum, of which a desktop's kernels look for the rivals.
+int seam_rivals_log2_q8(const Kernels& kernels, const Contest& contest);
+
+}  // namespace dotpose::core

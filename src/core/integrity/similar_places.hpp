@@ -1,0 +1,77 @@
+// Similar places: of the rivals that differ from the reading in one sequence, those whose digits
+// there are so like the reading's that they cannot be passed over; 32 at a time, one in each bit.
+#pragma once
+
+#include "core/integrity/contest.hpp"
+
+namespace dotpose::core {
+
+/// Steps between adjacent lines in which digits are compared.
+inline constexpr int kMostSteps = 18;
+
+/// Parts that make up what is enough.
+inline constexpr unsigned kEnough = 15;
+
+/// Steps at which a rival is excused: it loses nothing there, whatever its digit.
+enum class Excused : std::uint8_t { none, any_one };
+
+/// What a rival loses at least where its digits differ from the reading's: one of the two lines of
+/// the step is not shared, so the lesser loss of both. In parts of what is enough, rounded down.
+struct Steps {
+    Steps(const Contest& contest, int enough, Excused excused);
+
+    int count;
+    int first_line;
+    std::array<std::uint8_t, kMostSteps> losses;
+    bool tell_apart = false;  ///< whether anyone can lose enough
+};
+
+/// The places at the first step at which, as far as the steps tell, not enough is lost.
+class SimilarPlaces {
+  public:
+    /// `own` is the reading's place at the first step.
+    SimilarPlaces(const code::Secondary& a, std::uint32_t own, const Steps& steps);
+
+    /// Of the places from 32 * word on, but the reading's own.
+    std::uint32_t operator[](std::uint32_t word) const;
+
+  private:
+    struct Step {
+        const std::uint32_t* places;  ///< where the reading's digit stands
+        std::uint8_t ahead;
+        std::uint8_t parts;  ///< of what is enough
+    };
+    const code::Secondary& sequence_;
+    std::uint32_t own_;
+    std::size_t count_ = 0;
+    std::array<Step, kMostSteps> steps_;
+};
+
+/// Shows `use` the places of the word at 32 * `word`.
+template <typename Use>
+void visit_places(std::uint32_t places, std::uint32_t word, Use use) {
+    for (std::uint32_t place = 32 * word; places != 0; ++place, places >>= 1) {
+        if ((places & 1) != 0) use(place);
+    }
+}
+
+/// Shows `use` the sequences and the places in them, at the first line, of all such rivals. Those
+/// sequences are left out of which `is_settled`.
+template <typename IsSettled, typename Use>
+void visit_similar_places(const Contest& contest, const Steps& steps, IsSettled is_settled,
+                          Use use) {
+    for (std::size_t k = 0; k < contest.basis.size(); ++k) {
+        if (is_settled(k)) continue;
+        const code::Secondary& a = contest.basis[k];
+        const auto ahead = static_cast<std::uint32_t>(steps.first_line) % a.length;
+        const std::uint32_t own = contest.places[k] + ahead;
+        const SimilarPlaces similar(a, own < a.length ? own : own - a.length, steps);
+        const auto use_at_first_line = [&](std::uint32_t place) {
+            use(k, place < ahead ? place + a.length - ahead : place - ahead);
+        };
+        for (std::uint32_t word = 0; 32 * word < a.length; ++word)
+            visit_places(similar[word], word, use_at_first_line);
+    }
+}
+
+}  // namespace dotpose::core

@@ -1,0 +1,309 @@
+#include "core/integrity/verify.hpp"
+
+#include "code/rolls.hpp"
+#include "code/tables.hpp"
+#include "core/decode/lines.hpp"
+#include "core/decode/upright.hpp"
+#include "core/integrity/confidence.hpp"
+#include "core/integrity/other_codes.hpp"
+#include "core/integrity/quick_rivals.hpp"
+#include "core/integrity/rivals.hpp"
+#include "core/integrity/seam_rivals.hpp"
+
+namespace dotpose::core {
+namespace {
+
+AxisReading reading_of(Profile profile, const Place& place, Axis axis) {
+    const bool is_x = axis == Axis::x;
+    const std::uint32_t position = is_x ? place.cell.x : place.cell.y;
+    const std::uint32_t cross = is_x ? place.cell.y : place.cell.x;
+    const int section = is_x ? place.section.u : place.section.v;
+    const int here = code::roll_from(profile, position, section, cross);
+    return {position, static_cast<std::uint8_t>(here), 0, 0};
+}
+
+// By itself, so that small processors can keep all it needs in registers.
+[[gnu::noinline]] void compare_line(std::span<const std::int8_t> line, const std::uint8_t* bit,
+                                    Confidence& confidence) {
+    for (const std::int8_t weight : line) {
+        const int agreement = *bit++ != 0 ? weight : -weight;
+        if (agreement != 0) confidence.add(agreement, agreement < 0);
+    }
+}
+
+/// The bits of one axis, of all lines of an upright grid, against the code.
+Confidence compare(Profile profile, const Upright& upright, Axis axis, const AxisReading& reading) {
+    Confidence confidence;
+    Line storage;
+    const int lines = axis == Axis::x ? upright.columns() : upright.rows();
+    std::array<std::uint8_t, kMaxGridSide> rolls;
+    code::follow_rolls(profile, reading.position, reading.roll,
+                       std::span(rolls).first(static_cast<std::size_t>(lines)));
+    for (int i = 0; i < lines; ++i) {
+        const auto line = axis == Axis::x ? upright.column(i, storage) : upright.row(i, storage);
+        compare_line(line, code::kMainRepeated.data() + rolls[static_cast<std::size_t>(i)],
+                     confidence);
+    }
+    return confidence;
+}
+
+/// The place of the top left symbol.
+Place corner_place(Profile profile, const Decoding& decoding, const Upright& upright) {
+    const Vec corner = decoding.pattern_from_grid(upright.corner());
+    return moved(profile, decoding.place, corner.x, corner.y);
+}
+
+/// What all bits in view say before rivals are counted.
+struct Doubt {
+    int odds_per_bit_q8 = 0;  ///< 0: nothing is known of the bits
+    /// log2 of the probability that chance agrees as well, of each axis.
+    std::array<int, 2> by_chance_q8{};
+};
+
+Doubt doubt_of(const std::array<Confidence, 2>& agreements, const IntegrityOptions& options,
+               Decoding& decoding, Fix& fix) {
+    decoding.bits = agreements[0].bits() + agreements[1].bits();
+    fix.bit_errors = agreements[0].wrong() + agreements[1].wrong();
+    for (const Confidence& agreement : agreements) {
+        // Two patterns in view.
+        if (agreement.wrong() > agreement.bits() * options.max_bit_error_q8 / 256) return {};
+    }
+    // Both axes are read from the same dots, and so are misread alike.
+    Confidence both = agreements[0];
+    both.add(agreements[1]);
+    Doubt doubt{odds_per_bit_q8(both), {}};
+    for (std::size_t i = 0; i < agreements.size(); ++i) {
+        doubt.by_chance_q8[i] = 256 * chance_log2(agreements[i], doubt.odds_per_bit_q8);
+    }
+    return doubt;
+}
+
+Doubt compare_with_chance(const Grid& grid, Profile profile, const IntegrityOptions& options,
+                          Decoding& decoding, Fix& fix) {
+    const Upright upright(grid, {grid.i0, grid.j0, grid.columns, grid.rows},
+                          decoding.pattern_from_grid);
+    const Place place = corner_place(profile, decoding, upright);
+    const std::array agreements{
+        compare(profile, upright, Axis::x, reading_of(profile, place, Axis::x)),
+        compare(profile, upright, Axis::y, reading_of(profile, place, Axis::y))};
+    return doubt_of(agreements, options, decoding, fix);
+}
+
+/// Probability of an axis being wrong.
+int with_rivals(const Contest& contest, int by_chance_q8, int limit_q8, int rivals_q8) {
+    int sum_q8 = add_log2(by_chance_q8, rivals_q8);
+    if (sum_q8 <= limit_q8) sum_q8 = add_log2(sum_q8, seam_rivals_log2_q8(contest));
+    return std::min(sum_q8, 0);
+}
+
+/// Probability of each axis being wrong; `rivals_q8(axis, contest)` gives the odds of its rivals,
+/// which only add to chance: where that is too much already they are not counted.
+template <typename Rivals>
+std::array<int, 2> with_rivals(const Grid& grid, Profile profile, const Decoding& decoding,
+                               std::span<ScoredLine> storage, const Doubt& doubt, int limit_q8,
+                               Rivals rivals_q8) {
+    const Upright upright(grid, decoding.region, decoding.pattern_from_grid);
+    const Place place = corner_place(profile, decoding, upright);
+    std::array<int, 2> p_wrong_q8{};
+    for (const Axis axis : {Axis::x, Axis::y}) {
+        const auto i = static_cast<std::size_t>(axis);
+        if (doubt.by_chance_q8[i] > limit_q8) continue;
+        const auto half = scores_of(axis, storage);
+        const Lines lines = decoding.lines_are_scored ? scored_lines(upright, axis, half)
+                                                      : score_lines(upright, axis, half);
+        const Contest contest(profile, lines, reading_of(profile, place, axis),
+                              doubt.odds_per_bit_q8);
+        p_wrong_q8[i] =
+            with_rivals(contest, doubt.by_chance_q8[i], limit_q8, rivals_q8(i, contest));
+    }
+    return p_wrong_q8;
+}
+
+int sum(const std::array<int, 2>& p_wrong_q8) {
+    return add_log2(p_wrong_q8[0], p_wrong_q8[1]);
+}
+
+/// Where nothing is known of the bits, chance is as good, and rivals only add to that: refused
+/// whatever the limit.
+bool is_hopeless(const Doubt& doubt, int limit_q8) {
+    return doubt.odds_per_bit_q8 == 0 || sum(doubt.by_chance_q8) > limit_q8;
+}
+
+Status judge(const Doubt& doubt, const IntegrityOptions& options, Decoding& decoding, Fix& fix) {
+    fix.p_wrong_log2 = std::min((sum(decoding.p_wrong_log2_q8) + 255) >> 8, 0);
+    const bool is_sure = !is_hopeless(doubt, 256 * options.max_p_wrong_log2) &&
+                         fix.p_wrong_log2 <= options.max_p_wrong_log2;
+    return is_sure ? Status::ok : Status::not_certain;
+}
+
+/// By quick_rivals.
+std::array<int, 2> estimate_quickly(const Grid& grid, Profile profile, const Decoding& decoding,
+                                    int limit_q8, std::span<ScoredLine> storage,
+                                    const Doubt& doubt) {
+    return with_rivals(grid, profile, decoding, storage, doubt, limit_q8,
+                       [&](std::size_t, const Contest& contest) {
+                           return quick_rivals_log2_q8(contest, limit_q8);
+                       });
+}
+
+}  // namespace
+
+bool share_line(Axis axis, Profile profile, const Place& a, const Place& b) {
+    const AxisReading at_a = reading_of(profile, a, axis);
+    const AxisReading at_b = reading_of(profile, b, axis);
+    return at_a.position == at_b.position && at_a.roll == at_b.roll;
+}
+
+std::optional<Axis> sure_axis(const Decoding& decoding, const IntegrityOptions& options) {
+    const auto [x_q8, y_q8] = decoding.p_wrong_log2_q8;
+    const int surer_q8 = std::min(x_q8, y_q8);
+    // 0: nothing is known of it, whatever the limit.
+    if (surer_q8 == 0 || surer_q8 > 256 * options.max_p_wrong_log2) return {};
+    return x_q8 <= y_q8 ? Axis::x : Axis::y;
+}
+
+Status verify_quickly(const Grid& grid, Profile profile, Decoding& decoding,
+                      const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix) {
+    decoding.p_wrong_log2_q8 = {};
+    const int limit_q8 = 256 * options.max_p_wrong_log2;
+    const Doubt doubt = compare_with_chance(grid, profile, options, decoding, fix);
+    if (!is_hopeless(doubt, limit_q8)) {
+        decoding.p_wrong_log2_q8 =
+            estimate_quickly(grid, profile, decoding, limit_q8, storage, doubt);
+    }
+    return judge(doubt, options, decoding, fix);
+}
+
+namespace {
+
+/// Lines of one axis of a tracked frame, from the first in view to the last.
+struct TrackedAxis {
+    std::span<const TrackedLine> lines;
+    AxisReading reading;
+    Confidence confidence;
+};
+
+TrackedAxis tracked_axis(Profile profile, const Tracking& tracking, Axis axis) {
+    const auto all =
+        axis == Axis::x ? tracking.lines.first(kMostTracked) : tracking.lines.last(kMostTracked);
+    std::size_t begin = 0;
+    std::size_t end = all.size();
+    while (begin < end && all[begin].seen == 0)
+        ++begin;
+    while (begin < end && all[end - 1].seen == 0)
+        --end;
+    TrackedAxis result;
+    result.lines = all.subspan(begin, end - begin);
+    int seen = 0;
+    int wrong = 0;
+    for (const TrackedLine& line : result.lines) {
+        seen += bits_in(line.seen);
+        wrong += bits_in(line.wrong);
+    }
+    result.confidence.add(127, false, seen - wrong);
+    result.confidence.add(127, true, wrong);
+    // Of its lines the first in view, at the corner's cell of the crossing ones.
+    const auto ahead = static_cast<std::int32_t>(begin);
+    const Place& corner = tracking.corner;
+    result.reading = axis == Axis::x ? reading_of(profile, moved(profile, corner, ahead, 0), axis)
+                                     : reading_of(profile, moved(profile, corner, 0, ahead), axis);
+    return result;
+}
+
+}  // namespace
+
+Status verify_tracked(Profile profile, const Tracking& tracking, const IntegrityOptions& options,
+                      Decoding& decoding, Fix& fix) {
+    decoding.p_wrong_log2_q8 = {};
+    const std::array axes{tracked_axis(profile, tracking, Axis::x),
+                          tracked_axis(profile, tracking, Axis::y)};
+    const Doubt doubt = doubt_of({axes[0].confidence, axes[1].confidence}, options, decoding, fix);
+    const int limit_q8 = 256 * options.max_p_wrong_log2;
+    if (!is_hopeless(doubt, limit_q8)) {
+        for (std::size_t i = 0; i < axes.size(); ++i) {
+            if (doubt.by_chance_q8[i] > limit_q8) continue;
+            const Contest contest(profile, axes[i].lines, axes[i].reading, doubt.odds_per_bit_q8);
+            decoding.p_wrong_log2_q8[i] = with_rivals(contest, doubt.by_chance_q8[i], limit_q8,
+                                                      quick_rivals_log2_q8(contest, limit_q8));
+        }
+    }
+    return judge(doubt, options, decoding, fix);
+}
+
+namespace {
+
+/// The bits of both axes, of all lines, against the code.
+std::array<Confidence, 2> compare_both(const Grid& grid, Profile profile,
+                                       const Decoding& decoding) {
+    const Upright all(grid, {grid.i0, grid.j0, grid.columns, grid.rows},
+                      decoding.pattern_from_grid);
+    const Place corner = corner_place(profile, decoding, all);
+    return {compare(profile, all, Axis::x, reading_of(profile, corner, Axis::x)),
+            compare(profile, all, Axis::y, reading_of(profile, corner, Axis::y))};
+}
+
+/// Chance has the hypotheses of so many profiles.
+void count_hypotheses_of(int log2_codes_q8, const Grid& grid, Profile profile,
+                         const Decoding& decoding, Doubt& doubt) {
+    const auto agreements = compare_both(grid, profile, decoding);
+    for (std::size_t i = 0; i < agreements.size(); ++i) {
+        doubt.by_chance_q8[i] = chance_log2_q8(agreements[i], doubt.odds_per_bit_q8, log2_codes_q8);
+    }
+}
+
+}  // namespace
+
+void weigh_other_codes(const Kernels& kernels, const Grid& grid, Profile profile,
+                       const Decoding& decoding, std::span<ScoredLine> storage,
+                       OtherCodes* others) {
+    if (others == nullptr) return;
+    auto [both, of_y] = compare_both(grid, profile, decoding);
+    both.add(of_y);
+    const int odds_q8 = odds_per_bit_q8(both);
+    if (odds_q8 == 0) return;
+    const Upright upright(grid, decoding.region, decoding.pattern_from_grid);
+    const Place corner = corner_place(profile, decoding, upright);
+    for (const Axis axis : {Axis::x, Axis::y}) {
+        const Lines lines = score_lines(upright, axis, scores_of(axis, storage));
+        const Contest contest(profile, lines, reading_of(profile, corner, axis), odds_q8);
+        weigh_other_codes(kernels, contest, profile, axis, *others);
+    }
+}
+
+Status verify(const Grid& grid, Profile profile, Decoding& decoding,
+              const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix) {
+    return verify_among_codes(grid, profile, nullptr, decoding, options, storage, fix);
+}
+
+Status verify_among_codes(const Grid& grid, Profile profile, const OtherCodes* others,
+                          Decoding& decoding, const IntegrityOptions& options,
+                          std::span<ScoredLine> storage, Fix& fix) {
+    decoding.p_wrong_log2_q8 = {};
+    const int limit_q8 = 256 * options.max_p_wrong_log2;
+    Doubt doubt = compare_with_chance(grid, profile, options, decoding, fix);
+    if (doubt.odds_per_bit_q8 == 0) return judge(doubt, options, decoding, fix);
+    const bool is_code_given = others == nullptr || others->log2_in_question_q8 < 0;
+    const int codes_q8 = is_code_given ? 0 : others->log2_in_question_q8;
+    if (!is_code_given) count_hypotheses_of(codes_q8, grid, profile, decoding, doubt);
+    std::array<int, 2>& p_wrong_q8 = decoding.p_wrong_log2_q8;
+    p_wrong_q8 = with_rivals(grid, profile, decoding, storage, doubt, limit_q8,
+                             [&](std::size_t, const Contest& contest) {
+                                 return quick_rivals_log2_q8(contest, limit_q8) + codes_q8;
+                             });
+    // Whoever accepts more doubt than usual wants to know how much there is.
+    const int doubtful_q8 = std::min(limit_q8, -30 * 256);
+    if (sum(p_wrong_q8) > doubtful_q8) {
+        const auto counted_q8 = with_rivals(
+            grid, profile, decoding, storage, doubt, limit_q8,
+            [&](std::size_t axis, const Contest& contest) {
+                const bool is_in_doubt = p_wrong_q8[axis] > doubtful_q8 - 4 * 256;
+                if (!is_in_doubt) return 0;
+                return 256 * rivals_log2(profile, contest, options.max_p_wrong_log2) + codes_q8;
+            });
+        for (std::size_t i = 0; i < counted_q8.size(); ++i)
+            p_wrong_q8[i] = std::min(p_wrong_q8[i], counted_q8[i]);
+    }
+    return judge(doubt, options, decoding, fix);
+}
+
+}  // namespace dotpose::core

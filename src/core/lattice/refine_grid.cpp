@@ -1,0 +1,148 @@
+#include "core/lattice/refine_grid.hpp"
+
+#include <array>
+
+#include "core/fit/plane_fit_int64.hpp"
+#include "core/lattice/axes.hpp"
+#include "core/lattice/regularity.hpp"
+#include "core/lattice/tuning.hpp"
+
+namespace dotpose::core {
+namespace {
+
+namespace tuned = tuning::refine_grid;
+
+/// Cells beyond are not used: see PlaneFitInt64.
+constexpr int kFarthest_cells = 250;
+constexpr std::size_t kMedianSample = tuned::kMedianSample;
+
+/// Eq. 6: the median offset of the dots near the origin is the error of the origin. It is measured
+/// from the estimate, so the paper's o - median becomes a plus.
+void centre_origin(std::span<const Dot> dots, PlaneFromImage& plane) {
+    std::array<std::int32_t, kMedianSample> x;
+    std::array<std::int32_t, kMedianSample> y;
+    std::size_t n = 0;
+    for (const Dot& dot : dots) {
+        const GridPoint g = grid_point(plane, dot.centre_q8);
+        if (larger_component(g.cell) > kFirstReach_cells || n == kMedianSample) continue;
+        x[n] = g.offset_q16.x;
+        y[n++] = g.offset_q16.y;
+    }
+    plane.at_centre_q16 =
+        plane.at_centre_q16 - Vec{median(std::span(x).first(n)), median(std::span(y).first(n))};
+}
+
+/// How well the dots within reach sit on the grid.
+struct Judged : Regularity {
+    std::int64_t squared_offsets_q20 = 0;
+};
+
+Judged judge(std::span<const Dot> dots, int reach_cells, const LatticeOptions& options,
+             const PlaneFromImage& plane) {
+    Judged found;
+    for (const Dot& dot : dots) {
+        const GridPoint g = grid_point(plane, dot.centre_q8);
+        const int distance = larger_component(g.cell);
+        if (distance > kFarthest_cells) continue;
+        found.farthest_cell = std::max(found.farthest_cell, distance);
+        if (distance > reach_cells) continue;
+        ++found.dots;
+        found.squared_offsets_q20 += squared(g.offset_q16) >> 12;
+        found.near_intersections += larger_component(g.offset_q16) <= options.max_offset_q16;
+    }
+    return found;
+}
+
+/// Where a dot is taken to belong, in spacings.
+struct Target {
+    bool is_used = false;
+    std::int16_t cell_x = 0;
+    std::int16_t cell_y = 0;
+    std::int16_t x_q16 = 0;  ///< from the intersection
+    std::int16_t y_q16 = 0;
+
+    Target() = default;
+    Target(Vec cell, Vec from_intersection_q16)
+        : is_used(true),
+          cell_x(static_cast<std::int16_t>(cell.x)),
+          cell_y(static_cast<std::int16_t>(cell.y)),
+          x_q16(static_cast<std::int16_t>(from_intersection_q16.x)),
+          y_q16(static_cast<std::int16_t>(from_intersection_q16.y)) {}
+    Vec place_q16() const { return {cell_x * 65536 + x_q16, cell_y * 65536 + y_q16}; }
+};
+
+/// Fits the plane to dots whose targets it tells itself: `target_of(g)`, where g is the dot's
+/// GridPoint.
+template <typename TargetOf>
+void fit_to_targets(std::span<const Dot> dots, Terms most, PlaneFromImage& plane,
+                    TargetOf target_of) {
+    // The fit goes through the dots many times. So many targets are found once, which is for all
+    // dots of common images.
+    std::array<Target, 2048> targets;
+    const std::size_t known = std::min(dots.size(), targets.size());
+    const PlaneFromImage before = plane;
+    const auto target = [&](const Dot& dot) {
+        return target_of(grid_point(before, dot.centre_q8));
+    };
+    for (std::size_t i = 0; i < known; ++i)
+        targets[i] = target(dots[i]);
+    const auto visit = [&](auto use) {
+        for (std::size_t i = 0; i < dots.size(); ++i) {
+            const Target own = i < known ? targets[i] : target(dots[i]);
+            if (own.is_used) use(dots[i].centre_q8, own.place_q16());
+        }
+    };
+    FittedPlane fitted;
+    if (fit_significant_plane(before, most, visit, fitted)) plane = fitted.plane;
+}
+
+/// differs: eq. 6 continues with median lengths between neighbours; a least-squares fit to the dots
+/// within reach, displacements taken as noise, gives all terms at once, and reaches on from there.
+void fit(std::span<const Dot> dots, int reach_cells, const LatticeOptions& options,
+         PlaneFromImage& plane) {
+    const Terms most = reach_cells < tuned::kLensReach_cells ? Terms::perspective : Terms::lens;
+    fit_to_targets(dots, most, plane, [&](const GridPoint& g) {
+        const bool is_near = larger_component(g.cell) <= reach_cells &&
+                             larger_component(g.offset_q16) <= options.max_offset_q16;
+        return is_near ? Target(g.cell, {}) : Target();
+    });
+}
+
+/// The same with displacements known: each dot is taken to be at the nearest of its cell's four
+/// places. What is far from all of them is no dot.
+void fit_places(std::span<const Dot> dots, PlaneFromImage& plane) {
+    constexpr std::int32_t kFar_q16 = tuned::kFar_q16;
+    fit_to_targets(dots, Terms::lens, plane, [](const GridPoint& g) {
+        if (larger_component(g.cell) > kFarthest_cells) return Target();
+        const bool is_across = std::abs(g.offset_q16.x) > std::abs(g.offset_q16.y);
+        const std::int32_t d = is_across ? g.offset_q16.x : g.offset_q16.y;
+        const std::int32_t along = d > 0 ? kDisplacement_q16 : -kDisplacement_q16;
+        const Vec place = is_across ? Vec{along, 0} : Vec{0, along};
+        const bool is_near = squared(g.offset_q16 - place) <= std::int64_t{kFar_q16} * kFar_q16;
+        return is_near ? Target(g.cell, place) : Target();
+    });
+}
+
+}  // namespace
+
+Status refine_grid(std::span<const Dot> dots, const LatticeOptions& options, Vec image_centre_q8,
+                   const Lattice& first, PlaneFromImage& plane) {
+    plane = plane_from_lattice(first, image_centre_q8);
+    centre_origin(dots, plane);
+    Judged found;
+    const auto fit_and_judge = [&](int reach_cells) {
+        fit(dots, reach_cells, options, plane);
+        if (!is_nearly_square(plane)) return false;
+        found = judge(dots, reach_cells, options, plane);
+        return true;
+    };
+    if (!fit_outwards(tuned::kMostRounds, found, fit_and_judge)) return Status::no_grid;
+    fit(dots, found.farthest_cell, options, plane);
+    found = judge(dots, found.farthest_cell, options, plane);
+    const Status verdict = found.verdict(found.squared_offsets_q20 / std::max(found.dots, 1));
+    for (int round = 0; verdict == Status::ok && round < tuned::kPlaceRounds; ++round)
+        fit_places(dots, plane);
+    return verdict;
+}
+
+}  // namespace dotpose::core

@@ -1,0 +1,208 @@
+#include "core/pose/refine_pose.hpp"
+
+#include <algorithm>
+
+#include "core/math/fixed.hpp"
+#include "core/pose/survey.hpp"
+#include "core/pose/tuning.hpp"
+
+namespace dotpose::core {
+namespace {
+
+namespace tuned = tuning::fit;
+
+constexpr float kPower30 = 1073741824.0F;
+
+/// What cameras and prints are like, with deviations of a tilt: the change of scale from the middle
+/// to the outermost dot, of which 2 degrees make about 0.01; of a shear, relative to the scale; of
+/// a bend, the outermost dot's displacement relative to its distance. A bend must be beyond doubt.
+constexpr std::array<FurtherTerms, 3> kTerms{{
+    {kTilt, 2, {{{0.1F, 0}, {0.8F, 0.01F}, {0.1F, 0.1F}}}},
+    {kShear, 2, {{{0.5F, 0}, {0.4F, 0.002F}, {0.1F, 0.03F}}}},
+    {kBend, 1, {{{0.99F, 0}, {0.005F, 0.01F}, {0.005F, 0.1F}}}},
+}};
+
+/// How the scatter of dots depends on the light: printers scatter alike everywhere, noise counts
+/// the more the less light there is. A line fitted to squared residuals.
+class Scatter {
+  public:
+    void add(float noise, float squared_residual) {
+        count_ += 1;
+        noise_ += noise;
+        squares_ += squared_residual;
+        noise_noise_ += noise * noise;
+        noise_squares_ += noise * squared_residual;
+    }
+    void fit() {
+        const float mean_noise = noise_ / count_;
+        const float mean_square = squares_ / count_;
+        const float spread = noise_noise_ / count_ - mean_noise * mean_noise;
+        constexpr float kLeastSpread = 1e-4F;
+        if (spread <= kLeastSpread * mean_noise * mean_noise || mean_square <= 0) return;
+        const float slope = (noise_squares_ / count_ - mean_noise * mean_square) / spread;
+        by_noise_ = std::clamp(slope / mean_square, 0.0F, tuned::kMostByNoise / mean_noise);
+        always_ = 1 - by_noise_ * mean_noise;
+    }
+    /// That the typical dot has, over that of a dot.
+    Four weight(Four noise) const { return 1.0F / (always_ + by_noise_ * noise); }
+
+  private:
+    float count_ = 0;
+    float noise_ = 0;
+    float squares_ = 0;
+    float noise_noise_ = 0;
+    float noise_squares_ = 0;
+    float always_ = 1;
+    float by_noise_ = 0;
+};
+
+/// One round of Gauss and Newton.
+class Round {
+  public:
+    Round(const Survey& survey, const PlaneFromImage& pose)
+        : survey_(survey), pose_(pose), plane_(pose, survey.reach_px()) {
+        const Batch& sample = survey.sample();
+        Batch::Values<std::int32_t> x_q16;  // from the intersection
+        Batch::Values<std::int32_t> y_q16;
+        Batch::Values<std::int32_t> values;
+        for (std::size_t i = 0; i < sample.count; ++i) {
+            const Vec offset =
+                point_q16(sample, i) - Vec{sample.step_x_q16[i], sample.step_y_q16[i]};
+            x_q16[i] = offset.x;
+            y_q16[i] = offset.y;
+            values[i] = offset.x * sample.dx[i] + offset.y * sample.dy[i];
+        }
+        // As printed and seen: ink spreads and lenses blur differently each time.
+        displacement_q16_ = median(std::span(values).first(sample.count));
+        for (std::size_t i = 0; i < sample.count; ++i) {
+            values[i] = squared_q30({x_q16[i] - sample.dx[i] * displacement_q16_,
+                                     y_q16[i] - sample.dy[i] * displacement_q16_});
+        }
+        const std::int64_t typical_q30 = median(std::span(values).first(sample.count));
+        limit_ = static_cast<float>(tuned::kOutlier_medians * typical_q30 + 64) / kPower30;
+    }
+
+    /// Sums up all dots that are not too far off.
+    PlaneNormalFloat normal(bool know_noise) const {
+        const Scatter scatter = know_noise ? scatter_of_dots() : Scatter();
+        PlaneSumsFloat sums;
+        survey_.visit([&](const Batch& batch) {
+            for (std::size_t i = 0; i < batch.count; i += 4)
+                add_four(batch, i, scatter, sums);
+        });
+        return PlaneNormalFloat(sums);
+    }
+
+    bool solve(PoseFit& fit, PlaneFromImage& pose, float& moved) const {
+        fit.displacement = static_cast<float>(displacement_q16_) / 65536.0F;
+        Parameters step;
+        if (!core::solve(plane_.distortions(), plane_.scale(), fit, step, moved)) return false;
+        pose = plane_.changed(step);
+        return true;
+    }
+
+  private:
+    static std::int32_t squared_q30(Vec residual_q16) {
+        return static_cast<std::int32_t>(
+            std::min<std::int64_t>(squared(residual_q16) >> 2, INT32_MAX));
+    }
+
+    Vec point_q16(const Batch& batch, std::size_t i) const {
+        return plane_point_q16(pose_, pose_.centre_q8 + Vec{batch.x_q8[i], batch.y_q8[i]});
+    }
+
+    Scatter scatter_of_dots() const {
+        Scatter scatter;
+        survey_.visit([&](const Batch& batch) {
+            for (std::size_t i = 0; i < batch.count; ++i) {
+                const Vec target{batch.step_x_q16[i] + batch.dx[i] * displacement_q16_,
+                                 batch.step_y_q16[i] + batch.dy[i] * displacement_q16_};
+                const std::int32_t square_q30 = squared_q30(point_q16(batch, i) - target);
+                scatter.add(batch.noise[i],
+                            std::min(static_cast<float>(square_q30) / kPower30, limit_));
+            }
+        });
+        scatter.fit();
+        return scatter;
+    }
+
+    void add_four(const Batch& batch, std::size_t i, const Scatter& scatter,
+                  PlaneSumsFloat& sums) const {
+        const Sights sights = plane_.look(four_at(&batch.x_q8[i]), four_at(&batch.y_q8[i]));
+        const auto target = [&](const auto& step_q16, const auto& direction, std::int32_t at_q16) {
+            const FourInts target_q16 =
+                four_at(&step_q16[i]) + four_at(&direction[i]) * displacement_q16_ - at_q16;
+            return __builtin_convertvector(target_q16, Four) / 65536.0F;
+        };
+        const Four x = target(batch.step_x_q16, batch.dx, pose_.at_centre_q16.x) - sights.at.x;
+        const Four y = target(batch.step_y_q16, batch.dy, pose_.at_centre_q16.y) - sights.at.y;
+        const Four weight = scatter.weight(four_at(&batch.noise[i]));
+        sums.add(sights, {{x, y}, weight * (x * x + y * y) <= limit_ ? weight : Four{}});
+    }
+
+    const Survey& survey_;
+    const PlaneFromImage& pose_;
+    ScaledPlane plane_;
+    std::int32_t displacement_q16_ = 0;
+    float limit_ = 0;  ///< of squared residuals
+};
+
+/// Takes back from a step what is not to be believed of the further terms. `whole`: these as
+/// fitted, whitened.
+void believe(const Parameters& whole, float unit, PoseFit& fit, Parameters& step) {
+    fit.covariance = {};
+    for (std::size_t i = 0; i < kTilt; ++i)
+        fit.covariance[i][i] = fit.variance;
+    for (const FurtherTerms& terms : kTerms) {
+        const Belief belief =
+            belief_in(terms, fit.normal, whole, fit.variance, terms.first == kShear ? unit : 1);
+        for (std::size_t i = 0; i < terms.count; ++i) {
+            step[terms.first + i] += belief.mean[i] - whole[terms.first + i];
+            for (std::size_t j = 0; j < terms.count; ++j)
+                fit.covariance[terms.first + i][terms.first + j] = belief.covariance[i][j];
+        }
+    }
+}
+
+}  // namespace
+
+bool solve(const Parameters& distortions, float unit, PoseFit& fit, Parameters& step,
+           float& moved) {
+    PlaneNormalFloat& normal = fit.normal;
+    if (normal.points() < 3 || !normal.decompose()) return false;
+    step = normal.whitened(normal.right());
+    float left = normal.squared_residuals();
+    for (const float part : step)
+        left -= part * part;
+    fit.dots = normal.points();
+    const int freedom = std::max(2 * fit.dots - static_cast<int>(kPoseParameters), 1);
+    constexpr float kExact = 1e-12F;
+    fit.variance = std::max(left / static_cast<float>(freedom), kExact);
+    // Whitened, what each of the further terms explains is independent of those after it.
+    Parameters all = normal.unwhitened(step);
+    for (std::size_t i = kTilt; i < kPoseParameters; ++i)
+        all[i] += distortions[i];
+    believe(normal.times_transposed(all), unit, fit, step);
+    moved = 0;
+    for (const float part : step)
+        moved += part * part;
+    moved /= fit.variance;
+    step = normal.unwhitened(step);
+    return true;
+}
+
+bool refine_pose(const Observations& observations, PlaneFromImage& pose, PoseFit& fit) {
+    const Survey survey(observations, pose.centre_q8);
+    fit.reach_px = survey.reach_px();
+    float moved = 1;
+    for (int i = 0; i < tuned::kMostRounds && moved > tuned::kSettled; ++i) {
+        const Round round(survey, pose);
+        fit.normal = round.normal(observations.know_noise());
+        PlaneFromImage better;
+        if (!round.solve(fit, better, moved)) return false;
+        pose = better;
+    }
+    return true;
+}
+
+}  // namespace dotpose::core

@@ -1,0 +1,281 @@
+// The fit's equations against derivatives and solutions computed in double precision.
+#include "core/fit/plane_normal_float.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "../geometry.hpp"
+#include "core/math/plane.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+using namespace core;
+
+constexpr std::uint64_t kSeed = 61;
+constexpr int kReach_px = 94;
+
+/// A camera some degrees tilted, with a lens that bends.
+PlaneFromImage random_plane(Rng& rng) {
+    const double theta = rng.uniform(-std::numbers::pi, std::numbers::pi);
+    const double per_px = 1 / rng.uniform(8, 14);
+    const auto small = [&](double most, double unit) {
+        return static_cast<std::int32_t>(std::lround(rng.uniform(-most, most) * unit));
+    };
+    PlaneFromImage plane;
+    plane.centre_q8 = fixed({93.5, 59.5}, 8);
+    plane.at_centre_q16 = fixed({rng.uniform(-20, 20), rng.uniform(-20, 20)}, 16);
+    plane.du_q24 = fixed(per_px * Vec2{std::cos(theta), std::sin(theta)}, 24);
+    plane.dv_q24 = fixed(1.02 * per_px * Vec2{-std::sin(theta), std::cos(theta)}, 24);
+    plane.perspective_q30 = {small(1e-3, 1 << 30), small(1e-3, 1 << 30)};
+    plane.lens_q40 = small(4e-6, std::pow(2, 40));
+    return plane;
+}
+
+Vec random_pixel_q8(Rng& rng) {
+    return fixed({rng.uniform(0, 187), rng.uniform(0, 119)}, 8);
+}
+
+/// As the first of four; the others are elsewhere.
+Sights look(const ScaledPlane& scaled, const PlaneFromImage& plane, Vec pixel_q8) {
+    const Vec p{pixel_q8.x - plane.centre_q8.x, pixel_q8.y - plane.centre_q8.y};
+    return scaled.look(FourInts{p.x, 256, -5000, 7000}, FourInts{p.y, -256, 3000, 3000});
+}
+
+TEST(ScaledPlane, SeesPointsWhereThePlaneHasThem) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 1000; ++i) {
+        const PlaneFromImage plane = random_plane(rng);
+        const Vec pixel_q8 = random_pixel_q8(rng);
+        const Sights sights = look(ScaledPlane(plane, kReach_px), plane, pixel_q8);
+        const Vec2 expected =
+            real(plane_point_q16(plane, pixel_q8), 16) - real(plane.at_centre_q16, 16);
+        ASSERT_NEAR(sights.at.x[0], expected.x, 3e-5) << "plane " << i << ", seed " << kSeed;
+        ASSERT_NEAR(sights.at.y[0], expected.y, 3e-5) << "plane " << i << ", seed " << kSeed;
+    }
+}
+
+TEST(ScaledPlane, ChangesAsItsDerivativesTell) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 200; ++i) {
+        const PlaneFromImage plane = random_plane(rng);
+        const ScaledPlane scaled(plane, kReach_px);
+        for (std::size_t k = 0; k < kPoseParameters; ++k) {
+            SCOPED_TRACE(testing::Message() << "plane " << i << ", parameter " << k);
+            constexpr float kStep = 2e-3F;
+            Parameters more{};
+            more[k] = kStep;
+            Parameters less{};
+            less[k] = -kStep;
+            const Vec pixel_q8 = random_pixel_q8(rng);
+            const Vec2 change = (1 / (2.0 * static_cast<double>(kStep))) *
+                                (real(plane_point_q16(scaled.changed(more), pixel_q8), 16) -
+                                 real(plane_point_q16(scaled.changed(less), pixel_q8), 16));
+            const auto jacobian = look(scaled, plane, pixel_q8).jacobian(0);
+            // Points are rounded to 2^-16 spacings.
+            ASSERT_NEAR(jacobian[0][k], change.x, 0.02);
+            ASSERT_NEAR(jacobian[1][k], change.y, 0.02);
+        }
+    }
+}
+
+TEST(ScaledPlane, ChangesThatMakeNoSenseAreLimited) {
+    using core::operator-;
+    Rng rng(kSeed);
+    const PlaneFromImage plane = random_plane(rng);
+    const ScaledPlane scaled(plane, kReach_px);
+    constexpr float kInfinite = std::numeric_limits<float>::infinity();
+    for (const float change : {1e12F, -1e12F, kInfinite, -kInfinite, std::nanf("")}) {
+        SCOPED_TRACE(testing::Message() << "change " << change);
+        Parameters all;
+        all.fill(change);
+        const PlaneFromImage changed = scaled.changed(all);
+        for (const Vec part :
+             {changed.at_centre_q16 - plane.at_centre_q16, changed.du_q24 - plane.du_q24,
+              changed.dv_q24 - plane.dv_q24, changed.perspective_q30, Vec{changed.lens_q40, 0}}) {
+            EXPECT_LE(larger_component(part), 1 << 28);
+        }
+    }
+}
+
+TEST(ScaledPlane, DistortionsAreWhatMakesItDifferFromAPlainCamera) {
+    Rng rng(kSeed);
+    const PlaneFromImage plane = random_plane(rng);
+    const ScaledPlane scaled(plane, kReach_px);
+    Parameters off = scaled.distortions();
+    for (float& value : off)
+        value = -value;
+    const PlaneFromImage plain = scaled.changed(off);
+    EXPECT_EQ(plain.perspective_q30, Vec{});
+    EXPECT_EQ(plain.lens_q40, 0);
+    EXPECT_NEAR(plain.du_q24.x, plain.dv_q24.y, 2);
+    EXPECT_NEAR(plain.du_q24.y, -plain.dv_q24.x, 2);
+}
+
+/// Sights of many points, with residuals that a known step explains.
+struct Problem {
+    static constexpr int kPoints = 150;
+    PlaneNormalFloat normal;
+    double squared_residuals = 0;
+
+    Problem(const Parameters& step, Rng& rng, bool on_one_line = false) {
+        const ScaledPlane plane(random_plane(rng), kReach_px);
+        PlaneSumsFloat sums;
+        for (int first = 0; first < kPoints; first += 4) {
+            FourInts x_q8;
+            FourInts y_q8;
+            for (int k = 0; k < 4; ++k) {
+                const Vec pixel_q8 = random_pixel_q8(rng);
+                x_q8[k] = pixel_q8.x - 93 * 256;
+                y_q8[k] = on_one_line ? 0 : pixel_q8.y - 59 * 256;
+            }
+            const Sights sights = plane.look(x_q8, y_q8);
+            Residuals residuals{};
+            for (int k = 0; k < 4 && first + k < kPoints; ++k) {
+                const Vec2 off = explained_by(step, sights.jacobian(static_cast<std::size_t>(k)));
+                squared_residuals += off.x * off.x + off.y * off.y;
+                residuals.off.x[k] = static_cast<float>(off.x);
+                residuals.off.y[k] = static_cast<float>(off.y);
+                residuals.weight[k] = 1;
+            }
+            sums.add(sights, residuals);
+        }
+        normal = PlaneNormalFloat(sums);
+    }
+
+    static Vec2 explained_by(const Parameters& step, const std::array<Parameters, 2>& jacobian) {
+        Vec2 sum{};
+        for (std::size_t k = 0; k < kPoseParameters; ++k)
+            sum = sum + static_cast<double>(step[k]) * Vec2{jacobian[0][k], jacobian[1][k]};
+        return sum;
+    }
+};
+
+TEST(PlaneNormalFloat, FindsTheStepThatExplainsTheResiduals) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 100; ++i) {
+        Parameters step;
+        for (float& value : step)
+            value = static_cast<float>(rng.uniform(-0.1, 0.1));
+        Problem problem(step, rng);
+        EXPECT_EQ(problem.normal.points(), Problem::kPoints);
+        EXPECT_NEAR(problem.normal.squared_residuals(), problem.squared_residuals,
+                    1e-4 * problem.squared_residuals);
+        ASSERT_TRUE(problem.normal.decompose());
+        const Parameters white = problem.normal.whitened(problem.normal.right());
+        // Nothing is left unexplained.
+        double explained = 0;
+        for (const float part : white)
+            explained += static_cast<double>(part * part);
+        EXPECT_NEAR(explained, problem.squared_residuals, 1e-3 * problem.squared_residuals);
+        const Parameters found = problem.normal.unwhitened(white);
+        const Parameters back = problem.normal.times_transposed(step);
+        for (std::size_t k = 0; k < kPoseParameters; ++k) {
+            EXPECT_NEAR(found[k], step[k], 2e-3) << "problem " << i << ", parameter " << k;
+            EXPECT_NEAR(back[k], white[k], 2e-2) << "problem " << i << ", parameter " << k;
+        }
+    }
+}
+
+double product(float a, float b) {
+    return static_cast<double>(a) * static_cast<double>(b);
+}
+
+TEST(PlaneNormalFloat, IsThatOfItsDefinition) {
+    Rng rng(kSeed);
+    const ScaledPlane plane(random_plane(rng), kReach_px);
+    PlaneSumsFloat sums;
+    double expected[kPoseParameters][kPoseParameters] = {};
+    double right[kPoseParameters] = {};
+    for (int n = 0; n < 10; ++n) {
+        const Sights sights =
+            plane.look(FourInts{n, -9000, 700 * n, 11000}, FourInts{-8000, 300 * n, 4000, 900 * n});
+        const Residuals residuals{{Four{0.5F, -1, 2, 0.1F}, Four{1, 0.3F, -0.7F, 0.2F}},
+                                  Four{1, 0.5F, 0, 3}};
+        sums.add(sights, residuals);
+        for (int point = 0; point < 4; ++point) {
+            const auto [a, b] = sights.jacobian(static_cast<std::size_t>(point));
+            const auto weight = static_cast<double>(residuals.weight[point]);
+            for (std::size_t i = 0; i < kPoseParameters; ++i) {
+                right[i] += weight * (product(a[i], residuals.off.x[point]) +
+                                      product(b[i], residuals.off.y[point]));
+                for (std::size_t j = 0; j < kPoseParameters; ++j)
+                    expected[i][j] += weight * (product(a[i], a[j]) + product(b[i], b[j]));
+            }
+        }
+    }
+    PlaneNormalFloat normal(sums);
+    EXPECT_EQ(normal.points(), 30);
+    for (std::size_t i = 0; i < kPoseParameters; ++i)
+        EXPECT_NEAR(normal.right()[i], right[i], 1e-4) << i;
+    ASSERT_TRUE(normal.decompose());
+    for (std::size_t i = 0; i < kPoseParameters; ++i) {
+        for (std::size_t j = 0; j <= i; ++j) {
+            double sum = 0;
+            for (std::size_t k = 0; k <= j; ++k)
+                sum += product(normal.factor(i, k), normal.factor(j, k));
+            EXPECT_NEAR(sum, expected[i][j], 1e-3) << i << ", " << j;
+        }
+    }
+}
+
+TEST(PlaneNormalFloat, CountsAPointOfWeightThreeThreeTimes) {
+    Rng rng(kSeed);
+    const ScaledPlane plane(random_plane(rng), kReach_px);
+    PlaneSumsFloat weighted;
+    PlaneSumsFloat repeated;
+    for (int i = 0; i < 10; ++i) {
+        FourInts x_q8;
+        FourInts y_q8;
+        Four off;
+        for (int k = 0; k < 4; ++k) {
+            x_q8[k] = random_pixel_q8(rng).x;
+            y_q8[k] = random_pixel_q8(rng).y;
+            off[k] = static_cast<float>(rng.uniform(-1, 1));
+        }
+        const Sights sights = plane.look(x_q8, y_q8);
+        weighted.add(sights, {{off, -off}, Four{3, 3, 3, 3}});
+        for (int n = 0; n < 3; ++n)
+            repeated.add(sights, {{off, -off}, Four{1, 1, 1, 1}});
+    }
+    PlaneNormalFloat one(weighted);
+    PlaneNormalFloat three(repeated);
+    EXPECT_EQ(one.points(), 40);
+    EXPECT_NEAR(one.squared_residuals(), three.squared_residuals(), 1e-3);
+    for (std::size_t k = 0; k < kPoseParameters; ++k)
+        EXPECT_NEAR(one.right()[k], three.right()[k], 1e-2);
+    ASSERT_TRUE(one.decompose() && three.decompose());
+    for (std::size_t k = 0; k < kPoseParameters; ++k)
+        EXPECT_NEAR(one.factor(k, k), three.factor(k, k), 1e-2);
+}
+
+TEST(PlaneNormalFloat, LeavesOutWhatThePointsDoNotDetermine) {
+    // On one line, the terms with y cannot be told from others.
+    Rng rng(kSeed);
+    Problem problem({0.01F, -0.02F, 0.03F, 0.01F}, rng, true);
+    ASSERT_TRUE(problem.normal.decompose());
+    int determined = 0;
+    for (std::size_t k = 0; k < kPoseParameters; ++k)
+        determined += problem.normal.determines(k) ? 1 : 0;
+    EXPECT_LT(determined, 9);
+    const Parameters found =
+        problem.normal.unwhitened(problem.normal.whitened(problem.normal.right()));
+    EXPECT_NEAR(found[0], 0.01, 1e-3);
+    EXPECT_NEAR(found[1], -0.02, 1e-3);
+}
+
+TEST(PlaneNormalFloat, NeedsPoints) {
+    PlaneNormalFloat none{PlaneSumsFloat()};
+    EXPECT_FALSE(none.decompose());
+    PlaneSumsFloat sums;
+    const ScaledPlane plane({{}, {}, {1 << 20, 0}, {0, 1 << 20}, {}, 0}, 10);
+    sums.add(plane.look(FourInts{256}, FourInts{256}), {{Four{}, Four{}}, Four{1}});
+    PlaneNormalFloat one(sums);
+    EXPECT_EQ(one.points(), 1);
+    EXPECT_FALSE(one.decompose());
+}
+
+}  // namespace
+}  // namespace dotpose::core_test

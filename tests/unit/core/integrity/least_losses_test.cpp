@@ -1,0 +1,99 @@
+// The least that every rival loses, against all patterns of shared lines.
+#include "core/integrity/least_losses.hpp"
+
+#include <gtest/gtest.h>
+
+#include "contest_case.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+constexpr std::uint64_t kSeed = 77;
+
+/// Some lines with some bits wrong.
+ContestCase random_case(int lines, Profile profile, Rng& rng) {
+    ContestCase c = at_random_place(rng, lines);
+    while (c.profile != profile)
+        c = at_random_place(rng, lines);
+    for (const int own : c.rolls)
+        c.storage.push_back(scored_line(own, 6 + static_cast<int>(rng.below(14)), 0.08, 127, rng));
+    c.odds_q8 = 4 * 256;
+    return c;
+}
+
+/// The least over all patterns in which a bit stands for a line that is shared: never more than so
+/// many in a row.
+int least_of_patterns(const std::vector<int>& losses, int most_shared) {
+    int least = INT32_MAX;
+    for (std::uint32_t shared = 0; shared < 1U << losses.size(); ++shared) {
+        int sum = 0;
+        int run = 0;
+        bool may_be = true;
+        for (std::size_t line = 0; line < losses.size(); ++line) {
+            const bool is_shared = (shared >> line & 1) != 0;
+            run = is_shared ? run + 1 : 0;
+            may_be = may_be && run <= most_shared;
+            if (!is_shared) sum += losses[line];
+        }
+        if (may_be) least = std::min(least, sum);
+    }
+    return least;
+}
+
+/// What the best other roll of each line loses; winning something back does not count.
+std::vector<int> losses_of(const ContestCase& c) {
+    std::vector<int> losses;
+    for (std::size_t line = 0; line < c.rolls.size(); ++line) {
+        const LineScores& scores = c.storage[line].scores;
+        const auto own = static_cast<std::size_t>(c.rolls[line]);
+        int most = INT32_MIN;
+        for (std::size_t roll = 0; roll < scores.size(); ++roll) {
+            if (roll != own) most = std::max(most, int{scores[roll]});
+        }
+        losses.push_back(std::max(scores[own] - most, 0));
+    }
+    return losses;
+}
+
+TEST(LeastLosses, AreTheLeastOverAllPatternsOfSharedRuns) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 60; ++i) {
+        SCOPED_TRACE(testing::Message() << "case " << i << ", seed " << kSeed);
+        const Profile profile = code_test::kProfiles[static_cast<std::size_t>(i % 3)];
+        const int most_shared = profile == Profile::libdots ? 7 : 5;
+        const ContestCase c = random_case(1 + i % 12, profile, rng);
+        const std::vector<int> losses = losses_of(c);
+        const std::vector<int> backwards(losses.rbegin(), losses.rend());
+        const core::OneSide from_first = core::least_losses(c.contest(), false);
+        const core::OneSide from_last = core::least_losses(c.contest(), true);
+        for (std::size_t n = 0; n <= losses.size(); ++n) {
+            const auto end = static_cast<std::ptrdiff_t>(n);
+            EXPECT_EQ(from_first[n],
+                      least_of_patterns({losses.begin(), losses.begin() + end}, most_shared))
+                << n;
+            EXPECT_EQ(from_last[n],
+                      least_of_patterns({backwards.begin(), backwards.begin() + end}, most_shared))
+                << n;
+        }
+    }
+}
+
+TEST(LeastLosses, ABorderSeparatesTwoPatterns) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 40; ++i) {
+        SCOPED_TRACE(testing::Message() << "case " << i << ", seed " << kSeed);
+        const Profile profile = code_test::kProfiles[static_cast<std::size_t>(i % 3)];
+        const int most_shared = profile == Profile::libdots ? 7 : 5;
+        const ContestCase c = random_case(2 + i % 11, profile, rng);
+        const std::vector<int> losses = losses_of(c);
+        int least = INT32_MAX;
+        for (auto border = losses.begin(); border != losses.end(); ++border) {
+            least = std::min(least, least_of_patterns({losses.begin(), border}, most_shared) +
+                                        least_of_patterns({border, losses.end()}, most_shared));
+        }
+        EXPECT_EQ(core::least_loss_with_border(c.contest()), least);
+    }
+}
+
+}  // namespace
+}  // namespace dotpose::core_test

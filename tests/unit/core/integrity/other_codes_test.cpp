@@ -1,0 +1,120 @@
+// What places of other profiles explain, against sums over all places that differ in a4, and
+// against the decoder of windows.
+#include "core/integrity/other_codes.hpp"
+
+#include <gtest/gtest.h>
+
+#include "contest_case.hpp"
+#include "core/kernels/select.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+constexpr std::uint64_t kSeed = 83;
+
+/// The same lines, as if they were of another profile.
+ContestCase as_in(Profile profile, const ContestCase& c) {
+    ContestCase other;
+    other.profile = profile;
+    other.position = c.position;
+    other.rolls = c.rolls;
+    other.storage = c.storage;
+    other.odds_q8 = c.odds_q8;
+    return other;
+}
+
+/// Rolls of the same place in the other profile.
+std::vector<int> rolls_here(const ContestCase& c, Profile other) {
+    const int further = roll(other, c.position) - roll(c.profile, c.position) + kSections;
+    std::vector<int> rolls = rolls_from(as_in(other, c), own_places(c), 0);
+    for (int& line : rolls)
+        line = (line + further) % kSections;
+    return rolls;
+}
+
+/// The odds, in double precision, of all places at all shifts, but for the same place.
+double exact_elsewhere(const ContestCase& c, Profile other) {
+    const ContestCase theirs = as_in(other, c);
+    const std::vector<int> same = rolls_here(c, other);
+    double sum = 0;
+    for (std::uint32_t place = 0; place < 241; ++place) {
+        PlacesOfRival places = own_places(c);
+        places[3] = place;
+        std::vector<int> rolls = rolls_from(theirs, places, 0);
+        for (int shift = 0; shift < kSections; ++shift) {
+            for (int& line : rolls)
+                line = (line + 1) % kSections;
+            if (place == own_places(c)[3] && rolls == same) continue;
+            sum += odds_of_rolls(c, rolls);
+        }
+    }
+    return sum;
+}
+
+TEST(WeighOtherCode, IsTheSumOverAllPlaces) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 60; ++i) {
+        const ContestCase c = read_at_random(rng, 8 + i % 9);
+        for (const Profile other : code_test::kProfiles) {
+            if (other == c.profile) continue;
+            SCOPED_TRACE(testing::Message() << "case " << i << ", seed " << kSeed);
+            const OtherAxis axis = weigh_other_code(core::kernels(), c.contest(), c.profile, other);
+            const double here = odds_of_rolls(c, rolls_here(c, other));
+            EXPECT_NEAR(static_cast<double>(axis.here) / here, 1, 0.03);
+            const double exact = exact_elsewhere(c, other);
+            EXPECT_GE(static_cast<double>(axis.elsewhere), 0.97 * exact);
+            EXPECT_LE(static_cast<double>(axis.elsewhere), 1.03 * exact + 2e-12);
+        }
+    }
+}
+
+/// Clear lines of 12 bits, from a position on.
+ContestCase clear_lines(Profile profile, std::uint32_t position, int lines) {
+    Rng rng(kSeed);
+    ContestCase c;
+    c.profile = profile;
+    c.position = position;
+    c.odds_q8 = 7 * 256;
+    int here = 20;
+    for (int line = 0; line < lines; ++line) {
+        c.rolls.push_back(here);
+        c.storage.push_back(scored_line(here, 12, 0, 127, rng));
+        here = (here + delta(profile, position + static_cast<std::uint32_t>(line))) % kSections;
+    }
+    return c;
+}
+
+TEST(WeighOtherCode, FindsThePlaceThatTheDecoderFinds) {
+    constexpr int kLines = 10;
+    constexpr std::uint32_t kFirst = 241 * 1000;
+    int same = 0;
+    int elsewhere = 0;
+    for (std::uint32_t position = kFirst; position < kFirst + 241; ++position) {
+        for (const Profile read : code_test::kProfiles) {
+            const ContestCase c = clear_lines(read, position, kLines);
+            std::vector<std::uint8_t> rolls(c.rolls.begin(), c.rolls.end());
+            for (const Profile other : code_test::kProfiles) {
+                if (other == read) continue;
+                SCOPED_TRACE(testing::Message() << "position " << position);
+                const OtherAxis axis = weigh_other_code(core::kernels(), c.contest(), read, other);
+                std::uint32_t found = 0;
+                const Status status = position_from_rolls(other, rolls, found);
+                const bool is_elsewhere = status == Status::ok && found != position;
+                EXPECT_EQ(axis.best > 0.9F, is_elsewhere) << axis.best;
+                if (is_elsewhere) {
+                    EXPECT_EQ(axis.position, found);
+                }
+                const bool is_same = status == Status::ok && found == position &&
+                                     roll(other, position) == roll(read, position);
+                EXPECT_EQ(axis.here > 0.9F, is_same) << axis.here;
+                same += is_same;
+                elsewhere += is_elsewhere;
+            }
+        }
+    }
+    EXPECT_GT(same, 400);
+    EXPECT_GT(elsewhere, 20);
+}
+
+}  // namespace
+}  // namespace dotpose::core_test

@@ -1,0 +1,340 @@
+// The bound of the probability that chance agrees, and what it leads to.
+#include "core/integrity/verify.hpp"
+
+#include <gtest/gtest.h>
+
+#include "../reading.hpp"
+#include "chance.hpp"
+#include "core/decode/position.hpp"
+#include "core/integrity/confidence.hpp"
+#include "core/integrity/rivals.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+using namespace core;
+
+constexpr std::uint64_t kSeed = 32;
+
+struct Verdict {
+    Status status;
+    Fix fix;
+};
+
+using Storage = std::array<ScoredLine, 2 * kMaxLines>;
+
+Verdict judge(const Reading& reading, const IntegrityOptions& options = {},
+              decltype(verify) how = verify) {
+    Storage storage;
+    Verdict verdict;
+    Decoding decoding = reading.truth();
+    verdict.status =
+        how(reading.grid(), reading.view.profile, decoding, options, storage, verdict.fix);
+    return verdict;
+}
+
+TEST(Verify, CountsEveryBitThatContradicts) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 40; ++i) {
+        SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
+        Reading reading(random_view(rng), Turn{i % 4});
+        Verdict before = judge(reading);
+        ASSERT_EQ(before.status, Status::ok);
+        ASSERT_EQ(before.fix.bit_errors, 0);
+        const auto bits = static_cast<int>(reading.dots.size());
+        EXPECT_GE(before.fix.p_wrong_log2, static_cast<double>(exact_chance_log2(bits)[0]));
+        IntegrityOptions any;
+        any.max_p_wrong_log2 = 0;
+        Verdict quick_before = judge(reading, any, verify_quickly);
+        // Flip x bits of the grid, one after the other.
+        int flipped = 0;
+        for (GridCell& cell : reading.owned.cells) {
+            if (cell.dot == GridCell::kNoDot || flipped == bits / 4) continue;
+            cell.x = static_cast<std::int8_t>(-cell.x);
+            ++flipped;
+            const Verdict now = judge(reading);
+            ASSERT_EQ(now.fix.bit_errors, flipped);
+            // More contradictions never make it more certain, but for the closer look that doubt
+            // brings.
+            const Verdict quick = judge(reading, any, verify_quickly);
+            ASSERT_EQ(quick.fix.bit_errors, flipped);
+            // Below 2^-36 on either axis a quick look is coarse; both are rounded.
+            constexpr int kCoarse = -34;
+            ASSERT_GE(std::max(quick.fix.p_wrong_log2, kCoarse),
+                      std::max(quick_before.fix.p_wrong_log2, kCoarse) - 1);
+            quick_before = quick;
+            const long double chance = exact_chance_log2(bits)[static_cast<std::size_t>(flipped)];
+            ASSERT_GE(now.fix.p_wrong_log2, std::min(chance, 0.0L));
+            before = now;
+        }
+        // A quarter of the bits of an axis is what a second pattern in view gives.
+        EXPECT_EQ(before.status, Status::not_certain);
+    }
+}
+
+TEST(Verify, RefusesWhatMissesTheAskedCertainty) {
+    Rng rng(kSeed);
+    const Reading reading(random_view(rng), {});
+    const Verdict usual = judge(reading);
+    ASSERT_EQ(usual.status, Status::ok);
+    for (const auto how : {verify, verify_quickly}) {
+        IntegrityOptions options;
+        options.max_p_wrong_log2 = usual.fix.p_wrong_log2;
+        Verdict verdict = judge(reading, options, how);
+        EXPECT_EQ(verdict.status, Status::ok);
+        EXPECT_EQ(verdict.fix.p_wrong_log2, usual.fix.p_wrong_log2);
+        // A closer look may find more certainty, once.
+        int looks = 0;
+        for (; verdict.status == Status::ok; ++looks) {
+            ASSERT_LE(verdict.fix.p_wrong_log2, options.max_p_wrong_log2);
+            options.max_p_wrong_log2 = verdict.fix.p_wrong_log2 - 1;
+            verdict = judge(reading, options, how);
+        }
+        EXPECT_EQ(verdict.status, Status::not_certain);
+        EXPECT_EQ(looks, how == verify ? 2 : 1);
+    }
+}
+
+TEST(Verify, AWrongPlaceIsNotCertain) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 200; ++i) {
+        const Reading reading(random_view(rng), Turn{i % 4});
+        Decoding wrong = reading.truth();
+        switch (i % 5) {
+            case 0:
+                wrong.place = random_place(rng);
+                break;
+            case 1:
+                wrong.place = moved(Profile::anoto, wrong.place, 1, 0);
+                break;
+            case 2:
+                wrong.place = moved(Profile::anoto, wrong.place, 0, -1);
+                break;
+            case 3:
+                wrong.place.section.u = static_cast<std::uint8_t>((wrong.place.section.u + 1) % 63);
+                break;
+            default:
+                wrong.place.cell.y = (wrong.place.cell.y + 236 * 233 * 31) % kPositionsPerAxis;
+        }
+        Storage storage;
+        Fix fix;
+        EXPECT_EQ(verify(reading.grid(), Profile::anoto, wrong, {}, storage, fix),
+                  Status::not_certain)
+            << "view " << i << ", seed " << kSeed;
+        EXPECT_EQ(verify_quickly(reading.grid(), Profile::anoto, wrong, {}, storage, fix),
+                  Status::not_certain)
+            << "view " << i << ", seed " << kSeed;
+    }
+}
+
+TEST(Verify, LinesThatAreScoredAreNotScoredAgain) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 40; ++i) {
+        SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
+        const Reading reading(random_view(rng), Turn{i % 4});
+        Storage storage;
+        Decoding found = reading.decoding;
+        ASSERT_EQ(decode_all(reading.grid(), Profile::anoto, storage, found), Status::ok);
+        ASSERT_TRUE(found.lines_are_scored);
+        const Verdict fresh = judge(reading);
+        Fix fix;
+        EXPECT_EQ(verify(reading.grid(), Profile::anoto, found, {}, storage, fix), Status::ok);
+        EXPECT_EQ(fix.p_wrong_log2, fresh.fix.p_wrong_log2);
+        // It is the storage that speaks: lines that agree with every roll exclude none.
+        storage.fill({});
+        EXPECT_EQ(verify(reading.grid(), Profile::anoto, found, {}, storage, fix),
+                  Status::not_certain);
+    }
+}
+
+TEST(Verify, RefusesTwoPatternsWhateverTheLimit) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 20; ++i) {
+        SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
+        Reading reading(random_view(rng), Turn{i % 4});
+        // Half of the bits contradict, as where the frame shows another pattern.
+        for (GridCell& cell : reading.owned.cells) {
+            if (rng.below(2) == 0) cell.x = static_cast<std::int8_t>(-cell.x);
+            if (rng.below(2) == 0) cell.y = static_cast<std::int8_t>(-cell.y);
+        }
+        IntegrityOptions any;
+        any.max_p_wrong_log2 = 0;
+        for (const auto how : {verify, verify_quickly}) {
+            const Verdict verdict = judge(reading, any, how);
+            EXPECT_EQ(verdict.status, Status::not_certain);
+            EXPECT_EQ(verdict.fix.p_wrong_log2, 0);
+        }
+        EXPECT_EQ(sure_axis(Decoding{}, any), std::nullopt);
+    }
+}
+
+TEST(Verify, TellsWhichAxisIsBeyondDoubt) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 40; ++i) {
+        SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
+        const Turn turn{i % 4};
+        Reading reading(random_view(rng), turn);
+        const Axis clear = i / 4 % 2 == 0 ? Axis::x : Axis::y;
+        // Of the other axis only a few bits are left. A grid that was found sideways has them in
+        // its own other bit.
+        const bool is_y_lost = (clear == Axis::x) == (turn.quarters % 2 == 0);
+        int kept = 30;
+        for (GridCell& cell : reading.owned.cells) {
+            if (cell.dot == GridCell::kNoDot || kept-- > 0) continue;
+            (is_y_lost ? cell.y : cell.x) = 0;
+        }
+        Storage storage;
+        Decoding decoding = reading.truth();
+        Fix fix;
+        EXPECT_EQ(verify(reading.grid(), Profile::anoto, decoding, {}, storage, fix),
+                  Status::not_certain);
+        EXPECT_EQ(sure_axis(decoding, {}), clear);
+        IntegrityOptions strict;
+        strict.max_p_wrong_log2 = -500;
+        EXPECT_EQ(sure_axis(decoding, strict), std::nullopt);
+    }
+}
+
+TEST(Verify, PlacesShareALineIfTheCodeSaysSo) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 200; ++i) {
+        SCOPED_TRACE(testing::Message() << "place " << i << ", seed " << kSeed);
+        const Place a = random_place(rng);
+        Place b = random_place(rng);
+        if (i % 2 == 0) b.cell.x = a.cell.x;
+        if (i % 4 == 0) b.section.u = a.section.u;
+        // The bits of x down the column of a place; no two rolls of the sequence look alike for so
+        // long.
+        bool is_alike = a.cell.x == b.cell.x;
+        for (int j = 0; j < 63; ++j) {
+            const auto bit = [&](const Place& place) {
+                const Place at = moved(Profile::anoto, place, 0, j);
+                return x_bit(symbol_at(Profile::anoto, at.cell, at.section));
+            };
+            is_alike = is_alike && bit(a) == bit(b);
+        }
+        EXPECT_EQ(share_line(Axis::x, Profile::anoto, a, b), is_alike);
+        EXPECT_TRUE(share_line(Axis::y, Profile::anoto, a, a));
+    }
+}
+
+/// Views with a fair share of what goes wrong: small ones, missing dots, dots that are off their
+/// place, and dots that show another symbol.
+Reading troubled(Rng& rng, int turn) {
+    View view = random_view(rng);
+    view.profile = kProfiles[static_cast<std::size_t>(rng.below(3))];
+    view.image_px = {rng.uniform(100, 200), rng.uniform(100, 130)};
+    const double wrong = rng.uniform(0, 0.08);
+    const double missing = rng.uniform(0, 0.15);
+    const double scatter_px = rng.uniform(0, 0.7);
+    const Mesh mesh = view.mesh();
+    std::vector<Dot> dots;
+    for (const PlacedDot& d : pattern_dots(view)) {
+        if (rng.uniform() < missing) continue;
+        const Vec2 other = random_displacement(rng);
+        const Vec2 place =
+            rng.uniform() < wrong ? mesh.at(d.cell.x + other.x, d.cell.y + other.y) : d.centre_px;
+        dots.push_back(dot_at(place + scatter_px * Vec2{rng.normal(), rng.normal()}));
+    }
+    return Reading(view, Turn{turn}, dots);
+}
+
+/// Chance and all rivals of both axes, looked at closely.
+double exact_p_wrong(const Reading& reading) {
+    const Decoding truth = reading.truth();
+    const Profile profile = reading.view.profile;
+    const Grid& grid = reading.grid();
+    const auto place_of = [&](Vec cell) {
+        const Vec step = truth.pattern_from_grid(cell);
+        return moved(profile, truth.place, step.x, step.y);
+    };
+    std::array<Confidence, 2> axes;
+    for (int j = grid.j0; j < grid.j0 + grid.rows; ++j) {
+        for (int i = grid.i0; i < grid.i0 + grid.columns; ++i) {
+            const Place at = place_of({i, j});
+            const Symbol symbol = symbol_at(profile, at.cell, at.section);
+            const Bits bits = turned(truth.pattern_from_grid, grid.at(i, j));
+            if (bits.x != 0) axes[0].add(bits.x, (bits.x > 0) != (x_bit(symbol) == 1));
+            if (bits.y != 0) axes[1].add(bits.y, (bits.y > 0) != (y_bit(symbol) == 1));
+        }
+    }
+    Confidence both = axes[0];
+    both.add(axes[1]);
+    const int odds = odds_per_bit_q8(both);
+
+    const Upright upright(grid, truth.region, truth.pattern_from_grid);
+    const Place corner = place_of(upright.corner());
+    Storage storage;
+    double sum = 0;
+    for (const Axis axis : {Axis::x, Axis::y}) {
+        const bool is_x = axis == Axis::x;
+        const std::uint32_t own = is_x ? corner.cell.x : corner.cell.y;
+        const std::uint32_t cross = is_x ? corner.cell.y : corner.cell.x;
+        const int section = is_x ? corner.section.u : corner.section.v;
+        AxisReading read;
+        read.position = own;
+        read.roll = static_cast<std::uint8_t>(
+            (roll(profile, own) + section + static_cast<int>(cross % kSections)) % kSections);
+        sum += std::exp2(chance_log2(axes[is_x ? 0 : 1], odds)) +
+               std::exp2(rivals_log2(
+                   profile, Contest(profile, score_lines(upright, axis, storage), read, odds)));
+    }
+    return std::log2(sum);
+}
+
+TEST(VerifyQuickly, NeverClaimsMoreThanACloseLookBears) {
+    Rng rng(kSeed);
+    IntegrityOptions options;
+    options.max_p_wrong_log2 = -8;
+    int accepted = 0;
+    for (int i = 0; i < 300; ++i) {
+        SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
+        const Reading reading = troubled(rng, i % 4);
+        if (reading.status != Status::ok) continue;
+        const Verdict quick = judge(reading, options, verify_quickly);
+        if (quick.status != Status::ok) continue;
+        ++accepted;
+        // Rivals are summed up to whole powers of two.
+        EXPECT_GE(quick.fix.p_wrong_log2, exact_p_wrong(reading) - 1);
+        const Verdict close = judge(reading, options);
+        EXPECT_EQ(close.status, Status::ok);
+        EXPECT_LE(close.fix.p_wrong_log2, quick.fix.p_wrong_log2);
+        EXPECT_EQ(close.fix.bit_errors, quick.fix.bit_errors);
+    }
+    EXPECT_GE(accepted, 100) << "seed " << kSeed;
+}
+
+TEST(VerifyQuickly, AcceptsWhatIsClearlyRead) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 100; ++i) {
+        SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
+        View view = random_view(rng);
+        view.profile = kProfiles[static_cast<std::size_t>(i % 3)];
+        const Verdict verdict = judge(Reading(view, Turn{i % 4}), {}, verify_quickly);
+        EXPECT_EQ(verdict.status, Status::ok);
+        EXPECT_EQ(verdict.fix.bit_errors, 0);
+        EXPECT_LE(verdict.fix.p_wrong_log2, -30);
+    }
+}
+
+TEST(Verify, ACloserLookCertifiesWhatAQuickOneCannot) {
+    Rng rng(kSeed);
+    int more = 0;
+    for (int i = 0; i < 100; ++i) {
+        SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
+        const Reading reading = troubled(rng, i % 4);
+        if (reading.status != Status::ok) continue;
+        const Verdict quick = judge(reading, {}, verify_quickly);
+        const Verdict close = judge(reading);
+        EXPECT_LE(close.fix.p_wrong_log2, quick.fix.p_wrong_log2);
+        more += quick.status != Status::ok && close.status == Status::ok;
+        if (close.status != Status::ok) continue;
+        // The smaller of two upper bounds is one.
+        const double exact = exact_p_wrong(reading);
+        EXPECT_GE(close.fix.p_wrong_log2, std::min<double>(exact, quick.fix.p_wrong_log2) - 0.1);
+    }
+    EXPECT_GT(more, 0) << "seed " << kSeed;
+}
+
+}  // namespace
+}  // namespace dotpose::core_test
