@@ -15,6 +15,7 @@
 #include "calibrate/print_measures.hpp"
 #include "calibrate/print_view.hpp"
 #include "dotpose/files/profile_names.hpp"
+#include "dotpose/files/sheet_file.hpp"
 #include "dotpose/tools/test_page.hpp"
 
 namespace dotpose {

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "../drive.hpp"
-#include "dotpose/tools/camera_file.hpp"
+#include "dotpose/files/camera_file.hpp"
 #include "dotpose/tools/image_file.hpp"
 #include "tool_command.hpp"
 

@@ -9,6 +9,7 @@
 
 #include "../../temporary_directory.hpp"
 #include "../../xml_check.hpp"
+#include "dotpose/files/sheet_place.hpp"
 #include "dotpose/tools/calibrate.hpp"
 #include "dotpose/tools/heap_locator.hpp"
 #include "dotpose/tools/mounted_pose.hpp"

@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "../../temporary_directory.hpp"
+#include "../calibrate/frames.hpp"
 #include "dotpose/tools/random.hpp"
-#include "frames.hpp"
 
 namespace dotpose {
 namespace {

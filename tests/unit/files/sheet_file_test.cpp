@@ -18,8 +18,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "../print/files.hpp"
 #include "dotpose/tools/print.hpp"
-#include "files.hpp"
 #include "sheet_files.hpp"
 
 namespace dotpose {

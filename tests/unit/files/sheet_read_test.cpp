@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "../print/files.hpp"
 #include "dotpose/files/profile_names.hpp"
 #include "dotpose/files/sheet_file.hpp"
 #include "dotpose/tools/print.hpp"
-#include "files.hpp"
 #include "sheet_files.hpp"
 
 namespace dotpose {

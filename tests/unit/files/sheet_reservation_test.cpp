@@ -9,8 +9,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "../print/files.hpp"
 #include "dotpose/files/sheet_file.hpp"
-#include "files.hpp"
 #include "sheet_files.hpp"
 
 namespace dotpose {
