@@ -113,23 +113,21 @@ class Contest {
 /// lines, modulo 63.
 using Growth = std::array<std::uint8_t, kMaxLines>;
 
-/// From the rolls that a sequence has in so many lines.
-inline void grow(const std::uint8_t* own, const std::uint8_t* rival, std::size_t lines,
-                 Growth& growth) {
-    static_assert(kMaxLines <= code::kLinesAhead);
-    for (std::size_t line = 0; line < lines; ++line) {
-        // What is negative is large without a sign: no branch, so that it is done in vectors.
-        const auto grown = static_cast<std::uint8_t>(rival[line] - own[line]);
-        growth[line] = std::min(grown, static_cast<std::uint8_t>(grown + kSections));
-    }
+/// Of a line that has the roll `rival` rather than `own`, both below kSections. In bytes, so that
+/// it is done in vectors where there are any.
+constexpr std::uint8_t grown(std::uint8_t own, std::uint8_t rival) {
+    return static_cast<std::uint8_t>(rival - own + (rival < own ? kSections : 0));
 }
 
 /// Of a rival whose place differs in one sequence only.
 inline void grow(const Contest& contest, std::size_t sequence, std::uint32_t rival_place,
                  Growth& growth) {
+    static_assert(kMaxLines <= code::kLinesAhead);
     const std::uint8_t* rolls = contest.basis[sequence].rolls;
-    grow(rolls + contest.places[sequence], rolls + rival_place,
-         static_cast<std::size_t>(contest.count()), growth);
+    const std::uint8_t* own = rolls + contest.places[sequence];
+    const std::uint8_t* rival = rolls + rival_place;
+    for (int line = 0; line < contest.count(); ++line)
+        growth[static_cast<std::size_t>(line)] = grown(own[line], rival[line]);
 }
 
 /// What a rival that shares the line `shared`, and none before, has lost when that gets hopeless,

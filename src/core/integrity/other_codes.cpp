@@ -117,9 +117,11 @@ class OtherPlaces {
 
     Growth growth_to(std::uint32_t place) const {
         Growth growth;
+        const std::uint8_t* own = contest_.basis[kA4].rolls + contest_.places[kA4];
+        const std::uint8_t* rival = theirs_.rolls + place;
         // Of as many lines as the tables have: a number that the compiler knows is done faster.
-        grow(contest_.basis[kA4].rolls + contest_.places[kA4], theirs_.rolls + place, growth.size(),
-             growth);
+        for (std::size_t line = 0; line < growth.size(); ++line)
+            growth[line] = grown(own[line], rival[line]);
         return growth;
     }
 
