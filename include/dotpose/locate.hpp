@@ -69,6 +69,9 @@ class RowLocator {
     Options options_;
 
   private:
+    /// Notes whether there is a frame whose rows are pushed, and how many it has.
+    void note_begin(Status status, int height_px);
+
     Status begun_ = Status::bad_argument;  ///< of the frame whose rows are pushed
     int rows_left_ = 0;
 };

@@ -67,7 +67,7 @@ Status check(const ImageView& image, const Options& options, const Workspace& w)
 
 }  // namespace
 
-Fix refuse(Status reason, Workspace& w) {
+const Fix& refuse(Status reason, Workspace& w) {
     forget_frame(w);
     w.fix.status = reason;
     return w.fix;
@@ -154,7 +154,7 @@ Fix finish(const Options& options, Workspace& w) {
     return finish_rows(options, w);
 }
 
-Fix finish_as_device(const Options& options, Workspace& w) {
+const Fix& finish_as_device(const Options& options, Workspace& w) {
     return w.tracking.is_on ? finish_device_tracked(options, w) : finish_device_attempt(options, w);
 }
 
@@ -200,19 +200,21 @@ LargeMemory::LargeMemory() : workspace_(make_workspace<core::LargeWorkspace>(byt
 
 void RowLocator::set_options(const Options& options) {
     options_ = options;
-    begun_ = Status::bad_argument;
-    rows_left_ = 0;
+    note_begin(Status::bad_argument, 0);
+}
+
+void RowLocator::note_begin(Status status, int height_px) {
+    begun_ = status;
+    rows_left_ = status == Status::ok ? height_px : 0;
 }
 
 Status RowLocator::begin(int width_px, int height_px) {
-    begun_ = core::begin(width_px, height_px, options_, *workspace_);
-    rows_left_ = begun_ == Status::ok ? height_px : 0;
+    note_begin(core::begin(width_px, height_px, options_, *workspace_), height_px);
     return begun_;
 }
 
 Status RowLocator::begin(int width_px, int height_px, const Prediction& prediction) {
-    begun_ = core::begin(width_px, height_px, options_, prediction, *workspace_);
-    rows_left_ = begun_ == Status::ok ? height_px : 0;
+    note_begin(core::begin(width_px, height_px, options_, prediction, *workspace_), height_px);
     return begun_;
 }
 
@@ -232,8 +234,7 @@ Trace RowLocator::trace() const {
 }
 
 Fix RowLocator::shown() {
-    begun_ = Status::bad_argument;
-    rows_left_ = 0;
+    note_begin(Status::bad_argument, 0);
     workspace_->fix.spacing_nm = options_.spacing_nm;
     return workspace_->fix;
 }

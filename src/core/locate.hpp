@@ -36,9 +36,9 @@ void push_row(const std::uint8_t* pixels, const Options& options, Workspace& w);
 
 /// One attempt with the rows that were pushed; with `finish_as_device` in integers.
 Fix finish(const Options& options, Workspace& w);
-Fix finish_as_device(const Options& options, Workspace& w);
+const Fix& finish_as_device(const Options& options, Workspace& w);
 
 /// The fix of a frame that is not looked at; nothing of the frame before is shown beside it.
-Fix refuse(Status reason, Workspace& w);
+const Fix& refuse(Status reason, Workspace& w);
 
 }  // namespace dotpose::core

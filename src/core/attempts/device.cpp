@@ -45,7 +45,7 @@ Status measure_pose(const Options& options, Workspace& w) {
 
 }  // namespace
 
-Fix finish_device_attempt(const Options& options, Workspace& w) {
+const Fix& finish_device_attempt(const Options& options, Workspace& w) {
     Status status = find_dots(options, w);                     // II-B.1
     if (status == Status::ok) status = find_grid(options, w);  // II-B.2-3
     if (status == Status::ok) {

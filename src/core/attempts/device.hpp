@@ -7,6 +7,6 @@
 namespace dotpose::core {
 
 /// Locates from the blobs of a frame.
-Fix finish_device_attempt(const Options& options, Workspace& w);
+const Fix& finish_device_attempt(const Options& options, Workspace& w);
 
 }  // namespace dotpose::core

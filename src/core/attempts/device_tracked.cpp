@@ -95,7 +95,7 @@ Status push_tracked_row(const std::uint8_t* pixels, Workspace& w) {
     return t.status = read_rows(w);
 }
 
-Fix finish_device_tracked(const Options& options, Workspace& w) {
+const Fix& finish_device_tracked(const Options& options, Workspace& w) {
     w.fix.status = confirm(options, w);
     return w.fix;
 }

@@ -15,6 +15,6 @@ Status begin_device_tracked(int width_px, int height_px, const Options& options,
 /// Errors: not_tracked; further rows make no difference then.
 Status push_tracked_row(const std::uint8_t* pixels, Workspace& w);
 
-Fix finish_device_tracked(const Options& options, Workspace& w);
+const Fix& finish_device_tracked(const Options& options, Workspace& w);
 
 }  // namespace dotpose::core
