@@ -1,4 +1,4 @@
-/// What one frame of `dotpose watch` told, alone and together with those before it.
+/// The results of `dotpose watch` for one frame: the fix of that frame, and the track up to it.
 #pragma once
 
 #include <cstdint>

@@ -78,7 +78,7 @@ class CodeReader {
   public:
     explicit CodeReader(std::optional<Profile> given = std::nullopt) : given_(given) {}
 
-    /// As Locator::locate. Afterwards the locator's options have the profile that was read.
+    /// Locates the image. Afterwards the locator's options have the profile that was read.
     Fix locate(const ImageView& image, Locator& locator);
 
     bool is_given() const { return given_.has_value(); }

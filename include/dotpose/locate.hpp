@@ -28,7 +28,7 @@ namespace dotpose {
 inline constexpr int kMinFrameSide_px = 64;
 inline constexpr int kMaxFrameSide_px = 4096;
 
-/// What Locator and DeviceLocator have in common: options, memory, and rows that are pushed.
+/// Base of Locator and DeviceLocator: it holds options and memory, and takes images row by row.
 class RowLocator {
   public:
     RowLocator(const RowLocator&) = delete;
@@ -51,8 +51,8 @@ class RowLocator {
     /// than the frame that was begun has are not looked at.
     void push_row(const std::uint8_t* pixels);
 
-    /// What the stages left of the last frame. A DeviceLocator's stages use the same memory one
-    /// after the other, so only what the last one left is whole.
+    /// Returns the results of each stage for the last frame. A DeviceLocator's stages use the same
+    /// memory one after the other, so only what the last one left is whole.
     Trace trace() const;
 
   protected:
@@ -88,21 +88,24 @@ class Locator : public RowLocator {
     /// everywhere, but for the covariance and the residual.
     Fix locate(const ImageView& image);
 
-    /// The same, beginning where the prediction has the pattern. What the frame does not confirm is
-    /// located afresh; `Fix::attempt` tells.
+    /// Looks for the pattern where the prediction has it. A frame that does not confirm the
+    /// prediction is located without it; `Fix::attempt` tells.
     Fix locate(const ImageView& image, const Prediction& prediction);
 
-    /// As `locate`, but in any profile. Places in all profiles are alternatives, with the odds that
-    /// `evidence` gives these; a frame that places of two profiles explain about equally well has
-    /// the status ambiguous_code. Afterwards `options().profile` is the profile that was read.
+    /// Locates an image whose profile is not known. Places in all profiles are alternatives, with
+    /// the odds that `evidence` gives these; a frame that places of two profiles explain about
+    /// equally well has the status ambiguous_code. Afterwards `options().profile` is the profile
+    /// that was read.
     CodeReading locate_in_any_code(const ImageView& image, const CodeEvidence& evidence);
 
-    /// The same, beginning with a prediction, which was made in `options().profile`.
+    /// Locates an image whose profile is not known, first where the prediction has the pattern. The
+    /// prediction must have been made in `options().profile`.
     CodeReading locate_in_any_code(const ImageView& image, const Prediction& prediction,
                                    const CodeEvidence& evidence);
 
-    /// As `locate`, to the bit; and whether another profile explains the frame without a
-    /// contradiction, at another place or where `options().profile` has none (`has_other`).
+    /// Locates an image in `options().profile`, with the same fix as `locate`. `has_other` tells
+    /// whether another profile explains the image without a contradiction: at another place, or
+    /// where `options().profile` has no place.
     CodeReading locate_in_code(const ImageView& image);
 
     /// Locates once all rows have been pushed: one attempt, in integers if that is the effort asked

@@ -32,7 +32,7 @@ struct SheetPlace {
     double x_mm = 0;                    ///< sheet frame, print scale applied
     double y_mm = 0;
     double theta_rad = 0;  ///< of the image x axis, from the sheet's +x towards +y, in (-pi, pi]
-    /// Of (x, y, theta), in mm and rad: that of the fix. All 0 if the fix has none.
+    /// Covariance of (x_mm, y_mm, theta_rad), from that of the fix. All 0 if the fix has none.
     PoseCovariance covariance{};
 };
 
@@ -46,11 +46,11 @@ struct WorldPlace {
     double x_m = 0;
     double y_m = 0;
     double yaw_rad = 0;  ///< of the image x axis, counter-clockwise from the world's, in (-pi, pi]
-    /// Of (x, y, yaw), in m and rad: that of the fix; the page's own pose counts as exact.
+    /// Covariance of (x_m, y_m, yaw_rad), from that of the fix; the page's pose counts as exact.
     PoseCovariance covariance{};
 };
 
-/// The same place in the world. None if the pose of the sheet is not known.
+/// Converts a place on a sheet to the world. None if the pose of the sheet is not known.
 std::optional<WorldPlace> world_place(const SheetPlace& place);
 
 /// The covariance of a pose on a sheet as that of the same pose in the world, where the page's

@@ -58,8 +58,8 @@ struct FrameRun {
     std::vector<Options> options = {Options{}};
     /// Frames that do not tell their profile are read in any, each by itself.
     bool any_code = false;
-    /// What else is known of a fix that was just made, from the trace that it left, such as
-    /// `with_camera` tells; none: nothing. Called from several threads; its time does not count.
+    /// Refines a fix that was just made, from the trace that its frame left, as `with_camera` does.
+    /// Without it fixes stay as they are. Called from several threads; its time does not count.
     std::function<Fix(const Fix&, const Trace&)> refine;
     int threads = 0;  ///< 0: one for each core
     Progress progress;
