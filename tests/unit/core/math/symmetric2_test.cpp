@@ -9,11 +9,11 @@ namespace dotpose::core {
 namespace {
 
 // 3 x + 2 y = 16 and 2 x + 5 y = 29 at (2, 5); the determinant is 11.
-constexpr Symmetric2<std::int64_t> kMatrix{3, 2, 5};
+constexpr Symmetric2<std::int64_t> kIntegers{3, 2, 5};
 
 TEST(Symmetric2, SolvesTimesTheDeterminant) {
-    EXPECT_EQ(kMatrix.determinant(), 11);
-    EXPECT_EQ(kMatrix.solve_scaled(16, 29), (std::array<std::int64_t, 2>{22, 55}));
+    EXPECT_EQ(kIntegers.determinant(), 11);
+    EXPECT_EQ(kIntegers.solve_scaled(16, 29), (std::array<std::int64_t, 2>{22, 55}));
 }
 
 TEST(Symmetric2, TakesAsManyBitsAsTheIntegersOfTheFits) {
