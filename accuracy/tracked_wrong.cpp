@@ -6,7 +6,7 @@
 #include <fmt/core.h>
 
 #include "../tests/adversarial_textures.hpp"
-#include "worst_rival.hpp"
+#include "worst_alternative.hpp"
 
 namespace dotpose {
 namespace {
@@ -30,8 +30,8 @@ enum Kind : std::size_t {
     two_y,
     two_both,
     section,
-    rival_x,
-    rival_y,
+    alternative_x,
+    alternative_y,
     blank,
     noise,
     text,
@@ -54,8 +54,8 @@ constexpr std::array<WrongClass, kind_count> kClasses{{
     {"two cells off in y", 0, 2},
     {"two cells off in both", 2, 2},
     {"another section"},
-    {"the worst rival in x"},
-    {"the worst rival in y"},
+    {"the worst alternative in x"},
+    {"the worst alternative in y"},
     {"right, but the paper is blank"},
     {"right, but there is noise"},
     {"right, but there is text"},
@@ -86,14 +86,14 @@ std::int32_t between(std::uint32_t from, std::uint32_t to) {
 
 /// Returns a prediction of the wrong position that shares the most of the 10 to 16 lines in the
 /// middle of the view, which shows 11 to 18 lines.
-Prediction rival_of(const Fix& fix, bool is_along_x, Rng& rng) {
+Prediction alternative_of(const Fix& fix, bool is_along_x, Rng& rng) {
     const std::int32_t before = 5 + static_cast<std::int32_t>(rng.below(4));
     Prediction prediction = Prediction::like(fix);
     const Place middle{fix.cell, fix.section};
     const Place first =
         moved(Profile::anoto, middle, is_along_x ? -before : 0, is_along_x ? 0 : -before);
-    const Place rival = worst_rival(Profile::anoto, first, is_along_x, 2 * before);
-    prediction.place = moved(Profile::anoto, rival, between(first.cell.x, fix.place.cell.x),
+    const Place alternative = worst_alternative(Profile::anoto, first, is_along_x, 2 * before);
+    prediction.place = moved(Profile::anoto, alternative, between(first.cell.x, fix.place.cell.x),
                              between(first.cell.y, fix.place.cell.y));
     return prediction;
 }
@@ -115,9 +115,9 @@ Prediction predicted(std::size_t kind, const Views& views, Rng& rng) {
             one = static_cast<std::uint8_t>((one + 1 + rng.below(kSections - 1)) % kSections);
             break;
         }
-        case rival_x:
-        case rival_y:
-            return rival_of(views.fix, kind == rival_x, rng);
+        case alternative_x:
+        case alternative_y:
+            return alternative_of(views.fix, kind == alternative_x, rng);
         default: {
             const auto either = [&rng](int step) { return rng.below(2) == 0 ? step : -step; };
             place =

@@ -28,9 +28,9 @@ struct Lens {
 struct ThresholdOptions {
     /// A pixel belongs to a blob when it is darker than the paper by this share (in 1/256) of the
     /// local contrast. Smaller joins neighbouring dots, larger loses blurred ones. [1 to 256]
-    int extent_q8 = 120;
+    int low_q8 = 120;
     /// Some pixel of a blob must be darker by this (in 1/256). Larger drops more noise. [1 to 256]
-    int core_q8 = 155;
+    int high_q8 = 155;
     /// Grey levels of contrast below which an area is blank. Raise it for noisy cameras. [1 to 255]
     int min_contrast = 8;
 };

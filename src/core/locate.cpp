@@ -33,8 +33,8 @@ bool are_valid(const Options& options) {
     constexpr int kFarthestLens_q8 = 1024 * 256;
     constexpr int kMost = 1 << 20;  // 256 times as much has 32 bits, twice over
     return options.profile <= Profile::microdots && options.effort <= Effort::twice &&
-           options.decoder <= Decoder::all && is_within(options.threshold.extent_q8, 1, 256) &&
-           is_within(options.threshold.core_q8, 1, 256) &&
+           options.decoder <= Decoder::all && is_within(options.threshold.low_q8, 1, 256) &&
+           is_within(options.threshold.high_q8, 1, 256) &&
            is_within(options.threshold.min_contrast, 1, 255) &&
            is_within(options.blobs.min_area_px, 0, kMost) &&
            is_within(options.blobs.min_mass_q8, 0, 256) &&

@@ -55,8 +55,8 @@ struct Light {
     std::span<Tile> tiles;  ///< of the four newest bands
     /// What counts as dark in each column of the band being thresholded: pixels darker than the
     /// extent, an even grey level of which this is half, belong to a blob; 0 where nothing does.
-    std::span<std::uint8_t> half_extents;
-    std::span<std::uint8_t> cores;  ///< some pixel of a blob must be darker than this
+    std::span<std::uint8_t> half_low_levels;
+    std::span<std::uint8_t> high_levels;  ///< some pixel of a blob must be darker than this
 };
 
 /// The paper's grey level in the square blocks of an image.
@@ -147,15 +147,15 @@ struct Grid {
 /// Agreement of one column or row with the main sequence at each of its offsets.
 using LineScores = std::array<std::int16_t, kSections>;
 
-/// The score of the best offset, and by how much it leads the second best.
-struct Lead {
-    std::int16_t best = 0;
-    std::int16_t lead = 0;
+/// The score of the best offset, and by how much it exceeds the second best, the margin.
+struct BestScore {
+    std::int16_t score = 0;
+    std::int16_t margin = 0;
 };
 
 struct ScoredLine {
     LineScores scores{};
-    Lead lead;
+    BestScore best;
 };
 
 /// Most columns, and most rows, of the grid that a tracked frame may show.

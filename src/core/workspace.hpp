@@ -92,8 +92,8 @@ class WorkspaceOf : public Workspace {
         smoothing.column_sums = smooth_sums_;
         light.rows = rows_;
         light.tiles = tiles_;
-        light.half_extents = half_extents_;
-        light.cores = cores_;
+        light.half_low_levels = half_extents_;
+        light.high_levels = cores_;
         open.runs = runs_;
         open.blobs = blobs_;
         dots = dots_;
@@ -166,8 +166,8 @@ class DeviceWorkspace : public Workspace {
         auto& pixels = memory_of<PixelStages>(memory_);
         light.rows = pixels.rows;
         light.tiles = pixels.tiles;
-        light.half_extents = pixels.half_extents;
-        light.cores = pixels.cores;
+        light.half_low_levels = pixels.half_low_levels;
+        light.high_levels = pixels.high_levels;
         open.blobs = pixels.blobs;
         open.runs = pixels.runs;
         auto& lattices = memory_of<LatticeStages>(memory_);
@@ -208,8 +208,8 @@ class DeviceWorkspace : public Workspace {
             std::array<std::uint8_t, 2 * kLowTile_px * kTiles * kTileWidth_px + kReadAhead_px> rows;
         std::array<OpenBlob, kBlobs> blobs;
         std::array<Run, 2 * kRuns> runs;
-        alignas(8) std::array<std::uint8_t, kLevels> half_extents;
-        alignas(8) std::array<std::uint8_t, kLevels> cores;
+        alignas(8) std::array<std::uint8_t, kLevels> half_low_levels;
+        alignas(8) std::array<std::uint8_t, kLevels> high_levels;
         std::array<Tile, 4 * kTiles> tiles;
     };
     struct LatticeStages {

@@ -33,8 +33,8 @@ struct LocateHeader {
     std::uint8_t padding_px = 0;  ///< between rows
     std::int8_t max_p_wrong_log2 = -30;
     std::int16_t max_bit_error_q8 = 46;
-    std::int16_t extent_q8 = 120;
-    std::int16_t core_q8 = 155;
+    std::int16_t low_q8 = 120;
+    std::int16_t high_q8 = 155;
     std::int16_t min_contrast = 8;
     std::int16_t min_area_px = 2;
     std::int16_t min_mass_q8 = 72;
@@ -58,7 +58,7 @@ inline Options options_of(const LocateHeader& header) {
     if ((header.flags & LocateHeader::window_decoder) != 0) options.decoder = Decoder::window;
     if ((header.flags & LocateHeader::default_options) != 0) return options;
     options.lens.k_q40 = header.k_q40;
-    options.threshold = {header.extent_q8, header.core_q8, header.min_contrast};
+    options.threshold = {header.low_q8, header.high_q8, header.min_contrast};
     options.blobs = {header.min_area_px, header.min_mass_q8, header.max_area_ratio};
     options.lattice = {header.min_dots, header.max_offset_q16};
     options.integrity = {header.max_p_wrong_log2, header.max_bit_error_q8};

@@ -198,7 +198,7 @@ class AnyCode {
                 return locate_tracked(kernels(), image_, options_, *prediction_, w_);
             case Step::outwards:
                 forget_frame(w_);
-                return looks_outwards(options_, w_) &&
+                return searches_outwards(options_, w_) &&
                        locate_outwards(kernels(), image_, options_, w_);
             case Step::rows:
                 return locate_by_rows(kernels(), image_, options_, w_);
@@ -219,7 +219,7 @@ class AnyCode {
 
     /// The second attempt, without or with the closer look. The profiles share what they do not
     /// differ in: what was seen in the frame.
-    bool attempt_filtered(Profile code, bool looks_closer) {
+    bool attempt_filtered(Profile code, bool resamples) {
         if (!is_seen_) {
             w_.fix.status = see_filtered(image_, options_, w_);
             w_.fix.attempt = Attempt::second;
@@ -231,8 +231,8 @@ class AnyCode {
         w_.decoding = {};
         Status& status = w_.fix.status;
         status = read_position(options_, w_);
-        if (status == Status::not_certain && looks_closer) {
-            status = look_until_certain(image_, options_, w_);
+        if (status == Status::not_certain && resamples) {
+            status = resample_until_certain(image_, options_, w_);
             is_seen_ = false;
         } else if (status == Status::not_certain && w_.fix.bit_errors < fewest_errors_) {
             fewest_errors_ = w_.fix.bit_errors;

@@ -89,25 +89,25 @@ std::array<Confidence, 2> confidences_in(const BitsRead& bits) {
 }
 
 /// Whether the bits of all dots near the centre leave no doubt.
-bool is_certain(const Kernels& kernels, const Options& options, const Sight& sight,
+bool is_certain(const Kernels& kernels, const Options& options, const Hypothesis& hypothesis,
                 const CellsInView& view, const BitBlock& block, const BitsRead& bits,
                 Workspace& w) {
     w.decoding.bits = 2 * bits.read;
     const auto confidences = confidences_in(bits);
     OtherCodes* others = wanted_codes(w);
-    const CodedBlock coded(options.profile, sight.place, view, block);
+    const CodedBlock coded(options.profile, hypothesis.place, view, block);
     if (is_plainly_certain(
             kernels, {coded.axis(Axis::x, confidences[0]), coded.axis(Axis::y, confidences[1])},
             options.profile, options.integrity, w.fix, others)) {
         return true;
     }
     const Evidence evidence =
-        evidence_of(kernels, options.profile, sight.place, block, confidences, w.line_scores);
+        evidence_of(kernels, options.profile, hypothesis.place, block, confidences, w.line_scores);
     return core::is_certain(kernels, evidence, options.profile, options.integrity, w.fix, others);
 }
 
 /// What is to be seen of the fix: dots and the bits read from them.
-void show(const Sight& sight, Workspace& w) {
+void show(const Hypothesis& hypothesis, Workspace& w) {
     const MeasuredDots& dots = w.measured;
     const auto side = std::min(w.grid.side, kMaxGridSide);
     Vec least{INT32_MAX, INT32_MAX};
@@ -142,12 +142,12 @@ void show(const Sight& sight, Workspace& w) {
                             static_cast<std::int32_t>(std::floor(dots.y[k] * 256 + 0.5F))};
         dot.mass = static_cast<std::uint16_t>(std::min<std::int32_t>(dots.mass[k], 65535));
         dot.area_px = 0;
-        const FloatVec at = plane_point(sight.pattern_from_image, {dots.x[k], dots.y[k]});
+        const FloatVec at = plane_point(hypothesis.pattern_from_image, {dots.x[k], dots.y[k]});
         const float off_x = at.x - dots.column[k];
         const float off_y = at.y - dots.row[k];
         const auto weight = [&](float clear) {
             return static_cast<std::int8_t>(
-                std::clamp(127 * clear / sight.displacement, -127.0F, 127.0F));
+                std::clamp(127 * clear / hypothesis.displacement, -127.0F, 127.0F));
         };
         GridCell& here = grid.at(cell.x, cell.y);
         here = {weight(off_y - off_x), weight(off_y + off_x),
@@ -162,34 +162,34 @@ void show(const Sight& sight, Workspace& w) {
 
 /// Fits the plane, and the displacement that it goes with.
 bool fit_to_dots(const Kernels& kernels, const MeasuredDots& dots, const BitsRead& bits,
-                 const ImageView& image, Sight& sight, PoseFit& fit) {
+                 const ImageView& image, Hypothesis& hypothesis, PoseFit& fit) {
     if (bits.right == 0) return false;
     const auto right = static_cast<float>(bits.right);
-    sight.displacement = bits.projected / right;
+    hypothesis.displacement = bits.projected / right;
     const float limit = tuned::kOutlier * bits.squares / right + 1e-6F;
     return fit_plane(kernels, dots, static_cast<int>(half_side_px(image)) + 1, limit,
-                     sight.displacement, sight.pattern_from_image, fit);
+                     hypothesis.displacement, hypothesis.pattern_from_image, fit);
 }
 
-void write_fix(const ImageView& image, const Options& options, const Sight& sight,
+void write_fix(const ImageView& image, const Options& options, const Hypothesis& hypothesis,
                const BitsRead& bits, const PoseFit& fit, Workspace& w) {
     w.fix.dots_seen = bits.seen;
     w.fix.bit_errors = bits.wrong_x + bits.wrong_y;
     w.fix.displacement_q16 = static_cast<std::int32_t>(fit.displacement * 65536);
     const Vec centre_q8{(image.width_px - 1) * 128, (image.height_px - 1) * 128};
-    const FloatVec from = sight.from_centre;
+    const FloatVec from = hypothesis.from_centre;
     const Vec from_q8{static_cast<std::int32_t>(from.x * 256),
                       static_cast<std::int32_t>(from.y * 256)};
-    w.pattern_from_image = fixed_plane(sight.pattern_from_image, centre_q8 + from_q8);
-    w.decoding.place = sight.place;
+    w.pattern_from_image = fixed_plane(hypothesis.pattern_from_image, centre_q8 + from_q8);
+    w.decoding.place = hypothesis.place;
     w.decoding.pattern_from_grid = {};
     const Vec reference = reference_q8(centre_q8, options);
-    write_pose(w.pattern_from_image, reference, options.profile, sight.place, w.fix);
+    write_pose(w.pattern_from_image, reference, options.profile, hypothesis.place, w.fix);
     estimate_covariance(fit, w.pattern_from_image, reference, w.fix);
     if (!(from_q8 == Vec{})) {
         // Predictions are made from the fix, and count from the image centre.
         w.fix.pattern_from_image =
-            fixed_plane(recentred(sight.pattern_from_image, {-from.x, -from.y}), centre_q8);
+            fixed_plane(recentred(hypothesis.pattern_from_image, {-from.x, -from.y}), centre_q8);
     }
     w.fix.status = Status::ok;
 }
@@ -207,10 +207,10 @@ bool is_far_from(const FloatPlane& before, const FloatPlane& now, const ImageVie
     return false;
 }
 
-/// The point whose pose is wanted, counted as the sight's plane counts.
-FloatVec reference_px(const Options& options, const Sight& sight) {
-    return {static_cast<float>(options.reference_dx_q8) / 256 - sight.from_centre.x,
-            static_cast<float>(options.reference_dy_q8) / 256 - sight.from_centre.y};
+/// The point whose pose is wanted, counted as the hypothesis's plane counts.
+FloatVec reference_px(const Options& options, const Hypothesis& hypothesis) {
+    return {static_cast<float>(options.reference_dx_q8) / 256 - hypothesis.from_centre.x,
+            static_cast<float>(options.reference_dy_q8) / 256 - hypothesis.from_centre.y};
 }
 
 /// How far is looked, round by round, px.
@@ -219,12 +219,13 @@ struct Reach {
     float deciding;  ///< whose bits must make the position certain; farther out they add nothing
     float now;
 
-    Reach(const ImageView& image, const Sight& sight, float spacing_px)
+    Reach(const ImageView& image, const Hypothesis& hypothesis, float spacing_px)
         : full(half_side_px(image) +
-               std::max(std::abs(sight.from_centre.x), std::abs(sight.from_centre.y)) + 1),
+               std::max(std::abs(hypothesis.from_centre.x), std::abs(hypothesis.from_centre.y)) +
+               1),
           deciding(full <= tuned::kDenseAtMost * spacing_px ? full : tuned::kDense * spacing_px),
           now(deciding) {
-        if (!sight.shows_part) return;
+        if (!hypothesis.shows_part) return;
         // Where the pattern ends, it is not full, and where there are islands, one is not certain.
         deciding = std::min(full, tuned::kDecidingOfPart * spacing_px);
         now = std::min(full, tuned::kDenseOfPart * spacing_px);
@@ -246,24 +247,25 @@ FloatLens float_lens(const Lens& lens) {
             static_cast<float>(lens.centre_dy_q8) / 256};
 }
 
-CellsInView cells_in_view(const ImageView& image, const Options& options, const Sight& sight,
-                          float reach_px, int most_cells, Workspace& w) {
+CellsInView cells_in_view(const ImageView& image, const Options& options,
+                          const Hypothesis& hypothesis, float reach_px, int most_cells,
+                          Workspace& w) {
     const FloatVec centre = centre_px(image);
     CellsInView view;
-    view.plane = sight.pattern_from_image;
+    view.plane = hypothesis.pattern_from_image;
     view.lens = float_lens(options.lens);
-    view.lens.centre_x -= sight.from_centre.x;
-    view.lens.centre_y -= sight.from_centre.y;
-    view.centre_x = centre.x + sight.from_centre.x;
-    view.centre_y = centre.y + sight.from_centre.y;
+    view.lens.centre_x -= hypothesis.from_centre.x;
+    view.lens.centre_y -= hypothesis.from_centre.y;
+    view.centre_x = centre.x + hypothesis.from_centre.x;
+    view.centre_y = centre.y + hypothesis.from_centre.y;
     view.width_px = static_cast<float>(image.width_px);
     view.height_px = static_cast<float>(image.height_px);
     view.reach_px = reach_px;
-    view.displacement = sight.displacement;
+    view.displacement = hypothesis.displacement;
     // A dot that touches the border is not seen whole.
-    view.margin_px = std::max(1.7F, 0.15F * spacing_px(sight.pattern_from_image));
-    const float half_width = std::min(centre.x + std::abs(sight.from_centre.x) + 1, reach_px);
-    const float half_height = std::min(centre.y + std::abs(sight.from_centre.y) + 1, reach_px);
+    view.margin_px = std::max(1.7F, 0.15F * spacing_px(hypothesis.pattern_from_image));
+    const float half_width = std::min(centre.x + std::abs(hypothesis.from_centre.x) + 1, reach_px);
+    const float half_height = std::min(centre.y + std::abs(hypothesis.from_centre.y) + 1, reach_px);
     float least_x = 0, least_y = 0, most_x = 0, most_y = 0;
     for (const FloatVec corner :
          {FloatVec{-half_width, -half_height}, FloatVec{half_width, -half_height},
@@ -283,97 +285,101 @@ CellsInView cells_in_view(const ImageView& image, const Options& options, const 
     const float spacing = spacing_px(view.plane);
     const float cells = 4 * half_width * half_height / (spacing * spacing);
     view.step = 1 + static_cast<int>(std::min(cells / static_cast<float>(most_cells), 65535.0F));
-    follow_code(options.profile, sight.place, view, w);
+    follow_code(options.profile, hypothesis.place, view, w);
     view.column_rolls = w.column_rolls.data();
     view.row_rolls = w.row_rolls.data();
     return view;
 }
 
-void count_from_centre(Profile profile, Sight& sight) {
-    FloatPlane& plane = sight.pattern_from_image;
+void count_from_centre(Profile profile, Hypothesis& hypothesis) {
+    FloatPlane& plane = hypothesis.pattern_from_image;
     const float column = std::floor(plane.at_x + 0.5F);
     const float row = std::floor(plane.at_y + 0.5F);
     plane.at_x -= column;
     plane.at_y -= row;
-    sight.place = moved(profile, sight.place, static_cast<std::int32_t>(column),
-                        static_cast<std::int32_t>(row));
+    hypothesis.place = moved(profile, hypothesis.place, static_cast<std::int32_t>(column),
+                             static_cast<std::int32_t>(row));
 }
 
 namespace {
 
-/// An exact sight is implausible where dots need more than one look.
-Confirmation look(const Kernels& kernels, const ImageView& image, const Options& options,
-                  Sight sight, Workspace& w) {
-    FloatPlane& plane = sight.pattern_from_image;
+/// An exact hypothesis is implausible where dots need more than one look.
+Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
+                                 const Options& options, Hypothesis hypothesis, Workspace& w) {
+    FloatPlane& plane = hypothesis.pattern_from_image;
     MeasuredDots& dots = w.measured;
     const float spacing = spacing_px(plane);
     const int most_dots = std::min(std::max(options.most_dots, 64), dots.capacity());
-    OtherCodes* const codes = sight.is_certain ? nullptr : wanted_codes(w);
+    OtherCodes* const codes = hypothesis.is_certain ? nullptr : wanted_codes(w);
     DotReader reader(kernels, image, spacing, dots);
     PoseFit fit;
     BitsRead bits;
-    bool is_second_look = false;
-    for (Reach reach(image, sight, spacing);;) {
+    bool is_second_pass = false;
+    for (Reach reach(image, hypothesis, spacing);;) {
         const bool decides = reach.decides();
         if (!is_plausible(image, plane)) return Confirmation::implausible;
-        count_from_centre(options.profile, sight);
-        const CellsInView view = cells_in_view(image, options, sight, reach.now,
+        count_from_centre(options.profile, hypothesis);
+        const CellsInView view = cells_in_view(image, options, hypothesis, reach.now,
                                                decides ? dots.capacity() : most_dots, w);
-        if (sight.is_exact && sight.typical_mass == 0) reader.look_at_some(view, sight);
+        if (hypothesis.is_exact && hypothesis.typical_mass == 0)
+            reader.sample_some(view, hypothesis);
         kernels.list_cells(view, dots);
         const bool is_last = reach.now >= reach.full;
         BitBlock block;
-        bits =
-            reader.read(view, sight, decides || (is_last && codes != nullptr) ? &block : nullptr);
-        if (!is_plausible(bits, dots, options, sight.shows_part)) return Confirmation::implausible;
+        bits = reader.read(view, hypothesis,
+                           decides || (is_last && codes != nullptr) ? &block : nullptr);
+        if (!is_plausible(bits, dots, options, hypothesis.shows_part))
+            return Confirmation::implausible;
         if (!is_clean(bits)) {
-            if (sight.is_exact) return Confirmation::implausible;
+            if (hypothesis.is_exact) return Confirmation::implausible;
             // Through a plane that is fitted to all dots, fewer bits are misread.
-            if (decides && !fit_to_dots(kernels, dots, bits, image, sight, fit))
+            if (decides && !fit_to_dots(kernels, dots, bits, image, hypothesis, fit))
                 return Confirmation::implausible;
-            if (decides) bits = reader.read_again(sight, block);
+            if (decides) bits = reader.read_again(hypothesis, block);
         }
-        reader.find_centres(view, sight, is_last, bits);
+        reader.find_centres(view, hypothesis, is_last, bits);
         const FloatPlane before = plane;
-        if (!fit_to_dots(kernels, dots, bits, image, sight, fit)) return Confirmation::implausible;
-        if (sight.is_exact && is_far_from(before, plane, image)) {
-            if (is_second_look) return Confirmation::implausible;
-            is_second_look = true;
+        if (!fit_to_dots(kernels, dots, bits, image, hypothesis, fit))
+            return Confirmation::implausible;
+        if (hypothesis.is_exact && is_far_from(before, plane, image)) {
+            if (is_second_pass) return Confirmation::implausible;
+            is_second_pass = true;
             continue;
         }
-        if (decides && !sight.is_certain &&
-            !is_certain(kernels, options, sight, view, block, bits, w)) {
+        if (decides && !hypothesis.is_certain &&
+            !is_certain(kernels, options, hypothesis, view, block, bits, w)) {
             return Confirmation::uncertain;
         }
         if (is_last && codes != nullptr) {
-            weigh_codes_in_view(kernels, options.profile, sight.place, block, confidences_in(bits),
-                                !decides, w.line_scores, *codes);
+            weigh_codes_in_view(kernels, options.profile, hypothesis.place, block,
+                                confidences_in(bits), !decides, w.line_scores, *codes);
         }
         if (is_last) break;
         reach.grow();
     }
-    fit_uneven(kernels, dots, reference_px(options, sight), plane, fit);
+    fit_uneven(kernels, dots, reference_px(options, hypothesis), plane, fit);
     if (!is_plausible(image, plane)) return Confirmation::implausible;
-    if (is_far_fetched(fit, 2 * bits.read, bits.wrong_x + bits.wrong_y))
+    if (is_implausible(fit, 2 * bits.read, bits.wrong_x + bits.wrong_y))
         return Confirmation::uncertain;
-    write_fix(image, options, sight, bits, fit, w);
-    if (options.show_stages) show(sight, w);
+    write_fix(image, options, hypothesis, bits, fit, w);
+    if (options.show_stages) show(hypothesis, w);
     return Confirmation::ok;
 }
 
 }  // namespace
 
 Confirmation confirm(const Kernels& kernels, const ImageView& image, const Options& options,
-                     Sight sight, Workspace& w) {
-    if (sight.is_predicted && suits_one_look(sight)) {
+                     Hypothesis hypothesis, Workspace& w) {
+    if (hypothesis.is_predicted && suits_one_pass(hypothesis)) {
         OtherCodes* const codes = wanted_codes(w);
         const OtherCodes before = codes != nullptr ? *codes : OtherCodes{};
-        sight.is_exact = true;
-        if (look(kernels, image, options, sight, w) == Confirmation::ok) return Confirmation::ok;
-        sight.is_exact = false;
+        hypothesis.is_exact = true;
+        if (measure_and_compare(kernels, image, options, hypothesis, w) == Confirmation::ok)
+            return Confirmation::ok;
+        hypothesis.is_exact = false;
         if (codes != nullptr) *codes = before;  // What did not count has told nothing of them.
     }
-    return look(kernels, image, options, sight, w);
+    return measure_and_compare(kernels, image, options, hypothesis, w);
 }
 
 }  // namespace dotpose::core

@@ -11,7 +11,7 @@
 namespace dotpose::core {
 
 /// Where the pattern is thought to be in the image.
-struct Sight {
+struct Hypothesis {
     FloatPlane pattern_from_image;  ///< upright, counted from `from_centre`
     FloatVec from_centre;           ///< px, from the image centre
     Place place;                    ///< of the plane's cell (0, 0)
@@ -32,16 +32,17 @@ inline constexpr int kCutOfDepth_q8 = 160;
 
 FloatLens float_lens(const Lens& lens);
 
-/// What `list_cells` is asked for: the cells in view within `reach_px` of the sight's point, at
-/// most about so many. Fills in the workspace's rolls.
-CellsInView cells_in_view(const ImageView& image, const Options& options, const Sight& sight,
-                          float reach_px, int most_cells, Workspace& w);
+/// What `list_cells` is asked for: the cells in view within `reach_px` of the hypothesis's point,
+/// at most about so many. Fills in the workspace's rolls.
+CellsInView cells_in_view(const ImageView& image, const Options& options,
+                          const Hypothesis& hypothesis, float reach_px, int most_cells,
+                          Workspace& w);
 
 /// Whether an image can show the grid so; all that follows relies on it.
 bool is_plausible(const ImageView& image, const FloatPlane& plane);
 
 /// Counts cells from the one at the image centre.
-void count_from_centre(Profile profile, Sight& sight);
+void count_from_centre(Profile profile, Hypothesis& hypothesis);
 
 enum class Confirmation : std::uint8_t {
     ok,
@@ -52,6 +53,6 @@ enum class Confirmation : std::uint8_t {
 /// Measures, compares, fits: of a prediction at one look at each dot, where that is enough. Sets
 /// the workspace's fix and what there is to see of it.
 Confirmation confirm(const Kernels& kernels, const ImageView& image, const Options& options,
-                     Sight sight, Workspace& w);
+                     Hypothesis hypothesis, Workspace& w);
 
 }  // namespace dotpose::core

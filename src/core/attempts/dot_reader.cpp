@@ -27,12 +27,13 @@ void leave_out_table(MeasuredDots& dots, float& paper) {
 
 /// How far the bell reaches that dots are weighed with: little, for noise, but as far as a dot's
 /// edge is seen.
-float bell_reach_px(const Sight& sight) {
+float bell_reach_px(const Hypothesis& hypothesis) {
     constexpr float kPi = 3.14159265F;
-    const float beyond_cut = static_cast<float>(sight.depth_q8 * (256 - kCutOfDepth_q8)) / 65536;
+    const float beyond_cut =
+        static_cast<float>(hypothesis.depth_q8 * (256 - kCutOfDepth_q8)) / 65536;
     const float radius_px =
-        std::sqrt(sight.typical_mass / (kPi * std::max(beyond_cut, 1.0F / 256)));
-    const bool is_quick = spacing_px(sight.pattern_from_image) < tuned::kQuickBells_px;
+        std::sqrt(hypothesis.typical_mass / (kPi * std::max(beyond_cut, 1.0F / 256)));
+    const bool is_quick = spacing_px(hypothesis.pattern_from_image) < tuned::kQuickBells_px;
     return std::clamp(tuned::kBellRadii * radius_px, tuned::kLeastBell_px,
                       is_quick ? kQuickBellReach_px : kMostBellReach_px);
 }
@@ -50,53 +51,55 @@ bool falls_on_pixels_alike(const FloatPlane& p) {
 
 }  // namespace
 
-bool suits_one_look(const Sight& sight) {
-    const float spacing = spacing_px(sight.pattern_from_image);
-    return spacing >= tuned::kFinestOneLook_px && spacing < tuned::kQuickBells_px &&
-           !falls_on_pixels_alike(sight.pattern_from_image);
+bool suits_one_pass(const Hypothesis& hypothesis) {
+    const float spacing = spacing_px(hypothesis.pattern_from_image);
+    return spacing >= tuned::kFinestOnePass_px && spacing < tuned::kQuickBells_px &&
+           !falls_on_pixels_alike(hypothesis.pattern_from_image);
 }
 
-void DotReader::look_at_some(CellsInView view, Sight& sight) {
+void DotReader::sample_some(CellsInView view, Hypothesis& hypothesis) {
     const float cells = view.width_px * view.height_px / (spacing_px_ * spacing_px_);
     view.step = std::max(static_cast<int>(cells / tuned::kSomeDots), 1);
     kernels_.list_cells(view, dots_);
-    sight.typical_mass = kernels_.measure_windows(image_, view, window_look(sight), dots_);
+    hypothesis.typical_mass =
+        kernels_.measure_windows(image_, view, window_options(hypothesis), dots_);
 }
 
-WindowLook DotReader::window_look(const Sight& sight) const {
-    return {spacing_px_, 0.36F, sight.depth_q8 * kCutOfDepth_q8 >> 8};
+WindowOptions DotReader::window_options(const Hypothesis& hypothesis) const {
+    return {spacing_px_, 0.36F, hypothesis.depth_q8 * kCutOfDepth_q8 >> 8};
 }
 
-BitsRead DotReader::read(const CellsInView& view, Sight& sight, BitBlock* block) {
+BitsRead DotReader::read(const CellsInView& view, Hypothesis& hypothesis, BitBlock* block) {
     BitLines* const columns = block != nullptr ? &block->columns : nullptr;
     BitLines* const rows = block != nullptr ? &block->rows : nullptr;
-    if (sight.is_exact)
-        return kernels_.read_levels(image_, view, sight.depth_q8, dots_, columns, rows);
-    WindowLook look = window_look(sight);
+    if (hypothesis.is_exact)
+        return kernels_.read_levels(image_, view, hypothesis.depth_q8, dots_, columns, rows);
+    WindowOptions look = window_options(hypothesis);
     // Farther out, most windows may be empty.
-    if (sight.shows_part) look.typical_mass = typical_mass_;
-    typical_mass_ = sight.typical_mass = kernels_.measure_windows(image_, view, look, dots_);
-    if (sight.shows_part) leave_out_table(dots_, paper_);
-    return kernels_.read_bits(dots_, sight.pattern_from_image, sight.displacement, columns, rows);
+    if (hypothesis.shows_part) look.typical_mass = typical_mass_;
+    typical_mass_ = hypothesis.typical_mass = kernels_.measure_windows(image_, view, look, dots_);
+    if (hypothesis.shows_part) leave_out_table(dots_, paper_);
+    return kernels_.read_bits(dots_, hypothesis.pattern_from_image, hypothesis.displacement,
+                              columns, rows);
 }
 
-BitsRead DotReader::read_again(const Sight& sight, BitBlock& block) const {
+BitsRead DotReader::read_again(const Hypothesis& hypothesis, BitBlock& block) const {
     block = {};
-    return kernels_.read_bits(dots_, sight.pattern_from_image, sight.displacement, &block.columns,
-                              &block.rows);
+    return kernels_.read_bits(dots_, hypothesis.pattern_from_image, hypothesis.displacement,
+                              &block.columns, &block.rows);
 }
 
-void DotReader::find_centres(const CellsInView& view, const Sight& sight, bool is_last,
+void DotReader::find_centres(const CellsInView& view, const Hypothesis& hypothesis, bool is_last,
                              BitsRead& bits) const {
-    if (sight.is_exact) {
-        kernels_.find_centres(image_, view, bell_reach_px(sight), tuned::kMostOff_px, dots_);
-        const BitsRead found = kernels_.read_bits(dots_, sight.pattern_from_image,
-                                                  sight.displacement, nullptr, nullptr);
+    if (hypothesis.is_exact) {
+        kernels_.find_centres(image_, view, bell_reach_px(hypothesis), tuned::kMostOff_px, dots_);
+        const BitsRead found = kernels_.read_bits(dots_, hypothesis.pattern_from_image,
+                                                  hypothesis.displacement, nullptr, nullptr);
         bits.right = found.right;
         bits.projected = found.projected;
         bits.squares = found.squares;
     } else if (is_last) {
-        kernels_.refine_centres(image_, view, bell_reach_px(sight), dots_);
+        kernels_.refine_centres(image_, view, bell_reach_px(hypothesis), dots_);
     }
 }
 

@@ -1,4 +1,4 @@
-// Dot reader: the bits and the centres of dots that are listed, as well as the sight is known.
+// Dot reader: the bits and the centres of dots that are listed, as well as the hypothesis is known.
 #pragma once
 
 #include "core/attempts/confirm.hpp"
@@ -7,7 +7,7 @@
 namespace dotpose::core {
 
 /// Whether dots that are where they are thought to be can be read at one look, by quick bells.
-bool suits_one_look(const Sight& sight);
+bool suits_one_pass(const Hypothesis& hypothesis);
 
 /// Reads the dots listed, and measures them: exactly where they are, if that is known, or around
 /// the intersections.
@@ -17,17 +17,17 @@ class DotReader {
         : kernels_(kernels), image_(image), spacing_px_(spacing_px), dots_(dots) {}
 
     /// Learns how dark dots are, from a few all over the view.
-    void look_at_some(CellsInView view, Sight& sight);
+    void sample_some(CellsInView view, Hypothesis& hypothesis);
     /// Adds what it reads to an empty block, unless that is null.
-    BitsRead read(const CellsInView& view, Sight& sight, BitBlock* block);
+    BitsRead read(const CellsInView& view, Hypothesis& hypothesis, BitBlock* block);
     /// Through another plane.
-    BitsRead read_again(const Sight& sight, BitBlock& block) const;
-    /// Of an exact sight, also how far dots are displaced and off.
-    void find_centres(const CellsInView& view, const Sight& sight, bool is_last,
+    BitsRead read_again(const Hypothesis& hypothesis, BitBlock& block) const;
+    /// Of an exact hypothesis, also how far dots are displaced and off.
+    void find_centres(const CellsInView& view, const Hypothesis& hypothesis, bool is_last,
                       BitsRead& bits) const;
 
   private:
-    WindowLook window_look(const Sight& sight) const;
+    WindowOptions window_options(const Hypothesis& hypothesis) const;
 
     const Kernels& kernels_;
     const ImageView& image_;

@@ -48,8 +48,8 @@ bool find_patch_dots(const Kernels& kernels, const ImageView& image, Patch& patc
 }
 
 /// From the dots of a patch, counted from `from_centre`, to a place in the code.
-bool read_sight(const Kernels& kernels, const Options& options, const PatchView& view,
-                FloatVec from_centre, Workspace& w, Sight& sight) {
+bool read_hypothesis(const Kernels& kernels, const Options& options, const PatchView& view,
+                     FloatVec from_centre, Workspace& w, Hypothesis& hypothesis) {
     Patch& patch = *w.patch;
     PatchGrid grid;
     if (!find_grid(kernels, patch, view, grid)) return false;
@@ -58,31 +58,33 @@ bool read_sight(const Kernels& kernels, const Options& options, const PatchView&
                        block.rows);
     const int quarters = likeliest_turn(kernels, block);
     const BlockLines lines = score_block(kernels, turned(quarters, block), w.line_scores);
-    if (!find_place(options.profile, lines, sight.place)) return false;
-    sight.pattern_from_image = turned(quarters, grid.grid_from_image);
-    sight.from_centre = from_centre;
-    sight.displacement = grid.displacement;
-    sight.depth_q8 = patch.depth_q8;
+    if (!find_place(options.profile, lines, hypothesis.place)) return false;
+    hypothesis.pattern_from_image = turned(quarters, grid.grid_from_image);
+    hypothesis.from_centre = from_centre;
+    hypothesis.displacement = grid.displacement;
+    hypothesis.depth_q8 = patch.depth_q8;
     return true;
 }
 
 /// Reads the patch at the image centre. False if it shows no place in the code.
-bool find_sight(const Kernels& kernels, const ImageView& image, const Options& options,
-                Workspace& w, Sight& sight) {
+bool find_hypothesis(const Kernels& kernels, const ImageView& image, const Options& options,
+                     Workspace& w, Hypothesis& hypothesis) {
     Patch& patch = *w.patch;
     if (!find_patch_dots(kernels, image, patch)) return false;
     const FloatVec middle = middle_of(patch, image);
     if (options.lens.k_q40 != 0) straighten(options.lens, middle, patch.dots);
-    if (!read_sight(kernels, options, whole_view(patch), middle, w, sight)) return false;
-    sight.pattern_from_image = recentred(sight.pattern_from_image, {-middle.x, -middle.y});
-    sight.from_centre = {};
+    if (!read_hypothesis(kernels, options, whole_view(patch), middle, w, hypothesis)) return false;
+    hypothesis.pattern_from_image =
+        recentred(hypothesis.pattern_from_image, {-middle.x, -middle.y});
+    hypothesis.from_centre = {};
     return true;
 }
 
 /// Reads a patch around a point of the image, in px, from where its dots are densest, which is
 /// `densest_px`. False if it shows no place in the code.
-bool find_sight_around(const Kernels& kernels, const ImageView& image, const Options& options,
-                       Vec around_px, int scale, Workspace& w, Vec& densest_px, Sight& sight) {
+bool find_hypothesis_around(const Kernels& kernels, const ImageView& image, const Options& options,
+                            Vec around_px, int scale, Workspace& w, Vec& densest_px,
+                            Hypothesis& hypothesis) {
     Patch& patch = *w.patch;
     PatchView view;
     FloatVec from_middle;
@@ -98,11 +100,11 @@ bool find_sight_around(const Kernels& kernels, const ImageView& image, const Opt
     const FloatVec middle = middle_of(patch, image);
     const FloatVec from_centre{middle.x + from_middle.x, middle.y + from_middle.y};
     if (options.lens.k_q40 != 0) straighten(options.lens, from_centre, patch.dots);
-    sight.shows_part = true;
+    hypothesis.shows_part = true;
     for (const float central_dots : tuned::kCentralDots) {
         for (const float by : tuned::kSpacings) {
             const PatchView other{by * view.spacing_px, view.full_reach_px, central_dots};
-            if (read_sight(kernels, options, other, from_centre, w, sight)) return true;
+            if (read_hypothesis(kernels, options, other, from_centre, w, hypothesis)) return true;
         }
     }
     return false;
@@ -110,16 +112,17 @@ bool find_sight_around(const Kernels& kernels, const ImageView& image, const Opt
 
 /// Looks once in a patch around a point of the image, and once more around where its dots are
 /// densest, if that is elsewhere. Every look that the bits do not bear out is one more chance to be
-/// deceived, of which `looks_left` are left.
+/// deceived, of which `tries_left` are left.
 bool locate_around(const Kernels& kernels, const ImageView& image, const Options& options,
-                   Vec around_px, int scale, int& looks_left, Workspace& w) {
-    for (int round = 0; round < 2 && looks_left > 0; ++round) {
-        Sight sight;
+                   Vec around_px, int scale, int& tries_left, Workspace& w) {
+    for (int round = 0; round < 2 && tries_left > 0; ++round) {
+        Hypothesis hypothesis;
         Vec densest_px = around_px;
-        if (find_sight_around(kernels, image, options, around_px, scale, w, densest_px, sight)) {
-            const auto confirmation = confirm(kernels, image, options, sight, w);
+        if (find_hypothesis_around(kernels, image, options, around_px, scale, w, densest_px,
+                                   hypothesis)) {
+            const auto confirmation = confirm(kernels, image, options, hypothesis, w);
             w.fix.attempt = Attempt::first;
-            looks_left -= confirmation == Confirmation::uncertain ? 1 : 0;
+            tries_left -= confirmation == Confirmation::uncertain ? 1 : 0;
             return confirmation == Confirmation::ok;
         }
         const bool is_other_patch =
@@ -134,13 +137,13 @@ bool locate_around(const Kernels& kernels, const ImageView& image, const Options
 /// Looks all over the image for dots, in patches that grow.
 bool locate_elsewhere(const Kernels& kernels, const ImageView& image, const Options& options,
                       Workspace& w) {
-    int looks_left = tuned::kMostLooks;
+    int tries_left = tuned::kMostTries;
     for (const int scale : {1, 2, 4}) {
         const int width = kPatchWidth_px * scale;
         const int height = kPatchHeight_px * scale;
         for (int v = height / 2; v < image.height_px + height / 2; v += height) {
             for (int u = width / 2; u < image.width_px + width / 2; u += width) {
-                if (locate_around(kernels, image, options, {u, v}, scale, looks_left, w)) {
+                if (locate_around(kernels, image, options, {u, v}, scale, tries_left, w)) {
                     return true;
                 }
             }
@@ -151,7 +154,7 @@ bool locate_elsewhere(const Kernels& kernels, const ImageView& image, const Opti
 
 }  // namespace
 
-bool looks_outwards(const Options& options, const Workspace& w) {
+bool searches_outwards(const Options& options, const Workspace& w) {
     return options.decoder == Decoder::all && w.patch != nullptr;
 }
 
@@ -162,9 +165,9 @@ bool locate_outwards(const Kernels& kernels, const ImageView& image, const Optio
                          kPatchHeight_px * scale, scale, *w.patch)) {
             break;
         }
-        Sight sight;
-        if (!find_sight(kernels, image, options, w, sight)) continue;
-        const Confirmation confirmation = confirm(kernels, image, options, sight, w);
+        Hypothesis hypothesis;
+        if (!find_hypothesis(kernels, image, options, w, hypothesis)) continue;
+        const Confirmation confirmation = confirm(kernels, image, options, hypothesis, w);
         w.fix.attempt = Attempt::first;
         if (confirmation == Confirmation::ok) return true;
         if (confirmation == Confirmation::uncertain) break;
@@ -177,13 +180,13 @@ bool locate_by_rows(const Kernels& kernels, const ImageView& image, const Option
     detect_image(image, options, w);
     const Fix fix = finish_rows(options, w);
     if (fix.status != Status::ok) return false;
-    if (looks_outwards(options, w) && !is_rough(fix)) measure_again(kernels, image, options, w);
+    if (searches_outwards(options, w) && !is_rough(fix)) measure_again(kernels, image, options, w);
     return true;
 }
 
 Fix make_first_attempt(const ImageView& image, const Options& options, Workspace& w) {
     forget_frame(w);
-    if (!looks_outwards(options, w) || !locate_outwards(kernels(), image, options, w)) {
+    if (!searches_outwards(options, w) || !locate_outwards(kernels(), image, options, w)) {
         locate_by_rows(kernels(), image, options, w);
     }
     return w.fix;

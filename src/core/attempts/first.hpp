@@ -13,7 +13,7 @@ bool locate_outwards(const Kernels& kernels, const ImageView& image, const Optio
                      Workspace& w);
 
 /// Whether it is asked for, and there is memory for it.
-bool looks_outwards(const Options& options, const Workspace& w);
+bool searches_outwards(const Options& options, const Workspace& w);
 
 /// Locates from the blobs of all rows, and measures the dots once more where that is how they are
 /// measured otherwise. Leaves the fix in the workspace; false if there is none.

@@ -14,7 +14,7 @@
 
 namespace dotpose::core {
 
-bool is_far_fetched(const PoseFit& fit, int bits, int bit_errors) {
+bool is_implausible(const PoseFit& fit, int bits, int bit_errors) {
     if (fit.displacement <= 0) return true;
     const float scatter = std::sqrt(fit.variance) / fit.displacement;
     const float contradicted = static_cast<float>(bit_errors) / static_cast<float>(bits);
@@ -46,7 +46,7 @@ Status measure_pose(const Options& options, const ImageView* image, Workspace& w
     w.fix.displacement_q16 = static_cast<std::int32_t>(fit.displacement * 65536.0F);
     write_pose(w.pattern_from_image, reference, options.profile, w.decoding.place, w.fix);
     estimate_covariance(fit, w.pattern_from_image, reference, w.fix);
-    return is_far_fetched(fit, w.decoding.bits, w.fix.bit_errors) ? Status::not_certain
+    return is_implausible(fit, w.decoding.bits, w.fix.bit_errors) ? Status::not_certain
                                                                   : Status::ok;
 }
 

@@ -13,7 +13,7 @@ namespace dotpose::core {
 /// which has the columns of the one and the rows of the other: a quarter of its cells show no dot
 /// at its place, half of the dots are beside theirs, and so the typical displacement comes out too
 /// small. docs/integrity.md has the numbers.
-bool is_far_fetched(const PoseFit& fit, int bits, int bit_errors);
+bool is_implausible(const PoseFit& fit, int bits, int bit_errors);
 
 /// Position -> map from the image to the pattern. With an `image`, dots are measured in it once
 /// more. Returns false when the dots do not determine it.

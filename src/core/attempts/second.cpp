@@ -4,13 +4,13 @@
 #include "core/attempts/steps.hpp"
 #include "core/attempts/tuning.hpp"
 #include "core/decode/likelihood.hpp"
-#include "core/decode/look.hpp"
 #include "core/decode/position.hpp"
+#include "core/decode/sample_cells.hpp"
 #include "core/decode/window.hpp"
 #include "core/detect/smooth.hpp"
 #include "core/integrity/verify.hpp"
 #include "core/kernels/select.hpp"
-#include "core/lattice/climb.hpp"
+#include "core/lattice/periodogram_search.hpp"
 #include "core/lattice/refine_grid.hpp"
 
 namespace dotpose::core {
@@ -22,8 +22,8 @@ namespace tuned = tuning::second;
 Options for_filtered(Options options) {
     ThresholdOptions& threshold = options.threshold;
     threshold.min_contrast = threshold.min_contrast / 2 + 1;
-    threshold.extent_q8 = (tuned::kExtent_3rds * threshold.extent_q8 + 2) / 3;
-    threshold.core_q8 = (tuned::kCore_10ths * threshold.core_q8 + 9) / 10;
+    threshold.low_q8 = (tuned::kLow_3rds * threshold.low_q8 + 2) / 3;
+    threshold.high_q8 = (tuned::kHigh_10ths * threshold.high_q8 + 9) / 10;
     return options;
 }
 
@@ -44,8 +44,8 @@ Status find_grid_thoroughly(const Options& options, Workspace& w) {
     const Lattice estimate = w.lattice;
     for (const int most_turn_deg : tuned::kMostTurns_deg) {
         w.lattice = estimate;
-        climb_periodogram(w.found_dots(), first(w.seeds, w.seed_count), centre_q8, most_turn_deg,
-                          w.lattice);
+        search_periodogram(w.found_dots(), first(w.seeds, w.seed_count), centre_q8, most_turn_deg,
+                           w.lattice);
         status =
             refine_grid(w.found_dots(), options.lattice, centre_q8, w.lattice, w.grid_from_image);
         if (status != Status::no_grid) break;
@@ -55,7 +55,7 @@ Status find_grid_thoroughly(const Options& options, Workspace& w) {
 
 /// Grid -> bits, from the image itself. False if it shows two patterns, one on the other.
 bool shows_one_pattern(const ImageView& image, const Options& options, Workspace& w) {
-    return look_at_cells(image, w.smoothing.paper, options.lens, w.grid_from_image, w.grid);
+    return sample_cells(image, w.smoothing.paper, options.lens, w.grid_from_image, w.grid);
 }
 
 /// The decoder asked for.
@@ -67,10 +67,11 @@ Status decode(const Options& options, Workspace& w) {
 }
 
 /// One axis of the position is beyond doubt: each bit of the other has only two places left.
-Status look_knowing(Axis known, const ImageView& image, const Options& options, Workspace& w) {
+Status resample_given_axis(Axis known, const ImageView& image, const Options& options,
+                           Workspace& w) {
     const Place place = w.decoding.place;
-    look_at_cells_knowing(known, options.profile, w.decoding, image, w.smoothing.paper,
-                          options.lens, w.grid_from_image, w.grid);
+    resample_cells_given_axis(known, options.profile, w.decoding, image, w.smoothing.paper,
+                              options.lens, w.grid_from_image, w.grid);
     const Status status = read_position(options, w);
     // What was read presumes the axis that was known.
     const bool is_as_known = w.decoding.pattern_from_grid.quarters == 0 &&
@@ -80,14 +81,14 @@ Status look_knowing(Axis known, const ImageView& image, const Options& options, 
 
 /// Where the position in doubt is right, a grid fitted to all dots that it has there shows their
 /// bits more clearly. The code has to confirm them like any others.
-Status look_again(const ImageView& image, const Options& options, bool may_presume, Workspace& w) {
+Status resample(const ImageView& image, const Options& options, bool may_presume, Workspace& w) {
     const auto known = sure_axis(w.decoding, options.integrity);
     PoseFit fit;
     if (!fit_pattern(options, &image, w, fit)) return Status::not_certain;
     w.grid_from_image = w.pattern_from_image;
     w.decoding.pattern_from_grid = {};
     w.decoding.p_wrong_log2_q8 = {};  // Of the bits before.
-    if (known && may_presume) return look_knowing(*known, image, options, w);
+    if (known && may_presume) return resample_given_axis(*known, image, options, w);
     return shows_one_pattern(image, options, w) ? read_position(options, w) : Status::not_certain;
 }
 
@@ -116,9 +117,9 @@ Status read_position(const Options& options, Workspace& w) {
     return status == Status::ok ? status : refused(status, w);
 }
 
-Status look_until_certain(const ImageView& image, const Options& options, Workspace& w) {
-    for (const bool may_presume : tuned::kLooksPresume) {
-        if (look_again(image, options, may_presume, w) == Status::ok) return Status::ok;
+Status resample_until_certain(const ImageView& image, const Options& options, Workspace& w) {
+    for (const bool may_presume : tuned::kResamplesPresume) {
+        if (resample(image, options, may_presume, w) == Status::ok) return Status::ok;
     }
     return Status::not_certain;
 }
@@ -137,7 +138,7 @@ Fix make_second_attempt(const ImageView& image, const Options& options, Workspac
     Status status = see_filtered(image, options, w);
     if (status == Status::ok) {
         status = read_position(options, w);
-        if (status == Status::not_certain) status = look_until_certain(image, options, w);
+        if (status == Status::not_certain) status = resample_until_certain(image, options, w);
         if (status == Status::ok) status = measure_and_weigh(image, options, w);
     }
     w.fix.status = status;

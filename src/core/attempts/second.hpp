@@ -20,7 +20,7 @@ Status read_position(const Options& options, Workspace& w);
 
 /// Where the position in doubt is right, a grid fitted to all dots that it has there shows the bits
 /// more clearly: looks through one grid after the other. What was seen before is lost.
-Status look_until_certain(const ImageView& image, const Options& options, Workspace& w);
+Status resample_until_certain(const ImageView& image, const Options& options, Workspace& w);
 
 /// Position -> pose, and what other profiles make of the bits.
 Status measure_and_weigh(const ImageView& image, const Options& options, Workspace& w);

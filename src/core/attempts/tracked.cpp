@@ -49,40 +49,42 @@ int most_shift_px(const Prediction& prediction, float spacing_px) {
     return static_cast<int>(std::ceil(off * spacing_px));
 }
 
-/// Corrects the sight by the dots near the point it is counted from. False if they are not there.
+/// Corrects the hypothesis by the dots near the point it is counted from. False if they are not
+/// there.
 bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Options& options,
-                     int most_px, Sight& sight, Workspace& w) {
-    FloatPlane& plane = sight.pattern_from_image;
+                     int most_px, Hypothesis& hypothesis, Workspace& w) {
+    FloatPlane& plane = hypothesis.pattern_from_image;
     MeasuredDots& dots = w.measured;
     const float spacing = spacing_px(plane);
     const float reach = tuned::kNear * spacing;
-    CellsInView view = cells_in_view(image, options, sight, reach, dots.capacity(), w);
+    CellsInView view = cells_in_view(image, options, hypothesis, reach, dots.capacity(), w);
     view.window_on_dot = true;
     kernels.list_cells(view, dots);
     // Thirteen shifts along either axis.
     const int step_px = std::max((most_px + 3) / 6, 1);
     Vec shift;
-    if (!kernels.find_shift(image, dots, most_px, step_px, shift, sight.depth_q8)) return false;
+    if (!kernels.find_shift(image, dots, most_px, step_px, shift, hypothesis.depth_q8))
+        return false;
     for (std::size_t i = 0; i < static_cast<std::size_t>(dots.count); ++i) {
         dots.window_u[i] += shift.x;
         dots.window_v[i] += shift.y;
     }
     plane = recentred(plane, {static_cast<float>(-shift.x), static_cast<float>(-shift.y)});
-    sight.typical_mass = kernels.measure_windows(
-        image, view, {spacing, 0.3F, sight.depth_q8 * kCutOfDepth_q8 >> 8}, dots);
-    return fit_similarity(kernels, dots, reach, sight.displacement, tuned::kFirstOff, plane) &&
-           fit_similarity(kernels, dots, reach, sight.displacement, tuned::kSecondOff, plane);
+    hypothesis.typical_mass = kernels.measure_windows(
+        image, view, {spacing, 0.3F, hypothesis.depth_q8 * kCutOfDepth_q8 >> 8}, dots);
+    return fit_similarity(kernels, dots, reach, hypothesis.displacement, tuned::kFirstOff, plane) &&
+           fit_similarity(kernels, dots, reach, hypothesis.displacement, tuned::kSecondOff, plane);
 }
 
-/// The sight corrected by the dots near `from`, in px from the image centre.
+/// The hypothesis corrected by the dots near `from`, in px from the image centre.
 bool correct(const Kernels& kernels, const ImageView& image, const Options& options, FloatVec from,
-             int most_px, Sight& sight, Workspace& w) {
-    sight.from_centre = from;
-    sight.pattern_from_image = recentred(sight.pattern_from_image, from);
-    count_from_centre(options.profile, sight);
-    if (!correct_by_dots(kernels, image, options, most_px, sight, w)) return false;
-    sight.pattern_from_image = recentred(sight.pattern_from_image, {-from.x, -from.y});
-    sight.from_centre = {};
+             int most_px, Hypothesis& hypothesis, Workspace& w) {
+    hypothesis.from_centre = from;
+    hypothesis.pattern_from_image = recentred(hypothesis.pattern_from_image, from);
+    count_from_centre(options.profile, hypothesis);
+    if (!correct_by_dots(kernels, image, options, most_px, hypothesis, w)) return false;
+    hypothesis.pattern_from_image = recentred(hypothesis.pattern_from_image, {-from.x, -from.y});
+    hypothesis.from_centre = {};
     return true;
 }
 
@@ -93,35 +95,36 @@ bool is_in_code(const Place& place) {
 
 /// Where the prediction has the pattern, counted from the image centre. False if it makes no sense.
 bool take(const Prediction& prediction, const ImageView& image, const Options& options,
-          Sight& sight) {
+          Hypothesis& hypothesis) {
     const PlaneFromImage& plane = prediction.pattern_from_image;
     const auto from_q8 = [](int side_px, std::int32_t centre_q8) {
         return (static_cast<float>(side_px - 1) * 128 - static_cast<float>(centre_q8)) / 256;
     };
-    sight.pattern_from_image = recentred(
+    hypothesis.pattern_from_image = recentred(
         float_plane(plane),
         {from_q8(image.width_px, plane.centre_q8.x), from_q8(image.height_px, plane.centre_q8.y)});
-    sight.place = prediction.place;
-    sight.is_predicted = true;
-    sight.displacement = static_cast<float>(prediction.displacement_q16) / 65536;
-    const float spacing = spacing_px(sight.pattern_from_image);
-    if (!is_in_code(sight.place) || !is_plausible(image, sight.pattern_from_image)) return false;
-    if (!(spacing > tuned::kFinest_px && spacing < tuned::kCoarsest_px)) return false;
-    if (!(sight.displacement > tuned::kLeastDisplacement &&
-          sight.displacement < tuned::kMostDisplacement))
+    hypothesis.place = prediction.place;
+    hypothesis.is_predicted = true;
+    hypothesis.displacement = static_cast<float>(prediction.displacement_q16) / 65536;
+    const float spacing = spacing_px(hypothesis.pattern_from_image);
+    if (!is_in_code(hypothesis.place) || !is_plausible(image, hypothesis.pattern_from_image))
         return false;
-    count_from_centre(options.profile, sight);
+    if (!(spacing > tuned::kFinest_px && spacing < tuned::kCoarsest_px)) return false;
+    if (!(hypothesis.displacement > tuned::kLeastDisplacement &&
+          hypothesis.displacement < tuned::kMostDisplacement))
+        return false;
+    count_from_centre(options.profile, hypothesis);
     return true;
 }
 
-/// The dots where the sight has them, corrected by those near one point of the image after the
+/// The dots where the hypothesis has them, corrected by those near one point of the image after the
 /// other, until those near one bear it out.
 bool confirm_corrected(const Kernels& kernels, const ImageView& image, const Options& options,
-                       const Sight& sight, int most_px, Workspace& w) {
+                       const Hypothesis& hypothesis, int most_px, Workspace& w) {
     for (const FloatVec share : tuned::kPoints) {
         const FloatVec from{share.x * static_cast<float>(image.width_px),
                             share.y * static_cast<float>(image.height_px)};
-        Sight there = sight;
+        Hypothesis there = hypothesis;
         if (!correct(kernels, image, options, from, most_px, there, w)) continue;
         if (confirm(kernels, image, options, there, w) == Confirmation::ok) return true;
     }
@@ -133,20 +136,20 @@ bool confirm_corrected(const Kernels& kernels, const ImageView& image, const Opt
 bool locate_tracked(const Kernels& kernels, const ImageView& image, const Options& options,
                     const Prediction& prediction, Workspace& w) {
     forget_frame(w);
-    Sight sight;
-    if (!take(prediction, image, options, sight)) return false;
-    const int most_px = most_shift_px(prediction, spacing_px(sight.pattern_from_image));
-    if (!confirm_corrected(kernels, image, options, sight, most_px, w)) return false;
+    Hypothesis hypothesis;
+    if (!take(prediction, image, options, hypothesis)) return false;
+    const int most_px = most_shift_px(prediction, spacing_px(hypothesis.pattern_from_image));
+    if (!confirm_corrected(kernels, image, options, hypothesis, most_px, w)) return false;
     w.fix.attempt = Attempt::tracked;
     return true;
 }
 
 void measure_again(const Kernels& kernels, const ImageView& image, const Options& options,
                    Workspace& w) {
-    Sight sight;
-    if (!take(Prediction::like(w.fix), image, options, sight)) return;
-    sight.is_certain = true;
-    confirm_corrected(kernels, image, options, sight, 1, w);
+    Hypothesis hypothesis;
+    if (!take(Prediction::like(w.fix), image, options, hypothesis)) return;
+    hypothesis.is_certain = true;
+    confirm_corrected(kernels, image, options, hypothesis, 1, w);
 }
 
 }  // namespace dotpose::core

@@ -14,7 +14,7 @@ namespace first {
 inline constexpr int kPatchWidth_px = 224;
 inline constexpr int kPatchHeight_px = 160;
 /// Looks elsewhere that the bits may fail to bear out: each is one more chance to be deceived.
-inline constexpr int kMostLooks = 4;
+inline constexpr int kMostTries = 4;
 /// Dots near the middle whose waves are looked at, elsewhere: where dots are displaced so far that
 /// their waves are faint, some discs show others; and by how much the spacing may be smaller.
 inline constexpr float kCentralDots[] = {30, 20, 45, 25, 37};
@@ -74,7 +74,7 @@ inline constexpr float kTable = 0.4F;
 /// blurred; of grids finer than the other, the places of a cell are too near to each other to be
 /// told apart at a look.
 inline constexpr float kQuickBells_px = 13;
-inline constexpr float kFinestOneLook_px = 8;
+inline constexpr float kFinestOnePass_px = 8;
 /// Reach of a bell in radii of a dot, and px at least: as far as a dot's edge is seen, and not so
 /// little that it would depend on how dots fall on the pixels (`dotpose_alike`).
 inline constexpr float kBellRadii = 2.4F;
@@ -109,14 +109,14 @@ namespace second {
 /// Thresholds of the filtered image against those of the options: noise is a third of what it was,
 /// and dots are paler and wider. Frames with dirt over 5 % of the area (docs/limits.md, 200 frames)
 /// were located in 93 % with these, and in 80 % with the options' own.
-inline constexpr int kExtent_3rds = 2;
-inline constexpr int kCore_10ths = 9;
+inline constexpr int kLow_3rds = 2;
+inline constexpr int kHigh_10ths = 9;
 /// Degrees that the periodogram may be turned against the first estimate, try by try: between
 /// graphics, the connections of what is left of the dots may point anywhere.
 inline constexpr int kMostTurns_deg[] = {12, 45};
 /// Whether a further look presumes the axis that is beyond doubt, look by look; after the last one
 /// the frame is refused.
-inline constexpr bool kLooksPresume[] = {true, false, true};
+inline constexpr bool kResamplesPresume[] = {true, false, true};
 }  // namespace second
 
 /// Any code (attempts/any_code, attempts/other_place).

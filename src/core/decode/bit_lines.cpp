@@ -68,9 +68,9 @@ int backwardness(const Kernels& kernels, const BitLines& lines) {
         if (i >= lines.bits.size()) break;
         ScoredLine scored;
         kernels.score_line(lines.bits[i], lines.valid[i], scored);
-        sum -= scored.lead.best;
+        sum -= scored.best.score;
         kernels.score_line(reversed(~lines.bits[i]), reversed(lines.valid[i]), scored);
-        sum += scored.lead.best;
+        sum += scored.best.score;
     }
     return sum;
 }

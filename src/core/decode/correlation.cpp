@@ -142,7 +142,7 @@ Match best_match(const LineScores& scores) {
     return next_match(scores, {INT32_MAX, 0});
 }
 
-Lead lead_of(const LineScores& scores) {
+BestScore best_score(const LineScores& scores) {
     std::int32_t best = INT16_MIN;
     std::int32_t second = INT16_MIN;
 #pragma GCC unroll 7

@@ -29,7 +29,7 @@ Match best_match(const LineScores& scores);
 /// The best of those that are less good than `last`, or as good and larger.
 Match next_match(const LineScores& scores, Match last);
 
-Lead lead_of(const LineScores& scores);
+BestScore best_score(const LineScores& scores);
 
 struct Extremes {
     std::int32_t most = 0;

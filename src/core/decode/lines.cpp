@@ -23,7 +23,7 @@ Lines score_lines(const Upright& upright, Axis axis, std::span<ScoredLine> stora
     }
     if (i < lines.all.size()) correlate(weights(i, one), storage[i].scores);
     for (ScoredLine& line : storage.first(lines.all.size()))
-        line.lead = lead_of(line.scores);
+        line.best = best_score(line.scores);
     return lines;
 }
 

@@ -20,7 +20,7 @@ struct Lines {
     const LineScores& operator[](int line) const {
         return all[static_cast<std::size_t>(line)].scores;
     }
-    const Lead& lead(int line) const { return all[static_cast<std::size_t>(line)].lead; }
+    const BestScore& best(int line) const { return all[static_cast<std::size_t>(line)].best; }
 };
 
 /// The half of the storage that is for one axis.

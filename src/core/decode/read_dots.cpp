@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "core/by_itself.hpp"
 #include "core/detect/near_dot.hpp"
 #include "core/lattice/coded_cells.hpp"
 #include "core/lattice/predicted.hpp"
 #include "core/math/fixed.hpp"
+#include "core/noinline.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -69,7 +69,7 @@ void lay_rows(Tracking& tracking, int j, int j_step) {
 }
 
 /// Notes what is read; whether the code has it there.
-DOTPOSE_BY_ITSELF bool note(const Tracking& tracking, int i, int j, int symbol) {
+DOTPOSE_NOINLINE bool note(const Tracking& tracking, int i, int j, int symbol) {
     TrackedLine& column = column_of(tracking, i);
     TrackedLine& row = row_of(tracking, j);
     const auto in_column = std::uint32_t{1} << j;
@@ -87,7 +87,7 @@ DOTPOSE_BY_ITSELF bool note(const Tracking& tracking, int i, int j, int symbol) 
 /// Adds the dot that the code has at the next intersection of a row, if it is about where it should
 /// be. Bounds: masses are below 2^12, places in the squares at most 2 px off, and so sums over a
 /// row of 32 dots below 2^30.
-DOTPOSE_BY_ITSELF void add_dot(Tracking& tracking, ReadSymbol read, TrackedRow& row) {
+DOTPOSE_NOINLINE void add_dot(Tracking& tracking, ReadSymbol read, TrackedRow& row) {
     const auto symbol = static_cast<std::size_t>(read.symbol());
     const Vec place_q16 = row.next_q16 + tracking.displaced_q16[symbol];
     const Vec pixel = pixel_at(place_q16);

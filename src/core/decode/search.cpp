@@ -30,8 +30,8 @@ class Choices {
     Choices() = default;
     explicit Choices(const ScoredLine& line)
         : scores_(&line.scores),
-          lead_(line.lead.lead),
-          last_(roll_of(line.lead.best, line.scores)),
+          margin_(line.best.margin),
+          last_(roll_of(line.best.score, line.scores)),
           rolls_{last_} {}
 
     /// `i` is less than kChoices.
@@ -43,11 +43,11 @@ class Choices {
         return rolls_[static_cast<std::size_t>(i)];
     }
     /// By how much it agrees less than the best.
-    int loss(int i) { return i == 1 ? lead_ : (*scores_)[rolls_[0]] - (*scores_)[roll(i)]; }
+    int loss(int i) { return i == 1 ? margin_ : (*scores_)[rolls_[0]] - (*scores_)[roll(i)]; }
 
   private:
     const LineScores* scores_ = nullptr;
-    int lead_ = 0;
+    int margin_ = 0;
     int known_ = 1;
     std::uint8_t last_ = 0;
     std::array<std::uint8_t, kChoices> rolls_;
@@ -138,17 +138,17 @@ void try_run(Profile profile, const Lines& lines, int first, int length, int mos
     }
 }
 
-/// Start of the clearest run not taken yet, or -1: that whose lines lead their runners-up by most.
+/// Start of the clearest run not taken yet, or -1: the one with the largest sum of margins.
 int clearest_run(const Lines& lines, int length, const std::array<bool, kMaxLines>& taken) {
     int clearest = -1;
     int most = INT32_MIN;
     for (int first = 0; first + length <= lines.count(); ++first) {
         if (taken[static_cast<std::size_t>(first)]) continue;
-        int lead = 0;
+        int margin = 0;
         for (int i = first; i < first + length; ++i)
-            lead += lines.lead(i).lead;
-        if (lead > most) {
-            most = lead;
+            margin += lines.best(i).margin;
+        if (margin > most) {
+            most = margin;
             clearest = first;
         }
     }
@@ -172,7 +172,7 @@ void search_by_runs(Profile profile, const Lines& lines, const Limits& limits, A
     const int length = run_length(profile);
     std::int32_t most_possible = 0;
     for (int i = 0; i < lines.count(); ++i)
-        most_possible += lines.lead(i).best;
+        most_possible += lines.best(i).score;
     best = {0, 0, INT32_MIN, most_possible};
     std::array<bool, kMaxLines> taken{};
     for (int run = 0; run < limits.runs; ++run) {

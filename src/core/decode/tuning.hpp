@@ -11,8 +11,8 @@
 
 namespace dotpose::core::tuning {
 
-/// Bits from the darkness at a cell's four places (decode/look).
-namespace look {
+/// Bits from the darkness at a cell's four places (decode/sample_cells).
+namespace sample_cells {
 /// Cells that tell what a typical dot looks like: a median that a quarter of them, under graphics,
 /// hardly moves.
 inline constexpr std::size_t kMedianSample = 256;
@@ -52,7 +52,7 @@ inline constexpr int kMostLight_q8 = 1024;
 inline constexpr int kSecondDot_3rds = 2;
 inline constexpr int kSecondDot_4ths = 3;
 inline constexpr int kMostCrowded_8ths = 3;
-}  // namespace look
+}  // namespace sample_cells
 
 /// The position that all lines speak for (decode/search).
 namespace search {

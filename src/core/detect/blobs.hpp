@@ -15,8 +15,8 @@ struct DotList {
 
 void begin_blobs(const Light& light, OpenBlobs& open, DotList list);
 
-/// Thresholds row `v` with `light.half_extents` and `light.cores`, continues the blobs of the row
-/// above, and adds those that ended there to the list.
+/// Thresholds row `v` with `light.half_low_levels` and `light.high_levels`, continues the blobs of
+/// the row above, and adds those that ended there to the list.
 void grow_blobs(int v, const Light& light, OpenBlobs& open, DotList list);
 
 /// The size filter: drops dots that are much lighter or larger than the median dot, and those of

@@ -134,17 +134,17 @@ unsigned typical_depth_q8(std::uint8_t* means, const std::uint8_t* darknesses, s
 }
 
 /// Sets the levels of all columns, at these depths relative to paper.
-void set_levels(const std::uint8_t* papers, std::size_t tiles, unsigned to_extent_q16,
-                unsigned to_core_q16, Light& light) {
-    std::uint8_t* half_extents = light.half_extents.data();
-    std::uint8_t* cores = light.cores.data();
+void set_levels(const std::uint8_t* papers, std::size_t tiles, unsigned to_low_q16,
+                unsigned to_high_q16, Light& light) {
+    std::uint8_t* half_low_levels = light.half_low_levels.data();
+    std::uint8_t* high_levels = light.high_levels.data();
     for (const std::uint8_t* const end = papers + tiles; papers != end; ++papers) {
         const unsigned paper = *papers;
         // Even, so that runs may compare seven bits.
-        const unsigned half_extent = (paper - (paper * to_extent_q16 >> 16)) >> 1;
-        const unsigned core = std::min(paper - (paper * to_core_q16 >> 16), 2 * half_extent);
-        half_extents = fill(half_extents, half_extent);
-        cores = fill(cores, core);
+        const unsigned half_low = (paper - (paper * to_low_q16 >> 16)) >> 1;
+        const unsigned core = std::min(paper - (paper * to_high_q16 >> 16), 2 * half_low);
+        half_low_levels = fill(half_low_levels, half_low);
+        high_levels = fill(high_levels, core);
     }
 }
 
@@ -159,7 +159,7 @@ void begin_light(int width_px, int height_px, Light& light) {
     light.tiles_per_band = (width_px + kTileWidth_px - 1) / kTileWidth_px;
     light.rows_taken = 0;
     light.has_contrast = false;
-    std::fill_n(light.half_extents.begin() + whole_width(light), kReadAhead_px, kAlwaysDark);
+    std::fill_n(light.half_low_levels.begin() + whole_width(light), kReadAhead_px, kAlwaysDark);
 }
 
 int take_row(const std::uint8_t* pixels, Light& light) {
@@ -177,8 +177,8 @@ void measure_levels(int band, const ThresholdOptions& options, Light& light) {
     const auto tiles = static_cast<std::size_t>(light.tiles_per_band);
     // Before the levels of all columns, their memory holds what is known of the tiles: of paper at
     // its end, which is overwritten last.
-    std::uint8_t* const papers = light.half_extents.data() + whole_width(light) - tiles;
-    std::uint8_t* const darknesses = light.cores.data();
+    std::uint8_t* const papers = light.half_low_levels.data() + whole_width(light) - tiles;
+    std::uint8_t* const darknesses = light.high_levels.data();
     join_bands(three_bands(light, band), tiles, papers, darknesses);
     // Ink is sought in the tiles to both sides, too: dots may be farther apart than a tile is wide.
     // Paper is not: there is some in each, and the brightest of more of them is too bright.
@@ -188,8 +188,8 @@ void measure_levels(int band, const ThresholdOptions& options, Light& light) {
         papers[tiles - 1] = std::max(papers[tiles - 2], papers[tiles - 1]);
     const unsigned depth_q8 = typical_depth_q8(papers, darknesses, tiles, options.min_contrast);
     if (depth_q8 > 0) light.has_contrast = true;
-    set_levels(papers, tiles, depth_q8 * static_cast<unsigned>(options.extent_q8),
-               depth_q8 * static_cast<unsigned>(options.core_q8), light);
+    set_levels(papers, tiles, depth_q8 * static_cast<unsigned>(options.low_q8),
+               depth_q8 * static_cast<unsigned>(options.high_q8), light);
 }
 
 }  // namespace dotpose::core

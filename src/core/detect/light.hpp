@@ -17,8 +17,8 @@ void begin_light(int width_px, int height_px, Light& light);
 /// with this row: 0, or 1, or with the last row of the image up to 2.
 int take_row(const std::uint8_t* pixels, Light& light);
 
-/// Sets `light.half_extents` and `light.cores` for one band, in order, as soon as `take_row` says
-/// that it is ready: from the tiles of the band and of its neighbours.
+/// Sets `light.half_low_levels` and `light.high_levels` for one band, in order, as soon as
+/// `take_row` says that it is ready: from the tiles of the band and of its neighbours.
 void measure_levels(int band, const ThresholdOptions& options, Light& light);
 
 inline int band_count(const Light& light) {

@@ -5,10 +5,10 @@
 
 #include <array>
 
-#include "core/by_itself.hpp"
 #include "core/detect/inverses.hpp"
 #include "core/detect/newest_rows.hpp"
 #include "core/kernels/portable/dark_sums.hpp"
+#include "core/noinline.hpp"
 #include "core/stages.hpp"
 #include "dotpose/code.hpp"
 
@@ -64,8 +64,8 @@ class ReadSymbol {
 /// Looks at the four places around an intersection in a pixel that is kept, as is all of its square
 /// and a pixel around it.
 // By itself, so that small processors can keep all it needs in registers.
-DOTPOSE_BY_ITSELF inline ReadSymbol read_symbol(const Tracking& tracking,
-                                                const Vec& intersection_q16) {
+DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
+                                               const Vec& intersection_q16) {
     const std::int32_t stride = tracking.stride_px;
     const std::uint8_t* const at =
         kept_row(tracking, intersection_q16.y >> 16) + (intersection_q16.x >> 16);

@@ -9,41 +9,41 @@ namespace {
 constexpr std::size_t kWord_px = sizeof(Word);
 
 /// A top for each pixel that is light; nothing is told by the other bits.
-Word light_tops(Word pixels, Word half_extent) {
-    return (pixels >> 1 | kTops) - half_extent;
+Word light_tops(Word pixels, Word half_low) {
+    return (pixels >> 1 | kTops) - half_low;
 }
 
-bool is_light(Word pixels, Word half_extent) {
-    return (light_tops(pixels, half_extent) & kTops) == kTops;
+bool is_light(Word pixels, Word half_low) {
+    return (light_tops(pixels, half_low) & kTops) == kTops;
 }
 
-bool is_group_light(const std::uint8_t* pixels, const std::uint8_t* half_extents) {
-    const Word half_extent = word_at(half_extents);
+bool is_group_light(const std::uint8_t* pixels, const std::uint8_t* half_low_levels) {
+    const Word half_low = word_at(half_low_levels);
     Word tops = kTops;
     for (std::size_t k = 0; k < kGroup_px; k += kWord_px)
-        tops &= light_tops(word_at(pixels + k), half_extent);
+        tops &= light_tops(word_at(pixels + k), half_low);
     return tops == kTops;
 }
 
 /// The first dark pixel of a row from `begin` on. There is always one, after the last.
 const std::uint8_t* find_dark(const std::uint8_t* begin, const std::uint8_t* row,
-                              const std::uint8_t* half_extents) {
+                              const std::uint8_t* half_low_levels) {
     const auto before = static_cast<std::size_t>(begin - row) % kWord_px;
     const std::uint8_t* pixels = begin - before;
-    half_extents += pixels - row;
+    half_low_levels += pixels - row;
     Word word = word_at(pixels) | ((Word{1} << 8 * before) - 1);
-    while (is_light(word, word_at(half_extents))) {
+    while (is_light(word, word_at(half_low_levels))) {
         pixels += kWord_px;
-        half_extents += kWord_px;
+        half_low_levels += kWord_px;
         if (static_cast<std::size_t>(pixels - row) % kGroup_px == 0) {
-            while (is_group_light(pixels, half_extents)) {
+            while (is_group_light(pixels, half_low_levels)) {
                 pixels += kGroup_px;
-                half_extents += kGroup_px;
+                half_low_levels += kGroup_px;
             }
         }
         word = word_at(pixels);
     }
-    const unsigned extent = 2U * *half_extents;
+    const unsigned extent = 2U * *half_low_levels;
     if (pixels < begin) pixels = begin;
     while (*pixels >= extent)
         ++pixels;
@@ -61,8 +61,8 @@ const std::uint8_t* write_run(const std::uint8_t* pixel, const std::uint8_t* row
     const std::uint8_t* tile_end = nullptr;
     do {
         const auto column = static_cast<std::size_t>(pixel - row);
-        const unsigned extent = 2U * light.half_extents[column];
-        const unsigned core = light.cores[column];
+        const unsigned extent = 2U * light.half_low_levels[column];
+        const unsigned core = light.high_levels[column];
         tile_end = row + (column / kTileWidth_px + 1) * kTileWidth_px;
         unsigned deepest = 0;
         for (; pixel != tile_end && *pixel < extent; ++pixel) {
@@ -89,7 +89,7 @@ int find_runs(int v, const Light& light, std::span<Run> runs) {
     const std::uint8_t* pixel = row;
     std::size_t count = 0;
     for (; count < runs.size(); ++count) {
-        pixel = find_dark(pixel, row, light.half_extents.data());
+        pixel = find_dark(pixel, row, light.half_low_levels.data());
         if (pixel == row_end) break;
         pixel = write_run(pixel, row, light, runs[count]);
     }

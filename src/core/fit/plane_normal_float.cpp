@@ -4,11 +4,11 @@
 
 namespace dotpose::core {
 
-void PlaneSumsFloat::add(const Sights& sights, const Residuals& residuals) {
-    const auto& [u, v] = sights.scale;
-    const auto& [ax, ay] = sights.tilt_x;
-    const auto& [bx, by] = sights.tilt_y;
-    const auto& [cx, cy] = sights.bend;
+void PlaneSumsFloat::add(const Projections& projections, const Residuals& residuals) {
+    const auto& [u, v] = projections.scale;
+    const auto& [ax, ay] = projections.tilt_x;
+    const auto& [bx, by] = projections.tilt_y;
+    const auto& [cx, cy] = projections.bend;
     const auto& [rx, ry] = residuals.off;
     const Four w = residuals.weight;
     less_points_ += w > 0.0F;

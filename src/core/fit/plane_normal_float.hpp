@@ -2,7 +2,7 @@
 // equations.
 #pragma once
 
-#include "core/fit/sights.hpp"
+#include "core/fit/projections.hpp"
 #include "core/kernels/kernels.hpp"
 
 namespace dotpose::core {
@@ -16,7 +16,7 @@ struct Residuals {
 /// Sums over points, of which the normal equations consist.
 class PlaneSumsFloat {
   public:
-    void add(const Sights& sights, const Residuals& residuals);
+    void add(const Projections& projections, const Residuals& residuals);
 
   private:
     friend class PlaneNormalFloat;

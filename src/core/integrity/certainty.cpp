@@ -6,12 +6,12 @@
 
 #include "code/rolls.hpp"
 #include "code/unshared_lines.hpp"
+#include "core/integrity/alternative_sets.hpp"
+#include "core/integrity/alternatives.hpp"
 #include "core/integrity/least_losses.hpp"
 #include "core/integrity/other_codes.hpp"
-#include "core/integrity/quick_rivals.hpp"
-#include "core/integrity/rival_sets.hpp"
-#include "core/integrity/rivals.hpp"
-#include "core/integrity/seam_rivals.hpp"
+#include "core/integrity/quick_alternatives.hpp"
+#include "core/integrity/seam_alternatives.hpp"
 #include "core/integrity/unshared_lines.hpp"
 #include "core/math/fixed.hpp"
 #include "core/math/vectors.hpp"
@@ -19,10 +19,10 @@
 namespace dotpose::core {
 namespace {
 
-/// Shifts at which a rival shares no line.
+/// Shifts at which an alternative shares no line.
 constexpr float kShifts = kSections - 1;
-/// Odds at which single rivals are counted that have less; and how many there are, with all their
-/// shifts.
+/// Odds at which single alternatives are counted that have less; and how many there are, with all
+/// their shifts.
 constexpr int kPassedOver_q8 = -52 * 256;
 constexpr float kPassedOver = 2.3e-16F;
 constexpr float kSingles = 741;
@@ -39,9 +39,9 @@ constexpr float power_of_two(int n_q8) {
     return static_cast<float>(exp2_q16(n - whole * 256)) * 1.02F * power_of_two_exactly(whole - 16);
 }
 
-/// Contest::odds without a library's call.
-float odds_of(const Contest& contest, int lost) {
-    const int log2_q8 = std::max(contest.log2_odds_q8(lost), kNegligible_q8);
+/// LikelihoodRatios::odds without a library's call.
+float odds_of(const LikelihoodRatios& ratios, int lost) {
+    const int log2_q8 = std::max(ratios.log2_odds_q8(lost), kNegligible_q8);
     const int whole = log2_q8 >> 8;
     return static_cast<float>(static_cast<std::int32_t>(exp2_q16(log2_q8 - whole * 256))) *
            power_of_two_exactly(whole - 16);
@@ -50,7 +50,7 @@ float odds_of(const Contest& contest, int lost) {
 /// What adds up to less is as good as nothing, and slow to reckon with.
 constexpr float kNothing = 1e-30F;
 
-/// Something of every set of rivals, in whole vectors.
+/// Something of every set of alternatives, in whole vectors.
 struct OfSets {
     std::array<Four, 2> part;
 
@@ -62,34 +62,35 @@ using NumbersOfSets = std::array<float, 8>;
 template <typename Number>
 constexpr NumbersOfSets of_each_set(Number number) {
     NumbersOfSets numbers{};
-    for (std::size_t i = 0; i < kRivalSets.size(); ++i)
-        numbers[i] = number(kRivalSets[i]);
+    for (std::size_t i = 0; i < kAlternativeSets.size(); ++i)
+        numbers[i] = number(kAlternativeSets[i]);
     return numbers;
 }
-constexpr NumbersOfSets kEqual =
-    of_each_set([](const RivalSet& set) { return power_of_two(set.equal_q8 + kUnevenness_q8); });
-constexpr NumbersOfSets kRivals =
-    of_each_set([](const RivalSet& set) { return power_of_two(set.rivals_q8); });
+constexpr NumbersOfSets kEqual = of_each_set(
+    [](const AlternativeSet& set) { return power_of_two(set.equal_q8 + kUnevenness_q8); });
+constexpr NumbersOfSets kAlternatives =
+    of_each_set([](const AlternativeSet& set) { return power_of_two(set.alternatives_q8); });
 
-/// The expectation of `quick_rivals.cpp` in floating point, for all sets at once: rivals that share
-/// no line are lumped together, those that share the last ones counted by how many.
-float far_rivals(const Contest& contest) {
+/// The expectation of `quick_alternatives.cpp` in floating point, for all sets at once:
+/// alternatives that share no line are lumped together, those that share the last ones counted by
+/// how many.
+float far_alternatives(const LikelihoodRatios& ratios) {
     constexpr float kUnevenness = 1.03F;
-    const int most = contest.most_shared();
+    const int most = ratios.most_shared();
     // Those that share the lines up to one, but not it; and of all that share the first line, what
     // comes out as 1. Before that there is nobody.
     std::array<OfSets, kMostShared + kMaxLines> storage;
     std::fill_n(storage.begin(), kMostShared, OfSets::of(0));
     OfSets* apart = &storage[kMostShared];
     OfSets sum;
-    const float first = kShifts * odds_of(contest, contest.least_loss(0));
+    const float first = kShifts * odds_of(ratios, ratios.least_loss(0));
     for (std::size_t i = 0; i < 2; ++i) {
         apart[-1].part[i] = 1 / four_at(&kEqual[4 * i]);
         apart->part[i] = Four{} + first;
         sum.part[i] = Four{} + (first + 1);
     }
-    for (int line = 1; line < contest.count(); ++line) {
-        const float best = odds_of(contest, contest.least_loss(line));
+    for (int line = 1; line < ratios.count(); ++line) {
+        const float best = odds_of(ratios, ratios.least_loss(line));
         ++apart;
         for (std::size_t i = 0; i < 2; ++i) {
             const Four equally = four_at(&kEqual[4 * i]);
@@ -104,27 +105,27 @@ float far_rivals(const Contest& contest) {
         }
     }
     float all = 0;
-    for (std::size_t i = 0; i < kRivalSets.size(); ++i)
-        all += sum.part[i / 4][i % 4] * kRivals[i];
+    for (std::size_t i = 0; i < kAlternativeSets.size(); ++i)
+        all += sum.part[i / 4][i % 4] * kAlternatives[i];
     return all;
 }
 
-/// Odds of the rivals that share no line: those at the same position in other sections, and those
-/// that differ in one sequence, at shifts which no line shows.
-float sharing_none(const Contest& contest) {
+/// Odds of the alternatives that share no line: those at the same position in other sections, and
+/// those that differ in one sequence, at shifts which no line shows.
+float sharing_none(const LikelihoodRatios& ratios) {
     int lost = 0;
-    for (int line = 0; line < contest.count(); ++line)
-        lost += contest.least_loss(line);
-    return (1 + kSingles) * kShifts * odds_of(contest, lost);
+    for (int line = 0; line < ratios.count(); ++line)
+        lost += ratios.least_loss(line);
+    return (1 + kSingles) * kShifts * odds_of(ratios, lost);
 }
 
 /// What every line costs at least who does not share it, the dearest first. Bits count alike here,
 /// so losses are whole bits.
 constexpr int kBit = 2 * 127;  // of score
-std::size_t sort_losses(const Contest& contest, std::span<LineLoss> losses) {
-    const auto count = static_cast<std::size_t>(contest.count());
+std::size_t sort_losses(const LikelihoodRatios& ratios, std::span<LineLoss> losses) {
+    const auto count = static_cast<std::size_t>(ratios.count());
     for (std::size_t line = 0; line < count; ++line) {
-        const int bits = std::max(contest.least_loss(static_cast<int>(line)), 0) / kBit;
+        const int bits = std::max(ratios.least_loss(static_cast<int>(line)), 0) / kBit;
         std::size_t i = line;
         for (; i > 0 && losses[i - 1].loss < bits; --i)
             losses[i] = losses[i - 1];
@@ -134,41 +135,42 @@ std::size_t sort_losses(const Contest& contest, std::span<LineLoss> losses) {
 }
 
 /// What a position loses whose place differs in one sequence, and that shares a line.
-int loss_of(const Contest& contest, std::size_t sequence, std::uint32_t place, int shared) {
-    const std::uint8_t* own = contest.basis[sequence].rolls + contest.places[sequence];
-    const std::uint8_t* rival = contest.basis[sequence].rolls + place;
-    const int base = rival[shared] - own[shared];
+int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t place, int shared) {
+    const std::uint8_t* own = ratios.basis[sequence].rolls + ratios.places[sequence];
+    const std::uint8_t* alternative = ratios.basis[sequence].rolls + place;
+    const int base = alternative[shared] - own[shared];
     int lost = 0;
-    for (int line = 0; line < contest.count(); ++line) {
-        int shift = rival[line] - own[line] - base;
+    for (int line = 0; line < ratios.count(); ++line) {
+        int shift = alternative[line] - own[line] - base;
         shift += shift < 0 ? kSections : 0;
         shift -= shift >= kSections ? kSections : 0;
-        lost += contest.loss(line, shift < 0 ? shift + kSections : shift);
+        lost += ratios.loss(line, shift < 0 ? shift + kSections : shift);
     }
     return lost;
 }
 
 /// Those of a sequence that share a line, as far as a table tells how many lines they do not share
 /// at least: of those in the middle of the view, since any number of them will do.
-float rivals_by_table(const Contest& contest, const UnsharedLines& unshared, std::size_t sequence) {
-    const int lost = unshared.least_loss(sequence, Sharing::at_one_shift) - contest.most_regained();
+float alternatives_by_table(const LikelihoodRatios& ratios, const UnsharedLines& unshared,
+                            std::size_t sequence) {
+    const int lost = unshared.least_loss(sequence, Sharing::at_one_shift) - ratios.most_regained();
     // At most as many shifts as there are lines.
-    return static_cast<float>(contest.count() * contest.basis[sequence].length) *
-           odds_of(contest, std::max(lost, 0));
+    return static_cast<float>(ratios.count() * ratios.basis[sequence].length) *
+           odds_of(ratios, std::max(lost, 0));
 }
 
-/// Odds of rivals that differ in one sequence and share a line, by the table that tells most of
-/// each sequence. Sequences for which no table tells less than `enough` are not counted, and stay
-/// in `sequences`.
-float rivals_by_tables(const Contest& contest, float enough, unsigned& sequences) {
+/// Odds of alternatives that differ in one sequence and share a line, by the table that tells most
+/// of each sequence. Sequences for which no table tells less than `enough` are not counted, and
+/// stay in `sequences`.
+float alternatives_by_tables(const LikelihoodRatios& ratios, float enough, unsigned& sequences) {
     float sum = 0;
     for (std::size_t table = code::kUnsharedOf.size(); table-- > 0 && sequences != 0;) {
-        if (code::kUnsharedOf[table] > contest.count()) continue;
-        const UnsharedLines unshared(contest, code::kUnsharedOf[table]);
+        if (code::kUnsharedOf[table] > ratios.count()) continue;
+        const UnsharedLines unshared(ratios, code::kUnsharedOf[table]);
         for (unsigned rest = sequences; rest != 0; rest &= rest - 1) {
             const int sequence = std::countr_zero(rest);
             const float odds =
-                rivals_by_table(contest, unshared, static_cast<std::size_t>(sequence));
+                alternatives_by_table(ratios, unshared, static_cast<std::size_t>(sequence));
             if (odds > enough) continue;
             sum += odds;
             sequences ^= 1U << sequence;
@@ -177,34 +179,35 @@ float rivals_by_tables(const Contest& contest, float enough, unsigned& sequences
     return sum;
 }
 
-/// Rivals that differ in one sequence: where the table does not tell, all that lose so little that
-/// they may count, one by one. 1 if there are too many.
-float single_rivals(const Kernels& kernels, const Contest& contest, float limit) {
+/// Alternatives that differ in one sequence: where the table does not tell, all that lose so little
+/// that they may count, one by one. 1 if there are too many.
+float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios, float limit) {
     unsigned sequences = 15;
-    float sum = rivals_by_tables(contest, limit / 12, sequences);
+    float sum = alternatives_by_tables(ratios, limit / 12, sequences);
     if (sequences == 0) return sum;
     std::array<LineLoss, kMaxLines> storage;
-    const std::size_t lines = sort_losses(contest, storage);
-    const int enough = (contest.loss_for(kPassedOver_q8) + contest.most_regained()) / kBit + 1;
+    const std::size_t lines = sort_losses(ratios, storage);
+    const int enough = (ratios.loss_for(kPassedOver_q8) + ratios.most_regained()) / kBit + 1;
     sum += kSingles * kPassedOver * static_cast<float>(lines);
     SimilarPlaceList list;
-    if (!kernels.list_similar_places(contest.basis, contest.places, sequences,
+    if (!kernels.list_similar_places(ratios.basis, ratios.places, sequences,
                                      std::span(storage).first(lines), enough, list)) {
         return 1;
     }
     for (const auto& [sequence, place, line] :
          std::span(list.places).first(static_cast<std::size_t>(list.count)))
-        sum += odds_of(contest, loss_of(contest, sequence, place, line));
+        sum += odds_of(ratios, loss_of(ratios, sequence, place, line));
     return sum;
 }
 
-/// Odds of all rivals but those beyond seams.
-float rivals(const Kernels& kernels, const Contest& contest, float limit) {
-    return far_rivals(contest) + sharing_none(contest) + single_rivals(kernels, contest, limit);
+/// Odds of all alternatives but those beyond seams.
+float alternatives(const Kernels& kernels, const LikelihoodRatios& ratios, float limit) {
+    return far_alternatives(ratios) + sharing_none(ratios) +
+           single_alternatives(kernels, ratios, limit);
 }
 
-float seam_rivals(const Kernels& kernels, const Contest& contest) {
-    return power_of_two(std::max(seam_rivals_log2_q8(kernels, contest), -100 * 256));
+float seam_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios) {
+    return power_of_two(std::max(seam_alternatives_log2_q8(kernels, ratios), -100 * 256));
 }
 
 /// What is asked of an axis.
@@ -216,9 +219,9 @@ struct Asked {
     OtherCodes* others;  ///< null: nobody asks
 };
 
-void weigh_others(const Kernels& kernels, const Contest& contest, const Asked& asked) {
+void weigh_others(const Kernels& kernels, const LikelihoodRatios& ratios, const Asked& asked) {
     if (asked.others == nullptr) return;
-    weigh_other_codes(kernels, contest, asked.profile, asked.axis, *asked.others);
+    weigh_other_codes(kernels, ratios, asked.profile, asked.axis, *asked.others);
 }
 
 bool is_code_in_question(const Asked& asked) {
@@ -233,7 +236,7 @@ float chance_of(const Confidence& bits, const Asked& asked) {
         chance_log2_q8(bits, asked.odds_per_bit_q8, asked.others->log2_in_question_q8));
 }
 
-/// How many profiles may have such rivals.
+/// How many profiles may have such alternatives.
 float codes_in_question(const Asked& asked) {
     return !is_code_in_question(asked) ? 1 : power_of_two(asked.others->log2_in_question_q8);
 }
@@ -245,17 +248,17 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const Lines& li
     const float limit = std::ldexp(1.0F, limit_log2);
     const float chance = chance_of(bits, asked);
     if (chance > limit || lines.count() <= kMostShared) return 1;
-    const Contest contest(asked.profile, lines, reading, asked.odds_per_bit_q8);
+    const LikelihoodRatios ratios(asked.profile, lines, reading, asked.odds_per_bit_q8);
     const float codes = codes_in_question(asked);
-    const auto with = [&](float rivals) { return chance + codes * rivals; };
-    float sum = with(rivals(kernels, contest, limit));
-    if (sum > limit) sum = with(power_of_two(quick_rivals_log2_q8(contest, 256 * limit_log2)));
+    const auto with = [&](float alternatives) { return chance + codes * alternatives; };
+    float sum = with(alternatives(kernels, ratios, limit));
+    if (sum > limit) sum = with(power_of_two(quick_alternatives_log2_q8(ratios, 256 * limit_log2)));
     if (sum > limit) {
-        sum = with(std::ldexp(1.0F, rivals_log2(asked.profile, contest, limit_log2)));
+        sum = with(std::ldexp(1.0F, alternatives_log2(asked.profile, ratios, limit_log2)));
     }
     if (sum > limit) return 1;
-    weigh_others(kernels, contest, asked);
-    return sum + seam_rivals(kernels, contest);
+    weigh_others(kernels, ratios, asked);
+    return sum + seam_alternatives(kernels, ratios);
 }
 
 /// Probability that one axis is wrong, by bits alone, without scores of lines. It is never less
@@ -264,11 +267,11 @@ float axis_wrong(const Kernels& kernels, const AxisBits& axis, const Asked& aske
     const float limit = std::ldexp(1.0F, asked.limit_log2);
     const float chance = chance_of(axis.confidence, asked);
     if (chance > limit || axis.lines.size() <= kMostShared) return 1;
-    const Contest contest(asked.profile, axis.lines, axis.reading, asked.odds_per_bit_q8);
-    const float sum = chance + codes_in_question(asked) * rivals(kernels, contest, limit);
+    const LikelihoodRatios ratios(asked.profile, axis.lines, axis.reading, asked.odds_per_bit_q8);
+    const float sum = chance + codes_in_question(asked) * alternatives(kernels, ratios, limit);
     if (sum > limit) return 1;
-    weigh_others(kernels, contest, asked);
-    return sum + seam_rivals(kernels, contest);
+    weigh_others(kernels, ratios, asked);
+    return sum + seam_alternatives(kernels, ratios);
 }
 
 /// Odds of a bit, by both axes: they are read from the same dots, and so are misread alike. 0 where
@@ -348,10 +351,10 @@ void weigh_other_codes(const Kernels& kernels, const Evidence& evidence, Profile
     const int odds_q8 = odds_per_bit_q8(both);
     if (odds_q8 == 0) return;
     const auto [x, y] = readings_at(evidence.corner, profile);
-    weigh_other_codes(kernels, Contest(profile, evidence.columns, x, odds_q8), profile, Axis::x,
-                      others);
-    weigh_other_codes(kernels, Contest(profile, evidence.rows, y, odds_q8), profile, Axis::y,
-                      others);
+    weigh_other_codes(kernels, LikelihoodRatios(profile, evidence.columns, x, odds_q8), profile,
+                      Axis::x, others);
+    weigh_other_codes(kernels, LikelihoodRatios(profile, evidence.rows, y, odds_q8), profile,
+                      Axis::y, others);
 }
 
 }  // namespace dotpose::core

@@ -1,5 +1,5 @@
 // Certainty: how probable it is that a position is wrong whose lines are scored: by chance, by
-// rivals, and by seams. docs/integrity.md derives it.
+// alternatives, and by seams. docs/integrity.md derives it.
 #pragma once
 
 #include <array>
@@ -43,8 +43,9 @@ Evidence evidence_of(const Kernels& kernels, Profile profile, const Place& place
                      const BitBlock& block, const std::array<Confidence, 2>& bits,
                      std::span<ScoredLine> storage);
 
-/// Sets bit_errors and p_wrong_log2 of the fix: an upper estimate, in integers (quick_rivals.hpp).
-/// False if the position is not certain enough, or too many bits contradict it.
+/// Sets bit_errors and p_wrong_log2 of the fix: an upper estimate, in integers
+/// (quick_alternatives.hpp). False if the position is not certain enough, or too many bits
+/// contradict it.
 bool is_certain(const Kernels& kernels, const Evidence& evidence, Profile profile,
                 const IntegrityOptions& options, Fix& fix, OtherCodes* others = nullptr);
 

@@ -48,7 +48,7 @@ CodedBlock::Half CodedBlock::half(const BitLines& lines, const std::uint8_t* rol
         const int roll = there < kSections ? there : there - kSections;
         const std::uint32_t code = code::kMainWords[static_cast<std::size_t>(roll)];
         const std::uint32_t wrong = (bits ^ code) & seen;
-        // Bits beyond a gap would speak against rivals, too, but tables tell stretches apart.
+        // Bits beyond a gap would speak against alternatives, too, but tables tell stretches apart.
         half.lines[i] = {code, wrong == 0 ? longest_stretch(seen) : seen, wrong};
         if (seen == 0) continue;
         if (half.end == 0) {

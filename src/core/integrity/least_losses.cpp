@@ -4,9 +4,9 @@
 
 namespace dotpose::core {
 
-OneSide least_losses(const Contest& contest, bool from_last) {
-    const int count = contest.count();
-    const int most_shared = contest.most_shared();
+OneSide least_losses(const LikelihoodRatios& ratios, bool from_last) {
+    const int count = ratios.count();
+    const int most_shared = ratios.most_shared();
     OneSide least;
     OneSide with_last;  // of who does not share the last of the n lines
     with_last[0] = 0;
@@ -23,25 +23,25 @@ OneSide least_losses(const Contest& contest, bool from_last) {
         least[static_cast<std::size_t>(n)] = here;
         if (n == count) return least;
         const int line = from_last ? count - 1 - n : n;
-        with_last[static_cast<std::size_t>(n + 1)] = here + std::max(contest.least_loss(line), 0);
+        with_last[static_cast<std::size_t>(n + 1)] = here + std::max(ratios.least_loss(line), 0);
     }
 }
 
-int least_loss_with_border(const Contest& contest) {
-    const auto count = static_cast<std::size_t>(contest.count());
-    const OneSide before = least_losses(contest, false);
-    const OneSide beyond = least_losses(contest, true);
+int least_loss_with_border(const LikelihoodRatios& ratios) {
+    const auto count = static_cast<std::size_t>(ratios.count());
+    const OneSide before = least_losses(ratios, false);
+    const OneSide beyond = least_losses(ratios, true);
     int least = before[0] + beyond[count];
     for (std::size_t n = 1; n < count; ++n)
         least = std::min(least, before[n] + beyond[count - n]);
     return least;
 }
 
-bool surely_lose_with_border(const Contest& contest, int enough) {
-    const int most_shared = 2 * contest.most_shared();
+bool surely_lose_with_border(const LikelihoodRatios& ratios, int enough) {
+    const int most_shared = 2 * ratios.most_shared();
     int in_a_row = 0;
-    for (int line = 0; line < contest.count(); ++line) {
-        in_a_row = contest.least_loss(line) >= enough ? in_a_row + 1 : 0;
+    for (int line = 0; line < ratios.count(); ++line) {
+        in_a_row = ratios.least_loss(line) >= enough ? in_a_row + 1 : 0;
         if (in_a_row > most_shared) return true;
     }
     return false;

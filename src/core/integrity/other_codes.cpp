@@ -20,10 +20,10 @@ constexpr float kEnough = 1e-13F;
 
 /// What places lose at least in lines that they do not share.
 struct Losses {
-    explicit Losses(const Contest& contest)
-        : enough(contest.loss_for(kPassedOver_q8) + contest.most_regained()), unshared(contest) {
-        for (int line = 0; line < contest.count(); ++line) {
-            const int least = contest.least_loss(line);
+    explicit Losses(const LikelihoodRatios& ratios)
+        : enough(ratios.loss_for(kPassedOver_q8) + ratios.most_regained()), unshared(ratios) {
+        for (int line = 0; line < ratios.count(); ++line) {
+            const int least = ratios.least_loss(line);
             const int eighths = std::max(least, 0) / kUnit;
             of[static_cast<std::size_t>(line)] = static_cast<std::uint16_t>(eighths);
             all += eighths;
@@ -32,12 +32,12 @@ struct Losses {
     }
 
     /// Of all steps, in parts of which `StepLosses::kEnough` make up what is enough.
-    StepLosses of_steps(const Contest& contest) const {
+    StepLosses of_steps(const LikelihoodRatios& ratios) const {
         StepLosses steps;
-        steps.count = contest.count() - 1;
+        steps.count = ratios.count() - 1;
         const int part = (enough + StepLosses::kEnough - 1) / StepLosses::kEnough;
         for (int step = 0; step < steps.count; ++step) {
-            const int lost = std::min(contest.least_loss_of_step(step), enough);
+            const int lost = std::min(ratios.least_loss_of_step(step), enough);
             steps.parts[static_cast<std::size_t>(step)] = static_cast<std::uint8_t>(lost / part);
         }
         return steps;
@@ -58,29 +58,29 @@ struct Losses {
 /// Sums up the places of one other profile.
 class OtherPlaces {
   public:
-    OtherPlaces(const Contest& contest, const Losses& losses, Profile read, Profile other)
-        : contest_(contest),
+    OtherPlaces(const LikelihoodRatios& ratios, const Losses& losses, Profile read, Profile other)
+        : ratios_(ratios),
           losses_(losses),
-          count_(static_cast<std::size_t>(contest.count())),
+          count_(static_cast<std::size_t>(ratios.count())),
           theirs_(code::basis(other)[kA4]),
-          shift_here_(modulo(roll(other, contest.position) - roll(read, contest.position))) {
-        const Growth growth = growth_to(contest.places[kA4]);
+          shift_here_(modulo(roll(other, ratios.position) - roll(read, ratios.position))) {
+        const RollOffsets offsets = offsets_of(ratios.places[kA4]);
         int lost = 0;
-        for (std::size_t line = 0; line < count_ && !contest_.is_hopeless(lost); ++line) {
-            const int grown = growth[line] - growth[0] + shift_here_;
-            lost += contest_.loss(static_cast<int>(line), modulo(grown % kSections));
+        for (std::size_t line = 0; line < count_ && !ratios_.is_hopeless(lost); ++line) {
+            const int shift = offsets[line] - offsets[0] + shift_here_;
+            lost += ratios_.loss(static_cast<int>(line), modulo(shift % kSections));
         }
-        result_.here = contest_.odds(lost);
+        result_.here = ratios_.odds(lost);
     }
 
     /// Those elsewhere, if a table tells that there is no more than `enough` of them: so much.
     bool add_by_table(Profile read, Profile other, float enough) {
         const auto& table =
             code::kUnsharedInOther[static_cast<std::size_t>(read)][static_cast<std::size_t>(other)];
-        const int lost = losses_.unshared.least_loss(table) - contest_.most_regained();
+        const int lost = losses_.unshared.least_loss(table) - ratios_.most_regained();
         // At most as many shifts as there are lines; and those that no line shows.
         const float all =
-            static_cast<float>(theirs_.length * count_) * contest_.odds(std::max(lost, 0)) +
+            static_cast<float>(theirs_.length * count_) * ratios_.odds(std::max(lost, 0)) +
             sharing_none();
         if (all <= enough) result_.elsewhere = all;
         return all <= enough;
@@ -88,8 +88,8 @@ class OtherPlaces {
 
     /// The same place of a4 at its other shifts, and all places that share no line.
     void add_unsimilar() {
-        const std::uint32_t place = contest_.places[kA4];
-        add(place, growth_to(place), shift_here_);
+        const std::uint32_t place = ratios_.places[kA4];
+        add(place, offsets_of(place), shift_here_);
         add_sharing_none();
     }
 
@@ -97,15 +97,15 @@ class OtherPlaces {
     void add(std::uint32_t place) { add(place, kNoShift); }
     /// So many that are passed over.
     void add_passed_over(int places) {
-        result_.elsewhere += static_cast<float>(places * contest_.count()) * kPassedOver;
+        result_.elsewhere += static_cast<float>(places * ratios_.count()) * kPassedOver;
     }
     const OtherAxis& result() {
         // Nobody asks for the position of one that explains little.
         constexpr float kWorthNaming = 1e-6F;
         if (result_.best < kWorthNaming) return result_;
-        auto places = contest_.places;
+        auto places = ratios_.places;
         places[kA4] = best_place_;
-        result_.position = code::position_at(contest_.basis, places);
+        result_.position = code::position_at(ratios_.basis, places);
         return result_;
     }
 
@@ -115,20 +115,19 @@ class OtherPlaces {
 
     static int modulo(int shift) { return shift < 0 ? shift + kSections : shift; }
 
-    Growth growth_to(std::uint32_t place) const {
-        Growth growth;
-        const std::uint8_t* own = contest_.basis[kA4].rolls + contest_.places[kA4];
-        const std::uint8_t* rival = theirs_.rolls + place;
+    RollOffsets offsets_of(std::uint32_t place) const {
+        RollOffsets offsets;
+        const std::uint8_t* own = ratios_.basis[kA4].rolls + ratios_.places[kA4];
+        const std::uint8_t* alternative = theirs_.rolls + place;
         // Of as many lines as the tables have: a number that the compiler knows is done faster.
-        for (std::size_t line = 0; line < growth.size(); ++line)
-            growth[line] = grown(own[line], rival[line]);
-        return growth;
+        for (std::size_t line = 0; line < offsets.size(); ++line)
+            offsets[line] = roll_offset(own[line], alternative[line]);
+        return offsets;
     }
 
     /// Those that share no line, lumped together.
     float sharing_none() const {
-        return static_cast<float>(theirs_.length * (kSections - 1)) *
-               contest_.odds(losses_.at_best);
+        return static_cast<float>(theirs_.length * (kSections - 1)) * ratios_.odds(losses_.at_best);
     }
 
     /// One by one, if lumped together they are too much.
@@ -139,34 +138,35 @@ class OtherPlaces {
             return;
         }
         for (std::uint32_t place = 0; place < theirs_.length; ++place) {
-            const int left_out = place == contest_.places[kA4] ? shift_here_ : kNoShift;
-            add_unshared(place, growth_to(place), left_out);
+            const int left_out = place == ratios_.places[kA4] ? shift_here_ : kNoShift;
+            add_unshared(place, offsets_of(place), left_out);
         }
     }
 
     /// A place at all shifts that no line shows.
-    void add_unshared(std::uint32_t place, const Growth& growth, int shift_left_out) {
-        const auto grown = std::span(growth).first(static_cast<std::size_t>(contest_.count()));
+    void add_unshared(std::uint32_t place, const RollOffsets& offsets, int shift_left_out) {
+        const auto in_view = std::span(offsets).first(static_cast<std::size_t>(ratios_.count()));
         for (int shift = 0; shift < kSections; ++shift) {
-            const int base = modulo(growth[0] - shift);
-            if (shift == shift_left_out || std::ranges::find(grown, base) != grown.end()) continue;
+            const int base = modulo(offsets[0] - shift);
+            if (shift == shift_left_out || std::ranges::find(in_view, base) != in_view.end())
+                continue;
             int lost = 0;
-            for (int line = 0; line < contest_.count() && !contest_.is_hopeless(lost); ++line)
-                lost += contest_.loss(line, grown[static_cast<std::size_t>(line)] - base);
-            count(place, shift, contest_.odds(lost));
+            for (int line = 0; line < ratios_.count() && !ratios_.is_hopeless(lost); ++line)
+                lost += ratios_.loss(line, in_view[static_cast<std::size_t>(line)] - base);
+            count(place, shift, ratios_.odds(lost));
         }
     }
 
     void add(std::uint32_t place, int shift_left_out) {
-        add(place, growth_to(place), shift_left_out);
+        add(place, offsets_of(place), shift_left_out);
     }
 
-    void add(std::uint32_t place, const Growth& growth, int shift_left_out) {
-        // What those lines are worth that are shared at each shift, as bases of the growth.
+    void add(std::uint32_t place, const RollOffsets& offsets, int shift_left_out) {
+        // What those lines are worth that are shared at each shift, as bases of the offsets.
         std::array<std::uint16_t, kSections + 1> shared{};
         std::uint16_t most = 0;
         for (std::size_t line = 0; line < count_; ++line) {
-            std::uint16_t& here = shared[growth[line]];
+            std::uint16_t& here = shared[offsets[line]];
             here = static_cast<std::uint16_t>(here + losses_.of[line]);
             most = std::max(most, here);
         }
@@ -174,20 +174,20 @@ class OtherPlaces {
             add_passed_over(1);
             return;
         }
-        for (int line = 0; line < contest_.count(); ++line) {
-            const int base = growth[static_cast<std::size_t>(line)];
+        for (int line = 0; line < ratios_.count(); ++line) {
+            const int base = offsets[static_cast<std::size_t>(line)];
             std::uint16_t& kept = shared[static_cast<std::size_t>(base)];
             if (kept == kCounted) continue;
             const bool is_passed_over = losses_.are_enough(kept);
             kept = kCounted;
-            const int shift = modulo(growth[0] - base);
+            const int shift = modulo(offsets[0] - base);
             if (shift == shift_left_out) continue;
             if (is_passed_over) {
                 result_.elsewhere += kPassedOver;
                 continue;
             }
-            const auto lost = loss_of_growth(contest_, growth, line);
-            if (lost) count(place, shift, contest_.odds(*lost));
+            const auto lost = loss_of_offsets(ratios_, offsets, line);
+            if (lost) count(place, shift, ratios_.odds(*lost));
         }
     }
 
@@ -200,7 +200,7 @@ class OtherPlaces {
         best_place_ = place;
     }
 
-    const Contest& contest_;
+    const LikelihoodRatios& ratios_;
     const Losses& losses_;
     const std::size_t count_;
     const code::Secondary& theirs_;
@@ -210,18 +210,18 @@ class OtherPlaces {
 };
 
 /// `across`: odds of the other profile by the other axis, as far as they are known.
-OtherAxis weigh(const Kernels& kernels, const Contest& contest, const Losses& losses, Profile read,
-                Profile other, float across) {
-    OtherPlaces others(contest, losses, read, other);
+OtherAxis weigh(const Kernels& kernels, const LikelihoodRatios& ratios, const Losses& losses,
+                Profile read, Profile other, float across) {
+    OtherPlaces others(ratios, losses, read, other);
     if (others.add_by_table(read, other, kEnough / std::max(across, kEnough))) {
         return others.result();
     }
     others.add_unsimilar();
     // Digits as they were read, looked for where the other profile has them.
     code::Secondary a4 = code::basis(other)[kA4];
-    a4.digits = contest.basis[kA4].digits;
+    a4.digits = ratios.basis[kA4].digits;
     const PlaceBits similar =
-        kernels.find_similar_places(a4, contest.places[kA4], losses.of_steps(contest));
+        kernels.find_similar_places(a4, ratios.places[kA4], losses.of_steps(ratios));
     int added = 0;
     for (std::uint32_t word = 0; word < similar.size(); ++word) {
         visit_places(similar[word], word, [&](std::uint32_t place) {
@@ -235,22 +235,22 @@ OtherAxis weigh(const Kernels& kernels, const Contest& contest, const Losses& lo
 
 }  // namespace
 
-OtherAxis weigh_other_code(const Kernels& kernels, const Contest& contest, Profile read,
+OtherAxis weigh_other_code(const Kernels& kernels, const LikelihoodRatios& ratios, Profile read,
                            Profile other) {
-    return weigh(kernels, contest, Losses(contest), read, other, 1);
+    return weigh(kernels, ratios, Losses(ratios), read, other, 1);
 }
 
-void weigh_other_codes(const Kernels& kernels, const Contest& contest, Profile read, Axis axis,
-                       OtherCodes& others) {
-    (axis == Axis::x ? others.first.x : others.first.y) = contest.position;
-    const Losses losses(contest);
+void weigh_other_codes(const Kernels& kernels, const LikelihoodRatios& ratios, Profile read,
+                       Axis axis, OtherCodes& others) {
+    (axis == Axis::x ? others.first.x : others.first.y) = ratios.position;
+    const Losses losses(ratios);
     for (std::size_t i = 0; i < others.of.size(); ++i) {
         const auto other = static_cast<Profile>(i);
         if (other == read) continue;
         auto& [x, y] = others.of[i];
         // The columns come first.
         const float across = axis == Axis::x ? 1 : x.here + x.elsewhere;
-        (axis == Axis::x ? x : y) = weigh(kernels, contest, losses, read, other, across);
+        (axis == Axis::x ? x : y) = weigh(kernels, ratios, losses, read, other, across);
     }
 }
 

@@ -3,18 +3,18 @@
 // docs/integrity.md derives the sums.
 #pragma once
 
-#include "core/integrity/contest.hpp"
+#include "core/integrity/likelihood_ratios.hpp"
 #include "core/kernels/kernels.hpp"
 #include "core/other_codes.hpp"
 
 namespace dotpose::core {
 
-/// Odds of the places in the profile `other`, against the reading of a contest in `read`.
-OtherAxis weigh_other_code(const Kernels& kernels, const Contest& contest, Profile read,
+/// Odds of the places in the profile `other`, against the reading of `ratios` in `read`.
+OtherAxis weigh_other_code(const Kernels& kernels, const LikelihoodRatios& ratios, Profile read,
                            Profile other);
 
 /// The same in all other profiles.
-void weigh_other_codes(const Kernels& kernels, const Contest& contest, Profile read, Axis axis,
-                       OtherCodes& others);
+void weigh_other_codes(const Kernels& kernels, const LikelihoodRatios& ratios, Profile read,
+                       Axis axis, OtherCodes& others);
 
 }  // namespace dotpose::core

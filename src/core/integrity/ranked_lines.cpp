@@ -9,19 +9,19 @@ namespace dotpose::core {
 static_assert(code::kA4Restored.size() == code::kA4Published.size() &&
               code::kA4Restored.size() == code::kA4Microdots.size());
 
-RankedLines::RankedLines(const Contest& of) : contest(of) {
+RankedLines::RankedLines(const LikelihoodRatios& of) : ratios(of) {
     for (int line = 0; line < count(); ++line) {
         for (int shift = 0; shift < kSections; ++shift) {
             odds_[static_cast<std::size_t>(line)][static_cast<std::size_t>(shift)] =
-                contest.odds(contest.loss(line, shift));
+                ratios.odds(ratios.loss(line, shift));
         }
     }
     rank_lines();
-    look_up_losses();
-    grow_places();
+    set_losses();
+    set_offsets_of_places();
 }
 
-/// By the mean odds of a rival that does not share the line.
+/// By the mean odds of an alternative that does not share the line.
 void RankedLines::rank_lines() {
     std::array<float, kMaxLines> sums;
     for (int line = 0; line < count(); ++line) {
@@ -37,31 +37,31 @@ void RankedLines::rank_lines() {
         ranks_[lines_[static_cast<std::size_t>(n)]] = static_cast<std::uint8_t>(n);
 }
 
-void RankedLines::look_up_losses() {
+void RankedLines::set_losses() {
     for (int rank = count(); rank < 8; ++rank)
         losses_[static_cast<std::size_t>(rank)].fill(0);
     for (int rank = 0; rank < count(); ++rank) {
         auto& losses = losses_[static_cast<std::size_t>(rank)];
         for (int shift = 0; shift < kSections; ++shift) {
             losses[static_cast<std::size_t>(shift)] =
-                static_cast<std::int16_t>(contest.loss(line(rank), shift));
+                static_cast<std::int16_t>(ratios.loss(line(rank), shift));
         }
         for (std::size_t further = kSections; further < losses.size(); ++further)
             losses[further] = losses[further - kSections];
     }
 }
 
-void RankedLines::grow_places() {
+void RankedLines::set_offsets_of_places() {
     for (std::size_t k = 0; k < kFirsts.size(); ++k) {
-        for (std::uint32_t place = 0; place < contest.basis[k].length; ++place) {
-            Growth by_line;
-            grow(contest, k, place, by_line);
-            Grown& grown = grown_[kFirsts[k] + place];
-            grown.first = 0;
+        for (std::uint32_t place = 0; place < ratios.basis[k].length; ++place) {
+            RollOffsets by_line;
+            set_roll_offsets(ratios, k, place, by_line);
+            Offsets& offsets = offsets_[kFirsts[k] + place];
+            offsets.first = 0;
             for (int rank = 0; rank < count(); ++rank) {
                 const std::uint8_t here = by_line[static_cast<std::size_t>(line(rank))];
-                grown.all[static_cast<std::size_t>(rank)] = here;
-                if (rank < 8) grown.first |= EightGrowths{here} << 8 * rank;
+                offsets.all[static_cast<std::size_t>(rank)] = here;
+                if (rank < 8) offsets.first |= EightOffsets{here} << 8 * rank;
             }
         }
     }

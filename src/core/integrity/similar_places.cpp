@@ -5,16 +5,16 @@
 namespace dotpose::core {
 namespace {
 
-/// Losses of 32 rivals, one in each bit.
+/// Losses of 32 alternatives, one in each bit.
 class Losses {
   public:
     explicit Losses(std::uint32_t enough) : enough_(enough) {}
-    void add(std::uint32_t rivals, unsigned parts) {
+    void add(std::uint32_t alternatives, unsigned parts) {
         std::uint32_t carry = 0;
-        add_digit(ones_, has_bit(parts, 0), rivals, carry);
-        add_digit(twos_, has_bit(parts, 1), rivals, carry);
-        add_digit(fours_, has_bit(parts, 2), rivals, carry);
-        add_digit(eights_, has_bit(parts, 3), rivals, carry);
+        add_digit(ones_, has_bit(parts, 0), alternatives, carry);
+        add_digit(twos_, has_bit(parts, 1), alternatives, carry);
+        add_digit(fours_, has_bit(parts, 2), alternatives, carry);
+        add_digit(eights_, has_bit(parts, 3), alternatives, carry);
         enough_ |= carry;
     }
     /// Which have lost enough.
@@ -25,14 +25,14 @@ class Losses {
     static bool has_bit(unsigned n, int bit) {
         return static_cast<std::int32_t>(n << (31 - bit)) < 0;
     }
-    static void add_digit(std::uint32_t& digit, bool adds, std::uint32_t rivals,
+    static void add_digit(std::uint32_t& digit, bool adds, std::uint32_t alternatives,
                           std::uint32_t& carry) {
         const std::uint32_t before = digit;
         digit ^= carry;
         carry &= before;
         if (!adds) return;
-        carry |= digit & rivals;
-        digit ^= rivals;
+        carry |= digit & alternatives;
+        digit ^= alternatives;
     }
 
     // One more than was lost: what is enough carries.
@@ -46,11 +46,11 @@ class Losses {
 
 }  // namespace
 
-Steps::Steps(const Contest& contest, int enough, Excused excused)
-    : count(std::min(contest.count() - 1, kMostSteps)),
-      first_line((contest.count() - 1 - count) / 2) {
+Steps::Steps(const LikelihoodRatios& ratios, int enough, Excused excused)
+    : count(std::min(ratios.count() - 1, kMostSteps)),
+      first_line((ratios.count() - 1 - count) / 2) {
     const auto lost_at = [&](int step) {
-        return std::min(contest.least_loss_of_step(first_line + step), enough);
+        return std::min(ratios.least_loss_of_step(first_line + step), enough);
     };
     int needed = enough;
     if (excused == Excused::any_one) {

@@ -1,8 +1,9 @@
-// Similar places: of the rivals that differ from the reading in one sequence, those whose digits
-// there are so like the reading's that they cannot be passed over; 32 at a time, one in each bit.
+// Similar places: of the alternatives that differ from the reading in one sequence, those whose
+// digits there are so like the reading's that they cannot be passed over; 32 at a time, one in each
+// bit.
 #pragma once
 
-#include "core/integrity/contest.hpp"
+#include "core/integrity/likelihood_ratios.hpp"
 
 namespace dotpose::core {
 
@@ -12,13 +13,14 @@ inline constexpr int kMostSteps = 18;
 /// Parts that make up what is enough.
 inline constexpr unsigned kEnough = 15;
 
-/// Steps at which a rival is excused: it loses nothing there, whatever its digit.
+/// Steps at which an alternative is excused: it loses nothing there, whatever its digit.
 enum class Excused : std::uint8_t { none, any_one };
 
-/// What a rival loses at least where its digits differ from the reading's: one of the two lines of
-/// the step is not shared, so the lesser loss of both. In parts of what is enough, rounded down.
+/// What an alternative loses at least where its digits differ from the reading's: one of the two
+/// lines of the step is not shared, so the lesser loss of both. In parts of what is enough, rounded
+/// down.
 struct Steps {
-    Steps(const Contest& contest, int enough, Excused excused);
+    Steps(const LikelihoodRatios& ratios, int enough, Excused excused);
 
     int count;
     int first_line;
@@ -55,16 +57,16 @@ void visit_places(std::uint32_t places, std::uint32_t word, Use use) {
     }
 }
 
-/// Shows `use` the sequences and the places in them, at the first line, of all such rivals. Those
-/// sequences are left out of which `is_settled`.
+/// Shows `use` the sequences and the places in them, at the first line, of all such alternatives.
+/// Those sequences are left out of which `is_settled`.
 template <typename IsSettled, typename Use>
-void visit_similar_places(const Contest& contest, const Steps& steps, IsSettled is_settled,
+void visit_similar_places(const LikelihoodRatios& ratios, const Steps& steps, IsSettled is_settled,
                           Use use) {
-    for (std::size_t k = 0; k < contest.basis.size(); ++k) {
+    for (std::size_t k = 0; k < ratios.basis.size(); ++k) {
         if (is_settled(k)) continue;
-        const code::Secondary& a = contest.basis[k];
+        const code::Secondary& a = ratios.basis[k];
         const auto ahead = static_cast<std::uint32_t>(steps.first_line) % a.length;
-        const std::uint32_t own = contest.places[k] + ahead;
+        const std::uint32_t own = ratios.places[k] + ahead;
         const SimilarPlaces similar(a, own < a.length ? own : own - a.length, steps);
         const auto use_at_first_line = [&](std::uint32_t place) {
             use(k, place < ahead ? place + a.length - ahead : place - ahead);

@@ -6,21 +6,21 @@
 
 namespace dotpose::core {
 
-UnsharedLines::UnsharedLines(const Contest& contest, int most_lines) : contest_(contest) {
+UnsharedLines::UnsharedLines(const LikelihoodRatios& ratios, int most_lines) : ratios_(ratios) {
     const auto& numbers = code::kUnsharedOf;
     static_assert(code::kUnsharedOf.back() == kMostLines);
     std::size_t rows = 0;
-    while (rows < numbers.size() && numbers[rows] <= std::min(contest.count(), most_lines))
+    while (rows < numbers.size() && numbers[rows] <= std::min(ratios.count(), most_lines))
         ++rows;
     if (rows == 0) return;
     row_ = rows - 1;
     // The middle ones, which are longest.
     const int lines = numbers[row_];
-    const int first = (contest.count() - lines) / 2;
+    const int first = (ratios.count() - lines) / 2;
     first_line_ = static_cast<std::uint32_t>(first);
     // Sorted as they come.
     for (int n = 0; n < lines; ++n) {
-        const std::int32_t loss = std::max(contest.least_loss(first + n), 0);
+        const std::int32_t loss = std::max(ratios.least_loss(first + n), 0);
         auto i = static_cast<std::size_t>(n + 1);
         for (; i > 1 && least_[i - 1] > loss; --i)
             least_[i] = least_[i - 1];
@@ -31,11 +31,11 @@ UnsharedLines::UnsharedLines(const Contest& contest, int most_lines) : contest_(
 }
 
 int UnsharedLines::least_loss(std::size_t sequence, Sharing sharing) const {
-    const code::Secondary& a = contest_.basis[sequence];
+    const code::Secondary& a = ratios_.basis[sequence];
     // Of the other forms of a4 there is no table.
     const bool is_known = sequence < 3 || a.digits == code::kA4Restored.data();
     if (row_ == SIZE_MAX || !is_known) return 0;
-    const std::uint32_t ahead = contest_.places[sequence] + first_line_;
+    const std::uint32_t ahead = ratios_.places[sequence] + first_line_;
     const std::uint32_t place = ahead < a.length ? ahead : ahead - a.length;
     const unsigned both = code::kUnshared[row_][code::kUnsharedFrom[sequence] + place];
     const unsigned unshared = sharing == Sharing::at_one_shift ? both >> 4 : both & 15;
@@ -45,7 +45,7 @@ int UnsharedLines::least_loss(std::size_t sequence, Sharing sharing) const {
 int UnsharedLines::least_loss(const std::array<std::string_view, 3>& unshared_in_other) const {
     if (row_ == SIZE_MAX) return 0;
     const std::string_view row = unshared_in_other[row_];
-    const std::size_t ahead = contest_.places[3] + first_line_;
+    const std::size_t ahead = ratios_.places[3] + first_line_;
     const char unshared = row[ahead < row.size() ? ahead : ahead - row.size()];
     return least_[static_cast<std::size_t>(unshared - '0')];
 }

@@ -4,11 +4,11 @@
 #include "code/tables.hpp"
 #include "core/decode/lines.hpp"
 #include "core/decode/upright.hpp"
+#include "core/integrity/alternatives.hpp"
 #include "core/integrity/confidence.hpp"
 #include "core/integrity/other_codes.hpp"
-#include "core/integrity/quick_rivals.hpp"
-#include "core/integrity/rivals.hpp"
-#include "core/integrity/seam_rivals.hpp"
+#include "core/integrity/quick_alternatives.hpp"
+#include "core/integrity/seam_alternatives.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -53,7 +53,7 @@ Place corner_place(Profile profile, const Decoding& decoding, const Upright& upr
     return moved(profile, decoding.place, corner.x, corner.y);
 }
 
-/// What all bits in view say before rivals are counted.
+/// What all bits in view say before alternatives are counted.
 struct Doubt {
     int odds_per_bit_q8 = 0;  ///< 0: nothing is known of the bits
     /// log2 of the probability that chance agrees as well, of each axis.
@@ -90,18 +90,19 @@ Doubt compare_with_chance(const Grid& grid, Profile profile, const IntegrityOpti
 }
 
 /// Probability of an axis being wrong.
-int with_rivals(const Contest& contest, int by_chance_q8, int limit_q8, int rivals_q8) {
-    int sum_q8 = add_log2(by_chance_q8, rivals_q8);
-    if (sum_q8 <= limit_q8) sum_q8 = add_log2(sum_q8, seam_rivals_log2_q8(contest));
+int with_alternatives(const LikelihoodRatios& ratios, int by_chance_q8, int limit_q8,
+                      int alternatives_q8) {
+    int sum_q8 = add_log2(by_chance_q8, alternatives_q8);
+    if (sum_q8 <= limit_q8) sum_q8 = add_log2(sum_q8, seam_alternatives_log2_q8(ratios));
     return std::min(sum_q8, 0);
 }
 
-/// Probability of each axis being wrong; `rivals_q8(axis, contest)` gives the odds of its rivals,
-/// which only add to chance: where that is too much already they are not counted.
-template <typename Rivals>
-std::array<int, 2> with_rivals(const Grid& grid, Profile profile, const Decoding& decoding,
-                               std::span<ScoredLine> storage, const Doubt& doubt, int limit_q8,
-                               Rivals rivals_q8) {
+/// Probability of each axis being wrong; `alternatives_q8(axis, ratios)` gives the odds of its
+/// alternatives, which only add to chance: where that is too much already they are not counted.
+template <typename Alternatives>
+std::array<int, 2> with_alternatives(const Grid& grid, Profile profile, const Decoding& decoding,
+                                     std::span<ScoredLine> storage, const Doubt& doubt,
+                                     int limit_q8, Alternatives alternatives_q8) {
     const Upright upright(grid, decoding.region, decoding.pattern_from_grid);
     const Place place = corner_place(profile, decoding, upright);
     std::array<int, 2> p_wrong_q8{};
@@ -111,10 +112,10 @@ std::array<int, 2> with_rivals(const Grid& grid, Profile profile, const Decoding
         const auto half = scores_of(axis, storage);
         const Lines lines = decoding.lines_are_scored ? scored_lines(upright, axis, half)
                                                       : score_lines(upright, axis, half);
-        const Contest contest(profile, lines, reading_of(profile, place, axis),
-                              doubt.odds_per_bit_q8);
+        const LikelihoodRatios ratios(profile, lines, reading_of(profile, place, axis),
+                                      doubt.odds_per_bit_q8);
         p_wrong_q8[i] =
-            with_rivals(contest, doubt.by_chance_q8[i], limit_q8, rivals_q8(i, contest));
+            with_alternatives(ratios, doubt.by_chance_q8[i], limit_q8, alternatives_q8(i, ratios));
     }
     return p_wrong_q8;
 }
@@ -123,8 +124,8 @@ int sum(const std::array<int, 2>& p_wrong_q8) {
     return add_log2(p_wrong_q8[0], p_wrong_q8[1]);
 }
 
-/// Where nothing is known of the bits, chance is as good, and rivals only add to that: refused
-/// whatever the limit.
+/// Where nothing is known of the bits, chance is as good, and alternatives only add to that:
+/// refused whatever the limit.
 bool is_hopeless(const Doubt& doubt, int limit_q8) {
     return doubt.odds_per_bit_q8 == 0 || sum(doubt.by_chance_q8) > limit_q8;
 }
@@ -136,14 +137,14 @@ Status judge(const Doubt& doubt, const IntegrityOptions& options, Decoding& deco
     return is_sure ? Status::ok : Status::not_certain;
 }
 
-/// By quick_rivals.
+/// By quick_alternatives.
 std::array<int, 2> estimate_quickly(const Grid& grid, Profile profile, const Decoding& decoding,
                                     int limit_q8, std::span<ScoredLine> storage,
                                     const Doubt& doubt) {
-    return with_rivals(grid, profile, decoding, storage, doubt, limit_q8,
-                       [&](std::size_t, const Contest& contest) {
-                           return quick_rivals_log2_q8(contest, limit_q8);
-                       });
+    return with_alternatives(grid, profile, decoding, storage, doubt, limit_q8,
+                             [&](std::size_t, const LikelihoodRatios& ratios) {
+                                 return quick_alternatives_log2_q8(ratios, limit_q8);
+                             });
 }
 
 }  // namespace
@@ -222,9 +223,11 @@ Status verify_tracked(Profile profile, const Tracking& tracking, const Integrity
     if (!is_hopeless(doubt, limit_q8)) {
         for (std::size_t i = 0; i < axes.size(); ++i) {
             if (doubt.by_chance_q8[i] > limit_q8) continue;
-            const Contest contest(profile, axes[i].lines, axes[i].reading, doubt.odds_per_bit_q8);
-            decoding.p_wrong_log2_q8[i] = with_rivals(contest, doubt.by_chance_q8[i], limit_q8,
-                                                      quick_rivals_log2_q8(contest, limit_q8));
+            const LikelihoodRatios ratios(profile, axes[i].lines, axes[i].reading,
+                                          doubt.odds_per_bit_q8);
+            decoding.p_wrong_log2_q8[i] =
+                with_alternatives(ratios, doubt.by_chance_q8[i], limit_q8,
+                                  quick_alternatives_log2_q8(ratios, limit_q8));
         }
     }
     return judge(doubt, options, decoding, fix);
@@ -265,8 +268,8 @@ void weigh_other_codes(const Kernels& kernels, const Grid& grid, Profile profile
     const Place corner = corner_place(profile, decoding, upright);
     for (const Axis axis : {Axis::x, Axis::y}) {
         const Lines lines = score_lines(upright, axis, scores_of(axis, storage));
-        const Contest contest(profile, lines, reading_of(profile, corner, axis), odds_q8);
-        weigh_other_codes(kernels, contest, profile, axis, *others);
+        const LikelihoodRatios ratios(profile, lines, reading_of(profile, corner, axis), odds_q8);
+        weigh_other_codes(kernels, ratios, profile, axis, *others);
     }
 }
 
@@ -286,19 +289,21 @@ Status verify_among_codes(const Grid& grid, Profile profile, const OtherCodes* o
     const int codes_q8 = is_code_given ? 0 : others->log2_in_question_q8;
     if (!is_code_given) count_hypotheses_of(codes_q8, grid, profile, decoding, doubt);
     std::array<int, 2>& p_wrong_q8 = decoding.p_wrong_log2_q8;
-    p_wrong_q8 = with_rivals(grid, profile, decoding, storage, doubt, limit_q8,
-                             [&](std::size_t, const Contest& contest) {
-                                 return quick_rivals_log2_q8(contest, limit_q8) + codes_q8;
-                             });
+    p_wrong_q8 =
+        with_alternatives(grid, profile, decoding, storage, doubt, limit_q8,
+                          [&](std::size_t, const LikelihoodRatios& ratios) {
+                              return quick_alternatives_log2_q8(ratios, limit_q8) + codes_q8;
+                          });
     // Whoever accepts more doubt than usual wants to know how much there is.
     const int doubtful_q8 = std::min(limit_q8, -30 * 256);
     if (sum(p_wrong_q8) > doubtful_q8) {
-        const auto counted_q8 = with_rivals(
+        const auto counted_q8 = with_alternatives(
             grid, profile, decoding, storage, doubt, limit_q8,
-            [&](std::size_t axis, const Contest& contest) {
+            [&](std::size_t axis, const LikelihoodRatios& ratios) {
                 const bool is_in_doubt = p_wrong_q8[axis] > doubtful_q8 - 4 * 256;
                 if (!is_in_doubt) return 0;
-                return 256 * rivals_log2(profile, contest, options.max_p_wrong_log2) + codes_q8;
+                return 256 * alternatives_log2(profile, ratios, options.max_p_wrong_log2) +
+                       codes_q8;
             });
         for (std::size_t i = 0; i < counted_q8.size(); ++i)
             p_wrong_q8[i] = std::min(p_wrong_q8[i], counted_q8[i]);

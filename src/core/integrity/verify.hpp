@@ -16,7 +16,8 @@
 namespace dotpose::core {
 
 /// Sets bit_errors and p_wrong_log2 of the fix, and p_wrong_log2_q8 of the decoding: from chance,
-/// and from rivals (quick_rivals.hpp, and rivals.hpp where they leave doubts). Errors: not_certain.
+/// and from alternatives (quick_alternatives.hpp, and alternatives.hpp where they leave doubts).
+/// Errors: not_certain.
 Status verify(const Grid& grid, Profile profile, Decoding& decoding,
               const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix);
 
@@ -25,7 +26,8 @@ Status verify_among_codes(const Grid& grid, Profile profile, const OtherCodes* o
                           Decoding& decoding, const IntegrityOptions& options,
                           std::span<ScoredLine> storage, Fix& fix);
 
-/// The same in integers only, and in bounded time: what quick_rivals leaves in doubt is refused.
+/// The same in integers only, and in bounded time: what quick_alternatives leaves in doubt is
+/// refused.
 Status verify_quickly(const Grid& grid, Profile profile, Decoding& decoding,
                       const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix);
 

@@ -71,7 +71,7 @@ struct CellsInView {
 };
 
 /// How windows are looked at.
-struct WindowLook {
+struct WindowOptions {
     float spacing_px = 11;  ///< at the image centre
     float reach = 0.36F;  ///< of a window from its middle, in spacings; at most kMostHalfWindow_px
     int cut_q8 = 128;     ///< what is darker than the paper by this share, in 1/256, counts
@@ -126,7 +126,7 @@ struct BitsRead {
     float squares = 0;    ///< of the right ones, from their places
 };
 
-/// What a rival that does not share a line loses there at least, in bits.
+/// What an alternative that does not share a line loses there at least, in bits.
 struct LineLoss {
     std::uint8_t line = 0;
     std::uint8_t loss = 0;
@@ -147,8 +147,8 @@ struct SimilarPlaceList {
 /// A bit for each place of a sequence, from the lowest bit on.
 using PlaceBits = std::array<std::uint32_t, 8>;
 
-/// What a rival loses at least where its digit differs from the reading's in a step from one line
-/// to the next: one of the two lines. In parts, of which `kEnough` are enough.
+/// What an alternative loses at least where its digit differs from the reading's in a step from one
+/// line to the next: one of the two lines. In parts, of which `kEnough` are enough.
 struct StepLosses {
     static constexpr int kEnough = 8;
     int count = 0;
@@ -188,7 +188,7 @@ struct Kernels {
     /// Centres of what is dark in the dots' windows; none where that is much more or less than in
     /// a typical one, whose mass is returned.
     float (*measure_windows)(const ImageView& image, const CellsInView& view,
-                             const WindowLook& look, MeasuredDots& dots);
+                             const WindowOptions& look, MeasuredDots& dots);
     /// The centres without the bias of a threshold: where the darkness around each is balanced,
     /// weighted by a bell of such a reach, at most kMostBellReach_px, or as far as the image has
     /// it.

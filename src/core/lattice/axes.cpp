@@ -3,8 +3,8 @@
 #include <array>
 #include <bit>
 
-#include "core/by_itself.hpp"
 #include "core/math/fixed.hpp"
+#include "core/noinline.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -90,7 +90,7 @@ class Clusters {
     }
 
     /// Puts each edge to the nearest one. `sums` are kept up to date.
-    DOTPOSE_BY_ITSELF void assign(std::span<const Edge> edges, Side* side, Sums& sums) const {
+    DOTPOSE_NOINLINE void assign(std::span<const Edge> edges, Side* side, Sums& sums) const {
         for (const Edge& edge : edges) {
             const Side now = nearest(edge.step_q8);
             if (now != *side) move(edge.step_q8, *side, now, sums);
@@ -119,7 +119,7 @@ class Clusters {
             return along_1 < 0 ? Side::opposite_second : Side::second;
         return along_0 < 0 ? Side::opposite_first : Side::first;
     }
-    DOTPOSE_BY_ITSELF static void move(Vec edge, Side from, Side to, Sums& sums) {
+    DOTPOSE_NOINLINE static void move(Vec edge, Side from, Side to, Sums& sums) {
         sums[static_cast<std::size_t>(from)].add(edge, -1);
         sums[static_cast<std::size_t>(to)].add(edge, 1);
     }

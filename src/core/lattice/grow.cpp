@@ -2,11 +2,11 @@
 
 #include <array>
 
-#include "core/by_itself.hpp"
 #include "core/fit/affine_fit_int32.hpp"
 #include "core/lattice/axes.hpp"
 #include "core/lattice/regularity.hpp"
 #include "core/math/cells.hpp"
+#include "core/noinline.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -46,7 +46,7 @@ constexpr int kFarthest_cells = 500;
 /// Shows each dot to `use(dot, c, is_within_reach)`: c is where it is in the plane, so that cutting
 /// off rounds to the cell. `near_intersections` are left to the caller.
 template <typename Use>
-Regularity look_at(std::span<const Dot> dots, int reach_cells, const Cells& cells, Use use) {
+Regularity visit_cells(std::span<const Dot> dots, int reach_cells, const Cells& cells, Use use) {
     int farthest_cell = 0;
     int beyond = 0;
     const Square reach = cells_within(reach_cells);
@@ -116,7 +116,7 @@ class Fits {
         std::int32_t squared_offsets_q14 = 0;
         int near_intersections = 0;
         Regularity found =
-            look_at(dots_, reach_cells, Cells(plane), [&](const Dot&, Vec c, bool is_within) {
+            visit_cells(dots_, reach_cells, Cells(plane), [&](const Dot&, Vec c, bool is_within) {
                 if (!is_within) return;
                 squared_offsets_q14 += squared_offset_q14(c);
                 near_intersections += is_near(c, near) ? 1 : 0;
@@ -132,7 +132,7 @@ class Fits {
         AffineFitInt32 sums;
         const Square near = near_;
         const Regularity found =
-            look_at(dots_, reach_cells, cells, [&](const Dot& dot, Vec c, bool is_within) {
+            visit_cells(dots_, reach_cells, cells, [&](const Dot& dot, Vec c, bool is_within) {
                 if (!is_within || !is_near(c, near)) return;
                 sums.add(cells.from_centre_q3(dot.centre_q8), {c.x >> 16, c.y >> 16});
             });
@@ -142,7 +142,7 @@ class Fits {
     Regularity sum_up_changes(int reach_cells, const Cells& cells) {
         Used* before = before_.data();
         const Square near = near_;
-        return look_at(dots_, reach_cells, cells, [&](const Dot& dot, Vec c, bool is_within) {
+        return visit_cells(dots_, reach_cells, cells, [&](const Dot& dot, Vec c, bool is_within) {
             const Used now = is_within && is_near(c, near) ? used(c) : Used::no;
             if (now != *before) {
                 const Vec p = cells.from_centre_q3(dot.centre_q8);
@@ -153,7 +153,7 @@ class Fits {
             ++before;
         });
     }
-    DOTPOSE_BY_ITSELF void count(Vec p, Used used, int weight) {
+    DOTPOSE_NOINLINE void count(Vec p, Used used, int weight) {
         sums_.count(p, cell_of(used), weight);
     }
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/by_itself.hpp"
 #include "core/math/fixed.hpp"
+#include "core/noinline.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -91,7 +91,7 @@ class Nearest {
         }
     }
 
-    DOTPOSE_BY_ITSELF void search(const BucketedSeed* p, const BucketedSeed* end) {
+    DOTPOSE_NOINLINE void search(const BucketedSeed* p, const BucketedSeed* end) {
         const auto [x, y] = self_.at_q8;
         std::uint32_t farthest_q16 = squared_q16_[3];
         for (; p != end; ++p) {
@@ -110,7 +110,7 @@ class Nearest {
 
   private:
     /// Keeps the point if it is another and not too far off; tells how near the next must be.
-    DOTPOSE_BY_ITSELF std::uint32_t consider(const BucketedSeed* p, std::uint32_t squared_q16) {
+    DOTPOSE_NOINLINE std::uint32_t consider(const BucketedSeed* p, std::uint32_t squared_q16) {
         const bool is_far = may_be_far_ && larger_component(p->at_q8 - self_.at_q8) >= kFarthest_q8;
         if (p != &self_ && !is_far) insert<3>(p, squared_q16);
         return squared_q16_[3];

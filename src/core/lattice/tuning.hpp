@@ -33,8 +33,8 @@ inline constexpr int kFar_q16 = 65536 / 8;
 inline constexpr int kPlaceRounds = 2;
 }  // namespace refine_grid
 
-/// The first grid of the second attempt, from the periodogram (lattice/climb).
-namespace climb {
+/// The first grid of the second attempt, from the periodogram (lattice/periodogram_search).
+namespace periodogram_search {
 /// Dots within so many spacings along each axis are summed up at first: the fewer cells, the
 /// broader the peak that the raster has to meet. Then within more, which makes it exact. With 3 at
 /// first: 1,964; with 10: 1,993.
@@ -52,10 +52,10 @@ inline constexpr int kTiltTurn_deg = 3;
 inline constexpr int kTiltStretchPart = 25;
 inline constexpr int kTiltSteps = 3;
 /// First steps of the climb, degrees and part of the spacing; the last are an eighth of these.
-inline constexpr int kClimbTurn_deg = 1;
-inline constexpr int kClimbStretchPart = 80;
+inline constexpr int kFirstTurn_deg = 1;
+inline constexpr int kFirstStretchPart = 80;
 inline constexpr int kFinest = 8;
-}  // namespace climb
+}  // namespace periodogram_search
 
 /// The grid of a patch (lattice/outwards).
 namespace outwards {

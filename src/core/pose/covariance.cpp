@@ -7,11 +7,11 @@ namespace dotpose::core {
 namespace {
 
 /// Derivatives, by the parameters, of the direction that leads from one point to another.
-Parameters direction_gradient(const Sights& sights, std::size_t from, std::size_t to) {
-    const float x = sights.at.x[to] - sights.at.x[from];
-    const float y = sights.at.y[to] - sights.at.y[from];
-    const auto of_from = sights.jacobian(from);
-    const auto of_to = sights.jacobian(to);
+Parameters direction_gradient(const Projections& projections, std::size_t from, std::size_t to) {
+    const float x = projections.at.x[to] - projections.at.x[from];
+    const float y = projections.at.y[to] - projections.at.y[from];
+    const auto of_from = projections.jacobian(from);
+    const auto of_to = projections.jacobian(to);
     const float over = 1 / (x * x + y * y);
     Parameters gradient;
     for (std::size_t i = 0; i < gradient.size(); ++i) {
@@ -52,10 +52,10 @@ void estimate_covariance(const PoseFit& fit, const PlaneFromImage& pattern_from_
     // Theta is the direction of the image x axis.
     constexpr std::int32_t kStep_q8 = 8 * 256;
     const Vec p = reference_q8 - pattern_from_image.centre_q8;
-    const Sights sights =
-        plane.look(FourInts{p.x, p.x - kStep_q8, p.x + kStep_q8}, FourInts{p.y, p.y, p.y});
-    const auto here = sights.jacobian(0);
-    std::array<Parameters, 3> gradients{here[0], here[1], direction_gradient(sights, 1, 2)};
+    const Projections projections =
+        plane.project(FourInts{p.x, p.x - kStep_q8, p.x + kStep_q8}, FourInts{p.y, p.y, p.y});
+    const auto here = projections.jacobian(0);
+    std::array<Parameters, 3> gradients{here[0], here[1], direction_gradient(projections, 1, 2)};
     for (Parameters& gradient : gradients)
         gradient = fit.normal.whitened(gradient);
     for (std::size_t j = 0; j < 3; ++j) {

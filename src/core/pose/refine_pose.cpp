@@ -128,16 +128,17 @@ class Round {
 
     void add_four(const Batch& batch, std::size_t i, const Scatter& scatter,
                   PlaneSumsFloat& sums) const {
-        const Sights sights = plane_.look(four_at(&batch.x_q8[i]), four_at(&batch.y_q8[i]));
+        const Projections projections =
+            plane_.project(four_at(&batch.x_q8[i]), four_at(&batch.y_q8[i]));
         const auto target = [&](const auto& step_q16, const auto& direction, std::int32_t at_q16) {
             const FourInts target_q16 =
                 four_at(&step_q16[i]) + four_at(&direction[i]) * displacement_q16_ - at_q16;
             return __builtin_convertvector(target_q16, Four) / 65536.0F;
         };
-        const Four x = target(batch.step_x_q16, batch.dx, pose_.at_centre_q16.x) - sights.at.x;
-        const Four y = target(batch.step_y_q16, batch.dy, pose_.at_centre_q16.y) - sights.at.y;
+        const Four x = target(batch.step_x_q16, batch.dx, pose_.at_centre_q16.x) - projections.at.x;
+        const Four y = target(batch.step_y_q16, batch.dy, pose_.at_centre_q16.y) - projections.at.y;
         const Four weight = scatter.weight(four_at(&batch.noise[i]));
-        sums.add(sights, {{x, y}, weight * (x * x + y * y) <= limit_ ? weight : Four{}});
+        sums.add(projections, {{x, y}, weight * (x * x + y * y) <= limit_ ? weight : Four{}});
     }
 
     const Survey& survey_;
@@ -149,17 +150,17 @@ class Round {
 
 /// Takes back from a step what is not to be believed of the further terms. `whole`: these as
 /// fitted, whitened.
-void believe(const Parameters& whole, float unit, PoseFit& fit, Parameters& step) {
+void shrink(const Parameters& whole, float unit, PoseFit& fit, Parameters& step) {
     fit.covariance = {};
     for (std::size_t i = 0; i < kTilt; ++i)
         fit.covariance[i][i] = fit.variance;
     for (const FurtherTerms& terms : kTerms) {
-        const Belief belief =
-            belief_in(terms, fit.normal, whole, fit.variance, terms.first == kShear ? unit : 1);
+        const Posterior posterior =
+            posterior_of(terms, fit.normal, whole, fit.variance, terms.first == kShear ? unit : 1);
         for (std::size_t i = 0; i < terms.count; ++i) {
-            step[terms.first + i] += belief.mean[i] - whole[terms.first + i];
+            step[terms.first + i] += posterior.mean[i] - whole[terms.first + i];
             for (std::size_t j = 0; j < terms.count; ++j)
-                fit.covariance[terms.first + i][terms.first + j] = belief.covariance[i][j];
+                fit.covariance[terms.first + i][terms.first + j] = posterior.covariance[i][j];
         }
     }
 }
@@ -182,7 +183,7 @@ bool solve(const Parameters& distortions, float unit, PoseFit& fit, Parameters& 
     Parameters all = normal.unwhitened(step);
     for (std::size_t i = kTilt; i < kPoseParameters; ++i)
         all[i] += distortions[i];
-    believe(normal.times_transposed(all), unit, fit, step);
+    shrink(normal.times_transposed(all), unit, fit, step);
     moved = 0;
     for (const float part : step)
         moved += part * part;

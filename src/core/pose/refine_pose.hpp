@@ -5,8 +5,8 @@
 #pragma once
 
 #include "core/fit/plane_normal_float.hpp"
-#include "core/pose/belief.hpp"
 #include "core/pose/observations.hpp"
+#include "core/pose/posterior.hpp"
 #include "core/stages.hpp"
 #include "dotpose/fix.hpp"
 
@@ -34,8 +34,8 @@ struct PoseFit {
 bool solve(const Parameters& distortions, float unit, PoseFit& fit, Parameters& step, float& moved);
 
 /// Improves the pose; dots farther off than most are left out, and terms that a plain camera would
-/// not need are kept as far as they are to be believed (pose/belief): each costs accuracy. Returns
-/// false, with the pose as it was, when the dots do not determine it.
+/// not need are kept as far as they are to be believed (pose/posterior): each costs accuracy.
+/// Returns false, with the pose as it was, when the dots do not determine it.
 bool refine_pose(const Observations& observations, PlaneFromImage& pattern_from_image,
                  PoseFit& fit);
 

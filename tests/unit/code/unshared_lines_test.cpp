@@ -15,12 +15,12 @@ constexpr std::size_t kMost = 16;
 using Lines = std::array<int, kMost + 1>;
 
 /// The most lines that have grown by the same, of the first n from one end, for every n.
-Lines most_equal(const std::array<int, kMost>& growths, std::size_t lines, bool from_last) {
+Lines most_equal(const std::array<int, kMost>& offsets, std::size_t lines, bool from_last) {
     std::array<int, kSections> counts{};
     Lines most{};
     for (std::size_t n = 0; n < lines; ++n) {
-        const int growth = growths[from_last ? lines - 1 - n : n];
-        most[n + 1] = std::max(most[n], ++counts[static_cast<std::size_t>(growth)]);
+        const int offsets = offsets[from_last ? lines - 1 - n : n];
+        most[n + 1] = std::max(most[n], ++counts[static_cast<std::size_t>(offsets)]);
     }
     return most;
 }
@@ -32,11 +32,11 @@ int entry(const Secondary& a, std::uint32_t place, int count) {
     int most_on_both = 0;
     for (std::uint32_t other = 0; other < a.length; ++other) {
         if (other == place) continue;
-        std::array<int, kMost> growths{};
+        std::array<int, kMost> offsets{};
         for (std::size_t line = 0; line < lines; ++line)
-            growths[line] = (a.rolls[other + line] - a.rolls[place + line] + kSections) % kSections;
-        const Lines before = most_equal(growths, lines, false);
-        const Lines from = most_equal(growths, lines, true);
+            offsets[line] = (a.rolls[other + line] - a.rolls[place + line] + kSections) % kSections;
+        const Lines before = most_equal(offsets, lines, false);
+        const Lines from = most_equal(offsets, lines, true);
         most_at_one = std::max(most_at_one, before[lines]);
         for (std::size_t border = 0; border <= lines; ++border)
             most_on_both = std::max(most_on_both, before[border] + from[lines - border]);

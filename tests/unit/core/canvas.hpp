@@ -63,7 +63,7 @@ struct Levels {
 };
 inline Levels levels_at(const Light& light, int u) {
     const auto column = static_cast<std::size_t>(u);
-    return {2 * light.half_extents[column], light.cores[column]};
+    return {2 * light.half_low_levels[column], light.high_levels[column]};
 }
 inline Levels levels_of_tile(const Light& light, int tile) {
     return levels_at(light, tile * kTileWidth_px);

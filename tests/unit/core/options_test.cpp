@@ -32,8 +32,8 @@ struct Range {
 
 const Range kRanges[] = {
     {FIELD(lens.k_q40), INT_MIN, INT_MAX},       {FIELD(lens.centre_dx_q8), -262144, 262144},
-    {FIELD(lens.centre_dy_q8), -262144, 262144}, {FIELD(threshold.extent_q8), 1, 256},
-    {FIELD(threshold.core_q8), 1, 256},          {FIELD(threshold.min_contrast), 1, 255},
+    {FIELD(lens.centre_dy_q8), -262144, 262144}, {FIELD(threshold.low_q8), 1, 256},
+    {FIELD(threshold.high_q8), 1, 256},          {FIELD(threshold.min_contrast), 1, 255},
     {FIELD(blobs.min_area_px), 0, 1048576},      {FIELD(blobs.min_mass_q8), 0, 256},
     {FIELD(blobs.max_area_ratio), 1, 1024},      {FIELD(lattice.min_dots), 0, 1048576},
     {FIELD(lattice.max_offset_q16), 0, 32768},   {FIELD(integrity.max_p_wrong_log2), -1048576, 0},

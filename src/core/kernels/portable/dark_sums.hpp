@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/by_itself.hpp"
+#include "core/noinline.hpp"
 
 namespace dotpose::core {
 
@@ -23,8 +23,8 @@ inline constexpr int kHalfOfDiamond = 2;
 /// a row are summed without a loop, and their places are constants.
 // By itself, so that small processors can keep all it needs in registers.
 template <int Half>
-DOTPOSE_BY_ITSELF inline DarkSums dark_sums(const std::uint8_t* row, std::int32_t stride,
-                                            std::int32_t level) {
+DOTPOSE_NOINLINE inline DarkSums dark_sums(const std::uint8_t* row, std::int32_t stride,
+                                           std::int32_t level) {
     std::int32_t mass = 0;
     std::int32_t sum_x = 0;
     std::int32_t so_far = 0;  // the sum of all masses up to each row

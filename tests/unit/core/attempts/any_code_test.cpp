@@ -81,7 +81,7 @@ TEST_F(AnyCodeTest, FramesThatBothProfilesExplainSayNothing) {
 
 TEST_F(AnyCodeTest, RefusesWhatLocateRefuses) {
     Options options;
-    options.threshold.extent_q8 = 0;
+    options.threshold.low_q8 = 0;
     const GreyImage image = render(draw_shot(setup_of(Preset::nominal), 0));
     EXPECT_EQ(Locator(*memory_, options).locate_in_any_code(image.view(), {}).fix.status,
               Status::bad_argument);

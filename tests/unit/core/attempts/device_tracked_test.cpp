@@ -125,14 +125,14 @@ TEST_F(DeviceTracked, LocatesAfreshWhatItRefuses) {
 }
 
 /// The place whose columns from 16 to the left of `place` to 16 to the right share most rolls.
-Place worst_rival(Place place) {
+Place worst_alternative(Place place) {
     constexpr std::size_t kLines = 20;
     const code::Basis& basis = code::basis(Profile::anoto);
     std::array<std::uint32_t, 4> places;
     for (std::size_t k = 0; k < 4; ++k)
         places[k] = basis[k].place_of(place.cell.x);
     int most = 0;
-    Place rival = place;
+    Place alternative = place;
     for (std::size_t k = 0; k < 4; ++k) {
         for (std::uint32_t other = 0; other < basis[k].length; ++other) {
             if (other == places[k]) continue;
@@ -145,20 +145,20 @@ Place worst_rival(Place place) {
                 most = count;
                 std::array<std::uint32_t, 4> there = places;
                 there[k] = other;
-                rival.cell.x = code::position_at(basis, there);
+                alternative.cell.x = code::position_at(basis, there);
                 const int here =
                     code::roll_from(Profile::anoto, place.cell.x, place.section.u, place.cell.y);
                 const int wanted = (here + kSections - grown % kSections) % kSections;
-                rival.section.u = static_cast<std::uint8_t>(
-                    section_of(Profile::anoto, wanted, rival.cell.x, place.cell.y));
+                alternative.section.u = static_cast<std::uint8_t>(
+                    section_of(Profile::anoto, wanted, alternative.cell.x, place.cell.y));
             }
         }
     }
     // The rows are as they were.
     const int row = code::roll_from(Profile::anoto, place.cell.y, place.section.v, place.cell.x);
-    rival.section.v =
-        static_cast<std::uint8_t>(section_of(Profile::anoto, row, place.cell.y, rival.cell.x));
-    return rival;
+    alternative.section.v = static_cast<std::uint8_t>(
+        section_of(Profile::anoto, row, place.cell.y, alternative.cell.x));
+    return alternative;
 }
 
 TEST_F(DeviceTracked, FollowsNoWrongPrediction) {
@@ -183,7 +183,7 @@ TEST_F(DeviceTracked, FollowsNoWrongPrediction) {
         // Counted from the first line in view.
         const Place first = moved(Profile::anoto, right.place,
                                   (right.pattern_from_image.at_centre_q16.x >> 16) - 10, 0);
-        wrong[6].place = worst_rival(first);
+        wrong[6].place = worst_alternative(first);
         wrong[6].pattern_from_image.at_centre_q16.x =
             (right.pattern_from_image.at_centre_q16.x & 0xFFFF) + 10 * 65536;
         for (std::size_t n = 0; n < wrong.size(); ++n) {

@@ -85,11 +85,11 @@ TEST(Correlation, TheLeadIsThatOverTheSecondBest) {
         for (std::int16_t& score : scores) {
             score = static_cast<std::int16_t>(static_cast<int>(rng.below(range)) - 30000);
         }
-        const Lead lead = lead_of(scores);
+        const BestScore best = best_score(scores);
         std::sort(scores.begin(), scores.end());
-        ASSERT_EQ(lead.best, scores[62]) << i << ", seed " << kSeed;
+        ASSERT_EQ(best.score, scores[62]) << i << ", seed " << kSeed;
         if (scores[62] - scores[61] <= INT16_MAX) {
-            ASSERT_EQ(lead.lead, scores[62] - scores[61]) << i << ", seed " << kSeed;
+            ASSERT_EQ(best.margin, scores[62] - scores[61]) << i << ", seed " << kSeed;
         }
     }
 }

@@ -77,8 +77,8 @@ TEST(ScoreLines, TellsByHowMuchTheBestOfEachLineLeads) {
             const ScoredLine& line = lines.storage[static_cast<std::size_t>(i)];
             LineScores sorted = line.scores;
             std::sort(sorted.begin(), sorted.end(), std::greater<>());
-            EXPECT_EQ(line.lead.best, sorted[0]) << "line " << i << " of " << columns;
-            EXPECT_EQ(line.lead.lead, sorted[0] - sorted[1]) << "line " << i << " of " << columns;
+            EXPECT_EQ(line.best.score, sorted[0]) << "line " << i << " of " << columns;
+            EXPECT_EQ(line.best.margin, sorted[0] - sorted[1]) << "line " << i << " of " << columns;
         }
     }
 }

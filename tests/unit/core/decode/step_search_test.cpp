@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "../integrity/contest_case.hpp"
+#include "../integrity/ratios_case.hpp"
 
 namespace dotpose::core_test {
 namespace {
@@ -14,20 +14,20 @@ constexpr std::uint64_t kSeed = 71;
 
 /// Reads the lines, each of `bits` bits; a line that is hidden says nothing.
 template <typename IsHidden>
-void read_lines(ContestCase& c, int bits, double wrong, Rng& rng, IsHidden is_hidden) {
+void read_lines(RatiosCase& c, int bits, double wrong, Rng& rng, IsHidden is_hidden) {
     for (std::size_t i = 0; i < c.rolls.size(); ++i) {
         c.storage.push_back(is_hidden(i) ? ScoredLine{}
                                          : scored_line(c.rolls[i], bits, wrong, 127, rng));
     }
 }
 
-AxisReading found(const ContestCase& c) {
+AxisReading found(const RatiosCase& c) {
     AxisReading reading{0, 0, INT32_MIN, 0};
     search_by_steps(c.profile, c.lines(), reading);
     return reading;
 }
 
-bool is_true(const AxisReading& reading, const ContestCase& c) {
+bool is_true(const AxisReading& reading, const RatiosCase& c) {
     return reading.position == c.position && reading.roll == c.rolls[0];
 }
 
@@ -37,7 +37,7 @@ TEST(SearchBySteps, ReadsLinesOnBothSidesOfHiddenOnes) {
     for (int i = 0; i < 300; ++i) {
         // Nowhere six in a row.
         const std::size_t hidden = 1 + rng.below(3);
-        ContestCase c = at_random_place(rng, 10 + static_cast<int>(hidden));
+        RatiosCase c = at_random_place(rng, 10 + static_cast<int>(hidden));
         read_lines(c, 12, 0.03, rng,
                    [&](std::size_t line) { return line >= 5 && line < 5 + hidden; });
         right += is_true(found(c), c) ? 1 : 0;
@@ -49,7 +49,7 @@ TEST(SearchBySteps, ReadsLinesWithWrongBits) {
     Rng rng(kSeed + 1);
     int right = 0;
     for (int i = 0; i < 200; ++i) {
-        ContestCase c = at_random_place(rng, 30);
+        RatiosCase c = at_random_place(rng, 30);
         read_lines(c, 12, 0.1, rng, [](std::size_t) { return false; });
         right += is_true(found(c), c) ? 1 : 0;
     }
@@ -58,7 +58,7 @@ TEST(SearchBySteps, ReadsLinesWithWrongBits) {
 
 TEST(SearchBySteps, ReadsOnOverTheEndOfTheCode) {
     Rng rng(kSeed + 2);
-    ContestCase c = at_random_place(rng, 12);
+    RatiosCase c = at_random_place(rng, 12);
     c.profile = Profile::anoto;
     c.position = kPositionsPerAxis - 5;
     for (std::size_t i = 1; i < c.rolls.size(); ++i) {
@@ -71,7 +71,7 @@ TEST(SearchBySteps, ReadsOnOverTheEndOfTheCode) {
 
 TEST(SearchBySteps, KeepsWhatIsAsGood) {
     Rng rng(kSeed + 3);
-    ContestCase c = at_random_place(rng, 10);
+    RatiosCase c = at_random_place(rng, 10);
     read_lines(c, 12, 0, rng, [](std::size_t) { return false; });
     const std::int32_t most = found(c).score;
     AxisReading better{7, 8, most, most};

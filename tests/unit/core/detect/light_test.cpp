@@ -72,12 +72,12 @@ TEST(Light, ThresholdsLieAtTheirSharesOfTheContrast) {
                 const double mean = std::floor(p - (p - i) / 8.0);
                 // The contrast is known in steps of 1/64 of the paper's level.
                 const double step = mean / 64 + 1;
-                const double extent = mean - (mean - i) * options.extent_q8 / 256;
-                const double core = mean - (mean - i) * options.core_q8 / 256;
+                const double extent = mean - (mean - i) * options.low_q8 / 256;
+                const double core = mean - (mean - i) * options.high_q8 / 256;
                 // Rounded down to an even level.
-                ASSERT_NEAR(level.extent, extent - 0.5, step * options.extent_q8 / 256 + 2);
+                ASSERT_NEAR(level.extent, extent - 0.5, step * options.low_q8 / 256 + 2);
                 ASSERT_EQ(level.extent % 2, 0);
-                ASSERT_NEAR(level.core, core, step * options.core_q8 / 256 + 1.5);
+                ASSERT_NEAR(level.core, core, step * options.high_q8 / 256 + 1.5);
             }
         });
     }

@@ -27,19 +27,19 @@ struct Row {
         const double dark_share = rng.uniform(0, 1);
         begin_light(width_px, kMinFrameSide_px, light);
         for (int u = 0; u < whole_width(light); u += kTileWidth_px) {
-            const int half_extent = rng.below(6) == 0 ? 0 : static_cast<int>(rng.below(128));
-            const int core = static_cast<int>(rng.below(2 * half_extent + 1U));
+            const int half_low = rng.below(6) == 0 ? 0 : static_cast<int>(rng.below(128));
+            const int core = static_cast<int>(rng.below(2 * half_low + 1U));
             for (int k = u; k < u + kTileWidth_px; ++k) {
-                light.half_extents[static_cast<std::size_t>(k)] =
-                    static_cast<std::uint8_t>(half_extent);
-                light.cores[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(core);
+                light.half_low_levels[static_cast<std::size_t>(k)] =
+                    static_cast<std::uint8_t>(half_low);
+                light.high_levels[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(core);
             }
             const bool is_close = rng.below(2) == 0;
             for (int k = u; k < std::min(u + kTileWidth_px, width_px); ++k) {
                 const bool is_dark = rng.uniform(0, 1) < dark_share;
-                int level = static_cast<int>(is_dark ? rng.below(2 * half_extent + 1U)
-                                                     : 255 - rng.below(256 - 2 * half_extent));
-                if (is_close) level = (rng.below(2) == 0 ? 2 * half_extent : core) - is_dark;
+                int level = static_cast<int>(is_dark ? rng.below(2 * half_low + 1U)
+                                                     : 255 - rng.below(256 - 2 * half_low));
+                if (is_close) level = (rng.below(2) == 0 ? 2 * half_low : core) - is_dark;
                 pixels[static_cast<std::size_t>(k)] =
                     static_cast<std::uint8_t>(std::clamp(level, 0, 255));
             }

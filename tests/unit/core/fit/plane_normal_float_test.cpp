@@ -39,9 +39,9 @@ Vec random_pixel_q8(Rng& rng) {
 }
 
 /// As the first of four; the others are elsewhere.
-Sights look(const ScaledPlane& scaled, const PlaneFromImage& plane, Vec pixel_q8) {
+Projections project(const ScaledPlane& scaled, const PlaneFromImage& plane, Vec pixel_q8) {
     const Vec p{pixel_q8.x - plane.centre_q8.x, pixel_q8.y - plane.centre_q8.y};
-    return scaled.look(FourInts{p.x, 256, -5000, 7000}, FourInts{p.y, -256, 3000, 3000});
+    return scaled.project(FourInts{p.x, 256, -5000, 7000}, FourInts{p.y, -256, 3000, 3000});
 }
 
 TEST(ScaledPlane, SeesPointsWhereThePlaneHasThem) {
@@ -49,11 +49,11 @@ TEST(ScaledPlane, SeesPointsWhereThePlaneHasThem) {
     for (int i = 0; i < 1000; ++i) {
         const PlaneFromImage plane = random_plane(rng);
         const Vec pixel_q8 = random_pixel_q8(rng);
-        const Sights sights = look(ScaledPlane(plane, kReach_px), plane, pixel_q8);
+        const Projections projections = project(ScaledPlane(plane, kReach_px), plane, pixel_q8);
         const Vec2 expected =
             real(plane_point_q16(plane, pixel_q8), 16) - real(plane.at_centre_q16, 16);
-        ASSERT_NEAR(sights.at.x[0], expected.x, 3e-5) << "plane " << i << ", seed " << kSeed;
-        ASSERT_NEAR(sights.at.y[0], expected.y, 3e-5) << "plane " << i << ", seed " << kSeed;
+        ASSERT_NEAR(projections.at.x[0], expected.x, 3e-5) << "plane " << i << ", seed " << kSeed;
+        ASSERT_NEAR(projections.at.y[0], expected.y, 3e-5) << "plane " << i << ", seed " << kSeed;
     }
 }
 
@@ -73,7 +73,7 @@ TEST(ScaledPlane, ChangesAsItsDerivativesTell) {
             const Vec2 change = (1 / (2.0 * static_cast<double>(kStep))) *
                                 (real(plane_point_q16(scaled.changed(more), pixel_q8), 16) -
                                  real(plane_point_q16(scaled.changed(less), pixel_q8), 16));
-            const auto jacobian = look(scaled, plane, pixel_q8).jacobian(0);
+            const auto jacobian = project(scaled, plane, pixel_q8).jacobian(0);
             // Points are rounded to 2^-16 spacings.
             ASSERT_NEAR(jacobian[0][k], change.x, 0.02);
             ASSERT_NEAR(jacobian[1][k], change.y, 0.02);
@@ -114,7 +114,7 @@ TEST(ScaledPlane, DistortionsAreWhatMakesItDifferFromAPlainCamera) {
     EXPECT_NEAR(plain.du_q24.y, -plain.dv_q24.x, 2);
 }
 
-/// Sights of many points, with residuals that a known step explains.
+/// Projections of many points, with residuals that a known step explains.
 struct Problem {
     static constexpr int kPoints = 150;
     PlaneNormalFloat normal;
@@ -131,16 +131,17 @@ struct Problem {
                 x_q8[k] = pixel_q8.x - 93 * 256;
                 y_q8[k] = on_one_line ? 0 : pixel_q8.y - 59 * 256;
             }
-            const Sights sights = plane.look(x_q8, y_q8);
+            const Projections projections = plane.project(x_q8, y_q8);
             Residuals residuals{};
             for (int k = 0; k < 4 && first + k < kPoints; ++k) {
-                const Vec2 off = explained_by(step, sights.jacobian(static_cast<std::size_t>(k)));
+                const Vec2 off =
+                    explained_by(step, projections.jacobian(static_cast<std::size_t>(k)));
                 squared_residuals += off.x * off.x + off.y * off.y;
                 residuals.off.x[k] = static_cast<float>(off.x);
                 residuals.off.y[k] = static_cast<float>(off.y);
                 residuals.weight[k] = 1;
             }
-            sums.add(sights, residuals);
+            sums.add(projections, residuals);
         }
         normal = PlaneNormalFloat(sums);
     }
@@ -190,13 +191,13 @@ TEST(PlaneNormalFloat, IsThatOfItsDefinition) {
     double expected[kPoseParameters][kPoseParameters] = {};
     double right[kPoseParameters] = {};
     for (int n = 0; n < 10; ++n) {
-        const Sights sights =
-            plane.look(FourInts{n, -9000, 700 * n, 11000}, FourInts{-8000, 300 * n, 4000, 900 * n});
+        const Projections projections = plane.project(FourInts{n, -9000, 700 * n, 11000},
+                                                      FourInts{-8000, 300 * n, 4000, 900 * n});
         const Residuals residuals{{Four{0.5F, -1, 2, 0.1F}, Four{1, 0.3F, -0.7F, 0.2F}},
                                   Four{1, 0.5F, 0, 3}};
-        sums.add(sights, residuals);
+        sums.add(projections, residuals);
         for (int point = 0; point < 4; ++point) {
-            const auto [a, b] = sights.jacobian(static_cast<std::size_t>(point));
+            const auto [a, b] = projections.jacobian(static_cast<std::size_t>(point));
             const auto weight = static_cast<double>(residuals.weight[point]);
             for (std::size_t i = 0; i < kPoseParameters; ++i) {
                 right[i] += weight * (product(a[i], residuals.off.x[point]) +
@@ -235,10 +236,10 @@ TEST(PlaneNormalFloat, CountsAPointOfWeightThreeThreeTimes) {
             y_q8[k] = random_pixel_q8(rng).y;
             off[k] = static_cast<float>(rng.uniform(-1, 1));
         }
-        const Sights sights = plane.look(x_q8, y_q8);
-        weighted.add(sights, {{off, -off}, Four{3, 3, 3, 3}});
+        const Projections projections = plane.project(x_q8, y_q8);
+        weighted.add(projections, {{off, -off}, Four{3, 3, 3, 3}});
         for (int n = 0; n < 3; ++n)
-            repeated.add(sights, {{off, -off}, Four{1, 1, 1, 1}});
+            repeated.add(projections, {{off, -off}, Four{1, 1, 1, 1}});
     }
     PlaneNormalFloat one(weighted);
     PlaneNormalFloat three(repeated);
@@ -271,7 +272,7 @@ TEST(PlaneNormalFloat, NeedsPoints) {
     EXPECT_FALSE(none.decompose());
     PlaneSumsFloat sums;
     const ScaledPlane plane({{}, {}, {1 << 20, 0}, {0, 1 << 20}, {}, 0}, 10);
-    sums.add(plane.look(FourInts{256}, FourInts{256}), {{Four{}, Four{}}, Four{1}});
+    sums.add(plane.project(FourInts{256}, FourInts{256}), {{Four{}, Four{}}, Four{1}});
     PlaneNormalFloat one(sums);
     EXPECT_EQ(one.points(), 1);
     EXPECT_FALSE(one.decompose());

@@ -1,4 +1,5 @@
-// The claim of the first and tracked attempts against sums over all rivals in double precision.
+// The claim of the first and tracked attempts against sums over all alternatives in double
+// precision.
 #include "core/integrity/certainty.hpp"
 
 #include <gtest/gtest.h>
@@ -130,7 +131,7 @@ std::vector<int> rolls_of(const Block& block, bool is_x, std::size_t sequence, i
     return rolls;
 }
 
-/// log2 of the odds of all rivals that differ in one sequence and share a line, and of other
+/// log2 of the odds of all alternatives that differ in one sequence and share a line, and of other
 /// sections, and of chance, for both axes, at the odds by which the claim counts them.
 double exact_log2(const Block& block) {
     double sum = 0;
@@ -159,10 +160,11 @@ double exact_log2(const Block& block) {
             add(rolls_of(block, is_x, 0, 0, shift));
         for (std::size_t n = 0; n < texts.size(); ++n) {
             for (int further = 1; further < static_cast<int>(texts[n].size()); ++further) {
-                const auto rival = rolls_of(block, is_x, n, further, 0);
+                const auto alternative = rolls_of(block, is_x, n, further, 0);
                 std::array<bool, 63> is_shared{};
-                for (std::size_t line = 0; line < rival.size(); ++line)
-                    is_shared[static_cast<std::size_t>((own[line] - rival[line] + 63) % 63)] = true;
+                for (std::size_t line = 0; line < alternative.size(); ++line)
+                    is_shared[static_cast<std::size_t>((own[line] - alternative[line] + 63) % 63)] =
+                        true;
                 for (int shift = 0; shift < 63; ++shift) {
                     if (is_shared[static_cast<std::size_t>(shift)])
                         add(rolls_of(block, is_x, n, further, shift));
@@ -214,9 +216,10 @@ TEST(IsCertain, AcceptsWhatIsClearlyRead) {
     }
 }
 
-/// Bits between two rivals: where their columns differ, half of the bits that tell them apart are
-/// as the rival has them, so that both explain the view equally.
-Block between(const Block& block, const std::vector<int>& own, const std::vector<int>& rival) {
+/// Bits between two alternatives: where their columns differ, half of the bits that tell them apart
+/// are as the alternative has them, so that both explain the view equally.
+Block between(const Block& block, const std::vector<int>& own,
+              const std::vector<int>& alternative) {
     Block mixed = block;
     int differing = 0;
     for (int column = 0; column < block.columns; ++column) {
@@ -226,14 +229,14 @@ Block between(const Block& block, const std::vector<int>& own, const std::vector
                     code_test::kMainText,
                     static_cast<std::uint64_t>(rolls[static_cast<std::size_t>(column)] + row));
             };
-            if (bit(own) != bit(rival) && differing++ % 2 == 0)
-                mixed.x[block.index(column, row)] = bit(rival);
+            if (bit(own) != bit(alternative) && differing++ % 2 == 0)
+                mixed.x[block.index(column, row)] = bit(alternative);
         }
     }
     return mixed;
 }
 
-TEST(IsCertain, RefusesWhatARivalExplainsAsWell) {
+TEST(IsCertain, RefusesWhatAAlternativeExplainsAsWell) {
     Rng rng(kSeed);
     int without_errors = 0;
     for (int i = 0; i < 24; ++i) {
@@ -241,16 +244,16 @@ TEST(IsCertain, RefusesWhatARivalExplainsAsWell) {
         const Block block = cut_block(code_test::kProfiles[static_cast<std::size_t>(i % 3)],
                                       any_place(rng), 11, 12);
         const auto own = rolls_of(block, true, 0, 0, 0);
-        // The rival that tells itself apart by the fewest bits.
+        // The alternative that tells itself apart by the fewest bits.
         std::vector<int> worst;
         int fewest = INT32_MAX;
         const auto texts = code_test::secondary_texts(block.profile);
         for (std::size_t n = 0; n < texts.size(); ++n) {
             for (int further = 1; further < static_cast<int>(texts[n].size()); ++further) {
                 for (std::size_t line = 0; line < own.size(); ++line) {
-                    const auto rival = rolls_of(block, true, n, further, 0);
-                    const auto shifted =
-                        rolls_of(block, true, n, further, (own[line] - rival[line] + 63) % 63);
+                    const auto alternative = rolls_of(block, true, n, further, 0);
+                    const auto shifted = rolls_of(block, true, n, further,
+                                                  (own[line] - alternative[line] + 63) % 63);
                     const int bits = contradictions(block, true, shifted);
                     if (bits == 0 || bits >= fewest) continue;
                     fewest = bits;

@@ -1,9 +1,9 @@
-// The least that every rival loses, against all patterns of shared lines.
+// The least that every alternative loses, against all patterns of shared lines.
 #include "core/integrity/least_losses.hpp"
 
 #include <gtest/gtest.h>
 
-#include "contest_case.hpp"
+#include "ratios_case.hpp"
 
 namespace dotpose::core_test {
 namespace {
@@ -11,8 +11,8 @@ namespace {
 constexpr std::uint64_t kSeed = 77;
 
 /// Some lines with some bits wrong.
-ContestCase random_case(int lines, Profile profile, Rng& rng) {
-    ContestCase c = at_random_place(rng, lines);
+RatiosCase random_case(int lines, Profile profile, Rng& rng) {
+    RatiosCase c = at_random_place(rng, lines);
     while (c.profile != profile)
         c = at_random_place(rng, lines);
     for (const int own : c.rolls)
@@ -41,7 +41,7 @@ int least_of_patterns(const std::vector<int>& losses, int most_shared) {
 }
 
 /// What the best other roll of each line loses; winning something back does not count.
-std::vector<int> losses_of(const ContestCase& c) {
+std::vector<int> losses_of(const RatiosCase& c) {
     std::vector<int> losses;
     for (std::size_t line = 0; line < c.rolls.size(); ++line) {
         const LineScores& scores = c.storage[line].scores;
@@ -61,11 +61,11 @@ TEST(LeastLosses, AreTheLeastOverAllPatternsOfSharedRuns) {
         SCOPED_TRACE(testing::Message() << "case " << i << ", seed " << kSeed);
         const Profile profile = code_test::kProfiles[static_cast<std::size_t>(i % 3)];
         const int most_shared = profile == Profile::libdots ? 7 : 5;
-        const ContestCase c = random_case(1 + i % 12, profile, rng);
+        const RatiosCase c = random_case(1 + i % 12, profile, rng);
         const std::vector<int> losses = losses_of(c);
         const std::vector<int> backwards(losses.rbegin(), losses.rend());
-        const core::OneSide from_first = core::least_losses(c.contest(), false);
-        const core::OneSide from_last = core::least_losses(c.contest(), true);
+        const core::OneSide from_first = core::least_losses(c.ratios(), false);
+        const core::OneSide from_last = core::least_losses(c.ratios(), true);
         for (std::size_t n = 0; n <= losses.size(); ++n) {
             const auto end = static_cast<std::ptrdiff_t>(n);
             EXPECT_EQ(from_first[n],
@@ -84,14 +84,14 @@ TEST(LeastLosses, ABorderSeparatesTwoPatterns) {
         SCOPED_TRACE(testing::Message() << "case " << i << ", seed " << kSeed);
         const Profile profile = code_test::kProfiles[static_cast<std::size_t>(i % 3)];
         const int most_shared = profile == Profile::libdots ? 7 : 5;
-        const ContestCase c = random_case(2 + i % 11, profile, rng);
+        const RatiosCase c = random_case(2 + i % 11, profile, rng);
         const std::vector<int> losses = losses_of(c);
         int least = INT32_MAX;
         for (auto border = losses.begin(); border != losses.end(); ++border) {
             least = std::min(least, least_of_patterns({losses.begin(), border}, most_shared) +
                                         least_of_patterns({border, losses.end()}, most_shared));
         }
-        EXPECT_EQ(core::least_loss_with_border(c.contest()), least);
+        EXPECT_EQ(core::least_loss_with_border(c.ratios()), least);
     }
 }
 

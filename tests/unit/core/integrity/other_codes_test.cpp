@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "contest_case.hpp"
 #include "core/kernels/select.hpp"
+#include "ratios_case.hpp"
 
 namespace dotpose::core_test {
 namespace {
@@ -13,8 +13,8 @@ namespace {
 constexpr std::uint64_t kSeed = 83;
 
 /// The same lines, as if they were of another profile.
-ContestCase as_in(Profile profile, const ContestCase& c) {
-    ContestCase other;
+RatiosCase as_in(Profile profile, const RatiosCase& c) {
+    RatiosCase other;
     other.profile = profile;
     other.position = c.position;
     other.rolls = c.rolls;
@@ -24,7 +24,7 @@ ContestCase as_in(Profile profile, const ContestCase& c) {
 }
 
 /// Rolls of the same place in the other profile.
-std::vector<int> rolls_here(const ContestCase& c, Profile other) {
+std::vector<int> rolls_here(const RatiosCase& c, Profile other) {
     const int further = roll(other, c.position) - roll(c.profile, c.position) + kSections;
     std::vector<int> rolls = rolls_from(as_in(other, c), own_places(c), 0);
     for (int& line : rolls)
@@ -33,12 +33,12 @@ std::vector<int> rolls_here(const ContestCase& c, Profile other) {
 }
 
 /// The odds, in double precision, of all places at all shifts, but for the same place.
-double exact_elsewhere(const ContestCase& c, Profile other) {
-    const ContestCase theirs = as_in(other, c);
+double exact_elsewhere(const RatiosCase& c, Profile other) {
+    const RatiosCase theirs = as_in(other, c);
     const std::vector<int> same = rolls_here(c, other);
     double sum = 0;
     for (std::uint32_t place = 0; place < 241; ++place) {
-        PlacesOfRival places = own_places(c);
+        PlacesOfAlternative places = own_places(c);
         places[3] = place;
         std::vector<int> rolls = rolls_from(theirs, places, 0);
         for (int shift = 0; shift < kSections; ++shift) {
@@ -54,11 +54,11 @@ double exact_elsewhere(const ContestCase& c, Profile other) {
 TEST(WeighOtherCode, IsTheSumOverAllPlaces) {
     Rng rng(kSeed);
     for (int i = 0; i < 60; ++i) {
-        const ContestCase c = read_at_random(rng, 8 + i % 9);
+        const RatiosCase c = read_at_random(rng, 8 + i % 9);
         for (const Profile other : code_test::kProfiles) {
             if (other == c.profile) continue;
             SCOPED_TRACE(testing::Message() << "case " << i << ", seed " << kSeed);
-            const OtherAxis axis = weigh_other_code(core::kernels(), c.contest(), c.profile, other);
+            const OtherAxis axis = weigh_other_code(core::kernels(), c.ratios(), c.profile, other);
             const double here = odds_of_rolls(c, rolls_here(c, other));
             EXPECT_NEAR(static_cast<double>(axis.here) / here, 1, 0.03);
             const double exact = exact_elsewhere(c, other);
@@ -69,9 +69,9 @@ TEST(WeighOtherCode, IsTheSumOverAllPlaces) {
 }
 
 /// Clear lines of 12 bits, from a position on.
-ContestCase clear_lines(Profile profile, std::uint32_t position, int lines) {
+RatiosCase clear_lines(Profile profile, std::uint32_t position, int lines) {
     Rng rng(kSeed);
-    ContestCase c;
+    RatiosCase c;
     c.profile = profile;
     c.position = position;
     c.odds_q8 = 7 * 256;
@@ -91,12 +91,12 @@ TEST(WeighOtherCode, FindsThePlaceThatTheDecoderFinds) {
     int elsewhere = 0;
     for (std::uint32_t position = kFirst; position < kFirst + 241; ++position) {
         for (const Profile read : code_test::kProfiles) {
-            const ContestCase c = clear_lines(read, position, kLines);
+            const RatiosCase c = clear_lines(read, position, kLines);
             std::vector<std::uint8_t> rolls(c.rolls.begin(), c.rolls.end());
             for (const Profile other : code_test::kProfiles) {
                 if (other == read) continue;
                 SCOPED_TRACE(testing::Message() << "position " << position);
-                const OtherAxis axis = weigh_other_code(core::kernels(), c.contest(), read, other);
+                const OtherAxis axis = weigh_other_code(core::kernels(), c.ratios(), read, other);
                 std::uint32_t found = 0;
                 const Status status = position_from_rolls(other, rolls, found);
                 const bool is_elsewhere = status == Status::ok && found != position;

@@ -1,20 +1,20 @@
-// Rivals told apart by their digits: one place at a time against the definition, and many at a
-// time.
+// Alternatives told apart by their digits: one place at a time against the definition, and many at
+// a time.
 #include "core/integrity/similar_places.hpp"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
-#include "contest_case.hpp"
+#include "ratios_case.hpp"
 
 namespace dotpose::core_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 53;
 
-ContestCase random_case(Rng& rng) {
-    ContestCase c = at_random_place(rng, 6 + static_cast<int>(rng.below(40)));
+RatiosCase random_case(Rng& rng) {
+    RatiosCase c = at_random_place(rng, 6 + static_cast<int>(rng.below(40)));
     const int most = 60 + static_cast<int>(rng.below(68));
     for (const int own : c.rolls) {
         const int bits = static_cast<int>(rng.uniform(3, 14));
@@ -45,11 +45,11 @@ TEST(SimilarPlaces, AreThoseThatLoseLessThanEnough) {
     Rng rng(kSeed);
     std::size_t found = 0;
     for (int i = 0; i < 300; ++i) {
-        const ContestCase c = random_case(rng);
-        const Contest contest = c.contest();
-        const int enough = contest.loss_for(-static_cast<int>(rng.below(60 * 256))) + 1;
-        const Steps steps(contest, enough, i % 2 == 0 ? Excused::none : Excused::any_one);
-        for (const code::Secondary& a : contest.basis) {
+        const RatiosCase c = random_case(rng);
+        const LikelihoodRatios ratios = c.ratios();
+        const int enough = ratios.loss_for(-static_cast<int>(rng.below(60 * 256))) + 1;
+        const Steps steps(ratios, enough, i % 2 == 0 ? Excused::none : Excused::any_one);
+        for (const code::Secondary& a : ratios.basis) {
             const std::uint32_t own = rng.below(a.length);
             const SimilarPlaces similar(a, own, steps);
             for (std::uint32_t word = 0; 32 * word < a.length; ++word) {
@@ -68,14 +68,14 @@ TEST(SimilarPlaces, AreThoseThatLoseLessThanEnough) {
 TEST(SimilarPlaces, AreVisitedAtTheFirstLine) {
     Rng rng(kSeed);
     for (int i = 0; i < 100; ++i) {
-        const ContestCase c = random_case(rng);
-        const Contest contest = c.contest();
-        const Steps steps(contest, contest.loss_for(-40 * 256) + 1, Excused::none);
+        const RatiosCase c = random_case(rng);
+        const LikelihoodRatios ratios = c.ratios();
+        const Steps steps(ratios, ratios.loss_for(-40 * 256) + 1, Excused::none);
         std::vector<std::pair<std::size_t, std::uint32_t>> expected;
-        for (std::size_t k = 0; k < contest.basis.size(); ++k) {
-            const code::Secondary& a = contest.basis[k];
+        for (std::size_t k = 0; k < ratios.basis.size(); ++k) {
+            const code::Secondary& a = ratios.basis[k];
             const auto ahead = static_cast<std::uint32_t>(steps.first_line);
-            const std::uint32_t own = (contest.places[k] + ahead) % a.length;
+            const std::uint32_t own = (ratios.places[k] + ahead) % a.length;
             for (std::uint32_t place = 0; place < a.length; ++place) {
                 if (is_similar(a, own, (place + ahead) % a.length, steps)) {
                     expected.emplace_back(k, place);
@@ -84,7 +84,7 @@ TEST(SimilarPlaces, AreVisitedAtTheFirstLine) {
         }
         std::vector<std::pair<std::size_t, std::uint32_t>> visited;
         const auto none = [](std::size_t) { return false; };
-        visit_similar_places(contest, steps, none, [&](std::size_t sequence, std::uint32_t place) {
+        visit_similar_places(ratios, steps, none, [&](std::size_t sequence, std::uint32_t place) {
             visited.emplace_back(sequence, place);
         });
         std::sort(visited.begin(), visited.end());

@@ -6,8 +6,8 @@
 #include "../reading.hpp"
 #include "chance.hpp"
 #include "core/decode/position.hpp"
+#include "core/integrity/alternatives.hpp"
 #include "core/integrity/confidence.hpp"
-#include "core/integrity/rivals.hpp"
 
 namespace dotpose::core_test {
 namespace {
@@ -239,7 +239,7 @@ Reading troubled(Rng& rng, int turn) {
     return Reading(view, Turn{turn}, dots);
 }
 
-/// Chance and all rivals of both axes, looked at closely.
+/// Chance and all alternatives of both axes, looked at closely.
 double exact_p_wrong(const Reading& reading) {
     const Decoding truth = reading.truth();
     const Profile profile = reading.view.profile;
@@ -276,8 +276,9 @@ double exact_p_wrong(const Reading& reading) {
         read.roll = static_cast<std::uint8_t>(
             (roll(profile, own) + section + static_cast<int>(cross % kSections)) % kSections);
         sum += std::exp2(chance_log2(axes[is_x ? 0 : 1], odds)) +
-               std::exp2(rivals_log2(
-                   profile, Contest(profile, score_lines(upright, axis, storage), read, odds)));
+               std::exp2(alternatives_log2(
+                   profile,
+                   LikelihoodRatios(profile, score_lines(upright, axis, storage), read, odds)));
     }
     return std::log2(sum);
 }
@@ -294,7 +295,7 @@ TEST(VerifyQuickly, NeverClaimsMoreThanACloseLookBears) {
         const Verdict quick = judge(reading, options, verify_quickly);
         if (quick.status != Status::ok) continue;
         ++accepted;
-        // Rivals are summed up to whole powers of two.
+        // Alternatives are summed up to whole powers of two.
         EXPECT_GE(quick.fix.p_wrong_log2, exact_p_wrong(reading) - 1);
         const Verdict close = judge(reading, options);
         EXPECT_EQ(close.status, Status::ok);

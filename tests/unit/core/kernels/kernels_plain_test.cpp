@@ -115,8 +115,8 @@ TEST(KernelsPlain, LinesAreScoredAgainstTheMainSequence) {
             scores.push_back(score);
         }
         std::sort(scores.rbegin(), scores.rend());
-        EXPECT_EQ(line.lead.best, scores[0]);
-        EXPECT_EQ(line.lead.lead, scores[0] - scores[1]);
+        EXPECT_EQ(line.best.score, scores[0]);
+        EXPECT_EQ(line.best.margin, scores[0] - scores[1]);
     });
 }
 

@@ -144,8 +144,8 @@ TEST_F(KernelsTest, ScoresOfLinesAreTheSame) {
             ScoredLine line;
             kernels.score_line(bits, valid, line);
             record.add(line.scores);
-            record.add(line.lead.best);
-            record.add(line.lead.lead);
+            record.add(line.best.score);
+            record.add(line.best.margin);
         });
     });
 }
@@ -226,8 +226,8 @@ TEST_F(KernelsTest, WindowsAreTheSame) {
                           rng.below(2) * 0.03, rng);
         random.view.step = 1;
         random.view.first_column = random.view.first_row = -60;
-        const WindowLook look{static_cast<float>(spacing_px), number(rng, 0.2, 0.5),
-                              whole(rng, 10, 220)};
+        const WindowOptions look{static_cast<float>(spacing_px), number(rng, 0.2, 0.5),
+                                 whole(rng, 10, 220)};
         const float bell_reach_px = number(rng, 3.3, kMostBellReach_px);
         DotTable listed(4096);
         portable_kernels().list_cells(random.view, listed.dots);

@@ -1,0 +1,370 @@
+#include "core/decode/sample_cells.hpp"
+
+#include <array>
+#include <utility>
+
+#include "core/decode/likelihood.hpp"
+#include "core/decode/nominal.hpp"
+#include "core/decode/tuning.hpp"
+#include "core/detect/level_at.hpp"
+#include "core/detect/level_sums.hpp"
+#include "core/detect/paper.hpp"
+#include "core/detect/undistort.hpp"
+#include "core/math/plane.hpp"
+
+namespace dotpose::core {
+namespace {
+
+namespace tuned = tuning::sample_cells;
+
+Vec place_60th(Symbol symbol) {
+    return {10 * dx(symbol), 10 * dy(symbol)};
+}
+
+/// What shows at one of a cell's four places.
+struct PlaceView {
+    bool is_seen = false;
+    int darkness_q8 = 0;  ///< relative to the paper
+    int shade_q8 = 0;     ///< mean darkness of a square of 2/5 spacing around
+};
+
+/// What a look at one cell shows.
+struct CellView {
+    Vec centre_q8;
+    Vec u_q8;  ///< one spacing along each axis of the grid
+    Vec v_q8;
+    int half_px = 0;                  ///< of a square of 2/5 spacing
+    std::array<PlaceView, 4> places;  ///< by Symbol
+
+    CellView(const ImageView& image, Vec centre, Vec right, Vec below)
+        : centre_q8(centre), u_q8(right - centre), v_q8(below - centre) {
+        for (std::size_t i = 0; i < places.size(); ++i)
+            places[i].is_seen = shows_level(image, at(place_60th(static_cast<Symbol>(i))));
+    }
+
+    int places_seen() const {
+        return static_cast<int>(std::count_if(
+            places.begin(), places.end(), [](const PlaceView& place) { return place.is_seen; }));
+    }
+
+    Vec at(Vec offset_60th) const {
+        return centre_q8 + Vec{(u_q8.x * offset_60th.x + v_q8.x * offset_60th.y) / 60,
+                               (u_q8.y * offset_60th.x + v_q8.y * offset_60th.y) / 60};
+    }
+};
+
+/// Looks at an image through a grid laid over it.
+class CellSampler {
+  public:
+    CellSampler(const ImageView& image, const PaperMap& paper, const Lens& lens,
+                const PlaneFromImage& plane)
+        : image_(image), paper_(paper), lens_(lens), plane_(plane) {}
+
+    /// Cells of which a place is in the image, before they are sampled at: `use(cell, view)`.
+    template <typename Use>
+    void visit(const Grid& grid, Use use) const;
+    /// What shows at the places.
+    void sample(CellView& view) const;
+    /// Paper level at the middle of the cell, over that at the middle of the image.
+    int light_q8(const CellView& view) const;
+    /// Shade of the darkest square 2/15 spacing away from each place that is seen.
+    std::array<int, 4> darkest_around_q8(const CellView& view) const;
+
+  private:
+    /// Where the image shows an intersection.
+    Vec image_of(int i, int j) const {
+        return distorted_point_q8(lens_, plane_, {i * 65536, j * 65536});
+    }
+    /// Mean darkness of a square of 2/5 spacing.
+    int shade_q8(Vec centre_q8, int half_px) const;
+    /// The same from the sum over its pixels.
+    int darkness_q8(Vec centre_q8, int sum, int pixels) const;
+    template <typename Shade>
+    static std::array<int, 4> darkest_around_q8(const CellView& view, Shade shade_q8);
+
+    const ImageView& image_;
+    const PaperMap& paper_;
+    const Lens& lens_;
+    const PlaneFromImage& plane_;
+};
+
+/// Of large squares not all pixels are taken.
+int step_px(int half_px) {
+    return std::max(half_px / 3, 1);
+}
+
+int CellSampler::darkness_q8(Vec point_q8, int sum, int pixels) const {
+    if (pixels == 0) return 0;
+    const int paper = paper_at(paper_, (point_q8.x + 128) >> 8, (point_q8.y + 128) >> 8);
+    return (paper * pixels - sum) * 256 / (paper * pixels);
+}
+
+int CellSampler::shade_q8(Vec centre_q8, int half_px) const {
+    const PixelBox box(image_, centre_q8, half_px);
+    const int step = step_px(half_px);
+    int sum = 0;
+    int count = 0;
+    for (int v = box.top; v <= box.bottom; v += step) {
+        const std::uint8_t* row = image_.row(v);
+        for (int u = box.left; u <= box.right; u += step) {
+            sum += row[u];
+            ++count;
+        }
+    }
+    return darkness_q8(centre_q8, sum, count);
+}
+
+template <typename Use>
+void CellSampler::visit(const Grid& grid, Use use) const {
+    // An intersection is a corner of four cells.
+    std::array<Vec, kMaxGridSide + 1> here;
+    std::array<Vec, kMaxGridSide + 1> below;
+    const auto find_row = [&](int j, std::array<Vec, kMaxGridSide + 1>& row) {
+        for (int i = 0; i <= grid.columns; ++i)
+            row[static_cast<std::size_t>(i)] = image_of(grid.i0 + i, j);
+    };
+    find_row(grid.j0, below);
+    for (int j = grid.j0; j < grid.j0 + grid.rows; ++j) {
+        std::swap(here, below);
+        find_row(j + 1, below);
+        for (int i = 0; i < grid.columns; ++i) {
+            const auto at = static_cast<std::size_t>(i);
+            CellView view(image_, here[at], here[at + 1], below[at]);
+            if (view.places_seen() > 0) use(Vec{grid.i0 + i, j}, view);
+        }
+    }
+}
+
+void CellSampler::sample(CellView& view) const {
+    const auto spacing_q8 =
+        static_cast<std::int32_t>(square_root(static_cast<std::uint64_t>(squared(view.u_q8))));
+    view.half_px = std::max<std::int32_t>((spacing_q8 / tuned::kShadePart + 128) >> 8, 1);
+    for (std::size_t i = 0; i < view.places.size(); ++i) {
+        PlaceView& place = view.places[i];
+        if (!place.is_seen) continue;
+        const Vec place_q8 = view.at(place_60th(static_cast<Symbol>(i)));
+        const int paper = paper_at(paper_, place_q8.x >> 8, place_q8.y >> 8);
+        place.darkness_q8 = (paper * 256 - level_at_q8(image_, place_q8)) / paper;
+        place.shade_q8 = shade_q8(place_q8, view.half_px);
+    }
+}
+
+template <typename Shade>
+std::array<int, 4> CellSampler::darkest_around_q8(const CellView& view, Shade shade_q8) {
+    constexpr int kFar = tuned::kBeside_60th;
+    constexpr int kDiagonal = tuned::kBesideDiagonally_60th;
+    std::array<int, 4> darkest{};
+    for (std::size_t i = 0; i < darkest.size(); ++i) {
+        if (!view.places[i].is_seen) continue;
+        const Vec place = place_60th(static_cast<Symbol>(i));
+        for (const Vec d : {Vec{kFar, 0}, Vec{-kFar, 0}, Vec{0, kFar}, Vec{0, -kFar},
+                            Vec{kDiagonal, kDiagonal}, Vec{-kDiagonal, kDiagonal},
+                            Vec{kDiagonal, -kDiagonal}, Vec{-kDiagonal, -kDiagonal}}) {
+            darkest[i] = std::max(darkest[i], shade_q8(view.at(place + d)));
+        }
+    }
+    return darkest;
+}
+
+std::array<int, 4> CellSampler::darkest_around_q8(const CellView& view) const {
+    // No square's centre is farther away than a third of the spacing.
+    const int reach_px =
+        std::max(larger_component(view.u_q8), larger_component(view.v_q8)) / (3 * 256) + 1 +
+        view.half_px;
+    if (step_px(view.half_px) > 1 || 2 * reach_px >= LevelSums::kMostSide_px) {
+        return darkest_around_q8(view,
+                                 [&](Vec point_q8) { return shade_q8(point_q8, view.half_px); });
+    }
+    const LevelSums sums(image_, PixelBox(image_, view.centre_q8, reach_px));
+    return darkest_around_q8(view, [&](Vec point_q8) {
+        const PixelBox box(image_, point_q8, view.half_px);
+        const int pixels = box.pixels();
+        return darkness_q8(point_q8, pixels > 0 ? sums.of(box) : 0, pixels);
+    });
+}
+
+int CellSampler::light_q8(const CellView& view) const {
+    const int here = paper_at(paper_, view.centre_q8.x >> 8, view.centre_q8.y >> 8);
+    return here * 256 / paper_at(paper_, image_.width_px / 2, image_.height_px / 2);
+}
+
+/// What a cell's darkest place typically looks like: the medians over the cells.
+PlaceView typical_place(const CellSampler& sampler, const Grid& grid) {
+    std::array<std::int32_t, tuned::kMedianSample> darkness;
+    std::array<std::int32_t, tuned::kMedianSample> shade;
+    std::size_t count = 0;
+    int seen = 0;
+    const int every = grid.columns * grid.rows / static_cast<int>(tuned::kMedianSample) + 1;
+    sampler.visit(grid, [&](Vec, CellView& view) {
+        if (view.places_seen() < 4) return;
+        if (seen++ % every != 0) return;
+        sampler.sample(view);
+        const PlaceView& darkest = *std::max_element(
+            view.places.begin(), view.places.end(),
+            [](const PlaceView& a, const PlaceView& b) { return a.darkness_q8 < b.darkness_q8; });
+        darkness[count] = darkest.darkness_q8;
+        shade[count++] = darkest.shade_q8;
+    });
+    return {true, std::max<std::int32_t>(median(std::span(darkness).first(count)), 1),
+            std::max<std::int32_t>(median(std::span(shade).first(count)), 1)};
+}
+
+/// How dark dots and graphics are in this image, and what a cell's darkness says of its bits.
+class Ink {
+  public:
+    Ink(const CellSampler& sampler, const Grid& grid) : sampler_(sampler) {
+        const PlaceView typical = typical_place(sampler, grid);
+        contrast_q8_ = typical.darkness_q8;
+        // Between the shade of a dot and that of solid ink.
+        graphics_q8_ = static_cast<int>(
+            square_root(static_cast<std::uint64_t>(typical.shade_q8 * tuned::kSolidInk_q8)));
+    }
+
+    /// Darkness of a cell's places, and how far it is to be trusted.
+    struct Sample {
+        std::array<int, 4> darkness_q8;  ///< by Symbol
+        int trust_q4 = 16;
+        int light_q8 = 256;
+    };
+    /// Marks in the cell which of its places graphics cover.
+    Sample sample(const CellView& view, GridCell& cell) const {
+        Sample sample;
+        unsigned hidden = 0;
+        int darkest_q8 = 0;
+        int beside_q8 = 0;
+        const std::array<int, 4> darkest_around_q8 = sampler_.darkest_around_q8(view);
+        for (std::size_t i = 0; i < view.places.size(); ++i) {
+            const PlaceView& place = view.places[i];
+            // As likely as not there is a dot where nothing is seen.
+            sample.darkness_q8[i] = contrast_q8_ / 2;
+            if (!place.is_seen) continue;
+            const int around_q8 = darkest_around_q8[i];
+            if (std::max(place.shade_q8, around_q8) > graphics_q8_) {
+                hidden |= 1U << i;
+                continue;
+            }
+            sample.darkness_q8[i] = place.darkness_q8;
+            darkest_q8 = std::max(darkest_q8, place.darkness_q8);
+            beside_q8 = std::max(beside_q8, around_q8);
+        }
+        if (hidden != 0) cell.dot = static_cast<std::uint16_t>(GridCell::kHidden + hidden);
+        sample.light_q8 = std::min(sampler_.light_q8(view), tuned::kMostLight_q8);
+        sample.trust_q4 = tuned::kTrustBySeen_q4[static_cast<std::size_t>(view.places_seen())];
+        const auto limit = [&](bool applies, int trust_q4) {
+            if (applies) sample.trust_q4 = std::min(sample.trust_q4, trust_q4);
+        };
+        limit(hidden != 0, tuned::kTrustCovered_q4);
+        limit(5 * beside_q8 > tuned::kNearGraphics_5ths * graphics_q8_,
+              tuned::kTrustNearGraphics_q4);
+        limit(10 * darkest_q8 > tuned::kDark_10ths * contrast_q8_, tuned::kTrustDark_q4);
+        limit(10 * darkest_q8 > tuned::kTooDark_10ths * contrast_q8_, tuned::kTrustTooDark_q4);
+        return sample;
+    }
+
+    /// Whether two of the places look like dots.
+    bool is_crowded(const Sample& sample) const {
+        std::array<int, 4> sorted = sample.darkness_q8;
+        std::sort(sorted.begin(), sorted.end());
+        return 3 * sorted[2] > tuned::kSecondDot_3rds * contrast_q8_ &&
+               4 * sorted[2] > tuned::kSecondDot_4ths * sorted[3];
+    }
+
+    /// Weight of a bit, from the darkness at the places for 1 and for 0.
+    std::int8_t weight(const Sample& sample, int one_q8, int zero_q8) const {
+        // Noise is that of the sensor: the difference counts in grey levels, and against it the
+        // contrast, both in proportion to the light.
+        const int difference = (one_q8 - zero_q8) * tuned::kGain / contrast_q8_;
+        const int light_q16 = sample.light_q8 * sample.light_q8;
+        // From some contrast on a bit gets no surer: what is wrong there is no noise.
+        const int weight = static_cast<int>(
+            std::clamp<std::int64_t>(std::int64_t{difference} * light_q16 >> 16, -127, 127));
+        return static_cast<std::int8_t>(weight * sample.trust_q4 / 16);
+    }
+
+  private:
+    const CellSampler& sampler_;
+    int contrast_q8_ = 1;
+    int graphics_q8_ = 0;
+};
+
+/// The cells between the outermost points of the image's border.
+void cover_image(const ImageView& image, const Lens& lens, const PlaneFromImage& plane,
+                 Grid& grid) {
+    Vec least{INT32_MAX, INT32_MAX};
+    Vec most{INT32_MIN, INT32_MIN};
+    constexpr int kPerSide = 4;
+    for (int n = 0; n <= kPerSide; ++n) {
+        for (int m = 0; m <= kPerSide; ++m) {
+            const Vec point_q8{image.width_px * 256 / kPerSide * n,
+                               image.height_px * 256 / kPerSide * m};
+            const Vec cell = grid_point(plane, undistorted(lens, plane.centre_q8, point_q8)).cell;
+            least = {std::min(least.x, cell.x), std::min(least.y, cell.y)};
+            most = {std::max(most.x, cell.x), std::max(most.y, cell.y)};
+        }
+    }
+    lay_out(least, most, grid);
+}
+
+/// `set_bits(cell, what the grid keeps of it, ink, sample)` for all cells. Returns whether few show
+/// two dots.
+template <typename SetBits>
+bool read_cells(const CellSampler& sampler, Grid& grid, SetBits set_bits) {
+    int cells = 0;
+    int crowded = 0;
+    const Ink ink(sampler, grid);
+    sampler.visit(grid, [&](Vec at, CellView& view) {
+        GridCell& cell = grid.at(at.x, at.y);
+        sampler.sample(view);
+        const Ink::Sample sample = ink.sample(view, cell);
+        set_bits(at, cell, ink, sample);
+        if (view.places_seen() < 4 || cell.is_hidden()) return;
+        ++cells;
+        crowded += ink.is_crowded(sample);
+    });
+    return 8 * crowded <= tuned::kMostCrowded_8ths * cells;
+}
+
+std::int8_t x_weight(const Ink& ink, const Ink::Sample& sample) {
+    const auto [up, left, right, down] = sample.darkness_q8;
+    return ink.weight(sample, std::max(left, down), std::max(up, right));
+}
+
+std::int8_t y_weight(const Ink& ink, const Ink::Sample& sample) {
+    const auto [up, left, right, down] = sample.darkness_q8;
+    return ink.weight(sample, std::max(right, down), std::max(up, left));
+}
+
+}  // namespace
+
+bool sample_cells(const ImageView& image, const PaperMap& paper, const Lens& lens,
+                  const PlaneFromImage& plane, Grid& grid) {
+    cover_image(image, lens, plane, grid);
+    return read_cells(CellSampler(image, paper, lens, plane), grid,
+                      [](Vec, GridCell& cell, const Ink& ink, const Ink::Sample& sample) {
+                          cell.x = x_weight(ink, sample);
+                          cell.y = y_weight(ink, sample);
+                      });
+}
+
+void resample_cells_given_axis(Axis known, Profile profile, const Decoding& decoding,
+                               const ImageView& image, const PaperMap& paper, const Lens& lens,
+                               const PlaneFromImage& plane, Grid& grid) {
+    cover_image(image, lens, plane, grid);
+    const Nominal nominal(grid, profile, decoding);
+    read_cells(CellSampler(image, paper, lens, plane), grid,
+               [&](Vec at, GridCell& cell, const Ink& ink, const Ink::Sample& sample) {
+                   const auto [up, left, right, down] = sample.darkness_q8;
+                   const Symbol symbol = nominal.symbol(nominal.pattern_step(at));
+                   if (known == Axis::x) {
+                       cell.x = x_weight(ink, sample);
+                       cell.y = x_bit(symbol) == 1 ? ink.weight(sample, down, left)
+                                                   : ink.weight(sample, right, up);
+                   } else {
+                       cell.x = y_bit(symbol) == 1 ? ink.weight(sample, down, right)
+                                                   : ink.weight(sample, left, up);
+                       cell.y = y_weight(ink, sample);
+                   }
+               });
+}
+
+}  // namespace dotpose::core

@@ -1,0 +1,71 @@
+#include "core/integrity/alternatives.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/integrity/double_alternatives.hpp"
+#include "core/integrity/expected_alternatives.hpp"
+#include "core/integrity/near_alternatives.hpp"
+#include "core/integrity/ranked_lines.hpp"
+#include "core/integrity/single_alternatives.hpp"
+#include "core/math/fixed.hpp"
+
+namespace dotpose::core {
+namespace {
+
+/// Consecutive lines that distinct positions can share: one more, and five differences are equal.
+constexpr int kMostOfDistinct = code::kOrder;
+/// Odds at which a closer look at the alternatives cannot help.
+constexpr float kBeyondHelp = 1e-4F;
+
+/// Alternatives whose place differs in several sequences and that share fewer lines in a row.
+float sum_of_far_alternatives(const RankedLines& lines, int shared_lines, int fewest_different) {
+    ExpectedAlternatives expected(lines.ratios.basis, lines.ratios.position, shared_lines - 1,
+                                  fewest_different);
+    for (int line = 0; line < lines.count(); ++line)
+        expected.add_line(lines.odds(line));
+    return expected.sum();
+}
+
+/// The same position in other sections: all lines differ, by the same shift.
+float sum_of_other_sections(const LikelihoodRatios& ratios) {
+    float sum = 0;
+    for (int shift = 1; shift < kSections; ++shift) {
+        int lost = 0;
+        for (int line = 0; line < ratios.lines.count(); ++line)
+            lost += ratios.loss(line, shift);
+        sum += ratios.odds(lost);
+    }
+    return sum;
+}
+
+}  // namespace
+
+int alternatives_log2(Profile profile, const LikelihoodRatios& ratios, int limit_log2) {
+    if (ratios.lines.count() <= kMostOfDistinct) return 0;
+    const code::Twins& twins = code::twins(profile);
+    const RankedLines lines(ratios);
+    const float known = sum_of_single_alternatives(lines) + sum_of_other_sections(ratios) +
+                        sum_of_near_alternatives(lines, twins, kMostOfDistinct);
+    const float expected = sum_of_far_alternatives(lines, kMostOfDistinct, 2);
+    float sum = known + expected;
+    const float limit = std::ldexp(1.0F, limit_log2);
+    const float far_below_doubt = std::ldexp(1.0F, std::min(limit_log2, -30) - 10);
+    // The more alternatives are looked at one by one, the fewer remain to be feared for their
+    // number.
+    if (sum > far_below_doubt && expected > known && expected < kBeyondHelp) {
+        sum = known + sum_of_far_alternatives(lines, kMostOfDistinct - 1, 3);
+        // What takes longest is left out where the others exceed the limit already.
+        if (sum < limit) sum += sum_of_near_alternatives(lines, twins, kMostOfDistinct - 1);
+        if (sum < limit) {
+            // Less than what remains to the limit, or else a fix might be lost by it.
+            const float negligible = std::min(std::max(sum, far_below_doubt), limit - sum) / 8;
+            sum += sum_of_double_alternatives(lines, negligible, limit - sum);
+        }
+    }
+    int exponent = 0;
+    std::frexp(sum, &exponent);  // sum < 2^exponent
+    return std::min(exponent, 0);
+}
+
+}  // namespace dotpose::core

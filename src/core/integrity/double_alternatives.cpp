@@ -1,0 +1,197 @@
+#include "core/integrity/double_alternatives.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <initializer_list>
+#include <span>
+
+#include "core/integrity/expected_double_alternatives.hpp"
+
+namespace dotpose::core {
+namespace {
+
+/// As if each of the 190,027 pairs were negligible at each shift: an expectation smaller than that
+/// is not relied on.
+constexpr float kFloor = 190'027.0F * kSections * kNegligible;
+
+/// At one position alternatives can have more odds than is expected over all: 21 times as much, of
+/// 5,630 axes of hard frames.
+constexpr float kMargin = 32;
+
+/// A bit for each anchor, by rank.
+using Anchors = std::uint32_t;
+
+/// Anchors divided into groups, one fewer than the anchors that an alternative shares to be looked
+/// at: so that it shares two of some group.
+class Groups {
+  public:
+    Groups(const RankedLines& lines, int anchors, int shared) : count_(shared - 1) {
+        // One after the other as they stand: those of a group are far apart, so that few
+        // alternatives share two of them.
+        int n = 0;
+        for (int line = 0; line < lines.count(); ++line) {
+            const int rank = lines.rank(static_cast<std::uint32_t>(line));
+            if (rank < anchors) groups_[static_cast<std::size_t>(n++ % count_)] |= 1U << rank;
+        }
+    }
+
+    /// Shows `use` all pairs of ranks of one group.
+    template <typename Use>
+    void visit_pairs(Use use) const {
+        for (std::size_t group = 0; group < static_cast<std::size_t>(count_); ++group) {
+            for (Anchors rest = groups_[group]; rest != 0; rest &= rest - 1) {
+                const int one = std::countr_zero(rest);
+                for (Anchors others = rest & (rest - 1); others != 0; others &= others - 1)
+                    use(one, std::countr_zero(others));
+            }
+        }
+    }
+
+    /// Whether who shares these anchors shares no pair that is shown before.
+    bool is_first_pair(Anchors shared, int one, int other) const {
+        for (const Anchors group : groups_) {
+            const Anchors both = shared & group;
+            if ((both & (both - 1)) == 0) continue;
+            return std::countr_zero(both) == one && std::countr_zero(both & (both - 1)) == other;
+        }
+        return false;
+    }
+
+  private:
+    int count_;
+    std::array<Anchors, kFewestFound - 1> groups_{};
+};
+
+/// One place of a sequence: how much further the first eight lines are offset than one anchor,
+/// which is known for a pair of places only if the bytes of both are added.
+struct Since {
+    EightOffsets first;
+    const RankedLines::Offsets* offsets;
+};
+
+int at(const RankedLines::Offsets& offsets, int rank) {
+    return offsets.all[static_cast<std::size_t>(rank)];
+}
+
+/// Places of a sequence, but the reading's own, by how much less their offset rises from one anchor
+/// to another, modulo 63.
+class Buckets {
+  public:
+    Buckets(const RankedLines& lines, std::size_t sequence, int one, int other) {
+        const std::uint32_t length = lines.ratios.basis[sequence].length;
+        const std::uint32_t own = lines.ratios.places[sequence];
+        const auto less_at = [&](std::uint32_t place) {
+            return offset_less(lines.offsets(sequence, place), one, other);
+        };
+        for (std::uint32_t place = 0; place < length; ++place)
+            ++begins_[less_at(place) + 1];
+        --begins_[less_at(own) + 1];
+        for (std::size_t n = 1; n < begins_.size(); ++n)
+            begins_[n] = static_cast<std::uint8_t>(begins_[n] + begins_[n - 1]);
+        auto next = begins_;
+        for (std::uint32_t place = 0; place < length; ++place) {
+            if (place == own) continue;
+            const RankedLines::Offsets& offsets = lines.offsets(sequence, place);
+            // 126 is no shift, as are 63 and 189, and keeps the sum of two places above 0.
+            const auto base = static_cast<EightOffsets>(2 * kSections - at(offsets, one));
+            places_[next[less_at(place)]++] = {offsets.first + base * kInEach, &offsets};
+        }
+    }
+
+    static std::size_t offset_less(const RankedLines::Offsets& offsets, int one, int other) {
+        const int less = at(offsets, one) - at(offsets, other);
+        return static_cast<std::size_t>(less < 0 ? less + kSections : less);
+    }
+
+    std::span<const Since> operator[](std::size_t less) const {
+        return std::span(places_).subspan(
+            begins_[less], static_cast<std::size_t>(begins_[less + 1] - begins_[less]));
+    }
+
+  private:
+    std::array<std::uint8_t, kSections + 1> begins_{};
+    std::array<Since, code::kA4Restored.size()> places_;
+};
+
+/// Those that share some number of anchors.
+class Finder {
+  public:
+    Finder(const RankedLines& lines, int anchors, int shared)
+        : lines_(lines), anchors_(anchors), shared_(shared), groups_(lines, anchors, shared) {}
+
+    float sum() const {
+        float sum = 0;
+        groups_.visit_pairs([&](int one, int other) {
+            // Of every two sequences one has the buckets: not the third, which is the shortest.
+            sum += sum_of_bucketed(0, {2}, one, other) + sum_of_bucketed(1, {0, 2}, one, other) +
+                   sum_of_bucketed(3, {0, 1, 2}, one, other);
+        });
+        return sum;
+    }
+
+  private:
+    /// Who differs in the places of this sequence and of one of the others, and shares both
+    /// anchors.
+    float sum_of_bucketed(std::size_t sequence, std::initializer_list<std::size_t> others, int one,
+                          int other) const {
+        const Buckets buckets(lines_, sequence, one, other);
+        float sum = 0;
+        for (const std::size_t k : others) {
+            for (std::uint32_t place = 0; place < lines_.ratios.basis[k].length; ++place) {
+                if (place == lines_.ratios.places[k]) continue;
+                const RankedLines::Offsets& a = lines_.offsets(k, place);
+                const EightOffsets since =
+                    a.first - static_cast<EightOffsets>(at(a, one)) * kInEach;
+                for (const Since& b : buckets[Buckets::offset_less(a, other, one)])
+                    sum += odds(since + b.first, a, *b.offsets, one, other);
+            }
+        }
+        return sum;
+    }
+
+    /// `first` is by how much the first eight lines are offset from the anchor that is shared.
+    float odds(EightOffsets first, const RankedLines::Offsets& a, const RankedLines::Offsets& b,
+               int one, int other) const {
+        int lost = lines_.loss_of_first(first);
+        if (lines_.ratios.is_hopeless(lost)) return kNegligible;
+        const int base = 2 * kSections - at(a, one) - at(b, one);
+        Anchors shared = 0;
+        for (int rank = 0; rank < anchors_; ++rank) {
+            const int further = at(a, rank) + at(b, rank) + base;
+            if (further % kSections == 0) shared |= 1U << rank;
+        }
+        if (std::popcount(shared) < shared_) return 0;
+        if (!groups_.is_first_pair(shared, one, other)) return 0;
+        for (int rank = 8; rank < lines_.count(); ++rank) {
+            lost += lines_.loss(rank, at(a, rank) + at(b, rank) + base);
+            if (lines_.ratios.is_hopeless(lost)) return kNegligible;
+        }
+        return lines_.ratios.odds(lost);
+    }
+
+    const RankedLines& lines_;
+    int anchors_;
+    int shared_;
+    Groups groups_;
+};
+
+}  // namespace
+
+float sum_of_double_alternatives(const RankedLines& lines, float negligible, float most) {
+    const int anchors = std::min(lines.count(), kMostAnchors);
+    const auto expected = expected_double_alternatives(lines, anchors);
+    const auto feared = [&](int shared) {
+        return kMargin * expected[static_cast<std::size_t>(shared)];
+    };
+    // For every anchor fewer that is to be shared, more pairs of anchors are gone through: for
+    // seven, 6 of the 66 that there are; for four, 18; for two, all. More than that many are worth
+    // it only where the fix would be lost otherwise.
+    constexpr int kFewestForDetail = 4;
+    int shared = std::min(kFewestFound, anchors);
+    while (shared > 2 && feared(shared) > (shared > kFewestForDetail ? negligible : most / 8))
+        --shared;
+    const float rest = feared(shared);
+    return kFloor + (rest > most ? rest : rest + Finder(lines, anchors, shared).sum());
+}
+
+}  // namespace dotpose::core

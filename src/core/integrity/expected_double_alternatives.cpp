@@ -1,0 +1,108 @@
+#include "core/integrity/expected_double_alternatives.hpp"
+
+#include <algorithm>
+#include <span>
+
+namespace dotpose::core {
+namespace {
+
+/// See ExpectedAlternatives.
+constexpr float kUnevenness = 1.03F;
+/// Numbers are kept above these, so that no product gets so small that processors slow down. They
+/// start at a large one: where other rolls suit some lines much better, what is added here grows.
+constexpr float kLeastOdds = 0x1p-40F;
+constexpr float kLeastSum = 0x1p-80F;
+constexpr float kStart = 0x1p40F;
+
+using ByShift = std::array<float, kSections>;
+
+/// Those that differ in two sequences, over the lines so far.
+class Pair {
+  public:
+    Pair(const code::Secondary& a, const code::Secondary& b, std::uint32_t position)
+        : a_(a), b_(b), place_a_(a.place_of(position)), place_b_(b.place_of(position)) {}
+
+    void add_line(const ByShift& odds, bool is_anchor) {
+        if (is_first_) {
+            sums_.fill({});
+            sums_[0].fill(kStart);
+        } else {
+            for (ByShift& sums : sums_) {
+                step(a_, place_a_, kUnevenness, sums);
+                step(b_, place_b_, 1, sums);
+            }
+            advance(a_, place_a_);
+            advance(b_, place_b_);
+        }
+        is_first_ = false;
+        // Odds of a shared line are 1.
+        std::array<float, kFewestFound> shared;
+        for (std::size_t n = 0; n < sums_.size(); ++n) {
+            shared[n] = sums_[n][0];
+            for (std::size_t s = 1; s < kSections; ++s)
+                sums_[n][s] = std::max(sums_[n][s], kLeastSum) * std::max(odds[s], kLeastOdds);
+            sums_[n][0] = is_anchor ? (n == 0 ? 0 : shared[n - 1]) : shared[n];
+        }
+    }
+
+    /// Adds the odds of those that share so many anchors, by this number.
+    void add_to(std::span<float, kFewestFound> totals) const {
+        const float alternatives = static_cast<float>(a_.length * b_.length) / kStart;
+        for (std::size_t n = 0; n < sums_.size(); ++n) {
+            for (const float sum : sums_[n])
+                totals[n] += alternatives * sum;
+        }
+    }
+
+  private:
+    static void advance(const code::Secondary& of, std::uint32_t& place) {
+        if (++place == of.length) place = 0;
+    }
+
+    /// Any digit of an alternative is as probable as any other; the reading's are known.
+    static void step(const code::Secondary& of, std::uint32_t place, float factor, ByShift& sums) {
+        // Twice, so that any shift is a stretch of it.
+        std::array<float, 2 * kSections> before;
+        const float share = factor / static_cast<float>(of.base);
+        for (std::size_t s = 0; s < kSections; ++s)
+            before[s] = before[s + kSections] = sums[s] * share;
+        sums.fill(0);
+        for (int digit = 0; digit < of.base; ++digit) {
+            const int shift = of.weight * (digit - of.digits[place]);
+            const float* from = before.data() + (shift > 0 ? kSections - shift : -shift);
+            for (std::size_t s = 0; s < kSections; ++s)
+                sums[s] += from[s];
+        }
+    }
+
+    const code::Secondary& a_;
+    const code::Secondary& b_;
+    std::uint32_t place_a_;
+    std::uint32_t place_b_;
+    bool is_first_ = true;
+    std::array<ByShift, kFewestFound> sums_;  ///< by the number of anchors shared
+};
+
+}  // namespace
+
+std::array<float, kFewestFound + 1> expected_double_alternatives(const RankedLines& lines,
+                                                                 int anchors) {
+    const LikelihoodRatios& ratios = lines.ratios;
+    std::array<float, kFewestFound> totals{};
+    for (std::size_t k = 0; k < ratios.basis.size(); ++k) {
+        for (std::size_t l = k + 1; l < ratios.basis.size(); ++l) {
+            Pair pair(ratios.basis[k], ratios.basis[l], ratios.position);
+            for (int line = 0; line < lines.count(); ++line) {
+                const bool is_anchor = lines.rank(static_cast<std::uint32_t>(line)) < anchors;
+                pair.add_line(lines.odds(line), is_anchor);
+            }
+            pair.add_to(totals);
+        }
+    }
+    std::array<float, kFewestFound + 1> fewer{};
+    for (std::size_t n = 0; n < totals.size(); ++n)
+        fewer[n + 1] = fewer[n] + totals[n];
+    return fewer;
+}
+
+}  // namespace dotpose::core

@@ -1,0 +1,164 @@
+#include "core/integrity/likelihood_ratios.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "code/rolls.hpp"
+#include "code/tables.hpp"
+
+namespace dotpose::core {
+
+namespace {
+
+/// Bits in which two stretches of the main sequence differ, by their first indices.
+constexpr int distance_of(std::size_t first, std::size_t other, std::size_t length) {
+    const std::uint32_t all = length == 0 ? 0 : ~std::uint32_t{0} >> (32 - length);
+    return bits_in((code::kMainWords[first] ^ code::kMainWords[other]) & all);
+}
+
+/// How few bits it takes to tell a stretch of the main sequence from another one of its length, and
+/// how many others differ from it in no more.
+struct NearestStretches {
+    int distance = kMostTracked + 1;
+    int count = 0;
+
+    constexpr void add(int other_distance) {
+        if (other_distance < distance) *this = {other_distance, 0};
+        if (other_distance == distance) ++count;
+    }
+};
+constexpr NearestStretches nearest_of(std::size_t first, std::size_t length) {
+    NearestStretches nearest;
+    for (std::size_t other = 0; other < kSections; ++other) {
+        if (other != first) nearest.add(distance_of(first, other, length));
+    }
+    return nearest;
+}
+
+/// The least number of bits by which a stretch of the main sequence, by its first index and its
+/// length, differs from those of the same length elsewhere; two lengths in a byte.
+constexpr auto kLeastDistances = [] {
+    std::array<std::array<std::uint8_t, kMostTracked / 2 + 1>, kSections> least{};
+    for (std::size_t first = 0; first < least.size(); ++first) {
+        for (std::size_t length = 0; length <= kMostTracked; ++length) {
+            const int distance = std::min(nearest_of(first, length).distance, 15);
+            least[first][length / 2] |= static_cast<std::uint8_t>(distance << length % 2 * 4);
+        }
+    }
+    return least;
+}();
+
+/// By the length of a stretch: log2 of the number of others that differ from it in the fewest bits,
+/// at most, in 2^-8, rounded up.
+constexpr auto kLog2OfNearest = [] {
+    std::array<std::uint16_t, kMostTracked + 1> log2{};
+    for (std::size_t length = 0; length < log2.size(); ++length) {
+        int most = 1;
+        for (std::size_t first = 0; first < kSections; ++first)
+            most = std::max(most, nearest_of(first, length).count);
+        log2[length] =
+            static_cast<std::uint16_t>(log2_at_most_q8(static_cast<std::uint32_t>(most)));
+    }
+    return log2;
+}();
+
+}  // namespace
+
+LikelihoodRatios::LikelihoodRatios(Profile profile, const Lines& lines_, const AxisReading& reading,
+                                   int odds_q8)
+    : basis(code::basis(profile)),
+      lines(lines_),
+      position(reading.position),
+      count_(lines_.count()),
+      odds_per_bit_q8_(odds_q8) {
+    follow_rolls(profile, reading);
+    for (int i = 0; i < count_; ++i) {
+        const LineScores& scores = lines[i];
+        const int own = scores[rolls_[static_cast<std::size_t>(i)]];
+        const BestScore best = lines.best(i);
+        set_least_loss(i, own == best.score ? best.margin : own - best.score);
+    }
+    hopeless_score_ = most_regained_ + -kNegligible_q8 * 2 * 127 / odds_q8;
+}
+
+LikelihoodRatios::LikelihoodRatios(Profile profile, std::span<const TrackedLine> lines_,
+                                   const AxisReading& reading, int odds_q8)
+    : basis(code::basis(profile)),
+      position(reading.position),
+      bits_(lines_),
+      count_(static_cast<int>(lines_.size())),
+      odds_per_bit_q8_(odds_q8) {
+    follow_rolls(profile, reading);
+    for (int i = 0; i < count_; ++i) {
+        const auto line = static_cast<std::size_t>(i);
+        const Nearest others = bits_[line].seen != 0 ? nearest(i) : Nearest{0, kOtherRolls_q8};
+        set_least_loss(i, kScoreOfBit * others.lost_bits);
+        log2_of_nearest_q8_[line] = static_cast<std::int16_t>(others.log2_count_q8);
+    }
+    hopeless_score_ = most_regained_ + -kNegligible_q8 * 2 * 127 / odds_q8;
+}
+
+int LikelihoodRatios::log2_of_nearest_q8(int line) const {
+    // All others lose a bit more.
+    const int log2_q8 = add_log2(log2_of_nearest_q8_[static_cast<std::size_t>(line)],
+                                 kOtherRolls_q8 - odds_per_bit_q8_);
+    return std::min(log2_q8, kOtherRolls_q8);
+}
+
+void LikelihoodRatios::follow_rolls(Profile profile, const AxisReading& reading) {
+    for (std::size_t k = 0; k < places.size(); ++k)
+        places[k] = basis[k].place_of(position);
+    code::follow_rolls(profile, reading.position, reading.roll,
+                       std::span(rolls_).first(static_cast<std::size_t>(count_)));
+}
+
+void LikelihoodRatios::set_least_loss(int line, int least_loss) {
+    least_losses_[static_cast<std::size_t>(line)] = static_cast<std::int16_t>(least_loss);
+    most_regained_ += std::max(-least_loss, 0);
+}
+
+LikelihoodRatios::Nearest LikelihoodRatios::nearest(int line) const {
+    const TrackedLine& bits = bits_[static_cast<std::size_t>(line)];
+    const int own = own_roll(line);
+    const int first = std::countr_zero(bits.seen);
+    const int length = static_cast<int>(std::bit_width(bits.seen)) - first;
+    const std::uint32_t stretch = bits.seen >> first;
+    if (bits.wrong == 0 && (stretch & (stretch + 1)) == 0) {
+        const int begin = own + first < kSections ? own + first : own + first - kSections;
+        const unsigned both =
+            kLeastDistances[static_cast<std::size_t>(begin)][static_cast<std::size_t>(length / 2)];
+        return {static_cast<int>(both >> length % 2 * 4 & 15),
+                kLog2OfNearest[static_cast<std::size_t>(length)]};
+    }
+    // No table has bits that were not read, or are wrong.
+    NearestStretches nearest;
+    for (int roll = 0; roll < kSections; ++roll) {
+        if (roll != own) nearest.add(loss_of_bits(line, roll));
+    }
+    return {nearest.distance, log2_at_most_q8(static_cast<std::uint32_t>(nearest.count))};
+}
+
+int LikelihoodRatios::loss_of_bits(int line, int roll) const {
+    const TrackedLine& bits = bits_[static_cast<std::size_t>(line)];
+    const std::uint32_t differ =
+        (bits.code ^ code::kMainWords[static_cast<std::size_t>(roll)]) & bits.seen;
+    return bits_in(differ) - 2 * bits_in(differ & bits.wrong);
+}
+
+std::optional<int> loss_of_offsets(const LikelihoodRatios& ratios, const RollOffsets& offsets,
+                                   int shared) {
+    const int base = offsets[static_cast<std::size_t>(shared)];
+    const int count = ratios.count();
+    int lost = 0;
+    // Outwards from the shared line, where most is lost soonest; its predecessors last.
+    for (int i = 1, line = shared + 1; i < count; ++i, ++line) {
+        if (line == count) line = 0;
+        const int shift = offsets[static_cast<std::size_t>(line)] - base;
+        if (shift == 0 && line < shared) return std::nullopt;
+        lost += ratios.loss(line, shift);
+        if (ratios.is_hopeless(lost)) break;
+    }
+    return lost;
+}
+
+}  // namespace dotpose::core

@@ -1,0 +1,102 @@
+#include "core/integrity/near_alternatives.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+namespace dotpose::core {
+namespace {
+
+/// Turns of the shortest sequence that are as long as all lines.
+constexpr std::uint32_t kTurns = kMaxLines / code::kA3.size() + 1;
+
+/// The places in one sequence at which the digits of a run stand, the reading's own among them.
+class TwinPlaces {
+  public:
+    /// The run begins `run` lines after the first; `next` leads from each place to its twin.
+    TwinPlaces(const RankedLines& lines, std::size_t sequence, std::uint32_t run,
+               const std::uint8_t* next) {
+        const std::uint32_t length = lines.ratios.basis[sequence].length;
+        const std::uint32_t own = (lines.ratios.places[sequence] + run) % length;
+        std::uint32_t place = own;
+        do {
+            const std::uint32_t first = (place + kTurns * length - run) % length;
+            twins_[count_++] = since_run(lines, sequence, first, run);
+            place = next[place];
+        } while (place != own);
+    }
+
+    /// How much larger the offset of each line is than that of the first one of the run, modulo 63.
+    struct Twin {
+        EightOffsets first = 0;
+        const RankedLines::Offsets* offsets;
+        int at_run;
+    };
+    std::span<const Twin> all() const { return std::span(twins_).first(count_); }
+
+  private:
+    static Twin since_run(const RankedLines& lines, std::size_t sequence, std::uint32_t place,
+                          std::uint32_t run) {
+        const RankedLines::Offsets& offsets = lines.offsets(sequence, place);
+        Twin twin{0, &offsets, offsets.all[static_cast<std::size_t>(lines.rank(run))]};
+        for (int rank = 0; rank < std::min(lines.count(), 8); ++rank) {
+            const int more = offsets.all[static_cast<std::size_t>(rank)] - twin.at_run;
+            twin.first |= static_cast<EightOffsets>(more < 0 ? more + kSections : more) << 8 * rank;
+        }
+        return twin;
+    }
+
+    std::size_t count_ = 0;
+    std::array<Twin, code::kA4Restored.size()> twins_;
+};
+
+using OneOfEach = std::array<const TwinPlaces::Twin*, 4>;
+
+/// Odds of an alternative that shares a run of lines; `first` is the sum of the twins'.
+float odds_of_twins(const RankedLines& lines, EightOffsets first, const OneOfEach& twins) {
+    int lost = lines.loss_of_first(first);
+    for (int rank = 8; rank < lines.count() && !lines.ratios.is_hopeless(lost); ++rank) {
+        int further = 4 * kSections;
+        for (const TwinPlaces::Twin* twin : twins)
+            further += twin->offsets->all[static_cast<std::size_t>(rank)] - twin->at_run;
+        lost += lines.loss(
+            rank, static_cast<int>(code::few_modulo_sections(static_cast<std::uint32_t>(further))));
+    }
+    return lines.ratios.is_hopeless(lost) ? kNegligible : lines.ratios.odds(lost);
+}
+
+/// Alternatives that share the lines of one run.
+float sum_of_twins(const RankedLines& lines, const std::array<TwinPlaces, 4>& places) {
+    float sum = 0;
+    bool is_own = true;  // The first of all is the reading itself.
+    for (const auto& a : places[0].all()) {
+        for (const auto& b : places[1].all()) {
+            for (const auto& c : places[2].all()) {
+                // No byte carries: four times 62 is 248.
+                const EightOffsets first = a.first + b.first + c.first;
+                for (const auto& d : places[3].all()) {
+                    if (!is_own) sum += odds_of_twins(lines, first + d.first, {&a, &b, &c, &d});
+                    is_own = false;
+                }
+            }
+        }
+    }
+    return sum;
+}
+
+}  // namespace
+
+float sum_of_near_alternatives(const RankedLines& lines, const code::Twins& twins,
+                               int shared_lines) {
+    const auto order = static_cast<std::size_t>(shared_lines - 4);
+    float sum = 0;
+    for (int run = 0; run + shared_lines <= lines.count(); ++run) {
+        const auto places = [&](std::size_t k) {
+            return TwinPlaces(lines, k, static_cast<std::uint32_t>(run), twins[k][order]);
+        };
+        sum += sum_of_twins(lines, {places(0), places(1), places(2), places(3)});
+    }
+    return sum;
+}
+
+}  // namespace dotpose::core

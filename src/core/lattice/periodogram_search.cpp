@@ -1,0 +1,160 @@
+#include "core/lattice/periodogram_search.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "core/lattice/tuning.hpp"
+#include "core/math/fixed.hpp"
+
+namespace dotpose::core {
+namespace {
+
+namespace tuned = tuning::periodogram_search;
+
+/// A wave whose crests are rows of a grid.
+struct Wave {
+    std::int32_t direction_bam = 0;
+    std::int32_t spacing_q16 = 0;  ///< px
+
+    /// In turns per px.
+    Vec vector_q30() const {
+        const Vec unit = unit_q30(direction_bam);
+        return {static_cast<std::int32_t>((std::int64_t{unit.x} << 16) / spacing_q16),
+                static_cast<std::int32_t>((std::int64_t{unit.y} << 16) / spacing_q16)};
+    }
+    Wave turned(std::int32_t angle_bam) const {
+        return {static_cast<std::int32_t>(static_cast<std::uint32_t>(direction_bam) +
+                                          static_cast<std::uint32_t>(angle_bam)),
+                spacing_q16};
+    }
+};
+
+constexpr std::int32_t kQuarter_bam = 1 << 30;
+
+/// Sums of the waves over the dots near the centre.
+class Periodogram {
+  public:
+    Periodogram(std::span<const Dot> dots, std::span<const std::uint16_t> seeds, Vec centre_q8,
+                std::int32_t reach_q8) {
+        for (const std::uint16_t s : seeds) {
+            const Vec p = dots[s].centre_q8 - centre_q8;
+            if (larger_component(p) <= reach_q8) points_q8_[count_++] = p;
+        }
+    }
+
+    Vec sum(const Wave& wave) const {
+        const Vec wave_q30 = wave.vector_q30();
+        Vec total;
+        for (const Vec p : std::span(points_q8_).first(count_)) {
+            const auto phase_q16 = static_cast<std::int32_t>(dot(wave_q30, p) >> 22);
+            total.x += rough_cosine(phase_q16);
+            total.y += rough_sine(phase_q16);
+        }
+        return total;
+    }
+
+    std::int64_t power(const Wave& wave) const { return squared(sum(wave)); }
+    /// Of the wave and the one across: those of a square grid.
+    std::int64_t power_of_square(const Wave& wave) const {
+        return power(wave) + power(wave.turned(kQuarter_bam));
+    }
+
+  private:
+    std::array<Vec, kMaxSeeds> points_q8_;  ///< from the centre
+    std::size_t count_ = 0;
+};
+
+constexpr std::int32_t kDegree_bam = 11930465;
+
+/// Steps of a raster around a wave, and how many to either side.
+struct Raster {
+    std::int32_t turn_bam;
+    std::int32_t stretch_q16;
+    int turns;
+    int stretches;
+};
+
+template <typename Power>
+Wave best_around(const Wave& around, const Raster& raster, Power power) {
+    Wave best = around;
+    std::int64_t most = -1;
+    for (int t = -raster.turns; t <= raster.turns; ++t) {
+        for (int s = -raster.stretches; s <= raster.stretches; ++s) {
+            Wave wave = around.turned(t * raster.turn_bam);
+            wave.spacing_q16 += s * raster.stretch_q16;
+            const std::int64_t here = power(wave);
+            if (here > most) {
+                most = here;
+                best = wave;
+            }
+        }
+    }
+    return best;
+}
+
+template <typename Power>
+Wave ascend(Wave wave, Power power) {
+    const std::int32_t spacing_q16 = wave.spacing_q16;
+    for (int fineness = 1; fineness <= tuned::kFinest; fineness *= 2) {
+        wave = best_around(wave,
+                           {tuned::kFirstTurn_deg * kDegree_bam / fineness,
+                            spacing_q16 / tuned::kFirstStretchPart / fineness, 1, 1},
+                           power);
+    }
+    return wave;
+}
+
+/// The lattice on whose rows both waves have their crests, as near the centre as can be.
+Lattice lattice_of(const Periodogram& periodogram, const Wave& first, const Wave& second,
+                   Vec centre_q8) {
+    const Vec a = first.vector_q30();
+    const Vec b = second.vector_q30();
+    const std::int64_t area_q44 = std::max<std::int64_t>(cross(a, b) >> 16, 1);
+    // Two waves in the same direction span no grid: what comes out then is refused, but must not
+    // overflow.
+    constexpr std::int32_t kLongest_q16 = 4096 << 16;
+    const auto entry = [&](std::int32_t part_q30) {
+        return limited((std::int64_t{part_q30} << 30) / area_q44, kLongest_q16);
+    };
+    Lattice lattice;
+    lattice.u_q16 = {entry(b.y), entry(-b.x)};
+    lattice.v_q16 = {entry(-a.y), entry(a.x)};
+    // Dots stand at whole turns of both waves, but for the phase that their sum shows.
+    const std::int64_t i_q16 = angle_bam(periodogram.sum(first)) >> 16;
+    const std::int64_t j_q16 = angle_bam(periodogram.sum(second)) >> 16;
+    lattice.origin_q16 = {
+        centre_q8.x * 256 + shift_rounded(i_q16 * lattice.u_q16.x + j_q16 * lattice.v_q16.x, 16),
+        centre_q8.y * 256 + shift_rounded(i_q16 * lattice.u_q16.y + j_q16 * lattice.v_q16.y, 16)};
+    return lattice;
+}
+
+}  // namespace
+
+void search_periodogram(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
+                        Vec centre_q8, int most_turn_deg, Lattice& lattice) {
+    const std::uint32_t length_q16 = square_root(
+        static_cast<std::uint64_t>(squared(lattice.u_q16) / 2 + squared(lattice.v_q16) / 2));
+    Wave wave{angle_bam({lattice.u_q16.x / 2 + lattice.v_q16.y / 2,
+                         lattice.u_q16.y / 2 - lattice.v_q16.x / 2}),
+              static_cast<std::int32_t>(length_q16)};
+    // A few cells wide, the peak is broad enough for a coarse raster to meet it.
+    const Periodogram near(dots, seeds, centre_q8, wave.spacing_q16 / 256 * tuned::kNear_cells);
+    wave = best_around(wave,
+                       {tuned::kTurn_deg * kDegree_bam, wave.spacing_q16 / tuned::kStretchPart,
+                        most_turn_deg / tuned::kTurn_deg, tuned::kStretches},
+                       [&](const Wave& w) { return near.power_of_square(w); });
+    // A tilted camera sees the two at their own spacings and angles.
+    const Raster tilt{tuned::kTiltTurn_deg * kDegree_bam,
+                      wave.spacing_q16 / tuned::kTiltStretchPart, tuned::kTiltSteps,
+                      tuned::kTiltSteps};
+    const auto near_power = [&](const Wave& w) { return near.power(w); };
+    Wave first = best_around(wave, tilt, near_power);
+    Wave second = best_around(wave.turned(kQuarter_bam), tilt, near_power);
+    const Periodogram wider(dots, seeds, centre_q8, wave.spacing_q16 / 256 * tuned::kWider_cells);
+    const auto wider_power = [&](const Wave& w) { return wider.power(w); };
+    first = ascend(first, wider_power);
+    second = ascend(second, wider_power);
+    lattice = lattice_of(wider, first, second, centre_q8);
+}
+
+}  // namespace dotpose::core

@@ -1,0 +1,97 @@
+#include "core/pose/posterior.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "core/math/symmetric2.hpp"
+
+namespace dotpose::core {
+namespace {
+
+using Pair = std::array<float, 2>;
+
+using Symmetric = Symmetric2<float>;
+
+/// Of the whitened terms, in units of the noise's variance, if the terms' own were 1.
+Symmetric spread_of(const FurtherTerms& terms, const PlaneNormalFloat& normal, float variance) {
+    const std::size_t i = terms.first;
+    const float scale = 1 / variance;
+    const float a = normal.factor(i, i);
+    if (terms.count == 1) return {a * a * scale, 0, 0};
+    const float b = normal.factor(i + 1, i);
+    const float c = normal.factor(i + 1, i + 1);
+    return {(a * a + b * b) * scale, b * c * scale, c * c * scale};
+}
+
+/// The terms if they are of one kind.
+struct PosteriorOfKind {
+    Symmetric precision;  ///< of noise and terms together, in units of the noise's
+    Pair mean;
+    float distance;  ///< what is seen, in squared deviations
+    float share;     ///< probability of the kind; before `weigh`, that before the frame is seen
+
+    PosteriorOfKind() = default;
+    PosteriorOfKind(const FurtherTerms::Kind& kind, const Symmetric& spread, const Pair& seen,
+                    float variance, float unit) {
+        const float own = kind.deviation * unit * kind.deviation * unit;
+        precision = Symmetric{1 + own * spread.xx, own * spread.xy, 1 + own * spread.yy}.inverse();
+        const Pair lost = precision * seen;
+        mean = {seen[0] - lost[0], seen[1] - lost[1]};
+        distance = (lost[0] * seen[0] + lost[1] * seen[1]) / variance;
+        share = kind.probability;
+    }
+};
+using PosteriorsByKind =
+    std::array<PosteriorOfKind, std::tuple_size_v<decltype(FurtherTerms::kinds)>>;
+
+/// The kinds by how well each explains what is seen.
+void weigh(PosteriorsByKind& kinds) {
+    float nearest = kinds[0].distance;
+    for (const PosteriorOfKind& kind : kinds)
+        nearest = std::min(nearest, kind.distance);
+    float sum = 0;
+    for (PosteriorOfKind& kind : kinds) {
+        kind.share *=
+            std::sqrt(kind.precision.determinant()) * std::exp((nearest - kind.distance) / 2);
+        sum += kind.share;
+    }
+    for (PosteriorOfKind& kind : kinds)
+        kind.share /= sum;
+}
+
+/// Of all kinds together: the covariance has that of each, and how far they are apart.
+Posterior mixed(const PosteriorsByKind& kinds, float variance) {
+    Posterior posterior{};
+    for (const PosteriorOfKind& kind : kinds) {
+        for (std::size_t i = 0; i < 2; ++i)
+            posterior.mean[i] += kind.share * kind.mean[i];
+    }
+    for (const PosteriorOfKind& kind : kinds) {
+        const Symmetric& precision = kind.precision;
+        const std::array<Pair, 2> kept{Pair{1 - precision.xx, -precision.xy},
+                                       Pair{-precision.xy, 1 - precision.yy}};
+        const Pair off{kind.mean[0] - posterior.mean[0], kind.mean[1] - posterior.mean[1]};
+        for (std::size_t i = 0; i < 2; ++i) {
+            for (std::size_t j = 0; j < 2; ++j)
+                posterior.covariance[i][j] +=
+                    kind.share * (variance * kept[i][j] + off[i] * off[j]);
+        }
+    }
+    return posterior;
+}
+
+}  // namespace
+
+Posterior posterior_of(const FurtherTerms& terms, const PlaneNormalFloat& normal,
+                       const Parameters& whitened, float variance, float unit) {
+    const Pair seen{whitened[terms.first], terms.count > 1 ? whitened[terms.first + 1] : 0.0F};
+    const Symmetric spread = spread_of(terms, normal, variance);
+    PosteriorsByKind kinds;
+    for (std::size_t k = 0; k < kinds.size(); ++k)
+        kinds[k] = PosteriorOfKind(terms.kinds[k], spread, seen, variance, unit);
+    weigh(kinds);
+    return mixed(kinds, variance);
+}
+
+}  // namespace dotpose::core

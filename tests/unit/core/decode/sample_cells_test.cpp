@@ -1,0 +1,171 @@
+// Bits read from the image itself, from drawn frames whose dots are known.
+#include "core/decode/sample_cells.hpp"
+
+#include <gtest/gtest.h>
+
+#include "../canvas.hpp"
+#include "../reading.hpp"
+#include "core/decode/upright.hpp"
+#include "core/detect/paper.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+using namespace core;
+
+constexpr std::uint64_t kSeed = 44;
+
+GreyImage drawn(const View& view) {
+    GreyImage image = blank(static_cast<int>(view.image_px.x), static_cast<int>(view.image_px.y));
+    for (const PlacedDot& dot : pattern_dots(view))
+        darken(image, dot.centre_px, 0.1 * view.spacing_px, 0.8);
+    return image;
+}
+
+/// The view's cells as a look at an image shows them.
+struct Sampled {
+    Sampled(const View& view_, Turn turn_, const GreyImage& image, std::optional<Axis> known = {})
+        : view(view_), turn(turn_), owned(64) {
+        zero = {static_cast<int>(std::lround(view.at_centre.x)),
+                static_cast<int>(std::lround(view.at_centre.y))};
+        std::array<std::uint8_t, 400> levels;
+        std::array<std::uint8_t, 400> brightest;
+        PaperMap paper;
+        paper.levels = levels;
+        paper.brightest = brightest;
+        measure_paper(image.view(), paper);
+        const PlaneFromImage plane = plane_from_lattice(lattice_of(view.mesh_turned(turn, zero)),
+                                                        fixed(view.centre_px(), 8));
+        if (!known) {
+            sample_cells(image.view(), paper, Lens{}, plane, owned.grid);
+        } else {
+            Decoding decoding;
+            decoding.pattern_from_grid = turn;
+            decoding.place = moved(view.profile, view.place, zero.x, zero.y);
+            resample_cells_given_axis(*known, view.profile, decoding, image.view(), paper, Lens{},
+                                      plane, owned.grid);
+        }
+    }
+    const Grid& grid() const { return owned.grid; }
+    /// Shows `use(cell, its place in px, its bits on the pattern, the code's symbol)` all cells.
+    template <typename Use>
+    void visit(Use use) const {
+        for (int j = grid().j0; j < grid().j0 + grid().rows; ++j) {
+            for (int i = grid().i0; i < grid().i0 + grid().columns; ++i) {
+                const GridCell& cell = grid().at(i, j);
+                const Vec step = turn({i, j});
+                const Vec on_pattern{zero.x + step.x, zero.y + step.y};
+                const Place at = moved(view.profile, view.place, on_pattern.x, on_pattern.y);
+                use(cell, view.mesh().at(on_pattern.x, on_pattern.y), turned(turn, cell),
+                    symbol_at(view.profile, at.cell, at.section));
+            }
+        }
+    }
+
+    View view;
+    Turn turn;
+    OwnedGrid owned;
+    Vec zero;
+};
+
+bool is_right(Bits bits, Symbol symbol) {
+    return (bits.x > 0) == (x_bit(symbol) == 1) && (bits.y > 0) == (y_bit(symbol) == 1);
+}
+
+TEST(SampleCells, ReadsTheBitsOfACleanFrame) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 20; ++i) {
+        View view = random_view(rng);
+        view.spacing_px = rng.uniform(8, 16);
+        const Sampled sampled(view, Turn{i % 4}, drawn(view));
+        int inside = 0;
+        sampled.visit([&](const GridCell& cell, Vec2 at, Bits bits, Symbol symbol) {
+            SCOPED_TRACE(testing::Message()
+                         << "view " << i << " at " << at.x << ", " << at.y << ", seed " << kSeed);
+            // Nothing is said where all places of the dot lie outside.
+            const double outside = view.spacing_px / 6 + 1;
+            if (at.x < -outside || at.y < -outside || at.x > view.image_px.x - 1 + outside ||
+                at.y > view.image_px.y - 1 + outside) {
+                EXPECT_EQ(cell.x, 0);
+                EXPECT_EQ(cell.y, 0);
+            }
+            // All of it that blur would show is in the image.
+            const double margin = view.spacing_px / 6 + 2;
+            if (at.x < margin || at.y < margin || at.x > view.image_px.x - 1 - margin ||
+                at.y > view.image_px.y - 1 - margin) {
+                return;
+            }
+            ++inside;
+            EXPECT_TRUE(is_right(bits, symbol));
+            EXPECT_GE(std::min(std::abs(bits.x), std::abs(bits.y)), 40);
+            EXPECT_FALSE(cell.is_hidden());
+        });
+        EXPECT_GE(inside, 40);
+    }
+}
+
+// Every cell has a second, darker dot opposite to its own, which contradicts both bits.
+TEST(SampleCells, KnowingOneAxisItLooksForTheOtherWhereTheDotCanBe) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 20; ++i) {
+        View view = random_view(rng);
+        view.spacing_px = rng.uniform(10, 16);
+        GreyImage image = drawn(view);
+        for (const PlacedDot& dot : pattern_dots(view)) {
+            const Vec2 middle = view.mesh().at(dot.cell.x, dot.cell.y);
+            darken(image, 2.0 * middle - dot.centre_px, 0.13 * view.spacing_px, 0.9);
+        }
+        for (const Axis known : {Axis::x, Axis::y}) {
+            const Sampled sampled(view, Turn{0}, image, known);
+            int inside = 0;
+            sampled.visit([&](const GridCell&, Vec2 at, Bits bits, Symbol symbol) {
+                SCOPED_TRACE(testing::Message() << "view " << i << " at " << at.x << ", " << at.y
+                                                << ", seed " << kSeed);
+                const double margin = view.spacing_px / 6 + 5;
+                if (at.x < margin || at.y < margin || at.x > view.image_px.x - 1 - margin ||
+                    at.y > view.image_px.y - 1 - margin) {
+                    return;
+                }
+                ++inside;
+                const bool is_x_right = (bits.x > 0) == (x_bit(symbol) == 1);
+                const bool is_y_right = (bits.y > 0) == (y_bit(symbol) == 1);
+                EXPECT_EQ(is_x_right, known == Axis::y);
+                EXPECT_EQ(is_y_right, known == Axis::x);
+            });
+            EXPECT_GE(inside, 30);
+        }
+    }
+}
+
+TEST(SampleCells, CellsUnderABlackStrokeSayNothing) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 20; ++i) {
+        const View view = random_view(rng);
+        GreyImage image = drawn(view);
+        constexpr int kTop = 50;
+        constexpr int kBottom = 66;
+        fill(image, 0, kTop, image.width_px, kBottom, 5);
+        const Sampled sampled(view, Turn{i % 4}, image);
+        int under = 0;
+        int beside = 0;
+        sampled.visit([&](const GridCell& cell, Vec2 at, Bits bits, Symbol symbol) {
+            SCOPED_TRACE(testing::Message()
+                         << "view " << i << " at " << at.x << ", " << at.y << ", seed " << kSeed);
+            if (at.x < 8 || at.y < 8 || at.x > 179 || at.y > 111) return;
+            if (at.y > kTop && at.y < kBottom - 1) {
+                EXPECT_EQ(cell.x, 0);
+                EXPECT_EQ(cell.y, 0);
+                ++under;
+            } else if (at.y < kTop - 0.75 * view.spacing_px ||
+                       at.y > kBottom + 0.75 * view.spacing_px) {
+                EXPECT_TRUE(is_right(bits, symbol));
+                ++beside;
+            }
+        });
+        EXPECT_GE(under, 10);
+        EXPECT_GE(beside, 50);
+    }
+}
+
+}  // namespace
+}  // namespace dotpose::core_test

@@ -1,0 +1,195 @@
+// Odds of bits and of alternatives against sums in double precision.
+#include "core/integrity/alternatives.hpp"
+
+#include <gtest/gtest.h>
+
+#include "../../code/reference.hpp"
+#include "../geometry.hpp"
+#include "core/integrity/expected_alternatives.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+using namespace core;
+
+constexpr std::uint64_t kSeed = 42;
+
+/// log2 of the alternatives' odds for error-free windows of some columns and 12 rows.
+int alternatives_of_window(Profile profile, const Place& place, int columns, int odds_q8) {
+    constexpr int kRows = 12;
+    OwnedGrid owned(std::max(columns, kRows));
+    owned.grid.columns = columns;
+    owned.grid.rows = kRows;
+    for (int j = 0; j < kRows; ++j) {
+        for (int i = 0; i < columns; ++i) {
+            const Place at = moved(profile, place, i, j);
+            const Symbol symbol = symbol_at(profile, at.cell, at.section);
+            GridCell& cell = owned.grid.at(i, j);
+            cell.x = x_bit(symbol) == 1 ? 127 : -127;
+            cell.y = y_bit(symbol) == 1 ? 127 : -127;
+        }
+    }
+    std::array<ScoredLine, kMaxLines> storage;
+    const Upright upright(owned.grid, {0, 0, columns, kRows}, {});
+    const Lines lines = score_lines(upright, Axis::x, storage);
+    AxisReading reading;
+    reading.position = place.cell.x;
+    reading.roll = static_cast<std::uint8_t>(
+        (roll(profile, place.cell.x) + place.section.u + static_cast<int>(place.cell.y % 63)) % 63);
+    // The line agrees wholly with the roll that the code has there.
+    EXPECT_EQ(lines[0][reading.roll], 127 * kRows);
+    return alternatives_log2(profile, LikelihoodRatios(profile, lines, reading, odds_q8));
+}
+
+TEST(Alternatives, GetFewerWithEveryColumn) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 20; ++i) {
+        const Profile profile = code_test::kProfiles[static_cast<std::size_t>(i % 3)];
+        const Place place = random_place(rng);
+        constexpr int kOdds_q8 = 5 * 256;
+        int before = 1;
+        for (const int columns : {6, 8, 11, 17}) {
+            const int log2 = alternatives_of_window(profile, place, columns, kOdds_q8);
+            ASSERT_LT(log2, before) << columns << " columns, window " << i << ", seed " << kSeed;
+            before = log2;
+        }
+        // Positions that share five of 17 lines differ in twelve, by two of twelve bits at least:
+        // 2^-120 but for their number, 2^29; what is left is a floor of negligible ones.
+        EXPECT_LE(before, -40);
+        // Stronger odds exclude more.
+        EXPECT_LT(alternatives_of_window(profile, place, 8, 2 * kOdds_q8),
+                  alternatives_of_window(profile, place, 8, kOdds_q8));
+    }
+}
+
+TEST(Alternatives, FewLinesExcludeNone) {
+    Rng rng(kSeed);
+    const Place place = random_place(rng);
+    for (int columns = 1; columns <= 5; ++columns) {
+        EXPECT_EQ(alternatives_of_window(Profile::anoto, place, columns, 8 * 256), 0) << columns;
+    }
+    EXPECT_LT(alternatives_of_window(Profile::anoto, place, 17, 8 * 256), 0);
+}
+
+using Odds = std::array<float, kSections>;
+
+/// Sum over all alternatives of the odds that two lines give them, every digit in every sequence
+/// that differs one by one, for a reading whose first line stands at `position`. `factor` for the
+/// step between the lines.
+double two_lines(std::uint32_t position, const Odds& first, const Odds& second, double factor) {
+    constexpr std::array<int, 4> kBases{3, 3, 2, 3};
+    const auto texts = code_test::secondary_texts(Profile::anoto);
+    double total = 0;
+    for (unsigned set = 0; set < 16; ++set) {
+        double alternatives = 1;
+        int sequences = 0;
+        for (std::size_t k = 0; k < 4; ++k) {
+            if ((set >> k & 1) == 0) continue;
+            alternatives *= static_cast<double>(texts[k].size());
+            ++sequences;
+        }
+        if (sequences < 2) continue;
+        int cases = 0;
+        double sum = 0;
+        // Digits of the alternative, packed: 3 x 3 x 2 x 3.
+        for (int alternative = 0; alternative < 54; ++alternative) {
+            int difference = 0;
+            bool counts = true;
+            int rest = alternative;
+            for (std::size_t k = 0; k < 4; ++k) {
+                const int digit = rest % kBases[k];
+                rest /= kBases[k];
+                const int own = texts[k][position % texts[k].size()] - '0';
+                if ((set >> k & 1) == 0) {
+                    counts = counts && digit == 0;
+                } else {
+                    difference += code_test::kWeights[k] * (digit - own);
+                }
+            }
+            if (!counts) continue;
+            ++cases;
+            for (int s = 0; s < 63; ++s) {
+                sum += static_cast<double>(first[static_cast<std::size_t>(s)]) *
+                       static_cast<double>(
+                           second[static_cast<std::size_t>((s + difference + 126) % 63)]);
+            }
+        }
+        total += alternatives * factor * sum / cases;
+    }
+    return total;
+}
+
+constexpr double kUnevenness = 1.03;
+
+float sum_of(std::uint32_t position, int most_shared, const std::vector<Odds>& lines) {
+    ExpectedAlternatives expected(code::basis(Profile::anoto), position, most_shared, 2);
+    for (const Odds& odds : lines)
+        expected.add_line(odds);
+    return expected.sum();
+}
+
+TEST(ExpectedAlternatives, OfOneLineAreAllInProportion) {
+    Odds odds{};
+    odds[0] = 1;
+    odds[17] = 0.25F;
+    // All that differ in two or more sequences: (1 + a1) ... (1 + a4) but for none and single ones.
+    const double alternatives = 237.0 * 234 * 32 * 242 - 1 - (236 + 233 + 31 + 241);
+    EXPECT_NEAR(static_cast<double>(sum_of(7, 4, {odds})) / (1.25 * alternatives), 1, 1e-5);
+}
+
+TEST(ExpectedAlternatives, OfTwoLinesAreThoseOfEveryPairOfDigits) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 20; ++i) {
+        Odds first;
+        Odds second;
+        for (std::size_t s = 0; s < first.size(); ++s) {
+            first[s] = static_cast<float>(std::exp2(-rng.uniform(0, 20)));
+            second[s] = static_cast<float>(std::exp2(-rng.uniform(0, 20)));
+        }
+        first[0] = second[0] = 1;
+        const std::uint32_t position = random_place(rng).cell.x;
+        const double exact = two_lines(position, first, second, kUnevenness);
+        for (const int most_shared : {3, 4}) {
+            EXPECT_NEAR(static_cast<double>(sum_of(position, most_shared, {first, second})) / exact,
+                        1, 1e-4)
+                << i << ", seed " << kSeed;
+        }
+    }
+}
+
+TEST(ExpectedAlternatives, EachDifferenceHasItsOwnShare) {
+    // One shift in either line: what is left is the share of one difference.
+    for (const int from : {0, 5, 62}) {
+        for (int to = 0; to < 63; ++to) {
+            Odds first{};
+            Odds second{};
+            first[static_cast<std::size_t>(from)] = 1;
+            second[static_cast<std::size_t>(to)] = 1;
+            constexpr std::uint32_t kPosition = 123'456'789;
+            const double exact = two_lines(kPosition, first, second, kUnevenness);
+            ASSERT_NEAR(static_cast<double>(sum_of(kPosition, 4, {first, second})), exact,
+                        1e-4 * exact + 1e-9)
+                << from << " to " << to;
+        }
+    }
+}
+
+TEST(ExpectedAlternatives, ThoseThatShareMoreLinesAreLeftToOthers) {
+    Odds same{};
+    same[0] = 1;
+    for (const int most_shared : {3, 4}) {
+        std::vector<Odds> lines;
+        for (int n = 1; n <= 6; ++n) {
+            lines.push_back(same);
+            const float sum = sum_of(99, most_shared, lines);
+            if (n <= most_shared) {
+                EXPECT_GT(sum, 1000) << n << " lines of " << most_shared;
+            } else {
+                EXPECT_EQ(sum, 0) << n << " lines of " << most_shared;
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace dotpose::core_test

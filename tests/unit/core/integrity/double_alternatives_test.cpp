@@ -1,0 +1,141 @@
+// Double alternatives against a sum over all of them in double precision.
+#include "core/integrity/double_alternatives.hpp"
+
+#include <gtest/gtest.h>
+
+#include "../../code/reference.hpp"
+#include "core/decode/correlation.hpp"
+#include "core/integrity/expected_double_alternatives.hpp"
+#include "dotpose/tools/random.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+using namespace core;
+
+constexpr std::uint64_t kSeed = 46;
+constexpr int kLines = 9;
+constexpr int kOdds_q8 = 3 * 256;
+/// What is counted in any case.
+constexpr double kFloor = 190'027.0 * 63 * 0x1p-64;
+
+/// Lines that fit a position, with scores of other rolls at random from `least` to `least` + 600.
+struct Case {
+    Case(Rng& rng, int least) : position(rng.below(kPositionsPerAxis)) {
+        lines.all = storage;
+        std::uint32_t p = position;
+        int here = roll(Profile::anoto, p);
+        for (int line = 0; line < kLines; ++line) {
+            const auto n = static_cast<std::size_t>(line);
+            for (std::int16_t& score : storage[n].scores)
+                score = static_cast<std::int16_t>(least + static_cast<int>(rng.below(600)));
+            storage[n].scores[static_cast<std::size_t>(here)] = 1000;
+            storage[n].best = best_score(storage[n].scores);
+            here = (here + delta(Profile::anoto, p)) % kSections;
+            p = p + 1 == kPositionsPerAxis ? 0 : p + 1;
+        }
+        reading = {position, static_cast<std::uint8_t>(roll(Profile::anoto, position)), 0, 0};
+    }
+    std::uint32_t position;
+    std::array<ScoredLine, kLines> storage{};
+    Lines lines;
+    AxisReading reading;
+};
+
+/// Every pair of places in two sequences, every shift, every line: those that share some line.
+double exact_sum(const Case& c) {
+    const auto texts = code_test::secondary_texts(Profile::anoto);
+    const int first_roll = roll(Profile::anoto, c.position);
+    double sum = 0;
+    std::array<std::array<std::array<int, kLines>, 241>, 4> rolls{};
+    for (std::size_t k = 0; k < 4; ++k) {
+        const std::size_t length = texts[k].size();
+        for (std::size_t place = 0; place < length; ++place) {
+            int offset = 0;
+            for (int line = 0; line < kLines; ++line) {
+                rolls[k][place][static_cast<std::size_t>(line)] = offset;
+                offset += code_test::kWeights[k] *
+                          (texts[k][(place + static_cast<std::size_t>(line)) % length] -
+                           texts[k][(c.position + static_cast<std::size_t>(line)) % length]);
+            }
+        }
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+        for (std::size_t l = k + 1; l < 4; ++l) {
+            for (std::size_t i = 0; i < texts[k].size(); ++i) {
+                if (i == c.position % texts[k].size()) continue;
+                for (std::size_t j = 0; j < texts[l].size(); ++j) {
+                    if (j == c.position % texts[l].size()) continue;
+                    for (int shift = 0; shift < 63; ++shift) {
+                        double lost = 0;
+                        bool shares = false;
+                        int own = first_roll;
+                        std::uint32_t p = c.position;
+                        for (std::size_t line = 0; line < kLines; ++line) {
+                            const int further = rolls[k][i][line] + rolls[l][j][line] + shift;
+                            const int other = ((own + further) % 63 + 63) % 63;
+                            shares = shares || other == own;
+                            lost += 1000 - c.storage[line].scores[static_cast<std::size_t>(other)];
+                            own = (own + delta(Profile::anoto, p)) % 63;
+                            ++p;
+                        }
+                        if (shares) sum += std::exp2(-lost * kOdds_q8 / 256 / 254);
+                    }
+                }
+            }
+        }
+    }
+    return sum;
+}
+
+TEST(DoubleAlternatives, AreSummedOneByOne) {
+    Rng rng(kSeed);
+    // The reading's own score is 1000: in the last case others fit some lines better.
+    for (const int least : {-600, -200, 420}) {
+        const Case c(rng, least);
+        const LikelihoodRatios ratios(Profile::anoto, c.lines, c.reading, kOdds_q8);
+        EXPECT_EQ(ratios.most_regained() > 0, least == 420);
+        const double exact = exact_sum(c);
+        ASSERT_GT(exact, 1e-12);
+        const RankedLines lines(ratios);
+        // So much that all that share two lines or more are looked at, and none is negligible. The
+        // others are counted at their expectation, 32 times for safety.
+        const float rest = expected_double_alternatives(lines, kLines)[2];
+        const auto sum = static_cast<double>(sum_of_double_alternatives(lines, 0, 64 * rest));
+        const double ratio = (sum - kFloor - 31 * static_cast<double>(rest)) / exact;
+        // Exponentials are right to 2 %, and exact only down to whole 2^-8 of a power of two.
+        EXPECT_GE(ratio, 0.96) << "least " << least << ", seed " << kSeed;
+        // What shares one line only, or none, is counted at its expectation.
+        EXPECT_LE(ratio, least == 420 ? 2 : 1.04) << "least " << least << ", seed " << kSeed;
+    }
+}
+
+TEST(DoubleAlternatives, AreExpectedWhereThatIsNegligible) {
+    Rng rng(kSeed);
+    const Case c(rng, -200);
+    const LikelihoodRatios ratios(Profile::anoto, c.lines, c.reading, kOdds_q8);
+    const RankedLines lines(ratios);
+    const double exact = exact_sum(c);
+    const auto expected = expected_double_alternatives(lines, kLines);
+    for (int shared = 4; shared <= kFewestFound; ++shared) {
+        const float negligible = expected[static_cast<std::size_t>(shared)];
+        const double sum = static_cast<double>(sum_of_double_alternatives(lines, negligible, 1));
+        const double ratio = (sum - kFloor) / exact;
+        EXPECT_GE(ratio, 0.9) << shared << ", seed " << kSeed;
+        EXPECT_LE(ratio, 1.5) << shared << ", seed " << kSeed;
+    }
+}
+
+TEST(DoubleAlternatives, AreNotLookedAtWhereTheExpectationIsTooMuch) {
+    Rng rng(kSeed);
+    const Case c(rng, -200);
+    const LikelihoodRatios ratios(Profile::anoto, c.lines, c.reading, kOdds_q8);
+    const RankedLines lines(ratios);
+    const auto expected = expected_double_alternatives(lines, kLines);
+    const double sum = static_cast<double>(sum_of_double_alternatives(lines, 0, expected[2] / 2));
+    EXPECT_NEAR(sum, kFloor, 0.02 * kFloor) << "of which " << expected[2] << " are expected";
+    EXPECT_LT(sum, 0.9 * (exact_sum(c) + kFloor));
+}
+
+}  // namespace
+}  // namespace dotpose::core_test

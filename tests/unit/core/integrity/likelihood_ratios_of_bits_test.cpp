@@ -1,0 +1,237 @@
+// A ratios of bits that are all equally sure is that of weights of 127.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numeric>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "code/rolls.hpp"
+#include "code/tables.hpp"
+#include "core/integrity/alternative_sets.hpp"
+#include "core/integrity/alternatives.hpp"
+#include "core/integrity/likelihood_ratios.hpp"
+#include "core/integrity/quick_alternatives.hpp"
+#include "core/integrity/unshared_lines.hpp"
+#include "core/math/fixed.hpp"
+#include "core/workspace.hpp"
+#include "dotpose/tools/random.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+using namespace core;
+
+constexpr int kOdds_q8 = 7 * 256;
+constexpr int kLines = 17;
+constexpr int kLength = 11;
+
+/// Columns of the code at a random position, as bits and as weights.
+struct Columns {
+    explicit Columns(Rng& rng) {
+        reading.position = static_cast<std::uint32_t>(rng.below(kPositionsPerAxis - 100));
+        reading.roll = static_cast<std::uint8_t>(rng.below(kSections));
+        std::array<std::uint8_t, kLines> rolls;
+        code::follow_rolls(Profile::anoto, reading.position, reading.roll, rolls);
+        workspace->grid.columns = kLines;
+        workspace->grid.rows = kLength;
+        const int lost = static_cast<int>(rng.below(4));
+        for (int i = 0; i < kLines; ++i) {
+            TrackedLine& line = lines[static_cast<std::size_t>(i)];
+            line.code = code::kMainWords[rolls[static_cast<std::size_t>(i)]];
+            for (int j = 0; j < kLength; ++j) {
+                const std::uint32_t bit = std::uint32_t{1} << j;
+                // Corners are not in view, as in a frame that is turned.
+                const bool is_in_view = i + j > 3 && i + j < kLines + kLength - 6;
+                const bool is_seen = is_in_view && rng.below(40) >= static_cast<unsigned>(lost);
+                const bool is_wrong = is_seen && rng.below(60) < static_cast<unsigned>(lost);
+                if (is_seen) line.seen |= bit;
+                if (is_wrong) line.wrong |= bit;
+                const bool read = ((line.code & bit) != 0) != is_wrong;
+                GridCell& cell = workspace->grid.at(i, j);
+                cell = {};
+                if (is_seen) cell.x = read ? 127 : -127;
+            }
+        }
+    }
+    LikelihoodRatios of_bits() const { return {Profile::anoto, lines, reading, kOdds_q8}; }
+    LikelihoodRatios of_weights() {
+        const Upright upright(workspace->grid, {0, 0, kLines, kLength}, {});
+        return {Profile::anoto, score_lines(upright, Axis::x, workspace->line_scores), reading,
+                kOdds_q8};
+    }
+
+    AxisReading reading;
+    std::array<TrackedLine, kLines> lines{};
+    std::unique_ptr<SmallWorkspace> workspace = std::make_unique<SmallWorkspace>();
+};
+
+TEST(LikelihoodRatiosOfBits, LosesAsWeightsDo) {
+    Rng rng(8);
+    for (int round = 0; round < 200; ++round) {
+        Columns columns(rng);
+        const LikelihoodRatios bits = columns.of_bits();
+        const LikelihoodRatios weights = columns.of_weights();
+        ASSERT_EQ(bits.count(), weights.count());
+        for (int line = 0; line < kLines; ++line) {
+            ASSERT_EQ(bits.own_roll(line), weights.own_roll(line));
+            double sum = 0;
+            for (int shift = 1 - kSections; shift < kSections; ++shift) {
+                ASSERT_EQ(bits.loss(line, shift), weights.loss(line, shift)) << line;
+                if (shift > 0) sum += std::exp2(bits.log2_odds_q8(bits.loss(line, shift)) / 256.0);
+            }
+            ASSERT_EQ(bits.least_loss(line), weights.least_loss(line)) << line;
+            const double bound = std::exp2(
+                (bits.log2_odds_q8(bits.least_loss(line)) + bits.log2_of_nearest_q8(line)) / 256.0);
+            ASSERT_LE(sum, bound) << line;
+            ASSERT_LE(bound, 64 * sum) << line;
+        }
+        EXPECT_EQ(bits.most_regained(), weights.most_regained());
+        RollOffsets offsets;
+        set_roll_offsets(bits, 2, (bits.places[2] + 1) % bits.basis[2].length, offsets);
+        for (int line = 0; line < kLines; ++line)
+            EXPECT_EQ(loss_of_offsets(bits, offsets, line),
+                      loss_of_offsets(weights, offsets, line));
+    }
+}
+
+TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanThereIs) {
+    Rng rng(9);
+    int settled = 0;
+    for (int round = 0; round < 200; ++round) {
+        Columns columns(rng);
+        const int estimate_q8 = quick_alternatives_log2_q8(columns.of_bits());
+        // Counted one by one, and then rounded up to a power of two, several times.
+        const int counted = alternatives_log2(Profile::anoto, columns.of_weights());
+        // Who has hardly any odds is counted with 2^-64 there, 12,597 alternatives with 2^-50 in
+        // all.
+        if (counted > -49) {
+            EXPECT_GE(estimate_q8, 256 * (counted - 2));
+        }
+        settled += estimate_q8 < -30 * 256 ? 1 : 0;
+    }
+    EXPECT_GT(settled, 80);
+}
+
+/// All that differ in one sequence, one by one.
+double single_odds(const LikelihoodRatios& ratios) {
+    double sum = 0;
+    for (std::size_t k = 0; k < ratios.basis.size(); ++k) {
+        for (std::uint32_t place = 0; place < ratios.basis[k].length; ++place) {
+            if (place == ratios.places[k]) continue;
+            RollOffsets offsets;
+            set_roll_offsets(ratios, k, place, offsets);
+            for (int shift = 0; shift < kSections; ++shift) {
+                int lost = 0;
+                for (int line = 0; line < ratios.count(); ++line) {
+                    const int shifted = offsets[static_cast<std::size_t>(line)] - shift;
+                    lost += ratios.loss(line, shifted);
+                }
+                sum += std::exp2(ratios.log2_odds_q8(lost) / 256.0);
+            }
+        }
+    }
+    return sum;
+}
+
+/// Whether tables tell it or a close look.
+TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanAllSingleAlternatives) {
+    Rng rng(12);
+    int told = 0;
+    for (int round = 0; round < 200; ++round) {
+        const Columns columns(rng);
+        const LikelihoodRatios ratios = columns.of_bits();
+        const double expected = single_odds(ratios);
+        for (const int limit : {0, -20, -30}) {
+            const int estimate_q8 = quick_alternatives_log2_q8(ratios, 256 * limit);
+            if (estimate_q8 == 0) continue;
+            ++told;
+            EXPECT_GE(std::exp2(estimate_q8 / 256.0), expected) << round << ", limit " << limit;
+        }
+    }
+    EXPECT_GT(told, 100);
+}
+
+/// The expected odds of one set of far alternatives (docs/integrity.md, the quick estimate), in
+/// double precision: those that share the lines from one on, and all others together.
+double far_odds(const LikelihoodRatios& ratios, const AlternativeSet& set) {
+    const auto power = [](int log2_q8) { return std::exp2(log2_q8 / 256.0); };
+    const double equal = power(set.equal_q8 + kUnevenness_q8);
+    std::vector<double> sharing{1};
+    double apart = 0;
+    double sum = 0;
+    for (int line = 0; line < ratios.count(); ++line) {
+        const double best = power(ratios.log2_odds_q8(ratios.least_loss(line)));
+        const double all = best * power(ratios.log2_of_nearest_q8(line));
+        if (line > 0) {
+            for (double& odds : sharing)
+                odds *= equal;
+            sharing.push_back(apart * equal);
+        }
+        apart = line == 0 ? all : sum * std::min(best * power(kUnevenness_q8), all * equal);
+        const auto most = std::min(sharing.size(), static_cast<std::size_t>(ratios.most_shared()));
+        sum = std::accumulate(sharing.end() - static_cast<std::ptrdiff_t>(most), sharing.end(),
+                              apart);
+    }
+    return sum * power(set.alternatives_q8);
+}
+
+/// However doubtful the reading, and whatever the limit. Of so few lines the other sets have about
+/// as much as the first.
+TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanAllSetsOfFarAlternatives) {
+    Rng rng(11);
+    int doubtful = 0;
+    for (int round = 0; round < 400; ++round) {
+        const Columns columns(rng);
+        std::array<TrackedLine, kLines> lines = columns.lines;
+        const std::uint32_t seen = (std::uint32_t{1} << (12 + rng.below(18))) - 1;
+        for (TrackedLine& line : lines)
+            line = {line.code, seen, 0};
+        const LikelihoodRatios ratios(Profile::anoto, std::span(lines).first(6 + rng.below(4)),
+                                      columns.reading, kOdds_q8);
+        double expected = 0;
+        for (const AlternativeSet& set : kAlternativeSets)
+            expected += far_odds(ratios, set);
+        for (const int limit : {0, -20, -30}) {
+            const int estimate_q8 = quick_alternatives_log2_q8(ratios, 256 * limit);
+            if (estimate_q8 == 0) continue;
+            doubtful += estimate_q8 > -36 * 256 ? 1 : 0;
+            EXPECT_GE(std::exp2(estimate_q8 / 256.0), expected) << round << ", limit " << limit;
+        }
+    }
+    EXPECT_GT(doubtful, 100);
+}
+
+/// Every alternative loses what the table says.
+TEST(UnsharedLines, AreNotSharedByAnyAlternative) {
+    Rng rng(10);
+    int known = 0;
+    for (int round = 0; round < 60; ++round) {
+        Columns columns(rng);
+        const LikelihoodRatios ratios = columns.of_bits();
+        const UnsharedLines unshared(ratios);
+        for (std::size_t k = 0; k < 4; ++k) {
+            constexpr int kEnough = 5 * 254;
+            if (!unshared.all_lose(k, Sharing::at_one_shift, kEnough)) continue;
+            ++known;
+            for (std::uint32_t place = 0; place < ratios.basis[k].length; ++place) {
+                if (place == ratios.places[k]) continue;
+                RollOffsets offsets;
+                set_roll_offsets(ratios, k, place, offsets);
+                for (int shift = 0; shift < kSections; ++shift) {
+                    int lost = 0;
+                    for (int line = 0; line < kLines; ++line) {
+                        const bool is_shared = offsets[static_cast<std::size_t>(line)] == shift;
+                        lost += is_shared ? 0 : std::max(ratios.least_loss(line), 0);
+                    }
+                    ASSERT_GE(lost, kEnough) << k << ' ' << place << ' ' << shift;
+                }
+            }
+        }
+    }
+    EXPECT_GT(known, 20);
+}
+
+}  // namespace
+}  // namespace dotpose::core_test

@@ -1,0 +1,77 @@
+// Near alternatives against a search for the digits of every run, in double precision.
+#include "core/integrity/near_alternatives.hpp"
+
+#include <gtest/gtest.h>
+
+#include "code/basis.hpp"
+#include "ratios_case.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+constexpr std::uint64_t kSeed = 52;
+
+/// Places of the first line, in one sequence, with the reading's digits from `run` on.
+std::vector<std::uint32_t> places_with_digits(const std::string& text, std::uint32_t own, int run,
+                                              int digits) {
+    const auto digit = [&](std::uint32_t place, int n) {
+        return text[(place + static_cast<std::uint32_t>(run + n)) % text.size()];
+    };
+    std::vector<std::uint32_t> places;
+    for (std::uint32_t place = 0; place < text.size(); ++place) {
+        bool is_same = true;
+        for (int n = 0; n < digits; ++n)
+            is_same = is_same && digit(place, n) == digit(own, n);
+        if (is_same) places.push_back(place);
+    }
+    return places;
+}
+
+struct ExactSum {
+    double sum = 0;
+    int alternatives = 0;
+};
+
+ExactSum exact_sum(const RatiosCase& c, int shared_lines) {
+    const auto texts = code_test::secondary_texts(c.profile);
+    const PlacesOfAlternative own = own_places(c);
+    ExactSum exact;
+    for (int run = 0; run + shared_lines <= static_cast<int>(c.rolls.size()); ++run) {
+        const auto places = [&](std::size_t k) {
+            return places_with_digits(std::string(texts[k]), own[k], run, shared_lines - 1);
+        };
+        for (const std::uint32_t a : places(0)) {
+            for (const std::uint32_t b : places(1)) {
+                for (const std::uint32_t d : places(2)) {
+                    for (const std::uint32_t e : places(3)) {
+                        const PlacesOfAlternative alternative{a, b, d, e};
+                        if (alternative == own) continue;
+                        exact.sum += odds_of_rolls(
+                            c, rolls_from(c, alternative, static_cast<std::size_t>(run)));
+                        ++exact.alternatives;
+                    }
+                }
+            }
+        }
+    }
+    return exact;
+}
+
+TEST(NearAlternatives, AreSummedOneByOne) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 12; ++i) {
+        const RatiosCase c = read_at_random(rng, 6 + i % 9);
+        const LikelihoodRatios ratios = c.ratios();
+        for (const int shared_lines : {4, 5}) {
+            const double sum = static_cast<double>(sum_of_near_alternatives(
+                RankedLines(ratios), code::twins(c.profile), shared_lines));
+            const ExactSum exact = exact_sum(c, shared_lines);
+            ASSERT_GT(exact.alternatives, 0);
+            EXPECT_GE(sum, 0.97 * exact.sum) << i << ", " << shared_lines << ", seed " << kSeed;
+            EXPECT_LE(sum, 1.04 * exact.sum) << i << ", " << shared_lines << ", seed " << kSeed;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace dotpose::core_test

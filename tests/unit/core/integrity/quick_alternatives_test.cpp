@@ -1,0 +1,157 @@
+// The quick estimate of alternatives against sums in double precision.
+#include "core/integrity/quick_alternatives.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/integrity/alternatives.hpp"
+#include "ratios_case.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+constexpr std::uint64_t kSeed = 51;
+
+/// Some lines of which some bits are missing, weak and wrong. Odds are such as go with that.
+RatiosCase random_case(Rng& rng) {
+    RatiosCase c =
+        at_random_place(rng, 6 + static_cast<int>(rng.below(rng.below(2) == 0 ? 12 : 59)));
+    const int bits = 6 + static_cast<int>(rng.below(rng.below(2) == 0 ? 12 : 59));
+    const double wrong = rng.uniform(0, 0.1);
+    for (const int own : c.rolls) {
+        const int seen = static_cast<int>(rng.uniform(0.6, 1) * bits);
+        c.storage.push_back(
+            scored_line(own, seen, wrong, 60 + static_cast<int>(rng.below(68)), rng));
+    }
+    c.odds_q8 = static_cast<int>(256 * rng.uniform(2, 8));
+    return c;
+}
+
+/// All places of one sequence but the reading's, with every shift at which they share some line.
+double sum_of_singles(const RatiosCase& c) {
+    const auto texts = code_test::secondary_texts(c.profile);
+    const std::size_t count = c.rolls.size();
+    double sum = 0;
+    for (std::size_t k = 0; k < texts.size(); ++k) {
+        const std::size_t length = texts[k].size();
+        for (std::size_t place = 0; place < length; ++place) {
+            if (place == c.position % length) continue;
+            std::vector<int> rolls;  // of the alternative, but for the shift
+            int offset = 0;
+            for (std::size_t line = 0; line < count; ++line) {
+                rolls.push_back(c.rolls[line] + offset);
+                offset += code_test::kWeights[k] *
+                          (code_test::digit_at(texts[k], place + line) -
+                           code_test::digit_at(texts[k], c.position % length + line));
+            }
+            for (int shift = 0; shift < 63; ++shift) {
+                bool shares = false;
+                double lost = 0;
+                for (std::size_t line = 0; line < count; ++line) {
+                    const int other = ((rolls[line] + shift) % 63 + 63) % 63;
+                    shares = shares || other == c.rolls[line];
+                    lost += c.storage[line].scores[static_cast<std::size_t>(c.rolls[line])] -
+                            c.storage[line].scores[static_cast<std::size_t>(other)];
+                }
+                // A score is twice the weight that changes sides.
+                if (shares) sum += std::exp2(-lost / 2 / 127 * c.odds_q8 / 256);
+            }
+        }
+    }
+    return sum;
+}
+
+/// The quick estimate; at least that of the single alternatives.
+double checked(const RatiosCase& c) {
+    const double quick = quick_alternatives_log2_q8(c.ratios()) / 256.0;
+    EXPECT_LE(quick, 0);
+    if (quick < 0) {
+        EXPECT_GE(quick, std::log2(sum_of_singles(c)));
+    }
+    return quick;
+}
+
+TEST(QuickAlternatives, CountAllThatDifferInOneSequence) {
+    Rng rng(kSeed);
+    int far_below_doubt = 0;
+    for (int i = 0; i < 400; ++i) {
+        SCOPED_TRACE(testing::Message() << "case " << i << ", seed " << kSeed);
+        far_below_doubt += checked(random_case(rng)) < -30;
+    }
+    EXPECT_GE(far_below_doubt, 80) << "seed " << kSeed;
+}
+
+TEST(QuickAlternatives, CountWhatSharesTheOnlyLinesThatSayMuch) {
+    // An alternative may share five lines in a row, in `published` seven: these few are clear and
+    // all others are weak.
+    Rng rng(kSeed);
+    int told = 0;
+    for (int i = 0; i < 400; ++i) {
+        SCOPED_TRACE(testing::Message() << "case " << i << ", seed " << kSeed);
+        RatiosCase c = at_random_place(rng, 6 + static_cast<int>(rng.below(30)));
+        const auto clear = rng.below(static_cast<std::uint32_t>(c.rolls.size()));
+        const std::uint32_t clear_lines = 4 + rng.below(6);
+        for (std::uint32_t line = 0; line < c.rolls.size(); ++line) {
+            const bool is_clear = line >= clear && line < clear + clear_lines;
+            c.storage.push_back(is_clear ? scored_line(c.rolls[line], 64, 0, 127, rng)
+                                         : scored_line(c.rolls[line], 10, 0.05, 20, rng));
+        }
+        c.odds_q8 = static_cast<int>(256 * rng.uniform(0.5, 8));
+        told += checked(c) < 0;
+    }
+    EXPECT_GE(told, 40) << "seed " << kSeed;
+}
+
+TEST(QuickAlternatives, CountOthersThatLinesFitBetter) {
+    // Some lines show the roll of no line nearby: an alternative may regain what it lost elsewhere.
+    Rng rng(kSeed);
+    int told = 0;
+    for (int i = 0; i < 300; ++i) {
+        SCOPED_TRACE(testing::Message() << "case " << i << ", seed " << kSeed);
+        RatiosCase c = at_random_place(rng, 15 + static_cast<int>(rng.below(30)));
+        for (const int own : c.rolls) {
+            const int shown = rng.below(15) == 0 ? static_cast<int>(rng.below(63)) : own;
+            c.storage.push_back(scored_line(shown, 40, 0.05, 127, rng));
+        }
+        c.odds_q8 = static_cast<int>(256 * rng.uniform(1, 4));
+        told += checked(c) < 0;
+    }
+    EXPECT_GE(told, 40) << "seed " << kSeed;
+}
+
+TEST(QuickAlternatives, AreNoFewerThanACloseLookShows) {
+    Rng rng(kSeed);
+    int told = 0;
+    for (int i = 0; i < 200; ++i) {
+        const RatiosCase c = random_case(rng);
+        const double quick = quick_alternatives_log2_q8(c.ratios()) / 256.0;
+        if (quick == 0) continue;
+        ++told;
+        // Known alternatives may be counted twice there, and the sum is rounded up to a power of
+        // two.
+        EXPECT_GE(quick, alternatives_log2(c.profile, c.ratios()) - 2)
+            << "case " << i << ", seed " << kSeed;
+    }
+    EXPECT_GE(told, 40) << "seed " << kSeed;
+}
+
+TEST(QuickAlternatives, FewLinesOrWeakOddsDoNotTell) {
+    Rng rng(kSeed);
+    for (int lines = 1; lines <= 5; ++lines) {
+        RatiosCase c = at_random_place(rng, lines);
+        for (const int own : c.rolls)
+            c.storage.push_back(scored_line(own, 20, 0, 127, rng));
+        c.odds_q8 = 8 * 256;
+        EXPECT_EQ(quick_alternatives_log2_q8(c.ratios()), 0) << lines;
+    }
+    RatiosCase c = at_random_place(rng, 17);
+    for (const int own : c.rolls)
+        c.storage.push_back(scored_line(own, 12, 0, 127, rng));
+    c.odds_q8 = 8;
+    EXPECT_EQ(quick_alternatives_log2_q8(c.ratios()), 0);
+    // The same lines with odds of 2^8 for a full bit leave next to none.
+    c.odds_q8 = 8 * 256;
+    EXPECT_LT(quick_alternatives_log2_q8(c.ratios()), -30 * 256);
+}
+
+}  // namespace
+}  // namespace dotpose::core_test

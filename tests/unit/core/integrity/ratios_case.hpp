@@ -1,0 +1,120 @@
+// Lines as they are read, for the tests of what is counted of alternatives.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "../../code/reference.hpp"
+#include "core/decode/correlation.hpp"
+#include "core/integrity/likelihood_ratios.hpp"
+#include "dotpose/tools/random.hpp"
+
+namespace dotpose::core_test {
+
+using namespace core;
+
+/// Lines of the code from some position, read with some odds.
+struct RatiosCase {
+    Profile profile;
+    std::uint32_t position;
+    std::vector<int> rolls;
+    std::vector<ScoredLine> storage;
+    int odds_q8;
+
+    Lines lines() const { return {storage}; }
+    AxisReading reading() const { return {position, static_cast<std::uint8_t>(rolls[0]), 0, 0}; }
+    LikelihoodRatios ratios() const { return {profile, lines(), reading(), odds_q8}; }
+};
+
+/// A line of `bits` bits of the main sequence, `wrong` of which are flipped, with weights up to
+/// `most`.
+inline ScoredLine scored_line(int roll, int bits, double wrong, int most, Rng& rng) {
+    std::vector<std::int8_t> weights;
+    for (int i = 0; i < bits; ++i) {
+        const int weight = most - static_cast<int>(rng.below(static_cast<std::uint32_t>(most) / 2));
+        const bool is_one =
+            (code_test::digit_at(code_test::kMainText, static_cast<std::uint64_t>(roll + i)) ==
+             1) != (rng.uniform() < wrong);
+        weights.push_back(static_cast<std::int8_t>(is_one ? weight : -weight));
+    }
+    ScoredLine line;
+    correlate(weights, line.scores);
+    line.best = best_score(line.scores);
+    return line;
+}
+
+/// Without its lines.
+inline RatiosCase at_random_place(Rng& rng, int lines) {
+    RatiosCase c;
+    c.profile = code_test::kProfiles[rng.below(3)];
+    c.position = rng.below(kPositionsPerAxis);
+    int here = static_cast<int>(rng.below(kSections));
+    for (int line = 0; line < lines; ++line) {
+        c.rolls.push_back(here);
+        here = (here + code_test::reference_delta(
+                           c.profile, std::uint64_t{c.position} + static_cast<unsigned>(line))) %
+               63;
+    }
+    return c;
+}
+
+/// Some lines of 6 to 11 bits, a tenth of them wrong.
+inline RatiosCase read_at_random(Rng& rng, int lines) {
+    RatiosCase c = at_random_place(rng, lines);
+    c.odds_q8 = 3 * 256;
+    for (const int roll : c.rolls)
+        c.storage.push_back(scored_line(roll, 6 + static_cast<int>(rng.below(6)), 0.1, 127, rng));
+    return c;
+}
+
+/// Which place of each sequence a position has.
+using PlacesOfAlternative = std::array<std::uint32_t, 4>;
+
+inline PlacesOfAlternative own_places(const RatiosCase& c) {
+    const auto texts = code_test::secondary_texts(c.profile);
+    PlacesOfAlternative places;
+    for (std::size_t k = 0; k < places.size(); ++k)
+        places[k] = static_cast<std::uint32_t>(c.position % texts[k].size());
+    return places;
+}
+
+/// Rolls of the lines from these places on, the line `shared` as the reading has it.
+inline std::vector<int> rolls_from(const RatiosCase& c, const PlacesOfAlternative& places,
+                                   std::size_t shared) {
+    const auto texts = code_test::secondary_texts(c.profile);
+    std::vector<int> rolls{0};
+    for (std::size_t line = 0; line + 1 < c.rolls.size(); ++line) {
+        int step = 5;
+        for (std::size_t k = 0; k < places.size(); ++k) {
+            step += code_test::kWeights[k] * (texts[k][(places[k] + line) % texts[k].size()] - '0');
+        }
+        rolls.push_back((rolls.back() + step) % 63);
+    }
+    const int further = c.rolls[shared] - rolls[shared] + 63;
+    for (int& roll : rolls)
+        roll = (roll + further) % 63;
+    return rolls;
+}
+
+/// Odds of a position with these rolls against the one read, and of none less than negligible.
+inline double odds_of_rolls(const RatiosCase& c, const std::vector<int>& rolls) {
+    double lost = 0;
+    for (std::size_t line = 0; line < rolls.size(); ++line) {
+        const LineScores& scores = c.storage[line].scores;
+        lost += scores[static_cast<std::size_t>(c.rolls[line])] -
+                scores[static_cast<std::size_t>(rolls[line])];
+    }
+    return std::max(std::exp2(-lost * c.odds_q8 / 256 / 254), 0x1p-64);
+}
+
+/// The first line of which both have the same roll.
+inline std::size_t first_shared(const RatiosCase& c, const std::vector<int>& rolls) {
+    std::size_t line = 0;
+    while (line < rolls.size() && rolls[line] != c.rolls[line])
+        ++line;
+    return line;
+}
+
+}  // namespace dotpose::core_test

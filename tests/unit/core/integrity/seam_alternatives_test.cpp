@@ -1,0 +1,193 @@
+// Seam alternatives against a sum over all places, borders and shifts in double precision.
+#include "core/integrity/seam_alternatives.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "ratios_case.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+constexpr std::uint64_t kSeed = 57;
+constexpr double kSeamLog2 = -32;
+constexpr double kLeastLog2 = -8;
+
+/// A place in a sequence, by the shift that it gives each line over that of the reading.
+struct Alternative {
+    std::size_t sequence;
+    std::size_t place;
+    std::vector<int> offsets;
+};
+
+int modulo_63(int n) {
+    return (n % 63 + 63) % 63;
+}
+
+std::vector<Alternative> all_alternatives(const RatiosCase& c) {
+    std::vector<Alternative> alternatives;
+    const auto texts = code_test::secondary_texts(c.profile);
+    for (std::size_t k = 0; k < texts.size(); ++k) {
+        const std::size_t length = texts[k].size();
+        for (std::size_t place = 0; place < length; ++place) {
+            if (place == c.position % length) continue;
+            Alternative alternative{k, place, {0}};
+            for (std::size_t line = 0; line + 1 < c.rolls.size(); ++line) {
+                const int step = code_test::digit_at(texts[k], place + line) -
+                                 code_test::digit_at(texts[k], c.position % length + line);
+                alternative.offsets.push_back(
+                    modulo_63(alternative.offsets.back() + code_test::kWeights[k] * step));
+            }
+            alternatives.push_back(alternative);
+        }
+    }
+    return alternatives;
+}
+
+/// What an alternative loses in the lines [first, end) at the best shift at which it shares any in
+/// view.
+double least_loss(const RatiosCase& c, const Alternative& alternative, std::size_t first,
+                  std::size_t end) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const int shared : alternative.offsets) {
+        double lost = 0;
+        for (std::size_t line = first; line < end; ++line) {
+            const int own = c.rolls[line];
+            const int other = modulo_63(own + alternative.offsets[line] - shared);
+            lost += c.storage[line].scores[static_cast<std::size_t>(own)] -
+                    c.storage[line].scores[static_cast<std::size_t>(other)];
+        }
+        least = std::min(least, lost);
+    }
+    return least;
+}
+
+struct Sum {
+    double odds = 0;
+    int terms = 0;
+};
+
+/// Over all alternatives and borders whose odds are not too small to count.
+Sum sum_of_all(const RatiosCase& c) {
+    Sum sum;
+    for (const Alternative& alternative : all_alternatives(c)) {
+        for (std::size_t border = 1; border < c.rolls.size(); ++border) {
+            const double lost = least_loss(c, alternative, 0, border) +
+                                least_loss(c, alternative, border, c.rolls.size());
+            // A score is twice the weight that changes sides.
+            const double odds = -lost / 2 / 127 * c.odds_q8 / 256;
+            if (odds <= kLeastLog2) continue;
+            sum.odds += std::exp2(odds + kSeamLog2);
+            ++sum.terms;
+        }
+    }
+    return sum;
+}
+
+/// As many clear lines of 10 to 16 bits.
+RatiosCase clear_lines(Rng& rng, int lines) {
+    RatiosCase c = at_random_place(rng, lines);
+    for (const int own : c.rolls)
+        c.storage.push_back(scored_line(own, 10 + static_cast<int>(rng.below(7)), 0, 127, rng));
+    c.odds_q8 = 7 * 256;
+    return c;
+}
+
+TEST(SeamAlternatives, AreAllThatExplainTheLinesAboutAsWell) {
+    Rng rng(kSeed);
+    int some = 0;
+    int none = 0;
+    for (int i = 0; i < 250; ++i) {
+        SCOPED_TRACE(testing::Message() << "case " << i << ", seed " << kSeed);
+        RatiosCase c = at_random_place(rng, 6 + static_cast<int>(rng.below(12)));
+        const double wrong = rng.uniform(0, 0.1);
+        for (const int own : c.rolls) {
+            // Some lines show little, or the roll of no line nearby.
+            const int shown = rng.below(15) == 0 ? static_cast<int>(rng.below(63)) : own;
+            const int bits = rng.below(3) == 0 ? 3 : 6 + static_cast<int>(rng.below(10));
+            c.storage.push_back(scored_line(shown, bits, wrong, 127, rng));
+        }
+        c.odds_q8 = static_cast<int>(256 * rng.uniform(2, 8));
+        // Odds at the limit are counted or not, as they are rounded.
+        const double limit = std::exp2(kSeamLog2 + kLeastLog2);
+        const double counted = std::exp2(seam_alternatives_log2_q8(c.ratios()) / 256.0);
+        const Sum sum = sum_of_all(c);
+        const double log2_ratio = std::log2((counted + limit) / (sum.odds + limit));
+        EXPECT_GE(log2_ratio, -0.1);
+        // Every addition rounds up.
+        EXPECT_LE(log2_ratio, 0.1 + sum.terms * 0.012);
+        ++(sum.terms > 0 ? some : none);
+    }
+    EXPECT_GE(some, 30) << "seed " << kSeed;
+    EXPECT_GE(none, 30) << "seed " << kSeed;
+}
+
+TEST(SeamAlternatives, ASeamExplainsTenLinesAsWell) {
+    // Four steps, one at which the digits differ, and four steps.
+    constexpr std::size_t kLines = 10;
+    constexpr std::size_t kBorder = 5;
+    Rng rng(kSeed);
+    int seams = 0;
+    for (int i = 0; i < 400; ++i) {
+        SCOPED_TRACE(testing::Message() << "case " << i << ", seed " << kSeed);
+        const RatiosCase c = clear_lines(rng, kLines);
+        const std::vector<Alternative> alternatives = all_alternatives(c);
+        const auto count = std::count_if(
+            alternatives.begin(), alternatives.end(), [&](const Alternative& alternative) {
+                return std::count(alternative.offsets.begin(),
+                                  alternative.offsets.begin() + kBorder, 0) == kBorder &&
+                       std::count(alternative.offsets.begin() + kBorder, alternative.offsets.end(),
+                                  alternative.offsets.back()) == kLines - kBorder;
+            });
+        if (count == 0 || c.profile == Profile::libdots) continue;
+        ++seams;
+        EXPECT_NEAR(seam_alternatives_log2_q8(c.ratios()) / 256.0,
+                    kSeamLog2 + std::log2(static_cast<double>(count)), 0.1);
+    }
+    EXPECT_GE(seams, 10) << "seed " << kSeed;
+}
+
+TEST(SeamAlternatives, NoneExplainsManyClearLines) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 300; ++i) {
+        SCOPED_TRACE(testing::Message() << "case " << i << ", seed " << kSeed);
+        const RatiosCase c = clear_lines(rng, 16 + static_cast<int>(rng.below(49)));
+        EXPECT_EQ(seam_alternatives_log2_q8(c.ratios()), kNever_q8);
+    }
+}
+
+TEST(SeamAlternatives, WhatTheLinesShowBetterIsDoubt) {
+    // Five lines on either side of the border are shared, and in one more the frame shows the
+    // alternative.
+    Rng rng(kSeed);
+    int shown = 0;
+    for (int i = 0; i < 2000; ++i) {
+        SCOPED_TRACE(testing::Message() << "case " << i << ", seed " << kSeed);
+        RatiosCase c = at_random_place(rng, 12);
+        c.odds_q8 = 5 * 256;
+        for (const Alternative& alternative : all_alternatives(c)) {
+            const auto shares = [&](std::ptrdiff_t first) {
+                const auto begin = alternative.offsets.begin() + first;
+                return std::count(begin, begin + 5, *begin) == 5;
+            };
+            if (!shares(1) || !shares(6)) continue;
+            for (std::size_t line = 0; line < c.rolls.size(); ++line) {
+                const int shift = alternative.offsets[line] - alternative.offsets[line < 6 ? 1 : 6];
+                c.storage.push_back(scored_line(modulo_63(c.rolls[line] + shift), 12, 0, 127, rng));
+            }
+            const double gained =
+                -(least_loss(c, alternative, 0, 6) + least_loss(c, alternative, 6, 12)) / 2 / 127 *
+                5;
+            EXPECT_GE(seam_alternatives_log2_q8(c.ratios()) / 256.0, kSeamLog2 + gained - 0.1);
+            shown += gained > 5;
+            break;
+        }
+    }
+    EXPECT_GE(shown, 10) << "seed " << kSeed;
+}
+
+}  // namespace
+}  // namespace dotpose::core_test

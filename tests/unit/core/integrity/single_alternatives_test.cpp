@@ -1,0 +1,44 @@
+// Single alternatives against a sum over all of them in double precision.
+#include "core/integrity/single_alternatives.hpp"
+
+#include <gtest/gtest.h>
+
+#include "ratios_case.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+constexpr std::uint64_t kSeed = 51;
+
+double exact_sum(const RatiosCase& c) {
+    const auto texts = code_test::secondary_texts(c.profile);
+    double sum = 0;
+    for (std::size_t k = 0; k < texts.size(); ++k) {
+        PlacesOfAlternative places = own_places(c);
+        const std::uint32_t own = places[k];
+        for (places[k] = 0; places[k] < texts[k].size(); ++places[k]) {
+            if (places[k] == own) continue;
+            for (std::size_t shared = 0; shared < c.rolls.size(); ++shared) {
+                const auto rolls = rolls_from(c, places, shared);
+                if (first_shared(c, rolls) == shared) sum += odds_of_rolls(c, rolls);
+            }
+        }
+    }
+    return sum;
+}
+
+TEST(SingleAlternatives, AreSummedOneByOne) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 30; ++i) {
+        const RatiosCase c = read_at_random(rng, 6 + i % 9);
+        const LikelihoodRatios ratios = c.ratios();
+        const double sum = static_cast<double>(sum_of_single_alternatives(RankedLines(ratios)));
+        const double exact = exact_sum(c);
+        // Powers of two are exact to 2 %; what is hopeless counts once for every line it shares.
+        EXPECT_GE(sum, 0.97 * exact) << i << ", seed " << kSeed;
+        EXPECT_LE(sum, 1.04 * exact + 737 * 15 * 0x1p-64) << i << ", seed " << kSeed;
+    }
+}
+
+}  // namespace
+}  // namespace dotpose::core_test

@@ -1,0 +1,118 @@
+// Lists of similar places against plain computations of the same.
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <set>
+#include <vector>
+
+#include "core/kernels/kernels.hpp"
+#include "random_inputs.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+using namespace core;
+
+/// Places of the four sequences, and an alternative's offsets in one of them.
+struct OwnPlaces {
+    const code::Basis& basis;
+    std::array<std::uint32_t, 4> own;
+
+    explicit OwnPlaces(Rng& rng) : basis(code::basis(static_cast<Profile>(rng.below(3)))) {
+        for (std::size_t k = 0; k < own.size(); ++k)
+            own[k] = rng.below(basis[k].length);
+    }
+    int offsets(std::size_t k, std::uint32_t place, int line) const {
+        return (basis[k].rolls[place + static_cast<std::uint32_t>(line)] -
+                basis[k].rolls[own[k] + static_cast<std::uint32_t>(line)] + 63) %
+               63;
+    }
+};
+
+TEST(KernelsAlternatives, SimilarPlacesLoseTooLittleByTheirSteps) {
+    int count = 0;
+    repeat_with_each_form(50, [&](const Kernels& kernels, Rng& rng) {
+        const OwnPlaces places(rng);
+        StepLosses steps;
+        steps.count = whole(rng, 0, 63);
+        for (std::uint8_t& parts : steps.parts)
+            parts = static_cast<std::uint8_t>(std::min(whole(rng, 0, 9), StepLosses::kEnough));
+        for (std::size_t k = 0; k < 4; ++k) {
+            const code::Secondary& a = places.basis[k];
+            const PlaceBits similar = kernels.find_similar_places(a, places.own[k], steps);
+            for (std::uint32_t place = 0; place < 256; ++place) {
+                const bool is_similar = (similar[place / 32] >> place % 32 & 1) != 0;
+                if (place >= a.length || place == places.own[k]) {
+                    ASSERT_FALSE(is_similar);
+                    continue;
+                }
+                // All steps that differ, though no two in a row: more than that cannot be counted.
+                int most = 0;
+                int most_before = 0;
+                for (int step = 0; step < steps.count; ++step) {
+                    const auto at = static_cast<std::uint32_t>(step);
+                    const bool differ = a.digits[(place + at) % a.length] !=
+                                        a.digits[(places.own[k] + at) % a.length];
+                    const int with_this = most_before + (differ ? steps.parts[at] : 0);
+                    most_before = most;
+                    most = std::max(most, with_this);
+                }
+                if (most >= StepLosses::kEnough) continue;
+                ASSERT_TRUE(is_similar) << k << ' ' << place;
+                ++count;
+            }
+        }
+    });
+    EXPECT_GT(count, 1000);
+}
+
+TEST(KernelsAlternatives, ListHasAllPlacesThatLoseTooLittle) {
+    int listed = 0;
+    repeat_with_each_form(50, [&](const Kernels& kernels, Rng& rng) {
+        const OwnPlaces places(rng);
+        std::vector<LineLoss> lines;
+        const int count = whole(rng, 8, 40);
+        for (int line = 0; line < count; ++line)
+            lines.push_back(
+                {static_cast<std::uint8_t>(line), static_cast<std::uint8_t>(whole(rng, 1, 4))});
+        std::stable_sort(lines.begin(), lines.end(),
+                         [](LineLoss a, LineLoss b) { return a.loss > b.loss; });
+        const int enough = whole(rng, 4, 14);
+        SimilarPlaceList list;
+        const auto sequences = static_cast<unsigned>(whole(rng, 1, 15));
+        if (!kernels.list_similar_places(places.basis, places.own, sequences, lines, enough, list))
+            return;
+        std::set<std::array<int, 3>>
+            found;  // sequence, place and the shift at which it is like the reading
+        for (const auto& [k, place, line] :
+             std::span(list.places).first(static_cast<std::size_t>(list.count)))
+            found.insert({k, place, places.offsets(k, place, line)});
+        for (std::size_t k = 0; k < 4; ++k) {
+            if ((sequences >> k & 1) == 0) {
+                const auto is_of_it = [&](const auto& alternative) {
+                    return alternative[0] == static_cast<int>(k);
+                };
+                ASSERT_TRUE(std::ranges::none_of(found, is_of_it)) << k;
+                continue;
+            }
+            for (std::uint32_t place = 0; place < places.basis[k].length; ++place) {
+                if (place == places.own[k]) continue;
+                for (int shift = 0; shift < 63; ++shift) {
+                    int lost = 0;
+                    for (const auto& [line, loss] : lines)
+                        lost += places.offsets(k, place, line) == shift ? 0 : loss;
+                    const std::array<int, 3> alternative{static_cast<int>(k),
+                                                         static_cast<int>(place), shift};
+                    // It may have others, too: a shift is looked at from its own line on.
+                    if (lost >= enough) continue;
+                    ASSERT_TRUE(found.count(alternative) > 0) << k << ' ' << place << ' ' << shift;
+                    ++listed;
+                }
+            }
+        }
+    });
+    EXPECT_GT(listed, 100);
+}
+
+}  // namespace
+}  // namespace dotpose::core_test
