@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "dotpose/tools/image_file.hpp"
-#include "locate_command.hpp"
+#include "sheets_command.hpp"
 
 namespace dotpose::test {
 namespace {
@@ -20,7 +20,6 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-using testing::StartsWith;
 
 constexpr double kPi = std::numbers::pi;
 
@@ -28,27 +27,7 @@ constexpr double kPi = std::numbers::pi;
 // is right to 0.001 mm; 0.02 mm is also what a wrong half pixel of the camera would show.
 constexpr double kTolerance_mm = 0.02;
 
-class SheetFiles : public LocateCommand {
-  protected:
-    int print(const std::string& arguments) { return ToolCommand::run("print " + arguments); }
-    json sheets() const { return json::parse(read_file(directory_ / "sheets.json"))["sheets"]; }
-
-    /// As a user does it, with an editor.
-    template <typename Edit>
-    void edit_sheet(std::size_t index, const Edit& edit) const {
-        json document = json::parse(read_file(directory_ / "sheets.json"));
-        edit(document["sheets"].at(index));
-        write("sheets.json", document.dump());
-    }
-
-    /// One record, of the image given.
-    json locate_with_sheets(const GreyImage& image) {
-        write_pgm(directory_ / "frame.pgm", image.view());
-        run("--sheets sheets.json frame.pgm");
-        EXPECT_EQ(exit_code_, 0) << errors_;
-        return records().at(0);
-    }
-};
+using SheetFiles = SheetsCommand;
 
 /// A nominal frame of a place on a page, given in mm of the page; only the numbers of the sheet
 /// file say where on the code plane that is.
@@ -270,129 +249,6 @@ TEST_F(SheetFiles, a_frame_of_two_sheets_is_never_on_the_wrong_one) {
     // Frames reach 280 printer pixels to both sides; the dots of b begin 430 from its edge.
     EXPECT_GE(on_a, 8);
     EXPECT_GE(on_b, 12);
-}
-
-TEST_F(SheetFiles, a_refused_or_failed_print_changes_nothing) {
-    ASSERT_EQ(print("-o a.svg --paper 40x40 --sheets sheets.json --name a"), 0);
-    const std::string before = read_file(directory_ / "sheets.json");
-    const struct {
-        const char* arguments;
-        int exit_code;
-        const char* problem;
-    } wrong[] = {
-        {"-o b.svg --sheets sheets.json --name a", 2, "there already is a sheet 'a'"},
-        {"-o b.svg --sheets sheets.json --name b --origin 1050,1050", 2,
-         "sheet 'b' would share cells with sheet 'a', which has 1024,1024 to"},
-        {"-o b.svg --sheets sheets.json", 2, "--sheets requires --name"},
-        {"-o b.svg --name b", 2, "--name requires --sheets"},
-        {"-o b.svg --sheets sheets.json --name ''", 2, "a name that is not empty"},
-        {"-o b.svg --sheets '' --name b", 2, "--sheets"},
-        {"-o b.jpg --sheets sheets.json --name b", 2, "the name must end in"},
-        {"-o b.png --dpi 100 --sheets sheets.json --name b", 2, "100 dpi is too low"},
-        {"-o missing/b.svg --sheets sheets.json --name b", 1, "cannot create missing/b.svg"},
-        {"-o b.svg --sheets missing/sheets.json --name b", 1, "cannot lock missing/sheets.json"},
-        {"-o b.svg --sheets a.svg --name b", 1, "a.svg is no sheet file"},
-    };
-    for (const auto& [arguments, exit_code, problem] : wrong) {
-        EXPECT_EQ(print(arguments), exit_code) << arguments;
-        EXPECT_THAT(errors_, StartsWith("dotpose: ")) << arguments;
-        EXPECT_THAT(errors_, HasSubstr(problem)) << arguments;
-        EXPECT_EQ(read_file(directory_ / "sheets.json"), before) << arguments;
-        EXPECT_FALSE(fs::exists(directory_ / "b.svg")) << arguments;
-        EXPECT_FALSE(fs::exists(directory_ / ".sheets.json.lock")) << arguments;
-    }
-    ASSERT_EQ(print("-o b.svg --paper 40x40 --sheets sheets.json --name b --origin 7,9"), 0);
-    EXPECT_EQ(sheets().at(1)["origin_x"], 7);
-    EXPECT_EQ(sheets().at(1)["origin_y"], 9);
-}
-
-TEST_F(SheetFiles, an_interrupted_print_adds_no_sheet) {
-    ASSERT_EQ(print("-o a.svg --paper 40x40 --sheets sheets.json --name a"), 0);
-    const std::string before = read_file(directory_ / "sheets.json");
-    // A page that would take minutes.
-    const int status = print(
-        "-o huge.png --paper 20000x20000 --dpi 1200 --sheets sheets.json --name b & tool=$!; "
-        "until ls -A | grep huge > during || ! kill -0 $tool; do sleep 0.02; done; "
-        "kill $tool; wait $tool");
-    EXPECT_EQ(status, 1);
-    EXPECT_THAT(read_file(directory_ / "during"), HasSubstr(".huge.png."));
-    EXPECT_EQ(read_file(directory_ / "sheets.json"), before);
-    EXPECT_FALSE(fs::exists(directory_ / "huge.png"));
-    EXPECT_FALSE(fs::exists(directory_ / ".sheets.json.lock"));
-}
-
-TEST_F(SheetFiles, no_page_is_written_where_its_entry_cannot_be) {
-    ASSERT_EQ(shell("$T print -o in.pdf --paper 40x40 && mkdir folder.json"), 0) << errors_;
-    const struct {
-        const char* command;
-        const char* problem;
-    } wrong[] = {
-        {"$T print -o new.svg --paper 40x40 --sheets folder.json --name a", "Is a directory"},
-        {"$T overlay in.pdf -o new.svg --sheets folder.json --name a", "Is a directory"},
-        // As on a full disk: no file grows beyond 512 bytes, and an entry has more.
-        {"(trap '' XFSZ; ulimit -f 1; $T print -o new.svg --paper 30x20 --sheets s.json --name a)",
-         "cannot write s.json: File too large"},
-        {"$T print -o new.svg --paper 40x40 --sheets /proc/s.json --name a",
-         "cannot lock /proc/s.json"},
-    };
-    for (const auto& [command, problem] : wrong) {
-        EXPECT_EQ(shell(command), 1) << command;
-        EXPECT_THAT(errors_, HasSubstr(problem)) << command;
-        EXPECT_EQ(shell("ls -A"), 0);
-        EXPECT_EQ(output_, "folder.json\nin.pdf\n") << command;
-    }
-}
-
-TEST_F(SheetFiles, a_page_that_cannot_be_written_leaves_no_entry) {
-    // The entry has some 700 bytes, and the page more than the 2 KB that a file may have.
-    EXPECT_EQ(
-        shell("trap '' XFSZ; ulimit -f 4; $T print -o a.svg --paper 40x40 --sheets sheets.json "
-              "--name a"),
-        1);
-    EXPECT_THAT(errors_, HasSubstr("cannot write a.svg: File too large"));
-    EXPECT_EQ(shell("ls -A"), 0);
-    EXPECT_THAT(output_, IsEmpty());
-}
-
-TEST_F(SheetFiles, waiting_for_others_is_told_and_ends) {
-    EXPECT_EQ(
-        shell("(exec 9>.sheets.json.lock; flock 9; echo > locked; exec sleep 60) & holder=$!; "
-              "until [ -e locked ]; do sleep 0.01; done; "
-              "$T print -o a.svg --paper 40x40 --sheets sheets.json --name a --wait 0.1; "
-              "code=$?; kill $holder; wait $holder; exit $code"),
-        1);
-    EXPECT_THAT(errors_, HasSubstr("waiting for another program that is changing sheets.json"));
-    EXPECT_THAT(errors_, HasSubstr("another program has been changing it for 0.1 s"));
-    EXPECT_FALSE(fs::exists(directory_ / "a.svg"));
-    EXPECT_EQ(print("-o a.svg --paper 40x40 --wait 1"), 2);
-    EXPECT_THAT(errors_, HasSubstr("--wait requires --sheets"));
-}
-
-TEST_F(SheetFiles, whoever_is_killed_leaves_no_page_without_its_entry) {
-    ASSERT_EQ(shell("for i in 1 2 3 4 5 6 7 8 9 10 11 12; do timeout -s KILL 0.0$((i * 7 + 10)) "
-                    "$T print -o n$i.svg --paper 40x40 --sheets sheets.json --name n$i; done; "
-                    "$T print -o last.svg --paper 40x40 --sheets sheets.json --name last"),
-              0)
-        << errors_;
-    std::vector<std::string> names;
-    for (const json& sheet : sheets())
-        names.push_back(sheet["name"]);
-    EXPECT_THAT(names, testing::Contains("last"));
-    for (const auto& entry : fs::directory_iterator(directory_)) {
-        if (entry.path().extension() != ".svg") continue;
-        EXPECT_THAT(names, testing::Contains(entry.path().stem().string()));
-    }
-}
-
-TEST_F(SheetFiles, prints_at_the_same_time_all_get_regions_of_their_own) {
-    ASSERT_EQ(shell("for i in 1 2 3 4 5 6 7 8; do $T print -o $i.svg --paper 40x40 "
-                    "--sheets sheets.json --name n$i & done; wait"),
-              0);
-    std::vector<std::uint32_t> origins;
-    for (const json& sheet : sheets())
-        origins.push_back(sheet["origin_x"]);
-    // Twice the gap of 1024 would be 8 regions in two rows; they stand in one, 59 columns each.
-    EXPECT_THAT(origins, ElementsAre(1024, 2107, 3190, 4273, 5356, 6439, 7522, 8605));
 }
 
 TEST_F(SheetFiles, locate_refuses_wrong_usage_and_bad_files) {
