@@ -1,8 +1,10 @@
-/// The position code: which symbol stands where on the plane, and the way back.
+/// Position code: which symbol stands at which grid intersection, and which position a window of
+/// symbols stands at.
 ///
 /// Paper section II-A. Every column of the pattern carries the cyclic *main* sequence downwards,
 /// started at an offset, its *roll*; the rolls of adjacent columns differ by 5 to 58, and the
-/// differences spell the column's position in four coprime cyclic sequences. Rows carry y alike.
+/// differences spell the column's position in four coprime cyclic sequences. Rows spell y in the
+/// same way.
 ///
 /// Frame: x to the right, y DOWN, as the printed page is read. All functions are pure and
 /// thread-safe; none allocates.
@@ -17,36 +19,39 @@
 
 namespace dotpose {
 
-/// Positions per axis before the four difference sequences line up again: 236 * 233 * 31 * 241.
+/// Number of positions per axis before the four difference sequences line up again: 236 * 233 * 31
+/// * 241.
 inline constexpr std::uint32_t kPositionsPerAxis = 410'815'348;
 /// Length of the main sequence, and so the number of sections per axis.
 inline constexpr int kSections = 63;
 
-/// Which sequence a4 the sheet was printed with.
+/// The sequence a4 that the sheet was printed with.
 enum class Profile : std::uint8_t {
-    anoto,    ///< restored a4: unambiguous on the whole plane; for everything new
+    anoto,    ///< a4 as restored in the paper: unambiguous on the whole plane; for everything new
     libdots,  ///< misprinted a4 of the patent, as libdots and other open tools print it; needs 8 x
               ///< 8 symbols
     microdots,            ///< another a4, as printed by py-microdots and its ports
-    published = libdots,  ///< its earlier name
+    published = libdots,  ///< earlier name of `libdots`
 };
 inline constexpr int kProfileCount = 3;
 
-/// A grid intersection; each coordinate in [0, kPositionsPerAxis).
+/// A grid intersection by column x and row y; each in [0, kPositionsPerAxis).
 struct Cell {
     std::uint32_t x = 0;
     std::uint32_t y = 0;
     friend constexpr bool operator==(const Cell&, const Cell&) = default;
 };
 
-/// The offsets (the paper's "sector") at which column 0 and row 0 start; each in [0, 63).
+/// The offsets (the paper's "sector") at which the main sequence starts in column 0 (u) and in row
+/// 0 (v); each in [0, 63).
 struct Section {
     std::uint8_t u = 0;
     std::uint8_t v = 0;
     friend constexpr bool operator==(const Section&, const Section&) = default;
 };
 
-/// Where the dot lies from its grid intersection. Bit 0 is the x bit, bit 1 the y bit.
+/// The direction in which a dot is displaced from its intersection. Bit 0 is the x bit, bit 1 the y
+/// bit.
 enum class Symbol : std::uint8_t { up = 0, left = 1, right = 2, down = 3 };
 
 constexpr Symbol make_symbol(int x_bit, int y_bit) {
@@ -58,61 +63,65 @@ constexpr int x_bit(Symbol symbol) {
 constexpr int y_bit(Symbol symbol) {
     return static_cast<int>(symbol) >> 1 & 1;
 }
-/// Displacement of the dot in units of the displacement length: -1, 0 or 1; y is down.
+/// Displacement of the dot along x, in units of the displacement length: -1, 0 or 1.
 constexpr int dx(Symbol symbol) {
     return y_bit(symbol) - x_bit(symbol);
 }
+/// Displacement of the dot along y (down), in units of the displacement length: -1, 0 or 1.
 constexpr int dy(Symbol symbol) {
     return x_bit(symbol) + y_bit(symbol) - 1;
 }
-/// 'u', 'l', 'r' or 'd'.
+/// Returns 'u', 'l', 'r' or 'd'.
 constexpr char letter(Symbol symbol) {
     return "ulrd"[static_cast<int>(symbol) & 3];
 }
 
-/// Difference of the rolls of column p + 1 and column p, in [5, 58]. p in [0, kPositionsPerAxis).
+/// Returns the difference of the rolls of columns p + 1 and p, in [5, 58]; p in [0,
+/// kPositionsPerAxis).
 int delta(Profile profile, std::uint32_t p) noexcept;
 
-/// Offset of the main sequence in column (or row) p of section 0, in [0, 63), in O(1).
-/// `p` may exceed kPositionsPerAxis: the pattern continues, with other rolls than from 0.
+/// Returns the offset of the main sequence in column (or row) p of section 0, in [0, 63), in O(1).
+/// `p` may exceed kPositionsPerAxis: the pattern continues there, with other rolls than from 0.
 int roll(Profile profile, std::uint32_t p) noexcept;
 
-/// One bit of the main sequence; any index >= 0, cyclic.
+/// Returns one bit of the cyclic main sequence; any index >= 0.
 int main_bit(std::uint32_t index) noexcept;
 
-/// The symbol at one intersection, in O(1). For whole pages take `roll` once per column and row.
+/// Returns the symbol at one intersection, in O(1). For whole pages, call `roll` once per column
+/// and row instead.
 Symbol symbol_at(Profile profile, Cell cell, Section section) noexcept;
 
 /// A rectangle of symbols, row by row; 6 to 32 columns and rows.
 struct Window {
-    std::span<const Symbol> symbols;  ///< columns * rows of them
+    std::span<const Symbol> symbols;  ///< columns * rows symbols
     int columns = 0;
     int rows = 0;
 };
 
-/// Where the top left symbol of a window stands.
+/// Where the top left symbol of a window stands in the code.
 struct Place {
     Cell cell;
     Section section;
     friend constexpr bool operator==(const Place&, const Place&) = default;
 };
 
-/// The place (dx, dy) intersections on; |dx|, |dy| < kPositionsPerAxis. Past either end of an axis
-/// the pattern continues at the other end in other sections, and so does the result.
+/// Returns the place (dx, dy) intersections away; |dx|, |dy| < kPositionsPerAxis. Past either end
+/// of an axis the pattern continues at the other end in another section, and so does the result.
 Place moved(Profile profile, Place place, std::int32_t dx, std::int32_t dy) noexcept;
 
-/// Decodes an error-free, upright window. Exact: `place` is set only if the code carries this very
+/// Decodes an error-free, upright window. `place` is set only if the code carries exactly this
 /// window there and nowhere else.
 /// Errors: bad_window (not 6 to 32 columns and rows), not_in_code, ambiguous (profile `libdots`
 /// only: windows under 8 x 8 may stand at several places).
 Status decode(Profile profile, const Window& window, Place& place) noexcept;
 
-/// Position of the first column (or row) from the rolls of 6 to 32 consecutive ones, each in
-/// [0, 63) and all read from the same row (column). Errors as in `decode`.
+/// Finds the position of the first column (or row) from the rolls of 6 to 32 consecutive ones, each
+/// in [0, 63) and all read from the same row (column). Errors as of `decode`.
 Status position_from_rolls(Profile profile, std::span<const std::uint8_t> rolls,
                            std::uint32_t& position) noexcept;
 
-/// Section in which column (row) `position` shows `roll_seen` at row (column) `cross_position`.
+/// Returns the section, in [0, 63), in which column (row) `position` shows the roll `roll_seen` at
+/// row (column) `cross_position`.
 int section_of(Profile profile, int roll_seen, std::uint32_t position,
                std::uint32_t cross_position) noexcept;
 

@@ -1,6 +1,6 @@
-/// Code evidence: which profile a sheet was printed with, as far as frames tell. Profiles agree on
-/// most of the plane, so that many frames can be read in several of them, mostly at the same place
-/// and sometimes at places far apart. What one frame leaves open, others of the same sheet decide:
+/// Code evidence: which profile a sheet was printed with, as far as its frames tell. Profiles agree
+/// on most of the plane, so many frames can be read in several of them, mostly at the same place
+/// and sometimes at places far apart. What one frame leaves open, other frames of the sheet decide:
 ///
 ///     CodeEvidence evidence;
 ///     for (;;) {
@@ -23,67 +23,73 @@
 
 namespace dotpose {
 
-/// How likely each profile is for one sheet, by all frames of it so far. Frames of the same dots
-/// count once, since their faults are the same.
+/// How likely each profile is for one sheet, given all its frames so far. Frames that show the same
+/// dots count once, since they share the faults of these dots.
 class CodeEvidence {
   public:
-    /// Log odds of the profiles, log2 in 2^-8.
+    /// One value per profile: log2 of its likelihood or odds, in 2^-8.
     using LogOdds = std::array<std::int32_t, kProfileCount>;
 
-    /// Frames change a profile's odds against the likeliest one by at most this, in all; so frames
-    /// of another sheet can still tell that it is another one.
+    /// Most by which all frames together change a profile's odds against the likeliest one, as
+    /// log2. The limit lets frames of another sheet still show that the sheet has changed.
     static constexpr std::int32_t kMost_log2 = 40;
-    /// And those of one place by this: what spoils their dots is not independent.
+    /// Most by which the frames of one place change these odds, as log2: faults that spoil the same
+    /// dots are not independent.
     static constexpr std::int32_t kMostOfPlace_log2 = 32;
 
-    /// Nothing is known: all profiles are equally likely.
+    /// Starts with all profiles equally likely.
     CodeEvidence() = default;
 
+    /// Returns the profile with the highest odds.
     Profile likeliest() const;
-    /// Log odds against the likeliest, so at most 0.
+    /// Returns the log odds of a profile against the likeliest, in 2^-8 of log2; at most 0.
     std::int32_t log2_q8(Profile profile) const;
-    /// Probability, at most 1, that it is another profile.
+    /// Returns the probability, at most 1, that the sheet has another profile than this one.
     float p_wrong(Profile profile) const;
 
-    /// A frame at this cell was seen, whose bits have these likelihoods in the profiles.
+    /// Adds a frame located at `cell`, with log2 of the likelihood of its bits in each profile, in
+    /// 2^-8.
     void add(Cell cell, const LogOdds& log2_q8);
 
   private:
     LogOdds sum() const;
 
-    LogOdds before_log2_q8_{};  ///< of earlier places
-    LogOdds here_log2_q8_{};    ///< of the newest place, the least of its frames
+    LogOdds before_log2_q8_{};  ///< sum over the places before the newest
+    LogOdds here_log2_q8_{};    ///< newest place: the least of its frames
     Cell here_;
     std::uint32_t frames_here_ = 0;
 };
 
 /// The result of locating one frame whose profile is not given.
 struct CodeReading {
-    /// With status ambiguous_code, pose and counts are those of one of the two places.
+    /// With the status ambiguous_code, pose and counts are those of one of the two places.
     Fix fix;
-    Profile code = Profile::anoto;  ///< in which `fix` is
-    CodeEvidence evidence;          ///< with this frame
-    /// Another place that explains the frame, in another profile. Of a fix that is ok: its odds
-    /// against the fix are part of `p_wrong_log2`.
+    Profile code = Profile::anoto;  ///< profile in which `fix` was read
+    CodeEvidence evidence;          ///< evidence with this frame added
+    /// Whether a place in another profile explains the frame as well. If the fix is ok, the odds of
+    /// that place against the fix are part of `p_wrong_log2`.
     bool has_other = false;
     Profile other_code = Profile::anoto;
-    Cell other_cell{};  ///< as Fix::cell; fractions and angle are the same
+    Cell other_cell{};  ///< as Fix::cell; fractions and angle are those of `fix`
     Section other_section{};
 };
 
 class Locator;
 
-/// Locates frames of one sheet, in a profile that is given, or else found out from all of them.
+/// Locates the frames of one sheet, in a given profile or in the one that the frames show.
 class CodeReader {
   public:
     explicit CodeReader(std::optional<Profile> given = std::nullopt) : given_(given) {}
 
-    /// Locates the image. Afterwards the locator's options have the profile that was read.
+    /// Locates an image; afterwards the locator's options have the profile that was read. Errors
+    /// are those of Locator::locate, in the status.
     Fix locate(const ImageView& image, Locator& locator);
 
+    /// Whether the profile was given.
     bool is_given() const { return given_.has_value(); }
+    /// Returns the profile that was given, otherwise the likeliest one so far.
     Profile code() const { return given_.value_or(evidence_.likeliest()); }
-    /// Of the frames so far, where the profile is not given.
+    /// Returns the evidence of the frames so far; it counts only where no profile was given.
     const CodeEvidence& evidence() const { return evidence_; }
 
   private:

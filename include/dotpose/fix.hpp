@@ -1,4 +1,4 @@
-/// Fix: what one frame tells, with its evidence.
+/// Fix: the pose that one frame shows, with its evidence.
 #pragma once
 
 #include <cmath>
@@ -14,73 +14,77 @@
 
 namespace dotpose {
 
-/// The attempt of `locate` that made a fix: src/core/attempts has one file for each.
+/// The attempt of `locate` that made a fix; src/core/attempts has one file for each.
 enum class Attempt : std::uint8_t {
-    tracked,  ///< dots were measured where a prediction had them
-    first,    ///< from nothing
-    second,   ///< on the filtered image
-    device,   ///< in integers
+    tracked,  ///< dots were measured where a prediction expected them
+    first,    ///< without a prediction, from patches of the image
+    second,   ///< on the filtered image, after the first attempt failed
+    device,   ///< in integers, as on a microcontroller
 };
-/// The identifier, such as "tracked".
+/// Returns the identifier, such as "tracked".
 const char* name(Attempt attempt) noexcept;
 
-/// Whether the paper in view is one plane, as far as the dots show.
+/// Whether the paper in view is one plane, as far as the dots show it.
 enum class Surface : std::uint8_t {
-    even,     ///< one plane explains where they are
-    divided,  ///< a part is displaced against the rest; the pose is that of the part with the
-              ///< reference point
-    uneven,   ///< neighbouring dots are off alike, as on wrinkled paper; the covariance is widened
+    even,     ///< one plane explains all dots
+    divided,  ///< a part of the paper is displaced; the pose is that of the part with the reference
+              ///< point
+    uneven,   ///< neighbouring dots are displaced alike, as on wrinkled paper; the covariance is
+              ///< widened
 };
-/// The identifier, such as "divided".
+/// Returns the identifier, such as "divided".
 const char* name(Surface surface) noexcept;
 
-/// Result of Locator::locate. Unless `status` is ok only `status`, `dots_seen` and, as far as the
-/// frame got, the counts below it mean anything.
+/// Result of Locator::locate. Unless `status` is ok, only `status`, `dots_seen` and the counts of
+/// the stages that the frame reached are valid.
 ///
-/// The pose: the pattern point under the reference point (by default the image centre) is
-/// `cell + fraction` in units of the spacing; `theta` is the angle of the image x axis in the
-/// pattern frame, from +x towards +y (clockwise as seen on the paper, since y is down).
+/// The pose: the pattern point under the reference point (by default the image centre) is `cell +
+/// fraction` in units of the spacing; `theta` is the angle of the image x axis in the pattern
+/// frame, from +x towards +y (clockwise as seen on the paper, since y is down).
 struct Fix {
     Status status = Status::not_run;
     Attempt attempt = Attempt::first;
-    Surface surface = Surface::even;  ///< devices do not look at it
+    Surface surface = Surface::even;  ///< always `even` from a DeviceLocator
 
     Cell cell;                          ///< intersection to the upper left of the reference point
-    std::uint16_t fraction_x_q16 = 0;   ///< from there to the right, in 1/65536 spacing
-    std::uint16_t fraction_y_q16 = 0;   ///< from there down
+    std::uint16_t fraction_x_q16 = 0;   ///< from `cell` to the right, in 1/65536 spacing
+    std::uint16_t fraction_y_q16 = 0;   ///< from `cell` down, in 1/65536 spacing
     std::int32_t theta_bam = 0;         ///< binary angle: 2^31 is half a turn, in [-2^31, 2^31)
     Section section;                    ///< section in which `cell` was read
-    std::int32_t spacing_px_q16 = 0;    ///< grid spacing in the image
-    std::int32_t spacing_nm = 508'000;  ///< of the printed grid, see Options
+    std::int32_t spacing_px_q16 = 0;    ///< grid spacing in the image, in 2^-16 px
+    std::int32_t spacing_nm = 508'000;  ///< spacing of the printed grid, from Options; 0: not known
 
-    int dots_seen = 0;     ///< blobs of a dot's size
-    int dots_used = 0;     ///< dots the pose was fitted to
+    int dots_seen = 0;     ///< blobs that have the size of a dot
+    int dots_used = 0;     ///< dots that the pose was fitted to
     int bit_errors = 0;    ///< bits, two for each dot read, that contradict the position found
     int p_wrong_log2 = 0;  ///< the position is wrong with probability at most 2^p_wrong_log2
-    float residual_px =
-        0;  ///< root mean square distance of the dots from their fitted places, per axis
+    /// Root mean square distance of the dots from their fitted places, per axis.
+    float residual_px = 0;
 
-    /// The whole map from the image to the pattern, counted in spacings from `place`: the pose is
-    /// its value and direction at the reference point. From it comes the next frame's Prediction.
+    /// The map from the image to the pattern, counted in spacings from `place`. The pose is its
+    /// value and direction at the reference point; the next frame's Prediction is made from it.
     PlaneFromImage pattern_from_image;
     Place place;
-    std::int32_t displacement_q16 = 0;  ///< of the typical dot from its intersection, spacings
+    std::int32_t displacement_q16 = 0;  ///< typical distance of a dot from its intersection, in
+                                        ///< 2^-16 spacing
 
-    /// Covariance of (x, y, theta) in (spacing, spacing, radian) squared.
+    /// Covariance of (x, y, theta), in squares and products of (spacing, spacing, radian).
     float covariance[3][3] = {};
-    /// False from a DeviceLocator, which gives no residual either.
+    /// Whether the covariance is known; a DeviceLocator gives neither covariance nor residual.
     bool has_covariance() const { return covariance[0][0] > 0; }
 
-    // Double precision only here, outside the core's object code.
+    // Double precision is used only in these functions, which are not part of the core's object
+    // code.
     double x_grid() const { return cell.x + fraction_x_q16 / 65536.0; }
     double y_grid() const { return cell.y + fraction_y_q16 / 65536.0; }
-    /// In the pattern, mm. Not a number if the spacing of the printed grid is not known.
+    /// Position in the pattern frame in mm; not a number if the spacing of the printed grid is not
+    /// known.
     double x_mm() const { return x_grid() * spacing_mm(); }
     double y_mm() const { return y_grid() * spacing_mm(); }
     double spacing_mm() const {
         return spacing_nm > 0 ? spacing_nm / 1e6 : std::numeric_limits<double>::quiet_NaN();
     }
-    /// In [-pi, pi).
+    /// Angle of the image x axis in the pattern frame, in [-pi, pi).
     double theta_rad() const { return theta_bam * (std::numbers::pi / 2147483648.0); }
     double spacing_px() const { return spacing_px_q16 / 65536.0; }
     double p_wrong() const { return std::ldexp(1.0, p_wrong_log2); }

@@ -1,6 +1,6 @@
 /// FramePacer: when to take the next frame, to spare a battery (paper section IV-A). While the
-/// device moves: at once. When it has not moved for 5 s: one frame a second, and back at the first
-/// that shows that it has moved.
+/// device moves, frames follow each other at once. When it has not moved for 5 s, one frame a
+/// second is taken until one shows that it has moved.
 ///
 ///     FramePacer pacer;
 ///     for (;;) {
@@ -20,20 +20,22 @@
 namespace dotpose {
 
 struct PacerOptions {
-    /// Without movement for this long, the device counts as stationary. Longer costs energy,
-    /// shorter makes it slow to start after each short stop.
+    /// Time without movement after which the device counts as stationary. A longer time costs
+    /// energy; a shorter one delays the start after each short stop.
     std::int64_t stationary_after_us = 5'000'000;
-    /// From frame to frame while stationary. Longer saves energy and notices a start later.
+    /// Time from frame to frame while stationary. A longer time saves energy and notices a start
+    /// later.
     std::int64_t stationary_period_us = 1'000'000;
-    /// From frame to frame while moving. Default 0: as fast as frames come.
+    /// Time from frame to frame while moving. Default 0: as fast as frames come.
     std::int64_t moving_period_us = 0;
-    /// A fix this far, per axis, from where the device came to rest is a movement; in 2^-16
-    /// spacing. Default a tenth of a spacing. Must be well above the noise of a resting device.
+    /// Distance per axis, in 2^-16 spacing, from the place where the device came to rest beyond
+    /// which a fix counts as movement. Default: a tenth of a spacing. Must be well above the noise
+    /// of a resting device.
     std::int32_t moved_q16 = 6554;
-    /// The same for the angle, 2^31 being half a turn. Default one degree.
+    /// Turn beyond which a fix counts as movement; 2^31 is half a turn. Default: one degree.
     std::int32_t turned_bam = 11'930'465;
-    /// Whether a stationary device that no longer sees the pattern was moved: lifted, for example.
-    /// Default yes. Say no where frames fail at rest.
+    /// Whether a stationary device that no longer sees the pattern counts as moved, for example
+    /// lifted. Default: yes. Set it to false where frames also fail at rest.
     bool lost_is_moved = true;
 };
 
@@ -43,11 +45,11 @@ class FramePacer {
   public:
     explicit FramePacer(const PacerOptions& options = {}) : options_(options) {}
 
-    /// Takes what a frame told, with or without a fix, and the time, which should not run
-    /// backwards, on any clock. Returns the time from which the next frame is wanted.
+    /// Takes the result of a frame, with or without a fix, and the time, on any clock that does not
+    /// run backwards. Returns the time from which the next frame is wanted.
     std::int64_t next_frame_us(const Fix& fix, std::int64_t time_us);
 
-    /// Starts as moving.
+    /// Returns whether the device moves; a new pacer says `moving`.
     Motion motion() const { return motion_; }
 
   private:
@@ -56,7 +58,7 @@ class FramePacer {
     PacerOptions options_;
     Motion motion_ = Motion::moving;
     bool has_begun_ = false;
-    Fix rest_;  ///< where the device came to rest; without a fix if it was not seen since it moved
+    Fix rest_;  ///< where the device came to rest; has no fix if it was not seen since it moved
     std::int64_t rest_since_us_ = 0;
 };
 

@@ -19,14 +19,14 @@ struct Vec {
     friend constexpr bool operator==(const Vec&, const Vec&) = default;
 };
 
-/// Maps image points to the plane of the paper, in spacings: with (x, y) in px from `centre`,
+/// Maps image points to the plane of the paper, in spacings. With (x, y) in px from `centre`,
 ///
 ///     plane = at_centre + (du x + dv y) / (1 + perspective . (x, y) + lens (x^2 + y^2)),
 ///
 /// which is exact for a tilted camera, for the lens of eq. 2, and for both.
 struct PlaneFromImage {
-    Vec centre_q8;              ///< px
-    Vec at_centre_q16;          ///< spacings
+    Vec centre_q8;              ///< image point that (x, y) is counted from, px
+    Vec at_centre_q16;          ///< plane point at `centre`, spacings
     Vec du_q24;                 ///< spacings per px to the right
     Vec dv_q24;                 ///< spacings per px down
     Vec perspective_q30;        ///< per px

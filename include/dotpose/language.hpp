@@ -1,4 +1,5 @@
-/// The language that all headers need, said before anything that fails without it.
+/// Checks that the compiler is set to the language that all headers need, before anything fails
+/// without it.
 #pragma once
 
 #if __cplusplus < 202002L

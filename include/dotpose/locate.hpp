@@ -1,9 +1,9 @@
 /// dotpose in one object: `Locator locator(memory, options); Fix fix = locator.locate(image);`
 ///
-/// Or row by row, as a camera delivers them, without a frame buffer: `begin`, then `push_row` for
-/// every row from the top, then `finish`.
+/// An image can also be pushed row by row, as a camera delivers it, without a frame buffer:
+/// `begin`, then `push_row` for every row from the top, then `finish`.
 ///
-/// Dots are dark on light paper. Who sees white dots on black inverts the pixels first:
+/// Dots are dark on light paper. For white dots on black, invert the pixels first:
 ///
 ///     for (std::uint8_t& grey : pixels) grey = 255 - grey;
 ///
@@ -24,7 +24,7 @@
 
 namespace dotpose {
 
-/// Images this size can be located, in pixels per side.
+/// Least and greatest width and height, in pixels, of an image that can be located.
 inline constexpr int kMinFrameSide_px = 64;
 inline constexpr int kMaxFrameSide_px = 4096;
 
@@ -35,20 +35,20 @@ class RowLocator {
     RowLocator& operator=(const RowLocator&) = delete;
 
     const Options& options() const { return options_; }
-    /// For the frames to come. A frame that was begun and not finished is given up.
+    /// Sets the options of the frames to come. A frame that was begun and not finished is dropped.
     void set_options(const Options& options);
 
     /// Starts a frame whose rows are pushed. Errors: bad_argument, image_too_small, image_too_large
-    /// (for the memory).
+    /// (too large for the memory).
     Status begin(int width_px, int height_px);
 
-    /// Starts a frame of which dots are measured where the prediction has them, as their rows come
-    /// in. A prediction that the frame does not confirm gives `not_tracked`: who can push the rows
-    /// again then locates it afresh.
+    /// Starts a frame whose dots are measured where the prediction expects them, as their rows come
+    /// in. If the frame does not confirm the prediction, `finish` returns `not_tracked`; a caller
+    /// that still has the rows can then push them again without a prediction.
     Status begin(int width_px, int height_px, const Prediction& prediction);
 
-    /// Takes the next row of `width_px` pixels; the pixels are not needed afterwards. More rows
-    /// than the frame that was begun has are not looked at.
+    /// Takes the next row of `width_px` pixels, which need not stay valid afterwards. Rows beyond
+    /// the height of the frame are ignored.
     void push_row(const std::uint8_t* pixels);
 
     /// Returns the results of each stage for the last frame. A DeviceLocator's stages use the same
@@ -60,9 +60,9 @@ class RowLocator {
         : workspace_(workspace), options_(options) {}
     ~RowLocator() = default;
 
-    /// Whether there is a frame that was begun; the fix says why there is none.
+    /// Whether a frame was begun; if not, sets the status of the fix.
     bool has_rows();
-    /// Ends the frame: its fix, in millimetres too.
+    /// Ends the frame and returns its fix, with the spacing in millimetres.
     Fix shown();
 
     core::Workspace* workspace_;
@@ -72,44 +72,44 @@ class RowLocator {
     /// Notes whether there is a frame whose rows are pushed, and how many it has.
     void note_begin(Status status, int height_px);
 
-    Status begun_ = Status::bad_argument;  ///< of the frame whose rows are pushed
+    Status begun_ = Status::bad_argument;  ///< status of the frame whose rows are pushed
     int rows_left_ = 0;
 };
 
-/// Finds out where the pattern is seen in an image.
+/// Finds where the pattern is seen in an image.
 class Locator : public RowLocator {
   public:
-    /// The memory must outlive the locator, and no other may use it meanwhile. Options outside of
-    /// their ranges make every frame a `bad_argument`.
+    /// The memory must outlive the locator, and no other locator may use it meanwhile. Options
+    /// outside of their ranges give every frame the status bad_argument.
     explicit Locator(SmallMemory& memory, const Options& options = {});
     explicit Locator(LargeMemory& memory, const Options& options = {});
 
-    /// Where the pattern is seen in an image; see Fix. The same image gives the same bits
-    /// everywhere, but for the covariance and the residual.
+    /// Returns the pose of an image; see Fix. The same image gives the same bits on every
+    /// processor, except in the covariance and the residual.
     Fix locate(const ImageView& image);
 
-    /// Looks for the pattern where the prediction has it. A frame that does not confirm the
-    /// prediction is located without it; `Fix::attempt` tells.
+    /// Looks for the pattern where the prediction expects it. A frame that does not confirm the
+    /// prediction is located without it; `Fix::attempt` says which.
     Fix locate(const ImageView& image, const Prediction& prediction);
 
-    /// Locates an image whose profile is not known. Places in all profiles are alternatives, with
-    /// the odds that `evidence` gives these; a frame that places of two profiles explain about
-    /// equally well has the status ambiguous_code. Afterwards `options().profile` is the profile
+    /// Locates an image whose profile is not known. Places in all profiles are alternatives,
+    /// weighed with the odds in `evidence`; a frame that places of two profiles explain about
+    /// equally well gets the status ambiguous_code. Afterwards `options().profile` is the profile
     /// that was read.
     CodeReading locate_in_any_code(const ImageView& image, const CodeEvidence& evidence);
 
-    /// Locates an image whose profile is not known, first where the prediction has the pattern. The
-    /// prediction must have been made in `options().profile`.
+    /// Locates an image whose profile is not known, first where the prediction expects the pattern.
+    /// The prediction must have been made in `options().profile`.
     CodeReading locate_in_any_code(const ImageView& image, const Prediction& prediction,
                                    const CodeEvidence& evidence);
 
-    /// Locates an image in `options().profile`, with the same fix as `locate`. `has_other` tells
-    /// whether another profile explains the image without a contradiction: at another place, or
-    /// where `options().profile` has no place.
+    /// Locates an image in `options().profile`, with the same fix as `locate`. `has_other` says
+    /// whether another profile also explains the image without a contradiction, at another place or
+    /// where `options().profile` has none.
     CodeReading locate_in_code(const ImageView& image);
 
-    /// Locates once all rows have been pushed: one attempt, in integers if that is the effort asked
-    /// for. Without a frame that was begun: bad_argument.
+    /// Locates the frame whose rows were pushed, in one attempt: in integers if Effort::device is
+    /// set. Without a frame that was begun: bad_argument.
     Fix finish();
 
   private:
@@ -117,16 +117,16 @@ class Locator : public RowLocator {
     using RowLocator::shown;
 };
 
-/// A locator for microcontrollers: integers only, in little, bounded time, whatever the options
-/// `effort` and `decoder` say, for a camera that looks straight at the paper. Gives neither
-/// covariance nor residual. What may be wrong with more than the limit by a quick estimate is
-/// refused, with not_certain. Who links it links nothing of the desktop's attempts.
+/// A locator for microcontrollers, for a camera that looks straight at the paper: integers only, in
+/// little, bounded time, whatever the options `effort` and `decoder` say. It gives neither
+/// covariance nor residual. A position whose quickly estimated bound exceeds the limit is refused
+/// as not_certain. A program that uses only this class links none of the desktop attempts.
 class DeviceLocator : public RowLocator {
   public:
-    /// See Locator's constructor.
+    /// Constructs as Locator does, with the same rules for memory and options.
     explicit DeviceLocator(DeviceMemory& memory, const Options& options = {});
 
-    /// See the functions of Locator.
+    /// Locates as the functions of Locator with the same names do.
     Fix locate(const ImageView& image);
     Fix locate(const ImageView& image, const Prediction& prediction);
     Fix finish();

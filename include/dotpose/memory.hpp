@@ -1,6 +1,6 @@
-/// Memory for a Locator: of fixed size, given by the caller, for any number of frames one after the
-/// other. Static, on the heap or, if there is room, on the stack. What lies in it is the core's
-/// own.
+/// Memory of a Locator: of fixed size, given by the caller, for any number of frames one after the
+/// other. It may be static, on the heap or, if there is room, on the stack. Its content is private
+/// to the core.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ namespace core {
 struct Workspace;
 }
 
-/// For a DeviceLocator on a small microcontroller with a 188 x 120 px sensor: some 12 KB.
+/// Memory of a DeviceLocator on a small microcontroller with a 188 x 120 px sensor: about 12 KB.
 class DeviceMemory {
   public:
     DeviceMemory();
@@ -30,7 +30,7 @@ class DeviceMemory {
     alignas(8) std::array<std::byte, kBytes> bytes_;
 };
 
-/// For a Locator of images up to 188 px wide, as those of the paper's sensor: some 250 KB.
+/// Memory of a Locator for images up to 188 px wide, as those of the paper's sensor: about 250 KB.
 class SmallMemory {
   public:
     SmallMemory();
@@ -44,7 +44,7 @@ class SmallMemory {
     alignas(64) std::array<std::byte, kBytes> bytes_;
 };
 
-/// For a Locator of images up to 4096 x 4096 px: some 1.7 MB.
+/// Memory of a Locator for images up to 4096 x 4096 px: about 1.7 MB.
 class LargeMemory {
   public:
     LargeMemory();

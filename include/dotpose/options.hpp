@@ -1,4 +1,5 @@
-/// Options of a Locator; the defaults suit any camera. [Ranges]; outside: Status::bad_argument.
+/// Options of a Locator; the defaults suit any camera. Ranges stand in [brackets]; a value outside
+/// gives Status::bad_argument.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,7 @@
 
 namespace dotpose {
 
-/// Radial distortion, paper eq. 1-2: p_u = m + r_d / (1 + k |r_d|^2), m the distortion centre.
+/// Radial distortion, paper eq. 1-2: p_u = m + r_d / (1 + k |r_d|^2), with the distortion centre m.
 struct Lens {
     /// k in 2^-40 / px^2; negative for barrel distortion. Default 0: none. [any]
     std::int32_t k_q40 = 0;
@@ -18,7 +19,7 @@ struct Lens {
     std::int32_t centre_dx_q8 = 0;
     std::int32_t centre_dy_q8 = 0;
 
-    /// k in 1/px^2, |k| < 2^-9.
+    /// Returns the lens of a k in 1/px^2 about the image centre; |k| < 2^-9.
     static constexpr Lens from_k(double k_per_px2) {
         constexpr double kQ40 = 1099511627776.0;
         return {static_cast<std::int32_t>(k_per_px2 * kQ40)};
@@ -26,10 +27,12 @@ struct Lens {
 };
 
 struct ThresholdOptions {
-    /// A pixel belongs to a blob when it is darker than the paper by this share (in 1/256) of the
-    /// local contrast. Smaller joins neighbouring dots, larger loses blurred ones. [1 to 256]
+    /// Share of the local contrast, in 1/256, by which a pixel of a blob is darker than the paper:
+    /// the low threshold of paper section II-B.1. A smaller one joins neighbouring dots, a larger
+    /// one loses blurred ones. [1 to 256]
     int low_q8 = 120;
-    /// Some pixel of a blob must be darker by this (in 1/256). Larger drops more noise. [1 to 256]
+    /// Share of the local contrast, in 1/256, by which some pixel of a blob must be darker: the
+    /// high threshold. A larger one drops more noise. [1 to 256]
     int high_q8 = 155;
     /// Grey levels of contrast below which an area is blank. Raise it for noisy cameras. [1 to 255]
     int min_contrast = 8;
@@ -38,36 +41,39 @@ struct ThresholdOptions {
 struct BlobOptions {
     /// Fewest pixels of a dot. 1 keeps salt and pepper noise. [0 to 2^20]
     int min_area_px = 2;
-    /// Blobs less dark than this share (in 1/256) of the upper quartile are noise. [0 to 256]
+    /// Blobs less dark than this share, in 1/256, of the upper quartile of all blobs are noise. [0
+    /// to 256]
     int min_mass_q8 = 64;
-    /// Blobs larger than this multiple of the upper quartile are graphics. [1 to 1024]
+    /// Blobs larger than this multiple of the upper quartile of all blobs are graphics. [1 to 1024]
     int max_area_ratio = 5;
 };
 
 struct LatticeOptions {
-    /// Fewest dots worth a try; 6 x 6 is the least that can carry a position. [0 to 2^20]
+    /// Fewest dots from which a grid is searched; 6 x 6 is the least that can carry a position. [0
+    /// to 2^20]
     int min_dots = 40;
-    /// Most a dot may lie from its intersection, per axis, in 2^-16 spacing, before it counts as
-    /// noise. Nominal is 1/6. [0 to 32768]
+    /// Greatest distance of a dot from its intersection, per axis, in 2^-16 spacing; a dot farther
+    /// off counts as noise. Nominal is 1/6 spacing. [0 to 32768]
     int max_offset_q16 = 24000;
 };
 
 struct IntegrityOptions {
-    /// A position is refused that may be wrong with more than 2^this. 2^-30 < 1e-9. [-2^20 to 0]
+    /// Bound, as log2, of the probability of being wrong above which a position is refused; 2^-30 <
+    /// 1e-9. [-2^20 to 0]
     int max_p_wrong_log2 = -30;
-    /// Most contradicting bits, in 1/256 of those read, on either axis; more mean that the frame
-    /// shows two patterns. [0 to 256]
+    /// Greatest share, in 1/256, of the bits read on either axis that may contradict the position;
+    /// more mean that the frame shows two patterns. [0 to 256]
     int max_bit_error_q8 = 46;
 };
 
-/// How hard `locate` tries.
+/// How many attempts `locate` makes.
 enum class Effort : std::uint8_t {
     device,  ///< one attempt in integers, as a DeviceLocator makes it
-    once,    ///< one attempt, as a device does that gets its frame row by row
-    twice,   ///< a frame that could not be read is filtered and tried again
+    once,    ///< one attempt, as for a frame that comes row by row
+    twice,   ///< a frame that could not be read is filtered and read again
 };
 
-/// What the position is read from.
+/// Which dots the position is read from.
 enum class Decoder : std::uint8_t {
     window,  ///< the best 8 x 8 symbols, as in the paper: the baseline
     all,     ///< all dots in view
@@ -83,17 +89,17 @@ struct Options {
     LatticeOptions lattice;
     IntegrityOptions integrity;
 
-    /// Most dots that the pose is fitted to, spread evenly over the frame: accuracy grows with the
-    /// square root of their number, time with the number. Default: all of a VGA frame at 8 px per
-    /// spacing. [any; 64 to what the memory holds are taken]
+    /// Greatest number of dots that the pose is fitted to, spread evenly over the frame: accuracy
+    /// grows with the square root of the number, time with the number. Default: all dots of a VGA
+    /// frame at 8 px per spacing. [any; values are limited to between 64 and what the memory holds]
     int most_dots = 4096;
 
-    /// Spacing of the printed grid in nm, from which a fix has its millimetres. Default: that of
-    /// the paper. 0: not known. [any]
+    /// Spacing of the printed grid in nm, by which a fix is converted to millimetres. Default: that
+    /// of the paper. 0: not known. [any]
     std::int32_t spacing_nm = 508'000;
 
-    /// Leaves dots, grid and bits of the first and the tracked attempt in the trace, for whoever
-    /// draws or calibrates; that takes time. Other attempts always do.
+    /// Whether the first and the tracked attempt leave dots, grid and bits in the trace, for
+    /// drawing and calibration; that takes time. Other attempts always leave them.
     bool show_stages = false;
 
     /// The point whose pose is wanted, in pixels from the image centre, times 256. Default: the

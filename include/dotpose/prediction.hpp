@@ -1,12 +1,12 @@
-/// Prediction: where the pattern is expected in the next frame. Whoever hands one to a Locator gets
-/// the next fix in a fraction of the time: dots are measured where they are expected, and every bit
-/// is confirmed. A prediction never makes a fix less certain: what the frame does not confirm is
-/// refused, and the frame located afresh.
+/// Prediction: where the pattern is expected in the next frame. With one, a Locator finds the next
+/// fix in a fraction of the time: dots are measured where they are expected, and every bit is
+/// confirmed. A prediction never makes a fix less certain: a frame that does not confirm it is
+/// located without it.
 ///
 ///     Fix fix = locator.locate(image);
 ///     for (;;) fix = locator.locate(image, Prediction::like(fix));
 ///
-/// A robot that moves by more than half a spacing between frames has `Tracker::predict` make it.
+/// If the robot moves by more than half a spacing between frames, use `Tracker::predict` instead.
 #pragma once
 
 #include <cstdint>
@@ -22,19 +22,19 @@ struct Prediction {
     /// The map from the image to the pattern, counted in spacings from `place`.
     PlaneFromImage pattern_from_image;
     Place place;
-    /// Of dots from their intersections, in spacings, as last seen.
+    /// Distance of a typical dot from its intersection, in 2^-16 spacing, as last seen.
     std::int32_t displacement_q16 = 65536 / 6;
-    /// Standard deviations of the pose. The pattern is looked for within three of them, but at most
-    /// 0.6 spacing and 4 degrees off.
-    std::int32_t sigma_q16 = 65536 / 5;      ///< of x and of y, spacings
-    std::int32_t sigma_theta_bam = 1 << 24;  ///< 1.4 degrees
+    /// Standard deviations of the predicted pose. The pattern is looked for within three of them,
+    /// but at most 0.6 spacing and 4 degrees off.
+    std::int32_t sigma_q16 = 65536 / 5;      ///< of x and of y, in 2^-16 spacing
+    std::int32_t sigma_theta_bam = 1 << 24;  ///< 1.4 degrees; 2^31 is half a turn
 
-    /// The next frame will look like this one, whose fix is ok.
+    /// Returns the prediction that the next frame looks like this one, whose fix must be ok.
     static Prediction like(const Fix& fix);
 };
 
-/// The prediction if the camera goes on by so much of the pattern's frame, in spacings, and turns
-/// by so much about the image point `pivot_q8`, in px.
+/// Returns the prediction for a camera that has moved by `by_q16` (2^-16 spacing, pattern frame)
+/// and turned by `turn_bam` (2^31 is half a turn) about the image point `pivot_q8` (2^-8 px).
 Prediction moved(const Prediction& prediction, Profile profile, Vec by_q16, std::int32_t turn_bam,
                  Vec pivot_q8);
 

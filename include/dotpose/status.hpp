@@ -1,4 +1,4 @@
-/// Status: why a call gave a result or why it did not. "No fix in this frame" is a normal value.
+/// Status: why a call gave a result or why it did not. A frame without a fix is a normal result.
 #pragma once
 
 #include <cstdint>
@@ -11,40 +11,41 @@ namespace dotpose {
 
 enum class [[nodiscard]] Status : std::uint8_t{
     ok,
-    // What the caller handed over.
+    // Faults of the arguments.
     bad_argument,
     image_too_small,
     image_too_large,
-    // src/core/detect
+    // Found in src/core/detect.
     no_contrast,
     too_few_dots,
-    // src/core/lattice
+    // Found in src/core/lattice.
     no_grid,
     no_displacement,
-    // src/core/decode
+    // Found in src/core/decode.
     grid_too_small,
-    // Before a frame is located. It stands here because pose packets carry the values.
+    // State before a frame is located. It stands here because pose packets carry the numbers.
     not_run,
-    // src/core/decode
+    // Found in src/core/decode.
     mirrored,
-    // src/code
+    // Found in src/code.
     bad_window,
     not_in_code,
     ambiguous,
-    // src/core/pose
+    // Found in src/core/integrity.
     not_certain,
-    // src/core/attempts
+    // Found in src/core/attempts.
     not_tracked,
     ambiguous_code,
 };
 
-/// Number of values of Status, for tables.
+/// Number of values of Status.
 inline constexpr int kStatusCount = 17;
 
-/// The identifier of a status as written in output lines, for example "too_few_dots".
+/// Returns the identifier of a status as written in output lines, for example "too_few_dots".
 const char* name(Status status) noexcept;
 
-/// One plain sentence for the user, without a full stop; it holds for every frame of this status.
+/// Returns one plain sentence for the user, without a full stop, that holds for every frame of this
+/// status.
 const char* message(Status status) noexcept;
 
 }  // namespace dotpose

@@ -1,9 +1,8 @@
-/// Trace: what each stage of `Locator::locate` left behind for the last frame, for whoever wants to
-/// draw, judge or calibrate with it. Read-only, and unstable: it follows the stages wherever they
-/// go.
+/// Trace: what each stage of `Locator::locate` left behind for the last frame, for drawing, judging
+/// and calibrating. It is read-only and not stable: it changes whenever the stages do.
 ///
 ///     Options options;
-///     options.show_stages = true;  // else the first and the tracked attempt leave little
+///     options.show_stages = true;  // without it, the first and the tracked attempt leave little
 ///     Locator locator(memory, options);
 ///     const Fix fix = locator.locate(image);
 ///     for (const Dot& dot : locator.trace().dots) ...
@@ -30,12 +29,12 @@ inline constexpr int kWindowSide = 8;
 
 /// A detected dot.
 struct Dot {
-    Vec centre_q8;           ///< px; after `undistort`, where a camera without distortion sees it
-    std::uint16_t mass = 0;  ///< sum of its darkness, grey levels, saturated
+    Vec centre_q8;           ///< px, as a camera without distortion would see it
+    std::uint16_t mass = 0;  ///< sum of the darkness of its pixels, grey levels, saturated
     std::uint16_t area_px = 0;
 };
 
-/// A connection between two seeds that both count each other among their four nearest.
+/// A connection between two seeds, each among the four nearest of the other.
 struct Edge {
     std::int16_t from = 0;  ///< index of a seed
     std::int16_t to = 0;
@@ -52,17 +51,19 @@ struct Lattice {
 /// One cell of the matrices P of the paper's Fig. 8.
 struct GridCell {
     static constexpr std::uint16_t kNoDot = 65535;
-    /// Graphics cover some of the cell's four places: this and a bit for each, by Symbol.
+    /// With this value graphics cover some of the cell's four places; the low bits say which, by
+    /// Symbol.
     static constexpr std::uint16_t kHidden = 65504;
     bool has_dot() const { return dot < kHidden; }
     bool is_hidden() const { return dot >= kHidden && dot != kNoDot; }
     bool is_hidden(int symbol) const { return is_hidden() && (dot >> symbol & 1) != 0; }
-    std::int8_t x = 0;  ///< quasi-probability of the x bit, in 1/127: positive for 1
+    std::int8_t x = 0;  ///< quasi-probability of the x bit, in 1/127: positive for 1, negative for
+                        ///< 0
     std::int8_t y = 0;
-    std::uint16_t dot = kNoDot;  ///< index of the dot read here
+    std::uint16_t dot = kNoDot;  ///< index of the dot read here; kNoDot: none
 };
 
-/// Quarter turns of the grid against the pattern: pattern_step = turn(grid_step).
+/// Quarter turns from the grid to the pattern: pattern_step = turn(grid_step).
 struct Turn {
     int quarters = 0;  ///< 0 to 3, from +x towards +y
 
@@ -89,25 +90,25 @@ struct Region {
     int rows = 0;
 };
 
-/// What the grid was read as.
+/// The position that the grid was read as.
 struct Decoding {
     Region window;  ///< the 8 x 8 cells read most clearly
-    Region region;  ///< all that is decoded: at most kMaxLines x kMaxLines cells
-    /// Of some lines of the region with the main sequence, at the likeliest turn.
+    Region region;  ///< all cells that are decoded: at most kMaxLines x kMaxLines
+    /// Agreement of some lines of the region with the main sequence, at the likeliest turn.
     std::int32_t agreement = 0;
     Turn pattern_from_grid;
-    Place place;  ///< where grid cell (0, 0) stands in the code, seen or not
-    /// Whether the core keeps the scores of the region's lines, turned so.
+    Place place;  ///< place of grid cell (0, 0) in the code, whether it was seen or not
+    /// Whether the core keeps the scores of the region's lines for this turn.
     bool lines_are_scored = false;
-    int bits = 0;  ///< compared with those of the code at `place`, two for each dot read
-    /// log2 of the probability that the position is wrong along x, along y, times 256.
+    int bits = 0;  ///< number of bits compared with the code at `place`: two for each dot read
+    /// log2 of the probability that the position is wrong along x and along y, times 256.
     std::array<int, 2> p_wrong_log2_q8{};
 };
 
 /// The matrices P^(x), P^(y) of the paper's Fig. 8 over a rectangle of the grid.
 struct GridView {
     std::span<const GridCell> cells;  ///< row by row
-    Region region;                    ///< which cells of the grid they are
+    Region region;                    ///< the cells of the grid that they are
 
     const GridCell& at(int i, int j) const {
         return cells[static_cast<std::size_t>((j - region.j0) * region.columns + (i - region.i0))];
@@ -118,17 +119,18 @@ struct GridView {
     }
 };
 
-/// The stages of the last frame in their order. The spans are valid until the next frame begins.
+/// The results of the stages for the last frame, in order. The spans are valid until the next frame
+/// begins.
 struct Trace {
-    Options options;  ///< of the Locator; `profile` is the one that was read
+    Options options;  ///< options of the Locator; `profile` is the one that was read
     std::span<const Dot> dots;
-    std::span<const std::uint16_t> seeds;  ///< indices of the dots that gave the lattice
+    std::span<const std::uint16_t> seeds;  ///< indices of the dots that the lattice was found from
     std::span<const Edge> edges;           ///< between seeds
     Lattice lattice;
     PlaneFromImage grid_from_image;
     GridView grid;
     Decoding decoding;
-    PlaneFromImage pattern_from_image;  ///< relative to `decoding.place`
+    PlaneFromImage pattern_from_image;  ///< in spacings from `decoding.place`
     Fix fix;
 };
 

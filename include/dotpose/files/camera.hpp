@@ -1,9 +1,9 @@
-/// Camera: what is known of one camera, of its view of the paper and of its place on the robot.
+/// Camera: the optics of one camera, its view of the paper and its place on the robot.
 ///
 /// Frames: *pixel* (the centre of the first pixel is (0, 0), v down); *undistorted* pixel, where a
-/// camera without distortion would see the same point: the same frame, and beyond the image;
-/// *camera*, mm on the paper from the point that the distortion centre looks at, x along the image
-/// x axis, y DOWN.
+/// camera without distortion would see the same point, in the same frame, which reaches beyond the
+/// image; *camera*, mm on the paper from the point under the distortion centre, x along the image x
+/// axis, y DOWN.
 #pragma once
 
 #include <map>
@@ -29,12 +29,12 @@ struct PixelPoint {
 struct PaperScale {
     double mm_per_px_x = 0;
     double mm_per_px_y = 0;
-    double skew = 0;           ///< how much rows are shifted against each other, px per px
+    double skew = 0;           ///< shift of rows against each other, px per px
     double perspective_u = 0;  ///< per px; 0 for a camera that looks straight down
     double perspective_v = 0;
 };
 
-/// Tilt of the paper against the image plane, as in tools/simulate.hpp.
+/// Tilt of the paper against the image plane, with the signs of tools/simulate.hpp.
 struct Tilt {
     double x_rad = 0;  ///< about the image x axis; above 0, the paper recedes towards the bottom
     double y_rad = 0;  ///< about the image y axis; above 0, it comes closer towards the right
@@ -46,21 +46,24 @@ struct Camera {
     /// Radial distortion, paper eq. 1-2 (a division model), about `centre_px`: below 0 for barrel.
     double k_per_px2 = 0;
     PixelPoint centre_px;
-    std::optional<PaperScale> paper;  ///< none: held by hand, or not known
-    std::optional<double> focal_px;   ///< none: the frames did not tell
-    std::optional<Tilt> tilt;  ///< of a camera that is mounted; none: the frames did not tell
+    std::optional<PaperScale> paper;  ///< none: the camera is held by hand, or its view is not
+                                      ///< known
+    std::optional<double> focal_px;   ///< none: the frames of the calibration did not show it
+    std::optional<Tilt> tilt;  ///< tilt of a mounted camera; none: the frames of the calibration
+                               ///< did not show it
 
     /// The point whose pose is wanted, an undistorted pixel; it may lie outside the image. None:
     /// the image centre.
     std::optional<PixelPoint> reference_px;
-    /// Heading of the robot minus theta of the image x axis at the image centre.
+    /// Heading of the robot minus the angle of the image x axis at the image centre.
     double theta_offset_rad = 0;
 
-    /// Hints for who sets up the sensor; dotpose itself does not use them.
+    /// Settings of the sensor, for its users; dotpose itself does not use them.
     std::optional<double> exposure_us;
     std::optional<double> gain;
 
-    /// Standard deviations of a calibration by the name of the key they belong to, in its unit.
+    /// Standard deviations from a calibration, by the name of the key they belong to and in its
+    /// unit.
     std::map<std::string, double> sigma;
 };
 
@@ -69,37 +72,40 @@ struct Camera {
 /// anything not finite, lengths not above 0, a reference more than 10,000 px off.
 void validate(const Camera& camera);
 
-/// Where a camera without distortion would see what this one sees at `pixel`: eq. 1-2.
+/// Returns the pixel where a camera without distortion would see what this one sees at `pixel`
+/// (paper eq. 1-2).
 PixelPoint undistorted(const Camera& camera, PixelPoint pixel);
-/// The inverse. A point that the camera cannot see at all comes out at twice its radius.
+/// Returns the pixel where this camera sees an undistorted pixel. A point that it cannot see at all
+/// comes out at twice its radius.
 PixelPoint distorted(const Camera& camera, PixelPoint undistorted);
 
-/// Place in the camera frame, in mm, of an undistorted pixel; `camera.paper` must be known.
+/// A place in the camera frame.
 struct CameraPoint {
     double x_mm = 0;
     double y_mm = 0;
 };
+/// Returns where an undistorted pixel lies in the camera frame; `camera.paper` must be known.
 CameraPoint on_paper(const Camera& camera, PixelPoint undistorted);
-/// The inverse.
+/// Returns the undistorted pixel of a place in the camera frame; `camera.paper` must be known.
 PixelPoint on_image(const Camera& camera, CameraPoint point);
 
-/// Direction of the image x axis at an undistorted pixel, in the camera frame.
+/// Returns the direction of the image x axis at an undistorted pixel, in the camera frame.
 double image_axis_rad(const Camera& camera, PixelPoint undistorted);
 
-/// Place in mm from what the image centre looks at, x along the image x axis there, of an
-/// undistorted pixel; `camera.paper` must be known. Two calibrations of one camera agree in this
-/// frame to microns, but not in the pixels of points far outside the image.
+/// Returns the place in mm of an undistorted pixel, from the point under the image centre, x along
+/// the image x axis there; `camera.paper` must be known. Two calibrations of one camera agree in
+/// this frame to microns, but not in the pixels of points far outside the image.
 CameraPoint from_image_centre(const Camera& camera, PixelPoint undistorted);
-/// The inverse.
+/// Returns the undistorted pixel of a place as `from_image_centre` gives it.
 PixelPoint pixel_from_image_centre(const Camera& camera, CameraPoint point);
 
-/// The reference point of `camera` in terms of another calibration of it. If one of the views is
-/// not known, the same pixel.
+/// Returns the reference point of `camera` as an undistorted pixel of `other`, another calibration
+/// of the same camera. If the view of either is not known, the pixel stays the same.
 std::optional<PixelPoint> reference_in(const Camera& other, const Camera& camera);
 
-/// Sets lens and reference point for images of this size, and if the camera's view is known, that
-/// the dots stay in the trace for `with_camera`. Throws BadArgument if the camera's are of
-/// another size.
+/// Sets lens and reference point for images of this size and, if the camera's view is known, keeps
+/// the dots in the trace for `with_camera`. Throws BadArgument if the camera's images have another
+/// size.
 void use_camera(const Camera& camera, int width_px, int height_px, Options& options);
 
 }  // namespace dotpose

@@ -25,11 +25,12 @@ inline constexpr int kCameraFileVersion = 1;
 /// eq. 2 cannot follow to within 0.5 px rms.
 Camera read_camera(const std::filesystem::path& path);
 
-/// Whether it is a camera_info file of ROS, which `write_camera` would turn into one of another
-/// format. Throws Error: the file cannot be read.
+/// Whether the file is a camera_info file of ROS, which `write_camera` would replace by one of
+/// another format. Throws Error if the file cannot be read.
 bool is_camera_info(const std::filesystem::path& path);
 
-/// Writes the file, whole or not at all. Throws Error, or BadArgument as `validate`.
+/// Writes the file completely or not at all. Throws Error if it cannot be written, and BadArgument
+/// as `validate` does.
 void write_camera(const std::filesystem::path& path, const Camera& camera);
 
 }  // namespace dotpose

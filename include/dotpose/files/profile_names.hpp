@@ -1,4 +1,4 @@
-/// The names of profiles, as files, the command line and tables have them.
+/// Names of profiles, as used in files, on the command line and in tables.
 #pragma once
 
 #include <optional>
@@ -10,10 +10,11 @@
 
 namespace dotpose {
 
-/// The name of a profile: anoto, libdots, microdots.
+/// Returns the name of a profile: anoto, libdots, microdots.
 const char* name(Profile profile);
 
-/// The profile of a name; `published` is the earlier name of libdots. None if there is no such.
+/// Returns the profile of a name; `published` is the earlier name of libdots. None if the name is
+/// not known.
 std::optional<Profile> profile_by_name(std::string_view name);
 
 }  // namespace dotpose

@@ -1,5 +1,5 @@
-/// Sheet: what is printed, by the pattern's measures and the page it stands on. The core does not
-/// need it.
+/// Sheet: the measures of a printed pattern and of the page it stands on. The core does not need
+/// it.
 ///
 /// Frames (both x right, y DOWN): *pattern*, where intersection (i, j) lies at (i, j) * spacing_mm;
 /// *sheet*, in mm from the top left corner of the page.
@@ -28,13 +28,13 @@ struct Pattern {
     double dot_mm = kDefaultSpacing_mm / 6;           ///< diameter of a dot
 };
 
-/// Farthest that ink lies from its intersection along x or y.
+/// Returns the greatest distance of ink from its intersection along x or y, in mm.
 inline double reach_mm(const Pattern& pattern) {
     return pattern.displacement_mm + pattern.dot_mm / 2;
 }
 
-/// True length of what was printed as a unit length: printers differ, and feed paper unlike they
-/// scan along it.
+/// Printed length of a unit length, per axis: printers differ, and they scale the direction of
+/// paper feed and that of the scan differently.
 struct AxisScale {
     double x = 1;
     double y = 1;
@@ -48,13 +48,13 @@ struct Sheet {
     int rows = 0;
     double width_mm = 0;
     double height_mm = 0;
-    double origin_x_mm = 0;  ///< sheet coordinates of intersection `origin`
+    double origin_x_mm = 0;  ///< sheet coordinates of the intersection `origin`
     double origin_y_mm = 0;
 };
 
-/// Checks a sheet, whoever filled it: lengths positive and finite, dots apart from each other,
-/// section below kSections, at least kMinSheetCells columns and rows, region inside the code plane,
-/// all ink on the page. Throws BadArgument naming the first value that is wrong.
+/// Checks a sheet from any source: lengths positive and finite, dots apart from each other, section
+/// below kSections, at least kMinSheetCells columns and rows, region inside the code plane, all ink
+/// on the page. Throws BadArgument naming the first value that is wrong.
 void validate(const Sheet& sheet);
 
 }  // namespace dotpose

@@ -1,9 +1,9 @@
-/// Sheet files: which region of the code plane is which page, and where the page lies in the world.
-/// The format is described in docs/sheet-files.md.
+/// Sheet files: which region of the code plane is printed on which page, and where the page lies in
+/// the world. The format is described in docs/sheet-files.md.
 ///
 ///     const std::vector<SheetEntry> sheets = read_sheets("sheets.json");
 ///
-/// Where a fix lies on them tells sheet_place.hpp.
+/// sheet_place.hpp finds where a fix lies on them.
 ///
 /// To print sheets, reserve their regions first, so that no page is ever without its entry:
 ///
@@ -36,12 +36,12 @@ namespace dotpose {
 /// Version of the format that is written, and the only one that is read.
 inline constexpr int kSheetFileVersion = 1;
 
-/// Cells left free around every allocated region. More than the diagonal of the largest frame
-/// (4096 x 4096 px, 6 px per spacing: 966 cells), so that a frame that shows two sheets, located by
-/// the dots of one of them, is never taken for the other.
+/// Number of cells left free around every allocated region. It is more than the diagonal of the
+/// largest frame (4096 x 4096 px, 6 px per spacing: 966 cells), so that a frame that shows two
+/// sheets, located by the dots of one of them, is never taken for the other.
 inline constexpr std::uint32_t kSheetGap_cells = 1024;
 
-/// Where a page lies: a place and a direction in the world.
+/// Place and direction of a page in the world.
 struct WorldPose {
     double x_m = 0;
     double y_m = 0;
@@ -51,28 +51,28 @@ struct WorldPose {
 /// One page of a sheet file.
 struct SheetEntry {
     std::string name;  ///< unique in the file
-    int page = 1;      ///< its number among the pages it was printed with, from 1
+    int page = 1;      ///< number among the pages that were printed together, from 1
     Sheet sheet;
-    /// True length of what was printed as a unit length, 0.5 to 2. The scale is about the first
-    /// intersection, whose place on the page is (sheet.origin_x_mm, sheet.origin_y_mm) whatever the
-    /// scale.
+    /// Printed length of a unit length, 0.5 to 2. The scale is about the first intersection, whose
+    /// place on the page is (sheet.origin_x_mm, sheet.origin_y_mm) at any scale.
     double print_scale_x = 1;
     double print_scale_y = 1;
     AxisScale print_scale() const { return {print_scale_x, print_scale_y}; }
     /// Where the top left corner of the page lies in the world, and the direction in which the
     /// page's upper edge runs from there. None: not known.
     std::optional<WorldPose> world;
-    /// The region is taken, but whether the page was written is not known: it is being written, or
-    /// whoever did that was stopped.
+    /// Whether the region is taken although the page may not exist: it is being written, or the
+    /// program that wrote it was stopped.
     bool is_reserved = false;
 };
 
-/// Checks one entry: name not empty, of UTF-8 without characters that act on a terminal; page at
-/// least 1; scales in their range; world finite; and `validate(sheet)`. Throws BadArgument.
+/// Checks one entry: a name that is not empty and is UTF-8 without characters that act on a
+/// terminal; page at least 1; scales in their range; world finite; and `validate(sheet)`. Throws
+/// BadArgument.
 void validate(const SheetEntry& entry);
 
-/// Whether some cell belongs to both. Different sections never overlap. The profiles anoto and
-/// libdots agree on most of the plane, so they count as one; microdots is another.
+/// Whether some cell belongs to both sheets. Different sections never overlap. The profiles anoto
+/// and libdots agree on most of the plane, so they count as one; microdots is another.
 bool overlap(const Sheet& a, const Sheet& b);
 
 /// Reads a sheet file. Throws Error, naming the file and the key concerned: the file cannot be
@@ -80,22 +80,23 @@ bool overlap(const Sheet& a, const Sheet& b);
 /// out of range, a name occurs twice, two regions overlap.
 std::vector<SheetEntry> read_sheets(const std::filesystem::path& path);
 
-/// How to wait for somebody else who is changing a sheet file.
+/// How to wait while another program changes a sheet file.
 struct SheetFileWait {
+    /// Longest time to wait, in seconds.
     double most_s = 60;
-    /// Told once, if there is anything to wait for.
+    /// Called once with a message, if there is anything to wait for.
     std::function<void(const std::string&)> tell = [](const std::string&) {};
-    /// Asked now and then; true gives up.
+    /// Called now and then; true ends the wait.
     std::function<bool()> stop = [] { return false; };
 };
 
-/// Exclusive use of a sheet file, to change it. Others that want to change it wait for the object's
-/// end; who only reads is not kept waiting. Not for use by several threads at once.
+/// Exclusive use of a sheet file, to change it. Other writers wait until the object is destroyed;
+/// readers do not wait. Not for use by several threads at once.
 class SheetFile {
   public:
-    /// Waits for its turn, then reads the file; one that does not exist has no sheets. Throws Error
-    /// as `read_sheets`, or if the file cannot be locked, also because somebody else has it for
-    /// longer than `wait` allows.
+    /// Waits for the exclusive use, then reads the file; one that does not exist has no sheets.
+    /// Throws Error as `read_sheets`, or if the file cannot be locked, also because another program
+    /// has it for longer than `wait` allows.
     explicit SheetFile(const std::filesystem::path& path, const SheetFileWait& wait = {});
     ~SheetFile();
     SheetFile(const SheetFile&) = delete;
@@ -110,26 +111,28 @@ class SheetFile {
     /// ends of the plane and from the regions of all other sheets, whatever their profile and
     /// section: allocated sheets differ in their cells alone.
     ///
-    /// Returns what was added. Throws BadArgument: `validate`, a name that is taken, the plane is
-    /// full, count below 1.
+    /// Returns the added entries. Throws BadArgument: as `validate`, a name that is taken, a full
+    /// plane, a count below 1.
     std::vector<SheetEntry> allocate(const std::string& name, const Sheet& sheet, int count = 1);
 
-    /// The same for one page with a name and number of its own.
+    /// Adds one page, with its own name and number, in the next free region, as above.
     SheetEntry allocate(SheetEntry entry);
 
-    /// Adds a sheet whose region was chosen by somebody else; it may touch others but not overlap.
-    /// Throws BadArgument: `validate`, the name or the region is taken (and by which sheet).
+    /// Adds a sheet whose region was chosen elsewhere; it may touch others but not overlap them.
+    /// Throws BadArgument: as `validate`, and if the name or the region is taken (saying by which
+    /// sheet).
     void add(const SheetEntry& entry);
 
-    /// Puts `entry` in the place of the sheet of the same name.
-    /// Throws BadArgument as `add`, or if there is no such sheet.
+    /// Replaces the sheet that has the name of `entry`. Throws BadArgument as `add`, or if there is
+    /// no such sheet.
     void replace(const SheetEntry& entry);
 
-    /// Takes the sheet of this name out, if there is one.
+    /// Removes the sheet of this name, if there is one.
     void remove(const std::string& name);
 
-    /// Writes the file, whole or not at all. Keys of the old file that this version does not know
-    /// are kept. Throws Error: it cannot be written, or an editor changed it in the meantime.
+    /// Writes the file completely or not at all. Keys of the old file that this version does not
+    /// know are kept. Throws Error: the file cannot be written, or an editor changed it in the
+    /// meantime.
     void save();
 
   private:
@@ -150,26 +153,27 @@ class SheetFile {
 
     std::filesystem::path path_;
     Lock lock_;
-    std::optional<std::string> text_;  ///< the file as it was read or saved; none if there was none
+    std::optional<std::string> text_;  ///< the file as it was read or saved; none if it did not
+                                       ///< exist
     std::vector<SheetEntry> sheets_;
 };
 
-/// Sheets that are entered before their pages are written: marked as reserved from then on, so that
-/// nobody else gets their regions even if this program is killed, and without the mark once they
-/// are confirmed. The file is not kept from others in between.
+/// Sheets that are entered before their pages are written. They are marked as reserved, so that
+/// their regions stay taken even if this program is killed; the mark goes once they are confirmed.
+/// Other programs may change the file in between.
 class SheetReservation {
   public:
-    /// `enter` adds the sheets. Throws Error as SheetFile; nothing is reserved then.
+    /// Calls `enter` to add the sheets. Throws Error as SheetFile; nothing is reserved then.
     SheetReservation(const std::filesystem::path& path,
                      const std::function<void(SheetFile&)>& enter, const SheetFileWait& wait = {});
-    /// What was not confirmed is taken out again, if that is possible; an untouched file becomes
-    /// what it was.
+    /// Removes what was not confirmed, if possible; a file that nobody else changed becomes what it
+    /// was.
     ~SheetReservation();
     SheetReservation(const SheetReservation&) = delete;
     SheetReservation& operator=(const SheetReservation&) = delete;
 
-    /// The pages exist. Throws Error: the file cannot be changed, and the sheets stay reserved; or
-    /// somebody took them out and gave their cells away.
+    /// Removes the marks, because the pages exist. Throws Error: the file cannot be changed, and
+    /// the sheets stay reserved; or another program removed them and gave their cells away.
     void confirm();
 
   private:
@@ -177,8 +181,8 @@ class SheetReservation {
 
     std::filesystem::path path_;
     SheetFileWait wait_;
-    std::vector<SheetEntry> entries_;         ///< reserved, and not confirmed
-    std::optional<std::string> text_before_;  ///< of the file; none if there was none
+    std::vector<SheetEntry> entries_;         ///< entries that are reserved and not confirmed
+    std::optional<std::string> text_before_;  ///< the file before; none if it did not exist
     std::optional<std::string> text_reserved_;
 };
 

@@ -1,4 +1,4 @@
-/// Evaluation: how often `locate` finds frames whose pose is known, and how far it is off.
+/// Evaluation: how often `locate` finds frames whose pose is known, and how large its errors are.
 ///
 ///     const std::vector<TruthRow> rows = read_truth("frames/truth.csv");
 ///     FrameRun run;
@@ -6,10 +6,10 @@
 ///     run.frame_at = frames_of_folder("frames", rows);
 ///     const Score score = score_of(evaluate(run).front());
 ///
-/// `frames_of_setup` simulates the frames instead. The paper's own experiment (section IV) is
-/// `run_protocol` (protocol.hpp); `run_sweep` (sweep.hpp) worsens one condition step by step.
+/// `frames_of_setup` simulates the frames instead. `run_protocol` (protocol.hpp) repeats the
+/// paper's own experiment (section IV); `run_sweep` (sweep.hpp) worsens one condition step by step.
 ///
-/// All results but the times depend on the frames alone, not on the number of threads. Functions
+/// Apart from times, results depend on the frames alone, not on the number of threads. Functions
 /// share no state. Errors of files and arguments are thrown as Error and BadArgument.
 #pragma once
 
@@ -35,37 +35,38 @@ namespace dotpose {
 struct KnownFrame {
     GreyImage image;
     Truth truth;
-    std::optional<Profile> profile;  ///< replaces that of the options
-    std::string problem;             ///< why there is no image; empty if there is one
+    std::optional<Profile> profile;  ///< profile of this frame, in place of that of the options
+    std::string problem;             ///< reason why there is no image; empty if there is one
 };
 
-/// Gives frame `index`. Called from several threads; must depend on the index alone.
+/// Returns frame `index`. Called from several threads, so it must depend on the index alone.
 using FrameSource = std::function<KnownFrame(int index)>;
 
-/// The files of a truth.csv. A file that cannot be read becomes a frame with a `problem`.
+/// Returns the images that a truth.csv lists. A file that cannot be read becomes a frame with a
+/// `problem`.
 FrameSource frames_of_folder(const std::filesystem::path& folder, std::vector<TruthRow> rows);
 
-/// `draw_shot(setup, index)`, rendered.
+/// Returns the frames of `draw_shot(setup, index)`, rendered.
 FrameSource frames_of_setup(const Setup& setup);
 
-/// Told now and then, from the calling thread; false gives the work up with an Error.
+/// Called now and then from the calling thread; false stops the work with an Error.
 using Progress = std::function<bool(int done, int total)>;
 
 struct FrameRun {
     int frames = 0;
     FrameSource frame_at;
-    /// Every frame is located with each of these.
+    /// Every frame is located with each of these options.
     std::vector<Options> options = {Options{}};
-    /// Frames that do not tell their profile are read in any, each by itself.
+    /// Whether frames without a known profile are read in all profiles, each frame by itself.
     bool any_code = false;
-    /// Refines a fix that was just made, from the trace that its frame left, as `with_camera` does.
-    /// Without it fixes stay as they are. Called from several threads; its time does not count.
+    /// Refines a new fix from the trace of its frame, as `with_camera` does; none: fixes stay as
+    /// they are. Called from several threads; its time does not count.
     std::function<Fix(const Fix&, const Trace&)> refine;
     int threads = 0;  ///< 0: one for each core
     Progress progress;
 };
 
-/// outcomes[k][i]: frame i, located with options[k].
+/// Locates all frames; outcomes[k][i] is that of frame i with options[k].
 std::vector<std::vector<Outcome>> evaluate(const FrameRun& run);
 
 }  // namespace dotpose

@@ -1,4 +1,4 @@
-/// Follower: locates images on the sheets of their owner, and follows a robot over them.
+/// Follower: locates images on the sheets of a sheet file and follows a robot over them.
 ///
 ///     FollowerOptions options;
 ///     options.sheets = read_sheets("sheets.json");
@@ -8,7 +8,7 @@
 ///         if (now.located.place) use(now.located.place->x_mm, now.track.pose);
 ///     }
 ///
-/// Functions throw BadArgument if an image has not the size that the camera file is for.
+/// Functions throw BadArgument if an image does not have the size that the camera file is for.
 #pragma once
 
 #include <cstdint>
@@ -28,10 +28,10 @@ namespace dotpose {
 
 struct FollowerOptions {
     Options locate;
-    /// The sheets that may be seen. Empty: poses are told in the bare pattern.
+    /// The sheets that may be seen. Empty: poses are given in the pattern frame.
     std::vector<SheetEntry> sheets;
-    /// The profile of the code, if it is known. Sheets tell theirs; without sheets and without a
-    /// profile it is found out from all images together.
+    /// The profile of the code, if it is known. Sheets have their own; without sheets and without a
+    /// profile it is found from all images together.
     std::optional<Profile> code;
     /// Spacing of the pattern where there are no sheets.
     double spacing_mm = kDefaultSpacing_mm;
@@ -42,23 +42,23 @@ struct FollowerOptions {
     TrackOptions track;
 };
 
-/// What one image tells by itself.
+/// The result of one image by itself.
 struct Located {
-    /// The pose of the reference point, by the camera file if there is one.
+    /// The pose of the reference point, corrected by the camera file if there is one.
     Fix fix;
-    std::optional<SheetPlace> place;  ///< of the fix, if it lies on a sheet
-    /// The profile, and other places that explain the image. Its fix is that before the camera file
-    /// is applied.
+    std::optional<SheetPlace> place;  ///< place of the fix, if it lies on a sheet
+    /// The profile, and other places that explain the image. Its fix is the one before the camera
+    /// file is applied.
     CodeReading reading;
-    /// Of the sheet, or of all sheets; not a number where sheets differ and none was found.
+    /// Spacing of the sheet, or of all sheets; not a number where sheets differ and none was found.
     double spacing_mm = 0;
-    bool code_is_given = false;  ///< by the options or the sheets
-    int reduced_by = 1;          ///< the image was too large and was reduced by this factor
+    bool code_is_given = false;  ///< whether options or sheets gave the profile
+    int reduced_by = 1;          ///< factor by which a too large image was reduced
 };
 
-/// What an image of a sequence tells, with those before it.
+/// The result of an image of a sequence, given the images before it.
 struct Followed {
-    Located located;  ///< `p_wrong` with the prior, where the fix needed it
+    Located located;  ///< its `p_wrong` includes the prior where the fix needed it
     Track track;
 };
 
@@ -66,33 +66,33 @@ class Follower {
   public:
     explicit Follower(const FollowerOptions& options);
 
-    /// Locates an image by itself. One that is larger than `kMaxFrameSide_px` is reduced, unless
-    /// there is a camera file. Evidence of the profile adds up over the images.
+    /// Locates an image by itself. An image larger than `kMaxFrameSide_px` is reduced, unless there
+    /// is a camera file. Evidence of the profile adds up over the images.
     Located locate(const GreyImage& image);
 
-    /// Locates the next image of a sequence, taken at `time_us`: the pattern is looked for where
-    /// the images before lead to expect it, and a weak fix counts where it was expected.
+    /// Locates the next image of a sequence, taken at `time_us`. The pattern is looked for where
+    /// the images before predict it, and a weak fix is believed where it was predicted.
     Followed follow(ImageView image, std::int64_t time_us);
 
-    /// Whether the robot is tracked in the world of the sheet file (m, y up) instead of the
-    /// pattern.
+    /// Whether the robot is tracked in the world of the sheet file (m, y up) instead of the pattern
+    /// frame.
     bool is_in_world() const { return is_in_world_; }
     const std::vector<SheetEntry>& sheets() const { return options_.sheets; }
 
-    /// Of the newest image: what was located (the reduced image, if it was reduced), how, and what
-    /// the stages left.
+    /// Return, for the newest image, the image as located (reduced, if it was too large), the
+    /// options used and the trace of the stages.
     ImageView image() const { return image_; }
     const Options& used_options() const { return used_; }
     Trace trace() const { return locator_.trace(); }
 
   private:
     struct Found {
-        Fix seen;  ///< before the camera file is applied
+        Fix seen;  ///< fix before the camera file is applied
         Fix fix;
-        std::optional<SheetPlace> place;  ///< of `seen`
+        std::optional<SheetPlace> place;  ///< place of `seen`
         CodeReading reading;
     };
-    /// The newest image with a fix.
+    /// The result of the newest image with a fix.
     struct Seen {
         Fix fix;
         Profile profile;
@@ -106,12 +106,12 @@ class Follower {
     double spacing_mm(const std::optional<SheetPlace>& place) const;
     Located located(const Found& found, const Fix& fix) const;
 
-    // one image
+    // One image by itself.
     Found read();
     Found read_in(Profile profile);
     Fix without_surroundings(const Fix& fix, const SheetPlace& place);
 
-    // a sequence
+    // Images of a sequence.
     std::optional<Prediction> predict(std::int64_t time_us) const;
     Found find(int max_p_wrong_log2, const std::optional<Prediction>& expected);
     Found look(ImageView image, const Options& options, const std::optional<Prediction>& expected);
@@ -121,17 +121,17 @@ class Follower {
     void remember(const Found& found, const std::optional<Sighting>& sighting);
 
     FollowerOptions options_;
-    /// The profiles to try, in this order; the one seen last is the first. Empty: all.
+    /// The profiles to try, in this order, beginning with the one seen last. Empty: all.
     std::vector<Profile> profiles_;
-    CodeEvidence evidence_;       ///< of the images before
-    double unplaced_spacing_mm_;  ///< for a fix on no sheet
+    CodeEvidence evidence_;       ///< evidence of the images before
+    double unplaced_spacing_mm_;  ///< spacing for a fix on no sheet
     bool is_in_world_ = false;
     Options used_;
     ImageView image_;
     GreyImage reduced_;
     HeapLocator locator_;
     Tracker tracker_;
-    std::optional<Seen> seen_;  ///< none if that is too long ago to expect anything
+    std::optional<Seen> seen_;  ///< none if it is too long ago to predict from
 };
 
 }  // namespace dotpose

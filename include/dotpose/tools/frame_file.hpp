@@ -10,7 +10,8 @@
 
 namespace dotpose {
 
-/// As `read_image`; what is larger than `locate` takes is not decoded: ImageTooLarge.
+/// Reads an image as `read_image` does. One that is larger than `locate` takes is not decoded:
+/// throws ImageTooLarge.
 inline GreyImage read_frame(const std::filesystem::path& path) {
     return read_image(path, kMaxFrameSide_px * kMaxFrameSide_px);
 }

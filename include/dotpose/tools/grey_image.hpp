@@ -1,4 +1,4 @@
-/// An 8-bit grey image that owns its pixels. For tools; the core only sees `ImageView`.
+/// An 8-bit grey image that owns its pixels, for tools; the core only sees `ImageView`.
 #pragma once
 
 #include <cstddef>
@@ -11,13 +11,14 @@
 
 namespace dotpose {
 
-/// Rows from the top, without padding: pixel (u, v) is `pixels[v * width_px + u]`; 0 is black.
+/// Grey levels by rows from the top, without padding: pixel (u, v) is `pixels[v * width_px + u]`; 0
+/// is black.
 struct GreyImage {
     std::vector<std::uint8_t> pixels;
     int width_px = 0;
     int height_px = 0;
 
-    /// Valid as long as `pixels` is neither resized nor destroyed.
+    /// Returns a view that is valid until `pixels` is resized or destroyed.
     ImageView view() const {
         return {pixels.data(), width_px, height_px, static_cast<std::ptrdiff_t>(width_px)};
     }

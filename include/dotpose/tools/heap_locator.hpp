@@ -11,7 +11,7 @@
 
 namespace dotpose {
 
-/// Its memory must exist before the Locator and longer, so it is a base class.
+/// Memory of a HeapLocator; a base class, because it must exist before the Locator and outlive it.
 class LocatorMemory {
   protected:
     std::unique_ptr<LargeMemory> memory_ = std::make_unique<LargeMemory>();

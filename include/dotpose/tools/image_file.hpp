@@ -1,8 +1,8 @@
 /// Reads images from files as 8-bit grey, and writes grey images.
 ///
-/// Formats: PNM (PBM, PGM and PPM, text and binary), PNG, JPEG, BMP, TIFF. What a file holds is
-/// told from its first bytes, never from its name. A file that is cut short or damaged is an Error,
-/// even if part of the picture could be shown: made-up pixels are no measurement.
+/// Formats: PNM (PBM, PGM and PPM, text and binary), PNG, JPEG, BMP, TIFF. The format is detected
+/// from the first bytes of a file, never from its name. A file that is cut short or damaged is an
+/// Error, even if part of the picture could be shown: made-up pixels are no measurement.
 ///
 /// Every pixel becomes one grey level, 0 black to 255 white:
 ///  - colour: luma 0.299 R + 0.587 G + 0.114 B (Rec. 601) of the stored values; palettes are
@@ -25,12 +25,13 @@
 
 namespace dotpose {
 
-/// Largest image that can be read, and what is read unless more is asked for.
+/// Greatest side and number of pixels of an image that can be read, and the default limit of
+/// pixels.
 inline constexpr int kMaxImageSide_px = 100'000;
 inline constexpr int kMaxImagePixels = 1 << 28;
 inline constexpr int kDefaultImagePixels = 100'000'000;
 
-/// An image has more pixels than were asked for; its header says so, and they were not decoded.
+/// Thrown for an image that has more pixels than the limit, by its header; they were not decoded.
 struct ImageTooLarge : Error {
     ImageTooLarge(const std::string& what, int width, int height)
         : Error(what), width_px(width), height_px(height) {}
@@ -38,8 +39,8 @@ struct ImageTooLarge : Error {
     int height_px;
 };
 
-/// Reads one image. While reading, 9 bytes of memory are needed per pixel, besides the file, of
-/// which no more is read than an image of `max_pixels` takes.
+/// Reads one image. Reading needs 9 bytes of memory per pixel, besides the file, of which no more
+/// is read than an image of `max_pixels` takes.
 /// Throws Error, naming the file and the reason: no such file, a directory, no permission, empty,
 /// no known image format, cut short, damaged, too large, not enough memory. Throws ImageTooLarge
 /// for more than `max_pixels`, at most kMaxImagePixels.
@@ -52,16 +53,17 @@ struct Resolution {
     double y_dpi = 0;
 };
 
-/// The resolution that the file itself states: PNG pHYs, JPEG density, TIFF and BMP resolution.
-/// Nothing if it states none. Beware: photos state made-up numbers, often 72 dpi.
-/// Throws Error as `read_image`.
+/// Returns the resolution that the file states: PNG pHYs, JPEG density, TIFF and BMP resolution;
+/// none if it states none. Photos often state made-up numbers, such as 72 dpi. Throws Error as
+/// `read_image`.
 std::optional<Resolution> read_resolution(const std::filesystem::path& path);
 
 /// Writes binary PGM (P5), replacing the file. Throws Error if the image is empty or the file
 /// cannot be written.
 void write_pgm(const std::filesystem::path& path, ImageView image);
 
-/// Writes 8-bit grey PNG, replacing the file; equal images give equal files. Throws Error as above.
+/// Writes 8-bit grey PNG, replacing the file; equal images give equal files. Throws Error as
+/// `write_pgm`.
 void write_png(const std::filesystem::path& path, ImageView image);
 
 }  // namespace dotpose

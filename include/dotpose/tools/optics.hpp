@@ -1,10 +1,10 @@
-/// Optics: what a camera of given parts sees of the pattern, for whoever designs a device. Paper
-/// III-A. A thin lens, focused on the paper.
+/// Optics: how a camera built from given parts sees the pattern, for designing a device (paper
+/// III-A). The model is a thin lens, focused on the paper.
 ///
 ///     const OpticsReport report = design_optics(paper_optics());
 ///     for (const OpticsAdvice& advice : report.advice) puts(advice.text.c_str());
 ///
-/// Pure functions; bad values throw BadArgument.
+/// The functions are pure; bad values throw BadArgument.
 #pragma once
 
 #include <optional>
@@ -18,12 +18,12 @@
 
 namespace dotpose {
 
-/// A device. All lengths above 0.
+/// The parts of a device. All lengths must be above 0.
 struct Optics {
     int width_px = 188;
     int height_px = 120;
     double pixel_um = 24;     ///< from pixel to pixel on the sensor; binned pixels count as one
-    double focal_mm = 5.5;    ///< of the lens
+    double focal_mm = 5.5;    ///< focal length of the lens
     double distance_mm = 16;  ///< from the lens to the paper; more than the focal length
     double spacing_mm = kDefaultSpacing_mm;
     double dot_mm = kDefaultSpacing_mm / 6;
@@ -33,20 +33,20 @@ struct Optics {
     double turn_rpm = 60;        ///< fastest turn, about the image centre
     double largest_blur_px = 1;  ///< motion during the exposure that is still good
 
-    /// Measured, in place of what the thin lens would give: size of a pixel on the paper, and the
-    /// field of view once distortion is corrected.
+    /// Measured values, used in place of those of the thin lens: size of a pixel on the paper, and
+    /// the field of view after correction of distortion.
     std::optional<double> mm_per_px;
     std::optional<double> field_width_mm;
     std::optional<double> field_height_mm;
 };
 
-/// The paper's device: MT9V034 with pixels of 6 um binned 4 x 4, a lens of 5.5 mm, 0.046 mm per px,
-/// 8.59 x 5.48 mm.
+/// Returns the paper's device: MT9V034 with pixels of 6 um binned 4 x 4, a lens of 5.5 mm, 0.046 mm
+/// per px, 8.59 x 5.48 mm.
 Optics paper_optics();
 
 struct OpticsAdvice {
-    bool is_fault = false;  ///< the device would not work well; else good to know
-    std::string text;       ///< one sentence: what, and what to change
+    bool is_fault = false;  ///< true: the device would not work well; false: a remark
+    std::string text;       ///< one sentence: the fault and what to change
 };
 
 struct OpticsReport {
@@ -63,19 +63,21 @@ struct OpticsReport {
     /// Diagonal of 8 x 8 dots in the worst case: sqrt(2) spacing (7 + 3/6) for dots a sixth of the
     /// spacing wide and displaced by a sixth each way.
     double block_diagonal_mm = 0;
-    bool block_fits = false;  ///< the field's shorter side is at least the diagonal: paper III-A.3
-    /// Side that the field needs so that some 8 x 8 dots are inside wherever the grid lies: at 45
-    /// degrees the nearest block may be half a diagonal step off the middle.
+    bool block_fits = false;  ///< whether the field's shorter side is at least that diagonal: paper
+                              ///< III-A.3
+    /// Side of a field that contains some 8 x 8 dots wherever the grid lies: at 45 degrees the
+    /// nearest block may be half a diagonal step off the middle.
     double block_anywhere_mm = 0;
     bool block_fits_anywhere = false;
 
-    double fastest_mm_s = 0;        ///< at the exposure, without a turn
-    double fastest_turn_rpm = 0;    ///< at the exposure, on the spot: at the middle of the far edge
-    double longest_exposure_s = 0;  ///< at the speed and turn rate together
-    double blur_px = 0;             ///< at speed, turn rate and exposure
+    double fastest_mm_s = 0;        ///< fastest straight motion for the exposure, without a turn
+    double fastest_turn_rpm = 0;    ///< fastest turn on the spot for the exposure, by the middle of
+                                    ///< the far edge
+    double longest_exposure_s = 0;  ///< longest exposure for the speed and turn rate together
+    double blur_px = 0;             ///< blur at the given speed, turn rate and exposure
 
-    double near_mm = 0;  ///< sharp from here, from the lens: blur of at most one pixel
-    double far_mm = 0;   ///< to here
+    double near_mm = 0;  ///< nearest sharp distance from the lens, where the blur is one pixel
+    double far_mm = 0;   ///< farthest sharp distance from the lens
     double depth_mm() const { return far_mm - near_mm; }
 
     std::vector<OpticsAdvice> advice;

@@ -1,4 +1,4 @@
-/// The names of option values, as the command line takes them and tables show them.
+/// Names of option values, as used on the command line and in tables.
 #pragma once
 
 #include <array>

@@ -10,11 +10,11 @@
 
 namespace dotpose {
 
-/// A fix farther off than this is wrong: it does not count as an error but as a failure.
+/// A fix with a deviation above these is wrong: it counts as a failure, not as an error.
 inline constexpr double kWrongFrom_grid = 0.5;
 inline constexpr double kWrongFrom_deg = 2;
 
-/// Found minus true.
+/// Difference of the fix from the truth.
 struct Deviation {
     double x_grid = 0;
     double y_grid = 0;
@@ -22,12 +22,12 @@ struct Deviation {
 };
 Deviation deviation_of(const Fix& fix, const Truth& truth);
 
-/// One frame, located once.
+/// The result of locating one frame once.
 struct Outcome {
     Fix fix;
     Truth truth;
-    double elapsed_us = 0;  ///< of `locate` alone
-    std::string problem;    ///< of the file; the rest means nothing then
+    double elapsed_us = 0;  ///< time of `locate` alone
+    std::string problem;    ///< fault of the file; if not empty, the rest is not valid
 
     bool is_fix() const { return problem.empty() && fix.status == Status::ok; }
     bool is_wrong() const;

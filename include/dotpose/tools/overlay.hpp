@@ -1,11 +1,11 @@
-/// Lays the pattern over, or under, the pages of an existing PDF.
+/// Overlay: lays the pattern over, or under, the pages of an existing PDF.
 ///
 ///     dotpose::OverlayOptions options;
 ///     options.origin = {.x = 5000, .y = 0};
 ///     const dotpose::OverlayReport report = dotpose::overlay_pdf("in.pdf", "out.pdf", options);
 ///
-/// Pages keep what they show and what they can do: text, links, forms, outlines, boxes, rotation.
-/// Each page that gets dots gets a region of the code plane of its own. Functions share no state.
+/// Pages keep their content and functions: text, links, forms, outlines, boxes, rotation. Each page
+/// that gets dots gets its own region of the code plane. Functions share no state.
 #pragma once
 
 #include <filesystem>
@@ -20,45 +20,45 @@
 
 namespace dotpose {
 
-/// One page with dots. Its sheet's frame begins at the top left corner of the page as it is shown.
+/// One page with dots. The frame of its sheet begins at the top left corner of the page as shown.
 struct OverlaidPage {
-    int number = 0;  ///< from 1
+    int number = 0;  ///< page number, from 1
     Sheet sheet;
 };
 
 struct OverlayOptions {
     Pattern pattern;       ///< code, section and measures of the dots
     Cell origin;           ///< first cell of the first page; the others follow as in `make_sheets`
-    double margin_mm = 5;  ///< kept free of dots inside the visible page (its crop box)
+    double margin_mm = 5;  ///< margin without dots inside the visible page (its crop box)
     double dpi = 600;      ///< as in PrintOptions
     DotDrawing drawing = DotDrawing::automatic;
     /// Pages that get dots, from 1, for example "1-3,7"; "z" is the last page. Empty: all.
     std::string pages;
-    bool under = false;    ///< dots below what the page shows instead of above
+    bool under = false;    ///< puts dots below the page's content instead of above
     std::string password;  ///< of an encrypted file, which stays encrypted
     bool black_to_cmy =
         false;           ///< print what is black without black ink, which infrared light sees
-    double lighten = 0;  ///< part of its ink that the document gives up, 0 to under 1
-    /// Most megabytes that the content of one page may take when it is unpacked; all pages together
-    /// may take eight times as much. A page takes a few times this of memory. Raise it for large
-    /// maps.
+    double lighten = 0;  ///< share of its ink by which the document is lightened, 0 to under 1
+    /// Limit, in megabytes, of the unpacked content of one page; all pages together may take eight
+    /// times as much. A page takes a few times this of memory. Raise it for large maps.
     int max_content_mb = 64;
     Progress progress;
-    /// Called once, with all pages that get dots, before anything is written: may change each
-    /// `sheet.origin`, for example to where a SheetFile has room. What it throws ends the work.
+    /// Called once, with all pages that get dots, before anything is written. It may change each
+    /// `sheet.origin`, for example to where a SheetFile has room. An exception from it ends the
+    /// work.
     std::function<void(std::span<OverlaidPage>)> place;
 };
 
 struct OverlayReport {
     std::vector<OverlaidPage> pages;
-    std::vector<std::string> warnings;  ///< what may hide dots or was not converted, for the user
+    std::vector<std::string> warnings;  ///< for the user: what may hide dots or was not converted
 };
 
 /// Writes `in` with dots to `out`, which appears complete or not at all.
 ///
-/// `black_to_cmy` and `lighten` change colours of the pages that get dots only: of text, drawings,
-/// forms, fonts and appearances; and of images as far as their colour space allows. What stays as
-/// it was is named in the report.
+/// `black_to_cmy` and `lighten` change colours only on pages that get dots: of text, drawings,
+/// forms, fonts and appearances; and of images as far as their colour space allows. The report
+/// names what stays unchanged.
 ///
 /// Throws BadArgument: bad pattern, margin or page range; a page that is too small or whose region
 /// would run past the end of the code plane; `out` is `in`. Throws Error: `in` cannot be read, is

@@ -1,4 +1,4 @@
-/// Print model: how far a printer puts ink from where it was meant to be.
+/// Print model: the distance of printed ink from its intended place.
 #pragma once
 
 #include "dotpose/tools/simulate.hpp"
@@ -7,16 +7,17 @@
 
 namespace dotpose {
 
-/// A model (not a measurement) of what a printer does to a page: a smooth shift of low frequency.
+/// A model (not a measurement) of a printer's errors over a page: a smooth shift of low frequency.
 /// The amplitudes are chosen so that its largest values on the measured area are those that the
-/// paper found (Table III): y, along which the paper is fed, is worse.
+/// paper found (Table III); they are larger along y, the direction of paper feed.
 class PrintModel {
   public:
-    static constexpr double kSide_mm = 200;  ///< of the area on which the amplitudes are reached
+    static constexpr double kSide_mm = 200;  ///< side of the area on which the amplitudes are
+                                             ///< reached
 
     PrintModel(double worst_x_mm = 0.15, double worst_y_mm = 0.27);
 
-    /// Printed minus intended place, at a place relative to the middle of the area.
+    /// Returns printed minus intended place, at a place relative to the middle of the area.
     Vec2 shift_mm(Vec2 from_middle_mm) const;
 
   private:

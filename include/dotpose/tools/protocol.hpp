@@ -17,25 +17,26 @@
 namespace dotpose {
 
 struct ProtocolOptions {
-    int samples = 20;  ///< at each position and angle
-    /// Light, blur and noise are the device's and drawn once; dots lie where this page has them.
+    int samples = 20;  ///< number of samples at each position and angle
+    /// Light, blur and noise are those of the device and drawn once; the page gives the places of
+    /// dots.
     Setup setup;
     Options locate;
     int threads = 0;
     Progress progress;
 };
 
-/// Deviations of one coordinate while the device stands still.
+/// Error of one coordinate while the device stands still.
 struct Spread {
     double bias = 0;   ///< mean of found minus true; its absolute value is the paper's accuracy
-    double sigma = 0;  ///< the paper's precision
+    double sigma = 0;  ///< standard deviation; the paper's precision
 };
 
-/// One position or angle of the device.
+/// The results at one position or angle of the device.
 struct Station {
     Vec2 place_mm;  ///< from the middle of the area, y down
     double theta_deg = 0;
-    Spread x_mm;  ///< of the right fixes
+    Spread x_mm;  ///< error of the right fixes
     Spread y_mm;
     Spread theta;  ///< degrees
     int samples = 0;
@@ -45,22 +46,23 @@ struct Station {
 
 struct ProtocolResult {
     std::vector<Station> positions;  ///< 11 x 11 on 200 x 200 mm, in a spiral from the middle
-    std::vector<Station> angles;     ///< 36, at the middle
+    std::vector<Station> angles;     ///< 36 angles, at the middle
 };
 
 struct Protocol {
     int samples = 0;
-    ProtocolResult perfect;  ///< every dot where it should be, but for its jitter
-    ProtocolResult printed;  ///< with `PrintModel`
+    ProtocolResult perfect;  ///< every dot in its intended place, except for its jitter
+    ProtocolResult printed;  ///< with the errors of `PrintModel`
 };
 
-/// Throws Error if interrupted.
+/// Simulates the experiment. Throws Error if interrupted.
 Protocol run_protocol(const ProtocolOptions& options);
 
-/// Table III in Markdown, the paper's figures beside the simulated ones.
+/// Returns Table III in Markdown, with the paper's figures beside the simulated ones.
 std::string table_3(const Protocol& protocol);
 void write_stations_csv(std::ostream& out, std::span<const Station> stations);
-/// Figures 13 and 14: accuracy of x or y over the positions; Figure 15: of theta. SVG.
+/// Draw, as SVG, the paper's figures: 13 and 14, accuracy of x and y over the positions; 15, of
+/// theta.
 void draw_figure_13(std::ostream& out, const Protocol& protocol);
 void draw_figure_14(std::ostream& out, const Protocol& protocol);
 void draw_figure_15(std::ostream& out, const Protocol& protocol);

@@ -1,5 +1,5 @@
-/// Random numbers that are the same on every machine and with every standard library, which the
-/// distributions of <random> are not. For simulation only; not for secrets.
+/// Random numbers that are the same on every machine and with every standard library, unlike the
+/// distributions of <random>. For simulation only; not for secrets.
 #pragma once
 
 #include <cstdint>
@@ -10,20 +10,20 @@
 
 namespace dotpose {
 
-/// Scrambles 64 bits so that every input bit affects every output bit.
-/// Source: the finalizer of splitmix64 (Steele, Lea, Flood, OOPSLA 2014).
+/// Scrambles 64 bits so that every input bit affects every output bit: the finalizer of splitmix64
+/// (Steele, Lea, Flood, OOPSLA 2014).
 constexpr std::uint64_t scramble(std::uint64_t bits) noexcept {
     bits = (bits ^ (bits >> 30)) * 0xBF58476D1CE4E5B9u;
     bits = (bits ^ (bits >> 27)) * 0x94D049BB133111EBu;
     return bits ^ (bits >> 31);
 }
 
-/// The generator splitmix64. Cheap to seed, so every frame and every printed dot has its own.
+/// The generator splitmix64. It is cheap to seed, so every frame and every printed dot has its own.
 class Rng {
   public:
     explicit constexpr Rng(std::uint64_t seed) noexcept : state_(seed) {}
 
-    /// An independent stream for item `index` of a run: the same whatever was drawn before.
+    /// Starts an independent stream for item `index` of a run, whatever was drawn before.
     constexpr Rng(std::uint64_t seed, std::uint64_t index) noexcept
         : state_(scramble(scramble(seed + kStep) + kStep * (index + 1))) {}
 
@@ -32,24 +32,24 @@ class Rng {
         return scramble(state_);
     }
 
-    /// Uniform in [0, 1), a multiple of 2^-53.
+    /// Returns a uniform number in [0, 1), a multiple of 2^-53.
     constexpr double uniform() noexcept { return static_cast<double>(bits() >> 11) * 0x1p-53; }
 
-    /// Uniform in [low, high); `low` if they are equal.
+    /// Returns a uniform number in [low, high); `low` if they are equal.
     constexpr double uniform(double low, double high) noexcept {
         return low + (high - low) * uniform();
     }
 
-    /// Uniform in [0, limit); 0 < limit < 2^32. The bias is below limit / 2^64.
+    /// Returns a uniform number in [0, limit); 0 < limit < 2^32. The bias is below limit / 2^64.
     constexpr std::uint32_t below(std::uint32_t limit) noexcept {
         const std::uint64_t high = bits() >> 32;
         const std::uint64_t low = bits() >> 32;
         return static_cast<std::uint32_t>((high * limit + ((low * limit) >> 32)) >> 32);
     }
 
-    /// Normal with mean 0 and deviation 1: the count of ones among 128 random bits, smoothed by a
-    /// uniform step. Excess kurtosis -0.016, never beyond 11.4; needs no logarithm, whose last
-    /// digit differs between machines.
+    /// Returns a normal number with mean 0 and deviation 1: the count of ones among 128 random
+    /// bits, smoothed by a uniform step. Excess kurtosis -0.016, never beyond 11.4; needs no
+    /// logarithm, whose last digit differs between machines.
     constexpr double normal() noexcept {
         constexpr double kInverseDeviation = 0.1765469659009499;  // 1 / sqrt(128 / 4 + 1 / 12)
         const int ones = ones_in(bits(), bits());
@@ -57,8 +57,8 @@ class Rng {
     }
 
   private:
-    /// How many of 128 bits are set. Counted in fields of 2, 4 and 8 bits side by side, because
-    /// std::popcount is a call where the processor may lack the instruction.
+    /// Returns how many of 128 bits are set, counted in fields of 2, 4 and 8 bits side by side
+    /// because std::popcount is a call where the processor may lack the instruction.
     static constexpr int ones_in(std::uint64_t a, std::uint64_t b) noexcept {
         constexpr std::uint64_t kOdd2 = 0x3333333333333333u;
         constexpr std::uint64_t kOdd4 = 0x0F0F0F0F0F0F0F0Fu;

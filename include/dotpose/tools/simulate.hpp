@@ -2,7 +2,7 @@
 ///
 /// A frame is rendered from the geometry of the printed page, in this order: paper with texture,
 /// ink, light, blur, motion, integration over the area of each pixel, noise, clipping, rounding.
-/// The centre of gravity of a dot is right to better than 0.003 px (tests/unit/simulate).
+/// The centroid of a dot is exact to better than 0.003 px (tests/unit/simulate).
 ///
 /// How to use: fill a `Setup`, then for frame i
 ///
@@ -14,7 +14,7 @@
 ///
 /// Frames: *pixel* (centre of the first pixel (0, 0), v down), *pattern* (x right, y DOWN as the
 /// page is read, mm). Offsets named `offset_mm` are in the pattern frame, from the pose point, so
-/// that nothing is lost to rounding anywhere on the plane of 2.1e8 mm.
+/// that rounding loses nothing anywhere on the plane of 2.1e8 mm.
 #pragma once
 
 #include <array>
@@ -40,7 +40,7 @@ struct Vec2 {
     double y = 0;
 };
 
-/// The camera. The defaults are the paper's device (III-A).
+/// Size and optics of the simulated camera. The defaults are the paper's device (III-A).
 struct CameraModel {
     int width_px = 188;   ///< 1 to 16384
     int height_px = 120;  ///< 1 to 16384
@@ -49,7 +49,8 @@ struct CameraModel {
     /// Radial distortion of eq. 1-2, p_u = m + r_d / (1 + k |r_d|^2), in 1 / px^2; m is the image
     /// centre. Below 0: barrel. 1 + k |r|^2 must stay in (0, 2) over the whole image.
     double k = 0;
-    /// Distance of the projection centre from the pose point; matters with tilt only. Above 0.
+    /// Distance of the projection centre from the pose point, which matters only with tilt. Above
+    /// 0.
     double working_distance_mm = 16;
 };
 
@@ -70,28 +71,30 @@ struct CameraPose {
 double x_grid(const CameraPose& pose);
 double y_grid(const CameraPose& pose);
 
-/// What printer, paper, light and sensor do to a frame. The defaults are perfect: preset `clean`.
-/// Fractions and reflectances are in [0, 1]; sigmas, lengths and counts are not negative.
+/// Effects of printer, paper, light and sensor on a frame. By default there are none: preset
+/// `clean`. Fractions and reflectances are in [0, 1]; sigmas, lengths and counts are not negative.
 struct Imperfections {
     double paper_level = 200;       ///< grey level of bare paper at the image centre, 0 to 255
     double ink_reflectance = 0.15;  ///< relative to paper
-    double ink_variation = 0;       ///< deviation of a dot's reflectance, relative to paper
-    /// Inks of unequal darkness, one for each direction of displacement: the contrast of the palest
-    /// relative to the darkest, which has `ink_reflectance`; the other two lie evenly in between.
+    double ink_variation = 0;  ///< standard deviation of a dot's reflectance, relative to paper
+    /// Contrast of the palest ink relative to the darkest. Inks may be unequally dark, one for each
+    /// direction of displacement: the darkest has `ink_reflectance`; the other two lie evenly in
+    /// between.
     double palest_ink = 1;
     double vignetting = 0;  ///< loss of light in the image corners, growing with r^2
     /// Linear change of light from one side to the other, relative to that at the centre; 0 to 2.
     double fall = 0;
     double fall_direction_rad = 0;  ///< image direction of less light, from +u towards +v
     double blur_sigma_px = 0;
-    Vec2 motion_px;  ///< of the scene in the image during exposure; the pose is that of its middle
-    double noise_sigma = 0;                 ///< grey levels
-    double salt_and_pepper = 0;             ///< fraction of the pixels
-    double jitter_mm = 0;                   ///< deviation of a printed dot's place, per axis
-    double missing = 0;                     ///< fraction of the dots
-    int dirt_blobs = 0;                     ///< dark specks in the frame
-    int graphics = 0;                       ///< thick strokes or words in the frame
-    double texture = 0;                     ///< deviation of the paper's reflectance
+    Vec2 motion_px;  ///< motion of the scene in the image during exposure; the pose is that of its
+                     ///< middle
+    double noise_sigma = 0;      ///< grey levels
+    double salt_and_pepper = 0;  ///< fraction of the pixels
+    double jitter_mm = 0;        ///< standard deviation of a printed dot's place, per axis
+    double missing = 0;          ///< fraction of the dots
+    int dirt_blobs = 0;          ///< dark specks in the frame
+    int graphics = 0;            ///< thick strokes or words in the frame
+    double texture = 0;          ///< standard deviation of the paper's reflectance
     static constexpr double kGrain_px = 3;  ///< size of the texture's grains
     double tilt_x_rad = 0;  ///< added to the pose by `draw_shot`; `render` ignores it
     double tilt_y_rad = 0;
@@ -102,57 +105,59 @@ enum class Preset : std::uint8_t { clean, nominal, hard };
 inline constexpr std::array kPresets = {Preset::clean, Preset::nominal, Preset::hard};
 const char* name(Preset preset);
 
-/// Draws each imperfection from the preset's range, uniformly.
+/// Draws each imperfection uniformly from the preset's range.
 Imperfections draw_imperfections(Preset preset, Rng& rng);
 
 /// A rectangle on a page, turned by any angle.
 struct PageArea {
-    double x_grid = 0;  ///< its middle, in grid units
+    double x_grid = 0;  ///< centre, in grid units
     double y_grid = 0;
     double half_width = 0;  ///< in grid units
     double half_height = 0;
-    double angle_rad = 0;  ///< of the side that is `half_width`, from +x towards +y
+    double angle_rad = 0;  ///< direction of the side that is `half_width`, from +x towards +y
 
-    /// How far a point lies outside, in grid units; below 0 inside.
+    /// Returns the distance of a point from the area, in grid units; negative inside.
     double distance(double x, double y) const;
 };
 
-/// A printed page: a pattern, its printing errors, and how far it reaches.
+/// A printed page: a pattern, its printing errors, and its extent.
 struct Page {
     Pattern pattern;
-    /// Decides the jitter, ink and absence of each dot, together with its cell: a dot has the same
-    /// printing errors in every frame that shows it.
+    /// Seed of the printing errors. Together with the cell it determines the jitter, ink and
+    /// absence of a dot, which are so the same in every frame that shows it.
     std::uint64_t seed = 1;
     /// Printed intersections: `columns` x `rows` from `origin`; 0 columns: the whole plane.
     Cell origin;
     std::uint32_t columns = 0;
     std::uint32_t rows = 0;
-    /// Above 0. Pose and `displacement_mm` are told as meant to be printed, offsets and theta are
-    /// those on the paper.
+    /// Printed length of a unit length, above 0. Pose and `displacement_mm` are as meant to be
+    /// printed, offsets and theta are those on the paper.
     AxisScale print_scale;
-    /// Dots are printed where their intersection lies in one of these; if there are none, on the
-    /// whole page.
+    /// Dots are printed where their intersection lies in one of these areas; if there are none, on
+    /// the whole page.
     std::vector<PageArea> areas;
-    /// Where the paper ends, if it does, and what the table beyond reflects, relative to paper.
+    /// Extent of the paper, if it is limited, and reflectance of the table around it, relative to
+    /// paper.
     std::optional<PageArea> paper;
     double table_reflectance = 0.2;
-    /// By how much a dot is printed beside its place, or lies beside it because the paper is bent,
-    /// by that place in grid units; none: nowhere. Called from several threads.
+    /// Returns the displacement of a dot from its intended place (in grid units), by printing
+    /// errors or because the paper is bent; none: no displacement. Called from several threads.
     std::function<Vec2(Vec2 place_grid)> shift_mm;
 };
 
 Page page_of(const Sheet& sheet, std::uint64_t seed = 1);
 
-/// Camera geometry between offsets from the pose point and pixels; the two are each other's
-/// inverse.
+/// Camera geometry between pixels and offsets from the pose point; the two functions are each
+/// other's inverse.
 class Projection {
   public:
     Projection(const CameraModel& camera, const CameraPose& pose);
 
-    /// A point that the camera cannot see at all gives a pixel 1e9 away.
+    /// Returns the pixel of an offset. A point that the camera cannot see at all gives a pixel 1e9
+    /// away.
     Vec2 pixel_from_offset(Vec2 offset_mm) const;
     Vec2 offset_from_pixel(Vec2 pixel) const;
-    /// `offset_from_pixel` of pixels one beside the other, from `first_pixel` to the right.
+    /// Computes `offset_from_pixel` for adjacent pixels, from `first_pixel` to the right.
     void offsets_from_row(Vec2 first_pixel, std::span<Vec2> offsets_mm) const;
 
   private:
@@ -166,38 +171,38 @@ class Projection {
     std::array<double, 3> y_axis_;
 };
 
-/// Renders what the camera sees. `seed` decides noise, dirt and graphics.
+/// Renders the image that the camera sees. `seed` determines noise, dirt and graphics.
 GreyImage render(const Page& page, const CameraModel& camera, const CameraPose& pose,
                  const Imperfections& imperfections, std::uint64_t seed);
 
-/// The same for the whole plane, printed with `Page::seed` 1.
+/// Renders the whole plane, printed with `Page::seed` 1.
 GreyImage render(const Pattern& pattern, const CameraModel& camera, const CameraPose& pose,
                  const Imperfections& imperfections, std::uint64_t seed);
 
-/// A page given as an image, for example a PDF as a renderer paints it at 1200 dpi: pixels are read
-/// as if the paper darkened linearly from one to the next.
+/// A page given as an image, for example a PDF rendered at 1200 dpi. Between pixels, its darkness
+/// is interpolated linearly.
 struct PageImage {
-    ImageView image;  ///< 255 is bare paper, 0 is solid ink; paper without end around it
+    ImageView image;  ///< 255 is bare paper, 0 is solid ink; around it is endless paper
     double mm_per_px = 25.4 / 1200;
-    /// What lies under the image centre, from the upper left corner of the image: x right, y down.
+    /// Point under the image centre, from the upper left corner of the image: x right, y down.
     Vec2 centre_mm;
 };
 
-/// What the camera sees of it. Of the pose only the angles count; of the imperfections, the
-/// printer's own (jitter, missing dots) and dirt and graphics do not.
+/// Renders the image that the camera sees of a page image. Of the pose only the angles count; of
+/// the imperfections, the printer's own (jitter, missing dots), dirt and graphics do not count.
 GreyImage render(const PageImage& page, const CameraModel& camera, const CameraPose& pose,
                  const Imperfections& imperfections, std::uint64_t seed);
 
-/// What a run of frames has in common.
+/// What all frames of a run have in common.
 struct Setup {
     Preset preset = Preset::nominal;
-    Pattern pattern;             ///< its section counts only without `random_section`
+    Pattern pattern;             ///< its section counts only if `random_section` is false
     bool random_section = true;  ///< each frame reads another section
     CameraModel camera;
     std::uint64_t seed = 1;
 };
 
-/// All that decides one frame. `page.pattern.section` and `pose` are the truth.
+/// All inputs of one frame. `page.pattern.section` and `pose` are the truth.
 struct Shot {
     Page page;
     CameraModel camera;
@@ -206,34 +211,34 @@ struct Shot {
     std::uint64_t seed = 0;
 };
 
-/// Frame `index` of a run: uniform angle, position anywhere on the plane with the whole frame on
-/// it, imperfections from the preset.
+/// Draws frame `index` of a run: uniform angle, position anywhere on the plane with the whole frame
+/// on it, imperfections from the preset.
 Shot draw_shot(const Setup& setup, std::uint64_t index);
 
-/// A view of which the pattern covers a part only.
+/// A view that the pattern covers only in part.
 struct PartialView {
-    /// 0: one area along a border or in a corner of the image. Else so many rectangles anywhere in
-    /// it, apart from each other, of `kFewestIslandDots` dots and more.
+    /// 0: one area along a border or in a corner of the image. Otherwise the number of rectangles
+    /// anywhere in the image, apart from each other, each with at least `kFewestIslandDots` dots.
     int islands = 0;
     static constexpr int kFewestIslandDots = 60;
-    /// The share of the image that the one area covers lies between these, and the area holds at
-    /// least `fewest_dots`.
+    /// Range of the share of the image that the one area covers; the area holds at least
+    /// `fewest_dots`.
     double least_share = 0.15;
     double most_share = 0.45;
     int fewest_dots = 150;
-    /// The one area is the corner or side of a sheet that lies on a table.
+    /// Whether the one area is the corner or side of a sheet that lies on a table.
     bool on_table = false;
 };
 
-/// Draws, from the shot's seed, where its page has dots, and where its paper ends. Areas have the
-/// direction of the pattern in every second frame, else that of the image. Throws BadArgument where
-/// there is no room for the islands.
+/// Draws from the shot's seed where its page has dots and where its paper ends. In every second
+/// frame, areas have the direction of the pattern, otherwise that of the image. Throws BadArgument
+/// if there is no room for the islands.
 void cover_partly(Shot& shot, const PartialView& view);
 
 GreyImage render(const Shot& shot);
 
-/// Frames without a valid position, which a locator must refuse. At a seam, the position and
-/// section of either side would be right as well.
+/// Frames without one valid position, which a locator must refuse. At a seam, the position and
+/// section of either side would also be right.
 enum class Scene : std::uint8_t {
     black,
     white,
@@ -253,8 +258,8 @@ inline constexpr std::array kScenes = {
     Scene::seam_vertical, Scene::seam_horizontal, Scene::mirrored};
 const char* name(Scene scene);
 
-/// Renders `scene` with the shot's camera, pose and imperfections in place of its page.
-/// density: 0 to 1; means something for `noise` and `scattered_dots` only.
+/// Renders `scene` with the shot's camera, pose and imperfections in place of its page. `density`
+/// is 0 to 1 and counts for `noise` and `scattered_dots` only.
 GreyImage render_scene(Scene scene, const Shot& shot, double density = 0.5);
 
 }  // namespace dotpose

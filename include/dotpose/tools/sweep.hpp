@@ -20,7 +20,7 @@ enum class SweepKind : std::uint8_t {
     noise,      ///< sensor noise, grey levels
     blur,       ///< sigma of the lens's blur, px
     missing,    ///< dots not printed, %
-    tilt,       ///< of the camera, about a random axis in the image, degrees
+    tilt,       ///< tilt of the camera about a random axis in the image, degrees
     spacing,    ///< grid spacing in the image, px
     occlusion,  ///< share of the image behind a straight dark edge from a random side, %
 };
@@ -32,14 +32,14 @@ const char* name(SweepKind kind);
 struct SweepOptions {
     Setup setup;                 ///< all other conditions
     int frames_per_value = 200;  ///< the same frames for each value
-    Options locate;              ///< `decoder` does not matter: both are run
+    Options locate;              ///< options of `locate`; `decoder` is ignored, as both are run
     int threads = 0;
     Progress progress;
 };
 
 struct SweepPoint {
-    double value = 0;  ///< in the unit of the kind
-    Score window;      ///< by Decoder
+    double value = 0;  ///< value of the condition, in the unit of its kind
+    Score window;      ///< score with Decoder::window; `all` with Decoder::all
     Score all;
 };
 
@@ -52,7 +52,7 @@ struct Sweep {
 
 Sweep run_sweep(SweepKind kind, const SweepOptions& options);
 void write_sweep_csv(std::ostream& out, const Sweep& sweep);
-/// Success rate and errors of both decoders over the condition, as SVG.
+/// Draws, as SVG, the success rate and errors of both decoders over the condition.
 void draw_sweep(std::ostream& out, const Sweep& sweep);
 /// Writes sweep-KIND.csv, .svg and .png.
 void write_sweep(const std::filesystem::path& folder, const Sweep& sweep);

@@ -1,14 +1,13 @@
 /// Test page: patches of dot sizes against spacings, to find out what a printer can do.
 ///
-/// Each patch says by its position in the code how it was printed: of the cell (x, y) at its top
-/// left,
+/// Each patch encodes in its position how it was printed: the cell (x, y) at its top left is
 ///
 ///     x = kTestPageCell + kTestPatchCells * (spacing in 1/1200 inch)
 ///     y = kTestPageCell + kTestPatchCells * (diameter of a dot in 1/1200 inch)
 ///
-/// so that wherever `locate` reads it, the position names the patch. Cells from kTestPageCell on
-/// both axes are kept for test pages: do not print sheets there. The displacement is a sixth of the
-/// spacing.
+/// so the position that `locate` reads anywhere in a patch identifies the patch. Cells from
+/// kTestPageCell on, on both axes, are kept for test pages: do not print sheets there. The
+/// displacement is a sixth of the spacing.
 #pragma once
 
 #include <optional>
@@ -32,7 +31,8 @@ struct TestPageOptions {
     Profile profile = Profile::anoto;
     Paper paper;
     double margin_mm = 10;
-    /// Columns and rows of the page, in 1/1200 inch; each 1 to 80.
+    /// Spacings of the columns and dot diameters of the rows of the page, in 1/1200 inch; each 1 to
+    /// 80.
     std::vector<int> spacings = {18, 24, 30, 36};  ///< 0.381, 0.508, 0.635, 0.762 mm
     std::vector<int> dots = {2, 3, 4, 6, 8};       ///< 0.042, 0.064, 0.085, 0.127, 0.169 mm
 };
@@ -41,7 +41,7 @@ struct TestPageOptions {
 /// touch are left out. Throws BadArgument: as `make_sheet`, and for settings outside 1 to 80.
 PrintPage make_test_page(const TestPageOptions& options);
 
-/// How the patch that holds this cell was printed; nothing for cells that belong to no test page.
+/// Returns how the patch with this cell was printed; none for cells that belong to no test page.
 std::optional<Pattern> test_patch_at(Profile profile, Cell cell);
 
 }  // namespace dotpose

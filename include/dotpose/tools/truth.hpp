@@ -21,7 +21,7 @@ struct Truth {
     double x_grid = 0;
     double y_grid = 0;
     double theta_rad = 0;
-    std::optional<Section> section;  ///< not judged if unknown
+    std::optional<Section> section;  ///< not judged if not known
     double spacing_mm = kDefaultSpacing_mm;
 };
 
@@ -31,14 +31,14 @@ Truth truth_of(const Shot& shot);
 struct TruthRow {
     std::string file;
     Truth truth;
-    std::optional<Profile> profile;  ///< as printed, if the file tells
+    std::optional<Profile> profile;  ///< profile as printed, if the file has it
 };
 
 /// Reads truth.csv as `dotpose simulate` writes it. Columns are found by their names and may stand
-/// in any order; needed are file, theta_deg, and x_grid, y_grid or x_mm, y_mm (grid units win).
-/// Known besides: section_u, section_v, profile, spacing_mm. A row with empty pose is a frame
-/// without one. `spacing_mm`, if given, replaces that of the file.
-/// Throws Error, naming file and line, if the file cannot be read or makes no sense.
+/// in any order; required are file, theta_deg, and x_grid, y_grid or x_mm, y_mm (grid units win).
+/// Optional are section_u, section_v, profile, spacing_mm. A row with an empty pose is a frame
+/// without a pose. `spacing_mm`, if given, replaces that of the file.
+/// Throws Error, naming file and line, if the file cannot be read or has invalid content.
 std::vector<TruthRow> read_truth(const std::filesystem::path& path,
                                  std::optional<double> spacing_mm = std::nullopt);
 
