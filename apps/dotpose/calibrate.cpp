@@ -14,6 +14,7 @@
 #include "commands.hpp"
 #include "common.hpp"
 #include "dotpose/files/camera_file.hpp"
+#include "dotpose/tools/draw.hpp"
 #include "dotpose/tools/frame_file.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"

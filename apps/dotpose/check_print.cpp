@@ -15,6 +15,7 @@
 #include "commands.hpp"
 #include "common.hpp"
 #include "dotpose/files/sheet_file.hpp"
+#include "dotpose/tools/draw.hpp"
 #include "dotpose/tools/image_file.hpp"
 #include "exit_codes.hpp"
 #include "progress.hpp"

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dotpose/tools/calibrate.hpp"
+#include "dotpose/tools/draw.hpp"
 #include "draw/svg.hpp"
 
 namespace dotpose {

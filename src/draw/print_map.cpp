@@ -5,6 +5,7 @@
 #include <string>
 
 #include "dotpose/tools/check_print.hpp"
+#include "dotpose/tools/draw.hpp"
 #include "draw/svg.hpp"
 
 namespace dotpose {

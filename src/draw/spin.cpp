@@ -6,6 +6,7 @@
 #include <string>
 
 #include "dotpose/tools/calibrate.hpp"
+#include "dotpose/tools/draw.hpp"
 #include "draw/two_panels.hpp"
 
 namespace dotpose {

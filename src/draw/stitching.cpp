@@ -10,6 +10,7 @@
 
 #include "dotpose/files/sheet_place.hpp"
 #include "dotpose/tools/calibrate.hpp"
+#include "dotpose/tools/draw.hpp"
 #include "draw/two_panels.hpp"
 
 namespace dotpose {

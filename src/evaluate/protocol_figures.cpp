@@ -5,6 +5,7 @@
 #include <numbers>
 #include <ostream>
 
+#include "dotpose/tools/draw.hpp"
 #include "evaluate/plot.hpp"
 #include "evaluate/protocol.hpp"
 

@@ -8,6 +8,7 @@
 
 #include <fmt/core.h>
 
+#include "dotpose/tools/draw.hpp"
 #include "dotpose/tools/option_names.hpp"
 #include "draw/raster.hpp"
 #include "draw/svg.hpp"

@@ -5,6 +5,7 @@
 #include <limits>
 #include <ostream>
 
+#include "dotpose/tools/draw.hpp"
 #include "dotpose/tools/option_names.hpp"
 #include "evaluate/plot.hpp"
 #include "evaluate/sweep.hpp"

@@ -13,7 +13,6 @@
 /// Frames are requested by their index, several times, and not kept. Functions share no state.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <span>
@@ -230,19 +229,6 @@ struct Stitching {
 Stitching stitch_sheets(int frames, const FrameAt& frame_at, std::vector<SheetEntry> sheets,
                         const std::optional<Camera>& camera, const CalibrateOptions& options,
                         const ScaleReference& reference = {});
-
-/// Draws as SVG the residual fields before and after calibration, and the dots' coverage of the
-/// image. Throws Error if the file cannot be written.
-void draw_calibration(const std::filesystem::path& path, const LensCalibration& calibration);
-
-/// Draws where the camera was while the robot turned, and where each frame places the centre of
-/// rotation. Throws Error if the file cannot be written.
-void draw_spin(const std::filesystem::path& path, const SpinCalibration& calibration);
-
-/// Draws how sheets lie, by the sheet file before and as stitched, with the disagreement of frames
-/// over the seams. Throws Error if the file cannot be written.
-void draw_stitching(const std::filesystem::path& path, std::span<const SheetEntry> before,
-                    const Stitching& stitching);
 
 }  // namespace dotpose
 

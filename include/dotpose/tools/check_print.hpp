@@ -16,7 +16,6 @@
 /// first one is (0, 0)).
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -176,11 +175,6 @@ struct PrintCheck {
 /// Checks a scan or photo of at least 64 x 64 px. Memory: about 100 bytes per dot, besides the
 /// image. Throws BadArgument for a pattern that `validate` would refuse and for wrong options.
 PrintCheck check_print(const ImageView& scan, const CheckPrintOptions& options);
-
-/// Draws the deviations of all fields over the outline of the scan, enlarged, as SVG.
-/// Throws Error if the file cannot be written.
-void draw_distortion(const std::filesystem::path& path, const ImageView& scan,
-                     const PrintCheck& check);
 
 }  // namespace dotpose
 

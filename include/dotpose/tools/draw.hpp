@@ -1,5 +1,6 @@
-/// Drawing: pictures (self-contained SVG) of what `locate` saw in a frame, stage by stage, and of
-/// paths over a sheet. The stages contain no code for it: drawing reads the trace.
+/// Drawing: pictures (self-contained SVG) of what `locate` saw in a frame, stage by stage, of paths
+/// over a sheet, of calibrations, of checked prints and of evaluations. The stages contain no code
+/// for it: drawing reads the trace, or the result of what it shows.
 ///
 ///     const dotpose::Fix fix = locator.locate(image.view());
 ///     draw_frame("frame.svg", image.view(), locator.trace());
@@ -21,6 +22,14 @@
 #pragma GCC visibility push(default)
 
 namespace dotpose {
+
+struct LensCalibration;
+struct PrintCheck;
+struct Protocol;
+struct SheetEntry;
+struct SpinCalibration;
+struct Stitching;
+struct Sweep;
 
 /// The content of the caption of `draw_frame`, besides the fix.
 struct DrawOptions {
@@ -61,6 +70,32 @@ void draw_path(std::ostream& out, const Sheet& sheet, std::span<const PathPoint>
                const std::string& title = {});
 void draw_path(const std::filesystem::path& file, const Sheet& sheet,
                std::span<const PathPoint> path, const std::string& title = {});
+
+/// Draws the residual fields before and after calibration, and the dots' coverage of the image.
+void draw_calibration(const std::filesystem::path& path, const LensCalibration& calibration);
+
+/// Draws where the camera was while the robot turned, and where each frame places the centre of
+/// rotation.
+void draw_spin(const std::filesystem::path& path, const SpinCalibration& calibration);
+
+/// Draws how sheets lie, by the sheet file before and as stitched, with the disagreement of frames
+/// over the seams.
+void draw_stitching(const std::filesystem::path& path, std::span<const SheetEntry> before,
+                    const Stitching& stitching);
+
+/// Draws the deviations of all fields of a printed page over the outline of its scan, enlarged.
+void draw_distortion(const std::filesystem::path& path, const ImageView& scan,
+                     const PrintCheck& check);
+
+/// Draws Fig. 13 of the paper: the accuracy of x over the positions.
+void draw_figure_13(std::ostream& out, const Protocol& protocol);
+/// Draws Fig. 14 of the paper: the accuracy of y over the positions.
+void draw_figure_14(std::ostream& out, const Protocol& protocol);
+/// Draws Fig. 15 of the paper: the accuracy of theta over the angles.
+void draw_figure_15(std::ostream& out, const Protocol& protocol);
+
+/// Draws the success rate and the errors of both decoders over the condition that was varied.
+void draw_sweep(std::ostream& out, const Sweep& sweep);
 
 }  // namespace dotpose
 

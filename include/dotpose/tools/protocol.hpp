@@ -61,11 +61,6 @@ Protocol run_protocol(const ProtocolOptions& options);
 /// Returns Table III in Markdown, with the paper's figures beside the simulated ones.
 std::string table_3(const Protocol& protocol);
 void write_stations_csv(std::ostream& out, std::span<const Station> stations);
-/// Draw, as SVG, the paper's figures: 13 and 14, accuracy of x and y over the positions; 15, of
-/// theta.
-void draw_figure_13(std::ostream& out, const Protocol& protocol);
-void draw_figure_14(std::ostream& out, const Protocol& protocol);
-void draw_figure_15(std::ostream& out, const Protocol& protocol);
 
 /// Writes table-3.md, positions.csv, angles.csv (the printed page) and figure-13, -14, -15, each as
 /// .svg and .png.

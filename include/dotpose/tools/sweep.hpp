@@ -52,8 +52,7 @@ struct Sweep {
 
 Sweep run_sweep(SweepKind kind, const SweepOptions& options);
 void write_sweep_csv(std::ostream& out, const Sweep& sweep);
-/// Draws, as SVG, the success rate and errors of both decoders over the condition.
-void draw_sweep(std::ostream& out, const Sweep& sweep);
+
 /// Writes sweep-KIND.csv, .svg and .png.
 void write_sweep(const std::filesystem::path& folder, const Sweep& sweep);
 

@@ -17,6 +17,7 @@
 #include "../../scanned_page.hpp"
 #include "../../temporary_directory.hpp"
 #include "../../xml_check.hpp"
+#include "dotpose/tools/draw.hpp"
 #include "dotpose/tools/image_file.hpp"
 #include "dotpose/tools/print.hpp"
 #include "dotpose/tools/simulate.hpp"

@@ -9,6 +9,7 @@
 #include "../../temporary_directory.hpp"
 #include "../../xml_check.hpp"
 #include "dotpose/tools/calibrate.hpp"
+#include "dotpose/tools/draw.hpp"
 #include "frames.hpp"
 
 namespace dotpose {

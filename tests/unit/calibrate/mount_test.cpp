@@ -10,6 +10,7 @@
 #include "../../temporary_directory.hpp"
 #include "../../xml_check.hpp"
 #include "dotpose/tools/calibrate.hpp"
+#include "dotpose/tools/draw.hpp"
 #include "dotpose/tools/heap_locator.hpp"
 #include "dotpose/tools/mounted_pose.hpp"
 #include "frames.hpp"

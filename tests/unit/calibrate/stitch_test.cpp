@@ -11,6 +11,7 @@
 #include "../../xml_check.hpp"
 #include "dotpose/files/sheet_place.hpp"
 #include "dotpose/tools/calibrate.hpp"
+#include "dotpose/tools/draw.hpp"
 #include "dotpose/tools/heap_locator.hpp"
 #include "dotpose/tools/mounted_pose.hpp"
 #include "frames.hpp"

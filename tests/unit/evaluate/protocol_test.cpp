@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "../../xml_check.hpp"
+#include "dotpose/tools/draw.hpp"
 #include "evaluate/plot.hpp"
 #include "evaluate/sweep.hpp"
 
