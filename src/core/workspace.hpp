@@ -10,7 +10,7 @@
 #include <span>
 
 #include "core/other_codes.hpp"
-#include "core/patch.hpp"
+#include "core/patch_memory.hpp"
 #include "core/stages.hpp"
 #include "dotpose/fix.hpp"
 

@@ -2,7 +2,7 @@
 // II-B.1.
 #pragma once
 
-#include "core/patch.hpp"
+#include "core/patch_memory.hpp"
 #include "dotpose/image.hpp"
 
 namespace dotpose::core {

@@ -9,10 +9,10 @@
 #include "core/integrity/alternative_sets.hpp"
 #include "core/integrity/alternatives.hpp"
 #include "core/integrity/least_losses.hpp"
-#include "core/integrity/other_codes.hpp"
 #include "core/integrity/quick_alternatives.hpp"
 #include "core/integrity/seam_alternatives.hpp"
 #include "core/integrity/unshared_lines.hpp"
+#include "core/integrity/weigh_codes.hpp"
 #include "core/math/fixed.hpp"
 #include "core/math/vectors.hpp"
 

@@ -6,9 +6,9 @@
 #include "core/decode/upright.hpp"
 #include "core/integrity/alternatives.hpp"
 #include "core/integrity/confidence.hpp"
-#include "core/integrity/other_codes.hpp"
 #include "core/integrity/quick_alternatives.hpp"
 #include "core/integrity/seam_alternatives.hpp"
+#include "core/integrity/weigh_codes.hpp"
 
 namespace dotpose::core {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "code/tables.hpp"
 #include "core/math/float_plane.hpp"
-#include "core/patch.hpp"
+#include "core/patch_memory.hpp"
 #include "dotpose/image.hpp"
 
 namespace dotpose::core {

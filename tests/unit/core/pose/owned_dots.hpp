@@ -4,7 +4,7 @@
 #include <array>
 
 #include "../geometry.hpp"
-#include "core/patch.hpp"
+#include "core/patch_memory.hpp"
 
 namespace dotpose::core_test {
 

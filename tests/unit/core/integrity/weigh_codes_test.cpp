@@ -1,6 +1,6 @@
 // What places of other profiles explain, against sums over all places that differ in a4, and
 // against the decoder of windows.
-#include "core/integrity/other_codes.hpp"
+#include "core/integrity/weigh_codes.hpp"
 
 #include <gtest/gtest.h>
 

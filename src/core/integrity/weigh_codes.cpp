@@ -1,4 +1,4 @@
-#include "core/integrity/other_codes.hpp"
+#include "core/integrity/weigh_codes.hpp"
 
 #include <algorithm>
 #include <span>
