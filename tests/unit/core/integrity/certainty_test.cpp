@@ -236,7 +236,7 @@ Block between(const Block& block, const std::vector<int>& own,
     return mixed;
 }
 
-TEST(IsCertain, RefusesWhatAAlternativeExplainsAsWell) {
+TEST(IsCertain, RefusesWhatAnAlternativeExplainsAsWell) {
     Rng rng(kSeed);
     int without_errors = 0;
     for (int i = 0; i < 24; ++i) {
