@@ -7,6 +7,7 @@
 
 namespace dotpose::core {
 
+/// Collects points of the image and their places in the grid, and solves for the affine map.
 class AffineFitInt32 {
   public:
     template <typename Int>
@@ -14,7 +15,7 @@ class AffineFitInt32 {
         Int xx = 0, xy = 0, yy = 0;
         Int ix = 0, iy = 0, jx = 0, jy = 0;
 
-        /// `weighted` is p, as often as it counts.
+        /// Adds a point p and its target. `weighted` is p times the point's weight, 1 or -1.
         [[gnu::always_inline]] void add(const Vec& p, const Vec& weighted, const Vec& target) {
             xx += weighted.x * p.x;
             xy += weighted.x * p.y;
@@ -27,26 +28,28 @@ class AffineFitInt32 {
     };
 
     AffineFitInt32() = default;
-    /// Of points that were counted and added up elsewhere.
+    /// Takes over the sums of `count` points that were added up elsewhere.
     AffineFitInt32(std::int32_t count, const Vec& p, const Vec& target,
                    const Products<std::int32_t>& sums)
         : changes_(count), p_(p), target_(target), recent_(sums) {}
 
-    /// Image points in 1/8 px from the plane's centre, within 2048 px; targets within 2^15.
+    /// Adds a point p of the image, in 1/8 px from the plane's centre, within 2048 px, and its
+    /// target in 2^-bits cells (see `solve`), within 2^15.
     [[gnu::always_inline]] void add(const Vec& p, const Vec& target) { change(p, p, target); }
-    /// Adds it (weight 1), or takes it away again (-1).
+    /// Adds a point with weight 1, or takes it away again with weight -1.
     [[gnu::always_inline]] void count(const Vec& p, const Vec& target, int weight) {
         unused_ += 1 - weight;
         change(p, Vec{weight * p.x, weight * p.y}, Vec{weight * target.x, weight * target.y});
     }
     int count() const { return changes_ - unused_; }
-    /// Sets all of the plane but its centre, perspective and lens; targets were in 2^-bits cells.
-    /// False where the points lie on one line.
+    /// Sets `at_centre`, du and dv of the plane; the other members stay. Targets are in 2^-bits
+    /// cells. Returns false if the points lie on one line.
     bool solve(int bits, PlaneFromImage& plane);
 
   private:
-    /// Image points from -kNear to kNear - 1: products of so many of them, and one of a point that
-    /// is farther off, fit 32 bits, which small processors add up three times as fast.
+    /// Points near the centre have coordinates from -kNear to kNear - 1. The products of
+    /// kMostRecent near points and of one far point fit into 32 bits, which small processors add up
+    /// three times as fast as 64.
     static constexpr std::uint32_t kNear = 1024;
     static constexpr int kMostRecent = 32;
     static std::uint32_t offset(std::int32_t a) { return static_cast<std::uint32_t>(a) + kNear; }
@@ -59,12 +62,14 @@ class AffineFitInt32 {
         const bool is_far = (offset(p.x) | offset(p.y)) / (2 * kNear) != 0;
         if (is_far || changes_ % kMostRecent == 0) carry_over();
     }
+    /// Adds the recent sums of 32 bits to those of 64 bits.
     void carry_over();
-    /// n^2 times the covariance of what has this sum of products and these sums.
+    /// Returns n^2 times the covariance of two coordinates from the sum of their products and their
+    /// sums a and b.
     std::int64_t moment(std::int64_t products, std::int32_t a, std::int32_t b) const;
 
     std::int32_t changes_ = 0;
-    std::int32_t unused_ = 0;  ///< by so much there are fewer points than changes
+    std::int32_t unused_ = 0;  ///< changes minus points
     Vec p_;
     Vec target_;
     Products<std::int32_t> recent_;

@@ -7,7 +7,8 @@
 
 namespace dotpose::core {
 
-/// target = offset + dx * source.x + dy * source.y, all times 2^fraction_bits.
+/// An affine map, target = offset + dx * source.x + dy * source.y; all members are times
+/// 2^fraction_bits.
 struct AffineMap {
     Vec dx;
     Vec dy;
@@ -15,12 +16,14 @@ struct AffineMap {
     std::int64_t offset_y = 0;
 };
 
-/// Collects point pairs; |source|, |target| < 2^24, at most 2^14 of them.
+/// Collects at most 2^14 pairs of points, with |source|, |target| < 2^24, and solves for the affine
+/// map.
 class AffineFitInt64 {
   public:
     void add(Vec source, Vec target);
     int count() const { return static_cast<int>(n_); }
-    /// False where the points lie on one line. The entries of dx and dy must fit 31 bits.
+    /// Sets the map of least squares. Returns false if the points lie on one line. The entries of
+    /// dx and dy must fit 31 bits.
     bool solve(int fraction_bits, AffineMap& map) const;
 
     /// Second moments of the sources about their mean: n times their covariance.

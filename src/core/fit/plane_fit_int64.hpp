@@ -11,12 +11,13 @@ namespace dotpose::core {
 /// Which terms of a plane are fitted; each includes those before it.
 enum class Terms : std::uint8_t { affine, perspective, lens };
 
+/// Returns the number of parameters of a plane with these terms.
 constexpr std::size_t parameters(Terms terms) {
     return terms == Terms::affine ? 6U : terms == Terms::perspective ? 8U : 9U;
 }
 
-/// Multiplied out, the equation of PlaneFromImage is linear in its parameters, if `target` is
-/// counted from where the centre is believed to be (so that `at`, what is left, is small):
+/// Least squares of a PlaneFromImage. Multiplied out, its equation is linear in the parameters if
+/// `target` is counted from where the centre is believed to be, so that `at` is small:
 ///
 ///     target = at + du x + dv y - perspective.x (x target) - perspective.y (y target) - lens (r^2
 ///     target).
@@ -24,23 +25,28 @@ constexpr std::size_t parameters(Terms terms) {
 /// Two passes over the points: `add` each, then `reduce`, then `add_residual` each, then `solve`.
 class PlaneFitInt64 {
   public:
-    /// `estimate` gives the centre, and where about it lies. Image points are within `reach_px` of
-    /// it.
+    /// `estimate` gives the centre and about where in the plane it lies. Image points must be
+    /// within `reach_px` of the centre.
     PlaneFitInt64(const PlaneFromImage& estimate, int reach_px, Terms terms);
 
-    /// `target_q16` are the plane coordinates of the point, within 256 spacings of the centre's.
+    /// Adds a point. `target_q16` are its coordinates in the plane, within 256 spacings of the
+    /// centre's.
     void add(Vec image_point_q8, Vec target_q16);
     int count() const { return fits_[0].count(); }
-    /// False where the points do not determine an affine map.
+    /// Takes the affine part off all regressors. Returns false if the points do not determine an
+    /// affine map.
     bool reduce();
+    /// Adds a point again, for the equations of the terms beyond the affine map.
     void add_residual(Vec image_point_q8, Vec target_q16);
-    /// False where they do not determine the further terms.
+    /// Sets the plane. Returns false if the points do not determine the terms beyond the affine
+    /// map.
     bool solve(PlaneFromImage& plane) const;
 
   private:
     static constexpr std::size_t kExtra = 3;
     std::size_t extra() const { return parameters(terms_) - parameters(Terms::affine); }
-    /// The target, and the target times x, y and r^2 in units of the reach.
+    /// Returns the target, and the target times x, y and r^2, with x, y and r in units of the
+    /// reach.
     std::array<Vec, kExtra + 1> regressors(Vec from_centre_q8, Vec target_q16) const;
 
     Vec centre_q8_;
@@ -53,10 +59,11 @@ class PlaneFitInt64 {
     std::array<std::int64_t, kExtra> right_{};
 };
 
-/// The plane a share, in 1/256, of the way from one to another with the same centre.
+/// Returns the plane that is `share_q8` / 256 of the way from one plane to another with the same
+/// centre.
 PlaneFromImage between(const PlaneFromImage& from, const PlaneFromImage& to, std::int64_t share_q8);
 
-/// A fit with no more terms than are significant.
+/// A fit with those terms only that are significant.
 struct FittedPlane {
     PlaneFromImage plane;
     Terms terms = Terms::affine;
@@ -64,10 +71,10 @@ struct FittedPlane {
     std::int64_t squared_residuals = 0;  ///< sum over points and axes, 2^-32 spacing^2
 };
 
-/// Fits the points that `visit(use)` shows by calling use(image_point_q8, target_q16), the same
-/// ones each time. Terms are added as far as they explain more than chance would; the curvature of
-/// a lens only where it is beyond doubt. False where the points do not even determine an affine
-/// map.
+/// Fits a plane to the points that `visit(use)` shows by calling use(image_point_q8, target_q16);
+/// it has to show the same points each time. Terms are added as far as they explain more than
+/// chance would, the curvature of a lens only if it is beyond doubt. Returns false if the points do
+/// not determine even an affine map.
 template <typename Visit>
 bool fit_significant_plane(const PlaneFromImage& estimate, Terms most, Visit visit,
                            FittedPlane& best) {
@@ -89,7 +96,7 @@ bool fit_significant_plane(const PlaneFromImage& estimate, Terms most, Visit vis
             fitted.squared_residuals += squared(plane_point_q16(fitted.plane, point_q8) - target);
         });
         if (found) {
-            // In units of the mean square, chance gains 1 with each parameter. Terms are kept in
+            // Each parameter explains by chance 1 in units of the mean square. Terms are kept in
             // the share that is more than chance (James and Stein 1961).
             const int more = static_cast<int>(parameters(terms) - parameters(best.terms));
             const int freedom =

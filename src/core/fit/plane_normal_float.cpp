@@ -12,7 +12,7 @@ void PlaneSumsFloat::add(const Projections& projections, const Residuals& residu
     const auto& [rx, ry] = residuals.off;
     const Four w = residuals.weight;
     less_points_ += w > 0.0F;
-    // The weight goes with the later one of two parameters.
+    // In each product the weight is multiplied into one of the two factors.
     const Four wu = w * u;
     const Four wv = w * v;
     const Four wax = w * ax;
@@ -74,10 +74,11 @@ PlaneNormalFloat::PlaneNormalFloat(const FitSums& sums)
       points_(static_cast<int>(sums.points)) {}
 
 bool PlaneNormalFloat::decompose() {
-    // What is left of a diagonal element after the others have had their share, at least.
+    // The part of a diagonal element that must be left after elimination of the parameters before
+    // it, for its parameter to count as determined.
     constexpr float kDetermined = 1e-4F;
     for (std::size_t i = 0; i < kPoseParameters; ++i) {
-        if (i >= 4 && m_[i][i] <= 0) {  // Nobody has asked for it.
+        if (i >= 4 && m_[i][i] <= 0) {  // The caller did not ask for this parameter.
             m_[i].fill(0);
             continue;
         }

@@ -7,13 +7,16 @@
 
 namespace dotpose::core {
 
-/// By how much four points lie off where they should, and what each counts: none with 0.
+/// How far four points lie off their places, in spacings, and the weight of each; 0 leaves a point
+/// out.
 struct Residuals {
     FourVecs off;
     Four weight;
 };
 
-/// Sums over points, of which the normal equations consist.
+/// Sums over points of which the normal equations consist. Letters in the names: u and v for scale,
+/// a and b for tilts, c for the bend, r for residuals; "turned" are products with scale, turn and
+/// shear.
 class PlaneSumsFloat {
   public:
     void add(const Projections& projections, const Residuals& residuals);
@@ -21,50 +24,54 @@ class PlaneSumsFloat {
   private:
     friend class PlaneNormalFloat;
 
+    /// Minus the number of points: a comparison of vectors gives -1 where it is true.
     FourInts less_points_{};
-    // Derivatives by scale and further terms, and residuals ...
-    Four one_scale_square_{};  ///< 1; scale; the squared residual
-    Four tilts_{};             ///< tilt_x, tilt_y
-    Four bend_off_{};          ///< bend; the residual
-    // ... times those by scale, turn and shear (2) ...
+    // Sums of the derivatives by scale, tilts and bend, and of the residuals, ...
+    Four one_scale_square_{};  ///< 1, scale (x, y), squared residual
+    Four tilts_{};             ///< tilt_x (x, y), tilt_y (x, y)
+    Four bend_off_{};          ///< bend (x, y), residual (x, y)
+    // ... of their products with the derivatives by scale, turn and shear (2), ...
     Four scale_turned_{};
     Four tilt_x_turned_{};
     Four tilt_y_turned_{};
     Four bend_turned_{};
     Four off_turned_{};
-    // ... and times each other.
-    Four tilt_tilt_{};     ///< xx, yx, yy
-    Four bend_further_{};  ///< tilt_x, tilt_y, bend
-    Four off_further_{};   ///< tilt_x, tilt_y, bend
+    // ... and of their products with each other.
+    Four tilt_tilt_{};     ///< xx, xy, yy
+    Four bend_further_{};  ///< bend with tilt_x, tilt_y, bend
+    Four off_further_{};   ///< residual with tilt_x, tilt_y, bend
 };
 
-/// The normal equations, and their solution by Cholesky's decomposition.
+/// The normal equations M p = right, solved by Cholesky's decomposition M = L L^T.
 class PlaneNormalFloat {
   public:
     PlaneNormalFloat() = default;
     explicit PlaneNormalFloat(const PlaneSumsFloat& sums);
     explicit PlaneNormalFloat(const FitSums& sums);
 
-    /// The parameters that the points determine; the first four must be. Then L L^T is the matrix.
+    /// Replaces M by L. Returns false if the points do not determine the first four parameters; of
+    /// the others, those that are not determined are left out.
     bool decompose();
 
-    /// L^-1 column: the inner product of two such is a . M^-1 . b.
+    /// Returns L^-1 column. The inner product of two such columns a and b is a . M^-1 . b.
     Parameters whitened(Parameters column) const;
-    /// L^-T column.
+    /// Returns L^-T column.
     Parameters unwhitened(Parameters column) const;
-    /// L^T column.
+    /// Returns L^T column.
     Parameters times_transposed(const Parameters& column) const;
 
-    /// An element of L.
+    /// Returns an element of L.
     float factor(std::size_t row, std::size_t column) const { return m_[row][column]; }
 
     const Parameters& right() const { return right_; }
     float squared_residuals() const { return squared_residuals_; }
     int points() const { return points_; }
+    /// Returns whether the points determine the parameter; call `decompose` first.
     bool determines(std::size_t parameter) const { return m_[parameter][parameter] > 0; }
 
   private:
-    std::array<Parameters, kPoseParameters> m_{};  ///< the lower triangle
+    std::array<Parameters, kPoseParameters> m_{};  ///< the lower triangle of M; of L after
+                                                   ///< `decompose`
     Parameters right_{};
     float squared_residuals_ = 0;
     int points_ = 0;

@@ -9,30 +9,31 @@
 
 namespace dotpose::core {
 
-/// Parameters of a plane, in the order in which they earn their place: at_centre (x, y); scale and
-/// turn; perspective (x, y); shear (2); lens.
+/// Parameters of a plane, those that matter most first: at_centre (x, y), scale, turn, perspective
+/// (x, y), shear (2), lens. kTilt, kShear and kBend are the first of perspective, shear and lens.
 constexpr std::size_t kPoseParameters = 9;
 constexpr std::size_t kTilt = 4;
 constexpr std::size_t kShear = 6;
 constexpr std::size_t kBend = 8;
 using Parameters = std::array<float, kPoseParameters>;
 
-/// Of four points, along both axes.
+/// Coordinates of four points, or their derivatives.
 struct FourVecs {
     Four x;
     Four y;
 };
 
-/// Where four points lie, and the derivatives of that by the parameters. Those by at_centre are
-/// (1, 0) and (0, 1); turn and shear have that of scale, turned and mirrored.
+/// Where a plane has four points, in spacings, and the derivatives of that by the parameters. Those
+/// by at_centre are (1, 0) and (0, 1); those by turn and shear are that by scale, turned and
+/// mirrored.
 struct Projections {
-    FourVecs at;  ///< from `at_centre`
+    FourVecs at;  ///< counted from `at_centre`
     FourVecs scale;
     FourVecs tilt_x;
     FourVecs tilt_y;
     FourVecs bend;
 
-    /// The derivatives of x and of y.
+    /// Returns the derivatives of x and of y by all parameters, for one of the four points.
     std::array<Parameters, 2> jacobian(std::size_t point) const {
         const float u = scale.x[point];
         const float v = scale.y[point];
@@ -41,28 +42,28 @@ struct Projections {
     }
 };
 
-/// A plane as the fit sees it: lengths in the image in units of `reach_px`, so that the
+/// A plane as the fit sees it: lengths in the image are in units of `reach_px`, so that the
 /// derivatives by all parameters are of like size and single precision suffices.
 class ScaledPlane {
   public:
     ScaledPlane(const PlaneFromImage& plane, int reach_px);
 
-    /// Points in the image, counted from the plane's centre.
+    /// Projects four points of the image, in 1/256 px from the plane's centre, onto the plane.
     Projections project(FourInts x_q8, FourInts y_q8) const;
 
-    /// Perspective, shear and lens: the parameters that a plain camera would not need; 0 for the
-    /// others.
+    /// Returns perspective, shear and lens, which a camera that looks straight at the sheet would
+    /// not need; the other parameters are 0.
     Parameters distortions() const;
-    /// Spacings per unit.
+    /// Returns the scale in spacings per unit of length.
     float scale() const;
-    /// The plane with its parameters changed.
+    /// Returns the plane with `by` added to its parameters.
     PlaneFromImage changed(const Parameters& by) const;
 
   private:
     PlaneFromImage plane_;
     float reach_px_;
-    float du_x_, du_y_, dv_x_, dv_y_;  ///< spacings per unit
-    float tilt_x_, tilt_y_, bend_;     ///< per unit, per unit^2
+    float du_x_, du_y_, dv_x_, dv_y_;  ///< spacings per unit of length
+    float tilt_x_, tilt_y_, bend_;     ///< per unit; bend_ per unit^2
 };
 
 }  // namespace dotpose::core

@@ -1,4 +1,4 @@
-// Least squares from image points to whole cells, against double precision and
+// Least squares from image points to cells, compared with double precision and with
 // affine_fit_int64.hpp.
 #include "core/fit/affine_fit_int32.hpp"
 
@@ -16,11 +16,11 @@ using namespace core;
 constexpr std::uint64_t kSeed = 49;
 
 struct Pair {
-    Vec p_q3;  ///< from the centre
+    Vec p_q3;  ///< 1/8 px from the centre
     Vec cell;
 };
 
-/// Dots that a camera sees, anywhere beside their intersections.
+/// Returns displaced dots anywhere in the view, each with its cell.
 std::vector<Pair> random_pairs(Rng& rng, double reach_px, double spacing, int count) {
     const Mesh mesh =
         square_mesh(spacing, rng.uniform(0, 6.3), {rng.uniform(-20, 20), rng.uniform(-20, 20)});
@@ -40,7 +40,7 @@ AffineFitInt32 fit_of(const std::vector<Pair>& pairs) {
     return fit;
 }
 
-/// Solves the normal equations of one coordinate about the mean: value, then slopes per px.
+/// Value and slopes (per px) of one coordinate, from the normal equations about the mean.
 struct Solution {
     long double at_centre;
     long double du;
@@ -76,7 +76,8 @@ TEST(AffineFitInt32, IsTheLeastSquaresSolution) {
     Rng rng(kSeed);
     for (int i = 0; i < 300; ++i) {
         SCOPED_TRACE(testing::Message() << "fit " << i << ", seed " << kSeed);
-        // From six dots to as many as there may be; from a small window to the largest image.
+        // The number of dots goes from six to the most there may be, the view from a small window
+        // to the largest image.
         const int count = i % 10 == 9 ? 1 << 14 : 6 + static_cast<int>(rng.below(400));
         const double reach = i % 3 == 0 ? 2048 : rng.uniform(40, 300);
         const auto pairs = random_pairs(rng, reach, i % 3 == 0 ? 6 : rng.uniform(6, 30), count);
@@ -87,14 +88,14 @@ TEST(AffineFitInt32, IsTheLeastSquaresSolution) {
         ASSERT_TRUE(fit.solve(0, plane));
         const Solution x = least_squares(pairs, &Vec::x);
         const Solution y = least_squares(pairs, &Vec::y);
-        // Moments are kept to some 28 bits: slopes are right to 2^-24, and over the reach to 1/1000
-        // of a spacing.
+        // Moments are kept to some 28 bits, so slopes are right to 2^-24 and values over the reach
+        // to 1/1000 of a spacing.
         constexpr double kSlope = 3.0 / (1 << 24);
         EXPECT_NEAR(std::ldexp(plane.du_q24.x, -24), static_cast<double>(x.du), kSlope);
         EXPECT_NEAR(std::ldexp(plane.dv_q24.x, -24), static_cast<double>(x.dv), kSlope);
         EXPECT_NEAR(std::ldexp(plane.du_q24.y, -24), static_cast<double>(y.du), kSlope);
         EXPECT_NEAR(std::ldexp(plane.dv_q24.y, -24), static_cast<double>(y.dv), kSlope);
-        // At the centre slopes weigh with the mean point.
+        // The error of the slopes at the mean point adds to that of the value at the centre.
         const double tolerance = 2.0 / 65536 + kSlope * 0.3 * reach;
         EXPECT_NEAR(real(plane.at_centre_q16, 16).x, static_cast<double>(x.at_centre), tolerance);
         EXPECT_NEAR(real(plane.at_centre_q16, 16).y, static_cast<double>(y.at_centre), tolerance);
@@ -139,7 +140,7 @@ TEST(AffineFitInt32, AgreesWithTheFitInWideNumbers) {
         ASSERT_TRUE(wide.solve(24, map));
         PlaneFromImage plane;
         ASSERT_TRUE(fit_of(pairs).solve(0, plane));
-        // The map is per 1/8 px.
+        // The slopes of `map` are per 1/8 px, those of `plane` per px.
         EXPECT_NEAR(plane.du_q24.x, 8 * map.dx.x, 8);
         EXPECT_NEAR(plane.dv_q24.x, 8 * map.dy.x, 8);
         EXPECT_NEAR(plane.du_q24.y, 8 * map.dx.y, 8);
@@ -150,7 +151,7 @@ TEST(AffineFitInt32, AgreesWithTheFitInWideNumbers) {
 }
 
 TEST(AffineFitInt32, TargetsMayBePartsOfCells) {
-    // Exact targets of a known plane, as far as their bits go.
+    // Targets are exact places of a known plane, rounded to `bits` bits.
     Rng rng(kSeed);
     for (int i = 0; i < 100; ++i) {
         const int bits = i % 11;
@@ -164,8 +165,8 @@ TEST(AffineFitInt32, TargetsMayBePartsOfCells) {
         }
         PlaneFromImage plane;
         ASSERT_TRUE(fit_of(pairs).solve(bits, plane));
-        // Rounding is noise of 0.29 of the last bit, of which the mean of 400 has 1/20, and over
-        // the shorter side three times that at most; five times the deviation.
+        // Rounding scatters targets by 0.29 of the last bit, the mean of 400 by 1/20 of that, and
+        // the ends of the shorter side by up to three times as much. Five deviations are allowed.
         const double tolerance = std::ldexp(5 * 0.29 / 20, -bits) + 1e-4;
         const Vec2 zero = mesh.inverse({0, 0});
         EXPECT_NEAR(real(plane.at_centre_q16, 16).x, zero.x, tolerance);
@@ -190,7 +191,7 @@ TEST(AffineFitInt32, PointsOnALineDetermineNothing) {
         for (int k = -40; k <= 40; ++k) {
             const Vec cell = fixed(k / 4.0 * along, 0);
             on_line.push_back({fixed(3.0 * k * along, 3), cell});
-            // A fifth as wide as long.
+            // The second set of points is a fifth as wide as it is long.
             beside.push_back({fixed(3.0 * k * along + (k % 2 == 0 ? 15 : -15) * across, 3), cell});
         }
         PlaneFromImage plane;

@@ -1,4 +1,4 @@
-// Least-squares affine maps against the same in long double precision.
+// Affine maps of least squares compared with a second solution in long double precision.
 #include "core/fit/affine_fit_int64.hpp"
 
 #include <cmath>
@@ -23,13 +23,14 @@ struct Pair {
 struct Reference {
     long double mean_x = 0, mean_y = 0;
     long double xx = 0, xy = 0, yy = 0;
-    /// Per target coordinate: slopes along x and y, and the value at source (0, 0).
+    /// The solution for one target coordinate: slopes along x and y, and the value at source (0,
+    /// 0).
     struct Line {
         long double dx, dy, offset;
     } x{}, y{};
 };
 
-/// Normal equations about the means.
+/// Solves the normal equations about the means.
 Reference least_squares(const std::vector<Pair>& pairs) {
     Reference r;
     const auto n = static_cast<long double>(pairs.size());
@@ -71,9 +72,9 @@ AffineFitInt64 fit_of(const std::vector<Pair>& pairs) {
     return fit;
 }
 
-/// Compares what the two maps say at the points, which is what a fit is for. The entries of the
-/// integer map are rounded to 2^-fraction_bits: twice the error that follows is allowed, and 1
-/// unit.
+/// Compares the values of the two maps at the points, which is what a fit is for. The entries of
+/// the integer map are rounded to 2^-fraction_bits; twice the error that follows, and 1 unit, are
+/// allowed.
 void expect_same_map(const std::vector<Pair>& pairs, int fraction_bits) {
     AffineMap map;
     ASSERT_TRUE(fit_of(pairs).solve(fraction_bits, map));
@@ -97,7 +98,7 @@ std::int32_t whole(double value) {
     return static_cast<std::int32_t>(std::lround(value));
 }
 
-/// Points of an image, in 1/256 px, and their noisy places on a pattern, in 2^-16 spacings.
+/// Returns points of an image, in 1/256 px, and their noisy places on a pattern, in 2^-16 spacings.
 std::vector<Pair> image_and_pattern(Rng& rng, int count, double side_px, double spacing_px) {
     const double angle = rng.uniform(0, 6.3);
     const double step = 256 / spacing_px;
@@ -120,7 +121,7 @@ TEST(Affine, AgreesWithLongDouble) {
         SCOPED_TRACE(testing::Message() << "set " << i << ", seed " << kSeed);
         const int count = 3 + static_cast<int>(rng.below(400));
         const double spacing_px = rng.uniform(6, 60);
-        // At most 8 half diagonals: the target stays below 2^24.
+        // The image is at most 100 spacings wide, so that the target stays below 2^24.
         const double side_px = std::min(rng.uniform(20, 2000), 100 * spacing_px);
         expect_same_map(image_and_pattern(rng, count, side_px, spacing_px), 16);
     }
@@ -169,7 +170,7 @@ TEST(Affine, PointsOnALineDetermineNothing) {
 }
 
 TEST(Affine, AStripOfDotsStillFits) {
-    // 40 cells long, 2 wide: far from a line.
+    // The strip is 40 cells long and 2 wide, which is far from a line.
     Rng rng(kSeed);
     std::vector<Pair> pairs;
     for (int i = 0; i < 80; ++i) {
@@ -235,7 +236,7 @@ TEST(Affine, ScaledQuotientsAreRounded) {
         const long double exact =
             std::ldexp(static_cast<long double>(n) / static_cast<long double>(d), shift);
         if (std::abs(exact) > 1073741824.0L) continue;
-        // Dropped bits of the divisor are worth 2^-29 of the result.
+        // The bits that are dropped from the divisor are worth 2^-29 of the result.
         const double tolerance = 1.01 + std::ldexp(static_cast<double>(std::abs(exact)), -28);
         ASSERT_NEAR(scaled_quotient(n, d, shift), static_cast<double>(exact), tolerance)
             << n << " * 2^" << shift << " / " << d << ", seed " << kSeed;

@@ -1,4 +1,4 @@
-// Least-squares planes from points whose true plane is known, in double precision.
+// Planes of least squares, from points whose true plane is known in double precision.
 #include "core/fit/plane_fit_int64.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 41;
 
-/// A plane in double precision; the formula of PlaneFromImage.
+/// The formula of PlaneFromImage in double precision.
 struct TruePlane {
     Vec2 centre;
     Vec2 at_centre;
@@ -30,7 +30,8 @@ struct TruePlane {
     }
 };
 
-/// Perspective changes the scale by up to 10 % towards the border, the lens towards the corners.
+/// Returns a plane whose perspective changes the scale by up to 10 % towards the border, and whose
+/// lens does so towards the corners.
 TruePlane random_plane(Rng& rng, Vec2 image_px, double spacing_px, Terms terms) {
     const double angle = rng.uniform(0, 6.3);
     const Vec2 du{std::cos(angle) / spacing_px, std::sin(angle) / spacing_px};
@@ -55,7 +56,8 @@ struct Pair {
     Vec target_q16;
 };
 
-/// Points all over the image, as exact as fixed point has them but for noise of the targets.
+/// Returns points all over the image with their places in the plane, rounded to fixed point, plus
+/// noise.
 std::vector<Pair> pairs(const TruePlane& plane, Vec2 image_px, int count, Rng& rng,
                         double noise_spacings = 0) {
     std::vector<Pair> result;
@@ -79,7 +81,7 @@ bool fit(const PlaneFromImage& estimate, const std::vector<Pair>& points, Fitted
     return fit_significant_plane(estimate, most, visit, fitted);
 }
 
-/// What is believed of the centre, within a twentieth of a spacing.
+/// Returns an estimate of where the centre lies, wrong by up to a twentieth of a spacing.
 PlaneFromImage guess(const TruePlane& plane, Rng& rng) {
     PlaneFromImage estimate;
     estimate.centre_q8 = fixed(plane.centre, 8);
@@ -88,7 +90,7 @@ PlaneFromImage guess(const TruePlane& plane, Rng& rng) {
     return estimate;
 }
 
-/// Largest error over a raster that reaches the corners, in spacings.
+/// Returns the largest error over a raster that reaches the corners, in spacings.
 double worst_error(const PlaneFromImage& found, const TruePlane& plane, Vec2 image_px) {
     double worst = 0;
     for (int n = 0; n <= 10; ++n) {
@@ -111,7 +113,7 @@ TEST(PlaneFitInt64, RecoversEachKindOfPlane) {
                                             << i << ", seed " << kSeed);
             const TruePlane truth = random_plane(rng, image, spacing, terms);
             const auto points = pairs(truth, image, 150, rng);
-            // The second fit knows where the centre lies, which the lens asks for.
+            // The second fit knows where the centre lies; the term of the lens is exact only then.
             FittedPlane first;
             ASSERT_TRUE(fit(guess(truth, rng), points, first));
             FittedPlane found;
@@ -141,7 +143,7 @@ TEST(PlaneFitInt64, FewerTermsThanThePlaneHasLeaveResiduals) {
     }
 }
 
-/// How often each choice of terms is made in noise, in 200 draws.
+/// Returns how often each choice of terms is made in 200 draws of noise.
 std::array<int, 3> choices(double tilt_rad, Rng& rng) {
     constexpr int kDraws = 200;
     constexpr double kFocalLength_px = 200;
@@ -167,11 +169,11 @@ TEST(PlaneFitInt64, NoiseIsTakenForATiltAsOftenAsChanceHasIt) {
     SCOPED_TRACE(testing::Message() << affine << " affine, " << perspective << " perspective, "
                                     << lens << " lens, seed " << kSeed);
     EXPECT_EQ(affine + perspective + lens, 200);
-    // Two parameters gain less than their mean by chance, chi^2(2) < 2, in 1 - 1/e of the draws:
+    // Two parameters gain by chance less than their mean, chi^2(2) < 2, in 1 - 1/e of the draws: in
     // 126, with a deviation of 7.
     EXPECT_GT(affine, 100);
     EXPECT_NEAR(affine, 126, 27);
-    // chi^2(1) > 6 in 1.4 % of the 37 %, and chi^2(3) > 18 hardly ever.
+    // chi^2(1) > 6 happens in 1.4 % of the other 37 %, and chi^2(3) > 18 hardly ever.
     EXPECT_LE(lens, 6);
 }
 
@@ -181,7 +183,7 @@ TEST(PlaneFitInt64, ATiltOfTenDegreesIsSeen) {
     SCOPED_TRACE(testing::Message() << affine << " affine, " << perspective << " perspective, "
                                     << lens << " lens, seed " << kSeed);
     EXPECT_EQ(affine, 0);
-    // chi^2(1) > 6 in 1.4 %.
+    // chi^2(1) > 6, which adds a lens, happens in 1.4 %.
     EXPECT_GE(perspective, 188);
     EXPECT_EQ(affine + perspective + lens, 200);
 }
@@ -215,7 +217,7 @@ TEST(PlaneFitInt64, WhatDoesNotDetermineAPlaneGivesNone) {
 }
 
 TEST(PlaneFitInt64, HoldsForTheLargestImageAndMostPoints) {
-    // Its corners are nearly 256 spacings from the centre along one axis.
+    // The corners of this image are nearly 256 spacings from its centre along one axis.
     const Vec2 image{4096, 4096};
     for (const Terms terms : {Terms::affine, Terms::perspective, Terms::lens}) {
         SCOPED_TRACE(testing::Message() << "terms " << static_cast<int>(terms));
@@ -240,8 +242,8 @@ TEST(PlaneFitInt64, HoldsForTheLargestImageAndMostPoints) {
         FittedPlane found;
         ASSERT_TRUE(fit(estimate, points, found));
         EXPECT_GE(found.terms, terms);
-        // 240 spacings at the corners, times one unit of the lens (2^-40 r^2, 8e-6) and of the
-        // perspective (2^-30 per px and axis, 4e-6).
+        // At the corners, 240 spacings are wrong by one unit of the lens (2^-40 r^2, 8e-6) and of
+        // the perspective (2^-30 per px and axis, 4e-6).
         EXPECT_LT(worst_error(found.plane, truth, image), 3e-3);
     }
 }

@@ -1,4 +1,4 @@
-// The fit's equations against derivatives and solutions computed in double precision.
+// The equations of the fit against derivatives and solutions computed in double precision.
 #include "core/fit/plane_normal_float.hpp"
 
 #include <cmath>
@@ -17,7 +17,7 @@ using namespace core;
 constexpr std::uint64_t kSeed = 61;
 constexpr int kReach_px = 94;
 
-/// A camera some degrees tilted, with a lens that bends.
+/// Returns the plane of a camera that is tilted by some degrees and whose lens bends.
 PlaneFromImage random_plane(Rng& rng) {
     const double theta = rng.uniform(-std::numbers::pi, std::numbers::pi);
     const double per_px = 1 / rng.uniform(8, 14);
@@ -38,7 +38,7 @@ Vec random_pixel_q8(Rng& rng) {
     return fixed({rng.uniform(0, 187), rng.uniform(0, 119)}, 8);
 }
 
-/// As the first of four; the others are elsewhere.
+/// Projects a pixel as the first of four points; the other three lie elsewhere.
 Projections project(const ScaledPlane& scaled, const PlaneFromImage& plane, Vec pixel_q8) {
     const Vec p{pixel_q8.x - plane.centre_q8.x, pixel_q8.y - plane.centre_q8.y};
     return scaled.project(FourInts{p.x, 256, -5000, 7000}, FourInts{p.y, -256, 3000, 3000});
@@ -74,7 +74,7 @@ TEST(ScaledPlane, ChangesAsItsDerivativesTell) {
                                 (real(plane_point_q16(scaled.changed(more), pixel_q8), 16) -
                                  real(plane_point_q16(scaled.changed(less), pixel_q8), 16));
             const auto jacobian = project(scaled, plane, pixel_q8).jacobian(0);
-            // Points are rounded to 2^-16 spacings.
+            // The places that `change` is computed from are rounded to 2^-16 spacings.
             ASSERT_NEAR(jacobian[0][k], change.x, 0.02);
             ASSERT_NEAR(jacobian[1][k], change.y, 0.02);
         }
@@ -166,7 +166,7 @@ TEST(PlaneNormalFloat, FindsTheStepThatExplainsTheResiduals) {
                     1e-4 * problem.squared_residuals);
         ASSERT_TRUE(problem.normal.decompose());
         const Parameters white = problem.normal.whitened(problem.normal.right());
-        // Nothing is left unexplained.
+        // The known step explains all of the residuals.
         double explained = 0;
         for (const float part : white)
             explained += static_cast<double>(part * part);
@@ -253,7 +253,7 @@ TEST(PlaneNormalFloat, CountsAPointOfWeightThreeThreeTimes) {
 }
 
 TEST(PlaneNormalFloat, LeavesOutWhatThePointsDoNotDetermine) {
-    // On one line, the terms with y cannot be told from others.
+    // For points on one line, terms with y cannot be told apart from others.
     Rng rng(kSeed);
     Problem problem({0.01F, -0.02F, 0.03F, 0.01F}, rng, true);
     ASSERT_TRUE(problem.normal.decompose());
