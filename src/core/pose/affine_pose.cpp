@@ -8,10 +8,10 @@
 namespace dotpose::core {
 namespace {
 
-/// So many dots, evenly spread, tell the displacement and the scatter.
+/// Dots that tell the displacement and the scatter, evenly spread.
 constexpr int kSample = 64;
 
-/// What is displaced by so much in the direction of each symbol.
+/// Returns vectors of a length in the direction of each symbol.
 std::array<Vec, 4> displacements(std::int32_t length) {
     std::array<Vec, 4> all;
     for (std::size_t s = 0; s < all.size(); ++s) {
@@ -21,7 +21,7 @@ std::array<Vec, 4> displacements(std::int32_t length) {
     return all;
 }
 
-/// Where an observation lies against its intersection.
+/// Offset of a dot from its intersection, in 2^-16 spacings, and the dot's symbol.
 struct Offset {
     Vec q16;
     Symbol symbol;
@@ -31,7 +31,7 @@ std::int32_t squared_q16(Vec a_q16) {
     return (a_q16.x >> 8) * (a_q16.x >> 8) + (a_q16.y >> 8) * (a_q16.y >> 8);
 }
 
-/// By itself, so that small processors need not move what else they keep in registers.
+/// Adds one point. Not inlined, as small processors would have to free registers for it.
 [[gnu::noinline]] void add(AffineFitInt32& fit, Vec p, Vec target) {
     fit.add(p, target);
 }
@@ -57,7 +57,7 @@ int fit_affine_pose(const Observations& observations, PlaneFromImage& pose,
             values[s] = value(sample[s]);
         return median(std::span(values).first(count));
     };
-    // As printed and seen: ink spreads and lenses blur differently each time.
+    // The displacement is measured: ink spreads and lenses blur differently each time.
     displacement_q16 = sampled_median([](const Offset& offset) {
         return offset.q16.x * dx(offset.symbol) + offset.q16.y * dy(offset.symbol);
     });
@@ -65,14 +65,14 @@ int fit_affine_pose(const Observations& observations, PlaneFromImage& pose,
     const auto squared_residual_q16 = [&](Vec offset, Symbol symbol) {
         return squared_q16(offset - displaced_q16[static_cast<std::size_t>(symbol)]);
     };
-    // Squared distances of a plane Gaussian have their median at 1.39 sigma^2; 12 medians lie
-    // 4 sigma out, where 1 dot in 3,000 is lost by chance.
+    // Squared distances of a plane Gaussian have their median at 1.39 sigma^2. So 12 medians lie 4
+    // sigma out, where 1 dot in 3,000 is lost by chance.
     const std::int32_t limit_q16 = 12 * sampled_median([&](const Offset& offset) {
                                        return squared_residual_q16(offset.q16, offset.symbol);
                                    }) +
                                    1;
 
-    // Where dots were printed, in 1/64 cells: at most 2^15 of them.
+    // Targets are the places where dots were printed, in 1/64 cells, which keeps them within 2^15.
     constexpr int kTargetBits = 6;
     const auto targets = displacements(shift_rounded(displacement_q16, 16 - kTargetBits));
     AffineFitInt32 fit;

@@ -1,6 +1,6 @@
 // Affine pose: the pose from all dots, in integers, for a camera that looks straight at the paper
-// through a lens that does not bend, or whose bend was taken out. Devices without floating point
-// stop here; others continue with refine_pose.hpp.
+// and whose lens does not distort, or is corrected for. Devices without floating point stop here;
+// others continue with refine_pose.hpp.
 #pragma once
 
 #include "core/pose/observations.hpp"
@@ -8,10 +8,10 @@
 
 namespace dotpose::core {
 
-/// Least squares from the dots' centres to the places where the code has them printed; dots farther
-/// off than most are left out. Returns the number of dots used; 0, with the pose as it was, when
-/// they do not determine it. `displacement_q16`: of the typical dot from its intersection,
-/// spacings.
+/// Fits the map from the dots' centres to the places where the code has them printed; dots that are
+/// farther off than most are left out. Returns the number of dots used, or 0 if they do not
+/// determine the map, which then stays as it was. Sets `displacement_q16`, the distance of the
+/// typical dot from its intersection in spacings.
 int fit_affine_pose(const Observations& observations, PlaneFromImage& pattern_from_image,
                     std::int32_t& displacement_q16);
 

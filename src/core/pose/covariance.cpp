@@ -6,7 +6,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Derivatives, by the parameters, of the direction that leads from one point to another.
+/// Returns the derivatives, by the parameters, of the direction from one point to another, in rad.
 Parameters direction_gradient(const Projections& projections, std::size_t from, std::size_t to) {
     const float x = projections.at.x[to] - projections.at.x[from];
     const float y = projections.at.y[to] - projections.at.y[from];
@@ -21,7 +21,7 @@ Parameters direction_gradient(const Projections& projections, std::size_t from, 
     return gradient;
 }
 
-/// covariance . a, where terms vary together with their neighbours at most.
+/// Returns covariance . a, where each term is correlated with its neighbours at most.
 Parameters times(const std::array<Parameters, kPoseParameters>& covariance, const Parameters& a) {
     Parameters product;
     for (std::size_t k = 0; k < kPoseParameters; ++k) {
@@ -45,11 +45,11 @@ void estimate_covariance(const PoseFit& fit, const PlaneFromImage& pattern_from_
                          Vec reference_q8, Fix& fix) {
     fix.dots_used = fit.dots;
     fix.surface = fit.surface;
-    // Dots that were measured where the code has them were seen, though not as blobs of their own.
+    // Some dots are seen only when measured where the code has them, not as blobs of their own.
     fix.dots_seen = std::max(fix.dots_seen, fix.dots_used);
     fix.residual_px = std::sqrt(fit.variance) * static_cast<float>(fix.spacing_px_q16) / 65536.0F;
     const ScaledPlane plane(pattern_from_image, fit.reach_px);
-    // Theta is the direction of the image x axis.
+    // Theta is the direction of the image's x axis, here between two points 16 px apart.
     constexpr std::int32_t kStep_q8 = 8 * 256;
     const Vec p = reference_q8 - pattern_from_image.centre_q8;
     const Projections projections =

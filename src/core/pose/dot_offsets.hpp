@@ -5,14 +5,15 @@
 
 namespace dotpose::core {
 
-/// In spacings.
+/// A measured dot in the pattern, in spacings.
 struct DotOffset {
-    FloatVec at;   ///< as measured
-    FloatVec off;  ///< from there to where the code has it
+    FloatVec at;   ///< where it was measured
+    FloatVec off;  ///< from there to its place in the code
     float squared() const { return off.x * off.x + off.y * off.y; }
 };
 
-/// Of a dot that was measured.
+/// Returns where a plane has a measured dot, and how far that is from its place in the code.
+/// `displacement` is that of dots from their intersections, in spacings.
 inline DotOffset dot_offset(const MeasuredDots& dots, std::size_t k, const FloatPlane& plane,
                             float displacement) {
     const FloatVec at = plane_point(plane, {dots.x[k], dots.y[k]});

@@ -11,7 +11,7 @@ namespace {
 
 namespace tuned = tuning::fit;
 
-/// A plane's parameters in units of the reach; see ScaledPlane.
+/// Returns perspective, shear and lens of a plane in units of the reach; see ScaledPlane.
 Parameters distortions(const FloatPlane& p, float reach) {
     return {0,
             0,
@@ -42,8 +42,8 @@ FloatPlane changed(const FloatPlane& p, const Parameters& by, float reach) {
             p.bend + by[8] * unit * unit};
 }
 
-/// Squared deviations of a step after which no other is needed. The step ends so much off as the
-/// plane bends.
+/// Returns the step, in squared deviations of the pose, below which no other is needed. The less
+/// the plane bends, the nearer a step ends to the solution.
 float settled(const FloatPlane& p, float reach) {
     const float bent =
         (std::abs(p.tilt_x) + std::abs(p.tilt_y)) * reach + std::abs(p.bend) * reach * reach;
@@ -51,8 +51,8 @@ float settled(const FloatPlane& p, float reach) {
                       tuned::kMostSettled);
 }
 
-/// Whether dots one beside the other are off each by itself, as those of flat paper are. Where they
-/// are not, blocks of them tell more (pose/uneven).
+/// Returns whether neighbouring dots are off independently of each other, as on flat paper. If not,
+/// blocks of dots tell more (pose/uneven).
 bool is_plainly_even(const FittingDots& fitting) {
     if (fitting.outliers > 3 + fitting.points / 50) return false;
     const GroupScatter runs{fitting.squares, fitting.squares_of_runs,
@@ -82,7 +82,7 @@ bool fit_plane(const Kernels& kernels, const MeasuredDots& dots, int reach_px, f
         const float next_limit = tuned::kOutlier * fit.variance + kExact;
         const bool is_settled = moved < std::min(bent_before, settled(plane, reach));
         limit = next_limit;
-        // Until the same dots would count again.
+        // Rounds go on until a step settles the plane and the same dots count in the next round.
         if (!is_settled) continue;
         const FittingDots fitting = kernels.count_fitting(dots, plane, displacement, limit);
         fit.is_plainly_even = is_plainly_even(fitting);

@@ -22,7 +22,7 @@ Vec rounded_px(Vec point_q8) {
     return {(point_q8.x + 128) >> 8, (point_q8.y + 128) >> 8};
 }
 
-/// The pixels that a dot is seen through, ends inclusive.
+/// The pixels of a window, ends inclusive.
 struct Box {
     int left;
     int right;
@@ -32,12 +32,12 @@ struct Box {
     bool operator==(const Box&) const = default;
 };
 
-/// The window that dots are seen through.
+/// The window that a dot is measured through.
 struct Window {
     int half_px = 0;
     std::int32_t sigma_q8 = 0;
 
-    /// For dots that blur has made about a tenth of the spacing wide (one sigma).
+    /// Sets the size for dots that blur has made about a tenth of the spacing wide (one sigma).
     explicit Window(std::int32_t spacing_q8)
         : half_px(std::min<std::int32_t>(
               std::max<std::int32_t>(spacing_q8 * tuned::kHalf_32nds / 32 + 255,
@@ -47,8 +47,9 @@ struct Window {
           sigma_q8(std::max<std::int32_t>(spacing_q8 * tuned::kSigma_128ths / 128,
                                           tuned::kLeastSigma_q8)) {}
 
-    /// What of it lies in the image around a pixel, the neighbours of each included; nothing where
-    /// the pixel itself does not. Dots at the border tell most of angle and tilt.
+    /// Returns the part of the window around a pixel that lies in the image together with the
+    /// neighbours of all its pixels; nothing if that pixel itself does not. A window may be cut, as
+    /// dots at the border tell most of angle and tilt.
     std::optional<Box> box_around(const ImageView& image, int u, int v) const {
         const int last_u = image.width_px - 2;
         const int last_v = image.height_px - 2;
@@ -59,13 +60,13 @@ struct Window {
 };
 
 constexpr int kMostSide_px = 2 * kMostHalf_px + 1;
-/// With what is missing to whole fours.
+/// Columns, and room to fill up the last group of four.
 constexpr std::size_t kMostInFours = kMostSide_px + 3;
 
 /// Grey levels of the pixels of a box, without defects.
 class Patch {
   public:
-    /// A box that is shown already costs nothing.
+    /// Loads the grey levels of a box; a box that is loaded already costs nothing.
     void show(const ImageView& image, const Box& box) {
         if (box == box_) return;
         box_ = box;
@@ -77,7 +78,7 @@ class Patch {
         }
     }
     const Box& box() const { return box_; }
-    /// From the left side of the box, with at least three zeros after the right side.
+    /// Returns a row from the left side of the box; at least three zeros follow its last pixel.
     const float* row(int v) const { return levels_[static_cast<std::size_t>(v - box_.top)].data(); }
     float at(int u, int v) const { return row(v)[u - box_.left]; }
 
@@ -89,12 +90,13 @@ class Patch {
 /// The light on the paper around a dot, in grey levels: a plane through the window's rim.
 struct RimLight {
     float middle = 0;
-    float slope_u = 0;  ///< per px
+    float slope_u = 0;  ///< grey levels per px
     float slope_v = 0;
 };
 
-/// From the sides of the window around a pixel that lie in the image: two at least, as no window is
-/// as large. With one of two opposite sides the light is taken to be even in that direction.
+/// Fits the light to those sides of the window around a pixel that lie in the image: at least two,
+/// as no image is smaller than a window. Where one of two opposite sides is missing, the light is
+/// taken to be even in that direction.
 RimLight light_on_rim(const Patch& patch, Vec pixel, int half) {
     const auto side = [](bool is_inside, int first, int last, auto level) -> std::optional<float> {
         if (!is_inside) return {};
@@ -125,15 +127,16 @@ RimLight light_on_rim(const Patch& patch, Vec pixel, int half) {
     return {sum / count, slope(sides[0], sides[1]), slope(sides[2], sides[3])};
 }
 
-/// A Gaussian dot fitted to what the window shows, by one step of Gauss and Newton: for a dot of
-/// the window's width that is `offset` away from its middle,
+/// Fits a Gaussian dot to a window by one step of Gauss and Newton. A dot of the window's width
+/// that is `offset` away from the window's middle has
 ///
 ///     darkness(d) = height exp(-d^2 / 2) (1 + offset . d), everything in units of sigma.
 ///
-/// In a whole window this is the windowed centroid; cut by the image's border it is not biased.
+/// In a whole window the result is the windowed centroid; in a window cut by the image's border it
+/// is not biased.
 class DotFit {
   public:
-    /// Four pixels of a row.
+    /// Adds four pixels of a row.
     void add(Four profile, Four darkness, Four x, float y) {
         const Four square = profile * profile;
         const Four dark = profile * darkness;
@@ -147,7 +150,7 @@ class DotFit {
         float offset_x;
         float offset_y;
     };
-    /// Nothing where it is light rather than dark.
+    /// Returns nothing where the spot is lighter than the paper.
     std::optional<Result> solve() const {
         const float one = one_x_y_xx_[0];
         const float sum_x = one_x_y_xx_[1];
@@ -169,19 +172,20 @@ class DotFit {
     }
 
   private:
-    // Weighted by the profile's square: 1, x, y, x^2; xy, y^2; by the profile: the darkness.
+    // Sums weighted with the profile's square: 1, x, y, x^2, xy, y^2; with the profile: the
+    // darkness, and the darkness times x and y.
     Four one_x_y_xx_{};
     Four xy_yy_dark_{};
     Four dark_y_{};
 };
 
-/// The window's profile along one axis: distances from its middle, in sigma, and exp(-d^2 / 2);
-/// zero in what is missing to whole fours.
+/// The window's profile along one axis: distances from its middle in sigma, and exp(-d^2 / 2).
+/// Zeros fill up the last group of four.
 struct Across {
     using Values = std::array<float, kMostInFours>;
     Values distance;
     Values profile;
-    Values from_pixel;  ///< px
+    Values from_pixel;  ///< px from the pixel at the middle
 
     Across(int first, int last, int pixel, std::int32_t middle_q8, std::int32_t sigma_q8) {
         std::size_t count = 0;
@@ -217,7 +221,7 @@ DotFit fit_dot(const Patch& patch, const RimLight& light, std::int32_t sigma_q8,
     return fit;
 }
 
-/// The dot near a point; nothing outside the image, or where there is no dark spot.
+/// Returns the dot near a point, or nothing if that is outside the image or shows no dark spot.
 std::optional<Dot> measure(const ImageView& image, const Window& window, Vec start_q8) {
     const std::int64_t farthest =
         tuned::kFarthest_2 * std::int64_t{window.sigma_q8} * window.sigma_q8;
@@ -239,7 +243,7 @@ std::optional<Dot> measure(const ImageView& image, const Window& window, Vec sta
         };
         const Vec step{step_q8(fit->offset_x), step_q8(fit->offset_y)};
         dot.centre_q8 = dot.centre_q8 + step;
-        // As a share of the light, which makes dots alike all over the image.
+        // Darkness as a share of the light makes dots alike all over the image.
         const float mass = 16384 * fit->height / std::max(light.middle, 1.0F);
         dot.mass = static_cast<std::uint16_t>(std::min(mass, 65535.0F));
         if (squared(dot.centre_q8 - start_q8) > farthest) return {};
@@ -248,7 +252,7 @@ std::optional<Dot> measure(const ImageView& image, const Window& window, Vec sta
     return dot;
 }
 
-/// Drops what is much lighter or much darker than the typical dot: paper where a dot is missing,
+/// Drops dots that are much lighter or darker than the typical one: paper where a dot is missing,
 /// dirt, graphics.
 void drop_strange(Grid& grid, std::span<Dot> dots) {
     constexpr std::size_t kSample = tuned::kMedianSample;

@@ -13,7 +13,8 @@ using Pair = std::array<float, 2>;
 
 using Symmetric = Symmetric2<float>;
 
-/// Of the whitened terms, in units of the noise's variance, if the terms' own were 1.
+/// Returns the covariance of the whitened terms, in units of the noise's variance, if the variance
+/// of the terms is 1.
 Symmetric spread_of(const FurtherTerms& terms, const PlaneNormalFloat& normal, float variance) {
     const std::size_t i = terms.first;
     const float scale = 1 / variance;
@@ -24,12 +25,13 @@ Symmetric spread_of(const FurtherTerms& terms, const PlaneNormalFloat& normal, f
     return {(a * a + b * b) * scale, b * c * scale, c * c * scale};
 }
 
-/// The terms if they are of one kind.
+/// The posterior of the terms if they are of one kind.
 struct PosteriorOfKind {
-    Symmetric precision;  ///< of noise and terms together, in units of the noise's
+    Symmetric precision;  ///< inverse covariance of noise and terms together, in units of the
+                          ///< noise's
     Pair mean;
-    float distance;  ///< what is seen, in squared deviations
-    float share;     ///< probability of the kind; before `weigh`, that before the frame is seen
+    float distance;  ///< squared distance of the fitted terms from 0, in deviations
+    float share;     ///< probability of the kind: prior, after `weigh` posterior
 
     PosteriorOfKind() = default;
     PosteriorOfKind(const FurtherTerms::Kind& kind, const Symmetric& spread, const Pair& seen,
@@ -45,7 +47,7 @@ struct PosteriorOfKind {
 using PosteriorsByKind =
     std::array<PosteriorOfKind, std::tuple_size_v<decltype(FurtherTerms::kinds)>>;
 
-/// The kinds by how well each explains what is seen.
+/// Sets the posterior probability of each kind, by how well it explains the fitted terms.
 void weigh(PosteriorsByKind& kinds) {
     float nearest = kinds[0].distance;
     for (const PosteriorOfKind& kind : kinds)
@@ -60,7 +62,8 @@ void weigh(PosteriorsByKind& kinds) {
         kind.share /= sum;
 }
 
-/// Of all kinds together: the covariance has that of each, and how far they are apart.
+/// Returns the posterior of all kinds together. Its covariance is the mean of theirs plus the
+/// spread of their means.
 Posterior mixed(const PosteriorsByKind& kinds, float variance) {
     Posterior posterior{};
     for (const PosteriorOfKind& kind : kinds) {

@@ -13,17 +13,17 @@ namespace tuned = tuning::fit;
 
 constexpr float kPower30 = 1073741824.0F;
 
-/// What cameras and prints are like, with deviations of a tilt: the change of scale from the middle
-/// to the outermost dot, of which 2 degrees make about 0.01; of a shear, relative to the scale; of
-/// a bend, the outermost dot's displacement relative to its distance. A bend must be beyond doubt.
+/// What cameras and prints are like, as deviations. Of a tilt: the change of scale from the middle
+/// to the outermost dot, about 0.01 for 2 degrees. Of a shear: relative to the scale. Of a bend:
+/// the outermost dot's displacement relative to its distance. A bend must be beyond doubt.
 constexpr std::array<FurtherTerms, 3> kTerms{{
     {kTilt, 2, {{{0.1F, 0}, {0.8F, 0.01F}, {0.1F, 0.1F}}}},
     {kShear, 2, {{{0.5F, 0}, {0.4F, 0.002F}, {0.1F, 0.03F}}}},
     {kBend, 1, {{{0.99F, 0}, {0.005F, 0.01F}, {0.005F, 0.1F}}}},
 }};
 
-/// How the scatter of dots depends on the light: printers scatter alike everywhere, noise counts
-/// the more the less light there is. A line fitted to squared residuals.
+/// How the scatter of dots depends on the light: that of printers is the same everywhere, that of
+/// pixel noise grows as light gets less. A line is fitted to squared residuals.
 class Scatter {
   public:
     void add(float noise, float squared_residual) {
@@ -43,7 +43,7 @@ class Scatter {
         by_noise_ = std::clamp(slope / mean_square, 0.0F, tuned::kMostByNoise / mean_noise);
         always_ = 1 - by_noise_ * mean_noise;
     }
-    /// That the typical dot has, over that of a dot.
+    /// Returns the variance of the typical dot over that of a dot with such noise.
     Four weight(Four noise) const { return 1.0F / (always_ + by_noise_ * noise); }
 
   private:
@@ -56,7 +56,7 @@ class Scatter {
     float by_noise_ = 0;
 };
 
-/// One round of Gauss and Newton.
+/// One round of Gauss and Newton: the equations at the pose so far, and the step from there.
 class Round {
   public:
     Round(const Survey& survey, const PlaneFromImage& pose)
@@ -72,7 +72,7 @@ class Round {
             y_q16[i] = offset.y;
             values[i] = offset.x * sample.dx[i] + offset.y * sample.dy[i];
         }
-        // As printed and seen: ink spreads and lenses blur differently each time.
+        // The displacement is measured: ink spreads and lenses blur differently each time.
         displacement_q16_ = median(std::span(values).first(sample.count));
         for (std::size_t i = 0; i < sample.count; ++i) {
             values[i] = squared_q30({x_q16[i] - sample.dx[i] * displacement_q16_,
@@ -82,7 +82,7 @@ class Round {
         limit_ = static_cast<float>(tuned::kOutlier_medians * typical_q30 + 64) / kPower30;
     }
 
-    /// Sums up all dots that are not too far off.
+    /// Returns the normal equations of all dots that are not too far off.
     PlaneNormalFloat normal(bool know_noise) const {
         const Scatter scatter = know_noise ? scatter_of_dots() : Scatter();
         PlaneSumsFloat sums;
@@ -145,11 +145,11 @@ class Round {
     const PlaneFromImage& pose_;
     ScaledPlane plane_;
     std::int32_t displacement_q16_ = 0;
-    float limit_ = 0;  ///< of squared residuals
+    float limit_ = 0;  ///< squared residual beyond which a dot is left out, spacings^2
 };
 
-/// Takes back from a step what is not to be believed of the further terms. `whole`: these as
-/// fitted, whitened.
+/// Shrinks the further terms of a step to their posterior means. `whole` are these terms as fitted,
+/// whitened. Sets the covariance of `fit`.
 void shrink(const Parameters& whole, float unit, PoseFit& fit, Parameters& step) {
     fit.covariance = {};
     for (std::size_t i = 0; i < kTilt; ++i)
@@ -179,7 +179,7 @@ bool solve(const Parameters& distortions, float unit, PoseFit& fit, Parameters& 
     const int freedom = std::max(2 * fit.dots - static_cast<int>(kPoseParameters), 1);
     constexpr float kExact = 1e-12F;
     fit.variance = std::max(left / static_cast<float>(freedom), kExact);
-    // Whitened, what each of the further terms explains is independent of those after it.
+    // Once whitened, the share of each further term is independent of the terms after it.
     Parameters all = normal.unwhitened(step);
     for (std::size_t i = kTilt; i < kPoseParameters; ++i)
         all[i] += distortions[i];

@@ -1,6 +1,6 @@
 // Refine: the pose from all dots. Once the position is known, so is where every dot was printed,
-// its displacement included; the least-squares map from the dots' centres to these places is the
-// pose. differs: the paper stops at eq. 12, whose grid carries the displacements as noise. In
+// displacement included; the pose is the map of least squares from the dots' centres to these
+// places. differs: the paper stops at eq. 12, whose grid carries the displacements as noise. In
 // floating point, of single precision.
 #pragma once
 
@@ -15,27 +15,27 @@ namespace dotpose::core {
 /// How the dots determine the pose.
 struct PoseFit {
     int reach_px = 1;         ///< the unit of length in the image
-    int dots = 0;             ///< used; others lay too far off
+    int dots = 0;             ///< those used; others lay too far off
     float variance = 0;       ///< of one coordinate of one dot, spacings^2
     float displacement = 0;   ///< of the typical dot from its intersection, spacings
     PlaneNormalFloat normal;  ///< of the parameters of `jacobian`, decomposed
-    std::array<Parameters, kPoseParameters> covariance;  ///< of the parameters whitened
-    /// Whether a glance found nothing that neighbouring dots are off in common.
+    std::array<Parameters, kPoseParameters> covariance;  ///< of the whitened parameters
+    /// Whether a quick test found no residuals that neighbouring dots share.
     bool is_plainly_even = false;
     Surface surface = Surface::even;
-    /// Of x, y and theta, besides what each dot's scatter makes of them.
+    /// What an uneven sheet adds to the covariance of x, y and theta.
     std::array<std::array<float, 3>, 3> uneven{};
 };
 
-/// The step to the plane of least squares, by the normal equations of `fit`, with as much of the
-/// further terms as is to be believed. `distortions`: what the plane has of them; `unit`: its
-/// scale. `moved`: by how much it differs, in squared deviations. Sets the rest of `fit` but the
-/// displacement.
+/// Solves the normal equations of `fit` for the step to the plane of least squares, and shrinks the
+/// further terms to their posterior means. `distortions` are these terms of the plane so far,
+/// `unit` is its scale. Sets `moved`, the size of the step in squared deviations, and all of `fit`
+/// except the displacement. Returns false if the dots do not determine the plane.
 bool solve(const Parameters& distortions, float unit, PoseFit& fit, Parameters& step, float& moved);
 
-/// Improves the pose; dots farther off than most are left out, and terms that a plain camera would
-/// not need are kept as far as they are to be believed (pose/posterior): each costs accuracy.
-/// Returns false, with the pose as it was, when the dots do not determine it.
+/// Improves the pose. Dots that are farther off than most are left out; terms that a camera
+/// straight above flat paper would not need are shrunk (pose/posterior), as each costs accuracy.
+/// Returns false, with the pose as it was, if the dots do not determine it.
 bool refine_pose(const Observations& observations, PlaneFromImage& pattern_from_image,
                  PoseFit& fit);
 

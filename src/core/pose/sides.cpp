@@ -13,7 +13,8 @@ namespace {
 
 namespace tuned = tuning::slip;
 
-/// What most of the dots near a point are off in common.
+/// Finds the residual, in spacings, that most of the dots near a point share. Returns false if too
+/// few share one.
 bool find_common_offset(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                         FloatVec near, FloatVec& common) {
     constexpr std::size_t kMost = 256;

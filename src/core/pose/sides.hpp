@@ -5,8 +5,8 @@
 
 namespace dotpose::core {
 
-/// As long as it lives, fits see the dots on one side of a line only: the cells of the others are
-/// taken for some far away.
+/// While an object of this class lives, fits see only the dots on one side of a line: the cells of
+/// all others are moved far away.
 class OneSide {
   public:
     enum class Side : std::uint8_t { here, beyond };
@@ -29,10 +29,11 @@ struct Sides {
     Slip slip = {};
 };
 
-/// From the plane that was fitted to all dots. False if no line is worth a thought.
+/// Sets the likeliest line and the fit to the dots on the reference point's side. `sides` comes
+/// with the fit to all dots. Returns false if no line is likely enough.
 bool fit_this_side(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px, Sides& sides);
 
-/// The plane beyond the line. False if the dots there do not determine it.
+/// Fits the plane beyond the line. Returns false if the dots there do not determine it.
 bool fit_far_side(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                   const Sides& sides, FloatPlane& beyond);
 

@@ -16,17 +16,17 @@ namespace tuned = tuning::slip;
 constexpr float kOnPlane = tuned::kOnPlane;
 constexpr float kOffPlane = tuned::kOffPlane;
 constexpr std::size_t kMostDots = 1024;
-constexpr std::size_t kLines = 48;  ///< in each direction
+constexpr std::size_t kLines = 48;  ///< tried in each direction
 constexpr auto kLastLine = static_cast<std::int32_t>(kLines) - 1;
 constexpr int kDirections = 8;
 constexpr float kBehind = tuned::kBehind;
 
-/// Sums over dots of one part.
+/// Sums over the dots of one part. Dots are together if a common displacement may explain them.
 struct PartSums {
-    Four counts{};   ///< dots; what they say for the plane as it is; those that lie together,
-                     ///< and of these their squared distances from their places
-    Four places{};   ///< of those: x, y, and how far off they are along x, y
-    Four squares{};  ///< of those: distances from the reference point, and how far they are turned
+    Four counts{};   ///< dots, their log odds for the plane as it is; dots together, their squared
+                     ///< residuals
+    Four places{};   ///< of dots together: x, y, residuals along x and y
+    Four squares{};  ///< of dots together: squared distances from the reference point, turning
 
     PartSums& operator+=(const PartSums& o) {
         counts += o.counts;
@@ -41,7 +41,7 @@ struct PartSums {
     float on_plane() const { return counts[1]; }
     float dots() const { return counts[2]; }
 
-    /// The squared distances that are left if the part moved and turned as a whole.
+    /// Returns the squared residuals that are left if the part was moved and turned as a whole.
     float left() const {
         if (dots() < 3) return counts[3];
         const float by = 1 / dots();
@@ -77,7 +77,7 @@ class Search {
         reach_ = std::sqrt(reach_) + 0.1F;
     }
 
-    /// The best of the lines at right angles to a direction, if it is better than another.
+    /// Replaces `best` by the best line at right angles to a direction, if that has a larger gain.
     void try_direction(FloatVec direction, Slip& best) const {
         std::array<PartSums, kLines> strips{};
         const float per_spacing = static_cast<float>(kLines) / (reach_ + kBehind);
@@ -109,14 +109,15 @@ class Search {
                 Four{x * x + y * y, x * dot.off.y - y * dot.off.x}};
     }
 
-    /// What the dots of a part say for a plane of its own.
+    /// Returns the log odds of the part's dots for a plane of its own.
     float on_own_plane(const PartSums& part) const {
         return kOnPlane * part.dots() - part.left() / (2 * variance_) +
                kOffPlane * (part.seen() - part.dots());
     }
 
-    /// By how much two parts explain the dots better than the plane as it is. What lies beyond may
-    /// be anywhere; the plane may lie between the two.
+    /// Returns by how much two parts explain the dots better than the plane as it is, as a log
+    /// likelihood ratio. The part beyond may be displaced in any way; the plane as it is may be a
+    /// compromise between both.
     float gain_of(const PartSums& beyond, const PartSums& here) const {
         return weight_ * (std::max(on_own_plane(beyond), 0.0F) - beyond.on_plane() +
                           std::max(on_own_plane(here) - here.on_plane(), 0.0F));
@@ -140,13 +141,13 @@ Slip find_slip(const MeasuredDots& dots, const FloatPlane& plane, const PoseFit&
                FloatVec reference_px) {
     const Search search(dots, plane, fit, reference_px);
     Slip best;
-    constexpr float kSin = 0.70710678F;  // of an 8th of a turn, and its cosine
+    constexpr float kSin = 0.70710678F;  // sine and cosine of an eighth of a turn
     FloatVec direction{1, 0};
     for (int i = 0; i < kDirections; ++i) {
         search.try_direction(direction, best);
         direction = turned(direction, kSin, kSin);
     }
-    // Turned a little, it may explain more, but not four times as much.
+    // A line turned a little may explain more than the best one, but not four times as much.
     if (best.gain < Slip::kPossible / 4) return best;
     float s = kSin;
     for (int halving = 0; halving < 5; ++halving) {

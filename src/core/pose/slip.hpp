@@ -7,19 +7,20 @@
 
 namespace dotpose::core {
 
-/// The line, in the pattern, and what lies beyond it.
+/// A line in the pattern that divides the sheet.
 struct Slip {
-    /// Gains below the one are chance, and those above the other are not: so many lines are tried,
-    /// each with three numbers for what is beyond, and sheets that slipped are few.
+    /// Gains below kPossible are chance, those above kCertain are not. They are high because many
+    /// lines are tried, each with three parameters for the part beyond, and sheets that slipped are
+    /// rare.
     static constexpr float kPossible = 8;
     static constexpr float kCertain = 23;
 
-    FloatVec direction{1, 0};  ///< of unit length, from the reference point towards the line
-    float distance = 0;        ///< of the reference point, spacings; below 0 beyond the line
-    float gain = 0;            ///< by how much it explains the dots better, natural logarithm
+    FloatVec direction{1, 0};  ///< unit vector from the reference point towards the line
+    float distance = 0;  ///< from the reference point to the line, spacings; negative beyond it
+    float gain = 0;      ///< log likelihood ratio (natural) against one plane
 };
 
-/// The likeliest line, for dots that scatter so much about the plane.
+/// Returns the likeliest line; `fit` tells how much the dots scatter about the plane.
 Slip find_slip(const MeasuredDots& dots, const FloatPlane& plane, const PoseFit& fit,
                FloatVec reference_px);
 

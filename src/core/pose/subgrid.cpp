@@ -14,9 +14,9 @@ PlaneFromImage upright_plane(const PlaneFromImage& grid_from_image, Turn pattern
 
 namespace {
 
-/// The pose at the centre of a plane without perspective and lens.
+/// Writes the pose at the centre of a plane without perspective and lens.
 void write_pose(const PlaneFromImage& there, Profile profile, const Place& place, Fix& fix) {
-    // Eq. 10-12: the decoded position plus the way from there to the reference point, in grid
+    // Eq. 10-12: the decoded position plus the vector from there to the reference point, in grid
     // units.
     const Vec t = there.at_centre_q16;
     const Place at = moved(profile, place, t.x >> 16, t.y >> 16);
@@ -26,8 +26,8 @@ void write_pose(const PlaneFromImage& there, Profile profile, const Place& place
     fix.fraction_y_q16 = static_cast<std::uint16_t>(t.y & 0xFFFF);
     const Vec du = there.du_q24;
     fix.theta_bam = angle_bam(du);
-    // px per spacing: the inverse of the length of du. Far outside of the image, where the map may
-    // fold, that is next to nothing.
+    // px per spacing is the inverse of the length of du, which may be next to nothing far outside
+    // of the image, where the map may fold.
     const auto du_length_q24 = square_root(static_cast<std::uint64_t>(squared(du)));
     const std::int64_t spacing_q16 =
         (std::int64_t{1} << 40) / std::max<std::uint32_t>(du_length_q24, 1U);

@@ -1,5 +1,5 @@
-// Subgrid: where the reference point stands between the intersections, and the angle. Paper section
-// II-B.8, eq. 10-12; angle: end of II-B.6.
+// Subgrid: where the reference point lies between the intersections, and the angle. Paper section
+// II-B.8, eq. 10-12; the angle is at the end of II-B.6.
 #pragma once
 
 #include "core/stages.hpp"
@@ -7,14 +7,14 @@
 
 namespace dotpose::core {
 
-/// The grid turned upright: it counts from `Decoding::place`.
+/// Returns the grid's plane turned upright; it counts from `Decoding::place`.
 PlaneFromImage upright_plane(const PlaneFromImage& grid_from_image, Turn pattern_from_grid);
 
 /// Writes position, section, angle and spacing at the reference point into the fix.
 void write_pose(const PlaneFromImage& pattern_from_image, Vec reference_q8, Profile profile,
                 const Place& place, Fix& fix);
 
-/// The same of a plane without perspective and lens.
+/// Writes the same values for a plane without perspective and lens.
 void write_affine_pose(const PlaneFromImage& pattern_from_image, Vec reference_q8, Profile profile,
                        const Place& place, Fix& fix);
 

@@ -1,4 +1,4 @@
-// Survey: the observations as the rounds of a fit go through them.
+// Survey: all observations in batches, as each round of a fit goes through them.
 #pragma once
 
 #include <array>
@@ -15,13 +15,13 @@ struct Batch {
     using Values = std::array<Value, kMost>;
 
     std::size_t count = 0;
-    Values<std::int32_t> x_q8;  ///< in the image, from the centre of the plane
+    Values<std::int32_t> x_q8;  ///< in the image, from the plane's centre
     Values<std::int32_t> y_q8;
     Values<std::int32_t> step_x_q16;  ///< of the intersection, in spacings
     Values<std::int32_t> step_y_q16;
     Values<std::int32_t> dx;  ///< direction of the displacement: -1, 0 or 1
     Values<std::int32_t> dy;
-    Values<float> noise;  ///< Observations::noise where it is known, otherwise 0
+    Values<float> noise;  ///< Observations::noise, or 0 if it is not known
 
     void add(Vec from_centre_q8, Vec pattern_step, Symbol symbol, float its_noise) {
         x_q8[count] = from_centre_q8.x;
@@ -32,7 +32,8 @@ struct Batch {
         dy[count] = dotpose::dy(symbol);
         noise[count++] = its_noise;
     }
-    /// With dots that are not counted and lie where none could, up to a multiple of four.
+    /// Fills up to a multiple of four with dots that are not counted and lie too far off to be
+    /// used.
     void fill_up();
 };
 
@@ -40,12 +41,12 @@ class Survey {
   public:
     Survey(const Observations& observations, Vec centre_q8);
 
-    /// No dot is farther from the centre along an axis.
+    /// Returns a bound of the dots' distances from the centre along each axis.
     int reach_px() const { return reach_px_; }
-    /// Evenly spread dots; all, where they are no more than these.
+    /// Returns evenly spread dots; all of them if they fit one batch.
     const Batch& sample() const { return sample_; }
 
-    /// Shows all dots, in batches filled up.
+    /// Shows all dots, in batches that are filled up.
     template <typename Use>
     void visit(Use use) const {
         if (sample_is_all_) return use(sample_);

@@ -11,8 +11,8 @@
 namespace dotpose::core {
 namespace {
 
-/// By so many bits masses, and what is weighted with them, are made smaller: together they are
-/// below 2^16 then, and all sums below 2^31, of dots that are at most 416/256 px off.
+/// Returns by how many bits masses, and sums weighted with them, are to be shifted right. All
+/// masses together are below 2^16 then and all sums below 2^31, as dots are at most 416/256 px off.
 int excess_bits(const Tracking& tracking) {
     std::uint32_t mass = 0;
     for (const TrackedRow& row : tracking.grid_rows)
@@ -20,7 +20,8 @@ int excess_bits(const Tracking& tracking) {
     return std::max(static_cast<int>(std::bit_width(mass)) - 16, 0);
 }
 
-/// How far off the cells dots are, as a plane over the cells. Its points are counted by their mass.
+/// Returns the fit of the dots' offsets from the cells, as a plane over the cells. Its points are
+/// counted by their mass.
 AffineFitInt32 fit_of_offsets(const Tracking& tracking, int excess) {
     std::int32_t mass = 0;
     Vec cells;
@@ -47,9 +48,9 @@ AffineFitInt32 fit_of_offsets(const Tracking& tracking, int excess) {
     return {mass, cells, off_q8, sums};
 }
 
-/// Cells where the dots have them.
+/// Returns the cells with the fitted offsets added.
 CellMap corrected(const CellMap& cells, const PlaneFromImage& offsets) {
-    // Per eighth of a cell there.
+    // The fit takes points for 1/8 px. Here they are whole cells, so slopes are divided by 8.
     constexpr int kShift = 24 + 3 - 16;
     const Vec du_q16{offsets.du_q24.x >> kShift, offsets.du_q24.y >> kShift};
     const Vec dv_q16{offsets.dv_q24.x >> kShift, offsets.dv_q24.y >> kShift};
@@ -58,12 +59,12 @@ CellMap corrected(const CellMap& cells, const PlaneFromImage& offsets) {
             cells.along_x_q16 + du_q16, cells.along_y_q16 + dv_q16};
 }
 
-/// The other way round; false where the cells are none.
+/// Sets the plane to the inverse of the cells' map. Returns false if cells are less than 1 px^2.
 bool invert(const CellMap& cells, Vec centre_q8, PlaneFromImage& plane) {
     const Vec x = cells.along_x_q16;
     const Vec y = cells.along_y_q16;
     const std::int64_t det_q24 = cross(x, y) >> 8;
-    // Of a few dots anything may come out; cells of more than a pixel make no slope overflow.
+    // A few dots may give any result. With cells of more than 1 px^2 no slope overflows.
     if (det_q24 < 1 << 24) return false;
     const auto slope_q24 = [&](std::int32_t a_q16) {
         return short_quotient(std::int64_t{a_q16} << 32, det_q24);
@@ -84,7 +85,7 @@ bool invert(const CellMap& cells, Vec centre_q8, PlaneFromImage& plane) {
     return true;
 }
 
-/// By so much of itself the mean displacement is longer than the cells have it, in 2^-12.
+/// Returns by which share of its length the mean displacement exceeds that of the cells, in 2^-12.
 std::int32_t longer_q12(const Tracking& tracking, int excess, std::int32_t mass) {
     std::int64_t along = 0;
     for (std::size_t s = 0; s < tracking.off_q8.size(); ++s) {

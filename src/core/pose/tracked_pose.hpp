@@ -5,8 +5,8 @@
 
 namespace dotpose::core {
 
-/// Lays the cells to where the dots that were read are, and tells the map from that, and how far
-/// dots are displaced. Returns how many dots that were; 0 if they do not tell.
+/// Fits the cells to the dots that were read, and sets the map and the typical displacement of dots
+/// in spacings from that. Returns the number of dots, or 0 if they do not determine the map.
 int fit_tracked_pose(const Tracking& tracking, PlaneFromImage& pattern_from_image,
                      std::int32_t& displacement_q16);
 

@@ -13,7 +13,7 @@ namespace {
 
 namespace tuned = tuning::uneven;
 
-/// What blocks of dots are off in common.
+/// How much the dots of each block of the image are off in common.
 class Blocks {
   public:
     Blocks(const Kernels& kernels, const MeasuredDots& dots, const FloatPlane& plane,
@@ -39,7 +39,7 @@ class Blocks {
 
     const GroupScatter& scatter() const { return scatter_; }
     float outliers() const { return outliers_; }
-    float side() const { return side_; }  ///< of a block, spacings
+    float side() const { return side_; }  ///< of a block, in spacings
 
   private:
     GroupScatter scatter_;
@@ -47,7 +47,7 @@ class Blocks {
     float side_;
 };
 
-/// Of the dots on this side of a line.
+/// Returns the blocks of the dots on the reference point's side of a line.
 Blocks blocks_here(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    const Sides& sides) {
     const OneSide only(OneSide::Side::here, dots, sides.plane, reference_px, sides.slip);
@@ -60,7 +60,8 @@ bool may_be_uneven(const Blocks& blocks) {
                tuned::kFewOutliers + tuned::kShareOfOutliers * blocks.scatter().dots;
 }
 
-/// What it leaves open that the pose may be that of either plane.
+/// Adds the difference of two planes at the reference point to the covariance, times `weight`, as
+/// the pose may be that of either.
 void add_difference(const FloatPlane& plane, const FloatPlane& other, FloatVec reference_px,
                     float weight, PoseFit& fit) {
     const FloatVec p = plane_point(plane, reference_px);
@@ -80,7 +81,8 @@ void add(float variance, std::size_t i, PoseFit& fit) {
     fit.uneven[i][i] += variance;
 }
 
-/// What dots that are off alike leave open.
+/// Adds what dots with common residuals leave open to the covariance, and marks the surface as
+/// uneven.
 void widen_by_blocks(const Blocks& blocks, PoseFit& fit) {
     const float variance = blocks.scatter().variance_between();
     add(tuned::kOfPlace * variance, 0, fit);
@@ -89,21 +91,22 @@ void widen_by_blocks(const Blocks& blocks, PoseFit& fit) {
     fit.surface = Surface::uneven;
 }
 
-/// Where the line passes so near the reference point that either side may hold it.
+/// Widens the covariance if the line passes so near the reference point that either side may hold
+/// it.
 void widen_near_line(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                      const Sides& sides, PoseFit& fit) {
     if (sides.slip.distance > tuned::kNearLine) return;
     FloatPlane beyond;
     if (fit_far_side(kernels, dots, reference_px, sides, beyond))
         return add_difference(sides.plane, beyond, reference_px, 1, fit);
-    // It lies anywhere in its cell, and turned by up to some degrees.
+    // Without a plane for it, the other side may lie anywhere in its cell, turned by some degrees.
     add(1.0F / 12, 0, fit);
     add(1.0F / 12, 1, fit);
     add(0.02F * 0.02F, 2, fit);
 }
 
-/// Fits to the reference point's side if a line divides the sheet for sure, and that is all that is
-/// uneven of it. Where a line may, it is left open which fit is right.
+/// Fits to the reference point's side if a line divides the sheet for sure and nothing else of it
+/// is uneven. If a line is only possible, the covariance leaves open which fit is right.
 void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    const Blocks& blocks, FloatPlane& plane, PoseFit& fit) {
     Sides sides{plane, fit};
@@ -154,7 +157,7 @@ void fit_uneven(const Kernels& kernels, const Observations& observations, Vec re
         dots.row[k] = static_cast<float>(o.pattern_step.y);
         dots.bits[k] = static_cast<std::int32_t>(o.symbol);
     });
-    // Kernels take eight at once.
+    // Kernels take eight dots at once.
     for (std::size_t k = 0; k < 8; ++k)
         dots.x[static_cast<std::size_t>(dots.count) + k] = kNoDot_px;
     FloatPlane better = float_plane(plane);

@@ -33,8 +33,8 @@ void expect_affine_pose(const Reading& reading, const PlaneFromImage& found, dou
     EXPECT_TRUE(is_affine(found));
 }
 
-/// Dots are taken in 1/8 px, which scatters each by 0.036 px: 100 of them or more at 6 px or more,
-/// at four times the deviation, and what rounding leaves.
+/// Tolerance in spacings. Dots are taken in 1/8 px, which scatters each by 0.036 px; a view has at
+/// least 100 of them at 6 px or more. Four deviations are allowed, and what rounding leaves.
 constexpr double kExact = 4 * 0.036 / 10 / 6 + 1e-4;
 
 TEST(AffinePose, FittedToExactDotsIsExact) {
@@ -78,7 +78,7 @@ TEST(AffinePose, ADisplacementOtherThanASixthIsMeasured) {
 }
 
 TEST(AffinePose, ScatterAveragesOut) {
-    // Dots scattered by 0.2 px per axis: the mean of n is off by 0.2 / sqrt(n).
+    // Dots scatter by 0.2 px per axis, so the mean of n dots is off by 0.2 / sqrt(n).
     Rng rng(kSeed);
     double squares = 0;
     double expected = 0;
@@ -91,7 +91,7 @@ TEST(AffinePose, ScatterAveragesOut) {
         const double per_axis = 0.2 / view.spacing_px;
         expected += 2 * per_axis * per_axis / static_cast<double>(reading.dots.size());
     }
-    // 400 errors tell their deviation to 4 %; one dot in some thousand is left out.
+    // 400 errors tell their deviation to 4 %. About one dot in a thousand is left out.
     EXPECT_LT(squares, 1.25 * expected) << "seed " << kSeed;
     EXPECT_GT(squares, 0.75 * expected) << "seed " << kSeed;
 }

@@ -1,4 +1,4 @@
-// Fits to dots that a plane in double precision puts there.
+// Fits to dots that were placed by a plane in double precision.
 #include "core/pose/float_fit.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ constexpr std::uint64_t kSeed = 78;
 constexpr double kDisplacement = 1 / 6.0;
 constexpr int kReach_px = 95;
 
-/// All dots that the plane shows in an image of 188 x 120 px.
+/// Adds all dots that the plane shows in an image of 188 x 120 px.
 void show_dots(const FloatPlane& plane, double noise_px, double wrong, Rng& rng, OwnedDots& owned) {
     for (int j = -14; j <= 14; ++j) {
         for (int i = -14; i <= 14; ++i) {
@@ -31,7 +31,8 @@ void show_dots(const FloatPlane& plane, double noise_px, double wrong, Rng& rng,
     }
 }
 
-/// Off by a tenth of a spacing, somewhat turned, and without perspective.
+/// Returns a plane that is off by up to a tenth of a spacing, somewhat turned, and without
+/// perspective.
 FloatPlane guess_of(const FloatPlane& truth, Rng& rng) {
     FloatPlane guess = truth;
     const auto some = [&](double size) { return static_cast<float>(rng.uniform(-size, size)); };

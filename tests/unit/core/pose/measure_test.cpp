@@ -14,7 +14,7 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 45;
 
-/// Light that falls off from one side to the other, with dots on it.
+/// Draws paper whose light falls off from one side to the other, with dots on it.
 GreyImage drawn(const View& view, const std::vector<PlacedDot>& dots, double angle) {
     GreyImage image = blank(static_cast<int>(view.image_px.x), static_cast<int>(view.image_px.y));
     const Vec2 way{std::cos(angle), std::sin(angle)};
@@ -36,8 +36,8 @@ bool is_inside(const View& view, Vec2 point_px, double margin_px) {
            point_px.y < far.y;
 }
 
-/// Every measured dot is that of its cell, to the tolerance, or a third of a pixel where the window
-/// is cut narrower by the border; of those `margin_px` inside the image none is missing.
+/// Expects every measured dot to be that of its cell, to the tolerance, or to a third of a pixel
+/// where the border cuts the window. No dot at least `margin_px` inside the image may be missing.
 void expect_measured(const View& view, const std::vector<PlacedDot>& placed, int quarters,
                      double margin_px, double tolerance_px, Rng& rng) {
     const GreyImage image = drawn(view, placed, rng.uniform(0, 6.3));
@@ -45,7 +45,7 @@ void expect_measured(const View& view, const std::vector<PlacedDot>& placed, int
     ASSERT_EQ(reading.status, Status::ok);
     const Nominal nominal(reading.grid(), view.profile, reading.truth());
     PlaneFromImage pose = upright_plane(reading.plane, reading.turn);
-    // The pose as the first attempt leaves it, some hundredths of a spacing off.
+    // The first attempt leaves a pose some hundredths of a spacing off.
     const Vec2 off{rng.uniform(-0.03, 0.03), rng.uniform(-0.03, 0.03)};
     pose.at_centre_q16 = fixed(real(pose.at_centre_q16, 16) + off, 16);
     std::vector<Dot> measured(1000);
@@ -87,8 +87,9 @@ TEST(MeasureDots, FindsTheirCentresInUnevenLight) {
 }
 
 TEST(MeasureDots, FindsBadlyPrintedOnesWhereTheyAre) {
-    // A printer that scatters by 25 um puts one dot in a hundred 75 um off: 0.15 spacings. Those
-    // that were lost, or not followed all the way, would have shown how badly it prints.
+    // A printer that scatters by 25 um puts one dot in a hundred 75 um off: 0.15 spacings. If such
+    // dots were lost, or not followed all the way, the residuals would not show how badly it
+    // prints.
     Rng rng(kSeed);
     for (int i = 0; i < 20; ++i) {
         SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
@@ -100,7 +101,7 @@ TEST(MeasureDots, FindsBadlyPrintedOnesWhereTheyAre) {
             Vec2& at = placed[d].centre_px;
             at = at + 0.15 * view.spacing_px * Vec2{std::cos(direction), std::sin(direction)};
         }
-        // Half a spacing from a neighbour, whose rim the window sees.
+        // A dot may come as near as half a spacing to a neighbour, whose rim the window sees.
         expect_measured(view, placed, i % 4, 7, 0.14, rng);
     }
 }
@@ -165,7 +166,7 @@ TEST(MeasureDots, StopsWhereTheirMemoryEnds) {
                            nominal, reading.owned.grid, std::span(measured).first(10)),
               10);
     EXPECT_EQ(measured[10].centre_q8, Vec{});
-    // Cells refer to none but the measured ones.
+    // Cells refer to measured dots only.
     EXPECT_EQ(std::count_if(reading.owned.cells.begin(), reading.owned.cells.end(),
                             [](const GridCell& cell) { return cell.has_dot() && cell.dot < 10; }),
               10);

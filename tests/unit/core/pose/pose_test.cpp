@@ -1,4 +1,4 @@
-// From the place in the code to the pose, against a camera whose geometry is known.
+// The pose from the place in the code, compared with a camera whose geometry is known.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 33;
 
-/// The pose fitted to all dots, starting from that of the grid, with the fix for one pixel.
+/// The pose fitted to all dots, starting from that of the grid, and the fix at one pixel.
 struct Fitted {
     bool ok = false;
     PlaneFromImage pose;
@@ -60,7 +60,7 @@ TEST(Pose, FittedToExactDotsIsExact) {
         const Reading reading = reading_off_grid(i, rng);
         const Fitted fit = fitted(reading);
         ASSERT_TRUE(fit.ok);
-        // Dots are rounded to 1/256 px; in step with the pixels, that looks like a lens.
+        // Rounding to 1/256 px is in step with the pixels, which looks like a lens.
         expect_pose(reading, fit.pose, reading.view.centre_px(), 2e-4);
         EXPECT_GE(fit.fix.dots_used, static_cast<int>(reading.dots.size()) * 9 / 10);
     }
@@ -162,7 +162,7 @@ TEST(Pose, PastTheEndOfTheCodeItContinuesInAnotherSection) {
     EXPECT_EQ(fix.fraction_x_q16, 0.75 * 65536);
 }
 
-/// Sums for the covariance of (x, y, theta).
+/// Sums for the covariance of (x, y, theta): squared errors, and what fixes claim.
 struct Scatter {
     double squares[3][3] = {};
     double claimed[3][3] = {};
@@ -182,7 +182,7 @@ struct Scatter {
     }
 };
 
-/// Poses of one view with fresh noise on all dots each time.
+/// Fits poses to one view with fresh noise on all dots in each round.
 Scatter scatter(const View& view, Vec2 reference, double sigma_px, int rounds, Rng& rng) {
     const auto placed = pattern_dots(view);
     Scatter result;
@@ -208,8 +208,8 @@ TEST(Pose, CovarianceIsThatOfManyNoisyFrames) {
         const Scatter found = scatter(view, reference, 0.1, kRounds, rng);
         ASSERT_EQ(found.count, kRounds);
         for (std::size_t r = 0; r < 3; ++r) {
-            // Claims allow for a tilt, which this view does not have: away from the centre it is
-            // better than claimed.
+            // Claims allow for a tilt, which this view does not have, so that away from the centre
+            // it is better than claimed.
             const double ratio = found.claimed[r][r] / found.squares[r][r];
             EXPECT_GT(ratio, 0.85) << r;
             EXPECT_LT(ratio, 1.6) << r;
@@ -223,7 +223,7 @@ TEST(Pose, CovarianceIsThatOfManyNoisyFrames) {
     }
 }
 
-/// Light on the left of the middle, dark on its right.
+/// Paper that is light on the left and dark on the right.
 struct HalfDark {
     static constexpr int kLight = 240;
     static constexpr int kDark = 60;
@@ -238,8 +238,9 @@ struct HalfDark {
 };
 
 TEST(Pose, DotsInTheDarkCountLess) {
-    // Noise of 0.02 px in the light is 0.08 px in the dark. Of two halves with 1 and 16 times the
-    // variance the mean alone would have 8.5 times that of the better half, weighted 1.9 times.
+    // Noise of 0.02 px in the light is 0.08 px in the dark. With two halves of 1 and 16 times the
+    // variance, the plain mean has 8.5 times the variance of the better half, the weighted one 1.9
+    // times.
     Rng rng(kSeed);
     const HalfDark paper;
     const View view = random_view(rng);

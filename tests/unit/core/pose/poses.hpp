@@ -1,5 +1,5 @@
-// Views of the pattern with what may be wrong with their dots, and whether the pose fitted to them
-// is that of the camera.
+// Views of the pattern whose dots may be wrong in several ways, and checks that the pose fitted to
+// them is that of the camera.
 #pragma once
 
 #include <cmath>
@@ -12,20 +12,20 @@
 
 namespace dotpose::core_test {
 
-/// How far off the plane is at a pixel, in spacings.
+/// Returns how far off the plane is at a pixel, in spacings.
 inline Vec2 error_at(const Reading& reading, const PlaneFromImage& found, Vec2 pixel) {
     const Vec2 zero{static_cast<double>(reading.zero.x), static_cast<double>(reading.zero.y)};
     const Vec2 expected = reading.view.pattern(pixel) - zero;
     return real(core::plane_point_q16(found, fixed(pixel, 8)), 16) - expected;
 }
 
-/// The plane is right at a pixel, in value and slope.
+/// Expects the plane to be right at a pixel, in value and slope.
 inline void expect_pose(const Reading& reading, const PlaneFromImage& found, Vec2 pixel,
                         double tolerance) {
     const Vec2 error = error_at(reading, found, pixel);
     EXPECT_NEAR(error.x, 0, tolerance);
     EXPECT_NEAR(error.y, 0, tolerance);
-    // Directions err by as much over half the image as positions do.
+    // Slopes may err, over half the image, by as much as positions do.
     const View& view = reading.view;
     const double slope = 2 * tolerance / view.image_px.y;
     const PlaneFromImage flat = core::tangent(found, fixed(pixel, 8));
@@ -35,7 +35,7 @@ inline void expect_pose(const Reading& reading, const PlaneFromImage& found, Vec
     EXPECT_NEAR(real(flat.dv_q24, 24).y, view.dv().y, slope);
 }
 
-/// Exact dots, of any profile, and a grid that is off a little: that must not matter.
+/// Returns exact dots of any profile with a grid that is off a little, which must not matter.
 inline Reading reading_off_grid(int i, Rng& rng) {
     View view = random_view(rng);
     view.spacing_px = rng.uniform(6, 11);
@@ -46,7 +46,7 @@ inline Reading reading_off_grid(int i, Rng& rng) {
     return reading;
 }
 
-/// Every eighth dot is moved, by `least_px` to 2 px.
+/// Returns dots of which every eighth is moved, by `least_px` to 2 px.
 inline std::vector<Dot> dots_with_outliers(const View& view, double least_px, Rng& rng) {
     auto dots = dots_of(pattern_dots(view));
     for (std::size_t d = 0; d < dots.size(); d += 8) {
@@ -58,7 +58,7 @@ inline std::vector<Dot> dots_with_outliers(const View& view, double least_px, Rn
     return dots;
 }
 
-/// Dots printed nearer to, or farther from, their intersections than a sixth of the spacing.
+/// Returns dots whose displacement is not a sixth of the spacing.
 inline std::vector<Dot> dots_displaced_by(double displacement, const View& view) {
     std::vector<Dot> dots;
     for (const PlacedDot& d : pattern_dots(view)) {

@@ -1,4 +1,4 @@
-// What is believed of further terms, against integrals over all that they might be.
+// The posterior of further terms compared with integrals over all their possible values.
 #include "core/pose/posterior.hpp"
 
 #include <cmath>
@@ -16,7 +16,7 @@ constexpr std::uint64_t kSeed = 62;
 constexpr FurtherTerms kTwo{kTilt, 2, {{{0.3F, 0}, {0.5F, 0.02F}, {0.2F, 0.2F}}}};
 constexpr FurtherTerms kOne{kBend, 1, {{{0.6F, 0}, {0.3F, 0.02F}, {0.1F, 0.2F}}}};
 
-/// Equations of points that tell all parameters, some of them together only.
+/// Returns equations of points that determine all parameters, some of them only in combination.
 PlaneNormalFloat random_normal(Rng& rng) {
     const auto random = [&] {
         Four values;
@@ -43,7 +43,7 @@ double density(double x, double variance) {
     return std::exp(-x * x / (2 * variance)) / std::sqrt(variance);
 }
 
-/// Mean and covariance of the whitened terms by summing over a fine grid of what they might be.
+/// Mean and covariance of the whitened terms, summed over a fine grid of their possible values.
 struct Integral {
     double mean[2] = {};
     double covariance[2][2] = {};

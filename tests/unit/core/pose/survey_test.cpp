@@ -1,4 +1,4 @@
-// What the rounds of a fit are shown, against the grid itself.
+// What a survey shows to the rounds of a fit, compared with the grid itself.
 #include "core/pose/survey.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ constexpr std::uint64_t kSeed = 65;
 
 struct Counted {
     int dots = 0;
-    std::int64_t sum = 0;  ///< of products that tell dots and their order apart
+    std::int64_t sum = 0;  ///< of products that depend on the dots and their order
 
     void add(std::int64_t x, std::int64_t y, std::int64_t step_x, std::int64_t step_y,
              std::int64_t side) {
@@ -27,7 +27,7 @@ TEST(Survey, ShowsAllDotsInOrder) {
     Rng rng(kSeed);
     for (int i = 0; i < 40; ++i) {
         SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
-        // With fewer dots than fit one batch, and with more.
+        // Views have fewer dots than fit one batch, or more.
         View view = random_view(rng);
         view.spacing_px = i % 2 == 0 ? 12 : 6;
         const Reading reading(view, Turn{i % 4});

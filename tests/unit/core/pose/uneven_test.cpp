@@ -1,5 +1,5 @@
-// Dots of sheets that are not one plane, put where a plane in double precision and a displacement
-// that is known have them.
+// Dots of sheets that are not one plane, placed by a plane in double precision and a known
+// displacement.
 #include "core/pose/uneven.hpp"
 
 #include <functional>
@@ -24,10 +24,10 @@ constexpr int kReach_px = 95;
 constexpr double kJitter = 0.02;
 constexpr double kMostSigmas = 4.5;
 
-/// In spacings, by the place, which is counted from the image centre.
+/// Displacement, in spacings, of a place that is counted from the image centre.
 using Shift = std::function<Vec2(Vec2)>;
 
-/// What 188 x 120 px show of a printed sheet.
+/// What an image of 188 x 120 px shows of a printed sheet.
 struct Sheet {
     FloatPlane truth;
     OwnedDots owned;
@@ -63,14 +63,14 @@ struct Sheet {
         return std::equal(columns.begin(), columns.end(), owned.dots.column.begin());
     }
     Vec2 off() const { return formula(plane, {}) - formula(truth, {}); }
-    /// The larger of the errors of x and y, in units of their sigmas.
+    /// Returns the larger of the errors of x and y, in units of their sigmas.
     double sigmas_off() const {
         return std::max(std::abs(off().x) / std::sqrt(double{fix.covariance[0][0]}),
                         std::abs(off().y) / std::sqrt(double{fix.covariance[1][1]}));
     }
 };
 
-/// Dots farther than `distance` along a direction are displaced.
+/// Returns a shift by `by` of all places farther than `distance` along a direction.
 Shift slip(double distance, double direction_rad, Vec2 by) {
     return [=](Vec2 place) {
         const double t = std::cos(direction_rad) * place.x + std::sin(direction_rad) * place.y;
@@ -110,7 +110,7 @@ TEST(FitUneven, FitsTheSideOfTheReferencePoint) {
         EXPECT_LT(length(sheet.off()), 0.02);
         EXPECT_LT(sheet.fix.dots_used, sheet.owned.dots.count * 9 / 10);
     }
-    // Some lines are found a little beside, and then more is uneven than a line explains.
+    // Some lines are found a little beside the true one; then more is uneven than a line explains.
     EXPECT_GE(divided, 55);
 }
 
@@ -132,7 +132,7 @@ TEST(FitUneven, WidensTheCovarianceOnWrinkledPaper) {
     for (int trial = 0; trial < 30; ++trial) {
         SCOPED_TRACE(testing::Message() << trial << ", seed " << kSeed);
         const double phase = rng.uniform(0, 6.283);
-        // At the reference point the paper is not displaced.
+        // The paper is not displaced at the reference point.
         const Sheet sheet(
             [=](Vec2 place) {
                 constexpr double kTurns = 6.283 / 10;
