@@ -19,7 +19,7 @@ std::uint64_t reversed(std::uint64_t word) {
     return __builtin_bswap64(word);
 }
 
-/// The lines in the opposite order, each as it was.
+/// Returns the lines in the opposite order; bits within each stay.
 BitLines in_opposite_order(const BitLines& lines) {
     BitLines result = lines;
     std::reverse(result.bits.begin(), result.bits.end());
@@ -27,7 +27,8 @@ BitLines in_opposite_order(const BitLines& lines) {
     return result;
 }
 
-/// Each line read backwards, and its bits flipped, as half a turn does; in their order.
+/// Returns each line read backwards with its bits flipped, as half a turn does; the order of lines
+/// stays.
 BitLines backwards(const BitLines& lines) {
     BitLines result;
     for (std::size_t i = 0; i < lines.bits.size(); ++i) {
@@ -43,7 +44,7 @@ struct Range {
     int count = 0;
 };
 
-/// The lines that have bits, at most so many.
+/// Returns the range of lines that have bits; if these are more than `most`, the middle ones.
 Range lines_with_bits(const BitLines& lines, int most) {
     int first = 0;
     int last = BitBlock::kSide - 1;
@@ -56,13 +57,13 @@ Range lines_with_bits(const BitLines& lines, int most) {
     return {std::clamp(BitBlock::kMiddle - most / 2, first, last + 1 - most), most};
 }
 
-/// How much better some lines of the middle can be read backwards than forwards.
+/// Returns how much better some lines of the middle score backwards than forwards.
 int backwardness(const Kernels& kernels, const BitLines& lines) {
     constexpr int kVoters = tuning::turns::kVotersOfBits;
     const Range range = lines_with_bits(lines, BitBlock::kSide);
     int sum = 0;
     for (int voter = 0; voter < kVoters; ++voter) {
-        // Of the middle half, which has the longest ones.
+        // Voters are from the middle half of the lines, which has the longest ones.
         const auto i = static_cast<std::size_t>(range.first + range.count / 4 +
                                                 range.count * voter / (2 * kVoters));
         if (i >= lines.bits.size()) break;

@@ -7,17 +7,17 @@
 namespace dotpose::core {
 namespace {
 
-/// So many weights are summed at a time, in all combinations of signs, and so many such groups.
+/// Weights are summed in groups of kGroup, in all combinations of signs; kGroups groups at a time.
 constexpr std::size_t kGroup = 5;
 constexpr std::size_t kGroups = 4;
 constexpr std::size_t kAtOnce = kGroup * kGroups;
-/// Weights of two lines, or sums of them, at once: they fit 16 bits, so a + 65536 b adds up like
-/// one number.
+/// Weights of two lines, or sums of them, in one number: both fit 16 bits, so a + 65536 b adds up
+/// like a single one.
 using Weights = std::array<std::int32_t, kAtOnce>;
 using Sums = std::array<std::int32_t, 1 << kGroup>;
 
-/// The `kGroup` bits of the main sequence that follow any index, the first in the lowest: as a
-/// distance in bytes in Sums, because small processors have to multiply by themselves.
+/// The kGroup bits of the main sequence from each index on, the first in the lowest bit. They are
+/// stored as distances in bytes in Sums, to spare small processors a multiplication.
 constexpr auto kStrings = [] {
     std::array<std::uint8_t, 2 * kSections + kAtOnce> strings{};
     for (std::size_t i = 0; i < strings.size(); ++i) {
@@ -37,7 +37,7 @@ std::int32_t sum_at(const Sums& sums, std::uint8_t bytes) {
 
 using Line = std::span<const std::int8_t>;
 
-/// Both lines' weights from `first` on, 0 where they have ended.
+/// Collects the weights of both lines from `first` on, 0 after their ends.
 void gather(Line a, Line b, std::size_t first, Weights& weights) {
     const auto rest = [&](Line line) {
         line = line.subspan(std::min(first, line.size()));
@@ -57,8 +57,9 @@ void append_sums(Sums& sums, std::int32_t weight, std::index_sequence<I...>) {
     ((sums[sizeof...(I) + I] = sums[I] + 2 * weight), ...);
 }
 
-/// For each string of bits the sum of a group of weights, negative where the bit is 0.
-// By itself, as it is long: without loops it takes half of the time.
+/// Sets the sum of a group of weights for each string of bits; a weight counts negative where the
+/// bit is 0.
+// Not inlined, as it is long: without loops it takes half of the time.
 [[gnu::noinline]] void sum_signed(const std::int32_t* weights, Sums& sums) {
     static_assert(kGroup == 5);
     sums[0] = -(weights[0] + weights[1] + weights[2] + weights[3] + weights[4]);
@@ -80,7 +81,7 @@ void take_sums(const std::array<Sums, kGroups>& sums, std::size_t phase, LineSco
         std::int32_t sum = sum_at(sums[0], string[0]);
         for (std::size_t group = 1; group < Groups; ++group)
             sum += sum_at(sums[group], string[group * kGroup]);
-        // (sum + 0x8000) >> 16, without a number that takes a register.
+        // This is (sum + 0x8000) >> 16, without a constant that takes a register.
         const std::int32_t of_b = ((sum >> 15) + 1) >> 1;
         *a = static_cast<std::int16_t>(Adds ? *a + sum : sum);
         *b = static_cast<std::int16_t>(Adds ? *b + of_b : of_b);
@@ -93,7 +94,7 @@ void correlate_both(Line a, Line b, LineScores& scores_a, LineScores& scores_b) 
     const auto are_zero = [&](std::size_t i) {
         return (i >= a.size() || a[i] == 0) && (i >= b.size() || b[i] == 0);
     };
-    // Lines of a grid that stands askew in the image are empty at both ends.
+    // Lines of a grid that is askew in the image are empty at both ends.
     std::size_t end = std::max(a.size(), b.size());
     std::size_t first = 0;
     while (first < end && are_zero(first))
@@ -123,7 +124,7 @@ void correlate(std::span<const std::int8_t> weights, LineScores& scores) {
     correlate_both(weights, {}, scores, none);
 }
 
-// By itself: unrolled, it is long.
+// Not inlined, as it is long when unrolled.
 [[gnu::noinline]] Match next_match(const LineScores& scores, Match last) {
     std::int32_t best = INT32_MIN;
     std::size_t roll = 0;

@@ -1,5 +1,4 @@
-// Correlation of a line of likelihoods with the main sequence at every offset. Paper section
-// II-B.7.
+// Correlation of a line of likelihoods with the main sequence at every roll. Paper section II-B.7.
 #pragma once
 
 #include <cstdint>
@@ -9,28 +8,32 @@
 
 namespace dotpose::core {
 
-/// An offset of the main sequence and how well it agrees.
+/// A roll (offset of the main sequence) and its score.
 struct Match {
     std::int32_t score = 0;
     std::uint8_t roll = 0;
 };
 
-/// scores[o] = sum of the weights that agree with the main sequence from index o on, minus those
-/// that do not; the weights soften doubtful bits. At most 256 weights in [-127, 127].
+/// Sets the score of each roll o: the sum of the weights that agree with the main sequence from
+/// index o on, minus those that do not. Doubtful bits have small weights. At most 256 weights in
+/// [-127, 127].
 void correlate(std::span<const std::int8_t> weights, LineScores& scores);
 
-/// The same for two lines in little more time.
+/// Correlates two lines in little more time than one.
 void correlate_both(std::span<const std::int8_t> a, std::span<const std::int8_t> b,
                     LineScores& scores_a, LineScores& scores_b);
 
-/// The best of all offsets; the smallest of equal ones.
+/// Returns the roll with the best score, the smallest of equal ones.
 Match best_match(const LineScores& scores);
 
-/// The best of those that are less good than `last`, or as good and larger.
+/// Returns the best of the matches after `last`: those with a lower score, or an equal score and a
+/// larger roll.
 Match next_match(const LineScores& scores, Match last);
 
+/// Returns the best score and its margin over the second best.
 BestScore best_score(const LineScores& scores);
 
+/// The largest and the smallest score of a line.
 struct Extremes {
     std::int32_t most = 0;
     std::int32_t least = 0;

@@ -10,7 +10,7 @@ struct Extent {
     int count = 0;
 };
 
-/// The cells from least to most, or where they are too many, the middle ones around the origin.
+/// Returns the cells from `least` to `most`, or as many as there is room for around the origin.
 Extent extent(int least, int most, int capacity) {
     if (most - least < capacity) return {least, most - least + 1};
     const int first = std::clamp(-capacity / 2, least, most - capacity + 1);
@@ -30,7 +30,7 @@ void lay_out(Vec least, Vec most, Grid& grid) {
 }
 
 std::int8_t quasi_probability(std::int32_t projection_q16) {
-    // Nominal offset r0: the displacement, a sixth of the spacing.
+    // The nominal offset r0 is the displacement, a sixth of the spacing.
     const int r_q8 = (projection_q16 * 6 + 128) >> 8;  // r / r0
     const int square_q16 = r_q8 * r_q8;
     if (square_q16 >= 3 * 65536) return 0;
@@ -41,7 +41,7 @@ std::int8_t quasi_probability(std::int32_t projection_q16) {
 
 namespace {
 
-/// `point_of(dot)` gives the place of a dot in the grid.
+/// Fills the grid from all dots. `point_of(dot)` returns the place of a dot in the grid.
 template <typename PointOf>
 Status assign(std::span<const Dot> dots, PointOf point_of, Grid& grid) {
     Vec least{INT32_MAX, INT32_MAX};
@@ -56,7 +56,7 @@ Status assign(std::span<const Dot> dots, PointOf point_of, Grid& grid) {
     }
     lay_out(least, most, grid);
 
-    // Writing cells, small processors would read the grid's members anew for each dot.
+    // With a local copy, small processors need not read the grid's members anew for each dot.
     const Grid here = grid;
     const auto columns = static_cast<unsigned>(here.columns);
     const auto rows = static_cast<unsigned>(here.rows);

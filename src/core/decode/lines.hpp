@@ -14,6 +14,7 @@ enum class Axis : std::uint8_t {
     y,  ///< the y bits, along the rows
 };
 
+/// The scores of all lines of one axis.
 struct Lines {
     std::span<const ScoredLine> all;
     int count() const { return static_cast<int>(all.size()); }
@@ -23,26 +24,27 @@ struct Lines {
     const BestScore& best(int line) const { return all[static_cast<std::size_t>(line)].best; }
 };
 
-/// The half of the storage that is for one axis.
+/// Returns the half of the storage that is for one axis.
 inline std::span<ScoredLine> scores_of(Axis axis, std::span<ScoredLine> storage) {
     const std::size_t half = storage.size() / 2;
     return axis == Axis::x ? storage.first(half) : storage.last(half);
 }
 
-/// The region may have at most as many lines as `storage` holds.
+/// Scores all lines of the region; it may have at most as many as `storage` holds.
 Lines score_lines(const Upright& upright, Axis axis, std::span<ScoredLine> storage);
 
-/// The same, of what is in the storage since `score_lines`.
+/// Returns the lines that `score_lines` has left in the storage.
 Lines scored_lines(const Upright& upright, Axis axis, std::span<ScoredLine> storage);
 
-/// What one axis was read as.
+/// The position that the lines of one axis are read as.
 struct AxisReading {
     std::uint32_t position = 0;      ///< of the first line
     std::uint8_t roll = 0;           ///< of the first line, at the first cell of the crossing lines
     std::int32_t score = 0;          ///< sum over all lines
-    std::int32_t most_possible = 0;  ///< sum of the best scores of each line by itself
+    std::int32_t most_possible = 0;  ///< sum of the best score of each line alone
 
-    /// No other reading can come near one that has almost all that there is to be had.
+    /// Returns whether the score is so near the most possible that no other reading can come near
+    /// it.
     bool is_clear() const { return 8 * std::int64_t{score} > 7 * std::int64_t{most_possible}; }
 };
 

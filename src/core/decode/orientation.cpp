@@ -7,10 +7,11 @@
 namespace dotpose::core {
 namespace {
 
-/// So many lines of the middle half, which has the longest ones, settle the turn.
+/// Lines of each axis that vote on the turn; they are from the middle half, which has the longest
+/// ones.
 constexpr int kVoters = tuning::turns::kVoters;
 
-/// Those columns, or rows, of a region, and one of the bits of their cells.
+/// The voting columns or rows of a region, and which of the bits of their cells is read.
 class Voters {
   public:
     Voters(const Grid& grid, const Region& region, bool are_columns, std::int8_t GridCell::*bit)
@@ -36,13 +37,13 @@ class Voters {
   private:
     const GridCell* first_;
     int across_;  ///< cells from one line to the next
-    int along_;   ///< and within a line
+    int along_;   ///< cells from one to the next within a line
     int length_;
     int step_;  ///< lines from one voter to the next
     std::int8_t GridCell::*bit_;
 };
 
-/// Sum over lines of the best correlation with the main sequence, as they are and flipped.
+/// Sums over the voters of the best score as they are, and with all bits flipped.
 struct Agreement {
     std::int32_t as_is = 0;
     std::int32_t flipped = 0;
@@ -64,7 +65,7 @@ Agreement agreement_by_pairs(const Voters& voters, bool reversed) {
     return sum;
 }
 
-/// Of lines as they run, and backwards.
+/// Agreement of lines read forwards and backwards.
 struct BothWays {
     Agreement forwards;
     Agreement backwards;
@@ -74,7 +75,7 @@ BothWays agreement(const Voters& voters) {
     return {agreement_by_pairs(voters, false), agreement_by_pairs(voters, true)};
 }
 
-/// The best that any sequence could do.
+/// Returns the most that the voters could agree with any sequence.
 std::int32_t most_possible(const Voters& voters) {
     std::int32_t sum = 0;
     Line storage;
@@ -85,7 +86,7 @@ std::int32_t most_possible(const Voters& voters) {
     return sum;
 }
 
-/// Agreement of the best way to read lines.
+/// Returns the agreement of the best of the four ways to read the voters.
 std::int32_t best_agreement(const Voters& voters) {
     const auto [forwards, backwards] = agreement(voters);
     return std::max(std::max(forwards.as_is, forwards.flipped),
@@ -95,23 +96,23 @@ std::int32_t best_agreement(const Voters& voters) {
 }  // namespace
 
 Orientation rank_turns(const Grid& grid, const Region& region) {
-    // differs: the paper counts lines that stand in the main sequence exactly; the sum of best
-    // correlations is the same vote, but lines with a misread bit keep their say.
+    // differs: the paper counts lines that occur in the main sequence exactly. The sum of the best
+    // scores is the same vote, but lines with a misread bit still count.
     const Voters x_columns(grid, region, true, &GridCell::x);
     const Voters y_rows(grid, region, false, &GridCell::y);
     const BothWays of_columns = agreement(x_columns);
     const BothWays of_rows = agreement(y_rows);
     const std::int32_t columns = of_columns.forwards.as_is;
     const std::int32_t rows = of_rows.forwards.as_is;
-    // Half a turn flips and reverses.
+    // Half a turn flips and reverses lines.
     const std::int32_t turned_columns = of_columns.backwards.flipped;
     const std::int32_t turned_rows = of_rows.backwards.flipped;
-    // A quarter turn lays rows into columns and flips only one of the two: see `turned`.
+    // A quarter turn makes columns of rows and flips one of the two; see `turned` in upright.hpp.
     const std::array<std::int32_t, 4> scores{columns + rows, turned_columns + rows,
                                              turned_columns + turned_rows, columns + turned_rows};
     std::array<Turn, 4> turns{Turn{0}, Turn{1}, Turn{2}, Turn{3}};
     const auto score = [&](Turn t) { return scores[static_cast<std::size_t>(t.quarters)]; };
-    // The best first, and of equal ones the first: a library's sort would be long for so few.
+    // Sorts the best first and leaves equal ones in order; a library's sort would be long for four.
     for (std::size_t n = 1; n < turns.size(); ++n) {
         for (std::size_t i = n; i > 0 && score(turns[i]) > score(turns[i - 1]); --i)
             std::swap(turns[i], turns[i - 1]);
@@ -120,7 +121,7 @@ Orientation rank_turns(const Grid& grid, const Region& region) {
 }
 
 bool is_mirrored(const Grid& grid, const Region& region, std::int32_t upright) {
-    // In a mirror image the projections of eq. 7 and 8 change places, and lines may run backwards.
+    // In a mirror image the projections of eq. 7 and 8 are exchanged, and lines may run backwards.
     const Voters y_columns(grid, region, true, &GridCell::y);
     const Voters x_rows(grid, region, false, &GridCell::x);
     const auto is_much = [&](std::int32_t mirrored) {

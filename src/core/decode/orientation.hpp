@@ -11,15 +11,15 @@ namespace dotpose::core {
 
 struct Orientation {
     std::array<Turn, 4> turns;  ///< the likeliest first
-    std::int32_t agreement;     ///< of some lines with the main sequence, at the likeliest turn
+    std::int32_t agreement;  ///< of the voting lines with the main sequence, at the likeliest turn
 };
 
-/// Ranks the four turns: columns and rows each vote on whether they agree better with the main
-/// sequence as they are, or flipped and reversed.
+/// Ranks the four turns. Columns and rows vote on whether they agree better with the main sequence
+/// as they are, or flipped and reversed.
 Orientation rank_turns(const Grid& grid, const Region& region);
 
-/// Whether the region agrees with the mirrored pattern, whose columns carry the bits of rows, much
-/// better than with the pattern itself: than `agreement`, as of its orientation.
+/// Returns whether the region agrees much better with the mirrored pattern, whose columns carry the
+/// bits of rows, than with the pattern itself, which `agreement` of rank_turns is for.
 bool is_mirrored(const Grid& grid, const Region& region, std::int32_t agreement);
 
 }  // namespace dotpose::core

@@ -12,7 +12,7 @@ namespace {
 /// Fewest lines that can carry a position.
 constexpr int kFewestLines = 6;
 
-/// Position of one axis from the best roll of each line by itself.
+/// Reads the position of one axis from the best roll of each line alone.
 Status read_axis(Profile profile, const Lines& lines, AxisReading& reading) {
     std::array<std::uint8_t, kMaxLines> rolls{};
     for (int i = 0; i < lines.count(); ++i) {
@@ -25,7 +25,7 @@ Status read_axis(Profile profile, const Lines& lines, AxisReading& reading) {
     return position_from_rolls(profile, used, reading.position);
 }
 
-/// Sets the turn, and the place from the readings of the first column and row.
+/// Sets the turn, and the place from the readings of both axes.
 void set_place(Profile profile, const Upright& upright, Turn turn, const AxisReading& x,
                const AxisReading& y, Decoding& decoding) {
     const auto section = [&](const AxisReading& own, const AxisReading& other) {

@@ -11,7 +11,7 @@
 namespace dotpose::core {
 namespace {
 
-/// The way along a row of cells on which the image's rows come later.
+/// The direction along a row of cells in which v in the image increases.
 struct Way {
     Vec step_q16;
     int i_step;
@@ -25,9 +25,9 @@ TrackedView view_of(const Tracking& tracking) {
     std::int32_t displaced_q16 = 0;
     for (const Vec displaced : tracking.displaced_q16)
         displaced_q16 = std::max(displaced_q16, larger_component(displaced));
-    // The pixel next to a dot, to which it is rounded, has so many on each side.
+    // A dot is rounded to a pixel, which needs kDotHalf_px others on each side.
     const std::int32_t of_dot_q16 = kDotHalf_px * 65536 - 32768 + displaced_q16;
-    // The corners of squares are counted from the pixel that an intersection is in.
+    // The square around the pixel of an intersection has to lie in the image, too.
     const std::int32_t least_q16 = std::max<std::int32_t>(kHalf_px * 65536, of_dot_q16);
     const auto extent_q16 = [&](int side_px) {
         const std::int32_t end_q16 = std::min<std::int32_t>((side_px - kHalf_px) * 65536,
@@ -37,8 +37,8 @@ TrackedView view_of(const Tracking& tracking) {
     return {{least_q16, least_q16}, extent_q16(tracking.width_px), extent_q16(tracking.height_px)};
 }
 
-/// Lays the rows of cells from `j` on, as far as some of them are in view. Cells in view stand side
-/// by side, and not far from those of the row before.
+/// Finds where each row of cells, from `j` on in steps of `j_step`, comes into view, until a row
+/// does not. The cells in view of a row are side by side, and near those of the row before.
 void lay_rows(Tracking& tracking, int j, int j_step) {
     const TrackedView view = tracking.view;
     const Way way = way_of(tracking);
@@ -68,7 +68,7 @@ void lay_rows(Tracking& tracking, int j, int j_step) {
     }
 }
 
-/// Notes what is read; whether the code has it there.
+/// Notes the symbol that was read in a cell. Returns whether the code has it there.
 DOTPOSE_NOINLINE bool note(const Tracking& tracking, int i, int j, int symbol) {
     TrackedLine& column = column_of(tracking, i);
     TrackedLine& row = row_of(tracking, j);
@@ -85,8 +85,8 @@ DOTPOSE_NOINLINE bool note(const Tracking& tracking, int i, int j, int symbol) {
 }
 
 /// Adds the dot that the code has at the next intersection of a row, if it is about where it should
-/// be. Bounds: masses are below 2^12, places in the squares at most 2 px off, and so sums over a
-/// row of 32 dots below 2^30.
+/// be. Bounds: masses are below 2^12 and dots at most 2 px off in their squares, so that sums over
+/// a row of 32 dots are below 2^30.
 DOTPOSE_NOINLINE void add_dot(Tracking& tracking, ReadSymbol read, TrackedRow& row) {
     const auto symbol = static_cast<std::size_t>(read.symbol());
     const Vec place_q16 = row.next_q16 + tracking.displaced_q16[symbol];
@@ -96,7 +96,7 @@ DOTPOSE_NOINLINE void add_dot(Tracking& tracking, ReadSymbol read, TrackedRow& r
     const DarkSums sums = dark_sums<kDotHalf_px>(first, tracking.stride_px, read.level());
     const std::int32_t mass = sums.mass;
     if (mass < tracking.least_mass || mass > tracking.most_mass) return;
-    // From the middle of the pixel.
+    // Returns the distance of a place from the middle of its pixel.
     const auto in_pixel_q8 = [](std::int32_t a_q16) {
         return static_cast<std::int16_t>(a_q16) >> 8;
     };
@@ -128,7 +128,7 @@ bool begin_reading(Tracking& tracking) {
 
 void read_ready_dots(Tracking& tracking) {
     const Way way = way_of(tracking);
-    // A dot may reach a row farther than its square; the last row of all is always ready.
+    // A dot may reach a row farther than its square, except in the last row of the image.
     const int ahead = tracking.rows_taken == tracking.height_px ? 1 : 2;
     const std::int32_t ready_q16 = (tracking.rows_taken - ahead - kHalf_px) * 65536 + 32767;
     TrackedRow* row = &tracking.grid_rows[static_cast<std::size_t>(tracking.first_cell)];

@@ -5,11 +5,12 @@
 
 namespace dotpose::core {
 
-/// Once the cells lie where they are; false where dots are too far from their intersections.
+/// Begins to read, once the cells are fitted. Returns false if dots are too far from their
+/// intersections.
 bool begin_reading(Tracking& tracking);
 
-/// Reads all dots that the rows taken so far show, and adds up how far those that are what the code
-/// has there are off the cells.
+/// Reads all dots that the rows taken so far show. Dots that the code has are measured, and how far
+/// they are off the cells is added up.
 void read_ready_dots(Tracking& tracking);
 
 }  // namespace dotpose::core

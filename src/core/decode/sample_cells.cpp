@@ -21,19 +21,19 @@ Vec place_60th(Symbol symbol) {
     return {10 * dx(symbol), 10 * dy(symbol)};
 }
 
-/// What shows at one of a cell's four places.
+/// What the image shows at one of a cell's four places.
 struct PlaceView {
     bool is_seen = false;
     int darkness_q8 = 0;  ///< relative to the paper
-    int shade_q8 = 0;     ///< mean darkness of a square of 2/5 spacing around
+    int shade_q8 = 0;     ///< mean darkness of a square of 2/5 spacing around it
 };
 
-/// What a look at one cell shows.
+/// What the image shows of one cell.
 struct CellView {
     Vec centre_q8;
     Vec u_q8;  ///< one spacing along each axis of the grid
     Vec v_q8;
-    int half_px = 0;                  ///< of a square of 2/5 spacing
+    int half_px = 0;                  ///< half the side of a square of 2/5 spacing
     std::array<PlaceView, 4> places;  ///< by Symbol
 
     CellView(const ImageView& image, Vec centre, Vec right, Vec below)
@@ -53,31 +53,33 @@ struct CellView {
     }
 };
 
-/// Looks at an image through a grid laid over it.
+/// Samples an image through a grid laid over it.
 class CellSampler {
   public:
     CellSampler(const ImageView& image, const PaperMap& paper, const Lens& lens,
                 const PlaneFromImage& plane)
         : image_(image), paper_(paper), lens_(lens), plane_(plane) {}
 
-    /// Cells of which a place is in the image, before they are sampled at: `use(cell, view)`.
+    /// Calls `use(cell, view)` for the cells that have a place in the image; views are not sampled
+    /// yet.
     template <typename Use>
     void visit(const Grid& grid, Use use) const;
-    /// What shows at the places.
+    /// Sets darkness and shade of the places that are seen.
     void sample(CellView& view) const;
-    /// Paper level at the middle of the cell, over that at the middle of the image.
+    /// Returns the paper's level at the middle of the cell over that at the middle of the image.
     int light_q8(const CellView& view) const;
-    /// Shade of the darkest square 2/15 spacing away from each place that is seen.
+    /// Returns, for each place that is seen, the shade of the darkest square 2/15 spacing away from
+    /// it.
     std::array<int, 4> darkest_around_q8(const CellView& view) const;
 
   private:
-    /// Where the image shows an intersection.
+    /// Returns where the image shows an intersection.
     Vec image_of(int i, int j) const {
         return distorted_point_q8(lens_, plane_, {i * 65536, j * 65536});
     }
-    /// Mean darkness of a square of 2/5 spacing.
+    /// Returns the mean darkness of a square.
     int shade_q8(Vec centre_q8, int half_px) const;
-    /// The same from the sum over its pixels.
+    /// Returns the mean darkness of a square from the sum over its pixels.
     int darkness_q8(Vec centre_q8, int sum, int pixels) const;
     template <typename Shade>
     static std::array<int, 4> darkest_around_q8(const CellView& view, Shade shade_q8);
@@ -88,7 +90,7 @@ class CellSampler {
     const PlaneFromImage& plane_;
 };
 
-/// Of large squares not all pixels are taken.
+/// Returns the distance between the pixels that are taken; of large squares not all are.
 int step_px(int half_px) {
     return std::max(half_px / 3, 1);
 }
@@ -116,7 +118,7 @@ int CellSampler::shade_q8(Vec centre_q8, int half_px) const {
 
 template <typename Use>
 void CellSampler::visit(const Grid& grid, Use use) const {
-    // An intersection is a corner of four cells.
+    // An intersection is a corner of four cells, so each row of them is used twice.
     std::array<Vec, kMaxGridSide + 1> here;
     std::array<Vec, kMaxGridSide + 1> below;
     const auto find_row = [&](int j, std::array<Vec, kMaxGridSide + 1>& row) {
@@ -167,7 +169,7 @@ std::array<int, 4> CellSampler::darkest_around_q8(const CellView& view, Shade sh
 }
 
 std::array<int, 4> CellSampler::darkest_around_q8(const CellView& view) const {
-    // No square's centre is farther away than a third of the spacing.
+    // No square's centre is farther from the middle of the cell than a third of the spacing.
     const int reach_px =
         std::max(larger_component(view.u_q8), larger_component(view.v_q8)) / (3 * 256) + 1 +
         view.half_px;
@@ -188,7 +190,7 @@ int CellSampler::light_q8(const CellView& view) const {
     return here * 256 / paper_at(paper_, image_.width_px / 2, image_.height_px / 2);
 }
 
-/// What a cell's darkest place typically looks like: the medians over the cells.
+/// Returns what a cell's darkest place typically looks like: the medians over the cells.
 PlaceView typical_place(const CellSampler& sampler, const Grid& grid) {
     std::array<std::int32_t, tuned::kMedianSample> darkness;
     std::array<std::int32_t, tuned::kMedianSample> shade;
@@ -209,24 +211,25 @@ PlaceView typical_place(const CellSampler& sampler, const Grid& grid) {
             std::max<std::int32_t>(median(std::span(shade).first(count)), 1)};
 }
 
-/// How dark dots and graphics are in this image, and what a cell's darkness says of its bits.
+/// How dark dots and graphics are in this image, and what the darkness of a cell's places says of
+/// its bits.
 class Ink {
   public:
     Ink(const CellSampler& sampler, const Grid& grid) : sampler_(sampler) {
         const PlaceView typical = typical_place(sampler, grid);
         contrast_q8_ = typical.darkness_q8;
-        // Between the shade of a dot and that of solid ink.
+        // Graphics are darker than the geometric mean of a dot's shade and that of solid ink.
         graphics_q8_ = static_cast<int>(
             square_root(static_cast<std::uint64_t>(typical.shade_q8 * tuned::kSolidInk_q8)));
     }
 
-    /// Darkness of a cell's places, and how far it is to be trusted.
+    /// Darkness of a cell's places, and how far it can be trusted.
     struct Sample {
         std::array<int, 4> darkness_q8;  ///< by Symbol
         int trust_q4 = 16;
         int light_q8 = 256;
     };
-    /// Marks in the cell which of its places graphics cover.
+    /// Returns the sample of a cell, and marks in the cell which of its places graphics cover.
     Sample sample(const CellView& view, GridCell& cell) const {
         Sample sample;
         unsigned hidden = 0;
@@ -235,7 +238,7 @@ class Ink {
         const std::array<int, 4> darkest_around_q8 = sampler_.darkest_around_q8(view);
         for (std::size_t i = 0; i < view.places.size(); ++i) {
             const PlaceView& place = view.places[i];
-            // As likely as not there is a dot where nothing is seen.
+            // Where nothing is seen, a dot is as likely as not.
             sample.darkness_q8[i] = contrast_q8_ / 2;
             if (!place.is_seen) continue;
             const int around_q8 = darkest_around_q8[i];
@@ -261,7 +264,7 @@ class Ink {
         return sample;
     }
 
-    /// Whether two of the places look like dots.
+    /// Returns whether two of the places look like dots.
     bool is_crowded(const Sample& sample) const {
         std::array<int, 4> sorted = sample.darkness_q8;
         std::sort(sorted.begin(), sorted.end());
@@ -269,13 +272,13 @@ class Ink {
                4 * sorted[2] > tuned::kSecondDot_4ths * sorted[3];
     }
 
-    /// Weight of a bit, from the darkness at the places for 1 and for 0.
+    /// Returns the weight of a bit, from the darkness at the places for 1 and for 0.
     std::int8_t weight(const Sample& sample, int one_q8, int zero_q8) const {
-        // Noise is that of the sensor: the difference counts in grey levels, and against it the
-        // contrast, both in proportion to the light.
+        // Noise is that of the sensor. The difference in grey levels counts, relative to the
+        // contrast; both are proportional to the light.
         const int difference = (one_q8 - zero_q8) * tuned::kGain / contrast_q8_;
         const int light_q16 = sample.light_q8 * sample.light_q8;
-        // From some contrast on a bit gets no surer: what is wrong there is no noise.
+        // Beyond some contrast a bit gets no surer, as its errors are not due to noise.
         const int weight = static_cast<int>(
             std::clamp<std::int64_t>(std::int64_t{difference} * light_q16 >> 16, -127, 127));
         return static_cast<std::int8_t>(weight * sample.trust_q4 / 16);
@@ -287,7 +290,7 @@ class Ink {
     int graphics_q8_ = 0;
 };
 
-/// The cells between the outermost points of the image's border.
+/// Lays the grid over the cells between the outermost points of the image's border.
 void cover_image(const ImageView& image, const Lens& lens, const PlaneFromImage& plane,
                  Grid& grid) {
     Vec least{INT32_MAX, INT32_MAX};
@@ -305,8 +308,8 @@ void cover_image(const ImageView& image, const Lens& lens, const PlaneFromImage&
     lay_out(least, most, grid);
 }
 
-/// `set_bits(cell, what the grid keeps of it, ink, sample)` for all cells. Returns whether few show
-/// two dots.
+/// Calls `set_bits(index, cell, ink, sample)` for all cells. Returns whether few of them show two
+/// dots.
 template <typename SetBits>
 bool read_cells(const CellSampler& sampler, Grid& grid, SetBits set_bits) {
     int cells = 0;

@@ -1,5 +1,5 @@
-// Look: the bits of every cell from the image itself, at the four places where its dot may be: a
-// dot that was not found as a blob still has its say. Replaces the projections of eq. 7-8 in the
+// Sample cells: the bits of every cell from the image itself, at the four places where its dot may
+// be, so that dots count that were not found as blobs. Replaces the projections of eq. 7-8 in the
 // second attempt. differs: docs/differs-from-paper.md.
 #pragma once
 
@@ -12,14 +12,14 @@ namespace dotpose::core {
 
 /// Lays the grid over the whole image and sets the weights of the bits of all its cells, or of the
 /// middle `grid.side` ones per axis. Places outside the image and under graphics count as neither
-/// dark nor light; cells under graphics are marked as hidden. What is not in plain view weighs
-/// less.
+/// dark nor light; cells under graphics are marked as hidden. Cells that are not in plain view
+/// weigh less. Returns false if many cells show two dots: the image shows two patterns.
 bool sample_cells(const ImageView& image, const PaperMap& paper, const Lens& lens,
                   const PlaneFromImage& grid_from_image, Grid& grid);
 
-/// The same once one axis is beyond doubt: its bits say which two of a cell's places the dot can
-/// have, and only these are compared for the bits of the other axis. The grid must stand upright,
-/// as `decoding` has it.
+/// Sets the weights again once one axis is beyond doubt. Its bits say which two of a cell's places
+/// the dot can have, and only these are compared for the bits of the other axis. The grid must
+/// stand upright, as `decoding` has it.
 void resample_cells_given_axis(Axis known, Profile profile, const Decoding& decoding,
                                const ImageView& image, const PaperMap& paper, const Lens& lens,
                                const PlaneFromImage& grid_from_image, Grid& grid);

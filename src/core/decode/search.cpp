@@ -15,7 +15,7 @@ namespace tuned = tuning::search;
 constexpr int kChoices = tuned::kChoices;
 constexpr int kMaxRunLength = 8;
 
-/// The smallest offset with a score that there is.
+/// Returns the smallest roll with a score, which one of them must have.
 std::uint8_t roll_of(int score, const LineScores& scores) {
     const std::int16_t* found = scores.data();
     while (*found != score)
@@ -23,8 +23,8 @@ std::uint8_t roll_of(int score, const LineScores& scores) {
     return static_cast<std::uint8_t>(found - scores.data());
 }
 
-/// The offsets of one line that agree best, best first and of equals the smallest: found as they
-/// are asked for, which is rarely beyond the first.
+/// The rolls of one line, the best score first and of equal ones the smallest. They are found when
+/// they are asked for, which is rarely beyond the first.
 class Choices {
   public:
     Choices() = default;
@@ -34,7 +34,7 @@ class Choices {
           last_(roll_of(line.best.score, line.scores)),
           rolls_{last_} {}
 
-    /// `i` is less than kChoices.
+    /// Returns the `i`-th roll; `i` is less than kChoices.
     std::uint8_t roll(int i) {
         for (; known_ <= i; ++known_) {
             last_ = next_match(*scores_, {(*scores_)[last_], last_}).roll;
@@ -42,7 +42,7 @@ class Choices {
         }
         return rolls_[static_cast<std::size_t>(i)];
     }
-    /// By how much it agrees less than the best.
+    /// Returns by how much its score is less than the best.
     int loss(int i) { return i == 1 ? margin_ : (*scores_)[rolls_[0]] - (*scores_)[roll(i)]; }
 
   private:
@@ -53,7 +53,7 @@ class Choices {
     std::array<std::uint8_t, kChoices> rolls_;
 };
 
-/// Sum over all lines for the hypothesis that line `line` stands at `position` with `roll`.
+/// Returns the sum over all lines if line `line` is at `position` with `roll`.
 AxisReading evaluate(Profile profile, const Lines& lines, int line, std::uint32_t position,
                      int roll) {
     const auto before = static_cast<std::uint32_t>(line);
@@ -74,8 +74,8 @@ AxisReading evaluate(Profile profile, const Lines& lines, int line, std::uint32_
 
 using Run = std::array<Choices, kMaxRunLength>;
 
-/// How many choices of each line of a run are combined: the next-cheapest choice of any line is
-/// added as long as the combinations stay few.
+/// Returns how many choices of each line of a run are combined: the choice with the least loss is
+/// added as long as there are at most `most_readings` combinations.
 std::array<int, kMaxRunLength> widen(Run& run, int length, int most_readings) {
     std::array<int, kMaxRunLength> widths;
     widths.fill(1);
@@ -99,8 +99,8 @@ std::array<int, kMaxRunLength> widen(Run& run, int length, int most_readings) {
     }
 }
 
-/// Reads the lines from `first` on at these rolls, and keeps what is better than the best so far.
-/// Returns whether that is clear.
+/// Reads the lines from `first` on at these rolls, and replaces `best` if the reading has a higher
+/// score over all lines. Returns whether the new one is clear.
 bool improve(Profile profile, const Lines& lines, int first, std::span<const std::uint8_t> rolls,
              AxisReading& best) {
     std::uint32_t position = 0;
@@ -112,7 +112,7 @@ bool improve(Profile profile, const Lines& lines, int first, std::span<const std
     return best.is_clear();
 }
 
-/// Reads one run in all combinations of its lines' choices, until one is clear.
+/// Reads one run in all combinations of its lines' choices, until a reading is clear.
 void try_run(Profile profile, const Lines& lines, int first, int length, int most_readings,
              AxisReading& best) {
     Run run;
@@ -126,7 +126,7 @@ void try_run(Profile profile, const Lines& lines, int first, int length, int mos
     const auto widths = widen(run, length, most_readings);
     std::array<int, kMaxRunLength> choice{};
     while (true) {
-        // Counts up, the last line fastest.
+        // Counts up the choices, those of the last line fastest.
         std::size_t n = rolls.size();
         while (n > 0 && choice[n - 1] + 1 == widths[n - 1]) {
             choice[--n] = 0;
@@ -138,7 +138,7 @@ void try_run(Profile profile, const Lines& lines, int first, int length, int mos
     }
 }
 
-/// Start of the clearest run not taken yet, or -1: the one with the largest sum of margins.
+/// Returns the start of the run that has the largest sum of margins and is not taken yet, or -1.
 int clearest_run(const Lines& lines, int length, const std::array<bool, kMaxLines>& taken) {
     int clearest = -1;
     int most = INT32_MIN;
@@ -155,19 +155,19 @@ int clearest_run(const Lines& lines, int length, const std::array<bool, kMaxLine
     return clearest;
 }
 
-/// Lines that carry a position: the misprinted sequence tells positions apart only by 7
-/// differences.
+/// Returns how many consecutive lines carry a position. The misprinted sequence of libdots needs
+/// more lines, as its places are unique only by 7 steps from line to line.
 int run_length(Profile profile) {
     return profile == Profile::libdots ? 8 : 6;
 }
 
-/// How many readings are tried before the best of them is taken.
+/// The most runs of lines that are read, and readings of each.
 struct Limits {
     int runs;
     int readings;  ///< of each run
 };
 
-/// Reads runs of lines, until one is clear.
+/// Reads runs of lines, the clearest first, until a reading is clear.
 void search_by_runs(Profile profile, const Lines& lines, const Limits& limits, AxisReading& best) {
     const int length = run_length(profile);
     std::int32_t most_possible = 0;

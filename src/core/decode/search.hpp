@@ -7,12 +7,13 @@
 
 namespace dotpose::core {
 
-/// Takes runs of consecutive lines, the clearest first, reads each of them in the likeliest ways,
-/// and keeps the position that the sum over all lines speaks for. If that is not clear, all steps
-/// between lines are asked as well. Errors: not_in_code, when no reading stands in the code.
+/// Reads runs of consecutive lines, the clearest first, each in its likeliest ways, and keeps the
+/// position with the largest sum over all lines. If that is not perfect, searches by steps as well.
+/// Errors: not_in_code, if no reading occurs in the code.
 Status find_axis(Profile profile, const Lines& lines, AxisReading& best);
 
-/// Only a few runs in a few ways, for first attempts: what is not found so soon is rarely certain.
+/// Reads only a few runs in a few ways, for first attempts; a position that is not found soon is
+/// rarely certain.
 Status find_axis_briefly(Profile profile, const Lines& lines, AxisReading& best);
 
 }  // namespace dotpose::core

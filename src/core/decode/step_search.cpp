@@ -14,11 +14,10 @@ constexpr std::size_t kSequences = 4;
 constexpr std::size_t kDigits = 3;
 constexpr std::size_t kStepSizes = code::kLargestDelta - code::kSmallestDelta + 1;
 
-/// By sequence and digit: how much less two lines agree if that digit is in the step between them.
+/// The loss of score, by sequence and digit, if the step between two lines has that digit.
 using StepLosses = std::array<std::array<std::int32_t, kDigits>, kSequences>;
 
-/// The most that both lines agree with the main sequence, the second at the roll of the first and
-/// `step`.
+/// Returns the best sum of the scores of two lines whose rolls differ by `step`.
 int best_agreement(const LineScores& line, const LineScores& next, std::size_t step) {
     std::int16_t best = INT16_MIN;
     const std::size_t whole = kSections - step;
@@ -45,7 +44,7 @@ StepLosses losses_of(const LineScores& line, const LineScores& next) {
     return losses;
 }
 
-/// Places of the first line in a secondary sequence, the likeliest first.
+/// The likeliest places of the first line in a secondary sequence, the best first.
 constexpr std::size_t kChoices = tuning::step_search::kChoices;
 using Choices = std::array<std::uint32_t, kChoices>;
 
@@ -73,7 +72,7 @@ Choices likeliest_places(const code::Secondary& sequence, std::size_t n,
     return places;
 }
 
-/// Sum over all lines for the hypothesis that the first stands at `position`, at the best roll.
+/// Returns the sum over all lines if the first is at `position`, at the best roll.
 AxisReading evaluate(Profile profile, const Lines& lines, std::uint32_t position) {
     std::array<std::uint8_t, kMaxLines> rolls;
     code::follow_rolls(profile, position, 0, std::span(rolls).first(lines.all.size()));

@@ -1,4 +1,5 @@
-// Steps: the position of an axis from the steps between neighbouring lines, wherever they are.
+// Step search: the position of an axis from the steps between neighbouring lines, wherever they
+// are.
 // differs: the paper decodes each line by itself; docs/differs-from-paper.md.
 #pragma once
 
@@ -6,10 +7,10 @@
 
 namespace dotpose::core {
 
-/// Lets every step between two lines say which digits it may be made of, looks in each secondary
-/// sequence for the places that all steps together speak for, and keeps the best position that
-/// some of these places make up, if it is better than `best`. Finds what runs of lines do not tell:
-/// where graphics hide every sixth line, or no line is sure of its roll.
+/// Finds which digits every step between two lines may have, in each secondary sequence the places
+/// that all steps together speak for, and the best position that combines such places; replaces
+/// `best` if it is better. Finds what runs of lines do not tell, as where graphics hide every sixth
+/// line, or no line is sure of its roll.
 void search_by_steps(Profile profile, const Lines& lines, AxisReading& best);
 
 }  // namespace dotpose::core

@@ -1,5 +1,5 @@
-// Upright: the matrices P as they stand on the pattern, whatever way the grid was found. Paper
-// section II-B.6 (last paragraph: symbols and matrices are rotated accordingly).
+// Upright: the matrices P turned upright on the pattern, however the grid was found. Paper section
+// II-B.6 (last paragraph: symbols and matrices are rotated accordingly).
 #pragma once
 
 #include <array>
@@ -20,8 +20,8 @@ struct Bits {
     std::int8_t y = 0;
 };
 
-/// The bits of a cell as they stand on the pattern: a quarter turn takes the displacement (x, y) to
-/// (-y, x), and so the projections of eq. 7-8, (y - x, y + x), to (x + y, x - y).
+/// Returns the bits of a cell turned upright on the pattern. A quarter turn takes the displacement
+/// (x, y) to (-y, x), and so the projections of eq. 7-8, (y - x, y + x), to (x + y, x - y).
 constexpr Bits turned(Turn pattern_from_grid, const GridCell& cell) {
     const auto minus_x = static_cast<std::int8_t>(-cell.x);
     const auto minus_y = static_cast<std::int8_t>(-cell.y);
@@ -37,7 +37,7 @@ constexpr Bits turned(Turn pattern_from_grid, const GridCell& cell) {
     }
 }
 
-/// A region of the grid, turned.
+/// A region of the grid, turned upright.
 class Upright {
   public:
     Upright(const Grid& grid, const Region& region, Turn pattern_from_grid)
@@ -53,7 +53,7 @@ class Upright {
         };
         to_right_ = stride({1, 0});
         downwards_ = stride({0, 1});
-        // `turned`, taken apart.
+        // These do what `turned` does, for all cells of a line.
         x_bit_ = is_sideways() ? &GridCell::y : &GridCell::x;
         y_bit_ = is_sideways() ? &GridCell::x : &GridCell::y;
         x_sign_ = q == 0 || q == 1 ? 1 : -1;
@@ -62,13 +62,14 @@ class Upright {
 
     int columns() const { return is_sideways() ? region_.rows : region_.columns; }
     int rows() const { return is_sideways() ? region_.columns : region_.rows; }
-    /// The grid cell of the top left symbol.
+    /// Returns the grid cell of the top left symbol.
     Vec corner() const { return corner_; }
 
-    /// Weights of the x bits down a column; of the y bits along a row.
+    /// Returns the weights of the x bits down a column.
     std::span<const std::int8_t> column(int a, Line& line) const {
         return weights(first_ + a * to_right_, downwards_, rows(), x_bit_, x_sign_, line);
     }
+    /// Returns the weights of the y bits along a row.
     std::span<const std::int8_t> row(int b, Line& line) const {
         return weights(first_ + b * downwards_, to_right_, columns(), y_bit_, y_sign_, line);
     }

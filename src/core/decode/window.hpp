@@ -5,11 +5,12 @@
 
 namespace dotpose::core {
 
-/// The square of `side` x `side` cells with the largest sum of qualities; the whole width or height
-/// of the grid where that is less.
+/// Returns the square of `side` x `side` cells with the largest sum of qualities; less than that
+/// where the grid is narrower or lower.
 Region choose_window(const Grid& grid, int side);
 
-/// Mean quality of its cells, in 1/256: 256 where every dot is where a symbol has it.
+/// Returns the mean quality of a region's cells, in 1/256: 256 where every dot is exactly where a
+/// symbol has it.
 int mean_quality_q8(const Grid& grid, const Region& region);
 
 }  // namespace dotpose::core

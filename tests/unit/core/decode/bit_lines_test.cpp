@@ -1,4 +1,4 @@
-// Blocks of bits cut from the code, turned anyhow: what stands where according to symbol_at.
+// Blocks of bits cut from the code and turned, compared with symbol_at.
 #include "core/decode/bit_lines.hpp"
 
 #include <gtest/gtest.h>
@@ -16,8 +16,7 @@ using core_test::operator-;
 
 constexpr std::uint64_t kSeed = 76;
 
-/// Turns steps of the block into steps of the pattern, cell (i, j) into cell(...), as
-/// `core::turned` promises.
+/// Returns the cell that `core::turned` has to make of a cell of a block.
 Vec cell_turned(int quarters, Vec cell) {
     switch (quarters) {
         case 1:
@@ -43,7 +42,7 @@ void set_bit(core::BitLines& lines, int line, int cell, bool value) {
     if (value) lines.bits[at] |= bit;
 }
 
-/// The cells of a rectangle as a camera sees them that is turned by so many quarters: the
+/// Returns the block that a camera turned by `quarters` sees of a rectangle of cells; the
 /// displacement of a dot turns with the paper.
 BitBlock seen_block(Profile profile, const Place& zero, int quarters, Vec least, Vec most,
                     const Damage& damage, Rng& rng) {
@@ -56,8 +55,7 @@ BitBlock seen_block(Profile profile, const Place& zero, int quarters, Vec least,
             const Symbol symbol = symbol_at(profile, at.cell, at.section);
             const Vec seen = back({dx(symbol), dy(symbol)});
             if (rng.uniform() < damage.missing) continue;
-            // Of a dot that is displaced to the right or down, the y bit is 1; x, to the left or
-            // down.
+            // A dot displaced to the right or down has y bit 1, to the left or down x bit 1.
             const bool y = seen.x + seen.y > 0;
             const bool x = seen.y - seen.x > 0;
             set_bit(block.columns, i, j, x != (rng.uniform() < damage.flipped));
@@ -76,7 +74,7 @@ void expect_same(const BitBlock& a, const BitBlock& b) {
     }
 }
 
-/// Anywhere, and across the ends of the plane.
+/// Returns a random place, often across the ends of the plane.
 Place some_place(int i, Rng& rng) {
     Place place = random_place(rng);
     if (i % 4 == 1) place.cell.x = i % 8 == 1 ? 3 : kPositionsPerAxis - 4;
@@ -95,7 +93,7 @@ TEST(BitLines, ABlockTurnsAsTheCodeDoes) {
         const Vec least{-static_cast<int>(rng.below(33)), -static_cast<int>(rng.below(33))};
         const Vec most{1 + static_cast<int>(rng.below(31)), 1 + static_cast<int>(rng.below(31))};
         const BitBlock seen = seen_block(profile, zero, quarters, least, most, {}, rng);
-        // The same cells as an upright camera sees them.
+        // An upright camera sees the same cells.
         const Vec a = cell_turned(quarters, least);
         const Vec b = cell_turned(quarters, most - Vec{1, 1});
         const BitBlock upright =
@@ -119,8 +117,8 @@ TEST(BitLines, APlaneTurnsAsItsCellsDo) {
             const auto x = static_cast<float>(rng.uniform(-90, 90));
             const auto y = static_cast<float>(rng.uniform(-60, 60));
             const Vec2 before = at(plane, x, y);
-            // Cell (i, j) becomes the cell that `turned` of blocks says, and what lies between goes
-            // with it.
+            // A cell becomes the one that `turned` of blocks says, and points between cells move
+            // with them.
             const Vec zero = cell_turned(quarters, {});
             const Vec right = cell_turned(quarters, {1, 0}) - zero;
             const Vec down = cell_turned(quarters, {0, 1}) - zero;
@@ -137,7 +135,7 @@ struct Found {
     int places = 0;
 };
 
-/// How many of so many blocks are found; none may be found elsewhere.
+/// Counts how many of `blocks` random blocks are found; none may be found in another place.
 Found find_blocks(int blocks, int least_side, const Damage& damage, const core::Kernels& kernels) {
     Rng rng(kSeed);
     Found found;

@@ -59,7 +59,7 @@ TEST(Correlation, LinesOfTheSequenceAgreeWithItWholly) {
 }
 
 TEST(Correlation, ContradictionIsMeasuredLikeAgreement) {
-    // The largest weights throughout are the worst case of the sums, on either side.
+    // The largest weights throughout are the worst case of the sums, of either sign.
     LineScores scores;
     for (std::size_t roll = 0; roll < 63; ++roll) {
         std::vector<std::int8_t> line;

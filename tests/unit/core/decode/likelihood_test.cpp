@@ -11,7 +11,7 @@ namespace {
 
 using namespace core;
 
-/// Eq. 9 for the nominal offset of a sixth of the spacing.
+/// Returns f(r) of eq. 9 for the nominal offset of a sixth of the spacing.
 double f(double r) {
     constexpr double kR0 = 1.0 / 6;
     if (r * r >= 3 * kR0 * kR0) return 0;
@@ -21,7 +21,7 @@ double f(double r) {
 TEST(Likelihood, QuasiProbabilityIsEquation9) {
     for (int projection = -65536; projection <= 65536; projection += 7) {
         const int found = quasi_probability(projection);
-        // r / r0 in steps of 1/256, where f is at most 3 / 256 per step.
+        // r / r0 is rounded to 1/256, and f changes by at most 3 / 256 per step.
         ASSERT_NEAR(found / 127.0, f(projection / 65536.0), 0.024) << projection;
     }
     EXPECT_EQ(quasi_probability(0), 0);
@@ -29,7 +29,7 @@ TEST(Likelihood, QuasiProbabilityIsEquation9) {
     EXPECT_LE(quasi_probability(-65536 / 6), -126);
 }
 
-/// Cells of 16 px with intersection (0, 0) at (100, 100).
+/// A grid with cells of 16 px and intersection (0, 0) at (100, 100).
 const Mesh kMesh = square_mesh(16, 0, {100, 100});
 const PlaneFromImage kPlane = core::plane_from_lattice(lattice_of(kMesh), fixed({90, 60}, 8));
 
@@ -37,7 +37,8 @@ Dot dot_in(int i, int j, Vec2 offset) {
     return dot_at(kMesh.at(i + offset.x, j + offset.y));
 }
 
-/// Dots at the corners of `columns` x `rows` cells from (i0, j0), which give the grid its extent.
+/// Returns dots at two corners of `columns` x `rows` cells from (i0, j0), which give the grid its
+/// extent.
 std::vector<Dot> corners(int i0, int j0, int columns, int rows) {
     return {dot_in(i0, j0, {0, -1 / 6.0}), dot_in(i0 + columns - 1, j0 + rows - 1, {0, -1 / 6.0})};
 }
@@ -74,7 +75,7 @@ TEST(Likelihood, TheLikelierOfTwoDotsInACellStaysWhateverTheOrder) {
         ASSERT_EQ(assign_likelihoods(dots, kPlane, owned.grid), Status::ok);
         const GridCell& cell = owned.grid.at(1, 2);
         EXPECT_EQ(cell.dot, good_first ? 2 : 3);
-        // Eq. 7-8 with y down: x bit from dy - dx, y bit from dy + dx.
+        // In eq. 7-8 with y down, the x bit comes from dy - dx, the y bit from dy + dx.
         EXPECT_NEAR(cell.x / 127.0, f(0.01 - 0.16), 0.03);
         EXPECT_NEAR(cell.y / 127.0, f(0.01 + 0.16), 0.03);
         EXPECT_EQ(quality(cell), std::abs(cell.x * cell.y));
@@ -99,7 +100,7 @@ TEST(Likelihood, TheMiddleOfALargerGridIsKept) {
     EXPECT_EQ(owned.grid.j0, -5);
     EXPECT_EQ(owned.grid.i0, -8);
     EXPECT_EQ(owned.grid.at(3, 2).dot, 2);
-    // All cells lie on one side of the origin: those nearest to it.
+    // If all cells lie on one side of the origin, those nearest to it are kept.
     ASSERT_EQ(assign_likelihoods(corners(2, -5, 40, 12), kPlane, owned.grid), Status::ok);
     EXPECT_EQ(owned.grid.i0, 2);
     ASSERT_EQ(assign_likelihoods(corners(-45, -5, 40, 12), kPlane, owned.grid), Status::ok);
@@ -108,7 +109,7 @@ TEST(Likelihood, TheMiddleOfALargerGridIsKept) {
 }
 
 TEST(Likelihood, PerspectiveAndLensAreUndone) {
-    // A dot where the formula of PlaneFromImage puts that of a cell.
+    // Dots are placed by the formula of PlaneFromImage.
     PlaneFromImage bent = kPlane;
     bent.perspective_q30 = {1 << 19, -(1 << 18)};
     bent.lens_q40 = 3 << 20;
@@ -125,7 +126,7 @@ TEST(Likelihood, PerspectiveAndLensAreUndone) {
     ASSERT_EQ(owned.grid.columns, 9);
     for (int j = -4; j <= 4; ++j) {
         for (int i = -4; i <= 4; ++i) {
-            // To the right: x bit 0, y bit 1.
+            // A dot displaced to the right has x bit 0 and y bit 1.
             EXPECT_NEAR(owned.grid.at(i, j).x, -127, 4) << i << ", " << j;
             EXPECT_NEAR(owned.grid.at(i, j).y, 127, 4) << i << ", " << j;
         }

@@ -14,7 +14,7 @@ using namespace core;
 constexpr std::uint64_t kSeed = 31;
 constexpr std::uint32_t kL = code_test::kL;
 
-/// The place of a position past the end of an axis, named from the beginning of the code.
+/// Returns the place at a position past the end of an axis, counted from the beginning of the code.
 Place wrapped(Profile profile, std::uint64_t x, std::uint64_t y, Section section) {
     int u = section.u;
     int v = section.v;
@@ -31,8 +31,8 @@ Place wrapped(Profile profile, std::uint64_t x, std::uint64_t y, Section section
             {static_cast<std::uint8_t>(u % 63), static_cast<std::uint8_t>(v % 63)}};
 }
 
-/// A window of the pattern laid into a grid at some turn, so that symbol `known` of it stands at
-/// cell (0, 0).
+/// Checks a grid that shows a window of the pattern at some turn, where the window's symbol `known`
+/// is at cell (0, 0).
 void check(Profile profile, const Place& first, int columns, int rows, Turn turn, Vec known) {
     const code_test::Grid expected = code_test::reference_window(profile, first, columns, rows);
     const auto cell_of = [&](int x, int y) { return turn.inverse()({x - known.x, y - known.y}); };
@@ -79,7 +79,7 @@ TEST(Nominal, ContinuesPastBothEndsOfTheCode) {
     for (int i = 0; i < 120; ++i) {
         SCOPED_TRACE(testing::Message() << "grid " << i << ", seed " << kSeed);
         Place first = random_place(rng);
-        // The ends lie inside the grid on one axis or on both, before or behind the known cell.
+        // The end of the code is inside the grid on one axis or both, before or behind `known`.
         if (i % 3 != 0) first.cell.x = kL - 1 - rng.below(29);
         if (i % 3 != 1) first.cell.y = kL - 1 - rng.below(29);
         const Vec known{static_cast<std::int32_t>(rng.below(30)),
@@ -94,7 +94,7 @@ TEST(Nominal, CellZeroNeedNotBeInTheGrid) {
     for (int i = 0; i < 60; ++i) {
         SCOPED_TRACE(testing::Message() << "grid " << i << ", seed " << kSeed);
         Place first = random_place(rng);
-        // At the ends of the code, and elsewhere.
+        // Half of the places are at the ends of the code.
         if (i % 2 == 0) first.cell = {kL - 1 - rng.below(50), kL - 1 - rng.below(50)};
         check(Profile::anoto, first, 20, 12, Turn{i % 4},
               {20 + static_cast<std::int32_t>(rng.below(100)),

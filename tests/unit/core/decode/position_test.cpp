@@ -15,7 +15,7 @@ using namespace core;
 constexpr std::uint64_t kSeed = 29;
 using Decode = Status (*)(const Grid&, Profile, std::span<ScoredLine>, Decoding&);
 
-/// Decodes and compares with geometry.
+/// Decodes a view and compares the result with its geometry.
 void expect_truth(Decode decode, const Reading& reading) {
     std::array<ScoredLine, 2 * kMaxLines> storage;
     Decoding found = reading.decoding;
@@ -98,7 +98,7 @@ TEST(Position, TheMirrorImageIsKnown) {
         for (const PlacedDot& d : pattern_dots(view)) {
             dots.push_back(dot_at({view.image_px.x - 1 - d.centre_px.x, d.centre_px.y}));
         }
-        // The mirrored grid: the same spacing, the angle negated.
+        // The grid of the mirrored view has the same spacing and the opposite angle.
         View behind = view;
         behind.theta_rad = -view.theta_rad;
         Mesh mesh = view.mesh();

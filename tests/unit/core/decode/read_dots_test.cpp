@@ -1,4 +1,4 @@
-// Which cells are looked at: all whose pixels are in the image, and no others.
+// Which cells are read: those that have all their pixels in the image, and no others.
 #include "core/decode/read_dots.hpp"
 
 #include <array>
@@ -58,7 +58,8 @@ TEST(ReadDots, LooksAtAllCellsInView) {
         for (int j = 0; j < kMostTracked; ++j) {
             for (int i = 0; i < kMostTracked; ++i) {
                 const Vec at_q16 = place_q16(tracking.cells, i, j);
-                // Squares of 9 x 9 px about the intersection, and 5 x 5 px about dots.
+                // Squares of 9 x 9 px around intersections and of 5 x 5 px around dots have to be
+                // in the image.
                 const auto is_in = [&](double at_px, double displaced_px, int side_px) {
                     const double corner = std::floor(at_px);
                     bool in = corner >= 4 && corner <= side_px - 5;

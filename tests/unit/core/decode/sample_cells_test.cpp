@@ -22,7 +22,7 @@ GreyImage drawn(const View& view) {
     return image;
 }
 
-/// The view's cells as a look at an image shows them.
+/// The view's cells as sampled from an image.
 struct Sampled {
     Sampled(const View& view_, Turn turn_, const GreyImage& image, std::optional<Axis> known = {})
         : view(view_), turn(turn_), owned(64) {
@@ -47,7 +47,8 @@ struct Sampled {
         }
     }
     const Grid& grid() const { return owned.grid; }
-    /// Shows `use(cell, its place in px, its bits on the pattern, the code's symbol)` all cells.
+    /// Calls `use(cell, its place in px, its bits on the pattern, the code's symbol)` for all
+    /// cells.
     template <typename Use>
     void visit(Use use) const {
         for (int j = grid().j0; j < grid().j0 + grid().rows; ++j) {
@@ -82,14 +83,14 @@ TEST(SampleCells, ReadsTheBitsOfACleanFrame) {
         sampled.visit([&](const GridCell& cell, Vec2 at, Bits bits, Symbol symbol) {
             SCOPED_TRACE(testing::Message()
                          << "view " << i << " at " << at.x << ", " << at.y << ", seed " << kSeed);
-            // Nothing is said where all places of the dot lie outside.
+            // Bits are unknown where all places of the dot are outside the image.
             const double outside = view.spacing_px / 6 + 1;
             if (at.x < -outside || at.y < -outside || at.x > view.image_px.x - 1 + outside ||
                 at.y > view.image_px.y - 1 + outside) {
                 EXPECT_EQ(cell.x, 0);
                 EXPECT_EQ(cell.y, 0);
             }
-            // All of it that blur would show is in the image.
+            // Bits are known where the image shows all of the blurred dot.
             const double margin = view.spacing_px / 6 + 2;
             if (at.x < margin || at.y < margin || at.x > view.image_px.x - 1 - margin ||
                 at.y > view.image_px.y - 1 - margin) {
@@ -104,7 +105,7 @@ TEST(SampleCells, ReadsTheBitsOfACleanFrame) {
     }
 }
 
-// Every cell has a second, darker dot opposite to its own, which contradicts both bits.
+// Every cell has a second, darker dot opposite to its own, which contradicts both of its bits.
 TEST(SampleCells, KnowingOneAxisItLooksForTheOtherWhereTheDotCanBe) {
     Rng rng(kSeed);
     for (int i = 0; i < 20; ++i) {

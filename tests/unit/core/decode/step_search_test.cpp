@@ -12,7 +12,7 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 71;
 
-/// Reads the lines, each of `bits` bits; a line that is hidden says nothing.
+/// Reads the lines, with `bits` bits each; hidden lines have no bits.
 template <typename IsHidden>
 void read_lines(RatiosCase& c, int bits, double wrong, Rng& rng, IsHidden is_hidden) {
     for (std::size_t i = 0; i < c.rolls.size(); ++i) {
@@ -35,7 +35,7 @@ TEST(SearchBySteps, ReadsLinesOnBothSidesOfHiddenOnes) {
     Rng rng(kSeed);
     int right = 0;
     for (int i = 0; i < 300; ++i) {
-        // Nowhere six in a row.
+        // No six lines in a row are seen.
         const std::size_t hidden = 1 + rng.below(3);
         RatiosCase c = at_random_place(rng, 10 + static_cast<int>(hidden));
         read_lines(c, 12, 0.03, rng,

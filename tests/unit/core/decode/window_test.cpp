@@ -12,7 +12,7 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 28;
 
-/// Sum of |P^(x) P^(y)| over a region.
+/// Returns the sum of |P^(x) P^(y)| over a region.
 int clarity(const Grid& grid, const Region& region) {
     int sum = 0;
     for (int j = region.j0; j < region.j0 + region.rows; ++j) {
