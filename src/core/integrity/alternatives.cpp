@@ -13,12 +13,13 @@
 namespace dotpose::core {
 namespace {
 
-/// Consecutive lines that distinct positions can share: one more, and five differences are equal.
+/// Most lines in a row that two positions share: with one more, five digits would be equal.
 constexpr int kMostOfDistinct = code::kOrder;
-/// Odds at which a closer look at the alternatives cannot help.
+/// Odds above which a closer look at the alternatives cannot help.
 constexpr float kBeyondHelp = 1e-4F;
 
-/// Alternatives whose place differs in several sequences and that share fewer lines in a row.
+/// Returns the expected odds of the alternatives that differ in at least `fewest_different`
+/// sequences and share fewer than `shared_lines` lines in a row.
 float sum_of_far_alternatives(const RankedLines& lines, int shared_lines, int fewest_different) {
     ExpectedAlternatives expected(lines.ratios.basis, lines.ratios.position, shared_lines - 1,
                                   fewest_different);
@@ -27,7 +28,7 @@ float sum_of_far_alternatives(const RankedLines& lines, int shared_lines, int fe
     return expected.sum();
 }
 
-/// The same position in other sections: all lines differ, by the same shift.
+/// Returns the odds of the same position in other sections: all rolls differ by the same shift.
 float sum_of_other_sections(const LikelihoodRatios& ratios) {
     float sum = 0;
     for (int shift = 1; shift < kSections; ++shift) {
@@ -51,14 +52,13 @@ int alternatives_log2(Profile profile, const LikelihoodRatios& ratios, int limit
     float sum = known + expected;
     const float limit = std::ldexp(1.0F, limit_log2);
     const float far_below_doubt = std::ldexp(1.0F, std::min(limit_log2, -30) - 10);
-    // The more alternatives are looked at one by one, the fewer remain to be feared for their
-    // number.
+    // The more alternatives are looked at one by one, the fewer are left to the expectation.
     if (sum > far_below_doubt && expected > known && expected < kBeyondHelp) {
         sum = known + sum_of_far_alternatives(lines, kMostOfDistinct - 1, 3);
-        // What takes longest is left out where the others exceed the limit already.
+        // The sums that take longest are left out if the others exceed the limit already.
         if (sum < limit) sum += sum_of_near_alternatives(lines, twins, kMostOfDistinct - 1);
         if (sum < limit) {
-            // Less than what remains to the limit, or else a fix might be lost by it.
+            // This is less than what remains to the limit; otherwise a fix might be lost by it.
             const float negligible = std::min(std::max(sum, far_below_doubt), limit - sum) / 8;
             sum += sum_of_double_alternatives(lines, negligible, limit - sum);
         }

@@ -19,27 +19,27 @@
 namespace dotpose::core {
 namespace {
 
-/// Shifts at which an alternative shares no line.
+/// The number of shifts at which an alternative does not share a line.
 constexpr float kShifts = kSections - 1;
-/// Odds at which single alternatives are counted that have less; and how many there are, with all
-/// their shifts.
+/// Odds at which single alternatives are counted that are not looked at because they have less; and
+/// the number of places of all sequences.
 constexpr int kPassedOver_q8 = -52 * 256;
 constexpr float kPassedOver = 2.3e-16F;
 constexpr float kSingles = 741;
 
-/// 2^n as it is, -126 <= n < 128.
+/// Returns 2^n exactly, for -126 <= n < 128.
 constexpr float power_of_two_exactly(int n) {
     return std::bit_cast<float>(static_cast<std::uint32_t>(n + 127) << 23);
 }
 
-/// 2^(n / 256), rounded up by a little; 2^-100 for less.
+/// Returns 2^(n / 256), rounded up by up to 2 %; for less than 2^-100 it returns that.
 constexpr float power_of_two(int n_q8) {
     const int n = std::max(n_q8, -100 * 256);
     const int whole = n >> 8;
     return static_cast<float>(exp2_q16(n - whole * 256)) * 1.02F * power_of_two_exactly(whole - 16);
 }
 
-/// LikelihoodRatios::odds without a library's call.
+/// Returns LikelihoodRatios::odds without a call of a library.
 float odds_of(const LikelihoodRatios& ratios, int lost) {
     const int log2_q8 = std::max(ratios.log2_odds_q8(lost), kNegligible_q8);
     const int whole = log2_q8 >> 8;
@@ -47,17 +47,17 @@ float odds_of(const LikelihoodRatios& ratios, int lost) {
            power_of_two_exactly(whole - 16);
 }
 
-/// What adds up to less is as good as nothing, and slow to reckon with.
+/// Sums are kept above this negligible value, as processors are slow at still smaller numbers.
 constexpr float kNothing = 1e-30F;
 
-/// Something of every set of alternatives, in whole vectors.
+/// One number for each set of alternatives, in whole vectors.
 struct OfSets {
     std::array<Four, 2> part;
 
     static OfSets of(float value) { return {{Four{} + value, Four{} + value}}; }
 };
 
-/// The same in numbers.
+/// One number for each set of alternatives, in an array.
 using NumbersOfSets = std::array<float, 8>;
 template <typename Number>
 constexpr NumbersOfSets of_each_set(Number number) {
@@ -71,14 +71,14 @@ constexpr NumbersOfSets kEqual = of_each_set(
 constexpr NumbersOfSets kAlternatives =
     of_each_set([](const AlternativeSet& set) { return power_of_two(set.alternatives_q8); });
 
-/// The expectation of `quick_alternatives.cpp` in floating point, for all sets at once:
-/// alternatives that share no line are lumped together, those that share the last ones counted by
-/// how many.
+/// Returns the expectation that quick_alternatives.cpp computes in integers, in floating point and
+/// for all sets at once. Alternatives that do not share the newest line are lumped together; those
+/// that do are told apart by how many lines in a row they share up to it.
 float far_alternatives(const LikelihoodRatios& ratios) {
     constexpr float kUnevenness = 1.03F;
     const int most = ratios.most_shared();
-    // Those that share the lines up to one, but not it; and of all that share the first line, what
-    // comes out as 1. Before that there is nobody.
+    // Odds, by line, of the alternatives that do not share it. Before the first line nobody is
+    // counted, except a number by which those that share the first line come out as 1.
     std::array<OfSets, kMostShared + kMaxLines> storage;
     std::fill_n(storage.begin(), kMostShared, OfSets::of(0));
     OfSets* apart = &storage[kMostShared];
@@ -110,8 +110,8 @@ float far_alternatives(const LikelihoodRatios& ratios) {
     return all;
 }
 
-/// Odds of the alternatives that share no line: those at the same position in other sections, and
-/// those that differ in one sequence, at shifts which no line shows.
+/// Returns the odds of the alternatives that share no line: the same position in other sections,
+/// and those that differ in one sequence, at shifts that no line shares.
 float sharing_none(const LikelihoodRatios& ratios) {
     int lost = 0;
     for (int line = 0; line < ratios.count(); ++line)
@@ -119,9 +119,9 @@ float sharing_none(const LikelihoodRatios& ratios) {
     return (1 + kSingles) * kShifts * odds_of(ratios, lost);
 }
 
-/// What every line costs at least who does not share it, the dearest first. Bits count alike here,
-/// so losses are whole bits.
-constexpr int kBit = 2 * 127;  // of score
+/// Score of a lost bit. All bits count alike here, so losses are whole bits.
+constexpr int kBit = 2 * 127;
+/// Sets the least loss, in bits, of not sharing each line, the largest first.
 std::size_t sort_losses(const LikelihoodRatios& ratios, std::span<LineLoss> losses) {
     const auto count = static_cast<std::size_t>(ratios.count());
     for (std::size_t line = 0; line < count; ++line) {
@@ -134,7 +134,7 @@ std::size_t sort_losses(const LikelihoodRatios& ratios, std::span<LineLoss> loss
     return count;
 }
 
-/// What a position loses whose place differs in one sequence, and that shares a line.
+/// Returns the loss of the alternative that has another place in one sequence and shares a line.
 int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t place, int shared) {
     const std::uint8_t* own = ratios.basis[sequence].rolls + ratios.places[sequence];
     const std::uint8_t* alternative = ratios.basis[sequence].rolls + place;
@@ -149,19 +149,20 @@ int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t 
     return lost;
 }
 
-/// Those of a sequence that share a line, as far as a table tells how many lines they do not share
-/// at least: of those in the middle of the view, since any number of them will do.
+/// Returns a bound of the odds of the alternatives in one sequence that share a line. A table tells
+/// how many lines they do not share at least, of some in the middle of the view; what they lose in
+/// these is a bound for all lines.
 float alternatives_by_table(const LikelihoodRatios& ratios, const UnsharedLines& unshared,
                             std::size_t sequence) {
     const int lost = unshared.least_loss(sequence, Sharing::at_one_shift) - ratios.most_regained();
-    // At most as many shifts as there are lines.
+    // An alternative shares a line at no more shifts than there are lines.
     return static_cast<float>(ratios.count() * ratios.basis[sequence].length) *
            odds_of(ratios, std::max(lost, 0));
 }
 
-/// Odds of alternatives that differ in one sequence and share a line, by the table that tells most
-/// of each sequence. Sequences for which no table tells less than `enough` are not counted, and
-/// stay in `sequences`.
+/// Returns the odds of the alternatives that differ in one sequence and share a line, each sequence
+/// by the table with the most lines that gives at most `enough`. Sequences for which no table does
+/// are not counted, and stay in `sequences`.
 float alternatives_by_tables(const LikelihoodRatios& ratios, float enough, unsigned& sequences) {
     float sum = 0;
     for (std::size_t table = code::kUnsharedOf.size(); table-- > 0 && sequences != 0;) {
@@ -179,8 +180,8 @@ float alternatives_by_tables(const LikelihoodRatios& ratios, float enough, unsig
     return sum;
 }
 
-/// Alternatives that differ in one sequence: where the table does not tell, all that lose so little
-/// that they may count, one by one. 1 if there are too many.
+/// Returns the odds of the alternatives that differ in one sequence. Where tables do not settle it,
+/// all that lose little enough to matter are counted one by one. Returns 1 if there are too many.
 float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios, float limit) {
     unsigned sequences = 15;
     float sum = alternatives_by_tables(ratios, limit / 12, sequences);
@@ -200,7 +201,7 @@ float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios
     return sum;
 }
 
-/// Odds of all alternatives but those beyond seams.
+/// Returns the odds of all alternatives except those with a seam.
 float alternatives(const Kernels& kernels, const LikelihoodRatios& ratios, float limit) {
     return far_alternatives(ratios) + sharing_none(ratios) +
            single_alternatives(kernels, ratios, limit);
@@ -210,13 +211,13 @@ float seam_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios) 
     return power_of_two(std::max(seam_alternatives_log2_q8(kernels, ratios), -100 * 256));
 }
 
-/// What is asked of an axis.
+/// The question that is asked of an axis.
 struct Asked {
     Profile profile;
     Axis axis;
     int odds_per_bit_q8;
     int limit_log2;
-    OtherCodes* others;  ///< null: nobody asks
+    OtherCodes* others;  ///< null if other profiles are not asked for
 };
 
 void weigh_others(const Kernels& kernels, const LikelihoodRatios& ratios, const Asked& asked) {
@@ -228,7 +229,7 @@ bool is_code_in_question(const Asked& asked) {
     return asked.others != nullptr && asked.others->log2_in_question_q8 >= 0;
 }
 
-/// Probability that chance agrees as well.
+/// Returns the probability that chance agrees as well.
 float chance_of(const Confidence& bits, const Asked& asked) {
     if (!is_code_in_question(asked))
         return std::ldexp(1.0F, chance_log2(bits, asked.odds_per_bit_q8));
@@ -236,12 +237,12 @@ float chance_of(const Confidence& bits, const Asked& asked) {
         chance_log2_q8(bits, asked.odds_per_bit_q8, asked.others->log2_in_question_q8));
 }
 
-/// How many profiles may have such alternatives.
+/// Returns how many profiles are in question; each has as many alternatives.
 float codes_in_question(const Asked& asked) {
     return !is_code_in_question(asked) ? 1 : power_of_two(asked.others->log2_in_question_q8);
 }
 
-/// Probability that one axis is wrong; where it is above the limit, no more than that.
+/// Returns the probability that one axis is wrong, or 1 if it is above the limit.
 float axis_wrong(const Kernels& kernels, const Confidence& bits, const Lines& lines,
                  const AxisReading& reading, const Asked& asked) {
     const int limit_log2 = asked.limit_log2;
@@ -261,8 +262,8 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const Lines& li
     return sum + seam_alternatives(kernels, ratios);
 }
 
-/// Probability that one axis is wrong, by bits alone, without scores of lines. It is never less
-/// than by scores.
+/// Returns the probability that one axis is wrong from bits alone, without scores of lines, or 1 if
+/// it is above the limit. It is never less than by scores.
 float axis_wrong(const Kernels& kernels, const AxisBits& axis, const Asked& asked) {
     const float limit = std::ldexp(1.0F, asked.limit_log2);
     const float chance = chance_of(axis.confidence, asked);
@@ -274,13 +275,13 @@ float axis_wrong(const Kernels& kernels, const AxisBits& axis, const Asked& aske
     return sum + seam_alternatives(kernels, ratios);
 }
 
-/// Odds of a bit, by both axes: they are read from the same dots, and so are misread alike. 0 where
-/// nothing is known, or too many bits are wrong.
+/// Returns the odds of a bit from the bits of both axes, which are misread alike as they are read
+/// from the same dots. Returns 0 if nothing is known or too many bits are wrong. Sets bit_errors.
 int odds_of_bits_q8(const Confidence& x, const Confidence& y, const IntegrityOptions& options,
                     Fix& fix) {
     fix.bit_errors = x.wrong() + y.wrong();
     for (const Confidence* bits : {&x, &y}) {
-        // Two patterns in view.
+        // So many wrong bits mean that two patterns are in view.
         if (256 * bits->wrong() > bits->bits() * options.max_bit_error_q8) return 0;
     }
     Confidence both = x;
@@ -295,7 +296,7 @@ bool is_within_limit(float wrong, int limit_log2, Fix& fix) {
     return fix.p_wrong_log2 <= limit_log2;
 }
 
-/// What the first column and the first row were read as.
+/// Returns what the first column and the first row are read as.
 std::array<AxisReading, 2> readings_at(const Place& corner, Profile profile) {
     const auto& [cell, section] = corner;
     const auto roll = [&](std::uint32_t position, int own_section, std::uint32_t cross) {

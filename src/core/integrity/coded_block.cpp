@@ -8,11 +8,11 @@
 namespace dotpose::core {
 namespace {
 
-/// The first line and cell of the middle, as a cell, and as an index of a block.
+/// The first line and cell of the middle: as a cell, and as an index in a block.
 constexpr int kFirst = -kMostTracked / 2;
 constexpr auto kFirstOfBlock = static_cast<std::size_t>(BitBlock::kMiddle + kFirst);
 
-/// The longest of the stretches of ones.
+/// Returns the longest stretch of ones.
 std::uint32_t longest_stretch(std::uint32_t bits) {
     if (const std::uint32_t beyond = bits + (bits & (0 - bits)); (beyond & bits) == 0) return bits;
     std::uint32_t longest = 0;
@@ -30,11 +30,11 @@ std::uint32_t longest_stretch(std::uint32_t bits) {
 
 }  // namespace
 
-/// The lines from `first_line` on have `rolls` at the cell `first_cell`.
+/// Compares lines with the code. Lines from `first_line` on have `rolls` at the cell `first_cell`.
 CodedBlock::Half CodedBlock::half(const BitLines& lines, const std::uint8_t* rolls, int first_line,
                                   int count, int first_cell) {
     Half half;
-    // Cells beyond the view have no bits, whatever the roll.
+    // Cells before `first_cell` have no bits, so that their rolls do not matter.
     const int ahead = ((kFirst - first_cell) % kSections + kSections) % kSections;
     const int begin = std::max(first_line, kFirst);
     const int end = std::min(first_line + count, kFirst + kMostTracked);
@@ -48,7 +48,8 @@ CodedBlock::Half CodedBlock::half(const BitLines& lines, const std::uint8_t* rol
         const int roll = there < kSections ? there : there - kSections;
         const std::uint32_t code = code::kMainWords[static_cast<std::size_t>(roll)];
         const std::uint32_t wrong = (bits ^ code) & seen;
-        // Bits beyond a gap would speak against alternatives, too, but tables tell stretches apart.
+        // Bits beyond a gap are dropped, though they would speak against alternatives, too: tables
+        // know only stretches without gaps.
         half.lines[i] = {code, wrong == 0 ? longest_stretch(seen) : seen, wrong};
         if (seen == 0) continue;
         if (half.end == 0) {

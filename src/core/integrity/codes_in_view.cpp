@@ -5,11 +5,11 @@
 namespace dotpose::core {
 namespace {
 
-/// Odds that need no closer look: of a profile, and of places elsewhere.
+/// Odds that need no closer look: kSettled of a profile, kNoDoubt of places elsewhere.
 constexpr float kSettled = 1e-12F;
 constexpr float kNoDoubt = 1e-10F;
 
-/// Whether two profiles differ in the rolls of lines from a position on.
+/// Returns whether two profiles differ in the rolls of the lines from a position on.
 bool differ_from(std::uint32_t position, Profile read, Profile other) {
     std::array<std::uint8_t, BitBlock::kSide> own;
     std::array<std::uint8_t, BitBlock::kSide> theirs;
@@ -18,8 +18,8 @@ bool differ_from(std::uint32_t position, Profile read, Profile other) {
     return own != theirs;
 }
 
-/// Whether profiles still in question have other symbols in view than the one read, or explain them
-/// at another place.
+/// Returns whether profiles in question have other symbols in view than the one read, or may
+/// explain them at another place.
 bool tells_more(Profile read, const Place& place, bool has_more_lines, const OtherCodes& others) {
     const Place corner = moved(read, place, -BitBlock::kMiddle, -BitBlock::kMiddle);
     for (std::size_t i = 0; i < others.of.size(); ++i) {

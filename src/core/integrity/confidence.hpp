@@ -1,4 +1,4 @@
-// Confidence: how sure bits are, and how probable it is that chance agrees as well with the code.
+// Confidence: how sure bits are, and how probable it is that chance agrees with the code as well.
 // docs/integrity.md derives both.
 #pragma once
 
@@ -8,15 +8,14 @@
 
 namespace dotpose::core {
 
-/// How strongly bits were read, and how far the code contradicts them. Weights are kept in steps
-/// of 8.
+/// Counts bits by their weight, in steps of 8, and by whether the code contradicts them.
 class Confidence {
   public:
     static constexpr int kLevels = 16;
-    /// The weight that stands for all of a level.
+    /// Returns the weight that stands for all weights of a level.
     static constexpr int weight_of(int level) { return 8 * level + 4; }
 
-    /// weight: -127 to 127.
+    /// Adds bits of a weight from -127 to 127.
     void add(int weight, bool is_wrong, int bits = 1) {
         const int level = (weight < 0 ? -weight : weight) >> 3;
         counts_[static_cast<std::size_t>(2 * level + (is_wrong ? 1 : 0))] += bits;
@@ -25,17 +24,20 @@ class Confidence {
         for (std::size_t i = 0; i < counts_.size(); ++i)
             counts_[i] += other.counts_[i];
     }
+    /// Returns the number of bits of a level.
     int bits(int level) const {
         return counts_[static_cast<std::size_t>(2 * level)] + wrong(level);
     }
+    /// Returns the number of wrong bits of a level.
     int wrong(int level) const { return counts_[static_cast<std::size_t>(2 * level + 1)]; }
-    /// Of all levels.
+    /// Returns the number of bits of all levels.
     int bits() const {
         int sum = 0;
         for (const std::int32_t count : counts_)
             sum += count;
         return sum;
     }
+    /// Returns the number of wrong bits of all levels.
     int wrong() const {
         int sum = 0;
         for (int level = 0; level < kLevels; ++level)
@@ -44,22 +46,22 @@ class Confidence {
     }
 
   private:
-    std::array<std::int32_t, 2 * kLevels> counts_{};  ///< of each level: right, wrong
+    std::array<std::int32_t, 2 * kLevels> counts_{};  ///< by level: right, wrong
 };
 
-/// The odds, as a power of two in 2^-8, that a bit of weight 127 is right; those of weaker ones
-/// grow in proportion to their weight. The value (logistic regression, maximum likelihood) at which
-/// as much weight is expected to be wrong as was, and two full bits more; 0 where that says
-/// nothing. At most 16 * 256.
+/// Returns the odds that a bit of weight 127 is right, as log2 in 2^-8, at most 16 * 256; log odds
+/// of weaker bits are proportional to their weight. It is the value (logistic regression, maximum
+/// likelihood) at which as much weight is expected to be wrong as is, plus two full bits; 0 if that
+/// says nothing.
 int odds_per_bit_q8(const Confidence& confidence);
 
-/// Upper bound, as a power of two, of the probability that random bits of these weights agree as
+/// Returns log2 of an upper bound of the probability that random bits of these weights agree as
 /// well with some position, section and turn of one axis: L * 63 * 4 hypotheses, each by Chernoff's
-/// bound with the weights scaled to log odds. Valid for any odds, and best for the true ones.
+/// bound with weights scaled to log odds. It holds for any odds, and is best for the true ones.
 int chance_log2(const Confidence& axis, int odds_per_bit_q8);
 
-/// The same in 2^-8, for so many times as many hypotheses, and at the better of these odds and
-/// those of bits beyond doubt.
+/// Returns that bound in 2^-8, for 2^(log2_times_q8 / 256) times as many hypotheses. Of these odds
+/// and those of bits beyond doubt the better ones are taken.
 int chance_log2_q8(const Confidence& axis, int odds_per_bit_q8, int log2_times_q8);
 
 }  // namespace dotpose::core

@@ -10,23 +10,23 @@
 namespace dotpose::core {
 namespace {
 
-/// As if each of the 190,027 pairs were negligible at each shift: an expectation smaller than that
-/// is not relied on.
+/// The least sum: negligible odds for each of the 190,027 pairs of places at each shift. No smaller
+/// expectation is relied on.
 constexpr float kFloor = 190'027.0F * kSections * kNegligible;
 
-/// At one position alternatives can have more odds than is expected over all: 21 times as much, of
-/// 5,630 axes of hard frames.
+/// Factor of safety of expectations. At one position the odds can be larger than expected over all
+/// positions; on 5,630 axes of hard frames they were at most 21 times as large.
 constexpr float kMargin = 32;
 
-/// A bit for each anchor, by rank.
+/// A set of anchors, with a bit for each, by rank.
 using Anchors = std::uint32_t;
 
-/// Anchors divided into groups, one fewer than the anchors that an alternative shares to be looked
-/// at: so that it shares two of some group.
+/// Anchors divided into one group fewer than an alternative has to share to be looked at, so that
+/// it shares two of some group.
 class Groups {
   public:
     Groups(const RankedLines& lines, int anchors, int shared) : count_(shared - 1) {
-        // One after the other as they stand: those of a group are far apart, so that few
+        // Anchors go to the groups in turn. Those of one group are far apart then, so that few
         // alternatives share two of them.
         int n = 0;
         for (int line = 0; line < lines.count(); ++line) {
@@ -35,7 +35,7 @@ class Groups {
         }
     }
 
-    /// Shows `use` all pairs of ranks of one group.
+    /// Calls `use` for all pairs of ranks of one group.
     template <typename Use>
     void visit_pairs(Use use) const {
         for (std::size_t group = 0; group < static_cast<std::size_t>(count_); ++group) {
@@ -47,7 +47,7 @@ class Groups {
         }
     }
 
-    /// Whether who shares these anchors shares no pair that is shown before.
+    /// Returns whether an alternative with these shared anchors was not met at an earlier pair.
     bool is_first_pair(Anchors shared, int one, int other) const {
         for (const Anchors group : groups_) {
             const Anchors both = shared & group;
@@ -62,8 +62,8 @@ class Groups {
     std::array<Anchors, kFewestFound - 1> groups_{};
 };
 
-/// One place of a sequence: how much further the first eight lines are offset than one anchor,
-/// which is known for a pair of places only if the bytes of both are added.
+/// The offsets of one place of a sequence in the first eight lines, less that of an anchor. Bytes
+/// hold values that are valid only in the sum over a pair of places.
 struct Since {
     EightOffsets first;
     const RankedLines::Offsets* offsets;
@@ -73,8 +73,8 @@ int at(const RankedLines::Offsets& offsets, int rank) {
     return offsets.all[static_cast<std::size_t>(rank)];
 }
 
-/// Places of a sequence, but the reading's own, by how much less their offset rises from one anchor
-/// to another, modulo 63.
+/// The places of a sequence other than the reading's, in buckets by how much larger the offset at
+/// one anchor is than at another, modulo 63.
 class Buckets {
   public:
     Buckets(const RankedLines& lines, std::size_t sequence, int one, int other) {
@@ -92,7 +92,7 @@ class Buckets {
         for (std::uint32_t place = 0; place < length; ++place) {
             if (place == own) continue;
             const RankedLines::Offsets& offsets = lines.offsets(sequence, place);
-            // 126 is no shift, as are 63 and 189, and keeps the sum of two places above 0.
+            // 126 is no shift, as are 63 and 189; it keeps the sum of two places above 0.
             const auto base = static_cast<EightOffsets>(2 * kSections - at(offsets, one));
             places_[next[less_at(place)]++] = {offsets.first + base * kInEach, &offsets};
         }
@@ -113,7 +113,7 @@ class Buckets {
     std::array<Since, code::kA4Restored.size()> places_;
 };
 
-/// Those that share some number of anchors.
+/// Sums up the alternatives that share at least `shared` anchors.
 class Finder {
   public:
     Finder(const RankedLines& lines, int anchors, int shared)
@@ -122,7 +122,7 @@ class Finder {
     float sum() const {
         float sum = 0;
         groups_.visit_pairs([&](int one, int other) {
-            // Of every two sequences one has the buckets: not the third, which is the shortest.
+            // Of every two sequences one has the buckets, but not the third, which is the shortest.
             sum += sum_of_bucketed(0, {2}, one, other) + sum_of_bucketed(1, {0, 2}, one, other) +
                    sum_of_bucketed(3, {0, 1, 2}, one, other);
         });
@@ -130,8 +130,8 @@ class Finder {
     }
 
   private:
-    /// Who differs in the places of this sequence and of one of the others, and shares both
-    /// anchors.
+    /// Returns the odds of the alternatives that differ in the places of this sequence and of one
+    /// of `others`, and share both anchors.
     float sum_of_bucketed(std::size_t sequence, std::initializer_list<std::size_t> others, int one,
                           int other) const {
         const Buckets buckets(lines_, sequence, one, other);
@@ -149,7 +149,8 @@ class Finder {
         return sum;
     }
 
-    /// `first` is by how much the first eight lines are offset from the anchor that is shared.
+    /// Returns the odds of a pair of places; 0 if it shares too few anchors or was met before.
+    /// `first` has the offsets of the first eight lines, less that of the shared anchor.
     float odds(EightOffsets first, const RankedLines::Offsets& a, const RankedLines::Offsets& b,
                int one, int other) const {
         int lost = lines_.loss_of_first(first);
@@ -183,9 +184,9 @@ float sum_of_double_alternatives(const RankedLines& lines, float negligible, flo
     const auto feared = [&](int shared) {
         return kMargin * expected[static_cast<std::size_t>(shared)];
     };
-    // For every anchor fewer that is to be shared, more pairs of anchors are gone through: for
-    // seven, 6 of the 66 that there are; for four, 18; for two, all. More than that many are worth
-    // it only where the fix would be lost otherwise.
+    // With every anchor fewer that has to be shared, more pairs of anchors are gone through: for
+    // seven 6 of the 66 pairs, for four 18, for two all. More than for four are worth it only if
+    // the fix would be lost otherwise.
     constexpr int kFewestForDetail = 4;
     int shared = std::min(kFewestFound, anchors);
     while (shared > 2 && feared(shared) > (shared > kFewestForDetail ? negligible : most / 8))

@@ -6,8 +6,8 @@
 namespace dotpose::core {
 namespace {
 
-/// A string of five digits stands in a sequence once at most, so it is at most 3^5 / 233 times as
-/// frequent as if digits were drawn; over the four sequences that makes 1.12 for five steps.
+/// A string of five digits occurs in a sequence at most once, so it is at most 3^5 / 233 times as
+/// frequent as if digits were drawn. Over the four sequences that makes 1.12 for five steps.
 constexpr float kUnevenness = 1.03F;
 
 }  // namespace
@@ -29,7 +29,8 @@ ExpectedAlternatives::ExpectedAlternatives(const code::Basis& basis, std::uint32
     }
 }
 
-/// Any digit of an alternative is as probable as any other; the reading's are known.
+/// Returns the sums by shift after a step. All digits of an alternative are equally probable; those
+/// of the reading are known.
 ExpectedAlternatives::ByShift ExpectedAlternatives::after_step(const Set& set,
                                                                const ByShift& before) const {
     ByShift now = before;
@@ -65,8 +66,9 @@ void ExpectedAlternatives::add_line(const ByShift& odds) {
         for (const float sum : set.shared)
             before[0] += sum;
         const ByShift after = after_step(set, before);
-        // Back at shift 0 a new run of shared lines begins; within one, it grows. Adjacent lines
-        // are both shared only where all digits are equal: sums of digits tell them apart.
+        // A new run of shared lines begins where the shift returns to 0; a run goes on where all
+        // digits are equal. Adjacent lines are both shared only in the latter case, as sums of
+        // digits differ.
         float returned = after[0] - before[0] * set.equal;
         returned = returned > 0 ? returned : 0;
         for (std::size_t i = most_shared_ - 1; i > 0; --i) {

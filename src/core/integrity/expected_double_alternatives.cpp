@@ -6,17 +6,18 @@
 namespace dotpose::core {
 namespace {
 
-/// See ExpectedAlternatives.
+/// See expected_alternatives.cpp.
 constexpr float kUnevenness = 1.03F;
-/// Numbers are kept above these, so that no product gets so small that processors slow down. They
-/// start at a large one: where other rolls suit some lines much better, what is added here grows.
+/// Odds and sums are kept above these, as processors are slow at very small products. Sums start at
+/// a large number, so that what is thereby added stays small even where other rolls suit some lines
+/// much better.
 constexpr float kLeastOdds = 0x1p-40F;
 constexpr float kLeastSum = 0x1p-80F;
 constexpr float kStart = 0x1p40F;
 
 using ByShift = std::array<float, kSections>;
 
-/// Those that differ in two sequences, over the lines so far.
+/// The alternatives that differ in two sequences, over the lines so far.
 class Pair {
   public:
     Pair(const code::Secondary& a, const code::Secondary& b, std::uint32_t position)
@@ -35,7 +36,7 @@ class Pair {
             advance(b_, place_b_);
         }
         is_first_ = false;
-        // Odds of a shared line are 1.
+        // The odds of a shared line are 1.
         std::array<float, kFewestFound> shared;
         for (std::size_t n = 0; n < sums_.size(); ++n) {
             shared[n] = sums_[n][0];
@@ -45,7 +46,7 @@ class Pair {
         }
     }
 
-    /// Adds the odds of those that share so many anchors, by this number.
+    /// Adds the odds of the alternatives to `totals`, by the number of anchors they share.
     void add_to(std::span<float, kFewestFound> totals) const {
         const float alternatives = static_cast<float>(a_.length * b_.length) / kStart;
         for (std::size_t n = 0; n < sums_.size(); ++n) {
@@ -59,9 +60,10 @@ class Pair {
         if (++place == of.length) place = 0;
     }
 
-    /// Any digit of an alternative is as probable as any other; the reading's are known.
+    /// Changes the sums by shift as a step does in one sequence. All digits of an alternative are
+    /// equally probable; those of the reading are known.
     static void step(const code::Secondary& of, std::uint32_t place, float factor, ByShift& sums) {
-        // Twice, so that any shift is a stretch of it.
+        // The sums stand here twice, so that any shift of them is one stretch.
         std::array<float, 2 * kSections> before;
         const float share = factor / static_cast<float>(of.base);
         for (std::size_t s = 0; s < kSections; ++s)

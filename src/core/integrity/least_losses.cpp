@@ -8,9 +8,9 @@ OneSide least_losses(const LikelihoodRatios& ratios, bool from_last) {
     const int count = ratios.count();
     const int most_shared = ratios.most_shared();
     OneSide least;
-    OneSide with_last;  // of who does not share the last of the n lines
+    OneSide with_last;  // of those that do not share the last of the n lines
     with_last[0] = 0;
-    int lowest = 0;  // where the least of these is that shares no more lines than one can
+    int lowest = 0;  // index of the least of these, with no more shared lines since than possible
     for (int n = 0;; ++n) {
         const int last = with_last[static_cast<std::size_t>(n)];
         if (last <= with_last[static_cast<std::size_t>(lowest)]) {

@@ -10,14 +10,14 @@ namespace dotpose::core {
 
 namespace {
 
-/// Bits in which two stretches of the main sequence differ, by their first indices.
+/// Returns in how many bits two stretches of the main sequence differ, by their first indices.
 constexpr int distance_of(std::size_t first, std::size_t other, std::size_t length) {
     const std::uint32_t all = length == 0 ? 0 : ~std::uint32_t{0} >> (32 - length);
     return bits_in((code::kMainWords[first] ^ code::kMainWords[other]) & all);
 }
 
-/// How few bits it takes to tell a stretch of the main sequence from another one of its length, and
-/// how many others differ from it in no more.
+/// The least number of bits in which other stretches of the main sequence, of the same length,
+/// differ from one, and how many differ in no more.
 struct NearestStretches {
     int distance = kMostTracked + 1;
     int count = 0;
@@ -35,8 +35,8 @@ constexpr NearestStretches nearest_of(std::size_t first, std::size_t length) {
     return nearest;
 }
 
-/// The least number of bits by which a stretch of the main sequence, by its first index and its
-/// length, differs from those of the same length elsewhere; two lengths in a byte.
+/// The least number of bits in which a stretch of the main sequence differs from the others of its
+/// length, by its first index and its length; two lengths in a byte, at most 15.
 constexpr auto kLeastDistances = [] {
     std::array<std::array<std::uint8_t, kMostTracked / 2 + 1>, kSections> least{};
     for (std::size_t first = 0; first < least.size(); ++first) {
@@ -48,8 +48,8 @@ constexpr auto kLeastDistances = [] {
     return least;
 }();
 
-/// By the length of a stretch: log2 of the number of others that differ from it in the fewest bits,
-/// at most, in 2^-8, rounded up.
+/// log2 of the most stretches that differ from another in the fewest bits, by their length, in
+/// 2^-8, rounded up.
 constexpr auto kLog2OfNearest = [] {
     std::array<std::uint16_t, kMostTracked + 1> log2{};
     for (std::size_t length = 0; length < log2.size(); ++length) {
@@ -99,7 +99,7 @@ LikelihoodRatios::LikelihoodRatios(Profile profile, std::span<const TrackedLine>
 }
 
 int LikelihoodRatios::log2_of_nearest_q8(int line) const {
-    // All others lose a bit more.
+    // All other rolls lose at least a bit more.
     const int log2_q8 = add_log2(log2_of_nearest_q8_[static_cast<std::size_t>(line)],
                                  kOtherRolls_q8 - odds_per_bit_q8_);
     return std::min(log2_q8, kOtherRolls_q8);
@@ -130,7 +130,7 @@ LikelihoodRatios::Nearest LikelihoodRatios::nearest(int line) const {
         return {static_cast<int>(both >> length % 2 * 4 & 15),
                 kLog2OfNearest[static_cast<std::size_t>(length)]};
     }
-    // No table has bits that were not read, or are wrong.
+    // Tables do not cover lines with gaps or wrong bits.
     NearestStretches nearest;
     for (int roll = 0; roll < kSections; ++roll) {
         if (roll != own) nearest.add(loss_of_bits(line, roll));
@@ -150,7 +150,7 @@ std::optional<int> loss_of_offsets(const LikelihoodRatios& ratios, const RollOff
     const int base = offsets[static_cast<std::size_t>(shared)];
     const int count = ratios.count();
     int lost = 0;
-    // Outwards from the shared line, where most is lost soonest; its predecessors last.
+    // From the shared line onwards, where most is lost soonest, and on to the lines before it.
     for (int i = 1, line = shared + 1; i < count; ++i, ++line) {
         if (line == count) line = 0;
         const int shift = offsets[static_cast<std::size_t>(line)] - base;

@@ -12,32 +12,32 @@
 
 namespace dotpose::core {
 
-/// Lines in a row that two positions share at most; in the misprinted code.
+/// Most lines in a row that two positions share, in the misprinted code.
 inline constexpr int kMostShared = 7;
 
-/// log2 of how many other rolls there are, 62, in 2^-8, rounded up.
+/// log2 of the number of other rolls, 62, in 2^-8, rounded up.
 inline constexpr int kOtherRolls_q8 = 1525;
 
-/// Odds below 2^-64 are not followed up, but still counted, at this value.
+/// Odds below 2^-64 are not computed further, but counted at this value.
 inline constexpr int kNegligible_q8 = -64 * 256;
 inline constexpr float kNegligible = 5.5e-20F;
 
+/// The losses and odds of alternatives, line by line.
 class LikelihoodRatios {
   public:
-    /// Odds are above 0.
+    /// Takes the scores of lines. Odds are above 0.
     LikelihoodRatios(Profile profile, const Lines& lines_, const AxisReading& reading,
                      int odds_per_bit_q8);
-    /// The ratios of a tracked frame: its bits are either not read, or all equally sure, as
-    /// those with the weight 127 are elsewhere.
+    /// Takes hard bits, which are either not read or all equally sure, like bits of the weight 127.
     LikelihoodRatios(Profile profile, std::span<const TrackedLine> lines_,
                      const AxisReading& reading, int odds_per_bit_q8);
 
     int count() const { return count_; }
-    /// Whether there are no scores, but only `loss`.
+    /// Returns whether the ratios are of hard bits: there are no scores then, and `lines` is empty.
     bool is_of_bits() const { return !bits_.empty(); }
 
-    /// Score that an alternative gives up in a line whose roll it puts `shift` further; |shift|
-    /// < 63.
+    /// Returns the score that an alternative loses in a line whose roll it has `shift` further;
+    /// |shift| < 63.
     int loss(int line, int shift) const {
         const int own = rolls_[static_cast<std::size_t>(line)];
         const int moved = own + shift;
@@ -48,59 +48,61 @@ class LikelihoodRatios {
                lines[line][static_cast<std::size_t>(other)];
     }
     int own_roll(int line) const { return rolls_[static_cast<std::size_t>(line)]; }
-    /// The least that an alternative loses in a line which it does not share; may be negative.
+    /// Returns the least that an alternative loses in a line which it does not share; may be
+    /// negative.
     int least_loss(int line) const { return least_losses_[static_cast<std::size_t>(line)]; }
-    /// The least that an alternative loses whose digit differs in the step from a line to the next:
-    /// one of the two lines is not shared. Not negative.
+    /// Returns the least that an alternative loses if its digit differs in the step from a line to
+    /// the next, as it does not share one of the two. Not negative.
     int least_loss_of_step(int line) const {
         return std::max(std::min(least_loss(line), least_loss(line + 1)), 0);
     }
-    /// log2 of how many rolls lose about as little, in 2^-8, rounded up: the odds of the best, so
-    /// often, are at least those of all. Of bits only.
+    /// Returns log2 of a factor, in 2^-8, by which the odds of the best other roll are at least
+    /// those of all other rolls together. For hard bits only.
     int log2_of_nearest_q8(int line) const;
-    /// The most that it may win back in lines that another roll suits better.
+    /// Returns the most that an alternative may regain in lines that other rolls suit better.
     int most_regained() const { return most_regained_; }
-    /// Lines in a row that an alternative shares at most.
+    /// Returns the most lines in a row that an alternative shares.
     int most_shared() const { return basis[3].has_twins ? kMostShared : code::kOrder; }
-    /// Odds of an alternative, against the reading, that has lost so much score: a power of two in
-    /// 2^-8.
+    /// Returns the odds of an alternative against the reading, if it has lost so much score, as
+    /// log2 in 2^-8.
     int log2_odds_q8(int lost) const {
-        // Half of the score is weight; 129 / 2^15 is 1 / (2 * 127). More loss makes no difference.
+        // A lost score is twice the weight. 129 / 2^15 stands for 1 / (2 * 127). More loss than
+        // kMost makes no difference.
         constexpr int kMost = 1 << 18;
         return -(((std::min(lost, kMost) * odds_per_bit_q8_) >> 8) * 129 >> 7);
     }
-    /// The least loss that takes odds that far down.
+    /// Returns the least loss at which the odds are as low as that.
     int loss_for(int log2_odds_q8) const { return -log2_odds_q8 * 254 / odds_per_bit_q8_ + 1; }
-    /// Odds as a number; those for an alternative are not told apart from where they are past all
-    /// doubt.
+    /// Returns the odds as a number, at least 2^-64 and at most 2^64.
     float odds(int lost) const {
         const int log2_q8 = std::clamp(log2_odds_q8(lost), kNegligible_q8, -kNegligible_q8);
         const int whole = log2_q8 >> 8;
-        // The exponent of a float stands above 23 bits, and 127 too high.
+        // The exponent of a float is stored from bit 23 on, with 127 added.
         const auto power = std::bit_cast<float>(static_cast<std::uint32_t>(whole - 16 + 127) << 23);
         return static_cast<float>(exp2_q16(log2_q8 - whole * 256)) * power;
     }
-    /// Whether the odds of an alternative that has lost so much already are negligible, come what
-    /// may.
+    /// Returns whether the odds of an alternative that has lost so much are negligible, whatever it
+    /// may regain.
     bool is_hopeless(int lost) const { return lost > hopeless_score_; }
 
     const code::Basis& basis;
     const Lines lines;
     const std::uint32_t position;  ///< of the first line, as read
-    /// The same in each of the sequences.
+    /// The place of `position` in each of the sequences.
     std::array<std::uint32_t, 4> places;
 
   private:
-    /// Score of a full bit that is lost: what it was worth, and as much against it.
+    /// Score that a full bit loses: its weight, and as much on the other side.
     static constexpr int kScoreOfBit = 2 * 127;
 
     void follow_rolls(Profile profile, const AxisReading& reading);
     void set_least_loss(int line, int least_loss);
-    /// Bits that who puts a line at another roll contradicts more.
+    /// Returns how many bits more contradict a line at another roll.
     int loss_of_bits(int line, int roll) const;
+    /// The other rolls of a line that lose least.
     struct Nearest {
-        int lost_bits = 0;      ///< by the other rolls that lose least
-        int log2_count_q8 = 0;  ///< how many these are, at most
+        int lost_bits = 0;      ///< bits that these lose
+        int log2_count_q8 = 0;  ///< upper bound of log2 of their number, in 2^-8
     };
     Nearest nearest(int line) const;
 
@@ -111,20 +113,21 @@ class LikelihoodRatios {
     int hopeless_score_ = 0;
     std::array<std::uint8_t, kMaxLines> rolls_{};
     std::array<std::int16_t, kMaxLines> least_losses_{};
-    std::array<std::int16_t, kMostTracked> log2_of_nearest_q8_;  ///< how many lose least; of bits
+    std::array<std::int16_t, kMostTracked> log2_of_nearest_q8_;  ///< number of the rolls that lose
+                                                                 ///< least; for hard bits only
 };
 
-/// By how much the roll of an alternative exceeds that of the reading in each line, but for a shift
-/// of all lines, modulo 63.
+/// By how much the rolls of an alternative exceed those of the reading, by line, modulo 63; a shift
+/// of all lines is left open.
 using RollOffsets = std::array<std::uint8_t, kMaxLines>;
 
-/// Of a line that has the roll `alternative` rather than `own`, both below kSections. In bytes, so
-/// that it is done in vectors where there are any.
+/// Returns the roll offset of a line from the rolls of both, below kSections. It is computed in
+/// bytes, so that compilers can use vectors.
 constexpr std::uint8_t roll_offset(std::uint8_t own, std::uint8_t alternative) {
     return static_cast<std::uint8_t>(alternative - own + (alternative < own ? kSections : 0));
 }
 
-/// Of an alternative whose place differs in one sequence only.
+/// Sets the roll offsets of an alternative that has another place in one sequence only.
 inline void set_roll_offsets(const LikelihoodRatios& ratios, std::size_t sequence,
                              std::uint32_t alternative_place, RollOffsets& offsets) {
     static_assert(kMaxLines <= code::kLinesAhead);
@@ -135,8 +138,8 @@ inline void set_roll_offsets(const LikelihoodRatios& ratios, std::size_t sequenc
         offsets[static_cast<std::size_t>(line)] = roll_offset(own[line], alternative[line]);
 }
 
-/// What an alternative that shares the line `shared`, and none before, has lost when that gets
-/// hopeless, or in all; nothing if it shares one before.
+/// Returns the loss of an alternative at the shift at which it shares the line `shared`, or what it
+/// has lost when that gets hopeless. Returns nothing if it shares an earlier line, too.
 std::optional<int> loss_of_offsets(const LikelihoodRatios& ratios, const RollOffsets& offsets,
                                    int shared);
 

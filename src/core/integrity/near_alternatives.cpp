@@ -7,13 +7,14 @@
 namespace dotpose::core {
 namespace {
 
-/// Turns of the shortest sequence that are as long as all lines.
+/// How often the shortest sequence has to be repeated to be longer than all lines.
 constexpr std::uint32_t kTurns = kMaxLines / code::kA3.size() + 1;
 
-/// The places in one sequence at which the digits of a run stand, the reading's own among them.
+/// The places in one sequence at which the digits of a run of lines occur, the reading's own
+/// included.
 class TwinPlaces {
   public:
-    /// The run begins `run` lines after the first; `next` leads from each place to its twin.
+    /// The run begins `run` lines after the first; `next` leads from each place to its next twin.
     TwinPlaces(const RankedLines& lines, std::size_t sequence, std::uint32_t run,
                const std::uint8_t* next) {
         const std::uint32_t length = lines.ratios.basis[sequence].length;
@@ -26,7 +27,8 @@ class TwinPlaces {
         } while (place != own);
     }
 
-    /// How much larger the offset of each line is than that of the first one of the run, modulo 63.
+    /// The offsets of a place, and those of the first eight lines less that of the run's first
+    /// line, modulo 63.
     struct Twin {
         EightOffsets first = 0;
         const RankedLines::Offsets* offsets;
@@ -52,7 +54,7 @@ class TwinPlaces {
 
 using OneOfEach = std::array<const TwinPlaces::Twin*, 4>;
 
-/// Odds of an alternative that shares a run of lines; `first` is the sum of the twins'.
+/// Returns the odds of an alternative that shares a run of lines; `first` is the sum of its twins'.
 float odds_of_twins(const RankedLines& lines, EightOffsets first, const OneOfEach& twins) {
     int lost = lines.loss_of_first(first);
     for (int rank = 8; rank < lines.count() && !lines.ratios.is_hopeless(lost); ++rank) {
@@ -65,14 +67,14 @@ float odds_of_twins(const RankedLines& lines, EightOffsets first, const OneOfEac
     return lines.ratios.is_hopeless(lost) ? kNegligible : lines.ratios.odds(lost);
 }
 
-/// Alternatives that share the lines of one run.
+/// Returns the odds of the alternatives that share the lines of one run.
 float sum_of_twins(const RankedLines& lines, const std::array<TwinPlaces, 4>& places) {
     float sum = 0;
-    bool is_own = true;  // The first of all is the reading itself.
+    bool is_own = true;  // The first combination is the reading itself.
     for (const auto& a : places[0].all()) {
         for (const auto& b : places[1].all()) {
             for (const auto& c : places[2].all()) {
-                // No byte carries: four times 62 is 248.
+                // No byte carries, as four times 62 is 248.
                 const EightOffsets first = a.first + b.first + c.first;
                 for (const auto& d : places[3].all()) {
                     if (!is_own) sum += odds_of_twins(lines, first + d.first, {&a, &b, &c, &d});

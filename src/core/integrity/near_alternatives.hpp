@@ -6,10 +6,10 @@
 
 namespace dotpose::core {
 
-/// Summed odds of all that share that many consecutive lines, four or five, or more: one by one,
-/// from the places in the secondary sequences at which the digits of the three or four differences
-/// stand again. Upper bound: who shares more lines is counted more than once, and what is hopeless
-/// as negligible.
+/// Returns the summed odds of all alternatives that share `shared_lines` consecutive lines, four or
+/// five, or more: one by one, from the places in the secondary sequences at which the digits of the
+/// three or four differences occur again. This is an upper bound, as those that share more lines
+/// are counted more than once, and hopeless ones as negligible.
 float sum_of_near_alternatives(const RankedLines& lines, const code::Twins& twins,
                                int shared_lines);
 

@@ -12,29 +12,30 @@
 namespace dotpose::core {
 namespace {
 
-/// log2 of the number of alternatives that differ in one sequence, 741, in 2^-8, rounded up.
+/// log2 of the number of places of all sequences, 741, in 2^-8, rounded up.
 constexpr int kSingles_q8 = 2441;
-/// Nobody wants to know odds like these more exactly.
+/// Odds below which no closer estimate is needed.
 constexpr int kSmallOdds_q8 = -36 * 256;
-/// Whoever accepts more doubt than usual wants to know how much there is.
+/// The default limit: even if a caller accepts more doubt, estimates are as close as for this.
 constexpr int kUsualLimit_q8 = -30 * 256;
-/// Odds, as a power of two, at which single alternatives are counted that have less, known or not.
+/// Odds, as log2, at which single alternatives are counted that are passed over because they have
+/// less.
 constexpr int kPassedOver_q8 = -52 * 256;
 
-/// What an alternative that does not share a line may have in odds there.
+/// The odds that an alternative may have in a line that it does not share, as log2.
 struct LineOdds {
     int best_q8;  ///< at the roll that loses least
     int sum_q8;   ///< over all rolls but the reading's
 };
 using AllLineOdds = std::array<LineOdds, kMaxLines>;
 
-/// 2^-b in 2^-12 for each half bit, rounded up.
+/// 2^-b in 2^-12, for each half bit b, rounded up.
 constexpr std::array<std::uint16_t, 26> kPowers{4096, 2897, 2048, 1449, 1024, 725, 512, 363, 256,
                                                 182,  128,  91,   64,   46,   32,  23,  16,  12,
                                                 8,    6,    4,    3,    2,    2,   1,   1};
 
-/// log2 of the sum of 2^-b over all other rolls, b being the bits that they lose more than the
-/// best.
+/// Returns log2 of the sum of 2^-b over all other rolls, where b is by how many bits a roll loses
+/// more than the best of them.
 int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
     const std::int16_t* scores = ratios.lines[line].data();
     const int own = ratios.own_roll(line);
@@ -43,7 +44,7 @@ int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
         const auto half_bits = static_cast<std::size_t>(-ratios.log2_odds_q8(best - score) >> 7);
         return kPowers[std::min(half_bits, kPowers.size() - 1)];
     };
-    // Most lose so much that they have the least power: 12 bits, and what rounding may take.
+    // Most rolls lose so much that they have the least power: 12 bits, and what rounding may take.
     const int hardly_any = best - ratios.loss_for(-12 * 256 - 8);
     std::uint32_t sum_q12 = 0;
     for (int roll = 0; roll < kSections; ++roll)
@@ -52,16 +53,17 @@ int log2_of_others_q8(const LikelihoodRatios& ratios, int line) {
     return log2_at_most_q8(sum_q12) - 12 * 256;
 }
 
-/// ExpectedAlternatives with all that share no line lumped together. A step leads to each roll with
-/// at most the probability of the one that stays shared, so a line has at most that share of the
-/// sum of its odds, and at most the best of them.
+/// Returns the expectation of ExpectedAlternatives, with all shifts at which a line is not shared
+/// lumped together. A step leads to each of them with at most the probability of staying at a
+/// shared line, so a line has at most that share of the sum of its odds, and at most the best of
+/// them.
 int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
                 const AllLineOdds& odds) {
     static_assert(code::kOrder % 2 == 1 && kMostShared % 2 == 1);
     const auto most = static_cast<std::size_t>(ratios.most_shared());
     const int equal = set.equal_q8 + kUnevenness_q8;
-    // All sums are divided by the probability that every line so far is shared: then those that
-    // share the lines from one on, and none before it, stay as they are.
+    // All sums are divided by the probability that every line so far is shared. So the sum of those
+    // that share the lines from one on, and none before it, stays as it is.
     std::array<int, kMostShared + kMaxLines> sharing;
     // Each element of `sharing` plus the one before it, so that sums have half as many terms.
     std::array<int, kMostShared + kMaxLines> pairs;
@@ -85,9 +87,9 @@ int far_log2_q8(const LikelihoodRatios& ratios, const AlternativeSet& set,
     return sum + (ratios.count() - 1) * equal + set.alternatives_q8;
 }
 
-/// At most what all alternatives of all sets have together that share seven lines or fewer, and so
-/// lose in all others: of the first line it is not known at which roll. There are fewer than
-/// 2^lines ways to share lines.
+/// Returns a bound of the odds of all alternatives of all sets that share at most seven lines, and
+/// so lose in all others. At which roll they are in the first line is not known. There are fewer
+/// than 2^lines ways to share lines.
 int sharing_few_log2_q8(const LikelihoodRatios& ratios) {
     constexpr std::size_t kFew = 7;
     std::array<int, kFew> most{};  // the greatest losses
@@ -106,8 +108,8 @@ int sharing_few_log2_q8(const LikelihoodRatios& ratios) {
            (256 + kUnevenness_q8) * ratios.count() + ratios.log2_odds_q8(lost);
 }
 
-/// All sets together: roughly, with the number of rolls times the best for the sum, or exactly.
-/// Once it is more than `enough`, sets need not be added.
+/// Returns the sum over all sets; `roughly` takes the number of rolls times the best for the sum
+/// over rolls. Once it is above `enough`, further sets need not be added.
 int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int enough) {
     AllLineOdds odds;
     odds[0] = {};
@@ -119,8 +121,8 @@ int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int enough) {
         odds[static_cast<std::size_t>(line)] = {best, best + others};
     }
     int sum = far_log2_q8(ratios, kAlternativeSets.front(), odds);
-    // The four others have more alternatives, but these share a line more rarely: those of each
-    // that share more than seven lines have less than half of the odds that the first set's have.
+    // The four other sets have more alternatives, which share a line more rarely: those of each
+    // that share more than seven lines have less than half of the odds of the first set.
     constexpr int kThreeTimes_q8 = 406;
     if (sum + kThreeTimes_q8 < kSmallOdds_q8) {
         const int with_others = add_log2(sum + kThreeTimes_q8, sharing_few_log2_q8(ratios));
@@ -133,13 +135,13 @@ int far_log2_q8(const LikelihoodRatios& ratios, bool roughly, int enough) {
     return sum;
 }
 
-/// Alternatives that differ in one sequence, at every shift at which they share lines enough to
-/// matter.
+/// Sums up alternatives that differ in one sequence, at every shift at which they share enough
+/// lines to matter.
 class ByShift {
   public:
     ByShift(const LikelihoodRatios& ratios, int enough);
 
-    /// Adds the odds of the alternative at a place to a sum.
+    /// Adds the odds of the alternative at a place to a sum, and returns it.
     int add(std::size_t sequence, std::uint32_t place, int sum) {
         if (sequence != sequence_) begin(sequence);
         return may_matter(rolls_ + place) ? add_closely(place, sum) : sum;
@@ -147,7 +149,7 @@ class ByShift {
 
   private:
     struct Loss {
-        std::uint16_t least;  ///< of who does not share the line
+        std::uint16_t least;  ///< lost by those that do not share the line
         std::uint8_t line;
         std::uint8_t own = 0;  ///< what the reading's place adds to the roll there
     };
@@ -166,13 +168,15 @@ class ByShift {
     std::size_t sequence_ = SIZE_MAX;
     const std::uint8_t* rolls_ = nullptr;
     std::uint32_t enough_;
-    std::size_t count_ = 0;               ///< of lines at which something is lost
-    std::array<Loss, kMaxLines> losses_;  ///< the greatest first
+    std::size_t count_ = 0;               ///< of lines with a loss
+    std::array<Loss, kMaxLines> losses_;  ///< the largest first
     std::uint32_t in_all_ = 0;
-    /// Of the first ones, and their sum: not enough without the greatest, which is kept at a shift.
+    /// Number and sum of the first losses; the sum is not enough without the largest, which may be
+    /// kept.
     std::size_t first_count_ = 0;
     std::uint32_t first_losses_ = 0;
-    /// What is not lost at each shift, plus `none_`; what is less is of alternatives before.
+    /// What is not lost at each shift, plus `none_`; smaller values are left from earlier
+    /// alternatives.
     std::array<std::uint32_t, kSections> kept_{};
     std::uint32_t none_;
 };
@@ -196,8 +200,8 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int enough)
     }
 }
 
-/// Whether at some shift not enough is lost.
-// By itself, so that small processors can keep all it needs in registers.
+/// Returns whether too little is lost at some shift for the place to be passed over.
+// Not inlined, so that small processors can keep everything in registers.
 [[gnu::noinline]] bool ByShift::may_matter(const std::uint8_t* alternative) {
     std::uint32_t* const kept = kept_.data();
     const std::uint32_t none = none_ += in_all_;
@@ -212,7 +216,7 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int enough)
     const Loss* loss = losses_.data();
     for (const Loss* const end = loss + first_count_; loss != end; ++loss)
         keep(*loss);
-    // So that enough is lost of the lines so far.
+    // If less than this is kept, enough is lost in the lines so far.
     std::uint32_t most_to_keep = none - enough_ + first_losses_;
     for (const Loss* const end = losses_.data() + count_; loss != end; ++loss) {
         keep(*loss);
@@ -222,7 +226,7 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int enough)
     return true;
 }
 
-// Likewise.
+/// Adds the odds of a place at all shifts that matter, line by line. Not inlined, for registers.
 [[gnu::noinline]] int ByShift::add_closely(std::uint32_t place, int sum) const {
     RollOffsets offsets;
     set_roll_offsets(ratios_, sequence_, place, offsets);
@@ -238,14 +242,14 @@ ByShift::ByShift(const LikelihoodRatios& ratios, int enough)
             const int odds = lost ? ratios_.log2_odds_q8(*lost) : kNever_q8;
             if (odds > kPassedOver_q8) sum = add_log2(sum, odds);
         }
-        // Those that share another line at the same shift are the same.
+        // Shared lines at the same shift belong to the same alternative, which counts once.
         here = 0;
     }
     return sum;
 }
 
-/// Odds of the alternatives in one sequence that share a line, at most, by what all of them lose.
-/// They may share one at as many shifts as there are lines.
+/// Returns a bound of the odds of the alternatives in one sequence that share a line, by what all
+/// of them lose. They may share one at as many shifts as there are lines.
 int by_table_log2_q8(const LikelihoodRatios& ratios, const UnsharedLines& unshared,
                      std::size_t sequence) {
     const int lost = unshared.least_loss(sequence, Sharing::at_one_shift) - ratios.most_regained();
@@ -254,12 +258,12 @@ int by_table_log2_q8(const LikelihoodRatios& ratios, const UnsharedLines& unshar
            ratios.log2_odds_q8(std::max(lost, 0));
 }
 
-/// Sequences, one in each bit.
+/// A set of sequences, one in each bit.
 using Sequences = unsigned;
 constexpr Sequences kAllSequences = 15;
 
-/// Adds what tables tell of the alternatives that differ in one of these sequences, where that is
-/// less than `little_q8`; shows which are left.
+/// Adds the odds that tables give to the alternatives in some sequences, where these are below
+/// `little_q8`. Returns the sequences that are left.
 Sequences add_by_tables(const LikelihoodRatios& ratios, int little_q8, Sequences sequences,
                         int& sum) {
     for (std::size_t table = code::kUnsharedOf.size(); table-- > 0 && sequences != 0;) {
@@ -276,8 +280,8 @@ Sequences add_by_tables(const LikelihoodRatios& ratios, int little_q8, Sequences
     return sequences;
 }
 
-/// Alternatives that differ in one of these sequences: those that have surely lost enough are
-/// passed over; the others, few, are looked at one by one.
+/// Returns the odds of the alternatives in some sequences. Those that have surely lost enough are
+/// passed over; the few others are looked at one by one.
 int singles_log2_q8(const LikelihoodRatios& ratios, Sequences sequences) {
     const int lines = ratios.count();
     const int enough = ratios.loss_for(kPassedOver_q8) + ratios.most_regained();
@@ -308,7 +312,7 @@ int other_sections_log2_q8(const LikelihoodRatios& ratios) {
 }  // namespace
 
 int quick_alternatives_log2_q8(const LikelihoodRatios& ratios, int limit_q8) {
-    // Of bits there is no closer sum, so that all sets have to be in it.
+    // Hard bits have no closer sum, so all sets have to be counted.
     const bool is_last = ratios.is_of_bits();
     int far = far_log2_q8(ratios, true, is_last ? limit_q8 : kSmallOdds_q8);
     if (far > kSmallOdds_q8 && !is_last) far = far_log2_q8(ratios, false, limit_q8);
@@ -318,11 +322,11 @@ int quick_alternatives_log2_q8(const LikelihoodRatios& ratios, int limit_q8) {
     Sequences sequences = kAllSequences;
     int singles = kNever_q8;
     if (is_last) {
-        // What tables tell is more than is true, but saves most of the work.
+        // Odds by tables are larger than the true ones, but save most of the work.
         constexpr int kLittle_q8 = -5 * 256;
         const int little_q8 = std::min(limit_q8, kUsualLimit_q8) + kLittle_q8;
         sequences = add_by_tables(ratios, little_q8, sequences, singles);
-        // Those that share no line have lost as much as those of other sections.
+        // Alternatives that share no line lose as much as those in other sections.
         singles = add_log2(singles, kSingles_q8 + other_sections);
     }
     if (sequences != 0) singles = add_log2(singles, singles_log2_q8(ratios, sequences));

@@ -21,7 +21,7 @@ RankedLines::RankedLines(const LikelihoodRatios& of) : ratios(of) {
     set_offsets_of_places();
 }
 
-/// By the mean odds of an alternative that does not share the line.
+/// Ranks the lines by the mean odds of an alternative that does not share them, the least first.
 void RankedLines::rank_lines() {
     std::array<float, kMaxLines> sums;
     for (int line = 0; line < count(); ++line) {

@@ -1,22 +1,23 @@
-// Ranked lines: what the lines say, those that say most first, so that most
-// alternatives are found hopeless after a few of them; and the offsets of all places of the
-// secondary sequences, in this order.
+// Ranked lines: the lines in the order of how much they say, most first, so that most alternatives
+// are found hopeless after a few of them; and the roll offsets of all places of the secondary
+// sequences, in this order.
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
 
 namespace dotpose::core {
 
-/// RollOffsets in each of the first eight lines, a byte for each, the first the lowest.
+/// Roll offsets in the first eight lines by rank, a byte for each, the first in the lowest.
 using EightOffsets = std::uint64_t;
 
 inline constexpr EightOffsets kInEach = 0x0101010101010101;
 
+/// Losses, odds and roll offsets by the ranks of lines.
 class RankedLines {
   public:
     explicit RankedLines(const LikelihoodRatios& ratios);
 
-    /// The offsets of one place, by rank, each less than 63.
+    /// The roll offsets of one place, by rank, each less than 63.
     struct Offsets {
         EightOffsets first;
         RollOffsets all;
@@ -25,18 +26,19 @@ class RankedLines {
     int count() const { return ratios.lines.count(); }
     int line(int rank) const { return lines_[static_cast<std::size_t>(rank)]; }
     int rank(std::uint32_t line) const { return ranks_[line]; }
-    /// Odds of each shift in a line; by line, not by rank.
+    /// Returns the odds of each shift in a line, by its number rather than its rank.
     const std::array<float, kSections>& odds(int line) const {
         return odds_[static_cast<std::size_t>(line)];
     }
     const Offsets& offsets(std::size_t sequence, std::uint32_t place) const {
         return offsets_[kFirsts[sequence] + place];
     }
-    /// What an alternative loses whose roll is so much further, modulo 63; from 0 to 255.
+    /// Returns what an alternative loses in a line whose roll is `further` modulo 63; from 0 to
+    /// 255.
     int loss(int rank, int further) const {
         return losses_[static_cast<std::size_t>(rank)][static_cast<std::size_t>(further)];
     }
-    /// The same of eight offsets in the first eight lines: when it gets hopeless, or in all.
+    /// Returns what eight offsets lose in the first eight lines, or in four if that is hopeless.
     int loss_of_first(EightOffsets further) const {
         const int lost = loss_of_four(0, further);
         return ratios.is_hopeless(lost) ? lost : lost + loss_of_four(4, further >> 32);
@@ -63,7 +65,7 @@ class RankedLines {
     std::array<std::uint8_t, kMaxLines> lines_{};
     std::array<std::uint8_t, kMaxLines> ranks_{};
     std::array<std::array<float, kSections>, kMaxLines> odds_;
-    /// Of ranks without a line, up to the eighth: 0.
+    /// Losses by rank; ranks without a line, up to the eighth, have 0.
     std::array<std::array<std::int16_t, 256>, kMaxLines> losses_;
     std::array<Offsets, kPlaces> offsets_;
 };

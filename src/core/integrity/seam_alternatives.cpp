@@ -10,15 +10,15 @@
 namespace dotpose::core {
 namespace {
 
-/// How probable it is beforehand that a certain border between two lines is a seam, and its
-/// sections a certain distance apart: so little that a view is still believed which a seam explains
-/// as well, but not one that it explains better.
+/// The prior probability that a certain border between two lines is a seam between sections a
+/// certain distance apart. It is so small that a position is still believed if a seam explains the
+/// view as well, but not if a seam explains it better.
 constexpr int kSeam_q8 = -32 * 256;
-/// Odds below that, against the position found, are not counted.
+/// Odds below this, against the position found, are not counted.
 constexpr int kLeast_q8 = -8 * 256;
 
-/// What an alternative loses before each line, and from it on, at the best of its shifts; those are
-/// left out with which it has lost enough whatever the other one.
+/// The least losses of an alternative before each line, and from it on, over its shifts. Shifts are
+/// left out that have lost enough whatever the shift on the other side is.
 class LossesOfSides {
   public:
     LossesOfSides(const LikelihoodRatios& ratios, const RollOffsets& offsets, int enough)
@@ -26,7 +26,7 @@ class LossesOfSides {
         before_.fill(kNone);
         from_.fill(kNone);
         const auto in_view = std::span(offsets).first(static_cast<std::size_t>(ratios.count()));
-        // What who does not share the lines of a shift loses at least.
+        // The least loss that is kept by sharing the lines of a shift.
         std::array<int, kSections> kept{};
         int in_all = 0;
         int most_kept = 0;
@@ -37,7 +37,7 @@ class LossesOfSides {
         }
         for (const std::uint8_t shift : in_view) {
             if (in_all - kept[shift] - most_kept < enough) add(offsets, shift);
-            kept[shift] = -in_all;  // once is enough
+            kept[shift] = -in_all;  // each shift is added once
         }
     }
 
@@ -55,7 +55,7 @@ class LossesOfSides {
         const auto loss_in = [&](int line) {
             return ratios_.loss(line, offsets[static_cast<std::size_t>(line)] - shift);
         };
-        // Who has lost enough on one side does not count whatever the other.
+        // A shift that has lost enough on one side does not count, whatever the other side.
         int lost = 0;
         for (int line = 0; line < count && lost < enough_; ++line) {
             keep_less(before_[static_cast<std::size_t>(line)], lost);
@@ -74,13 +74,14 @@ class LossesOfSides {
     std::array<int, kMaxLines> from_;
 };
 
-/// Summed odds of those that explain the lines about as well as the position found.
+/// Sums up the odds of the seam alternatives that explain the lines about as well as the position
+/// found.
 class SeamAlternatives {
   public:
     SeamAlternatives(const LikelihoodRatios& ratios, int enough)
         : ratios_(ratios), enough_(enough) {}
 
-    /// One that differs in a sequence.
+    /// Adds an alternative that has another place in one sequence.
     void add(std::size_t sequence, std::uint32_t place) {
         RollOffsets offsets;
         set_roll_offsets(ratios_, sequence, place, offsets);
@@ -98,18 +99,19 @@ class SeamAlternatives {
     int sum_q8_ = kNever_q8;
 };
 
-/// The loss after which an alternative's odds are so small that they are not counted.
+/// Returns the loss from which on the odds of an alternative are too small to be counted.
 int enough_for(const LikelihoodRatios& ratios) {
     return ratios.loss_for(kLeast_q8) + ratios.most_regained();
 }
 
-/// Whether nobody can lose less.
+/// Returns whether no alternative can lose less than `enough`.
 bool has_none(const LikelihoodRatios& ratios, int enough) {
     return surely_lose_with_border(ratios, enough) || least_loss_with_border(ratios) >= enough;
 }
 
-/// Losses of all steps, in parts so large that an alternative which lost `StepLosses::kEnough` of
-/// them has lost enough even if one step, that of the border, does not count.
+/// Returns the losses of all steps, in parts so large that an alternative which lost
+/// `StepLosses::kEnough` of them has lost enough even if one step, that of the border, does not
+/// count.
 StepLosses losses_of_steps(const LikelihoodRatios& ratios, int enough) {
     StepLosses steps;
     steps.count = ratios.count() - 1;

@@ -5,10 +5,11 @@
 namespace dotpose::core {
 namespace {
 
-/// Losses of 32 alternatives, one in each bit.
+/// Losses of 32 alternatives at once, one in each bit.
 class Losses {
   public:
     explicit Losses(std::uint32_t enough) : enough_(enough) {}
+    /// Adds a loss of 0 to 15 parts to some of the alternatives.
     void add(std::uint32_t alternatives, unsigned parts) {
         std::uint32_t carry = 0;
         add_digit(ones_, has_bit(parts, 0), alternatives, carry);
@@ -17,11 +18,11 @@ class Losses {
         add_digit(eights_, has_bit(parts, 3), alternatives, carry);
         enough_ |= carry;
     }
-    /// Which have lost enough.
+    /// Returns which alternatives have lost enough.
     std::uint32_t enough() const { return enough_; }
 
   private:
-    /// As a sign it is told with fewer steps.
+    /// Testing the sign takes fewer instructions.
     static bool has_bit(unsigned n, int bit) {
         return static_cast<std::int32_t>(n << (31 - bit)) < 0;
     }
@@ -35,7 +36,7 @@ class Losses {
         digit ^= alternatives;
     }
 
-    // One more than was lost: what is enough carries.
+    // Counters start at 1, so that losses that are enough carry.
     static_assert(kEnough == 15);
     std::uint32_t ones_ = ~std::uint32_t{0};
     std::uint32_t twos_ = 0;
@@ -54,20 +55,20 @@ Steps::Steps(const LikelihoodRatios& ratios, int enough, Excused excused)
     };
     int needed = enough;
     if (excused == Excused::any_one) {
-        // Who has lost that has lost enough, but for any one step.
+        // Losses are enough if they are so without any one of the steps.
         for (int step = 0; step < count; ++step)
             needed = std::max(needed, enough + lost_at(step));
     }
     constexpr int kParts = kEnough;
     const int part = (needed + kParts - 1) / kParts;
-    // The most that can be lost up to a step, of which no two in a row count.
+    // The most that can be lost up to a step, if no two steps in a row count.
     int most = 0;
     int most_before = 0;
     for (int step = 0; step < count; ++step) {
         std::uint8_t parts = 0;
         for (int lost = lost_at(step); lost >= part; lost -= part)
             ++parts;
-        // Less is not worth the work.
+        // A loss of one part is not worth the work.
         if (parts == 1) parts = 0;
         losses[static_cast<std::size_t>(step)] = parts;
         const int with_this = most_before + parts;
@@ -89,9 +90,9 @@ SimilarPlaces::SimilarPlaces(const code::Secondary& a, std::uint32_t own, const 
     }
 }
 
-// By itself, so that small processors can keep what it needs in registers.
+// Not inlined, so that small processors can keep everything in registers.
 [[gnu::noinline]] std::uint32_t SimilarPlaces::operator[](std::uint32_t word) const {
-    // Whom nobody asks for need not be told apart.
+    // Bits beyond the end of the sequence, and that of the reading's own place, count as lost.
     const std::uint32_t places = sequence_.length - 32 * word;
     std::uint32_t unwanted = places < 32 ? ~std::uint32_t{0} << places : 0;
     if (own_ / 32 == word) unwanted |= std::uint32_t{1} << own_ % 32;
@@ -101,7 +102,7 @@ SimilarPlaces::SimilarPlaces(const code::Secondary& a, std::uint32_t own, const 
     for (const Step& step : std::span(steps_).first(count_)) {
         const std::uint32_t* here = step.places + word;
         const std::uint32_t equal = here[0] >> step.ahead | here[1] << 1 << (31 - step.ahead);
-        // No line is counted twice, as part of two steps.
+        // No line is counted twice, as a part of two steps.
         if (step.ahead != before + 1) counted = 0;
         before = step.ahead;
         counted = ~(equal | counted);

@@ -3,10 +3,11 @@
 namespace dotpose::core {
 namespace {
 
-/// Odds of an alternative that differs in one sequence and shares a line, and none of a lower rank.
+/// Returns the odds of an alternative that differs in one sequence and shares a line; 0 if it
+/// shares a line of a lower rank.
 float odds_of_single(const RankedLines& lines, const RankedLines::Offsets& alternative,
                      int shared) {
-    // An offset less that of the shared line; 126 is no shift.
+    // The bases are chosen so that the shared line has the sum 126, which is no shift.
     const int base = 2 * kSections - alternative.all[static_cast<std::size_t>(shared)];
     int lost = lines.loss_of_first(alternative.first + kInEach * static_cast<unsigned>(base));
     if (lines.ratios.is_hopeless(lost)) return kNegligible;

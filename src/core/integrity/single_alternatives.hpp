@@ -6,8 +6,9 @@
 
 namespace dotpose::core {
 
-/// Summed odds of all of them, one by one, with every shift at which they share some line with the
-/// reading. Upper bound: what is hopeless is counted as negligible.
+/// Returns the summed odds of all single alternatives, one by one, at every shift at which they
+/// share some line with the reading. This is an upper bound, as hopeless ones are counted as
+/// negligible.
 float sum_of_single_alternatives(const RankedLines& lines);
 
 }  // namespace dotpose::core

@@ -14,11 +14,11 @@ UnsharedLines::UnsharedLines(const LikelihoodRatios& ratios, int most_lines) : r
         ++rows;
     if (rows == 0) return;
     row_ = rows - 1;
-    // The middle ones, which are longest.
+    // Tables are applied to the lines in the middle, which are longest.
     const int lines = numbers[row_];
     const int first = (ratios.count() - lines) / 2;
     first_line_ = static_cast<std::uint32_t>(first);
-    // Sorted as they come.
+    // Lines are sorted as they come, the smallest loss first.
     for (int n = 0; n < lines; ++n) {
         const std::int32_t loss = std::max(ratios.least_loss(first + n), 0);
         auto i = static_cast<std::size_t>(n + 1);
@@ -32,7 +32,7 @@ UnsharedLines::UnsharedLines(const LikelihoodRatios& ratios, int most_lines) : r
 
 int UnsharedLines::least_loss(std::size_t sequence, Sharing sharing) const {
     const code::Secondary& a = ratios_.basis[sequence];
-    // Of the other forms of a4 there is no table.
+    // There is no table for the other forms of a4.
     const bool is_known = sequence < 3 || a.digits == code::kA4Restored.data();
     if (row_ == SIZE_MAX || !is_known) return 0;
     const std::uint32_t ahead = ratios_.places[sequence] + first_line_;

@@ -1,5 +1,5 @@
-// Unshared lines: what every alternative loses that differs from the reading in one sequence, told
-// by a table of how many lines it shares at most; most need not be looked at then.
+// Unshared lines: what every alternative in one sequence loses at least, by a table of how many
+// lines it shares at most. Most alternatives need not be looked at then.
 #pragma once
 
 #include <array>
@@ -9,34 +9,36 @@
 
 namespace dotpose::core {
 
-/// Where an alternative shares lines.
+/// Where an alternative shares lines: at one shift, or at two, one before and one beyond a border.
 enum class Sharing : std::uint8_t {
     at_one_shift,
     on_two_sides,  ///< up to some border at one shift, beyond it at another
 };
 
+/// Least losses of all alternatives in a sequence.
 class UnsharedLines {
   public:
     static constexpr int kMostLines = 16;
 
-    /// By the table of the most lines that there are, and at most of so many.
+    /// Uses the table with the most lines, at most `most_lines` and at most as many as there are.
     explicit UnsharedLines(const LikelihoodRatios& ratios, int most_lines = kMostLines);
 
-    /// Whether all alternatives that stand elsewhere in a sequence lose so much at least, but for
-    /// what they may win back.
+    /// Returns whether all alternatives in a sequence lose at least `enough`, without what they may
+    /// regain.
     bool all_lose(std::size_t sequence, Sharing sharing, int enough) const {
         return least_loss(sequence, sharing) >= enough;
     }
-    /// What they lose at least; 0 where no table tells.
+    /// Returns what all alternatives in a sequence lose at least; 0 if there is no table for it.
     int least_loss(std::size_t sequence, Sharing sharing) const;
-    /// The same of those that stand in another a4, by the rows of `code::kUnsharedInOther`.
+    /// Returns what all places of another profile's a4 lose at least, by the rows of
+    /// `code::kUnsharedInOther`.
     int least_loss(const std::array<std::string_view, 3>& unshared_in_other) const;
 
   private:
     const LikelihoodRatios& ratios_;
-    std::size_t row_ = SIZE_MAX;  ///< of the table; none for few lines
+    std::size_t row_ = SIZE_MAX;  ///< of the table; SIZE_MAX if there are too few lines for one
     std::uint32_t first_line_ = 0;
-    /// Of the lines that lose least: what so many lose.
+    /// By n: the sum of the n smallest losses.
     std::array<std::int32_t, kMostLines + 1> least_{};
 };
 

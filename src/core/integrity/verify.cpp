@@ -22,7 +22,7 @@ AxisReading reading_of(Profile profile, const Place& place, Axis axis) {
     return {position, static_cast<std::uint8_t>(here), 0, 0};
 }
 
-// By itself, so that small processors can keep all it needs in registers.
+// Not inlined, so that small processors can keep everything in registers.
 [[gnu::noinline]] void compare_line(std::span<const std::int8_t> line, const std::uint8_t* bit,
                                     Confidence& confidence) {
     for (const std::int8_t weight : line) {
@@ -31,7 +31,7 @@ AxisReading reading_of(Profile profile, const Place& place, Axis axis) {
     }
 }
 
-/// The bits of one axis, of all lines of an upright grid, against the code.
+/// Compares the bits of one axis, in all lines of an upright grid, with the code.
 Confidence compare(Profile profile, const Upright& upright, Axis axis, const AxisReading& reading) {
     Confidence confidence;
     Line storage;
@@ -47,7 +47,7 @@ Confidence compare(Profile profile, const Upright& upright, Axis axis, const Axi
     return confidence;
 }
 
-/// The place of the top left symbol.
+/// Returns the place of the top left symbol.
 Place corner_place(Profile profile, const Decoding& decoding, const Upright& upright) {
     const Vec corner = decoding.pattern_from_grid(upright.corner());
     return moved(profile, decoding.place, corner.x, corner.y);
@@ -55,8 +55,8 @@ Place corner_place(Profile profile, const Decoding& decoding, const Upright& upr
 
 /// What all bits in view say before alternatives are counted.
 struct Doubt {
-    int odds_per_bit_q8 = 0;  ///< 0: nothing is known of the bits
-    /// log2 of the probability that chance agrees as well, of each axis.
+    int odds_per_bit_q8 = 0;  ///< 0 if nothing is known of the bits
+    /// log2 of the probability that chance agrees as well, in 2^-8, for each axis.
     std::array<int, 2> by_chance_q8{};
 };
 
@@ -65,10 +65,10 @@ Doubt doubt_of(const std::array<Confidence, 2>& agreements, const IntegrityOptio
     decoding.bits = agreements[0].bits() + agreements[1].bits();
     fix.bit_errors = agreements[0].wrong() + agreements[1].wrong();
     for (const Confidence& agreement : agreements) {
-        // Two patterns in view.
+        // So many wrong bits mean that two patterns are in view.
         if (agreement.wrong() > agreement.bits() * options.max_bit_error_q8 / 256) return {};
     }
-    // Both axes are read from the same dots, and so are misread alike.
+    // Both axes are read from the same dots, so their bits are misread alike.
     Confidence both = agreements[0];
     both.add(agreements[1]);
     Doubt doubt{odds_per_bit_q8(both), {}};
@@ -89,7 +89,7 @@ Doubt compare_with_chance(const Grid& grid, Profile profile, const IntegrityOpti
     return doubt_of(agreements, options, decoding, fix);
 }
 
-/// Probability of an axis being wrong.
+/// Returns the probability that an axis is wrong, as log2 in 2^-8.
 int with_alternatives(const LikelihoodRatios& ratios, int by_chance_q8, int limit_q8,
                       int alternatives_q8) {
     int sum_q8 = add_log2(by_chance_q8, alternatives_q8);
@@ -97,8 +97,9 @@ int with_alternatives(const LikelihoodRatios& ratios, int by_chance_q8, int limi
     return std::min(sum_q8, 0);
 }
 
-/// Probability of each axis being wrong; `alternatives_q8(axis, ratios)` gives the odds of its
-/// alternatives, which only add to chance: where that is too much already they are not counted.
+/// Returns the probability that each axis is wrong, as log2 in 2^-8. `alternatives_q8(axis,
+/// ratios)` returns the odds of its alternatives; they are not counted where chance alone is above
+/// the limit.
 template <typename Alternatives>
 std::array<int, 2> with_alternatives(const Grid& grid, Profile profile, const Decoding& decoding,
                                      std::span<ScoredLine> storage, const Doubt& doubt,
@@ -124,8 +125,8 @@ int sum(const std::array<int, 2>& p_wrong_q8) {
     return add_log2(p_wrong_q8[0], p_wrong_q8[1]);
 }
 
-/// Where nothing is known of the bits, chance is as good, and alternatives only add to that:
-/// refused whatever the limit.
+/// Returns whether the position is refused whatever the alternatives are: nothing is known of the
+/// bits, or chance agrees as well.
 bool is_hopeless(const Doubt& doubt, int limit_q8) {
     return doubt.odds_per_bit_q8 == 0 || sum(doubt.by_chance_q8) > limit_q8;
 }
@@ -137,7 +138,7 @@ Status judge(const Doubt& doubt, const IntegrityOptions& options, Decoding& deco
     return is_sure ? Status::ok : Status::not_certain;
 }
 
-/// By quick_alternatives.
+/// Returns the probability that each axis is wrong, by quick_alternatives.hpp.
 std::array<int, 2> estimate_quickly(const Grid& grid, Profile profile, const Decoding& decoding,
                                     int limit_q8, std::span<ScoredLine> storage,
                                     const Doubt& doubt) {
@@ -158,7 +159,7 @@ bool share_line(Axis axis, Profile profile, const Place& a, const Place& b) {
 std::optional<Axis> sure_axis(const Decoding& decoding, const IntegrityOptions& options) {
     const auto [x_q8, y_q8] = decoding.p_wrong_log2_q8;
     const int surer_q8 = std::min(x_q8, y_q8);
-    // 0: nothing is known of it, whatever the limit.
+    // 0 means that nothing is known, whatever the limit is.
     if (surer_q8 == 0 || surer_q8 > 256 * options.max_p_wrong_log2) return {};
     return x_q8 <= y_q8 ? Axis::x : Axis::y;
 }
@@ -177,7 +178,7 @@ Status verify_quickly(const Grid& grid, Profile profile, Decoding& decoding,
 
 namespace {
 
-/// Lines of one axis of a tracked frame, from the first in view to the last.
+/// The lines of one axis of a tracked frame, from the first in view to the last.
 struct TrackedAxis {
     std::span<const TrackedLine> lines;
     AxisReading reading;
@@ -203,7 +204,7 @@ TrackedAxis tracked_axis(Profile profile, const Tracking& tracking, Axis axis) {
     }
     result.confidence.add(127, false, seen - wrong);
     result.confidence.add(127, true, wrong);
-    // Of its lines the first in view, at the corner's cell of the crossing ones.
+    // The reading is that of the first line in view, at the cell in line with the corner.
     const auto ahead = static_cast<std::int32_t>(begin);
     const Place& corner = tracking.corner;
     result.reading = axis == Axis::x ? reading_of(profile, moved(profile, corner, ahead, 0), axis)
@@ -235,7 +236,7 @@ Status verify_tracked(Profile profile, const Tracking& tracking, const Integrity
 
 namespace {
 
-/// The bits of both axes, of all lines, against the code.
+/// Compares the bits of both axes, in all lines, with the code.
 std::array<Confidence, 2> compare_both(const Grid& grid, Profile profile,
                                        const Decoding& decoding) {
     const Upright all(grid, {grid.i0, grid.j0, grid.columns, grid.rows},
@@ -245,7 +246,7 @@ std::array<Confidence, 2> compare_both(const Grid& grid, Profile profile,
             compare(profile, all, Axis::y, reading_of(profile, corner, Axis::y))};
 }
 
-/// Chance has the hypotheses of so many profiles.
+/// Sets the probability of chance for as many times the hypotheses as there are profiles.
 void count_hypotheses_of(int log2_codes_q8, const Grid& grid, Profile profile,
                          const Decoding& decoding, Doubt& doubt) {
     const auto agreements = compare_both(grid, profile, decoding);
@@ -294,7 +295,8 @@ Status verify_among_codes(const Grid& grid, Profile profile, const OtherCodes* o
                           [&](std::size_t, const LikelihoodRatios& ratios) {
                               return quick_alternatives_log2_q8(ratios, limit_q8) + codes_q8;
                           });
-    // Whoever accepts more doubt than usual wants to know how much there is.
+    // The probability is computed as closely as for the default limit, even if a caller accepts
+    // more.
     const int doubtful_q8 = std::min(limit_q8, -30 * 256);
     if (sum(p_wrong_q8) > doubtful_q8) {
         const auto counted_q8 = with_alternatives(

@@ -12,13 +12,13 @@ namespace {
 
 /// The sequence in which profiles differ.
 constexpr std::size_t kA4 = 3;
-/// Odds at which places are counted that are not looked at, since they have less.
+/// Odds at which places are counted that are not looked at because they have less.
 constexpr int kPassedOver_q8 = -52 * 256;
 constexpr float kPassedOver = 2.3e-16F;
 /// Summed odds that need no closer look.
 constexpr float kEnough = 1e-13F;
 
-/// What places lose at least in lines that they do not share.
+/// What places lose at least in the lines that they do not share.
 struct Losses {
     explicit Losses(const LikelihoodRatios& ratios)
         : enough(ratios.loss_for(kPassedOver_q8) + ratios.most_regained()), unshared(ratios) {
@@ -31,7 +31,7 @@ struct Losses {
         }
     }
 
-    /// Of all steps, in parts of which `StepLosses::kEnough` make up what is enough.
+    /// Returns the losses of all steps, in parts of which `StepLosses::kEnough` are enough.
     StepLosses of_steps(const LikelihoodRatios& ratios) const {
         StepLosses steps;
         steps.count = ratios.count() - 1;
@@ -43,15 +43,16 @@ struct Losses {
         return steps;
     }
 
-    /// Whether those have lost enough who share no more than that.
+    /// Returns whether places lose enough if the lines that they share are worth no more than
+    /// `all_but`.
     bool are_enough(int all_but) const { return kUnit * (all - all_but) > enough; }
 
-    /// Scores are counted in such units, rounded down, where their sum must fit into 16 bits.
+    /// Scores are counted in units of this, rounded down, where their sum must fit 16 bits.
     static constexpr int kUnit = 8;
-    int enough;                               ///< to be passed over
-    int all = 0;                              ///< units, of those who share no line
-    int at_best = 0;                          ///< likewise, with what they win back
-    std::array<std::uint16_t, kMaxLines> of;  ///< units, of each line
+    int enough;                               ///< score after which a place is passed over
+    int all = 0;                              ///< units that places lose that share no line
+    int at_best = 0;                          ///< score that these lose, less what they regain
+    std::array<std::uint16_t, kMaxLines> of;  ///< units that each line is worth
     UnsharedLines unshared;
 };
 
@@ -73,12 +74,13 @@ class OtherPlaces {
         result_.here = ratios_.odds(lost);
     }
 
-    /// Those elsewhere, if a table tells that there is no more than `enough` of them: so much.
+    /// Counts the places elsewhere by a table, if they have no more odds than `enough`. Returns
+    /// whether they were counted.
     bool add_by_table(Profile read, Profile other, float enough) {
         const auto& table =
             code::kUnsharedInOther[static_cast<std::size_t>(read)][static_cast<std::size_t>(other)];
         const int lost = losses_.unshared.least_loss(table) - ratios_.most_regained();
-        // At most as many shifts as there are lines; and those that no line shows.
+        // There are at most as many shifts as lines, besides those that no line shares.
         const float all =
             static_cast<float>(theirs_.length * count_) * ratios_.odds(std::max(lost, 0)) +
             sharing_none();
@@ -86,21 +88,22 @@ class OtherPlaces {
         return all <= enough;
     }
 
-    /// The same place of a4 at its other shifts, and all places that share no line.
+    /// Adds the same place of a4 at its other shifts, and all places at shifts that share no line.
     void add_unsimilar() {
         const std::uint32_t place = ratios_.places[kA4];
         add(place, offsets_of(place), shift_here_);
         add_sharing_none();
     }
 
-    /// One that stands elsewhere in a4, at all shifts that some line shows.
+    /// Adds another place in a4, at all shifts that some line shares.
     void add(std::uint32_t place) { add(place, kNoShift); }
-    /// So many that are passed over.
+    /// Adds a number of places that are passed over.
     void add_passed_over(int places) {
         result_.elsewhere += static_cast<float>(places * ratios_.count()) * kPassedOver;
     }
+    /// Returns the sums, with the position of the best place elsewhere.
     const OtherAxis& result() {
-        // Nobody asks for the position of one that explains little.
+        // The position of a place that explains little is never asked for.
         constexpr float kWorthNaming = 1e-6F;
         if (result_.best < kWorthNaming) return result_;
         auto places = ratios_.places;
@@ -119,18 +122,19 @@ class OtherPlaces {
         RollOffsets offsets;
         const std::uint8_t* own = ratios_.basis[kA4].rolls + ratios_.places[kA4];
         const std::uint8_t* alternative = theirs_.rolls + place;
-        // Of as many lines as the tables have: a number that the compiler knows is done faster.
+        // All lines that the tables have are taken, as loops of a known length are faster.
         for (std::size_t line = 0; line < offsets.size(); ++line)
             offsets[line] = roll_offset(own[line], alternative[line]);
         return offsets;
     }
 
-    /// Those that share no line, lumped together.
+    /// Returns the odds of all places at shifts that share no line, as if all lost as little as the
+    /// best.
     float sharing_none() const {
         return static_cast<float>(theirs_.length * (kSections - 1)) * ratios_.odds(losses_.at_best);
     }
 
-    /// One by one, if lumped together they are too much.
+    /// Adds the places at shifts that share no line, one by one if all together are too much.
     void add_sharing_none() {
         const float all = sharing_none();
         if (all <= kEnough) {
@@ -143,7 +147,7 @@ class OtherPlaces {
         }
     }
 
-    /// A place at all shifts that no line shows.
+    /// Adds a place at all shifts that share no line.
     void add_unshared(std::uint32_t place, const RollOffsets& offsets, int shift_left_out) {
         const auto in_view = std::span(offsets).first(static_cast<std::size_t>(ratios_.count()));
         for (int shift = 0; shift < kSections; ++shift) {
@@ -162,7 +166,7 @@ class OtherPlaces {
     }
 
     void add(std::uint32_t place, const RollOffsets& offsets, int shift_left_out) {
-        // What those lines are worth that are shared at each shift, as bases of the offsets.
+        // The units of the lines that are shared at each shift, by the offset of these lines.
         std::array<std::uint16_t, kSections + 1> shared{};
         std::uint16_t most = 0;
         for (std::size_t line = 0; line < count_; ++line) {
@@ -191,7 +195,7 @@ class OtherPlaces {
         }
     }
 
-    /// A place whose roll of the first line is larger by `shift`.
+    /// Counts a place at which the roll of the first line is larger by `shift`.
     void count(std::uint32_t place, int shift, float odds) {
         result_.elsewhere += odds;
         if (odds <= result_.best) return;
@@ -209,7 +213,8 @@ class OtherPlaces {
     OtherAxis result_;
 };
 
-/// `across`: odds of the other profile by the other axis, as far as they are known.
+/// Returns the odds of the places in profile `other`. `across` are the odds of that profile by the
+/// other axis, as far as they are known.
 OtherAxis weigh(const Kernels& kernels, const LikelihoodRatios& ratios, const Losses& losses,
                 Profile read, Profile other, float across) {
     OtherPlaces others(ratios, losses, read, other);
@@ -217,7 +222,7 @@ OtherAxis weigh(const Kernels& kernels, const LikelihoodRatios& ratios, const Lo
         return others.result();
     }
     others.add_unsimilar();
-    // Digits as they were read, looked for where the other profile has them.
+    // The digits as they were read are looked for in the sequence of the other profile.
     code::Secondary a4 = code::basis(other)[kA4];
     a4.digits = ratios.basis[kA4].digits;
     const PlaceBits similar =
@@ -248,7 +253,7 @@ void weigh_other_codes(const Kernels& kernels, const LikelihoodRatios& ratios, P
         const auto other = static_cast<Profile>(i);
         if (other == read) continue;
         auto& [x, y] = others.of[i];
-        // The columns come first.
+        // Columns are weighed first.
         const float across = axis == Axis::x ? 1 : x.here + x.elsewhere;
         (axis == Axis::x ? x : y) = weigh(kernels, ratios, losses, read, other, across);
     }

@@ -1,5 +1,5 @@
-// Other codes: which places of the other profiles explain an axis as well as the one that was read?
-// Profiles share all sequences but a4, so these are the places that differ from it in a4 alone.
+// Other codes: which places of the other profiles explain an axis as well as the one that was read.
+// Profiles share all sequences but a4, so these are places that differ from it in a4 alone.
 // docs/integrity.md derives the sums.
 #pragma once
 
@@ -9,11 +9,12 @@
 
 namespace dotpose::core {
 
-/// Odds of the places in the profile `other`, against the reading of `ratios` in `read`.
+/// Returns the odds of the places in the profile `other`, against the reading of `ratios` in
+/// `read`.
 OtherAxis weigh_other_code(const Kernels& kernels, const LikelihoodRatios& ratios, Profile read,
                            Profile other);
 
-/// The same in all other profiles.
+/// Sets the odds of the places in all other profiles.
 void weigh_other_codes(const Kernels& kernels, const LikelihoodRatios& ratios, Profile read,
                        Axis axis, OtherCodes& others);
 

@@ -1,4 +1,4 @@
-// Odds of bits and of alternatives against sums in double precision.
+// Odds of alternatives compared with sums in double precision.
 #include "core/integrity/alternatives.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 42;
 
-/// log2 of the alternatives' odds for error-free windows of some columns and 12 rows.
+/// Returns log2 of the alternatives' odds for an error-free window of 12 rows.
 int alternatives_of_window(Profile profile, const Place& place, int columns, int odds_q8) {
     constexpr int kRows = 12;
     OwnedGrid owned(std::max(columns, kRows));
@@ -36,7 +36,7 @@ int alternatives_of_window(Profile profile, const Place& place, int columns, int
     reading.position = place.cell.x;
     reading.roll = static_cast<std::uint8_t>(
         (roll(profile, place.cell.x) + place.section.u + static_cast<int>(place.cell.y % 63)) % 63);
-    // The line agrees wholly with the roll that the code has there.
+    // All bits of the line agree with the roll that the code has there.
     EXPECT_EQ(lines[0][reading.roll], 127 * kRows);
     return alternatives_log2(profile, LikelihoodRatios(profile, lines, reading, odds_q8));
 }
@@ -53,10 +53,10 @@ TEST(Alternatives, GetFewerWithEveryColumn) {
             ASSERT_LT(log2, before) << columns << " columns, window " << i << ", seed " << kSeed;
             before = log2;
         }
-        // Positions that share five of 17 lines differ in twelve, by two of twelve bits at least:
-        // 2^-120 but for their number, 2^29; what is left is a floor of negligible ones.
+        // Positions that share five of 17 lines differ in twelve, by at least two of twelve bits:
+        // that makes 2^-120 times their number, 2^29. What is left is the floor of negligible odds.
         EXPECT_LE(before, -40);
-        // Stronger odds exclude more.
+        // Better odds per bit leave less for alternatives.
         EXPECT_LT(alternatives_of_window(profile, place, 8, 2 * kOdds_q8),
                   alternatives_of_window(profile, place, 8, kOdds_q8));
     }
@@ -73,9 +73,9 @@ TEST(Alternatives, FewLinesExcludeNone) {
 
 using Odds = std::array<float, kSections>;
 
-/// Sum over all alternatives of the odds that two lines give them, every digit in every sequence
-/// that differs one by one, for a reading whose first line stands at `position`. `factor` for the
-/// step between the lines.
+/// Returns the sum, over all alternatives, of the odds that two lines give them, with every digit
+/// in every sequence that differs one by one, for a reading whose first line is at `position`.
+/// `factor` is that of the step between the lines.
 double two_lines(std::uint32_t position, const Odds& first, const Odds& second, double factor) {
     constexpr std::array<int, 4> kBases{3, 3, 2, 3};
     const auto texts = code_test::secondary_texts(Profile::anoto);
@@ -91,7 +91,7 @@ double two_lines(std::uint32_t position, const Odds& first, const Odds& second, 
         if (sequences < 2) continue;
         int cases = 0;
         double sum = 0;
-        // Digits of the alternative, packed: 3 x 3 x 2 x 3.
+        // The digits of the alternative are packed into one number: 3 x 3 x 2 x 3.
         for (int alternative = 0; alternative < 54; ++alternative) {
             int difference = 0;
             bool counts = true;
@@ -132,7 +132,8 @@ TEST(ExpectedAlternatives, OfOneLineAreAllInProportion) {
     Odds odds{};
     odds[0] = 1;
     odds[17] = 0.25F;
-    // All that differ in two or more sequences: (1 + a1) ... (1 + a4) but for none and single ones.
+    // The alternatives that differ in two or more sequences: (1 + a1) ... (1 + a4) without none and
+    // single ones.
     const double alternatives = 237.0 * 234 * 32 * 242 - 1 - (236 + 233 + 31 + 241);
     EXPECT_NEAR(static_cast<double>(sum_of(7, 4, {odds})) / (1.25 * alternatives), 1, 1e-5);
 }
@@ -158,7 +159,7 @@ TEST(ExpectedAlternatives, OfTwoLinesAreThoseOfEveryPairOfDigits) {
 }
 
 TEST(ExpectedAlternatives, EachDifferenceHasItsOwnShare) {
-    // One shift in either line: what is left is the share of one difference.
+    // Each line has odds at one shift only, so that the sum is the share of one difference.
     for (const int from : {0, 5, 62}) {
         for (int to = 0; to < 63; ++to) {
             Odds first{};

@@ -1,4 +1,4 @@
-// The claim of the first and tracked attempts against sums over all alternatives in double
+// The claim of the first and tracked attempts compared with sums over all alternatives in double
 // precision.
 #include "core/integrity/certainty.hpp"
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 79;
 
-/// Bits of a block of the code from `place` on: 1, 0, or -1 for one that was not read.
+/// Bits of a block of the code from `place` on: 1, 0, or -1 for a bit that was not read.
 struct Block {
     Profile profile;
     Place place;
@@ -58,7 +58,7 @@ struct Verdict {
     Fix fix;
 };
 
-/// Judges the bits as those of `claimed`.
+/// Judges the bits as those of a block at `claimed`.
 Verdict judge(const Block& block, const Place& claimed, const IntegrityOptions& options = {}) {
     core::BitBlock words;
     core::Evidence evidence;
@@ -90,7 +90,7 @@ Verdict judge(const Block& block, const Place& claimed, const IntegrityOptions& 
     return verdict;
 }
 
-/// How many bits of an axis contradict a position whose lines have these rolls.
+/// Returns how many bits of an axis contradict a position whose lines have these rolls.
 int contradictions(const Block& block, bool is_x, const std::vector<int>& rolls) {
     int wrong = 0;
     for (int row = 0; row < block.rows; ++row) {
@@ -108,8 +108,8 @@ int contradictions(const Block& block, bool is_x, const std::vector<int>& rolls)
     return wrong;
 }
 
-/// Rolls of the lines of an axis, in which one sequence stands `further` digits ahead of where the
-/// position has it, and all rolls are `shift` larger.
+/// Returns the rolls of the lines of an axis, if one sequence is `further` digits ahead of where
+/// the position has it and all rolls are larger by `shift`.
 std::vector<int> rolls_of(const Block& block, bool is_x, std::size_t sequence, int further,
                           int shift) {
     const Place& p = block.place;
@@ -131,8 +131,8 @@ std::vector<int> rolls_of(const Block& block, bool is_x, std::size_t sequence, i
     return rolls;
 }
 
-/// log2 of the odds of all alternatives that differ in one sequence and share a line, and of other
-/// sections, and of chance, for both axes, at the odds by which the claim counts them.
+/// Returns log2 of the summed odds, for both axes, of all alternatives that differ in one sequence
+/// and share a line, of other sections and of chance, at the odds per bit that the claim uses.
 double exact_log2(const Block& block) {
     double sum = 0;
     core::Confidence both;
@@ -148,7 +148,7 @@ double exact_log2(const Block& block) {
     const double odds_per_bit = core::odds_per_bit_q8(both) / 256.0;
     for (const bool is_x : {true, false}) {
         const int own_wrong = errors[is_x ? 0 : 1];
-        // What chance does can be no less probable than the sum over the binomial distribution.
+        // Chance cannot be less probable than the sum over the binomial distribution.
         sum += std::exp2(
             static_cast<double>(exact_chance_log2(read)[static_cast<std::size_t>(own_wrong)]));
         const auto texts = code_test::secondary_texts(block.profile);
@@ -216,8 +216,8 @@ TEST(IsCertain, AcceptsWhatIsClearlyRead) {
     }
 }
 
-/// Bits between two alternatives: where their columns differ, half of the bits that tell them apart
-/// are as the alternative has them, so that both explain the view equally.
+/// Returns bits between two alternatives: in columns in which they differ, half of the bits that
+/// tell them apart are those of the alternative, so that both explain the view equally well.
 Block between(const Block& block, const std::vector<int>& own,
               const std::vector<int>& alternative) {
     Block mixed = block;
@@ -244,7 +244,7 @@ TEST(IsCertain, RefusesWhatAnAlternativeExplainsAsWell) {
         const Block block = cut_block(code_test::kProfiles[static_cast<std::size_t>(i % 3)],
                                       any_place(rng), 11, 12);
         const auto own = rolls_of(block, true, 0, 0, 0);
-        // The alternative that tells itself apart by the fewest bits.
+        // The worst alternative is the one that differs in the fewest bits.
         std::vector<int> worst;
         int fewest = INT32_MAX;
         const auto texts = code_test::secondary_texts(block.profile);
@@ -263,7 +263,7 @@ TEST(IsCertain, RefusesWhatAnAlternativeExplainsAsWell) {
         }
         ASSERT_FALSE(worst.empty());
         IntegrityOptions options;
-        // Errors are not what it is refused for.
+        // The number of errors alone must not be the reason for a refusal.
         options.max_bit_error_q8 = 256;
         without_errors += judge(block, block.place, options).is_certain;
         EXPECT_FALSE(judge(between(block, own, worst), block.place, options).is_certain);
@@ -271,7 +271,7 @@ TEST(IsCertain, RefusesWhatAnAlternativeExplainsAsWell) {
     EXPECT_GE(without_errors, 20);
 }
 
-/// What the bits alone say of them, as those of `claimed`.
+/// Judges the bits alone, as those of a block at `claimed`.
 Verdict judge_plainly(const Block& block, const Place& claimed,
                       const IntegrityOptions& options = {}) {
     Block there = block;
@@ -288,7 +288,7 @@ Verdict judge_plainly(const Block& block, const Place& claimed,
         confidences[axis].add(127, true, wrong);
         confidences[axis].add(127, false, static_cast<int>(read) - wrong);
     }
-    // The middle of the block of cells, which cell (0, 0) is.
+    // Cell (0, 0) is in the middle of the block.
     const int first_column = -block.columns / 2;
     const int first_row = -block.rows / 2;
     for (int row = 0; row < block.rows; ++row) {
@@ -421,7 +421,7 @@ TEST(IsCertain, RefusesTwoPatternsWhateverTheLimit) {
     }
 }
 
-/// What `verify` says of the same bits.
+/// Returns what `verify` says of the same bits.
 Verdict verify_block(const Block& block, const IntegrityOptions& options) {
     std::vector<GridCell> cells(block.x.size());
     for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -450,7 +450,7 @@ TEST(IsCertain, AgreesWithVerify) {
         const Block block = random_block(rng, i, 0.2, 0.1);
         const Verdict ours = judge(block, block.place);
         if (!ours.is_certain) continue;
-        // What is certain here is so there, but for what roundings make of it.
+        // What is certain here is certain there, apart from roundings.
         IntegrityOptions options;
         options.max_p_wrong_log2 = -28;
         const Verdict theirs = verify_block(block, options);

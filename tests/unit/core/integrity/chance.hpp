@@ -1,4 +1,4 @@
-// What chance does, summed exactly.
+// The probability of chance, summed exactly.
 #pragma once
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 
 namespace dotpose::core_test {
 
-/// log2((L * 63 * 4) * P(Binomial(n, 1/2) <= e)) for e = 0 to n, the sum of the binomial
-/// coefficients scaled by a power of two.
+/// Returns log2((L * 63 * 4) * P(Binomial(n, 1/2) <= e)) for e = 0 to n. The sum of the binomial
+/// coefficients is scaled by a power of two.
 inline std::vector<long double> exact_chance_log2(int n) {
     const long double hypotheses = std::log2(410815348.0L * 63 * 4);
     std::vector<long double> result;

@@ -1,4 +1,4 @@
-// Bits beside the code's: against the code as the encoder has it, cell by cell.
+// Coded blocks compared with what the encoder has, cell by cell.
 #include "core/integrity/coded_block.hpp"
 
 #include <bit>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 4021;
 
-/// What is seen around cell (0, 0) at a place of the code: columns and rows from some on.
+/// What is seen around cell (0, 0) at a place of the code: columns and rows from kFirst on.
 struct Seen {
     static constexpr int kFirst = -20;
     static constexpr int kCount = 41;
@@ -70,7 +70,7 @@ TEST(CodedBlock, HasTheCodesBitsInTheMiddleAndWhichAreWrong) {
         const core::CodedBlock coded(Profile::anoto, place, seen.view, seen.block);
         const core::AxisBits x = coded.axis(core::Axis::x, {});
         const core::AxisBits y = coded.axis(core::Axis::y, {});
-        // 32 cells of a line at most, from -16 on.
+        // A line has at most 32 cells, from -16 on.
         ASSERT_EQ(x.lines.size(), 16U);
         ASSERT_EQ(y.lines.size(), 32U);
         EXPECT_EQ(x.reading.position, moved(Profile::anoto, place, -7, 0).cell.x);

@@ -55,8 +55,8 @@ TEST(OddsPerBit, AreThoseAtWhichTwoMoreAreExpectedWrongThanWere) {
             SCOPED_TRACE(testing::Message() << wrong << " wrong of " << bits);
             // The share of wrong bits is 1 / (1 + odds).
             const double expected = std::log2(bits / (wrong + 2.0) - 1);
-            // Weights are known in steps of 8 and the exponential to 2 %: 0.1 of a power of two in
-            // all, and 3 % of the exponent for the middle of the heaviest step.
+            // Weights are known in steps of 8 and the exponential to 2 %. That allows 0.1 of a
+            // power of two in all, and 3 % of the exponent for the middle of the heaviest step.
             EXPECT_NEAR(odds_per_bit_q8(confidence(bits, 127, wrong)) / 256.0, expected,
                         0.1 + 0.03 * expected);
         }
@@ -64,7 +64,7 @@ TEST(OddsPerBit, AreThoseAtWhichTwoMoreAreExpectedWrongThanWere) {
 }
 
 TEST(OddsPerBit, GrowWithTheWeightOfWhatIsRight) {
-    // Weak bits that are right say more about full ones, in proportion.
+    // If weak bits are right, full bits are even surer, in proportion to their weight.
     const double full = odds_per_bit_q8(confidence(1000, 124, 50));
     const double half = odds_per_bit_q8(confidence(1000, 60, 50));
     EXPECT_GT(half, 1.7 * full);
@@ -83,7 +83,7 @@ TEST(OddsPerBit, FallWithTheWrongWeight) {
     const auto odds_of = [](int wrong) { return odds_per_bit_q8(confidence(400, 127, wrong)); };
     for (int wrong = 0; wrong < 400; ++wrong) {
         ASSERT_LE(odds_of(wrong + 1), odds_of(wrong)) << wrong;
-        // They are told to 2^-5, and fall by at least 2^-6 per bit up to here.
+        // Odds are computed to 2^-5, and fall by at least 2^-6 per bit up to here.
         if (wrong < 150) {
             ASSERT_LT(odds_of(wrong + 3), odds_of(wrong)) << wrong;
         }
@@ -108,8 +108,9 @@ TEST(Chance, ChanceIsBoundedFromAboveAndNotFarOff) {
             const int bound = chance_log2(bits, odds);
             ASSERT_GE(bound, std::min(exact[static_cast<std::size_t>(e)], 37.0L) - 1e-9L);
             if (2 * e > n) continue;
-            // Chernoff's bound gives a factor of up to sqrt(8 n p q) away; odds for two errors more
-            // than there were, up to (e + 2) log2((e + 2) / e) or so; the rounding 2 and n / 2^6.
+            // The slack: Chernoff's bound is off by a factor of up to sqrt(8 n p q), odds for two
+            // errors more than there were by up to about (e + 2) log2((e + 2) / e), and rounding by
+            // 2 and n / 2^6.
             const double slack = 0.5 * std::log2(8.0 * n) + 10 + n / 64.0;
             ASSERT_LE(bound, exact[static_cast<std::size_t>(e)] + slack);
         }
@@ -137,7 +138,7 @@ TEST(Chance, InFineStepsOfThreeTimesAsManyHypothesesIsABoundToo) {
 }
 
 TEST(Chance, EachBitThatAgreesHasItsFactor) {
-    // So many bits that the sum tells the logarithm of one factor, (1 + 2^-y) / 2, to 2^-20.
+    // With so many bits the sum gives the logarithm of one factor, (1 + 2^-y) / 2, to 2^-20.
     constexpr int kDoublings = 20;
     for (const int weight : {4, 12, 60, 124}) {
         Confidence bits = confidence(1, weight, 0);
@@ -148,7 +149,7 @@ TEST(Chance, EachBitThatAgreesHasItsFactor) {
             const double exact = std::log2(1 + std::exp2(-y)) - 1;
             const double found = std::ldexp(chance_log2(bits, odds_q8) - 37, -kDoublings);
             ASSERT_GE(found, exact - 1e-6) << weight << " at " << odds_q8;
-            // y is rounded down to 2^-8, where the slope is 1/2 at most; a chord over half a unit
+            // y is rounded down to 2^-8, where the slope is at most 1/2; a chord over half a unit
             // is 0.173 / 2^5 above the curve.
             ASSERT_LE(found, exact + 0.002 + 0.0055) << weight << " at " << odds_q8;
         }
@@ -156,7 +157,7 @@ TEST(Chance, EachBitThatAgreesHasItsFactor) {
 }
 
 TEST(Chance, EachBitThatContradictsHasItsFactor) {
-    // 2^y more than one that agrees.
+    // A bit that contradicts has 2^y times the factor of one that agrees.
     constexpr int kBits = 1 << 12;
     for (const int weight : {12, 60, 124}) {
         const Confidence agree = confidence(kBits, weight, 0);
@@ -164,9 +165,9 @@ TEST(Chance, EachBitThatContradictsHasItsFactor) {
         for (int odds_q8 = 256; odds_q8 <= 4 * 256; odds_q8 += 64) {
             const int before = chance_log2(agree, odds_q8);
             const int after = chance_log2(contradict, odds_q8);
-            if (after > 30) continue;  // more than certainty is not told
+            if (after > 30) continue;  // chance above certainty is cut off
             const double y = odds_q8 / 256.0 * weight / 127;
-            // y in steps of 2^-8; both are whole numbers.
+            // y is in steps of 2^-8, and both results are whole numbers.
             EXPECT_NEAR(after - before, y * kBits / 16, kBits / 16 / 256.0 + 1.01)
                 << weight << " at " << odds_q8;
         }
@@ -174,7 +175,7 @@ TEST(Chance, EachBitThatContradictsHasItsFactor) {
 }
 
 TEST(Chance, WeakBitsThatContradictSayLittle) {
-    // 200 full bits that agree; of 50 weak ones half contradict, which is what says least.
+    // 200 full bits agree; of 50 weak ones half contradict, which says least.
     const auto chance_with_weak = [](int weight) {
         Confidence bits;
         for (int i = 0; i < 200; ++i)
@@ -185,12 +186,13 @@ TEST(Chance, WeakBitsThatContradictSayLittle) {
     };
     EXPECT_LT(chance_with_weak(5), chance_with_weak(60) - 20);
     EXPECT_LT(chance_with_weak(60), chance_with_weak(127) - 20);
-    // By chance alone: 200 fair coins.
+    // 200 fair coins give this by chance alone.
     EXPECT_GE(chance_with_weak(5), 37 - 200);
 }
 
 TEST(Chance, ChanceHoldsForRandomBits) {
-    // How often do random bits of random weights agree as well as 2^-k claims, with one hypothesis?
+    // Counts how often random bits of random weights agree as well as 2^-8 claims, for one
+    // hypothesis.
     Rng rng(kSeed);
     constexpr int kTrials = 200'000;
     int beyond = 0;
@@ -198,7 +200,7 @@ TEST(Chance, ChanceHoldsForRandomBits) {
         Confidence bits;
         for (int i = 0; i < 20; ++i)
             bits.add(static_cast<int>(rng.below(128)), rng.below(2) == 0);
-        // Eight bits below 37 hypotheses' worth: 2^-8, so at most 781 of the trials.
+        // 8 below the 2^37 hypotheses is a claim of 2^-8, so at most 781 of the trials may be.
         beyond += chance_log2(bits, odds_per_bit_q8(bits)) <= 37 - 8;
     }
     EXPECT_LE(beyond, kTrials / 256 + 100);

@@ -1,4 +1,4 @@
-// Double alternatives against a sum over all of them in double precision.
+// Double alternatives compared with a sum over all of them in double precision.
 #include "core/integrity/double_alternatives.hpp"
 
 #include <gtest/gtest.h>
@@ -16,10 +16,10 @@ using namespace core;
 constexpr std::uint64_t kSeed = 46;
 constexpr int kLines = 9;
 constexpr int kOdds_q8 = 3 * 256;
-/// What is counted in any case.
+/// The odds that are counted in any case.
 constexpr double kFloor = 190'027.0 * 63 * 0x1p-64;
 
-/// Lines that fit a position, with scores of other rolls at random from `least` to `least` + 600.
+/// Lines that fit a position; scores of other rolls are random, from `least` to `least` + 600.
 struct Case {
     Case(Rng& rng, int least) : position(rng.below(kPositionsPerAxis)) {
         lines.all = storage;
@@ -42,7 +42,8 @@ struct Case {
     AxisReading reading;
 };
 
-/// Every pair of places in two sequences, every shift, every line: those that share some line.
+/// Returns the sum over every pair of places in two sequences, at every shift that shares some
+/// line.
 double exact_sum(const Case& c) {
     const auto texts = code_test::secondary_texts(Profile::anoto);
     const int first_roll = roll(Profile::anoto, c.position);
@@ -90,7 +91,7 @@ double exact_sum(const Case& c) {
 
 TEST(DoubleAlternatives, AreSummedOneByOne) {
     Rng rng(kSeed);
-    // The reading's own score is 1000: in the last case others fit some lines better.
+    // The reading's own score is 1000, so in the last case others fit some lines better.
     for (const int least : {-600, -200, 420}) {
         const Case c(rng, least);
         const LikelihoodRatios ratios(Profile::anoto, c.lines, c.reading, kOdds_q8);
@@ -98,14 +99,14 @@ TEST(DoubleAlternatives, AreSummedOneByOne) {
         const double exact = exact_sum(c);
         ASSERT_GT(exact, 1e-12);
         const RankedLines lines(ratios);
-        // So much that all that share two lines or more are looked at, and none is negligible. The
-        // others are counted at their expectation, 32 times for safety.
+        // The limits are such that all pairs that share two lines or more are looked at. The others
+        // are counted at 32 times their expectation.
         const float rest = expected_double_alternatives(lines, kLines)[2];
         const auto sum = static_cast<double>(sum_of_double_alternatives(lines, 0, 64 * rest));
         const double ratio = (sum - kFloor - 31 * static_cast<double>(rest)) / exact;
-        // Exponentials are right to 2 %, and exact only down to whole 2^-8 of a power of two.
+        // Exponentials are right to 2 %, and exact only in whole 2^-8 of a power of two.
         EXPECT_GE(ratio, 0.96) << "least " << least << ", seed " << kSeed;
-        // What shares one line only, or none, is counted at its expectation.
+        // Pairs that share one line or none are counted at their expectation.
         EXPECT_LE(ratio, least == 420 ? 2 : 1.04) << "least " << least << ", seed " << kSeed;
     }
 }

@@ -1,4 +1,5 @@
-// Expected double alternatives against a sum over every digit of every pair, in double precision.
+// Expected double alternatives compared with a sum over every digit of every pair, in double
+// precision.
 #include "core/integrity/expected_double_alternatives.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +15,7 @@ constexpr std::array<int, 4> kBases{3, 3, 2, 3};
 
 using ByAnchors = std::array<double, kFewestFound>;
 
-/// Adds those that differ in two sequences and show these digits there, step by step.
+/// Adds the alternatives that differ in two sequences and have these offsets, step by step.
 void add_alternative(const RatiosCase& c, const RankedLines& lines, int anchors,
                      const std::array<int, kLines>& offsets, double weight, ByAnchors& sums) {
     for (int first = 0; first < 63; ++first) {

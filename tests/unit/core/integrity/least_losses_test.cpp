@@ -1,4 +1,4 @@
-// The least that every alternative loses, against all patterns of shared lines.
+// The least losses compared with all patterns of shared lines.
 #include "core/integrity/least_losses.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 77;
 
-/// Some lines with some bits wrong.
+/// Returns some lines with some wrong bits.
 RatiosCase random_case(int lines, Profile profile, Rng& rng) {
     RatiosCase c = at_random_place(rng, lines);
     while (c.profile != profile)
@@ -21,8 +21,8 @@ RatiosCase random_case(int lines, Profile profile, Rng& rng) {
     return c;
 }
 
-/// The least over all patterns in which a bit stands for a line that is shared: never more than so
-/// many in a row.
+/// Returns the least loss over all patterns of shared lines (a bit each) with at most `most_shared`
+/// of them in a row.
 int least_of_patterns(const std::vector<int>& losses, int most_shared) {
     int least = INT32_MAX;
     for (std::uint32_t shared = 0; shared < 1U << losses.size(); ++shared) {
@@ -40,7 +40,7 @@ int least_of_patterns(const std::vector<int>& losses, int most_shared) {
     return least;
 }
 
-/// What the best other roll of each line loses; winning something back does not count.
+/// Returns what the best other roll of each line loses; a gain counts as 0.
 std::vector<int> losses_of(const RatiosCase& c) {
     std::vector<int> losses;
     for (std::size_t line = 0; line < c.rolls.size(); ++line) {

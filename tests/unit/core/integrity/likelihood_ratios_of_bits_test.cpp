@@ -1,4 +1,4 @@
-// A ratios of bits that are all equally sure is that of weights of 127.
+// Ratios of bits that are all equally sure compared with those of weights of 127.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -102,10 +102,9 @@ TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanThereIs) {
     for (int round = 0; round < 200; ++round) {
         Columns columns(rng);
         const int estimate_q8 = quick_alternatives_log2_q8(columns.of_bits());
-        // Counted one by one, and then rounded up to a power of two, several times.
+        // The exact sum counts one by one and is rounded up to a power of two, several times.
         const int counted = alternatives_log2(Profile::anoto, columns.of_weights());
-        // Who has hardly any odds is counted with 2^-64 there, 12,597 alternatives with 2^-50 in
-        // all.
+        // The exact sum counts negligible odds as 2^-64; for 12,597 alternatives that makes 2^-50.
         if (counted > -49) {
             EXPECT_GE(estimate_q8, 256 * (counted - 2));
         }
@@ -114,7 +113,7 @@ TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanThereIs) {
     EXPECT_GT(settled, 80);
 }
 
-/// All that differ in one sequence, one by one.
+/// Returns the odds of all alternatives that differ in one sequence, one by one.
 double single_odds(const LikelihoodRatios& ratios) {
     double sum = 0;
     for (std::size_t k = 0; k < ratios.basis.size(); ++k) {
@@ -135,7 +134,7 @@ double single_odds(const LikelihoodRatios& ratios) {
     return sum;
 }
 
-/// Whether tables tell it or a close look.
+/// Holds whether tables settle it or a closer look does.
 TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanAllSingleAlternatives) {
     Rng rng(12);
     int told = 0;
@@ -153,8 +152,8 @@ TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanAllSingleAlternatives) {
     EXPECT_GT(told, 100);
 }
 
-/// The expected odds of one set of far alternatives (docs/integrity.md, the quick estimate), in
-/// double precision: those that share the lines from one on, and all others together.
+/// Returns the expected odds of one set of far alternatives (docs/integrity.md, the quick estimate)
+/// in double precision: those that share the lines from one on, and all others together.
 double far_odds(const LikelihoodRatios& ratios, const AlternativeSet& set) {
     const auto power = [](int log2_q8) { return std::exp2(log2_q8 / 256.0); };
     const double equal = power(set.equal_q8 + kUnevenness_q8);
@@ -177,8 +176,8 @@ double far_odds(const LikelihoodRatios& ratios, const AlternativeSet& set) {
     return sum * power(set.alternatives_q8);
 }
 
-/// However doubtful the reading, and whatever the limit. Of so few lines the other sets have about
-/// as much as the first.
+/// Holds however doubtful the reading is, and whatever the limit. With so few lines the other sets
+/// have about as much as the first.
 TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanAllSetsOfFarAlternatives) {
     Rng rng(11);
     int doubtful = 0;
@@ -203,7 +202,7 @@ TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanAllSetsOfFarAlternatives) {
     EXPECT_GT(doubtful, 100);
 }
 
-/// Every alternative loses what the table says.
+/// Every alternative loses at least what the table says.
 TEST(UnsharedLines, AreNotSharedByAnyAlternative) {
     Rng rng(10);
     int known = 0;

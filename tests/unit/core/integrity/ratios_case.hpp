@@ -1,4 +1,4 @@
-// Lines as they are read, for the tests of what is counted of alternatives.
+// Lines as they are read, for tests of sums over alternatives.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace dotpose::core_test {
 
 using namespace core;
 
-/// Lines of the code from some position, read with some odds.
+/// Lines of the code from some position on, read with some odds.
 struct RatiosCase {
     Profile profile;
     std::uint32_t position;
@@ -28,8 +28,8 @@ struct RatiosCase {
     LikelihoodRatios ratios() const { return {profile, lines(), reading(), odds_q8}; }
 };
 
-/// A line of `bits` bits of the main sequence, `wrong` of which are flipped, with weights up to
-/// `most`.
+/// Returns a line of `bits` bits of the main sequence with weights up to `most`; a share `wrong` of
+/// the bits is flipped.
 inline ScoredLine scored_line(int roll, int bits, double wrong, int most, Rng& rng) {
     std::vector<std::int8_t> weights;
     for (int i = 0; i < bits; ++i) {
@@ -45,7 +45,7 @@ inline ScoredLine scored_line(int roll, int bits, double wrong, int most, Rng& r
     return line;
 }
 
-/// Without its lines.
+/// Returns the rolls of lines at a random place; the lines are still to be added.
 inline RatiosCase at_random_place(Rng& rng, int lines) {
     RatiosCase c;
     c.profile = code_test::kProfiles[rng.below(3)];
@@ -60,7 +60,7 @@ inline RatiosCase at_random_place(Rng& rng, int lines) {
     return c;
 }
 
-/// Some lines of 6 to 11 bits, a tenth of them wrong.
+/// Returns lines of 6 to 11 bits, a tenth of them wrong.
 inline RatiosCase read_at_random(Rng& rng, int lines) {
     RatiosCase c = at_random_place(rng, lines);
     c.odds_q8 = 3 * 256;
@@ -69,7 +69,7 @@ inline RatiosCase read_at_random(Rng& rng, int lines) {
     return c;
 }
 
-/// Which place of each sequence a position has.
+/// The place that a position has in each sequence.
 using PlacesOfAlternative = std::array<std::uint32_t, 4>;
 
 inline PlacesOfAlternative own_places(const RatiosCase& c) {
@@ -80,7 +80,7 @@ inline PlacesOfAlternative own_places(const RatiosCase& c) {
     return places;
 }
 
-/// Rolls of the lines from these places on, the line `shared` as the reading has it.
+/// Returns the rolls of the lines from these places on, where line `shared` has the reading's roll.
 inline std::vector<int> rolls_from(const RatiosCase& c, const PlacesOfAlternative& places,
                                    std::size_t shared) {
     const auto texts = code_test::secondary_texts(c.profile);
@@ -98,7 +98,8 @@ inline std::vector<int> rolls_from(const RatiosCase& c, const PlacesOfAlternativ
     return rolls;
 }
 
-/// Odds of a position with these rolls against the one read, and of none less than negligible.
+/// Returns the odds of a position with these rolls against the one read, at least the negligible
+/// odds.
 inline double odds_of_rolls(const RatiosCase& c, const std::vector<int>& rolls) {
     double lost = 0;
     for (std::size_t line = 0; line < rolls.size(); ++line) {
@@ -109,7 +110,7 @@ inline double odds_of_rolls(const RatiosCase& c, const std::vector<int>& rolls) 
     return std::max(std::exp2(-lost * c.odds_q8 / 256 / 254), 0x1p-64);
 }
 
-/// The first line of which both have the same roll.
+/// Returns the first line in which both have the same roll.
 inline std::size_t first_shared(const RatiosCase& c, const std::vector<int>& rolls) {
     std::size_t line = 0;
     while (line < rolls.size() && rolls[line] != c.rolls[line])

@@ -1,4 +1,4 @@
-// Seam alternatives against a sum over all places, borders and shifts in double precision.
+// Seam alternatives compared with a sum over all places, borders and shifts in double precision.
 #include "core/integrity/seam_alternatives.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ constexpr std::uint64_t kSeed = 57;
 constexpr double kSeamLog2 = -32;
 constexpr double kLeastLog2 = -8;
 
-/// A place in a sequence, by the shift that it gives each line over that of the reading.
+/// A place in a sequence, and by how much its roll in each line exceeds that of the reading.
 struct Alternative {
     std::size_t sequence;
     std::size_t place;
@@ -47,8 +47,8 @@ std::vector<Alternative> all_alternatives(const RatiosCase& c) {
     return alternatives;
 }
 
-/// What an alternative loses in the lines [first, end) at the best shift at which it shares any in
-/// view.
+/// Returns the least loss of an alternative in the lines [first, end), over the shifts at which it
+/// shares any line in view.
 double least_loss(const RatiosCase& c, const Alternative& alternative, std::size_t first,
                   std::size_t end) {
     double least = std::numeric_limits<double>::infinity();
@@ -70,14 +70,14 @@ struct Sum {
     int terms = 0;
 };
 
-/// Over all alternatives and borders whose odds are not too small to count.
+/// Returns the sum over all alternatives and borders whose odds are not too small to count.
 Sum sum_of_all(const RatiosCase& c) {
     Sum sum;
     for (const Alternative& alternative : all_alternatives(c)) {
         for (std::size_t border = 1; border < c.rolls.size(); ++border) {
             const double lost = least_loss(c, alternative, 0, border) +
                                 least_loss(c, alternative, border, c.rolls.size());
-            // A score is twice the weight that changes sides.
+            // A lost score is twice the weight that changes sides.
             const double odds = -lost / 2 / 127 * c.odds_q8 / 256;
             if (odds <= kLeastLog2) continue;
             sum.odds += std::exp2(odds + kSeamLog2);
@@ -87,7 +87,7 @@ Sum sum_of_all(const RatiosCase& c) {
     return sum;
 }
 
-/// As many clear lines of 10 to 16 bits.
+/// Returns clear lines of 10 to 16 bits.
 RatiosCase clear_lines(Rng& rng, int lines) {
     RatiosCase c = at_random_place(rng, lines);
     for (const int own : c.rolls)
@@ -111,7 +111,7 @@ TEST(SeamAlternatives, AreAllThatExplainTheLinesAboutAsWell) {
             c.storage.push_back(scored_line(shown, bits, wrong, 127, rng));
         }
         c.odds_q8 = static_cast<int>(256 * rng.uniform(2, 8));
-        // Odds at the limit are counted or not, as they are rounded.
+        // Odds near the limit may be counted or not, as they are rounded.
         const double limit = std::exp2(kSeamLog2 + kLeastLog2);
         const double counted = std::exp2(seam_alternatives_log2_q8(c.ratios()) / 256.0);
         const Sum sum = sum_of_all(c);
@@ -126,7 +126,7 @@ TEST(SeamAlternatives, AreAllThatExplainTheLinesAboutAsWell) {
 }
 
 TEST(SeamAlternatives, ASeamExplainsTenLinesAsWell) {
-    // Four steps, one at which the digits differ, and four steps.
+    // The lines have four steps, one at which the digits differ, and four more steps.
     constexpr std::size_t kLines = 10;
     constexpr std::size_t kBorder = 5;
     Rng rng(kSeed);
@@ -160,7 +160,7 @@ TEST(SeamAlternatives, NoneExplainsManyClearLines) {
 }
 
 TEST(SeamAlternatives, WhatTheLinesShowBetterIsDoubt) {
-    // Five lines on either side of the border are shared, and in one more the frame shows the
+    // Five lines on either side of the border are shared; in one more line the frame shows the
     // alternative.
     Rng rng(kSeed);
     int shown = 0;

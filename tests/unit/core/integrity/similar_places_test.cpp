@@ -1,5 +1,5 @@
-// Alternatives told apart by their digits: one place at a time against the definition, and many at
-// a time.
+// Similar places of alternatives: one place at a time compared with the definition, and many at a
+// time.
 #include "core/integrity/similar_places.hpp"
 
 #include <algorithm>
@@ -24,13 +24,13 @@ RatiosCase random_case(Rng& rng) {
     return c;
 }
 
-/// Whether the place, at the first step, loses less than enough.
+/// Returns whether a place, at the first step, loses less than enough.
 bool is_similar(const code::Secondary& a, std::uint32_t own, std::uint32_t place,
                 const Steps& steps) {
     if (place == own) return false;
     if (!steps.tell_apart) return true;
     unsigned lost = 0;
-    bool is_counted = false;  // the step before
+    bool is_counted = false;  // whether the step before counted
     for (int step = 0; step < steps.count; ++step) {
         const auto i = static_cast<std::uint32_t>(step);
         const unsigned parts = steps.losses[i];

@@ -46,7 +46,7 @@ TEST(Verify, CountsEveryBitThatContradicts) {
         IntegrityOptions any;
         any.max_p_wrong_log2 = 0;
         Verdict quick_before = judge(reading, any, verify_quickly);
-        // Flip x bits of the grid, one after the other.
+        // The x bits of the grid are flipped one after the other.
         int flipped = 0;
         for (GridCell& cell : reading.owned.cells) {
             if (cell.dot == GridCell::kNoDot || flipped == bits / 4) continue;
@@ -54,11 +54,11 @@ TEST(Verify, CountsEveryBitThatContradicts) {
             ++flipped;
             const Verdict now = judge(reading);
             ASSERT_EQ(now.fix.bit_errors, flipped);
-            // More contradictions never make it more certain, but for the closer look that doubt
-            // brings.
+            // More contradictions never make a position more certain, unless doubt leads to a
+            // closer look.
             const Verdict quick = judge(reading, any, verify_quickly);
             ASSERT_EQ(quick.fix.bit_errors, flipped);
-            // Below 2^-36 on either axis a quick look is coarse; both are rounded.
+            // Below 2^-36 on either axis the quick estimate is coarse, and both are rounded.
             constexpr int kCoarse = -34;
             ASSERT_GE(std::max(quick.fix.p_wrong_log2, kCoarse),
                       std::max(quick_before.fix.p_wrong_log2, kCoarse) - 1);
@@ -67,7 +67,7 @@ TEST(Verify, CountsEveryBitThatContradicts) {
             ASSERT_GE(now.fix.p_wrong_log2, std::min(chance, 0.0L));
             before = now;
         }
-        // A quarter of the bits of an axis is what a second pattern in view gives.
+        // A second pattern in view contradicts a quarter of the bits of an axis.
         EXPECT_EQ(before.status, Status::not_certain);
     }
 }
@@ -140,7 +140,8 @@ TEST(Verify, LinesThatAreScoredAreNotScoredAgain) {
         Fix fix;
         EXPECT_EQ(verify(reading.grid(), Profile::anoto, found, {}, storage, fix), Status::ok);
         EXPECT_EQ(fix.p_wrong_log2, fresh.fix.p_wrong_log2);
-        // It is the storage that speaks: lines that agree with every roll exclude none.
+        // The result depends on the scores in the storage: lines that agree with every roll exclude
+        // none.
         storage.fill({});
         EXPECT_EQ(verify(reading.grid(), Profile::anoto, found, {}, storage, fix),
                   Status::not_certain);
@@ -175,8 +176,8 @@ TEST(Verify, TellsWhichAxisIsBeyondDoubt) {
         const Turn turn{i % 4};
         Reading reading(random_view(rng), turn);
         const Axis clear = i / 4 % 2 == 0 ? Axis::x : Axis::y;
-        // Of the other axis only a few bits are left. A grid that was found sideways has them in
-        // its own other bit.
+        // Only a few bits of the other axis are left. In a grid that was found sideways these are
+        // the other bits of its cells.
         const bool is_y_lost = (clear == Axis::x) == (turn.quarters % 2 == 0);
         int kept = 30;
         for (GridCell& cell : reading.owned.cells) {
@@ -203,8 +204,8 @@ TEST(Verify, PlacesShareALineIfTheCodeSaysSo) {
         Place b = random_place(rng);
         if (i % 2 == 0) b.cell.x = a.cell.x;
         if (i % 4 == 0) b.section.u = a.section.u;
-        // The bits of x down the column of a place; no two rolls of the sequence look alike for so
-        // long.
+        // The x bits down the column of a place are compared; no two rolls of the sequence are
+        // equal for so long.
         bool is_alike = a.cell.x == b.cell.x;
         for (int j = 0; j < 63; ++j) {
             const auto bit = [&](const Place& place) {
@@ -218,8 +219,8 @@ TEST(Verify, PlacesShareALineIfTheCodeSaysSo) {
     }
 }
 
-/// Views with a fair share of what goes wrong: small ones, missing dots, dots that are off their
-/// place, and dots that show another symbol.
+/// Returns a view with much that goes wrong: it is small, dots are missing or off their place, or
+/// show another symbol.
 Reading troubled(Rng& rng, int turn) {
     View view = random_view(rng);
     view.profile = kProfiles[static_cast<std::size_t>(rng.below(3))];
@@ -239,7 +240,7 @@ Reading troubled(Rng& rng, int turn) {
     return Reading(view, Turn{turn}, dots);
 }
 
-/// Chance and all alternatives of both axes, looked at closely.
+/// Returns the probability of chance and of all alternatives of both axes, by the exact sums.
 double exact_p_wrong(const Reading& reading) {
     const Decoding truth = reading.truth();
     const Profile profile = reading.view.profile;
@@ -330,7 +331,7 @@ TEST(Verify, ACloserLookCertifiesWhatAQuickOneCannot) {
         EXPECT_LE(close.fix.p_wrong_log2, quick.fix.p_wrong_log2);
         more += quick.status != Status::ok && close.status == Status::ok;
         if (close.status != Status::ok) continue;
-        // The smaller of two upper bounds is one.
+        // The smaller of two upper bounds is an upper bound.
         const double exact = exact_p_wrong(reading);
         EXPECT_GE(close.fix.p_wrong_log2, std::min<double>(exact, quick.fix.p_wrong_log2) - 0.1);
     }

@@ -1,5 +1,5 @@
-// What places of other profiles explain, against sums over all places that differ in a4, and
-// against the decoder of windows.
+// What places of other profiles explain, compared with sums over all places that differ in a4 and
+// with the decoder of windows.
 #include "core/integrity/weigh_codes.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 83;
 
-/// The same lines, as if they were of another profile.
+/// Returns the same lines as if they were of another profile.
 RatiosCase as_in(Profile profile, const RatiosCase& c) {
     RatiosCase other;
     other.profile = profile;
@@ -23,7 +23,7 @@ RatiosCase as_in(Profile profile, const RatiosCase& c) {
     return other;
 }
 
-/// Rolls of the same place in the other profile.
+/// Returns the rolls of the same place in the other profile.
 std::vector<int> rolls_here(const RatiosCase& c, Profile other) {
     const int further = roll(other, c.position) - roll(c.profile, c.position) + kSections;
     std::vector<int> rolls = rolls_from(as_in(other, c), own_places(c), 0);
@@ -32,7 +32,7 @@ std::vector<int> rolls_here(const RatiosCase& c, Profile other) {
     return rolls;
 }
 
-/// The odds, in double precision, of all places at all shifts, but for the same place.
+/// Returns the odds of all places at all shifts, except the same place, in double precision.
 double exact_elsewhere(const RatiosCase& c, Profile other) {
     const RatiosCase theirs = as_in(other, c);
     const std::vector<int> same = rolls_here(c, other);
@@ -68,7 +68,7 @@ TEST(WeighOtherCode, IsTheSumOverAllPlaces) {
     }
 }
 
-/// Clear lines of 12 bits, from a position on.
+/// Returns clear lines of 12 bits, from a position on.
 RatiosCase clear_lines(Profile profile, std::uint32_t position, int lines) {
     Rng rng(kSeed);
     RatiosCase c;
