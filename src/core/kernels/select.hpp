@@ -1,18 +1,18 @@
-// Select: the kernels for the processor at hand.
+// Select: the kernels for the processor that the program runs on.
 #pragma once
 
 #include "core/kernels/kernels.hpp"
 
 namespace dotpose::core {
 
-/// Plain numbers, for any processor: the reference for the others.
+/// Returns kernels with plain numbers, for any processor; the others are compared with these.
 const Kernels& portable_kernels();
-/// Vectors of 16 bytes, which every x86-64 and 64-bit ARM has.
+/// Returns kernels with vectors of 16 bytes, which every x86-64 and 64-bit ARM processor has.
 const Kernels& wide_kernels();
-/// AVX2; null where the processor or the compiler has none.
+/// Returns kernels for AVX2; null if the processor or the compiler does not have it.
 const Kernels* avx2_kernels();
 
-/// The fastest of them here.
+/// Returns the fastest kernels for this processor.
 const Kernels& kernels();
 
 }  // namespace dotpose::core

@@ -1,4 +1,4 @@
-// What the loops include, before their own namespace begins.
+// Headers of the loops, which have to come before the namespace of a form begins.
 #pragma once
 
 #include <algorithm>

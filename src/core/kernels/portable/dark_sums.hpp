@@ -1,4 +1,5 @@
-// Dark sums: how dark the pixels of a square are, and where in it. For processors without vectors.
+// Dark sums: how dark the pixels of a square are, and where the darkness is. For processors without
+// vectors.
 #pragma once
 
 #include <cstdint>
@@ -7,21 +8,21 @@
 
 namespace dotpose::core {
 
-/// What the pixels darker than a level lack of it, and its sums weighted with their places from the
-/// middle. Of at most 11 x 11 pixels: below 2^15, and 2^18 for the others.
+/// By how much pixels are darker than a level, summed up, and times their places from the middle.
+/// For at most 11 x 11 pixels the mass is below 2^15 and the others are below 2^18.
 struct DarkSums {
     std::int32_t mass = 0;
     std::int32_t x = 0;
     std::int32_t y = 0;
 };
 
-/// Of a square of so small a half only the pixels count that are so many steps from the middle at
-/// most. Dots of tracked sizes have no others that are darker than half of what they are.
+/// In a square of this half size only the pixels count that are at most so many steps from the
+/// middle. Dots of tracked sizes have no others that are more than half as dark as their middle.
 inline constexpr int kHalfOfDiamond = 2;
 
-/// Of the square of 2 Half + 1 pixels per side that begins at `row`. With the side known, pixels of
-/// a row are summed without a loop, and their places are constants.
-// By itself, so that small processors can keep all it needs in registers.
+/// Returns the sums of a square of 2 Half + 1 pixels per side that begins at `row`. As its size is
+/// known, pixels of a row are summed without a loop, and their places are constants.
+// Not inlined, so that small processors can keep everything in registers.
 template <int Half>
 DOTPOSE_NOINLINE inline DarkSums dark_sums(const std::uint8_t* row, std::int32_t stride,
                                            std::int32_t level) {
@@ -31,7 +32,7 @@ DOTPOSE_NOINLINE inline DarkSums dark_sums(const std::uint8_t* row, std::int32_t
     const auto add_row = [&](int reach) {
 #pragma GCC unroll 16
         for (int x = -reach; x <= reach; ++x) {
-            // Most pixels are paper. Asked for its sign alone, a difference needs no comparison.
+            // Most pixels are paper. The sign of a difference needs no comparison.
             const std::int32_t lack = level - row[Half + x];
             if (lack < 0) continue;
             mass += lack;
@@ -50,7 +51,7 @@ DOTPOSE_NOINLINE inline DarkSums dark_sums(const std::uint8_t* row, std::int32_t
         for (int y = -Half; y <= Half; ++y)
             add_row(Half);
     }
-    // A row counts as often as there are rows from it on.
+    // Each row counts as often as there are rows from it on.
     return {mass, sum_x, (Half + 1) * mass - so_far};
 }
 

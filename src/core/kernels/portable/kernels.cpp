@@ -1,4 +1,4 @@
-// The loops in plain numbers.
+// The loops with plain numbers.
 #include "core/kernels/loops/headers.hpp"
 
 #define DOTPOSE_LANE_BYTES 0

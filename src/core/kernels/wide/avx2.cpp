@@ -1,5 +1,5 @@
-// The loops in vectors of 32 bytes, for processors with AVX2. Only what stands between the pragmas
-// is compiled for them: functions of headers, of which the linker keeps one for all, run
+// The loops in vectors of 32 bytes, for processors with AVX2. Only the code between the pragmas is
+// compiled for AVX2: of functions in headers the linker keeps one for all, which must run
 // everywhere.
 #include "core/kernels/loops/headers.hpp"
 

@@ -1,4 +1,4 @@
-// Lists of similar places against plain computations of the same.
+// Lists of similar places compared with plain computations.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace {
 
 using namespace core;
 
-/// Places of the four sequences, and an alternative's offsets in one of them.
+/// Places of the four sequences, and the roll offsets of an alternative in one of them.
 struct OwnPlaces {
     const code::Basis& basis;
     std::array<std::uint32_t, 4> own;
@@ -46,7 +46,7 @@ TEST(KernelsAlternatives, SimilarPlacesLoseTooLittleByTheirSteps) {
                     ASSERT_FALSE(is_similar);
                     continue;
                 }
-                // All steps that differ, though no two in a row: more than that cannot be counted.
+                // All steps that differ count, but no two in a row; more cannot be counted.
                 int most = 0;
                 int most_before = 0;
                 for (int step = 0; step < steps.count; ++step) {
@@ -83,7 +83,7 @@ TEST(KernelsAlternatives, ListHasAllPlacesThatLoseTooLittle) {
         if (!kernels.list_similar_places(places.basis, places.own, sequences, lines, enough, list))
             return;
         std::set<std::array<int, 3>>
-            found;  // sequence, place and the shift at which it is like the reading
+            found;  // sequence, place and the shift at which it shares a line
         for (const auto& [k, place, line] :
              std::span(list.places).first(static_cast<std::size_t>(list.count)))
             found.insert({k, place, places.offsets(k, place, line)});
@@ -103,7 +103,7 @@ TEST(KernelsAlternatives, ListHasAllPlacesThatLoseTooLittle) {
                         lost += places.offsets(k, place, line) == shift ? 0 : loss;
                     const std::array<int, 3> alternative{static_cast<int>(k),
                                                          static_cast<int>(place), shift};
-                    // It may have others, too: a shift is looked at from its own line on.
+                    // Losses are counted from the shared line on, so others may be listed, too.
                     if (lost >= enough) continue;
                     ASSERT_TRUE(found.count(alternative) > 0) << k << ' ' << place << ' ' << shift;
                     ++listed;

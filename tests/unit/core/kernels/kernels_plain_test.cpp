@@ -1,4 +1,4 @@
-// Kernels against plain computations of the same. `kernels_test.cpp` says that all forms agree.
+// Kernels compared with plain computations. `kernels_test.cpp` shows that all forms agree.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 
 using namespace core;
 
-/// Where a plane without perspective has a point of the image, in double precision.
+/// Returns where a plane without perspective has a point of the image, in double precision.
 std::array<double, 2> exactly(const FloatPlane& plane, double x, double y) {
     const auto along = [&](float at, float du, float dv) {
         return static_cast<double>(at) + static_cast<double>(du) * x + static_cast<double>(dv) * y;
@@ -120,7 +120,7 @@ TEST(KernelsPlain, LinesAreScoredAgainstTheMainSequence) {
     });
 }
 
-/// Sums of a window, pixel by pixel.
+/// Expects the sums of a window to be those added pixel by pixel.
 void expect_sums(const Picture& picture, int half_px, int cut_q8, const MeasuredDots& dots,
                  std::size_t k) {
     const int u = dots.window_u[k];
@@ -166,7 +166,7 @@ TEST(KernelsPlain, WindowsAreSummedUpToTheBorder) {
             table.dots.window_u[k] = whole(rng, 0, picture.view.width_px - 1);
             table.dots.window_v[k] = whole(rng, 0, picture.view.height_px - 1);
         }
-        // The last pixel of all, and the first.
+        // Windows around the first and the last pixel of the image are among them.
         table.dots.window_u[0] = table.dots.window_v[0] = 0;
         table.dots.window_u[1] = picture.view.width_px - 1;
         table.dots.window_v[1] = picture.view.height_px - 1;
@@ -191,7 +191,7 @@ struct OneDot {
     CellsInView cells;
     DotTable table{8};
 
-    /// A Gaussian dot at (u, v), believed to be `off_px` to the right of that and below.
+    /// Draws a Gaussian dot at (u, v), believed to be `off_px` to the right of that and below.
     OneDot(double u, double v, double sigma_px, double off_px) {
         for (int y = 0; y < kSide_px; ++y) {
             for (int x = 0; x < kSide_px; ++x) {
@@ -218,17 +218,17 @@ TEST(KernelsPlain, CentresAreFoundWhereDotsAre) {
     repeat_with_each_form(200, [](const Kernels& kernels, Rng& rng) {
         constexpr double kMargin_px = 2;
         const double sigma_px = rng.uniform(0.7, 4);
-        // Narrower bells see hardly more than the flat top of a dot, in whole grey levels.
+        // Narrower bells cover hardly more than the flat top of a dot, in whole grey levels.
         const auto reach_px = static_cast<float>(rng.uniform(std::max(3.3, 2.5 * sigma_px), 12));
         const auto anywhere = [&] { return rng.uniform(20, OneDot::kSide_px - 21); };
         const auto at_border = [&] { return rng.uniform(kMargin_px, kMargin_px + 1); };
-        // A dot at the border is seen in part where it is large.
+        // A large dot at the border would be seen only in part.
         const bool is_inside = sigma_px > 0.8 || rng.below(2) == 0;
         const double u = is_inside ? anywhere() : at_border();
         const double v = anywhere();
         OneDot dot(u, v, sigma_px, rng.uniform(-0.15, 0.15));
         kernels.refine_centres(dot.view, dot.cells, reach_px, dot.table.dots);
-        // Rounding to grey levels leaves a few thousandths, the border cuts off a dot's skirt.
+        // Rounding to grey levels leaves a few thousandths; the border cuts off a dot's skirt.
         const double most_px = is_inside ? 0.01 : 0.04;
         EXPECT_NEAR(dot.table.dots.x[0], u, most_px) << sigma_px << ' ' << reach_px;
         EXPECT_NEAR(dot.table.dots.y[0], v, most_px) << sigma_px << ' ' << reach_px;
@@ -250,8 +250,8 @@ TEST(KernelsPlain, CentresFarFromTheirDotsStay) {
 
 TEST(KernelsPlain, PredictedCentresAreFoundHoweverFarDotsAreOff) {
     repeat_with_each_form(100, [](const Kernels& kernels, Rng& rng) {
-        // The same dot several times, predicted here and there: how fast a bell's moments grow with
-        // the distance is learnt from those that lie near.
+        // The same dot is listed several times, with predictions around it: how fast a bell's
+        // moments grow with the distance is measured on those that are near.
         const double u = rng.uniform(20, OneDot::kSide_px - 21);
         const double v = rng.uniform(20, OneDot::kSide_px - 21);
         OneDot dot(u, v, rng.uniform(0.9, 1.5), 0);
@@ -277,7 +277,7 @@ TEST(KernelsPlain, PredictedCentresAreFoundHoweverFarDotsAreOff) {
 
 TEST(KernelsPlain, PredictedDotsAreReadByTheDarkestPlace) {
     repeat_with_each_form(40, [](const Kernels& kernels, Rng& rng) {
-        // A dot below the intersection at (40, 40), which is symbol 3; the grid stands upright.
+        // The dot is below the intersection at (40, 40), which is symbol 3; the grid is upright.
         const OneDot dot(40, 41.8, 1, 0);
         CellsInView view = dot.cells;
         view.plane = {0, 0, 1 / 11.0F, 0, 0, 1 / 11.0F, 0, 0, 0};
@@ -307,7 +307,7 @@ TEST(KernelsPlain, PredictedDotsAreReadByTheDarkestPlace) {
         EXPECT_EQ(columns.bits[i], columns.valid[i]);
         EXPECT_EQ(rows.valid[j], std::uint64_t{1} << i);
         EXPECT_EQ(rows.bits[j], rows.valid[j]);
-        // Where a dot would be far darker, there is none.
+        // Where a dot should be far darker, none is seen.
         dots.x[0] = 20;
         EXPECT_EQ(kernels.read_levels(dot.view, view, 100, dots, nullptr, nullptr).seen, 0);
     });
@@ -360,7 +360,8 @@ TEST(KernelsPlain, SimilarityIsSummedOverDotsNearTheirPlaces) {
         double squares = 0;
         double right_x = 0;
         int seen = 0;
-        std::map<std::size_t, std::array<double, 3>> runs;  // dots, and how far off
+        std::map<std::size_t, std::array<double, 3>> runs;  // number of dots, and sums of their
+                                                            // residuals
         for (std::size_t k = 0; k < static_cast<std::size_t>(table.dots.count); ++k) {
             const auto x = static_cast<double>(table.dots.x[k]);
             const auto y = static_cast<double>(table.dots.y[k]);

@@ -1,5 +1,5 @@
-// Kernels: all forms give the same bits, whatever they are given. `kernels_plain_test.cpp` says
-// that they are the right ones.
+// Kernels: all forms give the same bits for any input. `kernels_plain_test.cpp` shows that they are
+// right.
 #include "core/kernels/kernels.hpp"
 
 #include <cmath>
@@ -17,7 +17,7 @@ constexpr std::uint64_t kSeed = 20261;
 
 class KernelsTest : public ::testing::Test {
   protected:
-    /// Calls `use(rng)` so many times, each with numbers of its own.
+    /// Calls `use(rng)` so many times, each time with its own random numbers.
     template <typename Use>
     void repeat(int times, Use use) {
         for (int i = 0; i < times; ++i) {
@@ -54,7 +54,7 @@ void record(const BitLines& lines, Record& record) {
     record.add(lines.valid);
 }
 
-/// Dots somewhere, not in whole vectors.
+/// Returns dots anywhere; their number is not that of whole vectors.
 std::unique_ptr<PatchDots> random_dots(int count, Rng& rng) {
     auto dots = std::make_unique<PatchDots>();
     dots->count = count;

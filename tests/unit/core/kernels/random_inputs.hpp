@@ -1,4 +1,4 @@
-// Random inputs for kernels, and what comes out of them as words that can be compared to the bit.
+// Random inputs for kernels, and records of their outputs that can be compared to the bit.
 #pragma once
 
 #include <algorithm>
@@ -23,17 +23,17 @@ using core::MeasuredDots;
 using core::Patch;
 using core::PatchDots;
 
-/// All forms that this processor can run.
+/// Returns all forms that this processor can run.
 inline std::vector<const core::Kernels*> forms() {
     std::vector<const core::Kernels*> all{&core::portable_kernels(), &core::wide_kernels()};
     if (core::avx2_kernels() != nullptr) all.push_back(core::avx2_kernels());
     return all;
 }
 
-/// What a kernel says, bit by bit.
+/// The output of a kernel as words.
 class Record {
   public:
-    /// Something that consists of words only.
+    /// Adds a value that consists of words only.
     template <typename T>
     void add(const T& value) {
         static_assert(std::is_trivially_copyable_v<T>);
@@ -51,7 +51,8 @@ class Record {
     std::vector<unsigned char> bytes_;
 };
 
-/// Expects of all forms what the portable one says. `run(kernels, record)`.
+/// Calls `run(kernels, record)` for all forms, and expects the records to be that of the portable
+/// form.
 template <typename Run>
 void expect_same(Run run) {
     Record expected;
@@ -65,7 +66,7 @@ void expect_same(Run run) {
 
 inline constexpr std::uint64_t kPlainSeed = 20262;
 
-/// Calls `use(kernels, rng)` so many times for each form, each time with numbers of its own.
+/// Calls `use(kernels, rng)` so many times for each form, each time with its own random numbers.
 template <typename Use>
 void repeat_with_each_form(int times, Use use) {
     for (const core::Kernels* form : forms()) {
@@ -85,7 +86,7 @@ inline float number(Rng& rng, double least, double most) {
     return static_cast<float>(rng.uniform(least, most));
 }
 
-/// An image with its pixels; of the bytes beyond a row nothing is known.
+/// An image with its pixels; the bytes beyond the end of a row are random.
 struct Picture {
     std::vector<std::uint8_t> pixels;
     ImageView view;
@@ -101,7 +102,7 @@ struct Picture {
     int at_or_white(int u, int v) const {
         return u >= 0 && v >= 0 && u < view.width_px && v < view.height_px ? at(u, v) : 255;
     }
-    /// Paper, with dots about so far apart.
+    /// Draws paper, with dots about `spacing_px` apart.
     void draw_dots(double spacing_px, Rng& rng) {
         for (std::uint8_t& pixel : pixels)
             pixel = static_cast<std::uint8_t>(200 + rng.below(40));
@@ -177,7 +178,7 @@ class DotTable {
     std::array<std::vector<std::int32_t>, 7> ints_;
 };
 
-/// A camera that sees the pattern turned, somewhat tilted, and bent.
+/// Returns the plane of a camera that sees the pattern turned, somewhat tilted, and bent.
 inline core::FloatPlane random_plane(Rng& rng, double spacing_px, double tilt, double bend) {
     const double turn = rng.uniform(0, 6.283);
     const double unit = 1 / spacing_px;
@@ -194,8 +195,8 @@ inline core::FloatPlane random_plane(Rng& rng, double spacing_px, double tilt, d
     return plane;
 }
 
-/// Dots as if measured: row by row, some missing, some off their place, with a rest that is not a
-/// whole vector.
+/// Returns dots as if measured: row by row, some missing, some off their place, and not in whole
+/// vectors.
 inline DotTable random_measures(const core::FloatPlane& plane, int count, float displacement,
                                 Rng& rng) {
     DotTable table(count);
