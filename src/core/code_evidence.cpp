@@ -8,7 +8,7 @@
 namespace dotpose {
 namespace {
 
-/// Frames nearer to each other show some of the same dots, or may.
+/// Frames closer to each other than this may show some of the same dots.
 constexpr std::uint32_t kSamePlace_cells = 64;
 
 bool is_near(std::uint32_t a, std::uint32_t b) {
@@ -16,7 +16,7 @@ bool is_near(std::uint32_t a, std::uint32_t b) {
     return std::min(apart, kPositionsPerAxis - apart) < kSamePlace_cells;
 }
 
-/// Against the likeliest, and none less likely than that.
+/// Returns each log odds against the likeliest one, limited to at least -most_log2; 2^-8 of log2.
 CodeEvidence::LogOdds against_likeliest(CodeEvidence::LogOdds log2_q8, std::int32_t most_log2) {
     const std::int32_t likeliest = *std::max_element(log2_q8.begin(), log2_q8.end());
     for (std::int32_t& log2 : log2_q8)
@@ -29,7 +29,8 @@ CodeEvidence::LogOdds against_likeliest(CodeEvidence::LogOdds log2_q8, std::int3
 CodeEvidence::LogOdds CodeEvidence::sum() const {
     LogOdds sum = before_log2_q8_;
     if (frames_here_ == 0) return sum;
-    // Of so many frames the one that told most: it had as many chances to be wrong.
+    // The strongest frame of this place counts, less log2 of the number of frames: each of them had
+    // a chance to be wrong.
     const std::int32_t chances_q8 =
         core::log2_at_most_q8(std::min(frames_here_, std::uint32_t{1} << 23));
     for (std::size_t i = 0; i < sum.size(); ++i)

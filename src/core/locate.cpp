@@ -1,5 +1,5 @@
-// Which attempt is made, once the arguments are such that none can do harm; and at the end the
-// objects that callers hold.
+// Chooses the attempts for a frame once its arguments are known to be harmless, and implements the
+// classes that callers use.
 #include "core/locate.hpp"
 
 #include <array>
@@ -26,12 +26,13 @@ constexpr bool is_within(int value, int low, int high) {
     return value >= low && value <= high;
 }
 
-/// Whether the options are such that no stage can overflow. Not looked at, because no value does
+/// Whether the options are such that no stage can overflow. Not checked, because no value does
 /// harm: the lens's k (see bend_q48), most_dots (clamped), show_stages.
 bool are_valid(const Options& options) {
     constexpr int kFarthestReference_q8 = 16384 * 256;
     constexpr int kFarthestLens_q8 = 1024 * 256;
-    constexpr int kMost = 1 << 20;  // 256 times as much has 32 bits, twice over
+    constexpr int kMost = 1 << 20;  // 256 times this still fits into 32 bits, with a factor of two
+                                    // to spare
     return options.profile <= Profile::microdots && options.effort <= Effort::twice &&
            options.decoder <= Decoder::all && is_within(options.threshold.low_q8, 1, 256) &&
            is_within(options.threshold.high_q8, 1, 256) &&
@@ -49,7 +50,7 @@ bool are_valid(const Options& options) {
            is_within(options.lens.centre_dy_q8, -kFarthestLens_q8, kFarthestLens_q8);
 }
 
-/// Whether a frame can be begun, or why not.
+/// Returns ok if a frame can be begun, otherwise the reason.
 Status check(int width_px, int height_px, const Options& options, const Workspace& w) {
     if (!are_valid(options)) return Status::bad_argument;
     if (width_px < kMinFrameSide_px || height_px < kMinFrameSide_px) {
@@ -59,7 +60,7 @@ Status check(int width_px, int height_px, const Options& options, const Workspac
     return Status::ok;
 }
 
-/// Whether an image can be located, or why not.
+/// Returns ok if an image can be located, otherwise the reason.
 Status check(const ImageView& image, const Options& options, const Workspace& w) {
     const Status status = check(image.width_px, image.height_px, options, w);
     return status == Status::ok && image.pixels == nullptr ? Status::bad_argument : status;
@@ -82,7 +83,8 @@ Fix locate(const ImageView& image, const Options& options, Workspace& w) {
     if (is_good || options.effort == Effort::once || !w.has_second_attempt) return fix;
     const Fix second = make_second_attempt(image, options, w);
     if (second.status == Status::ok || fix.status != Status::ok) return second;
-    return make_first_attempt(image, options, w);  // The workspace must show what is returned.
+    return make_first_attempt(image, options, w);  // The workspace must match the fix that is
+                                                   // returned.
 }
 
 Fix locate(const ImageView& image, const Options& options, const Prediction& prediction,

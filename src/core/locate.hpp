@@ -14,7 +14,7 @@ Fix locate(const ImageView& image, const Options& options, Workspace& w);
 Fix locate(const ImageView& image, const Options& options, const Prediction& prediction,
            Workspace& w);
 
-/// See Locator::locate_in_any_code; without a prediction, null.
+/// See Locator::locate_in_any_code; `prediction` may be null.
 CodeReading locate_in_any_code(const ImageView& image, const Options& options,
                                const Prediction* prediction, const CodeEvidence& evidence,
                                Workspace& w);
@@ -34,11 +34,13 @@ Status begin(int width_px, int height_px, const Options& options, const Predicti
 
 void push_row(const std::uint8_t* pixels, const Options& options, Workspace& w);
 
-/// One attempt with the rows that were pushed; with `finish_as_device` in integers.
+/// Locates the frame whose rows were pushed, in one attempt; `finish_as_device` does so in
+/// integers.
 Fix finish(const Options& options, Workspace& w);
 const Fix& finish_as_device(const Options& options, Workspace& w);
 
-/// The fix of a frame that is not looked at; nothing of the frame before is shown beside it.
+/// Sets and returns the fix of a frame that is refused before any stage; results of the frame
+/// before are cleared.
 const Fix& refuse(Status reason, Workspace& w);
 
 }  // namespace dotpose::core

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Before a function that processors of few registers had better not inline: its caller would not
-/// have enough of them. Others gain from it.
+/// Marks functions that processors with few registers should not inline, because the caller would
+/// run out of them. Other processors gain from inlining.
 #if defined(__thumb__) && !defined(__thumb2__)
 #define DOTPOSE_NOINLINE [[gnu::noinline]]
 #else

@@ -1,5 +1,5 @@
-// Other codes: what the bits of a frame say of the profiles that it was not read in. Filled in by
-// the attempts; `locate_in_any_code` makes something of it.
+// Other codes: how well the bits of a frame agree with profiles other than the one it was read in.
+// The attempts fill it in; `locate_in_any_code` evaluates it.
 #pragma once
 
 #include <array>
@@ -9,33 +9,37 @@
 
 namespace dotpose::core {
 
-/// Of one axis. Odds are those of the bits, against the place read; 1: they explain them as well.
+/// Likelihood ratios of another profile along one axis, against the place read; 1: equally likely.
 struct OtherAxis {
-    float here = 1;              ///< odds of the same place in the other profile
-    float elsewhere = 0;         ///< summed odds of all its other places, an upper bound
-    float best = 0;              ///< odds of the likeliest of these, as far as they were looked at
-    std::uint32_t position = 0;  ///< where that has the first line
-    std::uint8_t roll = 0;       ///< by how much its roll of that line is larger than that read
+    float here = 1;       ///< likelihood ratio of the same place in the other profile
+    float elsewhere = 0;  ///< upper bound of the sum of those of all its other places
+    float best = 0;       ///< likelihood ratio of the likeliest of these, among those examined
+    std::uint32_t position = 0;  ///< position of the first line at that likeliest place
+    std::uint8_t roll = 0;  ///< amount by which the roll of its first line is larger than the one
+                            ///< read
 };
 
-/// Of one other profile.
+/// Likelihood ratios of one other profile along both axes.
 struct OtherCode {
     OtherAxis x;
     OtherAxis y;
 
-    /// Odds of the same place by both axes.
+    /// Likelihood ratio of the same place by both axes.
     float here() const { return x.here * y.here; }
-    /// Those of all other places.
+    /// Sum of the likelihood ratios of all other places.
     float elsewhere() const { return x.here * y.elsewhere + x.elsewhere * (y.here + y.elsewhere); }
 };
 
+/// The likelihood ratios of all other profiles.
 struct OtherCodes {
     bool are_wanted = false;
-    /// log2 of how many profiles are in question, 2^-8, by their odds; -1: that read is given.
+    /// log2 of the number of profiles that are possible, each weighted by its odds, in 2^-8; -1:
+    /// the profile is given.
     int log2_in_question_q8 = 0;
-    /// Positions of the first column and row that were compared, in the profile read.
+    /// Positions, in the profile read, of the first column and row that were compared.
     Cell first;
-    std::array<OtherCode, kProfileCount> of;  ///< by profile; that read stays as it is
+    std::array<OtherCode, kProfileCount> of;  ///< by profile; the entry of the profile read is not
+                                              ///< used
 };
 
 }  // namespace dotpose::core

@@ -1,5 +1,5 @@
-// Patch: what the desktop's attempts keep of a part of the image, and of the dots they measure.
-// Unstable, like stages.hpp.
+// Patch: a part of the image and the dots measured in it, as the attempts of desktops keep them.
+// Not stable, like stages.hpp.
 #pragma once
 
 #include <array>
@@ -8,16 +8,16 @@
 
 namespace dotpose::core {
 
-/// Dots in a patch, from its middle, in px of the image.
+/// Dots in a patch, in px of the image from its middle.
 struct PatchDots {
     static constexpr int kMost = 2048;
     int count = 0;
-    // Rounded up to whole vectors, the rest being far away.
+    // Capacities are rounded up to whole vectors; unused elements are far away.
     alignas(64) std::array<float, kMost + 16> x;
     alignas(64) std::array<float, kMost + 16> y;
 };
 
-/// A part of an image, reduced by `scale`, with a margin around it.
+/// A part of an image, reduced by the factor `scale`, with a margin around it.
 struct Patch {
     static constexpr int kMostWidth_px = 256;
     static constexpr int kMostHeight_px = 192;
@@ -31,17 +31,18 @@ struct Patch {
     static constexpr int kTiles = kTilesPerRow * kMostHeight_px / kTileHeight_px;
     static constexpr int kStrips = kMostWidth_px / 32;
 
-    int left_px = 0;  ///< of the image
+    int left_px = 0;  ///< px of the image
     int top_px = 0;
-    int scale = 1;  ///< px of the image, both ways, that make one of the patch
+    int scale = 1;  ///< number of px of the image, in both directions, that make one px of the
+                    ///< patch
     int width_px = 0;
     int height_px = 0;
     int stride = 0;
-    int depth_q8 = 0;  ///< how much darker than paper a typical dot is, smoothed, in 1/256
+    int depth_q8 = 0;  ///< darkness of a typical dot against paper in the smoothed patch, in 1/256
     alignas(64) std::array<std::uint8_t, kMostPixels> pixels;
     alignas(64) std::array<std::uint8_t, kMostPixels> smoothed;
     alignas(64) std::array<std::uint8_t, kTiles> brightest;
-    alignas(64) std::array<std::uint8_t, kTiles> darkness;  ///< 255 less the darkest level
+    alignas(64) std::array<std::uint8_t, kTiles> darkness;  ///< 255 minus the darkest level
     alignas(64) std::array<std::uint8_t, kTiles> thresholds;
     PatchDots dots;
 
@@ -50,27 +51,28 @@ struct Patch {
     }
 };
 
-/// Dots by the cells of the pattern that they stand for; whole vectors, the rest being far away.
+/// Dots by the cells of the pattern that they belong to, in whole vectors; unused elements are far
+/// away.
 struct MeasuredDots {
     int count = 0;
-    std::span<float> column;  ///< of the pattern, counted as its plane does
+    std::span<float> column;  ///< column of the pattern, counted as by the plane in use
     std::span<float> row;
-    std::span<std::int32_t> bits;  ///< that the code has there: the x bit, and the y bit times 2
-    std::span<std::int32_t> window_u;  ///< px, the middle of the window
+    std::span<std::int32_t> bits;      ///< bits of the code there: the x bit plus 2 times the y bit
+    std::span<std::int32_t> window_u;  ///< middle of the window, px
     std::span<std::int32_t> window_v;
-    std::span<std::int32_t> mass;   ///< sums over the window: of darkness,
-    std::span<std::int32_t> sum_u;  ///< times px from its left
-    std::span<std::int32_t> sum_v;  ///< times px from its top
-    std::span<std::int32_t> paper;  ///< level around the dot
-    /// As measured, px from the plane's centre, without the lens; far away if none. Before that,
-    /// where it is expected in the image.
+    std::span<std::int32_t> mass;   ///< sum of darkness over the window
+    std::span<std::int32_t> sum_u;  ///< sum of darkness times px from the window's left
+    std::span<std::int32_t> sum_v;  ///< sum of darkness times px from the window's top
+    std::span<std::int32_t> paper;  ///< grey level of the paper around the dot
+    /// Measured centre in px from the plane's centre, with the lens corrected; kNoDot_px if there
+    /// is no dot. Before the measurement, the expected place in the image.
     std::span<float> x;
     std::span<float> y;
 
     int capacity() const { return static_cast<int>(column.size()) - 8; }
 };
 
-/// Far away.
+/// A coordinate that is far outside every image.
 inline constexpr float kNoDot_px = 1e6F;
 
 }  // namespace dotpose::core

@@ -1,6 +1,6 @@
-// Workspace: all memory of a Locator, and after a frame every stage's output. Fixed capacities; it
-// lies in the caller's DeviceMemory, SmallMemory or LargeMemory (src/core/locate.cpp), and is used
-// from frame to frame.
+// Workspace: all memory of a Locator and, after a frame, the output of every stage. Capacities are
+// fixed. It lies in the caller's DeviceMemory, SmallMemory or LargeMemory (src/core/locate.cpp) and
+// is reused from frame to frame.
 #pragma once
 
 #include <algorithm>
@@ -16,30 +16,32 @@
 
 namespace dotpose::core {
 
-/// All stages' memory and results. Use one of the aliases below; the stages see spans only.
+/// The memory and results of all stages, as spans. Use one of the aliases below.
 struct Workspace {
     int max_width_px = 0;
-    // attempts of desktops; devices have no room for them
+    // Attempts of desktops only; devices have no room for these.
     Patch* patch = nullptr;
     MeasuredDots measured;
     std::span<std::uint8_t> column_rolls;
     std::span<std::uint8_t> row_rolls;
     OtherCodes* other_codes = nullptr;
-    bool has_second_attempt = false;  ///< has the memory that it takes
-    bool keeps_every_stage = false;   ///< each has memory of its own, so all of them can be shown
+    bool has_second_attempt = false;  ///< whether it has the memory for the second attempt
+    bool keeps_every_stage = false;  ///< whether each stage has its own memory, so that all of them
+                                     ///< can be shown
     // detect
     Smoothing smoothing;
     Tracking tracking;
     Light light;
     OpenBlobs open;
-    std::span<Dot> dots;  ///< capacity
+    std::span<Dot> dots;  ///< size is the capacity
     int dot_count = 0;
-    int dots_kept_within_px = 0;  ///< of the image centre, per axis; shrinks when `dots` is full
+    int dots_kept_within_px = 0;  ///< distance from the image centre, per axis; shrinks when `dots`
+                                  ///< is full
     // lattice
     std::span<std::uint16_t> seeds;  ///< indices of dots
     int seed_count = 0;
-    std::span<BucketedSeed> buckets;                    ///< one more than seeds
-    std::span<std::array<std::int16_t, 4>> neighbours;  ///< of each seed
+    std::span<BucketedSeed> buckets;                    ///< one more than there are seeds
+    std::span<std::array<std::int16_t, 4>> neighbours;  ///< the four nearest of each seed
     std::span<Edge> edges;                              ///< two for each seed
     int edge_count = 0;
     std::span<std::int32_t> edge_values;  ///< two for each edge
@@ -47,10 +49,10 @@ struct Workspace {
     PlaneFromImage grid_from_image;
     // decode
     Grid grid;
-    std::span<ScoredLine> line_scores;  ///< of the columns, and in the second half of the rows
+    std::span<ScoredLine> line_scores;  ///< the columns, then in the second half the rows
     Decoding decoding;
     // pose
-    PlaneFromImage pattern_from_image;  ///< relative to `Decoding::place`
+    PlaneFromImage pattern_from_image;  ///< in spacings from `Decoding::place`
     Fix fix;
 
     std::span<const Dot> found_dots() const {
@@ -58,8 +60,8 @@ struct Workspace {
     }
 };
 
-/// A workspace with its memory, for images up to `MaxWidth` px wide. Of more than `MaxDots` dots
-/// those nearest the image centre are kept; of the grid, the middle `GridSide` x `GridSide` cells.
+/// A workspace with its memory, for images up to `MaxWidth` px wide. It keeps the `MaxDots` dots
+/// nearest the image centre and the middle `GridSide` x `GridSide` cells of the grid.
 template <int MaxWidth, int MaxDots, int GridSide>
 class WorkspaceOf : public Workspace {
   public:
@@ -121,7 +123,7 @@ class WorkspaceOf : public Workspace {
     // Every second pixel may begin a run, and every run a blob.
     static constexpr int kRuns = MaxWidth / 2 + 2;
 
-    // Lines that cross an image, turned by any angle.
+    // Number of lines that cross an image turned by any angle.
     static constexpr std::size_t kRolls = 1024;
 
     Patch patch_;
@@ -155,9 +157,9 @@ class WorkspaceOf : public Workspace {
     std::array<TrackedRow, kMostTracked> grid_rows_{};
 };
 
-/// For a DeviceLocator on a small microcontroller and a 188 x 120 px sensor: some 12 KB.
-/// Stages use the same memory one after the other, so afterwards only what the last one left is to
-/// be seen.
+/// Workspace of a DeviceLocator on a small microcontroller with a 188 x 120 px sensor: about 12 KB.
+/// Stages use the same memory one after the other, so afterwards only what the last stage left can
+/// be shown.
 class DeviceWorkspace : public Workspace {
   public:
     DeviceWorkspace() {
@@ -196,11 +198,11 @@ class DeviceWorkspace : public Workspace {
     static constexpr int kDots = 256;
     static constexpr int kSeeds = 64;
     static constexpr int kGridSide = 24;
-    // Runs and blobs of one row: many more than dots; what exceeds them is noise or graphics.
+    // Runs and blobs of one row: many more than there are dots; those beyond are noise or graphics.
     static constexpr int kRuns = 64;
     static constexpr int kBlobs = 56;
-    // Of a whole frame, to bound the time: dots have 500, and noisy frames that were ever located
-    // up to 1,900.
+    // Runs of a whole frame, limited to bound the time: dots have 500, and noisy frames that were
+    // located up to 1,900.
     static constexpr int kMostRuns = 2000;
 
     struct PixelStages {
@@ -248,9 +250,9 @@ class DeviceWorkspace : public Workspace {
 
 static_assert(sizeof(void*) > 4 || sizeof(DeviceWorkspace) < 12 * 1024 + 512);
 
-/// For the paper's 188 x 120 px sensor.
+/// Workspace for the paper's 188 x 120 px sensor.
 using SmallWorkspace = WorkspaceOf<188, 384, 32>;
-/// For everything up to 4096 x 4096 px.
+/// Workspace for images up to 4096 x 4096 px.
 using LargeWorkspace = WorkspaceOf<4096, 16384, 192>;
 
 }  // namespace dotpose::core

@@ -25,7 +25,7 @@ namespace tuned = tuning::any_code;
 
 enum class Step { tracked, outwards, rows, second, closer, device };
 
-/// More than any frame has.
+/// More bit errors than any frame has.
 constexpr int kMostErrors = std::numeric_limits<int>::max();
 
 constexpr float kRoundings = tuned::kRoundings;
@@ -34,21 +34,23 @@ constexpr std::size_t index(Profile profile) {
     return static_cast<std::size_t>(profile);
 }
 
-/// Whether another profile may read what this one does not: its dots lie on a grid.
+/// Whether the dots lie on a grid but this profile does not read them, so that another one may.
 bool is_for_code(Status status) {
     return status == Status::not_in_code || status == Status::ambiguous ||
            status == Status::not_certain;
 }
 
-/// What speaks against a fix beside its own doubts.
+/// How certain a fix is, given the alternatives in the other profiles.
 struct Judgement {
     bool is_certain = false;
-    bool is_ambiguous = false;       ///< by a place in the other code
-    int p_wrong_log2 = 0;            ///< with all profiles' places
-    Profile other = Profile::anoto;  ///< the likeliest but the one read
-    float other_odds = 0;            ///< of that code, against the one read
+    bool is_ambiguous = false;  ///< whether a place in another profile is about as likely
+    int p_wrong_log2 = 0;  ///< bound of the probability of being wrong, given the places in all
+                           ///< profiles
+    Profile other = Profile::anoto;  ///< likeliest profile other than the one read
+    float other_odds = 0;            ///< odds of that profile against the one read
 };
 
+/// Locates one frame in the profile that it shows.
 class AnyCode {
   public:
     AnyCode(const ImageView& image, const Options& options, const CodeEvidence& evidence,
@@ -57,7 +59,7 @@ class AnyCode {
         for (std::size_t i = 0; i < order_.size(); ++i)
             order_[i] = static_cast<Profile>(i);
         weigh_codes(evidence);
-        // Sorted by insertion: there are three.
+        // Sorts by insertion, as there are only three.
         for (std::size_t i = 1; i < order_.size(); ++i) {
             for (std::size_t k = i; k > 0 && weight(order_[k]) > weight(order_[k - 1]); --k)
                 std::swap(order_[k], order_[k - 1]);
@@ -88,8 +90,8 @@ class AnyCode {
 
     bool may_try_twice() const { return options_.effort == Effort::twice && w_.has_second_attempt; }
 
-    /// What speaks for one profile can be so much that no frame of another one is certain. Such a
-    /// frame still tells that the sheet is another one.
+    /// Adds evidence from a frame of another sheet. The evidence for one profile can be so strong
+    /// that no frame of another profile is certain; such a frame must still be able to overturn it.
     void learn_of_another_sheet(CodeReading& reading) {
         if (options_.effort == Effort::device || weight(order_[1]) == 1) return;
         weigh_codes({});
@@ -102,7 +104,7 @@ class AnyCode {
         w_.fix = reading.fix;
     }
 
-    /// Of a fix in the profile `read`.
+    /// Weighs the fix read in the profile `read` against places in the other profiles.
     Judgement judge(Profile read) const {
         const OtherCodes& others = *w_.other_codes;
         Judgement result;
@@ -124,14 +126,15 @@ class AnyCode {
         return result;
     }
 
-    /// Odds of the profiles against the likeliest, before the frame.
+    /// Sets the odds of the profiles against the likeliest, before the frame.
     void weigh_codes(const CodeEvidence& evidence) {
         for (const Profile profile : order_)
             weights_[index(profile)] = power_of_two(evidence.log2_q8(profile));
     }
     float weight(Profile profile) const { return weights_[index(profile)]; }
 
-    /// log2 of so many times 2^log2, as a whole number. What is less than roundings does not count.
+    /// Returns log2 of `times` * 2^log2, rounded up to a whole number; factors within rounding
+    /// errors of 1 do not count.
     static int rounded_up(int log2, float times) {
         if (times <= kRoundings) return log2;
         int exponent = 0;
@@ -139,7 +142,7 @@ class AnyCode {
         return log2 + exponent - (mantissa == 0.5F ? 1 : 0);
     }
 
-    /// How many profiles there are, each by how likely it is against the one read.
+    /// Returns the number of possible profiles, each weighted by its odds against the one read.
     float codes(Profile read) const {
         float sum = 0;
         for (const Profile profile : order_)
@@ -147,6 +150,8 @@ class AnyCode {
         return sum / weight(read);
     }
 
+    /// Makes the steps in order until a profile gives a certain fix; otherwise returns the first
+    /// doubtful fix, or the failure in the likeliest profile.
     CodeReading locate_by(std::initializer_list<Step> steps) {
         bool is_doubtful = false;
         CodeReading doubtful;
@@ -173,11 +178,12 @@ class AnyCode {
         return doubtful;
     }
 
-    /// The profiles that an attempt is made in.
+    /// Returns the profiles in which a step is tried.
     std::span<const Profile> worth_trying(Step step) const {
-        // A closer look costs thrice the rest: only where the fewest bits contradict.
+        // Sampling the cells again costs three times the rest, so it is done only where the fewest
+        // bits contradict.
         if (step == Step::closer) return {&closer_, fewest_errors_ == kMostErrors ? 0U : 1U};
-        // What rows show in another profile, the second attempt shows as well.
+        // If there is a second attempt, it also finds what rows would show in the other profiles.
         if (step == Step::rows && may_try_twice()) return std::span(order_).first(1);
         std::size_t count = 1;
         while (count < order_.size() && weight(order_[count]) > tuned::kRuledOut)
@@ -185,10 +191,11 @@ class AnyCode {
         return std::span(order_).first(count);
     }
 
-    /// Leaves fix and other codes in the workspace. False if there is no fix.
+    /// Makes one step in one profile; leaves fix and other codes in the workspace. Returns whether
+    /// there is a fix.
     bool attempt(Step step, Profile code) {
         options_.profile = code;
-        // What has to do with no place near by is as probable in each profile.
+        // Alternatives that do not depend on the place are equally likely in each profile.
         const float in_question = codes(code);
         w_.other_codes->log2_in_question_q8 =
             in_question <= kRoundings ? 0 : log2_of_odds_q8(in_question);
@@ -217,8 +224,8 @@ class AnyCode {
         return false;
     }
 
-    /// The second attempt, without or with the closer look. The profiles share what they do not
-    /// differ in: what was seen in the frame.
+    /// Makes the second attempt, with or without sampling the cells again. The filtered image, its
+    /// dots and its grid do not depend on the profile, so they are computed once.
     bool attempt_filtered(Profile code, bool resamples) {
         if (!is_seen_) {
             w_.fix.status = see_filtered(image_, options_, w_);
@@ -242,7 +249,7 @@ class AnyCode {
         return status == Status::ok;
     }
 
-    /// The fix that is certain, or a better one: of a profile that explains the same place better,
+    /// Returns the certain fix or a better one: of a profile that explains the same place better,
     /// or of the second attempt.
     CodeReading best_of(Step step, Profile code, const Judgement& judgement) {
         if (judgement.other_odds > tuned::kBetter) {
@@ -266,14 +273,16 @@ class AnyCode {
         return reading;
     }
 
-    /// Of the bits in each profile, against that of the fix.
+    /// Returns log2 of the likelihood of the bits in each profile, against that of the fix, in
+    /// 2^-8.
     CodeEvidence::LogOdds likelihoods(Profile code) const {
         const OtherCodes& others = *w_.other_codes;
         CodeEvidence::LogOdds log2_q8{};
         for (std::size_t i = 0; i < log2_q8.size(); ++i) {
             if (i == index(code)) continue;
             const float odds = others.of[i].here() + others.of[i].elsewhere();
-            // What explains the frame as well says nothing, and roundings must not add up.
+            // A profile that explains the frame equally well gives no evidence; rounding errors
+            // must not add up.
             const bool says_nothing = odds <= kRoundings && odds * kRoundings >= 1;
             log2_q8[i] = says_nothing ? 0 : log2_of_odds_q8(odds);
         }
@@ -296,12 +305,12 @@ class AnyCode {
     std::array<float, kProfileCount> weights_;
     Workspace& w_;
     const Prediction* prediction_ = nullptr;
-    std::array<Profile, kProfileCount> order_;  ///< the likeliest first
+    std::array<Profile, kProfileCount> order_;  ///< by odds, the likeliest first
     // The members below hold what the second attempt has found so far.
-    bool is_seen_ = false;             ///< whether the workspace holds what the frame shows
-    Fix seen_;                         ///< as it was then, without a position
-    Profile closer_ = Profile::anoto;  ///< that may gain from a closer look
-    int fewest_errors_ = kMostErrors;  ///< of it
+    bool is_seen_ = false;  ///< whether the workspace holds dots and cells of the filtered image
+    Fix seen_;              ///< the fix at that time, without a position
+    Profile closer_ = Profile::anoto;  ///< profile that may gain from sampling the cells again
+    int fewest_errors_ = kMostErrors;  ///< number of bit errors in `closer_`
 };
 
 }  // namespace
@@ -327,7 +336,7 @@ CodeReading read_in_code(const ImageView& image, const Options& options, Workspa
     if (!is_for_code(reading.fix.status)) return reading;
     const CodeReading any = read_in_any_code(image, options, nullptr, {}, w);
     const bool is_read = any.fix.status == Status::ok || any.fix.status == Status::ambiguous_code;
-    // Without a contradiction, but for bits misread.
+    // The other profile must explain the image without a contradiction, apart from misread bits.
     if (is_read && tuned::kBitsPerError * any.fix.bit_errors <= any.fix.dots_seen) {
         const bool is_first = any.code != reading.code;
         reading.has_other = is_first || any.has_other;
@@ -335,7 +344,7 @@ CodeReading read_in_code(const ImageView& image, const Options& options, Workspa
         reading.other_cell = is_first ? any.fix.cell : any.other_cell;
         reading.other_section = is_first ? any.fix.section : any.other_section;
     }
-    // The workspace must show what is returned.
+    // The workspace must match the fix that is returned.
     static_cast<void>(core::locate(image, options, w));
     return reading;
 }

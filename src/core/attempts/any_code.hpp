@@ -1,5 +1,5 @@
-// Any code: the attempts, each in one profile after the other, until a place is certain among those
-// of all profiles.
+// Any code: makes the attempts in one profile after the other, until a place is certain among the
+// places of all profiles.
 #pragma once
 
 #include "core/workspace.hpp"
@@ -10,7 +10,7 @@
 
 namespace dotpose::core {
 
-/// See Locator::locate_in_any_code; without a prediction, null.
+/// See Locator::locate_in_any_code; `prediction` may be null.
 CodeReading read_in_any_code(const ImageView& image, const Options& options,
                              const Prediction* prediction, const CodeEvidence& evidence,
                              Workspace& w);

@@ -37,7 +37,7 @@ struct Extent {
     int count = 0;
 };
 
-/// Whole numbers from `least` to `most`, at most `room` of them, those around 0.
+/// Returns the whole numbers from `least` to `most`: at most `room` of them, those around 0.
 Extent extent(float least, float most, int room) {
     const int half = room / 2;
     const int first = std::max(static_cast<int>(std::floor(std::max(least, -4096.0F))) - 1, -half);
@@ -46,7 +46,7 @@ Extent extent(float least, float most, int room) {
     return {first, std::max(last - first + 1, 0)};
 }
 
-/// What the code has along the lines of a view.
+/// Fills the workspace's rolls with those of the code along the lines of a view.
 void follow_code(Profile profile, const Place& place, const CellsInView& view, Workspace& w) {
     const Place corner = moved(profile, place, view.first_column, view.first_row);
     const auto follow = [&](std::uint32_t position, int section, std::uint32_t cross, int count,
@@ -58,7 +58,7 @@ void follow_code(Profile profile, const Place& place, const CellsInView& view, W
     follow(corner.cell.y, corner.section.v, corner.cell.x, view.rows, w.row_rolls);
 }
 
-/// Whether what was measured bears out the bits expected, by and large.
+/// Whether the dots measured agree with the expected bits on the whole.
 bool is_plausible(const BitsRead& bits, const MeasuredDots& dots, const Options& options,
                   bool shows_part) {
     const bool is_full = 4 * bits.seen >= dots.count || shows_part;
@@ -69,13 +69,13 @@ bool is_plausible(const BitsRead& bits, const MeasuredDots& dots, const Options&
            !share_is_wrong(bits.wrong_x) && !share_is_wrong(bits.wrong_y);
 }
 
-/// Nearly all dots are clear, and hardly a bit is wrong.
+/// Whether nearly all dots are clear and hardly a bit is wrong.
 bool is_clean(const BitsRead& bits) {
     return 100 * bits.read >= tuned::kClear_percent * bits.seen &&
            bits.wrong_x + bits.wrong_y <= tuned::kMostWrong;
 }
 
-/// Bits of one axis, as many as were read and so many of them wrong.
+/// Returns the confidence in one axis of which `bits` bits were read, `wrong` of them wrongly.
 Confidence confidence_in(int bits, int wrong) {
     constexpr int kWeight = 127;
     Confidence confidence;
@@ -88,7 +88,7 @@ std::array<Confidence, 2> confidences_in(const BitsRead& bits) {
     return {confidence_in(bits.read, bits.wrong_x), confidence_in(bits.read, bits.wrong_y)};
 }
 
-/// Whether the bits of all dots near the centre leave no doubt.
+/// Whether the bits of all dots near the centre leave no doubt about the place.
 bool is_certain(const Kernels& kernels, const Options& options, const Hypothesis& hypothesis,
                 const CellsInView& view, const BitBlock& block, const BitsRead& bits,
                 Workspace& w) {
@@ -106,7 +106,7 @@ bool is_certain(const Kernels& kernels, const Options& options, const Hypothesis
     return core::is_certain(kernels, evidence, options.profile, options.integrity, w.fix, others);
 }
 
-/// What is to be seen of the fix: dots and the bits read from them.
+/// Writes the dots and the bits read from them into the workspace, for the trace.
 void show(const Hypothesis& hypothesis, Workspace& w) {
     const MeasuredDots& dots = w.measured;
     const auto side = std::min(w.grid.side, kMaxGridSide);
@@ -160,7 +160,7 @@ void show(const Hypothesis& hypothesis, Workspace& w) {
     w.grid_from_image = w.pattern_from_image;
 }
 
-/// Fits the plane, and the displacement that it goes with.
+/// Fits the plane together with the displacement.
 bool fit_to_dots(const Kernels& kernels, const MeasuredDots& dots, const BitsRead& bits,
                  const ImageView& image, Hypothesis& hypothesis, PoseFit& fit) {
     if (bits.right == 0) return false;
@@ -187,15 +187,15 @@ void write_fix(const ImageView& image, const Options& options, const Hypothesis&
     write_pose(w.pattern_from_image, reference, options.profile, hypothesis.place, w.fix);
     estimate_covariance(fit, w.pattern_from_image, reference, w.fix);
     if (!(from_q8 == Vec{})) {
-        // Predictions are made from the fix, and count from the image centre.
+        // The next prediction is made from the fix, and counts from the image centre.
         w.fix.pattern_from_image =
             fixed_plane(recentred(hypothesis.pattern_from_image, {-from.x, -from.y}), centre_q8);
     }
     w.fix.status = Status::ok;
 }
 
-/// Whether a plane was fitted so far from where dots were looked for that quick bells do not see
-/// all of their distance.
+/// Whether the fitted plane is so far from where dots were looked for that quick bells miss a part
+/// of that distance.
 bool is_far_from(const FloatPlane& before, const FloatPlane& now, const ImageView& image) {
     const FloatVec half = centre_px(image);
     for (const FloatVec corner : {FloatVec{-half.x, -half.y}, FloatVec{half.x, -half.y},
@@ -207,17 +207,17 @@ bool is_far_from(const FloatPlane& before, const FloatPlane& now, const ImageVie
     return false;
 }
 
-/// The point whose pose is wanted, counted as the hypothesis's plane counts.
+/// Returns the point whose pose is wanted, in px from the hypothesis's `from_centre`.
 FloatVec reference_px(const Options& options, const Hypothesis& hypothesis) {
     return {static_cast<float>(options.reference_dx_q8) / 256 - hypothesis.from_centre.x,
             static_cast<float>(options.reference_dy_q8) / 256 - hypothesis.from_centre.y};
 }
 
-/// How far is looked, round by round, px.
+/// Distance in px within which dots are read; it grows from round to round.
 struct Reach {
-    float full;      ///< the whole image
-    float deciding;  ///< whose bits must make the position certain; farther out they add nothing
-    float now;
+    float full;      ///< reaches over the whole image
+    float deciding;  ///< bits within it must make the position certain; farther ones add nothing
+    float now;       ///< distance of this round
 
     Reach(const ImageView& image, const Hypothesis& hypothesis, float spacing_px)
         : full(half_side_px(image) +
@@ -226,7 +226,8 @@ struct Reach {
           deciding(full <= tuned::kDenseAtMost * spacing_px ? full : tuned::kDense * spacing_px),
           now(deciding) {
         if (!hypothesis.shows_part) return;
-        // Where the pattern ends, it is not full, and where there are islands, one is not certain.
+        // At the edge of the pattern many cells have no dot, and where it is in islands, one island
+        // may not make the position certain: so more is read than usual.
         deciding = std::min(full, tuned::kDecidingOfPart * spacing_px);
         now = std::min(full, tuned::kDenseOfPart * spacing_px);
     }
@@ -262,7 +263,7 @@ CellsInView cells_in_view(const ImageView& image, const Options& options,
     view.height_px = static_cast<float>(image.height_px);
     view.reach_px = reach_px;
     view.displacement = hypothesis.displacement;
-    // A dot that touches the border is not seen whole.
+    // A dot that touches the border of the image is not seen completely.
     view.margin_px = std::max(1.7F, 0.15F * spacing_px(hypothesis.pattern_from_image));
     const float half_width = std::min(centre.x + std::abs(hypothesis.from_centre.x) + 1, reach_px);
     const float half_height = std::min(centre.y + std::abs(hypothesis.from_centre.y) + 1, reach_px);
@@ -303,7 +304,8 @@ void count_from_centre(Profile profile, Hypothesis& hypothesis) {
 
 namespace {
 
-/// An exact hypothesis is implausible where dots need more than one look.
+/// Measures and compares the dots of the hypothesis and fits the pose. If the hypothesis is exact
+/// and its dots need more than one look, it is implausible.
 Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
                                  const Options& options, Hypothesis hypothesis, Workspace& w) {
     FloatPlane& plane = hypothesis.pattern_from_image;
@@ -332,7 +334,7 @@ Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
             return Confirmation::implausible;
         if (!is_clean(bits)) {
             if (hypothesis.is_exact) return Confirmation::implausible;
-            // Through a plane that is fitted to all dots, fewer bits are misread.
+            // Fewer bits are misread through a plane that is fitted to all dots.
             if (decides && !fit_to_dots(kernels, dots, bits, image, hypothesis, fit))
                 return Confirmation::implausible;
             if (decides) bits = reader.read_again(hypothesis, block);
@@ -377,7 +379,9 @@ Confirmation confirm(const Kernels& kernels, const ImageView& image, const Optio
         if (measure_and_compare(kernels, image, options, hypothesis, w) == Confirmation::ok)
             return Confirmation::ok;
         hypothesis.is_exact = false;
-        if (codes != nullptr) *codes = before;  // What did not count has told nothing of them.
+        if (codes != nullptr)
+            *codes = before;  // A look that did not count gives no evidence about
+                              // other codes.
     }
     return measure_and_compare(kernels, image, options, hypothesis, w);
 }

@@ -1,5 +1,5 @@
-// Confirm: what the attempts of desktops share once they think they know where the pattern is:
-// measure the dots where it has them, compare their bits, fit the pose.
+// Confirm: shared by the attempts of desktops. Given where the pattern is thought to be, it
+// measures the dots there, compares their bits with the code, and fits the pose.
 #pragma once
 
 #include "core/kernels/select.hpp"
@@ -10,48 +10,51 @@
 
 namespace dotpose::core {
 
-/// Where the pattern is thought to be in the image.
+/// A hypothesis of where the pattern is in the image.
 struct Hypothesis {
-    FloatPlane pattern_from_image;  ///< upright, counted from `from_centre`
-    FloatVec from_centre;           ///< px, from the image centre
-    Place place;                    ///< of the plane's cell (0, 0)
-    float displacement = 0;         ///< of the typical dot, spacings
-    bool is_certain = false;        ///< the place needs no confirmation
-    bool is_predicted = false;      ///< one look at each dot may do
-    /// Dots are known to lie nearer to where they are predicted than to another place of their
+    FloatPlane pattern_from_image;  ///< upright, px counted from `from_centre`
+    FloatVec from_centre;           ///< px from the image centre
+    Place place;                    ///< place of the plane's cell (0, 0)
+    float displacement = 0;         ///< of a typical dot, spacings
+    bool is_certain = false;        ///< whether the place needs no confirmation
+    bool is_predicted = false;      ///< whether one look at each dot may be enough
+    /// Whether each dot is known to lie nearer to its predicted place than to another place of its
     /// cell.
     bool is_exact = false;
-    bool shows_part = false;  ///< the pattern may cover any part of the image around `from_centre`
-    int depth_q8 = 0;         ///< how much darker than paper a typical dot is, smoothed, in 1/256
-    float typical_mass = 0;   ///< of a dot beyond the cut, over the paper's level; 0: not known yet
+    bool shows_part = false;  ///< whether the pattern may cover only a part of the image, around
+                              ///< `from_centre`
+    int depth_q8 = 0;  ///< darkness of a typical dot against paper in the smoothed patch, in 1/256
+    float typical_mass = 0;  ///< sum of a dot's darkness beyond the cut, relative to the paper's
+                             ///< level; 0: not known yet
 };
 
-/// Windows count what is darker than the paper by this share, in 1/256, of a typical dot's
-/// darkness.
+/// Windows count the pixels that are darker than the paper by more than this share, in 1/256, of a
+/// typical dot's darkness.
 inline constexpr int kCutOfDepth_q8 = 160;
 
 FloatLens float_lens(const Lens& lens);
 
-/// What `list_cells` is asked for: the cells in view within `reach_px` of the hypothesis's point,
-/// at most about so many. Fills in the workspace's rolls.
+/// Returns the input of `list_cells`: the cells in view within `reach_px` of the hypothesis's
+/// point, thinned to about `most_cells`. Fills the workspace's rolls.
 CellsInView cells_in_view(const ImageView& image, const Options& options,
                           const Hypothesis& hypothesis, float reach_px, int most_cells,
                           Workspace& w);
 
-/// Whether an image can show the grid so; all that follows relies on it.
+/// Whether the grid may lie so in an image; the following steps rely on it.
 bool is_plausible(const ImageView& image, const FloatPlane& plane);
 
-/// Counts cells from the one at the image centre.
+/// Counts the cells of the hypothesis from the one nearest its point.
 void count_from_centre(Profile profile, Hypothesis& hypothesis);
 
+/// Result of `confirm`.
 enum class Confirmation : std::uint8_t {
     ok,
     implausible,  ///< the dots are not where they were expected
     uncertain,    ///< they are, but their bits leave doubts
 };
 
-/// Measures, compares, fits: of a prediction at one look at each dot, where that is enough. Sets
-/// the workspace's fix and what there is to see of it.
+/// Measures, compares and fits; a predicted hypothesis gets one look at each dot if that is enough.
+/// Sets the workspace's fix and, if asked for, its trace.
 Confirmation confirm(const Kernels& kernels, const ImageView& image, const Options& options,
                      Hypothesis hypothesis, Workspace& w);
 

@@ -12,9 +12,10 @@
 namespace dotpose::core {
 namespace {
 
-/// Bits -> position in the code.
+/// Finds the position in the code from the bits.
 Status read_position(const Options& options, Workspace& w) {
-    // The decoder is not the paper's, so its window is only shown: devices have no time for that.
+    // The decoder does not use the paper's window, which is only shown; devices save the time for
+    // it.
     if (w.keeps_every_stage) w.decoding.window = choose_window(w.grid, kWindowSide);  // II-B.5
     choose_region(w);
     const Status status =
@@ -22,14 +23,14 @@ Status read_position(const Options& options, Workspace& w) {
     return status == Status::ok ? status : refused(status, w);
 }
 
-/// Whether all dots in view agree with the position.
+/// Checks whether all dots in view agree with the position.
 Status verify_position(const Options& options, Workspace& w) {
     const Status status = verify_quickly(w.grid, options.profile, w.decoding, options.integrity,
                                          w.line_scores, w.fix);
     return status == Status::ok ? status : refused(status, w);
 }
 
-/// Position -> pose.
+/// Fits the pose to the dots whose position in the code is known.
 Status measure_pose(const Options& options, Workspace& w) {
     const Nominal nominal(w.grid, options.profile, w.decoding);
     w.pattern_from_image =

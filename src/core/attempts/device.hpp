@@ -1,4 +1,5 @@
-// The attempt of devices: rows come in one by one, everything is integers, and the time is bounded.
+// The attempt of devices: rows come in one by one, all arithmetic is in integers, and the time is
+// bounded.
 #pragma once
 
 #include "core/workspace.hpp"
@@ -6,7 +7,7 @@
 
 namespace dotpose::core {
 
-/// Locates from the blobs of a frame.
+/// Locates a frame from its blobs; the fix is that of the workspace.
 const Fix& finish_device_attempt(const Options& options, Workspace& w);
 
 }  // namespace dotpose::core

@@ -15,10 +15,10 @@
 namespace dotpose::core {
 namespace {
 
-/// Shifts that are tried: the true one is hardly ever beyond the second.
+/// Number of shifts that are tried: the true one is hardly ever beyond the second.
 constexpr int kMostShifts = 4;
 
-/// Lays the cells to where the first rows show them.
+/// Moves the cells to where the first rows show their dots. Errors: not_tracked.
 Status settle(Tracking& tracking) {
     Shifts shifts(tracking);
     const int paper = shifts.paper_level();
@@ -28,7 +28,7 @@ Status settle(Tracking& tracking) {
         Vec shift_q8;
         if (!shifts.next(shift_q8)) return Status::not_tracked;
         tracking.cells.origin_q16 = predicted_q16 + Vec{shift_q8.x * 256, shift_q8.y * 256};
-        // Until it is known how large dots are, any half way between paper and ink may be one.
+        // Until the size of dots is known, any blob half way between paper and ink may be a dot.
         tracking.cut_q8 = 128 * shifts.depth() / paper;
         tracking.least_mass = paper / 8 + 16;
         tracking.most_mass = INT16_MAX;
@@ -53,7 +53,7 @@ Status read_rows(Workspace& w) {
     return Status::ok;
 }
 
-/// Bits and dots -> whether the place is certain, and the pose.
+/// Finds from bits and dots whether the place is certain, and fits the pose. Errors: not_tracked.
 Status confirm(const Options& options, Workspace& w) {
     Tracking& t = w.tracking;
     if (t.status != Status::ok) return t.status;
@@ -81,7 +81,7 @@ Status begin_device_tracked(int width_px, int height_px, const Options& options,
     t.rows_taken = t.first_kept = 0;
     t.dots_measured = 0;
     t.off_q8 = {};
-    // Lenses that bend are left to fresh fixes.
+    // Frames of a bent lens are not tracked, but located without a prediction.
     t.status = options.lens.k_q40 == 0 ? lay_predicted_cells(prediction, options.profile, t)
                                        : Status::not_tracked;
     if (t.status == Status::ok) lay_tracked_lines(options.profile, t);

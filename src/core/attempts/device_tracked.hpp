@@ -1,5 +1,5 @@
-// The tracked attempt of devices: dots are measured where a prediction has them, as their rows come
-// in, in integers and without the frame.
+// The tracked attempt of devices: dots are measured where a prediction expects them, as their rows
+// come in, in integers and without a frame buffer.
 #pragma once
 
 #include "core/workspace.hpp"
@@ -8,13 +8,14 @@
 
 namespace dotpose::core {
 
-/// Starts a frame of a size that the workspace has room for. Errors: not_tracked.
+/// Starts a frame, whose size the workspace must have room for. Errors: not_tracked.
 Status begin_device_tracked(int width_px, int height_px, const Options& options,
                             const Prediction& prediction, Workspace& w);
 
-/// Errors: not_tracked; further rows make no difference then.
+/// Takes the next row. Errors: not_tracked; further rows are ignored then.
 Status push_tracked_row(const std::uint8_t* pixels, Workspace& w);
 
+/// Ends the frame; the fix is that of the workspace, with the status not_tracked if a row had it.
 const Fix& finish_device_tracked(const Options& options, Workspace& w);
 
 }  // namespace dotpose::core

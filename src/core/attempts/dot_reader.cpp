@@ -10,8 +10,8 @@ namespace {
 
 namespace tuned = tuning::confirm;
 
-/// Leaves out windows so much darker than paper that they show the table beyond the sheet, where
-/// noise is as dark as dots. `paper` is the mean level around dots, once it is known.
+/// Drops windows that are much darker than paper, because they show the table beyond the sheet,
+/// where noise is as dark as dots. `paper` is the mean level around dots, once it is known.
 void leave_out_table(MeasuredDots& dots, float& paper) {
     float sum = 0;
     float count = 0;
@@ -25,8 +25,8 @@ void leave_out_table(MeasuredDots& dots, float& paper) {
     if (paper == 0 && count > 0) paper = sum / count;
 }
 
-/// How far the bell reaches that dots are weighed with: little, for noise, but as far as a dot's
-/// edge is seen.
+/// Returns the reach in px of the bell that weights the pixels of a dot: small, against noise, but
+/// as far as the edge of a dot is seen.
 float bell_reach_px(const Hypothesis& hypothesis) {
     constexpr float kPi = 3.14159265F;
     const float beyond_cut =
@@ -38,8 +38,8 @@ float bell_reach_px(const Hypothesis& hypothesis) {
                       is_quick ? kQuickBellReach_px : kMostBellReach_px);
 }
 
-/// Whether all dots in view fall on the pixels alike, along u or v: the grid's steps are whole
-/// pixels. What one look is off does not average out then.
+/// Whether all dots in view fall on the pixels alike, along u or v, because the grid's steps are
+/// whole pixels. The error of a single look at each dot does not average out then.
 bool falls_on_pixels_alike(const FloatPlane& p) {
     const float by = 1 / (p.du_x * p.dv_y - p.dv_x * p.du_y);
     const auto is_whole = [](float px) {
@@ -75,7 +75,7 @@ BitsRead DotReader::read(const CellsInView& view, Hypothesis& hypothesis, BitBlo
     if (hypothesis.is_exact)
         return kernels_.read_levels(image_, view, hypothesis.depth_q8, dots_, columns, rows);
     WindowOptions look = window_options(hypothesis);
-    // Farther out, most windows may be empty.
+    // Away from the centre most windows may be empty, so their own typical mass is not used.
     if (hypothesis.shows_part) look.typical_mass = typical_mass_;
     typical_mass_ = hypothesis.typical_mass = kernels_.measure_windows(image_, view, look, dots_);
     if (hypothesis.shows_part) leave_out_table(dots_, paper_);

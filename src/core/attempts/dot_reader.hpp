@@ -1,4 +1,5 @@
-// Dot reader: the bits and the centres of dots that are listed, as well as the hypothesis is known.
+// Dot reader: reads the bits and measures the centres of listed dots, in the way that suits how
+// well the hypothesis is known.
 #pragma once
 
 #include "core/attempts/confirm.hpp"
@@ -6,23 +7,24 @@
 
 namespace dotpose::core {
 
-/// Whether dots that are where they are thought to be can be read at one look, by quick bells.
+/// Whether dots that are where they are predicted can be read in one look each, by quick bells.
 bool suits_one_pass(const Hypothesis& hypothesis);
 
-/// Reads the dots listed, and measures them: exactly where they are, if that is known, or around
-/// the intersections.
+/// Reads and measures the listed dots: exactly at their places, if these are known, otherwise in
+/// windows around the intersections.
 class DotReader {
   public:
     DotReader(const Kernels& kernels, const ImageView& image, float spacing_px, MeasuredDots& dots)
         : kernels_(kernels), image_(image), spacing_px_(spacing_px), dots_(dots) {}
 
-    /// Learns how dark dots are, from a few all over the view.
+    /// Sets the hypothesis's typical mass from a few dots all over the view.
     void sample_some(CellsInView view, Hypothesis& hypothesis);
-    /// Adds what it reads to an empty block, unless that is null.
+    /// Reads the bits of the dots listed, and adds them to an empty block unless it is null.
     BitsRead read(const CellsInView& view, Hypothesis& hypothesis, BitBlock* block);
-    /// Through another plane.
+    /// Reads the bits of the measured dots again, through the hypothesis's new plane.
     BitsRead read_again(const Hypothesis& hypothesis, BitBlock& block) const;
-    /// Of an exact hypothesis, also how far dots are displaced and off.
+    /// Improves the centres of the dots. For an exact hypothesis, also updates the displacement and
+    /// residuals in `bits`.
     void find_centres(const CellsInView& view, const Hypothesis& hypothesis, bool is_last,
                       BitsRead& bits) const;
 
@@ -34,7 +36,7 @@ class DotReader {
     const float spacing_px_;
     MeasuredDots& dots_;
     float typical_mass_ = 0;
-    float paper_ = 0;  ///< the mean level around dots, once it is known
+    float paper_ = 0;  ///< mean level around dots; 0: not known yet
 };
 
 }  // namespace dotpose::core

@@ -20,7 +20,7 @@ namespace tuned = tuning::first;
 constexpr int kPatchWidth_px = tuned::kPatchWidth_px;
 constexpr int kPatchHeight_px = tuned::kPatchHeight_px;
 
-/// The dots where a camera without distortion would see them.
+/// Moves dots to where a camera without distortion would see them.
 void straighten(const Lens& lens, FloatVec middle, PatchDots& dots) {
     const FloatLens l = float_lens(lens);
     for (std::size_t i = 0; i < static_cast<std::size_t>(dots.count); ++i) {
@@ -32,13 +32,13 @@ void straighten(const Lens& lens, FloatVec middle, PatchDots& dots) {
     }
 }
 
-/// Where a patch has its middle, from the image centre.
+/// Returns the middle of a patch, in px from the image centre.
 FloatVec middle_of(const Patch& patch, const ImageView& image) {
     return {middle_u_px(patch) - static_cast<float>(image.width_px - 1) / 2,
             middle_v_px(patch) - static_cast<float>(image.height_px - 1) / 2};
 }
 
-/// The patch's dots. False if it has no contrast.
+/// Finds the dots of the patch. Returns false if it has no contrast.
 bool find_patch_dots(const Kernels& kernels, const ImageView& image, Patch& patch) {
     kernels.fill_patch(image, patch);
     kernels.smooth_patch(patch);
@@ -47,7 +47,8 @@ bool find_patch_dots(const Kernels& kernels, const ImageView& image, Patch& patc
     return true;
 }
 
-/// From the dots of a patch, counted from `from_centre`, to a place in the code.
+/// Finds a place in the code from the dots of a patch, counted from `from_centre`. Returns false if
+/// there is none.
 bool read_hypothesis(const Kernels& kernels, const Options& options, const PatchView& view,
                      FloatVec from_centre, Workspace& w, Hypothesis& hypothesis) {
     Patch& patch = *w.patch;
@@ -66,7 +67,8 @@ bool read_hypothesis(const Kernels& kernels, const Options& options, const Patch
     return true;
 }
 
-/// Reads the patch at the image centre. False if it shows no place in the code.
+/// Finds a hypothesis in the patch at the image centre. Returns false if it shows no place in the
+/// code.
 bool find_hypothesis(const Kernels& kernels, const ImageView& image, const Options& options,
                      Workspace& w, Hypothesis& hypothesis) {
     Patch& patch = *w.patch;
@@ -80,8 +82,8 @@ bool find_hypothesis(const Kernels& kernels, const ImageView& image, const Optio
     return true;
 }
 
-/// Reads a patch around a point of the image, in px, from where its dots are densest, which is
-/// `densest_px`. False if it shows no place in the code.
+/// Finds a hypothesis in a patch around a point of the image, in px, counted from where its dots
+/// are densest, which is returned in `densest_px`. Returns false if it shows no place in the code.
 bool find_hypothesis_around(const Kernels& kernels, const ImageView& image, const Options& options,
                             Vec around_px, int scale, Workspace& w, Vec& densest_px,
                             Hypothesis& hypothesis) {
@@ -110,9 +112,9 @@ bool find_hypothesis_around(const Kernels& kernels, const ImageView& image, cons
     return false;
 }
 
-/// Looks once in a patch around a point of the image, and once more around where its dots are
-/// densest, if that is elsewhere. Every look that the bits do not bear out is one more chance to be
-/// deceived, of which `tries_left` are left.
+/// Searches a patch around a point of the image, and once more around the point where its dots are
+/// densest, if that lies elsewhere. Every hypothesis whose bits contradict it is one more chance of
+/// a wrong fix; `tries_left` counts how many more are allowed.
 bool locate_around(const Kernels& kernels, const ImageView& image, const Options& options,
                    Vec around_px, int scale, int& tries_left, Workspace& w) {
     for (int round = 0; round < 2 && tries_left > 0; ++round) {
@@ -134,7 +136,7 @@ bool locate_around(const Kernels& kernels, const ImageView& image, const Options
     return false;
 }
 
-/// Looks all over the image for dots, in patches that grow.
+/// Searches the whole image for dots, in patches that grow.
 bool locate_elsewhere(const Kernels& kernels, const ImageView& image, const Options& options,
                       Workspace& w) {
     int tries_left = tuned::kMostTries;

@@ -1,4 +1,4 @@
-// The first attempt of a desktop: image -> pose, outwards from a patch.
+// The first attempt of a desktop: locates an image without a prediction, outwards from a patch.
 #pragma once
 
 #include "core/kernels/select.hpp"
@@ -8,19 +8,19 @@
 
 namespace dotpose::core {
 
-/// Locates from a patch of the image, then outwards. False if that does not settle it.
+/// Locates from a patch of the image, then outwards. Returns whether there is a fix.
 bool locate_outwards(const Kernels& kernels, const ImageView& image, const Options& options,
                      Workspace& w);
 
-/// Whether it is asked for, and there is memory for it.
+/// Whether `locate_outwards` suits the options and has memory.
 bool searches_outwards(const Options& options, const Workspace& w);
 
-/// Locates from the blobs of all rows, and measures the dots once more where that is how they are
-/// measured otherwise. Leaves the fix in the workspace; false if there is none.
+/// Locates from the blobs of all rows, and measures the dots once more as `locate_outwards`
+/// measures them. Leaves the fix in the workspace; returns whether there is one.
 bool locate_by_rows(const Kernels& kernels, const ImageView& image, const Options& options,
                     Workspace& w);
 
-/// Outwards; what that does not settle, by rows.
+/// Locates outwards and, without a fix, by rows.
 Fix make_first_attempt(const ImageView& image, const Options& options, Workspace& w);
 
 }  // namespace dotpose::core

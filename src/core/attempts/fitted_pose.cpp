@@ -29,7 +29,7 @@ bool fit_pattern(const Options& options, const ImageView* image, Workspace& w, P
         w.dot_count =
             measure_dots(*image, options.lens, w.pattern_from_image, nominal, w.grid, w.dots);
         undistort(options.lens, image_centre_q8(w.light), first(w.dots, w.dot_count));
-        w.seed_count = 0;  // They were of the dots before.
+        w.seed_count = 0;  // The seeds belonged to the dots before.
     }
     const Observations observations(w.found_dots(), w.grid, nominal,
                                     image != nullptr ? &w.smoothing.paper : nullptr);

@@ -1,4 +1,4 @@
-// The pose of the attempts that have floating point: fitted to all dots in view.
+// Fitted pose: the pose of the attempts in floating point, fitted to all dots in view.
 #pragma once
 
 #include "core/pose/refine_pose.hpp"
@@ -8,18 +8,18 @@
 
 namespace dotpose::core {
 
-/// Whether the position explains badly what is seen: dots that are not where it has them, bits that
-/// are others. Two patterns that lie on one another, nearly in line, can pass for a third one,
-/// which has the columns of the one and the rows of the other: a quarter of its cells show no dot
-/// at its place, half of the dots are beside theirs, and so the typical displacement comes out too
-/// small. docs/integrity.md has the numbers.
+/// Whether the position explains the frame badly: dots off their places, and contradicting bits.
+/// Two patterns that overlap nearly in line can pass for a third one, which has the columns of the
+/// one and the rows of the other: a quarter of its cells show no dot at the expected place, half of
+/// the dots lie beside theirs, and so the typical displacement is too small. docs/integrity.md has
+/// the numbers.
 bool is_implausible(const PoseFit& fit, int bits, int bit_errors);
 
-/// Position -> map from the image to the pattern. With an `image`, dots are measured in it once
-/// more. Returns false when the dots do not determine it.
+/// Fits the map from the image to the pattern for the position found. If there is an `image`, dots
+/// are first measured in it again. Returns false if the dots do not determine the map.
 bool fit_pattern(const Options& options, const ImageView* image, Workspace& w, PoseFit& fit);
 
-/// Position -> pose, likewise.
+/// Fits the map as `fit_pattern` does, and writes the pose. Errors: no_grid, not_certain.
 Status measure_pose(const Options& options, const ImageView* image, Workspace& w);
 
 }  // namespace dotpose::core

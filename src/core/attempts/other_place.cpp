@@ -8,7 +8,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Steps from one position to another, the short way round.
+/// Returns the steps from one position to another, by the shorter way around.
 std::int32_t steps(std::uint32_t from, std::uint32_t to) {
     constexpr auto kAll = static_cast<std::int32_t>(kPositionsPerAxis);
     const std::int32_t step = static_cast<std::int32_t>(to) - static_cast<std::int32_t>(from);
@@ -16,17 +16,18 @@ std::int32_t steps(std::uint32_t from, std::uint32_t to) {
     return step < -kAll / 2 ? step + kAll : step;
 }
 
-/// One axis of a place: where it has the line that was read at a position, and with which roll.
+/// A line of one axis of a place: its position and roll in some profile.
 struct Line {
     std::uint32_t position;
     int roll;
 };
 
-/// At the same position.
+/// Returns the line at the same position in the other profile.
 Line here(Profile read, Profile other, std::uint32_t position, int roll_read) {
     return {position, roll_read + roll(other, position) - roll(read, position)};
 }
 
+/// Returns the line at the likeliest other position.
 Line elsewhere(const OtherAxis& axis, int roll_read) {
     return {axis.position, roll_read + axis.roll};
 }
@@ -36,7 +37,7 @@ std::uint8_t section(Profile profile, const Line& line, const Line& crossing) {
     return static_cast<std::uint8_t>(section_of(profile, roll, line.position, crossing.position));
 }
 
-/// Odds of the likeliest other place of one axis or both.
+/// Returns the likelihood ratio of the likeliest other place, moved along one axis or both.
 float best_odds(const OtherCode& there) {
     return std::max(
         {there.x.best * there.y.here, there.x.here * there.y.best, there.x.best * there.y.best});
@@ -74,7 +75,7 @@ void name_other_place(Profile read, Profile other, const OtherCodes& others, Cod
                               steps(fix.place.cell.y, others.first.y));
     const int x_roll = code::roll_from(read, first.cell.x, first.section.u, first.cell.y);
     const int y_roll = code::roll_from(read, first.cell.y, first.section.v, first.cell.x);
-    // Of one axis or both.
+    // The other place differs along one axis or along both.
     const float by_x = there.x.best * there.y.here;
     const float by_y = there.x.here * there.y.best;
     const float by_both = there.x.best * there.y.best;

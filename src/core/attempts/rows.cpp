@@ -12,7 +12,7 @@
 namespace dotpose::core {
 namespace {
 
-/// The decoder asked for.
+/// Decodes by the decoder of the options.
 Status decode(const Options& options, Workspace& w) {
     if (options.decoder == Decoder::window) {
         return decode_window(w.grid, options.profile, w.line_scores, w.decoding);
@@ -20,7 +20,7 @@ Status decode(const Options& options, Workspace& w) {
     return decode_briefly(w.grid, options.profile, w.line_scores, w.decoding);
 }
 
-/// Bits -> position in the code.
+/// Finds the position in the code from the bits.
 Status read_position(const Options& options, Workspace& w) {
     w.decoding.window = choose_window(w.grid, kWindowSide);  // II-B.5
     choose_region(w);
@@ -28,7 +28,7 @@ Status read_position(const Options& options, Workspace& w) {
     return status == Status::ok ? status : refused(status, w);
 }
 
-/// Whether all dots in view agree with the position.
+/// Checks whether all dots in view agree with the position.
 Status verify_position(const Options& options, Workspace& w) {
     const Status status = verify_among_codes(w.grid, options.profile, wanted_codes(w), w.decoding,
                                              options.integrity, w.line_scores, w.fix);

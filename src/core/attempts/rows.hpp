@@ -1,5 +1,5 @@
-// The attempt for rows that are pushed and gone, and for images of which the first attempt made
-// nothing: for a camera that looks rather straight at clean paper.
+// The attempt by rows: for rows that are pushed and not kept, and for images that the first attempt
+// does not locate. It suits a camera that looks nearly straight at clean paper.
 #pragma once
 
 #include "core/workspace.hpp"
@@ -7,10 +7,10 @@
 
 namespace dotpose::core {
 
-/// Locates from the blobs of a frame.
+/// Locates a frame from its blobs.
 Fix finish_rows(const Options& options, Workspace& w);
 
-/// Whether the dots lie so far from where the fix has them that a second attempt is worth while.
+/// Whether the dots lie so far from their fitted places that a second attempt may be better.
 bool is_rough(const Fix& fix);
 
 }  // namespace dotpose::core

@@ -18,7 +18,7 @@ namespace {
 
 namespace tuned = tuning::second;
 
-/// The thresholds of a filtered image.
+/// Returns the options with the thresholds of a filtered image.
 Options for_filtered(Options options) {
     ThresholdOptions& threshold = options.threshold;
     threshold.min_contrast = threshold.min_contrast / 2 + 1;
@@ -27,7 +27,7 @@ Options for_filtered(Options options) {
     return options;
 }
 
-/// The image, filtered -> blobs.
+/// Filters the image and detects its blobs.
 void detect_filtered(const ImageView& image, const Options& filtered, Workspace& w) {
     begin_frame(image.width_px, image.height_px, w);
     begin_smoothing(image, w.smoothing);
@@ -35,8 +35,8 @@ void detect_filtered(const ImageView& image, const Options& filtered, Workspace&
         detect_row(next_smooth_row(image, w.smoothing), filtered, w);
 }
 
-/// Dots -> the grid they lie on, with more patience than `find_grid`, and for tilted cameras and
-/// lenses that bend.
+/// Finds the grid that the dots lie on, also for tilted cameras and bent lenses; slower than
+/// `find_grid`.
 Status find_grid_thoroughly(const Options& options, Workspace& w) {
     const Vec centre_q8 = image_centre_q8(w.light);
     Status status = find_axes(centre_q8, kMaxSeeds, w);
@@ -53,12 +53,13 @@ Status find_grid_thoroughly(const Options& options, Workspace& w) {
     return status;
 }
 
-/// Grid -> bits, from the image itself. False if it shows two patterns, one on the other.
+/// Samples the bits from the image through the grid. Returns false if it shows two overlapping
+/// patterns.
 bool shows_one_pattern(const ImageView& image, const Options& options, Workspace& w) {
     return sample_cells(image, w.smoothing.paper, options.lens, w.grid_from_image, w.grid);
 }
 
-/// The decoder asked for.
+/// Decodes by the decoder of the options.
 Status decode(const Options& options, Workspace& w) {
     if (options.decoder == Decoder::window) {
         return decode_window(w.grid, options.profile, w.line_scores, w.decoding);
@@ -66,28 +67,29 @@ Status decode(const Options& options, Workspace& w) {
     return decode_all(w.grid, options.profile, w.line_scores, w.decoding);
 }
 
-/// One axis of the position is beyond doubt: each bit of the other has only two places left.
+/// Samples the bits again, given one axis of the position that is beyond doubt: each bit of the
+/// other axis has only two possible places then.
 Status resample_given_axis(Axis known, const ImageView& image, const Options& options,
                            Workspace& w) {
     const Place place = w.decoding.place;
     resample_cells_given_axis(known, options.profile, w.decoding, image, w.smoothing.paper,
                               options.lens, w.grid_from_image, w.grid);
     const Status status = read_position(options, w);
-    // What was read presumes the axis that was known.
+    // The bits were sampled given the known axis, so the new position must agree with it.
     const bool is_as_known = w.decoding.pattern_from_grid.quarters == 0 &&
                              share_line(known, options.profile, place, w.decoding.place);
     return is_as_known ? status : Status::not_certain;
 }
 
-/// Where the position in doubt is right, a grid fitted to all dots that it has there shows their
-/// bits more clearly. The code has to confirm them like any others.
+/// Reads the bits again through a grid fitted to the dots of the doubtful position: if that is
+/// right, they are clearer. The code must confirm them as any others.
 Status resample(const ImageView& image, const Options& options, bool may_presume, Workspace& w) {
     const auto known = sure_axis(w.decoding, options.integrity);
     PoseFit fit;
     if (!fit_pattern(options, &image, w, fit)) return Status::not_certain;
     w.grid_from_image = w.pattern_from_image;
     w.decoding.pattern_from_grid = {};
-    w.decoding.p_wrong_log2_q8 = {};  // Of the bits before.
+    w.decoding.p_wrong_log2_q8 = {};  // They belonged to the bits before.
     if (known && may_presume) return resample_given_axis(*known, image, options, w);
     return shows_one_pattern(image, options, w) ? read_position(options, w) : Status::not_certain;
 }

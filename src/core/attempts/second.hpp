@@ -1,4 +1,4 @@
-// The second attempt, for tilted cameras, lenses that bend, noise, uneven light and graphics.
+// The second attempt: for tilted cameras, bent lenses, noise, uneven light and graphics.
 #pragma once
 
 #include "core/workspace.hpp"
@@ -7,22 +7,23 @@
 
 namespace dotpose::core {
 
-/// Locates on the image filtered; bits are read from it rather than from blobs. The steps, one
-/// after the other:
+/// Locates on the filtered image; bits are sampled from the image, not taken from blobs. Calls the
+/// steps below, one after the other.
 Fix make_second_attempt(const ImageView& image, const Options& options, Workspace& w);
 
-/// Image, filtered -> dots -> grid -> bits, which have nothing to do with the profile.
-/// `not_certain` if it shows two patterns, one on the other.
+/// Filters the image and finds dots, grid and bits, which do not depend on the profile. Errors:
+/// those of the steps; not_certain if it shows two overlapping patterns.
 Status see_filtered(const ImageView& image, const Options& options, Workspace& w);
 
-/// Bits -> position in the profile of the options. `not_certain` where a closer look may help.
+/// Finds the position in the profile of the options. Errors: not_certain if sampling the cells
+/// again may help.
 Status read_position(const Options& options, Workspace& w);
 
-/// Where the position in doubt is right, a grid fitted to all dots that it has there shows the bits
-/// more clearly: looks through one grid after the other. What was seen before is lost.
+/// Reads the bits again through grids fitted to the dots of the doubtful position, one grid after
+/// the other: if the position is right, they are clearer. The bits before are lost.
 Status resample_until_certain(const ImageView& image, const Options& options, Workspace& w);
 
-/// Position -> pose, and what other profiles make of the bits.
+/// Fits the pose for the position found, and weighs the alternatives in other profiles.
 Status measure_and_weigh(const ImageView& image, const Options& options, Workspace& w);
 
 }  // namespace dotpose::core

@@ -64,7 +64,7 @@ Status find_dots(const Options& options, Workspace& w) {
     sift_dots(options.blobs, dot_list(w));
     w.fix.dots_seen = w.dot_count;
     if (!w.light.has_contrast) return Status::no_contrast;
-    // The options may ask for no dot at all, but the stages that follow take means over them.
+    // Options may allow no dots at all, but the stages that follow take means over them.
     if (w.dot_count < std::max(options.lattice.min_dots, 1)) return Status::too_few_dots;
     undistort(options.lens, image_centre_q8(w.light), first(w.dots, w.dot_count));  // eq. 1-2
     return Status::ok;
@@ -72,8 +72,8 @@ Status find_dots(const Options& options, Workspace& w) {
 
 namespace {
 
-/// Where the grid is looked for: at the image centre, or in the middle of the dots if that is far
-/// from it, as at the edge of a sheet.
+/// Returns where the search for the grid starts: the image centre, or the centroid of the dots if
+/// that is far from it, as at the edge of a sheet.
 Vec start_q8(const Workspace& w) {
     const Vec centre_q8 = image_centre_q8(w.light);
     Vec sum_q4;
@@ -105,7 +105,7 @@ Status find_grid(const Options& options, Workspace& w) {
     find_origin(w.found_dots(), first(w.seeds, w.seed_count), start, w.lattice);
     const Status grown = grow_grid(w.found_dots(), options.lattice, start, w.lattice,
                                    w.grid_from_image);  // II-B.3
-    // Maps are counted from the image centre.
+    // Maps of the attempts are counted from the image centre.
     w.grid_from_image = affine_tangent(w.grid_from_image, image_centre_q8(w.light));
     return grown;
 }

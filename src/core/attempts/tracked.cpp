@@ -14,7 +14,8 @@ namespace {
 
 namespace tuned = tuning::tracked;
 
-/// Position, scale and turn of least squares; perspective and shear stay as predicted.
+/// Fits position, scale and turn by least squares; perspective and shear stay as predicted. Returns
+/// false if the dots do not determine them.
 bool fit_similarity(const Kernels& kernels, const MeasuredDots& dots, float reach_px,
                     float displacement, float most_off, FloatPlane& plane) {
     const FitSums sums =
@@ -42,15 +43,14 @@ bool fit_similarity(const Kernels& kernels, const MeasuredDots& dots, float reac
     return true;
 }
 
-/// How far the prediction may be off, px.
+/// Returns the greatest error of the prediction to search for, in px.
 int most_shift_px(const Prediction& prediction, float spacing_px) {
     const float off = std::clamp(3 * static_cast<float>(prediction.sigma_q16) / 65536 + 0.1F, 0.1F,
                                  tuned::kMostOff);
     return static_cast<int>(std::ceil(off * spacing_px));
 }
 
-/// Corrects the hypothesis by the dots near the point it is counted from. False if they are not
-/// there.
+/// Corrects the hypothesis by the dots near its `from_centre`. Returns false if they are not there.
 bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Options& options,
                      int most_px, Hypothesis& hypothesis, Workspace& w) {
     FloatPlane& plane = hypothesis.pattern_from_image;
@@ -60,7 +60,7 @@ bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Optio
     CellsInView view = cells_in_view(image, options, hypothesis, reach, dots.capacity(), w);
     view.window_on_dot = true;
     kernels.list_cells(view, dots);
-    // Thirteen shifts along either axis.
+    // The search makes thirteen shifts along either axis.
     const int step_px = std::max((most_px + 3) / 6, 1);
     Vec shift;
     if (!kernels.find_shift(image, dots, most_px, step_px, shift, hypothesis.depth_q8))
@@ -76,7 +76,8 @@ bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Optio
            fit_similarity(kernels, dots, reach, hypothesis.displacement, tuned::kSecondOff, plane);
 }
 
-/// The hypothesis corrected by the dots near `from`, in px from the image centre.
+/// Corrects the hypothesis by the dots near `from`, in px from the image centre. Returns false if
+/// they are not there.
 bool correct(const Kernels& kernels, const ImageView& image, const Options& options, FloatVec from,
              int most_px, Hypothesis& hypothesis, Workspace& w) {
     hypothesis.from_centre = from;
@@ -93,7 +94,8 @@ bool is_in_code(const Place& place) {
            place.section.u < kSections && place.section.v < kSections;
 }
 
-/// Where the prediction has the pattern, counted from the image centre. False if it makes no sense.
+/// Makes a hypothesis from the prediction, counted from the image centre. Returns false if the
+/// prediction is not plausible.
 bool take(const Prediction& prediction, const ImageView& image, const Options& options,
           Hypothesis& hypothesis) {
     const PlaneFromImage& plane = prediction.pattern_from_image;
@@ -117,8 +119,8 @@ bool take(const Prediction& prediction, const ImageView& image, const Options& o
     return true;
 }
 
-/// The dots where the hypothesis has them, corrected by those near one point of the image after the
-/// other, until those near one bear it out.
+/// Confirms the hypothesis, corrected by the dots near one point of the image after the other,
+/// until one correction is confirmed.
 bool confirm_corrected(const Kernels& kernels, const ImageView& image, const Options& options,
                        const Hypothesis& hypothesis, int most_px, Workspace& w) {
     for (const FloatVec share : tuned::kPoints) {

@@ -1,4 +1,4 @@
-// The tracked attempt of a desktop: from where the pattern is expected to its pose.
+// The tracked attempt of a desktop: confirms a predicted pose.
 #pragma once
 
 #include "core/kernels/select.hpp"
@@ -9,13 +9,13 @@
 
 namespace dotpose::core {
 
-/// Measures the dots where the prediction has them. False if the image does not bear it out.
+/// Measures the dots where the prediction expects them. Returns false if the image does not confirm
+/// it.
 bool locate_tracked(const Kernels& kernels, const ImageView& image, const Options& options,
                     const Prediction& prediction, Workspace& w);
 
-/// Measures the dots once more where the workspace's fix, which is certain of its place, has them,
-/// as exactly as dots are that were predicted. Leaves the fix as it is where they do not bear it
-/// out.
+/// Measures the dots of the workspace's fix, whose place is certain, again as exactly as those of a
+/// prediction. If they do not confirm the fix, it stays as it is.
 void measure_again(const Kernels& kernels, const ImageView& image, const Options& options,
                    Workspace& w);
 

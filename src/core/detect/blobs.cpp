@@ -10,20 +10,20 @@
 namespace dotpose::core {
 namespace {
 
-/// A dot at 60 px spacing with a diameter of 0.35 of it, blurred, has fewer pixels and is less
-/// wide.
+/// Greatest area and side of a dot: a blurred dot at 60 px spacing with a diameter of 0.35 spacing
+/// has fewer pixels and is narrower.
 constexpr int kMaxDotArea_px = 1024;
 constexpr int kMaxDotSide_px = 48;
 constexpr std::uint32_t kMaxMass = 65535;
-/// The last row of a blob that became part of another.
+/// Marks a blob that was merged into another, in place of its last row.
 constexpr std::uint16_t kNoRow = UINT16_MAX;
 
-/// Within which all dots of an image are.
+/// Returns a distance from the image centre within which all dots of an image are.
 int all_within_px(const Light& light) {
     return std::max(light.width_px, light.height_px);
 }
 
-/// Whether a dot is as close to the image's centre as those that are kept.
+/// Predicate: whether a dot is as near the image's centre as those that are kept.
 struct IsKept {
     Vec image_centre_q8;
     std::int32_t within_q8;
@@ -36,8 +36,8 @@ struct IsKept {
     }
 };
 
-/// Drops all dots but those that are to be kept, in their order.
-// Libraries unroll std::remove_if: to a kilobyte, on small devices.
+/// Drops all dots but those that satisfy the predicate; the order stays.
+/// std::remove_if is not used because libraries unroll it, which takes a kilobyte on small devices.
 template <typename Predicate>
 void keep_dots(DotList list, Predicate is_to_keep) {
     Dot* kept = list.dots.data();
@@ -49,9 +49,9 @@ void keep_dots(DotList list, Predicate is_to_keep) {
     list.count = static_cast<int>(kept - list.dots.data());
 }
 
-/// Gives up the outer dots, and all that will follow there, so that the inner ones find room. False
-/// if there are no outer ones any more.
-// Not inlined: small devices have registers for what happens often.
+/// Drops the outer dots, and all that would follow there, so that inner ones find room. Returns
+/// false if there are no outer dots left.
+/// It is not inlined, so that small devices keep their registers for the frequent case.
 [[gnu::noinline]] bool make_room(const Light& light, DotList list) {
     if (list.kept_within_px == 0) return false;
     list.kept_within_px -= list.kept_within_px / 8 + 1;
@@ -59,15 +59,15 @@ void keep_dots(DotList list, Predicate is_to_keep) {
     return true;
 }
 
-/// sum / mass in 1/256, rounded: 32 bits are enough for all but the largest blobs, which are cut by
-/// a bit or two.
+/// Returns sum / mass in 1/256, rounded. 32 bits are enough; for the largest blobs the lowest one
+/// or two bits are dropped.
 std::int32_t mean_q8(std::uint32_t sum, std::uint32_t mass) {
     for (; sum >= 1U << 23; sum /= 2)
         mass /= 2;
     return static_cast<std::int32_t>((sum * 256 + mass / 2) / mass);
 }
 
-/// Whether a blob is small, away from the border, and dark enough somewhere.
+/// Whether a blob is small, away from the border, and has a pixel below the high threshold.
 bool may_be_dot(const OpenBlob& blob, const Light& light) {
     return blob.has_core && blob.area_px <= kMaxDotArea_px && blob.first_v > 0 && blob.left > 0 &&
            blob.right < light.width_px && blob.right - blob.left <= kMaxDotSide_px &&
@@ -76,12 +76,13 @@ bool may_be_dot(const OpenBlob& blob, const Light& light) {
 
 void close_blob(const OpenBlob& blob, const Light& light, DotList list) {
     if (!may_be_dot(blob, light)) return;
-    // Relative to the blob's corner: sums were modulo 2^32, these are small.
+    // Coordinates are relative to the blob's corner, so that the sums, which are modulo 2^32, are
+    // small.
     const Dot dot{{blob.left * 256 + mean_q8(blob.sum_x - blob.mass * blob.left, blob.mass),
                    blob.first_v * 256 + mean_q8(blob.sum_y - blob.mass * blob.first_v, blob.mass)},
                   static_cast<std::uint16_t>(std::min(blob.mass, kMaxMass)),
                   static_cast<std::uint16_t>(blob.area_px)};
-    // As long as there was room for all, none needs a closer look.
+    // As long as all dots had room, their distance does not matter.
     while (list.kept_within_px == all_within_px(light) || IsKept(light, list)(dot)) {
         if (list.count < static_cast<int>(list.dots.size())) {
             list.dots[static_cast<std::size_t>(list.count++)] = dot;
@@ -91,7 +92,7 @@ void close_blob(const OpenBlob& blob, const Light& light, DotList list) {
     }
 }
 
-/// A blob that is not in use; none if there are too many already.
+/// Returns an unused blob; none if there are too many already.
 OpenBlob* unused_blob(OpenBlobs& open) {
     OpenBlob* const blob = open.first_unused;
     if (blob != nullptr) {
@@ -101,7 +102,7 @@ OpenBlob* unused_blob(OpenBlobs& open) {
     return open.blobs_begun < open.blobs.size() ? &open.blobs[open.blobs_begun++] : nullptr;
 }
 
-/// A blob that begins with a run of row `v`; none if there are too many already.
+/// Returns a new blob that begins with a run of row `v`; none if there are too many already.
 OpenBlob* open_blob(const Run& run, int v, OpenBlobs& open) {
     OpenBlob* const blob = unused_blob(open);
     if (blob == nullptr) return nullptr;
@@ -129,7 +130,7 @@ void add_run(const Run& run, int v, OpenBlob& blob) {
     blob.has_core |= run.has_core;
 }
 
-/// Adds `other` to `blob`; both belong to the same dark spot after all.
+/// Merges `other` into `blob`, because both belong to the same dark spot.
 void unite(OpenBlob& blob, OpenBlob& other) {
     blob.sum_x += other.sum_x;
     blob.sum_y += other.sum_y;
@@ -143,20 +144,20 @@ void unite(OpenBlob& blob, OpenBlob& other) {
     other.last_v = kNoRow;
 }
 
-/// The blob that a run belongs to.
+/// Returns the blob that a run belongs to, after all merging.
 OpenBlob* whole(OpenBlob* blob) {
     while (blob != nullptr && blob->part_of != nullptr)
         blob = blob->part_of;
     return blob;
 }
 
-/// Ends a row of runs with one that is right of all.
+/// Ends a row of runs with a sentinel to the right of all others.
 void end_row(Run& after_last) {
     after_last.begin = after_last.end = UINT16_MAX;
 }
 
-/// Adds each run of row `v` to the blob of the runs above that it touches (corners count), or
-/// begins one.
+/// Adds each run of row `v` to the blob of the runs above that it touches (corners count), or opens
+/// a new blob for it.
 void connect(const Run* above, std::span<Run> below, int v, OpenBlobs& open) {
     bool some_united = false;
     for (Run& run : below) {
@@ -188,20 +189,21 @@ void connect(const Run* above, std::span<Run> below, int v, OpenBlobs& open) {
         run.blob = whole(run.blob);
 }
 
-/// Ends the blobs of the row above that row `v` does not go on with.
+/// Closes the blobs of the row above that row `v` does not continue.
 void close_blobs(std::span<const Run> above, int v, const Light& light, OpenBlobs& open,
                  DotList list) {
     for (const Run& run : above) {
         OpenBlob* const blob = run.blob;
         if (blob == nullptr || blob->last_v == v) continue;
         if (blob->part_of == nullptr) close_blob(*blob, light, list);
-        blob->last_v = static_cast<std::uint16_t>(v);  // Other runs pass over it.
+        blob->last_v = static_cast<std::uint16_t>(v);  // other runs of the blob then pass over it
         blob->part_of = open.first_unused;
         open.first_unused = blob;
     }
 }
 
-/// Of some of the dots. Blobs of noise may be as many as dots; hardly anything is larger.
+/// Returns the upper quartile of a member over some of the dots. Blobs of noise may be as many as
+/// dots, but hardly any blob is larger than a dot.
 std::int32_t typical(std::span<const Dot> dots, std::uint16_t Dot::*member) {
     constexpr std::size_t kSample = 128;
     const std::size_t step = dots.size() / kSample + 1;

@@ -1,4 +1,4 @@
-// Inverses: for processors without a divider, which multiply instead.
+// Inverses: division by multiplication, for processors without a divider.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 
 namespace dotpose::core {
 
-/// 1 / (n + 1) in 2^-22.
+/// Element n is 1 / (n + 1) in 2^-22.
 inline constexpr auto kInverses_q22 = [] {
     std::array<std::uint32_t, 256> all{};
     for (std::uint32_t n = 0; n < all.size(); ++n)
@@ -15,7 +15,7 @@ inline constexpr auto kInverses_q22 = [] {
     return all;
 }();
 
-/// Divides by a mass, from 16 to 2^16, to a percent.
+/// Divides by a mass from 16 to 2^16, exact to a percent.
 class Inverse {
   public:
     explicit Inverse(std::int32_t mass) {
@@ -25,9 +25,9 @@ class Inverse {
             --shift_;
         inverse_q22_ = static_cast<std::int32_t>(kInverses_q22[static_cast<std::size_t>(mass - 1)]);
     }
-    /// sum / mass in 2^-8, of a sum at most 8 times the mass.
+    /// Returns sum / mass in 2^-8, for a sum of at most 8 times the mass.
     std::int32_t quotient_q8(std::int32_t sum) const {
-        // The sum gets the bits of the mass, 9, and 3 more.
+        // The sum has at most the 9 bits of the mass and 3 more.
         const std::int32_t n = shift_ > 0 ? sum >> shift_ : sum * (1 << -shift_);
         return (n * inverse_q22_) >> 14;
     }

@@ -9,12 +9,12 @@
 namespace dotpose::core {
 namespace {
 
-/// Pixels that a look at one place takes in, per axis.
+/// Number of pixels per axis that the level at one point is made of.
 constexpr int kTaps = 4;
 
-/// The binomial (1 2 1) moved by a fraction of a pixel, in 1/1024.
-// Dots blur into those of the places beside: a wider window sees more light, but more of the
-// neighbour's too, and of what lies around.
+/// Returns the binomial (1 2 1) moved by a fraction of a pixel, in 1/1024.
+/// Dots blur into the neighbouring places: a wider window collects more light, but also more of the
+/// neighbour's and of the surroundings.
 std::array<int, kTaps> taps(std::int32_t position_q8) {
     constexpr std::array<int, kTaps + 1> kBinomial{0, 1, 2, 1, 0};
     const int fraction = position_q8 & 255;
@@ -25,7 +25,8 @@ std::array<int, kTaps> taps(std::int32_t position_q8) {
     return weights;
 }
 
-/// A pixel without defect. At the border, where it has too few neighbours, the next that has them.
+/// Returns a pixel without its defect; at the border, where it has too few neighbours, the nearest
+/// one that has them.
 int level_near(const ImageView& image, int u, int v) {
     return without_defect(image, std::clamp(u, 1, image.width_px - 2),
                           std::clamp(v, 1, image.height_px - 2));

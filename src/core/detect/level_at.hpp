@@ -1,4 +1,4 @@
-// Level at: what an image shows at a point between its pixels, seen through a small window.
+// Level at: the grey level of an image at a point between its pixels, through a small window.
 #pragma once
 
 #include "core/stages.hpp"
@@ -6,11 +6,11 @@
 
 namespace dotpose::core {
 
-/// Whether there is a pixel to either side of a point.
+/// Whether the image has pixels on both sides of the point, along both axes.
 bool shows_level(const ImageView& image, Vec point_q8);
 
-/// Grey level in 2^-8, the mean of 4 x 4 pixels without their defects, weighted with the binomial
-/// (1 2 1) along both axes. Where the image shows one.
+/// Returns the grey level at a point in 2^-8: the mean of 4 x 4 pixels without defects, weighted
+/// with the binomial (1 2 1) along both axes. `shows_level` must hold.
 int level_at_q8(const ImageView& image, Vec point_q8);
 
 }  // namespace dotpose::core

@@ -1,4 +1,4 @@
-// Level sums: the grey levels of boxes of pixels, added up.
+// Level sums: sums of grey levels over boxes of pixels.
 #pragma once
 
 #include <algorithm>
@@ -11,14 +11,14 @@
 
 namespace dotpose::core {
 
-/// Pixels of the image, ends inclusive.
+/// A rectangle of pixels of the image, ends inclusive.
 struct PixelBox {
     int left;
     int right;
     int top;
     int bottom;
 
-    /// Around a point.
+    /// Makes the box around a point, cut at the image's border.
     PixelBox(const ImageView& image, Vec point_q8, int half_px) {
         const int u = (point_q8.x + 128) >> 8;
         const int v = (point_q8.y + 128) >> 8;
@@ -32,12 +32,12 @@ struct PixelBox {
     int pixels() const { return columns() * rows(); }
 };
 
-/// A summed-area table (Crow 1984): the grey levels of any box within another one.
+/// A summed-area table (Crow 1984): sums of the grey levels of any box within another one.
 class LevelSums {
   public:
     static constexpr int kMostSide_px = 48;
 
-    /// `all` has at most so many rows and columns.
+    /// `all` must have at most kMostSide_px rows and columns.
     LevelSums(const ImageView& image, const PixelBox& all) : left_(all.left), top_(all.top) {
         std::fill_n(sums_[0].begin(), all.columns() + 1, 0U);
         for (int j = 0; j < all.rows(); ++j) {
@@ -51,7 +51,7 @@ class LevelSums {
             }
         }
     }
-    /// Of a box with pixels.
+    /// Returns the sum of grey levels in a box that is not empty.
     int of(const PixelBox& box) const {
         return static_cast<int>(at(box.right + 1, box.bottom + 1) - at(box.left, box.bottom + 1) -
                                 at(box.right + 1, box.top) + at(box.left, box.top));

@@ -12,7 +12,7 @@
 namespace dotpose::core {
 namespace {
 
-constexpr int kBandsKept = 4;  // three are needed
+constexpr int kBandsKept = 4;  // three are needed; a power of two is quicker
 constexpr unsigned kContrastBins = 64;
 
 std::span<Tile> tiles_of(const Light& light, int band) {
@@ -20,19 +20,19 @@ std::span<Tile> tiles_of(const Light& light, int band) {
     return light.tiles.subspan(static_cast<std::size_t>(band & (kBandsKept - 1)) * n, n);
 }
 
-/// Copies as many blocks as fit; both pointers move on.
+/// Copies as many blocks as fit, and moves both pointers on.
 template <std::size_t kBlock>
 void copy_blocks(const std::uint8_t*& from, const std::uint8_t* end, std::uint8_t*& to) {
     for (; end - from >= static_cast<std::ptrdiff_t>(kBlock); from += kBlock, to += kBlock)
         std::memcpy(__builtin_assume_aligned(to, 4), __builtin_assume_aligned(from, 4), kBlock);
 }
 
-/// Keeps a row, and repeats its last pixel to the end of its tile.
+/// Keeps a row, and fills its last tile with the last pixel.
 void keep_row(const std::uint8_t* pixels, const Light& light, std::uint8_t* row) {
     const std::uint8_t* const end = pixels + light.width_px;
     std::uint8_t* const whole = row + whole_width(light);
     if (reinterpret_cast<std::uintptr_t>(pixels) % 4 == 0) {
-        // The libraries of small devices copy byte by byte.
+        // The libraries of small devices copy byte by byte, which is slower.
         copy_blocks<28>(pixels, end, row);
         copy_blocks<12>(pixels, end, row);
         copy_blocks<4>(pixels, end, row);
@@ -47,7 +47,8 @@ void keep_row(const std::uint8_t* pixels, const Light& light, std::uint8_t* row)
         std::memcpy(__builtin_assume_aligned(row, sizeof words), &words, sizeof words);
 }
 
-/// The tiles of a band and of those above and below; at the image's rims, the band itself instead.
+/// The tiles of a band and of those above and below; at the image's border, the band itself
+/// instead.
 struct ThreeBands {
     const Tile* above;
     const Tile* here;
@@ -60,7 +61,7 @@ ThreeBands three_bands(const Light& light, int band) {
             band + 1 < band_count(light) ? tiles_of(light, band + 1).data() : here};
 }
 
-/// Brightest mean and greatest darkness of each tile and those above and below it.
+/// Computes the brightest mean and greatest darkness of each tile and those above and below it.
 void join_bands(ThreeBands bands, std::size_t count, std::uint8_t* means,
                 std::uint8_t* darknesses) {
     for (std::size_t t = 0; t < count; ++t) {
@@ -71,7 +72,7 @@ void join_bands(ThreeBands bands, std::size_t count, std::uint8_t* means,
     }
 }
 
-/// The greatest of each number and those before and after it.
+/// Replaces each number by the greatest of it and its two neighbours.
 void join_neighbours(std::uint8_t* number, std::size_t count) {
     std::uint8_t* const last = number + count - 1;
     int here = *number;
@@ -85,7 +86,7 @@ void join_neighbours(std::uint8_t* number, std::size_t count) {
     *last = static_cast<std::uint8_t>(of_two);
 }
 
-/// Sets the columns of a tile to a level; returns where those of the next one are.
+/// Sets the columns of a tile to a level; returns the columns of the next tile.
 inline std::uint8_t* fill(std::uint8_t* column, unsigned level) {
     const Word word = in_all_bytes(1) * level;
     for (std::size_t k = 0; k < kTileWidth_px; k += sizeof word)
@@ -93,11 +94,11 @@ inline std::uint8_t* fill(std::uint8_t* column, unsigned level) {
     return column + kTileWidth_px;
 }
 
-/// Contrasts of tiles relative to their paper, counted in `kContrastBins`-ths.
+/// Number of tiles by their contrast relative to their paper, in steps of 1/kContrastBins.
 using Histogram = std::array<std::uint16_t, kContrastBins>;
 
-/// Adds each tile to the histogram; where there is no contrast, its mean becomes 0 instead. Returns
-/// how many have some.
+/// Adds each tile with contrast to the histogram, and sets the mean of the others to 0. Returns how
+/// many have contrast.
 int take_contrasts(std::uint8_t* means, const std::uint8_t* darknesses, std::size_t tiles,
                    int min_contrast, Histogram& histogram) {
     int blank = 0;
@@ -116,10 +117,10 @@ int take_contrasts(std::uint8_t* means, const std::uint8_t* darknesses, std::siz
     return static_cast<int>(tiles) - blank;
 }
 
-/// The contrast of dots relative to paper, in a band; 0 if there is none.
-// Ink reflects the same share of the light everywhere, and so the relative contrast of the dots is
-// the same for all tiles. Strokes of graphics raise that of the tiles around them: the lower third
-// over a band is that of dots even where strokes cross it.
+/// Returns the contrast of dots relative to paper in a band, in 1/256; 0 if there is none.
+/// Ink reflects the same share of the light everywhere, so the relative contrast of the dots is the
+/// same for all tiles. Strokes of graphics raise that of the tiles around them: the lower third
+/// over a band is that of dots even where strokes cross it.
 unsigned typical_depth_q8(std::uint8_t* means, const std::uint8_t* darknesses, std::size_t tiles,
                           int min_contrast) {
     Histogram histogram{};
@@ -133,14 +134,14 @@ unsigned typical_depth_q8(std::uint8_t* means, const std::uint8_t* darknesses, s
     return (2 * bin + 1) * (256 / (2 * kContrastBins));
 }
 
-/// Sets the levels of all columns, at these depths relative to paper.
+/// Sets the levels of all columns from depths relative to paper, in 2^-16.
 void set_levels(const std::uint8_t* papers, std::size_t tiles, unsigned to_low_q16,
                 unsigned to_high_q16, Light& light) {
     std::uint8_t* half_low_levels = light.half_low_levels.data();
     std::uint8_t* high_levels = light.high_levels.data();
     for (const std::uint8_t* const end = papers + tiles; papers != end; ++papers) {
         const unsigned paper = *papers;
-        // Even, so that runs may compare seven bits.
+        // The low threshold is even, so that runs may compare seven bits.
         const unsigned half_low = (paper - (paper * to_low_q16 >> 16)) >> 1;
         const unsigned core = std::min(paper - (paper * to_high_q16 >> 16), 2 * half_low);
         half_low_levels = fill(half_low_levels, half_low);
@@ -175,15 +176,16 @@ int take_row(const std::uint8_t* pixels, Light& light) {
 
 void measure_levels(int band, const ThresholdOptions& options, Light& light) {
     const auto tiles = static_cast<std::size_t>(light.tiles_per_band);
-    // Before the levels of all columns, their memory holds what is known of the tiles: of paper at
-    // its end, which is overwritten last.
+    // Until the levels of all columns are set, their memory holds values per tile: of paper at its
+    // end, which is overwritten last.
     std::uint8_t* const papers = light.half_low_levels.data() + whole_width(light) - tiles;
     std::uint8_t* const darknesses = light.high_levels.data();
     join_bands(three_bands(light, band), tiles, papers, darknesses);
-    // Ink is sought in the tiles to both sides, too: dots may be farther apart than a tile is wide.
-    // Paper is not: there is some in each, and the brightest of more of them is too bright.
+    // Ink is searched in the tiles to both sides, too, because dots may be farther apart than a
+    // tile is wide. Paper is not, because each tile shows some, and the brightest of several is too
+    // bright.
     join_neighbours(darknesses, tiles);
-    // Less than half of a tile is little but the row's last pixel, repeated.
+    // If less than half of a tile is image, it shows little but the repeated last pixel of the row.
     if (whole_width(light) - light.width_px > kTileWidth_px / 2)
         papers[tiles - 1] = std::max(papers[tiles - 2], papers[tiles - 1]);
     const unsigned depth_q8 = typical_depth_q8(papers, darknesses, tiles, options.min_contrast);

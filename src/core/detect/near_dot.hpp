@@ -1,6 +1,6 @@
-// Near dot: the dot of an intersection whose place in the image is known. What is read knows
-// nothing of which dot is expected, so that it can tell whether it is there. Most of it is inline:
-// of what small processors do for a dot, calls would be a third.
+// Near dot: measures the dot of an intersection whose place in the image is known. It does not use
+// the code, so that its result can confirm or contradict the code. Most of it is inline: calls
+// would take a third of what small processors spend on a dot.
 #pragma once
 
 #include <array>
@@ -14,17 +14,17 @@
 
 namespace dotpose::core {
 
-/// Around an intersection, dots are within so much; around its centre, a dot is. For spacings of 7
-/// to 13 px.
+/// Half the side of the square around an intersection that contains its dot, and of the square
+/// around the dot's centre that contains the dot; for spacings of 7 to 13 px.
 inline constexpr int kHalf_px = 4;
 inline constexpr int kDotHalf_px = 2;
 
-/// The pixel next to a place.
+/// Returns the pixel nearest to a place.
 constexpr Vec pixel_at(Vec place_q16) {
     return {(place_q16.x + 32768) >> 16, (place_q16.y + 32768) >> 16};
 }
 
-/// Whether all of a square is kept.
+/// Whether all pixels of a square around `pixel` are kept.
 [[gnu::always_inline]] inline bool is_kept(const Tracking& tracking, Vec pixel, int half) {
     return static_cast<unsigned>(pixel.x - half) <
                static_cast<unsigned>(tracking.width_px - 2 * half) &&
@@ -32,7 +32,8 @@ constexpr Vec pixel_at(Vec place_q16) {
                static_cast<unsigned>(tracking.rows_taken - tracking.first_kept - 2 * half);
 }
 
-/// Level of the paper around a pixel, from the corners of its square, which no dot reaches.
+/// Returns the level of the paper around a pixel, from the corners of its square, which no dot
+/// reaches.
 [[gnu::always_inline]] inline std::int32_t paper_around(const Tracking& tracking,
                                                         const std::uint8_t* at) {
     constexpr int kSide_px = 2 * kHalf_px;
@@ -41,17 +42,18 @@ constexpr Vec pixel_at(Vec place_q16) {
     return (top[0] + top[kSide_px] + bottom[0] + bottom[kSide_px]) >> 2;
 }
 
-/// Where `read_symbol` looks from now on; false where that is beyond the squares.
+/// Sets the pixels that `read_symbol` reads. Returns false if they lie beyond the squares.
 bool lay_dot_pixels(Tracking& tracking);
 
-/// What was read of a dot, in one register.
+/// The reading of a dot, in one register.
 class ReadSymbol {
   public:
     static constexpr ReadSymbol unclear() { return ReadSymbol(-1); }
-    /// The symbol, and the level, from 0 to 255, below which pixels belong to the dot.
+    /// A clear reading: the symbol, and the level from 0 to 255 below which pixels belong to the
+    /// dot.
     constexpr ReadSymbol(int symbol, std::int32_t level) : bits_(level * 4 + symbol) {}
 
-    /// Whether one of the four places is clearly darkest.
+    /// Whether one of the four places was clearly the darkest.
     bool is_clear() const { return bits_ >= 0; }
     int symbol() const { return bits_ & 3; }
     std::int32_t level() const { return bits_ >> 2; }
@@ -61,9 +63,8 @@ class ReadSymbol {
     std::int32_t bits_;
 };
 
-/// Looks at the four places around an intersection in a pixel that is kept, as is all of its square
-/// and a pixel around it.
-// By itself, so that small processors can keep all it needs in registers.
+/// Reads the four places around an intersection. Its square, and a pixel around that, must be kept.
+/// It is a function of its own so that small processors can keep all it needs in registers.
 DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
                                                const Vec& intersection_q16) {
     const std::int32_t stride = tracking.stride_px;
@@ -71,7 +72,7 @@ DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
         kept_row(tracking, intersection_q16.y >> 16) + (intersection_q16.x >> 16);
     const int quarter = (intersection_q16.x >> 15 & 1) + (intersection_q16.y >> 14 & 2);
     const std::int16_t* offset = tracking.dot_pixels[static_cast<std::size_t>(quarter)].data();
-    // Sums of four pixels, times 4, and the symbol added.
+    // Each value is a sum of four pixels, times 4, plus the symbol.
     std::int32_t darkest = INT32_MAX;
     std::int32_t second = INT32_MAX;
 #pragma GCC unroll 4
@@ -89,19 +90,20 @@ DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
     }
     const std::int32_t paper = paper_around(tracking, at);
     const std::int32_t depth = (paper * tracking.cut_q8) >> 8;
-    // Dots lack some 6 depths in four pixels, and 2 of them at the places beside their own.
+    // A dot darkens its four pixels by about 6 depths, and the places beside it by 2.
     const bool is_clear =
         paper * 4 - (darkest >> 2) >= 2 * depth && (second >> 2) - (darkest >> 2) >= depth;
     return is_clear ? ReadSymbol(darkest & 3, paper - depth) : ReadSymbol::unclear();
 }
 
+/// The measurement of one dot.
 struct NearDot {
-    Vec off_q8;  ///< of its centre from where it was looked for, px
+    Vec off_q8;  ///< distance of its centroid from the expected place, px
     std::int32_t mass = 0;
 };
 
-/// The centre of what is darker than `level` in the square of 2 Half + 1 px around a place. False
-/// where that is no dot, or leaves the image or the rows that are kept.
+/// Measures the centroid of pixels darker than `level` in the square of 2 Half + 1 px around a
+/// place. Returns false if its mass is not that of a dot, or the square leaves the kept pixels.
 template <int Half>
 [[gnu::always_inline]] inline bool measure_square(const Tracking& tracking, Vec place_q16,
                                                   std::int32_t level, NearDot& dot) {
@@ -117,7 +119,8 @@ template <int Half>
     return true;
 }
 
-/// The same of the whole square around an intersection.
+/// Measures the dot in the whole square around an intersection, with the cut of the tracking.
+/// Returns false as `measure_square`.
 bool measure_around(const Tracking& tracking, Vec intersection_q16, NearDot& dot);
 
 }  // namespace dotpose::core

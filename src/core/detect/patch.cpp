@@ -12,7 +12,8 @@ namespace {
 
 namespace tuned = tuning::patch;
 
-/// 2^24 / (n + 1), rounded up: a division for each tile takes a microsecond.
+/// Element n is 2^24 / (n + 1), rounded up; a division for each tile would take a microsecond in
+/// all.
 constexpr auto kReciprocals_q24 = [] {
     std::array<std::uint32_t, 256> result{};
     for (std::uint32_t n = 0; n < result.size(); ++n)
@@ -20,14 +21,14 @@ constexpr auto kReciprocals_q24 = [] {
     return result;
 }();
 
-/// 64 darkness / (paper + 1), exactly.
+/// Returns 64 darkness / (paper + 1), rounded down.
 std::size_t relative_darkness(int darkness, int paper) {
     return static_cast<std::size_t>(std::uint64_t{64} * static_cast<std::uint64_t>(darkness) *
                                         kReciprocals_q24[static_cast<std::size_t>(paper)] >>
                                     24);
 }
 
-/// Where a stretch of so many px begins that lies around `centre`, within [0, size).
+/// Returns where a stretch of `length` px around `centre` begins, moved into [0, size).
 int begin_of(int centre, int length, int size) {
     return std::clamp(centre - length / 2, 0, size - length);
 }
@@ -50,7 +51,7 @@ bool measure_contrast(Patch& patch) {
     const auto tile = [](int column, int row) {
         return static_cast<std::size_t>(row * Patch::kTilesPerRow + column);
     };
-    // How many tiles have each darkness, relative to their paper, in 1/64.
+    // Number of tiles with each darkness relative to their paper, in 1/64.
     std::array<int, 65> counts{};
     int dark_tiles = 0;
     for (int row = 0; row < rows; ++row) {
@@ -74,7 +75,8 @@ bool measure_contrast(Patch& patch) {
             patch.thresholds[tile(column, row)] =
                 static_cast<std::uint8_t>(paper - (paper * share_q16 >> 16));
         }
-        // Strips have two tiles: nothing is darker than that of the last one.
+        // Strips have two tiles; if the last strip has one, no pixel is darker than the threshold
+        // of the other.
         if (columns % 2 != 0) patch.thresholds[tile(columns, row)] = 0;
     }
     return true;
@@ -99,7 +101,7 @@ void keep_isolated(Patch& patch) {
     };
     std::size_t kept = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(dots.count); ++i) {
-        // On a plateau a parabola has no vertex, and its minimum no finite place.
+        // On a plateau the parabola has no vertex, and the minimum no finite place.
         if (!(std::abs(dots.x[i]) < kNoDot_px && std::abs(dots.y[i]) < kNoDot_px)) continue;
         const int u = pixel_of(dots.x[i], patch.width_px);
         const int v = pixel_of(dots.y[i], patch.height_px);

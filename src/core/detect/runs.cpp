@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t kWord_px = sizeof(Word);
 
-/// A top for each pixel that is light; nothing is told by the other bits.
+/// Sets the top bit of each pixel that is light; the other bits mean nothing.
 Word light_tops(Word pixels, Word half_low) {
     return (pixels >> 1 | kTops) - half_low;
 }
@@ -25,7 +25,7 @@ bool is_group_light(const std::uint8_t* pixels, const std::uint8_t* half_low_lev
     return tops == kTops;
 }
 
-/// The first dark pixel of a row from `begin` on. There is always one, after the last.
+/// Returns the first dark pixel of a row from `begin` on. There is always one after the last pixel.
 const std::uint8_t* find_dark(const std::uint8_t* begin, const std::uint8_t* row,
                               const std::uint8_t* half_low_levels) {
     const auto before = static_cast<std::size_t>(begin - row) % kWord_px;
@@ -50,14 +50,15 @@ const std::uint8_t* find_dark(const std::uint8_t* begin, const std::uint8_t* row
     return pixels;
 }
 
-/// Writes down the run that begins at `pixel`; returns where it ends.
+/// Writes the run that begins at `pixel`; returns where it ends.
 const std::uint8_t* write_run(const std::uint8_t* pixel, const std::uint8_t* row,
                               const Light& light, Run& run) {
     const std::uint8_t* const row_end = row + whole_width(light);
     run.begin = static_cast<std::uint16_t>(pixel - row);
     bool has_core = false;
     std::uint32_t mass = 0;
-    std::uint32_t moment = 0;  // weight times (last - u): counts again for every pixel after it
+    std::uint32_t moment = 0;  // sum of weight times (last - u): each weight counts again for every
+                               // pixel after it
     const std::uint8_t* tile_end = nullptr;
     do {
         const auto column = static_cast<std::size_t>(pixel - row);

@@ -1,5 +1,5 @@
-// Runs: the stretches of dark pixels in a row, and the sums over each. Second half of the
-// thresholding of paper section II-B.1.
+// Runs: stretches of dark pixels in a row, with sums over each. Second half of the thresholding of
+// paper section II-B.1.
 #pragma once
 
 #include <span>
@@ -8,12 +8,12 @@
 
 namespace dotpose::core {
 
-/// Pixels that are looked at together: all have the same levels.
+/// Number of pixels that are compared together; all have the same thresholds.
 inline constexpr std::size_t kGroup_px = 8;
 static_assert(kTileWidth_px % kGroup_px == 0);
 
-/// Finds the runs of row `v`, as many as there is room for, from left to right; returns how many.
-/// One that reaches the image's right border may end beyond it.
+/// Finds the runs of row `v` from left to right, as many as there is room for, and returns their
+/// number. A run that reaches the image's right border may end beyond it.
 int find_runs(int v, const Light& light, std::span<Run> runs);
 
 }  // namespace dotpose::core

@@ -19,7 +19,7 @@ std::uint16_t* line(const Smoothing& smoothing, int v, int width_px) {
     return smoothing.lines.data() + static_cast<std::ptrdiff_t>(v % kRows) * width_px;
 }
 
-/// Limits pixels to the range of their neighbours: an impulse has none like it.
+/// Limits pixels to the range of their neighbours, which removes single impulses.
 void clip_impulses(const ImageView& image, int v, std::uint8_t* out) {
     const std::uint8_t* above = image.row(std::max(v - 1, 0));
     const std::uint8_t* here = image.row(v);
@@ -68,15 +68,15 @@ void weight_down(const std::array<const std::uint16_t*, kRows>& rows, int width_
     }
 }
 
-/// Half the side of the surroundings: they reach over two spacings wherever 8 dots are in view.
-/// Towards the border they shrink, and so stay even around the pixel: a gradient of the light does
-/// no harm.
+/// Returns half the side of the surroundings. They reach over two spacings wherever 8 dots are in
+/// view. Towards the border they shrink, so that they stay symmetric around the pixel and a
+/// gradient of the light does no harm.
 int half_side(int at, int length, int largest) {
     return std::max(std::min({largest, at, length - 1 - at}), tuned::kSmallestHalf_px);
 }
 
-/// Adds a row to the sums of the columns, or takes it off again. What is much darker than the paper
-/// around counts as paper: strokes of graphics are no shadow.
+/// Adds a row to the sums of the columns, or subtracts it. A pixel much darker than the paper
+/// around it counts as paper, because strokes of graphics are not shadow.
 void add_row(const ImageView& image, int v, bool add, Smoothing& smoothing) {
     const std::uint8_t* row = image.row(v);
     std::uint32_t* sums = smoothing.column_sums.data();
@@ -95,7 +95,7 @@ void add_row(const ImageView& image, int v, bool add, Smoothing& smoothing) {
     }
 }
 
-/// Moves the window of rows that the column sums are taken over.
+/// Moves the window of rows over which the columns are summed.
 void move_sums(const ImageView& image, int begin, int end, Smoothing& smoothing) {
     while (smoothing.sums_end < end)
         add_row(image, smoothing.sums_end++, true, smoothing);
@@ -103,11 +103,12 @@ void move_sums(const ImageView& image, int begin, int end, Smoothing& smoothing)
         add_row(image, smoothing.sums_begin++, false, smoothing);
 }
 
-/// Level below which all is the same.
+/// Darkest level of the evened image; darker pixels get this level.
 constexpr std::uint32_t kDarkest = kEvenLevel * tuned::kDarkest_5ths / 5;
 
-/// Quotients, rounded down, without dividing. For n / d < 256 and d < 2^20 they are exact: the
-/// factor is too large by less than one, which makes n / d larger by less than n / 2^48 < 1 / d.
+/// Computes quotients, rounded down, without dividing. For n / d < 256 and d < 2^20 they are exact:
+/// the factor is too large by less than one, which makes n / d larger by less than n / 2^48 < 1 /
+/// d.
 class Divider {
   public:
     std::uint32_t quotient(std::uint32_t n, std::uint32_t d) {
@@ -124,7 +125,8 @@ class Divider {
     std::uint64_t factor_ = 0;
 };
 
-/// kEvenLevel / mean in 2^-24, rounded up: times a pixel it is too large by less than 1 / 256.
+/// kEvenLevel / mean in 2^-24, rounded up; its product with a pixel is too large by less than 1 /
+/// 256.
 constexpr auto kEvened_q24 = [] {
     std::array<std::uint32_t, 256> factors{};
     for (std::uint32_t mean = 1; mean < factors.size(); ++mean)
@@ -132,7 +134,7 @@ constexpr auto kEvened_q24 = [] {
     return factors;
 }();
 
-/// Divides each pixel by the mean of its surroundings.
+/// Divides each pixel by the mean of its surroundings, times kEvenLevel.
 void even_out(const ImageView& image, int v, Smoothing& smoothing) {
     const int largest = smoothing.paper.block_px;
     const int half_height = half_side(v, image.height_px, largest);

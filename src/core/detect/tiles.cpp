@@ -8,10 +8,10 @@
 namespace dotpose::core {
 namespace {
 
-/// Every n-th row is looked at: there are always dots that are crossed by one.
+/// Every n-th row is measured: some dots are always crossed by such a row.
 constexpr int kRowsEvery = 4;
 
-/// The rows of a band that are looked at, from their first pixels on.
+/// The rows of a band that are measured.
 struct Rows {
     const std::uint8_t* begin;
     std::ptrdiff_t stride;
@@ -19,7 +19,7 @@ struct Rows {
 
     Rows(int band, const Light& light) {
         const int rows = band_end(light, band) - band_begin(light, band);
-        // Evenly about the middle; of a narrow last band, its first.
+        // The rows lie evenly about the middle; in a narrow last band, from its first row.
         const int first = rows > kRowsEvery / 2 ? kRowsEvery / 2 : 0;
         begin = kept_row(light, band_begin(light, band) + first);
         stride = kRowsEvery * whole_width(light);
@@ -27,7 +27,7 @@ struct Rows {
     }
 };
 
-/// Sums of tiles to their means.
+/// Converts the sums of tiles to means.
 class Means {
   public:
     explicit Means(int rows) {
@@ -42,23 +42,24 @@ class Means {
     std::uint32_t inverse_q20_;
 };
 
-/// The darkness of the pair of pixels with the least sum.
+/// Returns the darkness of the pair of pixels with the least sum.
 constexpr std::uint8_t darkness_of_pair(std::uint32_t least) {
     return static_cast<std::uint8_t>(255 - least / 2);
 }
 
-/// Sums of pixels side by side, a register of them: each pair, or what was joined of many.
+/// Words hold sums of two adjacent pixels side by side in 16 bits each, or sums of many such pairs.
 constexpr Word kPairs = static_cast<Word>(0x00FF00FF00FF00FF);
 constexpr Word kPairTops = static_cast<Word>(0x8000800080008000);
 
-/// a - b in each pair, or 0 where that is negative; tops of `a` are set, of `b` clear.
+/// Returns a - b in each pair, or 0 where that is negative; top bits of `a` must be set, those of
+/// `b` clear.
 constexpr Word excess_of_pairs(Word a, Word b) {
     const Word difference = a - b;
     const Word is_positive = difference & kPairTops;
     return difference & (is_positive - (is_positive >> 15));
 }
 
-/// The least of all pairs; tops are set.
+/// Returns the least of all pairs, whose top bits must be set.
 constexpr std::uint32_t least_of_pairs(Word pairs) {
     for (std::size_t shift = 4 * sizeof pairs; shift >= 16; shift /= 2)
         pairs -= excess_of_pairs(pairs, pairs >> shift & ~kPairTops);

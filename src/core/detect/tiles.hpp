@@ -1,4 +1,4 @@
-// Tiles: the mean and the darkest pixel of each, from which the light is known.
+// Tiles: the mean and the darkest pixels of each tile, from which the light is measured.
 #pragma once
 
 #include <span>

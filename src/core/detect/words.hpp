@@ -1,4 +1,4 @@
-// As many pixels at a time as fit a register, the first in the lowest byte.
+// Words: as many pixels as fit a register, handled together, the first in the lowest byte.
 #pragma once
 
 #include <bit>
@@ -11,15 +11,15 @@ namespace dotpose::core {
 using Word = std::size_t;
 static_assert(std::endian::native == std::endian::little);
 
-/// The same byte everywhere.
+/// Returns a word with the same value in every byte.
 constexpr Word in_all_bytes(std::uint8_t byte) {
     return static_cast<Word>(0x0101010101010101) * byte;
 }
 
-/// Pixels are compared in seven bits: the eighth shows how it went.
+/// The top bit of every byte. Pixels are compared in seven bits, and the eighth holds the result.
 inline constexpr Word kTops = in_all_bytes(0x80);
 
-/// `pixels` is a multiple of the word's size.
+/// Loads a word; `pixels` must be a multiple of the word's size.
 inline Word word_at(const std::uint8_t* pixels) {
     Word word = 0;
     std::memcpy(&word, __builtin_assume_aligned(pixels, sizeof(Word)), sizeof word);

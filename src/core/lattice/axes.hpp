@@ -1,5 +1,5 @@
-// Axes: the two directions and spacings of the grid, from the symmetric edges. Paper section
-// II-B.2, Fig. 5 (constrained k-means).
+// Axes: the two directions and spacings of the grid, from symmetric edges. Paper section II-B.2,
+// Fig. 5 (constrained k-means).
 #pragma once
 
 #include "core/stages.hpp"
@@ -7,15 +7,15 @@
 
 namespace dotpose::core {
 
-/// Sets u and v (right-handed: from u to v is the turn from +x to +y); the origin is not touched.
-/// `memory` holds two values for each edge. Errors: no_grid, when the edges have no two directions
-/// of about one length at a right angle.
+/// Sets u and v of the lattice (right-handed: v is u turned from +x to +y) but not its origin.
+/// `memory` must hold two values for each edge. Errors: no_grid, if the edges do not have two
+/// directions at about a right angle with about the same length.
 Status estimate_axes(std::span<const Edge> edges, std::span<std::int32_t> memory, Lattice& lattice);
 
-/// Whether two directions may belong to a square grid that is seen from up to about 35 degrees
-/// aside.
+/// Whether two directions may belong to a square grid that is seen at a tilt of up to about 35
+/// degrees.
 bool is_nearly_square(Vec u, Vec v);
-/// The same for the grid around the centre of a plane, with spacings of at least 4 px.
+/// Whether the grid at the centre of a plane may be a square grid, with spacings of at least 4 px.
 bool is_nearly_square(const PlaneFromImage& plane);
 
 }  // namespace dotpose::core

@@ -1,4 +1,5 @@
-// Tracked bits: what the code has around a predicted place, line by line, and what is read of it.
+// Coded cells: what the code has around a predicted place, line by line, and which dots were read
+// there.
 #pragma once
 
 #include "core/stages.hpp"
@@ -6,7 +7,7 @@
 
 namespace dotpose::core {
 
-/// Sets what the code has in each line, counted from `Tracking::corner`; nothing is seen yet.
+/// Sets the code of each line, counted from `Tracking::corner`; no dot has been read yet.
 void lay_tracked_lines(Profile profile, Tracking& tracking);
 
 inline TrackedLine& column_of(const Tracking& tracking, int i) {
@@ -16,16 +17,17 @@ inline TrackedLine& row_of(const Tracking& tracking, int j) {
     return tracking.lines[static_cast<std::size_t>(kMostTracked + j)];
 }
 
-/// Dots that were read so far.
+/// Returns the number of dots read so far.
 int dots_seen(const Tracking& tracking);
 
-/// What the code has in a cell.
+/// Returns the symbol that the code has in a cell.
 inline Symbol coded_symbol(const Tracking& tracking, int i, int j) {
     return make_symbol(static_cast<int>(column_of(tracking, i).code >> j & 1),
                        static_cast<int>(row_of(tracking, j).code >> i & 1));
 }
 
-/// A dot's displacement along the directions that tell its bits (eq. 7-8): positive for 1.
+/// A dot's displacement along the directions of its bits (eq. 7-8), in 2^-12 spacing: positive for
+/// 1.
 struct Projections {
     std::int32_t x_q12;
     std::int32_t y_q12;

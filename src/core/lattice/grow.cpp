@@ -11,7 +11,7 @@
 namespace dotpose::core {
 namespace {
 
-/// Vectors of which both components are between `least` and `least` + `extent`, modulo 2^32.
+/// A set of vectors: both components lie between `least` and `least` + `extent`, modulo 2^32.
 struct Square {
     std::uint32_t least;
     std::uint32_t extent;
@@ -24,13 +24,15 @@ struct Square {
     }
 };
 
-/// Of points, in spacings, that cutting off puts into cells up to `limit` from the middle one.
+/// Returns the points, in spacings, that truncation puts into cells up to `limit` from the middle
+/// one.
 Square cells_within(int limit) {
     return {static_cast<std::uint32_t>(-limit * 65536),
             static_cast<std::uint32_t>((2 * limit + 1) * 65536 - 1)};
 }
 
-/// Of such points' fractions, times 2^16, where rounding moves neither by more than `limit`.
+/// Returns the points, by their fractions times 2^16, whose rounded offset is at most `limit` on
+/// both axes.
 Square offsets_within(std::int32_t limit_q16) {
     return {static_cast<std::uint32_t>(32768 - limit_q16) << 16,
             static_cast<std::uint32_t>(std::min<std::int32_t>(2 * limit_q16, 65535)) << 16};
@@ -40,17 +42,17 @@ bool is_near(Vec rounding_q16, const Square& offsets) {
                          static_cast<std::uint32_t>(rounding_q16.y) << 16);
 }
 
-/// Dots farther off are on no grid.
+/// Farthest cell of a dot that may belong to the grid.
 constexpr int kFarthest_cells = 500;
 
-/// Shows each dot to `use(dot, c, is_within_reach)`: c is where it is in the plane, so that cutting
-/// off rounds to the cell. `near_intersections` are left to the caller.
+/// Calls `use(dot, c, is_within_reach)` for each dot, where c is its place in the plane, which
+/// truncated gives the nearest cell. `near_intersections` of the result is not set.
 template <typename Use>
 Regularity visit_cells(std::span<const Dot> dots, int reach_cells, const Cells& cells, Use use) {
     int farthest_cell = 0;
     int beyond = 0;
     const Square reach = cells_within(reach_cells);
-    // Most dots are within reach, and no farther than others.
+    // Most dots are within reach, and no farther than dots before them, so this is tested first.
     Square common = cells_within(0);
     for (const Dot& dot : dots) {
         const Vec c = cells.rounding_plane_point_q16(cells.from_centre_q3(dot.centre_q8));
@@ -72,7 +74,7 @@ Regularity visit_cells(std::span<const Dot> dots, int reach_cells, const Cells& 
     return found;
 }
 
-/// Cells of dots that a fit uses, packed.
+/// The cell of a dot that a fit uses, packed into one word; `no` if it is not used.
 enum class Used : std::uint32_t { no = 0x80808080 };
 
 Used used(Vec rounding_q16) {
@@ -84,17 +86,18 @@ Vec cell_of(Used used) {
     return {static_cast<std::int16_t>(both >> 16), static_cast<std::int16_t>(both & 0xFFFF)};
 }
 
-/// The mean square of the offsets of dots, from its parts.
+/// Returns the mean square of the offsets of dots, from the sum of `squared_offset_q14`.
 std::int64_t mean_square_q20(std::int32_t squared_offsets_q14, int dots) {
     return squared_offsets_q14 / std::max(dots, 1) * 64;
 }
-/// The part of a dot.
+/// Returns the square of one dot's offset from its intersection, in 2^-14 spacing^2.
 std::int32_t squared_offset_q14(Vec rounding_q16) {
     const Vec offset_q8{(rounding_q16.x >> 8 & 255) - 128, (rounding_q16.y >> 8 & 255) - 128};
     return (offset_q8.x * offset_q8.x + offset_q8.y * offset_q8.y) >> 2;
 }
 
-/// Fits that follow each other: most dots count in each of them, and in the same cells.
+/// Successive fits of the grid. Most dots count in each of them, in the same cells, so only changes
+/// are added up.
 class Fits {
   public:
     Fits(std::span<const Dot> dots, std::int32_t max_offset_q16)
@@ -102,7 +105,7 @@ class Fits {
         if (remembers()) std::fill_n(before_.begin(), dots.size(), Used::no);
     }
 
-    /// Fits the plane to the dots within reach. False if they do not determine one.
+    /// Fits the plane to the dots within reach. Returns false if they do not determine one.
     bool operator()(int reach_cells, Regularity& found, PlaneFromImage& plane) {
         const Cells cells(plane);
         found = remembers() ? sum_up_changes(reach_cells, cells) : sum_up(reach_cells, cells);
@@ -110,7 +113,7 @@ class Fits {
         return sums_.solve(0, plane) && is_nearly_square(plane);
     }
 
-    /// Whether the dots sit on a grid, and displaced.
+    /// Checks that the dots lie on a grid and are displaced. Errors: no_grid, no_displacement.
     Status judge(int reach_cells, const PlaneFromImage& plane) const {
         const Square near = near_;
         std::int32_t squared_offsets_q14 = 0;
@@ -160,7 +163,8 @@ class Fits {
     std::span<const Dot> dots_;
     Square near_;
     AffineFitInt32 sums_;
-    std::array<Used, 384> before_;  ///< of each dot, unless there are too many
+    std::array<Used, 384> before_;  ///< cell of each dot in the fit before; not used if there are
+                                    ///< too many dots
 };
 
 }  // namespace

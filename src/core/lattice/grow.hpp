@@ -1,7 +1,7 @@
-// Grow: the grid from its first estimate out to the last dot, without perspective or lens. Paper
-// section II-B.3. differs: eq. 6 continues with median lengths between neighbours; a least-squares
-// fit to the dots within reach, displacements taken as noise, gives all terms at once, and reaches
-// on from there.
+// Grow: extends the grid from its first estimate to the last dot, without perspective or lens.
+// Paper section II-B.3. differs: eq. 6 continues with median lengths between neighbours; here a
+// least-squares fit to the dots within reach, which treats displacements as noise, gives all terms
+// at once, and the reach grows from there.
 #pragma once
 
 #include "core/stages.hpp"
@@ -10,9 +10,9 @@
 
 namespace dotpose::core {
 
-/// Errors: no_grid where dots do not lie on one, no_displacement where they all lie in its
-/// intersections. A camera that is tilted by more than some degrees, or a lens that bends the grid
-/// by more than a third of a spacing, needs `refine_grid`.
+/// Sets the map from the image to the grid. Errors: no_grid if the dots do not lie on one,
+/// no_displacement if all lie on its intersections. A camera tilted by more than some degrees, or a
+/// lens that bends the grid by more than a third of a spacing, needs `refine_grid`.
 Status grow_grid(std::span<const Dot> dots, const LatticeOptions& options, Vec image_centre_q8,
                  const Lattice& first, PlaneFromImage& grid_from_image);
 

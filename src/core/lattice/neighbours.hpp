@@ -1,23 +1,25 @@
 // Neighbours: the four nearest dots of each dot near the image centre, and the symmetric edges
 // among them. Paper section II-B.2. differs: the paper connects all dots; here the dots nearest the
-// centre (seeds), at most kMaxSeeds, give the first grid, which then grows outwards
-// (refine_grid.hpp). The time stays bounded in any image.
+// centre (seeds), at most kMaxSeeds, give the first grid, which then grows outwards (grow.hpp,
+// refine_grid.hpp). The time stays bounded in any image.
 #pragma once
 
 #include "core/stages.hpp"
 
 namespace dotpose::core {
 
-/// Indices of the dots nearest to a point (in squares around it), at most as many as `seeds` holds.
+/// Finds the dots nearest to a point (in squares around it), at most as many as `seeds` holds. Sets
+/// `seeds` to their indices and returns their number.
 int choose_seeds(std::span<const Dot> dots, Vec centre_q8, std::span<std::uint16_t> seeds);
 
-/// For each seed the four nearest other seeds, nearest first, within 128 px per axis; -1 where
-/// there are none. `memory` holds one more than there are seeds.
+/// Finds for each seed the four nearest other seeds, nearest first, within 128 px per axis; -1
+/// where there are none. `memory` holds one element more than there are seeds.
 void find_neighbours(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
                      std::span<BucketedSeed> memory,
                      std::span<std::array<std::int16_t, 4>> neighbours);
 
-/// The connections on which both ends agree, each once, pointing down. Returns their number.
+/// Finds the pairs of seeds that are neighbours in both directions, each once, pointing down.
+/// Returns their number.
 int connect_symmetric(std::span<const Dot> dots, std::span<const std::uint16_t> seeds,
                       std::span<const std::array<std::int16_t, 4>> neighbours,
                       std::span<Edge> edges);
@@ -30,7 +32,7 @@ inline bool counts(std::span<const std::array<std::int16_t, 4>> neighbours, int 
     return false;
 }
 
-/// Whether both count each other among their four nearest.
+/// Whether both seeds count each other among their four nearest.
 inline bool are_connected(std::span<const std::array<std::int16_t, 4>> neighbours, int a, int b) {
     return counts(neighbours, a, b) && counts(neighbours, b, a);
 }

@@ -5,10 +5,10 @@
 namespace dotpose::core {
 namespace {
 
-/// Dots farther off, in cells, may be a third of a cell beside the first grid.
+/// Farthest cell whose dots count: beyond, the first grid may be off by a third of a cell.
 constexpr int kReach_cells = 4;
 
-/// Sum over dots, as a complex number, of one coordinate's place in its cell.
+/// The mean offset of dots from their intersections along one axis, as a sum of complex numbers.
 struct Phase {
     Vec sum;
 

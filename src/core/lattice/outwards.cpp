@@ -19,7 +19,7 @@ std::optional<Waves> find_waves(const Kernels& kernels, const Patch& patch, cons
     const PatchDots& dots = patch.dots;
     const auto scale = static_cast<float>(patch.scale);
     if (spacing < tuned::kFinest_px * scale || spacing > tuned::kCoarsest_px * scale) return {};
-    // A disc that holds as many.
+    // The central dots are those in a disc that holds `central_dots` at this spacing.
     const float radius_2 = view.central_dots * spacing * spacing / 3.14159265F;
     alignas(64) std::array<float, tuned::kMostCentralDots + 8> x;
     alignas(64) std::array<float, tuned::kMostCentralDots + 8> y;
@@ -35,7 +35,8 @@ std::optional<Waves> find_waves(const Kernels& kernels, const Patch& patch, cons
     std::fill_n(y.begin() + count, 8, 0.0F);
     const float unit = static_cast<float>(count) * static_cast<float>(count);
     Waves best;
-    // Dots that are missing, or are none, make the spacing look larger or smaller.
+    // Missing or false dots make the spacing look larger or smaller, so other spacings are tried
+    // too.
     for (const float by : {1.0F, 0.93F, 1.07F, 0.87F, 1.14F, 0.81F}) {
         const Waves waves =
             kernels.strongest_waves(x.data(), y.data(), static_cast<int>(count), by / spacing);
@@ -46,7 +47,7 @@ std::optional<Waves> find_waves(const Kernels& kernels, const Patch& patch, cons
     return best;
 }
 
-/// Turns from 0 to 1.
+/// Returns the phase of a wave in turns, from -1/2 to 1/2.
 float phase_in_turns(const Waves& waves, std::size_t i) {
     constexpr float kUnit = 65536.0F;
     constexpr float kTurn = 4294967296.0F;
@@ -66,7 +67,7 @@ FloatPlane plane_from_waves(const Waves& waves) {
     return plane;
 }
 
-/// Of the matrix of (x, y, 1).
+/// Inverse of the matrix of sums over (x, y, 1).
 struct Inverse {
     std::array<std::array<float, 3>, 3> m;
     bool is_regular = false;
@@ -96,15 +97,16 @@ float inner(const std::array<float, 3>& a, const std::array<float, 3>& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Least squares of i (1 + g x + h y) = a x + b y + c and of j: a, b, c and d, e, f are eliminated,
-/// and two equations for g, h are left. Without perspective g = h = 0.
+/// Solves the least squares of i (1 + g x + h y) = a x + b y + c and of j likewise, with d, e, f:
+/// a, b, c and d, e, f are eliminated, and two equations for g, h are left. Without perspective g =
+/// h = 0. Returns false if the dots do not determine the plane.
 bool solve_plane(const CellSums& sums, bool with_perspective, FloatPlane& plane) {
     const Inverse inverse(sums.one);
     if (!inverse.is_regular) return false;
     const auto right_of = [](const std::array<float, 6>& s) {
         return std::array{s[1], s[2], s[0]};
     };
-    // How (x, y, 1) goes with x and with y times the cell.
+    // Sums of (x, y, 1) times x, and times y, each times the cell.
     const auto with_x = [](const std::array<float, 6>& s) { return std::array{s[3], s[4], s[1]}; };
     const auto with_y = [](const std::array<float, 6>& s) { return std::array{s[4], s[5], s[2]}; };
     std::array<float, 3> i = inverse(right_of(sums.i));
@@ -139,7 +141,7 @@ bool solve_plane(const CellSums& sums, bool with_perspective, FloatPlane& plane)
     return true;
 }
 
-/// Whether the fit has not gone astray.
+/// Whether the fitted plane is still near the first one and does not fold within reach.
 bool is_plausible(const FloatPlane& plane, float first_spacing, float reach) {
     const float spacing = spacing_px(plane);
     const float fold = (std::abs(plane.tilt_x) + std::abs(plane.tilt_y)) * reach;
@@ -147,13 +149,13 @@ bool is_plausible(const FloatPlane& plane, float first_spacing, float reach) {
            spacing < tuned::kMostSpacing * first_spacing && fold < tuned::kMostFold;
 }
 
-/// How much farther the next round reaches, by the share of dots that sit well.
+/// Returns the factor on the reach for the next round, from the share of dots near their places.
 float growth(float share) {
     if (share > tuned::kWellShare) return tuned::kWellGrowth;
     return share > tuned::kFairShare ? tuned::kFairGrowth : tuned::kPoorGrowth;
 }
 
-/// Dots around one, itself included, that tell how far dots are apart.
+/// Number of nearest dots, including the dot itself, from which the spacing is estimated.
 constexpr std::size_t kNearest = 20;
 
 float squared_reach_of_nearest(const PatchDots& dots, FloatVec of) {
@@ -183,7 +185,7 @@ bool count_from_densest(Patch& patch, PatchView& view, FloatVec& from_middle_px)
     PatchDots& dots = patch.dots;
     const int count = dots.count;
     if (count < tuned::kFewestDots) return false;
-    // Some of them stand for all; of many, as noise has, fewer.
+    // A sample of the dots is tried; if there are many, as in noise, fewer are.
     constexpr int kMostCandidates = 64;
     constexpr int kFewestCandidates = 16;
     constexpr int kMostDistances = 32768;
@@ -196,7 +198,7 @@ bool count_from_densest(Patch& patch, PatchView& view, FloatVec& from_middle_px)
         const float reach_2 = squared_reach_of_nearest(dots, candidate);
         if (reach_2 >= least) continue;
         least = reach_2;
-        // Whole pixels, so that nothing is lost where planes are counted from there.
+        // Whole pixels, so that counting planes from there loses no precision.
         from_middle_px = {std::floor(candidate.x), std::floor(candidate.y)};
     }
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
@@ -205,7 +207,7 @@ bool count_from_densest(Patch& patch, PatchView& view, FloatVec& from_middle_px)
     }
     view = whole_view(patch);
     view.full_reach_px += std::max(std::abs(from_middle_px.x), std::abs(from_middle_px.y));
-    // A disc with so many dots has the area of as many cells.
+    // A disc with this number of dots has the area of as many cells.
     view.spacing_px = std::sqrt(3.14159265F * least / (kNearest + 0.5F));
     return true;
 }
@@ -218,7 +220,7 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
     plane = plane_from_waves(*waves);
     const float spacing = spacing_px(plane);
     const float full = view.full_reach_px;
-    // Cells only: displacements are noise as yet.
+    // Only cells are used at first; displacements count as noise.
     CellPass pass{tuned::kFirstReach * spacing, tuned::kFirstMostOff, 0};
     CellSums sums;
     for (int round = 0; round < 2; ++round) {
@@ -245,7 +247,7 @@ bool find_grid(const Kernels& kernels, const Patch& patch, const PatchView& view
             break;
         pass.reach_px = std::min(std::max(pass.reach_px * growth(share), 4 * spacing), full);
     }
-    // Graphics may keep it from getting farther; what the grid has is enough to look at the bits.
+    // Graphics may stop the growth; the bits can be read from the grid as far as it reaches.
     if (pass.reach_px < std::min(full, 5 * spacing) || sums.used < 0.5F * sums.seen) return false;
     grid.variance = sums.squares / (2 * sums.used);
     return true;

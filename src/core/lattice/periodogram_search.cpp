@@ -11,12 +11,12 @@ namespace {
 
 namespace tuned = tuning::periodogram_search;
 
-/// A wave whose crests are rows of a grid.
+/// A wave whose crests are the rows of a grid.
 struct Wave {
     std::int32_t direction_bam = 0;
     std::int32_t spacing_q16 = 0;  ///< px
 
-    /// In turns per px.
+    /// Returns the wave vector in turns per px.
     Vec vector_q30() const {
         const Vec unit = unit_q30(direction_bam);
         return {static_cast<std::int32_t>((std::int64_t{unit.x} << 16) / spacing_q16),
@@ -31,7 +31,7 @@ struct Wave {
 
 constexpr std::int32_t kQuarter_bam = 1 << 30;
 
-/// Sums of the waves over the dots near the centre.
+/// Sums of waves over the dots near the centre.
 class Periodogram {
   public:
     Periodogram(std::span<const Dot> dots, std::span<const std::uint16_t> seeds, Vec centre_q8,
@@ -54,7 +54,7 @@ class Periodogram {
     }
 
     std::int64_t power(const Wave& wave) const { return squared(sum(wave)); }
-    /// Of the wave and the one across: those of a square grid.
+    /// Returns the power of the wave and the one across it, as of a square grid.
     std::int64_t power_of_square(const Wave& wave) const {
         return power(wave) + power(wave.turned(kQuarter_bam));
     }
@@ -66,7 +66,7 @@ class Periodogram {
 
 constexpr std::int32_t kDegree_bam = 11930465;
 
-/// Steps of a raster around a wave, and how many to either side.
+/// Steps of a raster around a wave, and their number to either side.
 struct Raster {
     std::int32_t turn_bam;
     std::int32_t stretch_q16;
@@ -74,6 +74,7 @@ struct Raster {
     int stretches;
 };
 
+/// Returns the wave with the greatest power in the raster.
 template <typename Power>
 Wave best_around(const Wave& around, const Raster& raster, Power power) {
     Wave best = around;
@@ -92,6 +93,7 @@ Wave best_around(const Wave& around, const Raster& raster, Power power) {
     return best;
 }
 
+/// Returns the wave at the maximum of the power near `wave`, by rasters of ever finer steps.
 template <typename Power>
 Wave ascend(Wave wave, Power power) {
     const std::int32_t spacing_q16 = wave.spacing_q16;
@@ -104,13 +106,13 @@ Wave ascend(Wave wave, Power power) {
     return wave;
 }
 
-/// The lattice on whose rows both waves have their crests, as near the centre as can be.
+/// Returns the lattice whose rows are the crests of both waves, with its origin near the centre.
 Lattice lattice_of(const Periodogram& periodogram, const Wave& first, const Wave& second,
                    Vec centre_q8) {
     const Vec a = first.vector_q30();
     const Vec b = second.vector_q30();
     const std::int64_t area_q44 = std::max<std::int64_t>(cross(a, b) >> 16, 1);
-    // Two waves in the same direction span no grid: what comes out then is refused, but must not
+    // Two waves in the same direction span no grid: the result is refused later, but must not
     // overflow.
     constexpr std::int32_t kLongest_q16 = 4096 << 16;
     const auto entry = [&](std::int32_t part_q30) {
@@ -119,7 +121,7 @@ Lattice lattice_of(const Periodogram& periodogram, const Wave& first, const Wave
     Lattice lattice;
     lattice.u_q16 = {entry(b.y), entry(-b.x)};
     lattice.v_q16 = {entry(-a.y), entry(a.x)};
-    // Dots stand at whole turns of both waves, but for the phase that their sum shows.
+    // Dots lie at whole turns of both waves, apart from the phase of their sum.
     const std::int64_t i_q16 = angle_bam(periodogram.sum(first)) >> 16;
     const std::int64_t j_q16 = angle_bam(periodogram.sum(second)) >> 16;
     lattice.origin_q16 = {
@@ -137,13 +139,13 @@ void search_periodogram(std::span<const Dot> dots, std::span<const std::uint16_t
     Wave wave{angle_bam({lattice.u_q16.x / 2 + lattice.v_q16.y / 2,
                          lattice.u_q16.y / 2 - lattice.v_q16.x / 2}),
               static_cast<std::int32_t>(length_q16)};
-    // A few cells wide, the peak is broad enough for a coarse raster to meet it.
+    // Within a few cells the peak is broad enough for a coarse raster to hit it.
     const Periodogram near(dots, seeds, centre_q8, wave.spacing_q16 / 256 * tuned::kNear_cells);
     wave = best_around(wave,
                        {tuned::kTurn_deg * kDegree_bam, wave.spacing_q16 / tuned::kStretchPart,
                         most_turn_deg / tuned::kTurn_deg, tuned::kStretches},
                        [&](const Wave& w) { return near.power_of_square(w); });
-    // A tilted camera sees the two at their own spacings and angles.
+    // A tilted camera sees the two directions with spacings and angles of their own.
     const Raster tilt{tuned::kTiltTurn_deg * kDegree_bam,
                       wave.spacing_q16 / tuned::kTiltStretchPart, tuned::kTiltSteps,
                       tuned::kTiltSteps};

@@ -7,14 +7,14 @@
 namespace dotpose::core {
 namespace {
 
-/// Spacings in the image that can be tracked: dots fit the squares that are looked at.
+/// Range of spacings in the image that can be tracked, so that dots fit the squares that are read.
 constexpr int kFinest_px = 7;
 constexpr int kCoarsest_px = 13;
-/// A twelfth to a third of the spacing.
+/// Range of displacements: a twelfth to a third of the spacing.
 constexpr std::int32_t kLeastDisplacement_q16 = 65536 / 12;
 constexpr std::int32_t kMostDisplacement_q16 = 65536 / 3;
 
-/// Whether no stage can overflow, whatever the bits.
+/// Whether the prediction is such that no stage can overflow.
 bool is_sane(const Prediction& prediction) {
     const PlaneFromImage& plane = prediction.pattern_from_image;
     constexpr std::int32_t kFarthest_q8 = 1 << 21;
@@ -31,8 +31,8 @@ bool is_sane(const Prediction& prediction) {
            prediction.displacement_q16 <= kMostDisplacement_q16;
 }
 
-/// Cells of a plane whose centre is at cell (0, 0) + at_q16; false where they are no grid of such a
-/// spacing, nearly square and upright.
+/// Sets the cells of a plane whose centre is at cell (0, 0) + at_q16. Returns false if their
+/// spacing cannot be tracked, or they are not nearly square and upright.
 bool invert(const PlaneFromImage& plane, Vec at_q16, CellMap& cells) {
     const Vec du = plane.du_q24;
     const Vec dv = plane.dv_q24;
@@ -59,9 +59,9 @@ bool invert(const PlaneFromImage& plane, Vec at_q16, CellMap& cells) {
     return true;
 }
 
-/// What depends on the spacing; false where memory does not suffice for it.
+/// Sets what depends on the spacing. Returns false if the memory is too small for it.
 bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
-    // Whole frames only: a part of them would give a poorer pose than a fresh fix.
+    // Only whole frames are tracked: a part of one would give a poorer pose than a fresh fix.
     const int diagonal_px = static_cast<int>(square_root(static_cast<std::uint32_t>(
         tracking.width_px * tracking.width_px + tracking.height_px * tracking.height_px)));
     const int cells = diagonal_px * 128 / spacing_q8 + 3;
@@ -77,7 +77,7 @@ bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
     return tracking.first_rows * 256 >= 5 * spacing_q8 / 2;
 }
 
-/// How far off the prediction may be in the middle of the image.
+/// Returns the greatest error of the prediction in the middle of the image.
 int reach_px(const Prediction& prediction, std::int32_t spacing_q8) {
     const std::int64_t wanted_q16 = 3 * std::int64_t{prediction.sigma_q16};
     const auto shift_q16 =
@@ -116,7 +116,7 @@ Status lay_predicted_cells(const Prediction& prediction, Profile profile, Tracki
     if (!is_sane(prediction)) return Status::not_tracked;
     const Vec centre_q8{(tracking.width_px - 1) * 128, (tracking.height_px - 1) * 128};
     const PlaneFromImage plane = tangent(prediction.pattern_from_image, centre_q8);
-    // The middle of the image is in the middle of the cells.
+    // The cells are counted so that the middle of the image is in the middle of them.
     const Vec at = plane.at_centre_q16;
     const Vec first{(at.x >> 16) - kMostTracked / 2, (at.y >> 16) - kMostTracked / 2};
     tracking.corner = moved(profile, prediction.place, first.x, first.y);

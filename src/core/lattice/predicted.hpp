@@ -1,4 +1,4 @@
-// Predicted: where a prediction has the cells of the grid in the image.
+// Predicted: lays the cells of the grid where a prediction expects them in the image.
 #pragma once
 
 #include "core/math/fixed.hpp"
@@ -9,27 +9,27 @@
 
 namespace dotpose::core {
 
-/// Dots are looked for every few rows.
+/// Dots are read each time this number of rows has come in.
 inline constexpr int kRowsAtOnce = 12;
 
 /// Sets corner, cells, and what depends on the spacing. The size of the image, at most 4096 px per
-/// side, and the memory stand in `tracking`. Errors: not_tracked, if no such view of the pattern
-/// can be tracked; any bits are safe.
+/// side, and the memory must be set in `tracking`. Errors: not_tracked, if such a view of the
+/// pattern cannot be tracked; predictions with any content are safe.
 Status lay_predicted_cells(const Prediction& prediction, Profile profile, Tracking& tracking);
 
-/// The middle of the image is about here, along both axes.
+/// The cell, along both axes, that lies near the middle of the image.
 inline constexpr int kMiddleCell = kMostTracked / 2;
 
-/// Where a cell's intersection lies.
+/// Returns where a cell's intersection lies, in 2^-16 px.
 inline Vec place_q16(const CellMap& cells, int i, int j) {
     return {cells.origin_q16.x + i * cells.along_x_q16.x + j * cells.along_y_q16.x,
             cells.origin_q16.y + i * cells.along_x_q16.y + j * cells.along_y_q16.y};
 }
 
-/// The cell in the middle of the first rows.
+/// Returns the cell in the middle of the first rows.
 Vec middle_cell(const Tracking& tracking);
 
-/// Dots are displaced by so much from now on.
+/// Sets the displacement of dots, in 2^-12 spacing, and their places that follow from it.
 void set_displacement(std::int32_t displacement_q12, Tracking& tracking);
 
 }  // namespace dotpose::core

@@ -12,12 +12,12 @@ namespace {
 
 namespace tuned = tuning::refine_grid;
 
-/// Cells beyond are not used: see PlaneFitInt64.
+/// Farthest cell that is used: see PlaneFitInt64.
 constexpr int kFarthest_cells = 250;
 constexpr std::size_t kMedianSample = tuned::kMedianSample;
 
-/// Eq. 6: the median offset of the dots near the origin is the error of the origin. It is measured
-/// from the estimate, so the paper's o - median becomes a plus.
+/// Corrects the origin by eq. 6: the median offset of the dots near the origin is its error. It is
+/// measured from the estimate, so the paper's o - median becomes a plus.
 void centre_origin(std::span<const Dot> dots, PlaneFromImage& plane) {
     std::array<std::int32_t, kMedianSample> x;
     std::array<std::int32_t, kMedianSample> y;
@@ -32,7 +32,7 @@ void centre_origin(std::span<const Dot> dots, PlaneFromImage& plane) {
         plane.at_centre_q16 - Vec{median(std::span(x).first(n)), median(std::span(y).first(n))};
 }
 
-/// How well the dots within reach sit on the grid.
+/// How well the dots within reach agree with the grid.
 struct Judged : Regularity {
     std::int64_t squared_offsets_q20 = 0;
 };
@@ -53,7 +53,7 @@ Judged judge(std::span<const Dot> dots, int reach_cells, const LatticeOptions& o
     return found;
 }
 
-/// Where a dot is taken to belong, in spacings.
+/// The place in the grid that a dot is assigned to, in spacings.
 struct Target {
     bool is_used = false;
     std::int16_t cell_x = 0;
@@ -71,13 +71,12 @@ struct Target {
     Vec place_q16() const { return {cell_x * 65536 + x_q16, cell_y * 65536 + y_q16}; }
 };
 
-/// Fits the plane to dots whose targets it tells itself: `target_of(g)`, where g is the dot's
-/// GridPoint.
+/// Fits the plane to dots and their targets: `target_of(g)`, where g is the dot's GridPoint.
 template <typename TargetOf>
 void fit_to_targets(std::span<const Dot> dots, Terms most, PlaneFromImage& plane,
                     TargetOf target_of) {
-    // The fit goes through the dots many times. So many targets are found once, which is for all
-    // dots of common images.
+    // The fit visits the dots many times. The targets of this number of dots are computed once,
+    // which is enough for common images.
     std::array<Target, 2048> targets;
     const std::size_t known = std::min(dots.size(), targets.size());
     const PlaneFromImage before = plane;
@@ -96,8 +95,9 @@ void fit_to_targets(std::span<const Dot> dots, Terms most, PlaneFromImage& plane
     if (fit_significant_plane(before, most, visit, fitted)) plane = fitted.plane;
 }
 
-/// differs: eq. 6 continues with median lengths between neighbours; a least-squares fit to the dots
-/// within reach, displacements taken as noise, gives all terms at once, and reaches on from there.
+/// Fits the plane to the dots within reach. differs: eq. 6 continues with median lengths between
+/// neighbours; here a least-squares fit, which treats displacements as noise, gives all terms at
+/// once, and the reach grows from there.
 void fit(std::span<const Dot> dots, int reach_cells, const LatticeOptions& options,
          PlaneFromImage& plane) {
     const Terms most = reach_cells < tuned::kLensReach_cells ? Terms::perspective : Terms::lens;
@@ -108,8 +108,8 @@ void fit(std::span<const Dot> dots, int reach_cells, const LatticeOptions& optio
     });
 }
 
-/// The same with displacements known: each dot is taken to be at the nearest of its cell's four
-/// places. What is far from all of them is no dot.
+/// Fits the plane to the places of displaced dots: each dot is assigned to the nearest of its
+/// cell's four places. Dots far from all of them are left out.
 void fit_places(std::span<const Dot> dots, PlaneFromImage& plane) {
     constexpr std::int32_t kFar_q16 = tuned::kFar_q16;
     fit_to_targets(dots, Terms::lens, plane, [](const GridPoint& g) {

@@ -1,4 +1,4 @@
-// Regularity: how well dots sit on a grid that is fitted to more and more of them.
+// Regularity: how well dots agree with a grid that is fitted to more and more of them.
 #pragma once
 
 #include <algorithm>
@@ -9,27 +9,27 @@
 
 namespace dotpose::core {
 
-/// Of a dot from its intersection, in spacings, as the pattern is usually printed.
+/// Usual displacement of a dot from its intersection, in spacings.
 inline constexpr std::int32_t kDisplacement_q16 = 65536 / 6;
 
-/// How far, in cells, the first estimate can be trusted: 3 % of error in the spacing, 1 degree in
-/// the direction and 1/20 cell in the origin, added up, stay under the 1/3 cell that tells a
-/// displaced dot from one of the next cell.
+/// Distance, in cells, within which the first estimate can be trusted: errors of 3 % of the
+/// spacing, 1 degree in the direction and 1/20 cell in the origin add up to less than the 1/3 cell
+/// that distinguishes a displaced dot from one of the next cell.
 inline constexpr int kFirstReach_cells = 4;
 
-/// Of the dots within reach.
+/// Counts of the dots within reach.
 struct Regularity {
     int dots = 0;
     int near_intersections = 0;
-    int farthest_cell = 0;  ///< of all dots, within reach or not
+    int farthest_cell = 0;  ///< farthest cell of all dots, within reach or not
 
     bool is_settled() const {
         return 20 * near_intersections >= tuning::regularity::kSettled_20th * dots;
     }
 
-    /// From the mean square of all offsets, in spacings^2. Dots anywhere in their cells would be
-    /// near an intersection in half of the cases, at a mean of 1/6; displaced ones always, at 1/36;
-    /// those of a plain grid at 0.
+    /// Returns the verdict from the mean square of all offsets, in spacings^2. Dots at random
+    /// places would be near an intersection in half of the cases, with a mean square of 1/6;
+    /// displaced dots always, at 1/36; those of a plain grid always, at 0.
     Status verdict(std::int64_t mean_square_q20) const {
         constexpr std::int64_t kScattered_q20 = (1 << 20) / 10;
         constexpr std::int64_t kUndisplaced_q20 = (1 << 20) / 256;
@@ -41,10 +41,10 @@ struct Regularity {
     }
 };
 
-/// From the first reach out to the farthest dot: calls `fit(reach_cells)`, which fits the grid to
-/// the dots within and sets `found`, until these are settled, but at most `most_rounds` times:
-/// dots that a better fit puts into other cells make the next one better still. False if a fit
-/// fails.
+/// Extends a fit from the first reach to the farthest dot. `fit(reach_cells)` fits the grid to the
+/// dots within the reach and sets `found`. It is called for each reach until the dots are settled,
+/// at most `most_rounds` times: each better fit puts more dots into the right cells. Returns false
+/// if a fit fails.
 template <typename Fit>
 bool fit_outwards(int most_rounds, const Regularity& found, Fit fit) {
     for (int reach = kFirstReach_cells;; reach += reach / 2 + 1) {

@@ -11,11 +11,10 @@
 namespace dotpose::core {
 
 Shifts::Shifts(const Tracking& tracking) {
-    // At most two spacings from the middle column, so that a turn hardly blurs what dots show
-    // together.
+    // Columns within two spacings of the middle one are used, so that a turn hardly blurs the sums.
     const int half = 4 * tracking.spacing_q8 >> 9;
     rows_ = tracking.first_rows;
-    // A turn about the image centre of 4 degrees, 18/256, moves what is above it sideways.
+    // A turn of 4 degrees, 18/256, about the image centre moves the rows above it sideways.
     const int sideways_px = 18 * ((tracking.height_px - rows_) / 2) >> 8;
     const auto steps = [](int reach_px) {
         return std::min((reach_px + kStep_px - 1) / kStep_px, kMostSteps);
@@ -30,7 +29,7 @@ Shifts::Shifts(const Tracking& tracking) {
     divide_by_dots();
 }
 
-/// The mean of what is lighter than the mean.
+/// Sets the paper's level: the mean of the pixels that are lighter than the mean.
 void Shifts::measure_paper(const Tracking& tracking) {
     int threshold = 0;
     for (int round = 0; round < 2; ++round) {
@@ -52,8 +51,8 @@ void Shifts::measure_paper(const Tracking& tracking) {
 
 void Shifts::add_dots(const Tracking& tracking) {
     const int reach = kStep_px * steps_.y;
-    // Cells so far from the middle one that dots within two spacings of its column, and the rows
-    // and what may be shifted into them, are among them however the grid is turned.
+    // This number of cells around the middle one includes all dots within two spacings of its
+    // column, and those that may be shifted into the rows, however the grid is turned.
     constexpr int kAround = 5;
     const Vec middle = middle_cell(tracking);
     const auto around = [&](int cell) {
@@ -92,7 +91,7 @@ void Shifts::add_dot(const Tracking& tracking, int u, int v) {
 }
 
 void Shifts::divide_by_dots() {
-    // What few dots show tells little.
+    // With few dots the mean tells little, so it is divided by at least this number.
     constexpr int kFewest = 6;
     for (int y = 0; y <= 2 * steps_.y; ++y) {
         const int dots = std::max<int>(dots_[static_cast<std::size_t>(y)], kFewest);
@@ -103,7 +102,7 @@ void Shifts::divide_by_dots() {
     }
 }
 
-/// What was shown is not shown again.
+/// Clears the shifts around one that was returned.
 void Shifts::forget_around(Vec at) {
     constexpr int kFar = 2;
     for (int y = std::max<std::int32_t>(at.y - kFar, 0);
@@ -120,7 +119,7 @@ bool Shifts::next(Vec& shift_q8) {
     for (int y = 0; y <= 2 * steps_.y; ++y) {
         const std::uint16_t* here = row_of(y);
         for (int x = 0; x <= 2 * steps_.x; ++x, ++here) {
-            // Noise is less of several.
+            // Adding the neighbours reduces noise.
             const int around = 4 * here[0] + here[-1] + here[1] + here[-kPerRow] + here[kPerRow];
             if (around <= best) continue;
             best = around;
@@ -129,7 +128,7 @@ bool Shifts::next(Vec& shift_q8) {
     }
     if (best == 0) return false;
     constexpr int kStep_q8 = kStep_px * 256;
-    // Between steps, from the neighbours.
+    // The maximum lies between steps; the neighbours show where.
     const auto between = [](int before, int here, int after) {
         return (after - before) * kStep_q8 / std::max(before + here + after, 1);
     };

@@ -10,19 +10,19 @@
 namespace dotpose::core {
 namespace {
 
-/// Rounds of cells about the middle one.
+/// Number of rings of cells around the middle one.
 constexpr int kRounds = 4;
-/// Fewest dots, and the share of those looked at in 1/8, that have to be as the code has them.
+/// Fewest dots that must be as in the code, and their least share, in 1/8, of the dots measured.
 constexpr int kLeastDots = 12;
 constexpr int kLeastShare_q3 = 6;
-/// From so many on, their share tells.
+/// Number of dots from which their share is judged.
 constexpr int kTelling = 8;
 
 /// Least squares of a shift, a turn and a stretch: offset = shift + stretch p + turn J p, where J
 /// is a quarter turn.
 class SimilarityFit {
   public:
-    /// The place in px from the middle, the offset in 2^-8 px.
+    /// Adds a dot by its place in px from the middle and its offset in 2^-8 px.
     void add(Vec p, Vec offset_q8) {
         ++count_;
         p_ = p_ + p;
@@ -60,8 +60,8 @@ class SimilarityFit {
     std::int32_t across_ = 0;
 };
 
-/// v stretched and turned, less v.
-// By itself: products of 64 bits are long.
+/// Returns v stretched and turned, minus v.
+/// It is not inlined, because products of 64 bits take much code.
 [[gnu::noinline]] Vec change(const SimilarityFit::Similarity& s, Vec v) {
     const auto part = [](std::int64_t a_q20) { return static_cast<std::int32_t>(a_q20 >> 20); };
     return {part(std::int64_t{s.stretch_q20} * v.x - std::int64_t{s.turn_q20} * v.y),
@@ -75,17 +75,18 @@ CellMap changed(const CellMap& cells, Vec middle_q16, const SimilarityFit::Simil
             cells.along_y_q16 + change(s, cells.along_y_q16)};
 }
 
-/// Dots measured, and what those say that are as the code has them.
+/// The dots measured, and the fit to those that are as in the code.
 class Rounds {
   public:
     Rounds(Tracking& tracking, Vec middle_q16)
         : tracking_(tracking), before_(tracking.cells), middle_q16_(middle_q16) {}
 
-    /// Shifts the cells by what the dots nearest the middle lie from their places, be they what the
-    /// code has there or not.
+    /// Shifts the cells by the mean distance of the dots nearest the middle from their places,
+    /// whether they agree with the code or not.
     void recentre(Vec middle);
+    /// Measures the dot of a cell and, if it agrees with the code, adds it to the fit.
     void measure(int i, int j);
-    /// Lays the cells anew.
+    /// Moves the cells by the fit.
     void lay_cells() {
         similarity_ = fit_.solve();
         tracking_.cells = changed(before_, middle_q16_, similarity_);
@@ -128,7 +129,7 @@ void Rounds::recentre(Vec middle) {
 
 void Rounds::measure(int i, int j) {
     const Vec at_q16 = place_q16(tracking_.cells, i, j);
-    // Most cells around are beyond the first rows.
+    // Most cells around lie beyond the first rows.
     if (!is_kept(tracking_, pixel_at(at_q16), kHalf_px)) return;
     NearDot dot;
     if (!measure_around(tracking_, at_q16, dot)) return;
@@ -145,7 +146,7 @@ void Rounds::measure(int i, int j) {
     projections_q12_ += magnitude(p.x_q12) + magnitude(p.y_q12);
 }
 
-/// Shows `use` the cells that are `round` cells from the middle one.
+/// Calls `use` for the cells in the ring `round` around the middle one.
 template <typename Use>
 void visit_round(const Tracking& tracking, Vec middle, int round, Use use) {
     const auto is_in = [&](int cell) {
@@ -160,7 +161,7 @@ void visit_round(const Tracking& tracking, Vec middle, int round, Use use) {
     }
 }
 
-/// The slopes of a plane, of what is turned and stretched; small as these are, to be taken off.
+/// Applies a small turn and stretch of the cells to the slopes of the plane.
 void turn_back(const SimilarityFit::Similarity& s, Tracking& tracking) {
     const auto less = [&](Vec v, Vec ahead) {
         const auto part = [&](std::int32_t along, std::int32_t across) {
@@ -187,8 +188,8 @@ bool find_turn(Tracking& tracking) {
         const int before = rounds.agreeing();
         visit_round(tracking, middle, round, [&](int i, int j) { rounds.measure(i, j); });
         agree = rounds.seen() < kTelling || 8 * rounds.agreeing() >= kLeastShare_q3 * rounds.seen();
-        // The middle one says no more than those around it did, the third round little more than
-        // the second.
+        // The cells move only after some rounds: the middle dot alone adds nothing to `recentre`,
+        // and the third round little to the second.
         const bool tells = round % 2 == 0 ? round > 0 : round == 1;
         if (tells && rounds.agreeing() > before) rounds.lay_cells();
     }

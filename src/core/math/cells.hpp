@@ -13,21 +13,22 @@ class Cells {
           du_q18_{plane.du_q24.x >> 6, plane.du_q24.y >> 6},
           dv_q18_{plane.dv_q24.x >> 6, plane.dv_q24.y >> 6} {}
 
-    /// In 1/8 px, which is 1/100 of the finest spacing when rounded.
+    /// Returns the offset from the centre in 1/8 px, which when rounded is 1/100 of the finest
+    /// spacing.
     Vec from_centre_q3(Vec image_point_q8) const {
         const Vec p = image_point_q8 - rounding_centre_q8_;
         return {p.x >> 5, p.y >> 5};
     }
-    /// In spacings. At most 512 of them from the centre.
+    /// Returns the place in spacings, which is valid within 512 spacings of the centre.
     Vec plane_point_q16(Vec from_centre_q3) const {
         return rounding_plane_point_q16(from_centre_q3) - Vec{kHalf_q16, kHalf_q16};
     }
-    /// Half a spacing more, so that the cell is what remains when the fraction is cut off.
+    /// Returns the place plus half a spacing, so that truncating it gives the nearest cell.
     Vec rounding_plane_point_q16(Vec p) const {
         return {rounding_at_centre_q16_.x + ((du_q18_.x * p.x + dv_q18_.x * p.y) >> 5),
                 rounding_at_centre_q16_.y + ((du_q18_.y * p.x + dv_q18_.y * p.y) >> 5)};
     }
-    /// Eq. 3-5.
+    /// Returns the cell and the offset from it: eq. 3-5.
     GridPoint operator()(Vec from_centre_q3) const {
         const Vec c = rounding_plane_point_q16(from_centre_q3);
         return {{c.x >> 16, c.y >> 16}, {(c.x & 0xFFFF) - kHalf_q16, (c.y & 0xFFFF) - kHalf_q16}};
@@ -36,7 +37,7 @@ class Cells {
   private:
     static constexpr std::int32_t kHalf_q16 = 1 << 15;
 
-    // Half a unit less, and half a cell more, so that cutting off rounds.
+    // Half a unit less, and half a cell more, so that truncation rounds to nearest.
     Vec rounding_centre_q8_;
     Vec rounding_at_centre_q16_;
     Vec du_q18_;

@@ -1,4 +1,4 @@
-// Odds as floating point numbers and as powers of two.
+// Odds: conversion between floating-point numbers and powers of two.
 #pragma once
 
 #include <algorithm>
@@ -9,14 +9,14 @@
 
 namespace dotpose::core {
 
-/// 2^(n / 256), to 2 %; 2^-100 for less. n < 127 * 256.
+/// Returns 2^(n / 256), exact to 2 %, and 2^-100 for any less; n < 127 * 256.
 inline float power_of_two(int n_q8) {
     const int n = std::max(n_q8, -100 * 256);
     const int whole = n >> 8;
     return std::ldexp(static_cast<float>(exp2_q16(n - whole * 256)), whole - 16);
 }
 
-/// The way back, rounded up.
+/// Returns the log2 of odds in 2^-8, rounded up.
 inline int log2_of_odds_q8(float odds) {
     int exponent = 0;
     const float mantissa = std::frexp(std::max(odds, 1e-30F), &exponent);

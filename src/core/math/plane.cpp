@@ -3,7 +3,7 @@
 namespace dotpose::core {
 namespace {
 
-/// du x + dv y
+/// Returns du x + dv y in 2^-16 spacing.
 Vec linear_q16(const PlaneFromImage& plane, Vec from_centre_q8) {
     const std::int64_t x = from_centre_q8.x;
     const std::int64_t y = from_centre_q8.y;
@@ -52,10 +52,10 @@ GridPoint grid_point(const PlaneFromImage& plane, Vec image_point_q8) {
 }
 
 Vec image_point_q8(const PlaneFromImage& plane, Vec plane_point) {
-    // Newton's method with the slope where the search stands; exact at once where it is the same
-    // everywhere, but for what the division cuts off.
+    // Newton's method with the slope at the current point; for an affine plane one round is exact
+    // except for the truncation of the division.
     constexpr int kMostRounds = 12;
-    // Where the map folds, the search may leave all images behind.
+    // Where the map folds, the search may leave the range of all images.
     constexpr std::int32_t kFarthest_q8 = 1 << 21;
     Vec point_q8 = plane.centre_q8;
     for (int round = 0; round < kMostRounds; ++round) {

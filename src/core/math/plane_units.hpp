@@ -1,4 +1,4 @@
-// Units of the fixed-point maps, for floating point.
+// Units of the fixed-point maps as floating-point numbers.
 #pragma once
 
 #include <algorithm>
@@ -13,11 +13,12 @@ inline constexpr float kPower24 = 16777216.0F;
 inline constexpr float kPower30 = 1073741824.0F;
 inline constexpr float kPower40 = kPower24 * kPower16;
 
-/// The nearest whole number, within reason; not a number counts as too small.
+/// Returns the nearest whole number, limited to +-kBeyondReason; for a value that is not a number,
+/// the lower limit.
 inline std::int32_t rounded(float value) {
     constexpr float kMost = kBeyondReason;
     const float whole = value + (value < 0 ? -0.5F : 0.5F);
-    // In this order, as it may be no number.
+    // The order of min and max matters for a value that is not a number.
     return static_cast<std::int32_t>(std::min(std::max(-kMost, whole), kMost));
 }
 

@@ -1,11 +1,11 @@
-// Symmetric systems of two equations, which least squares of two unknowns end in.
+// Symmetric systems of two equations, as in least squares with two unknowns.
 #pragma once
 
 #include <array>
 
 namespace dotpose::core {
 
-/// A symmetric matrix. The caller sees to it that products of two elements do not overflow.
+/// A symmetric matrix. The caller ensures that products of two elements do not overflow.
 template <typename Number>
 struct Symmetric2 {
     Number xx;
@@ -13,7 +13,7 @@ struct Symmetric2 {
     Number yy;
 
     constexpr Number determinant() const { return xx * yy - xy * xy; }
-    /// The solution of matrix * solution = (x, y), times the determinant: Cramer's rule.
+    /// Returns the solution of matrix * solution = (x, y), times the determinant: Cramer's rule.
     constexpr std::array<Number, 2> solve_scaled(Number x, Number y) const {
         return {x * yy - y * xy, y * xx - x * xy};
     }

@@ -1,4 +1,4 @@
-// Vectors: arithmetic on four numbers at once, in vector instructions where there are any.
+// Vectors: arithmetic on four numbers at once, in vector instructions where the processor has them.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@ namespace dotpose::core {
 using Four = float __attribute__((vector_size(16)));
 using FourInts = std::int32_t __attribute__((vector_size(16)));
 
-/// Four numbers in a row in memory, from anywhere.
+/// Loads a vector of adjacent numbers from any address.
 template <typename Vector, typename Number>
 Vector vector_at(const Number* first) {
     static_assert(sizeof(Vector{}[0]) == sizeof(Number));
@@ -24,7 +24,7 @@ inline FourInts four_at(const std::int32_t* first) {
     return vector_at<FourInts>(first);
 }
 
-/// Adds to each of four sums its four values, one after the other.
+/// Adds to each of four sums its four values, in order.
 inline void add_each(Four& sums, Four a, Four b, Four c, Four d) {
     const Four ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
     const Four cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5);
