@@ -3,14 +3,12 @@
 
 #include <cmath>
 #include <cstring>
-#include <map>
-#include <memory>
 #include <numbers>
-#include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "attempts/shots.hpp"
 #include "canvas.hpp"
 
 namespace dotpose::core_test {
@@ -18,23 +16,14 @@ namespace {
 
 constexpr std::uint64_t kSeed = 34;
 
-Shot shot_of(Preset preset, std::uint64_t index, int width_px = 188, int height_px = 120) {
-    Setup setup;
-    setup.preset = preset;
-    setup.seed = kSeed;
-    setup.camera.width_px = width_px;
-    setup.camera.height_px = height_px;
-    return draw_shot(setup, index);
-}
-
 /// Frames that are read and frames that are not, in one size.
 std::vector<GreyImage> mixed_frames() {
     std::vector<GreyImage> frames;
     for (std::uint64_t i = 0; i < 8; ++i) {
-        frames.push_back(render(shot_of(Preset::nominal, i)));
-        frames.push_back(render(shot_of(Preset::hard, i)));
+        frames.push_back(render(shot_of({.preset = Preset::nominal}, kSeed, i)));
+        frames.push_back(render(shot_of({.preset = Preset::hard}, kSeed, i)));
         const Scene scene = kScenes[static_cast<std::size_t>(i) % kScenes.size()];
-        frames.push_back(render_scene(scene, shot_of(Preset::clean, i)));
+        frames.push_back(render_scene(scene, shot_of({.preset = Preset::clean}, kSeed, i)));
     }
     return frames;
 }
@@ -120,7 +109,7 @@ TEST(Locate, ADeviceLocatesNominalFrames) {
     constexpr std::uint64_t kFrames = 200;
     for (std::uint64_t i = 0; i < kFrames; ++i) {
         SCOPED_TRACE(testing::Message() << "shot " << i << ", seed " << kSeed);
-        const Shot shot = shot_of(Preset::nominal, i);
+        const Shot shot = shot_of({.preset = Preset::nominal}, kSeed, i);
         const Fix fix = Locator(memory, device).locate(render(shot).view());
         if (fix.status != Status::ok) continue;
         const double spacing_um = 1000 * shot.page.pattern.spacing_mm;
@@ -153,18 +142,19 @@ TEST(Locate, LittleMemoryIsEnoughForADevice) {
     int found = 0;
     for (std::uint64_t i = 0; i < 60; ++i) {
         SCOPED_TRACE(testing::Message() << "shot " << i << ", seed " << kSeed);
-        const GreyImage frame = render(shot_of(Preset::nominal, i));
+        const GreyImage frame = render(shot_of({.preset = Preset::nominal}, kSeed, i));
         const Fix fix = pushed(frame, Locator(small, device));
         expect_same(pushed(frame, DeviceLocator(little)), fix);
         found += fix.status == Status::ok;
         // Noise and graphics fill it up; afterwards it is as good as new.
-        const Shot hard = shot_of(Preset::hard, i);
+        const Shot hard = shot_of({.preset = Preset::hard}, kSeed, i);
         const Fix full = pushed(render(hard), DeviceLocator(little));
         if (full.status == Status::ok) {
             EXPECT_NEAR(full.x_grid(), x_grid(hard.pose), 0.2);
             EXPECT_NEAR(full.y_grid(), y_grid(hard.pose), 0.2);
         }
-        const GreyImage noise = render_scene(Scene::noise, shot_of(Preset::clean, i), 0.3);
+        const GreyImage noise =
+            render_scene(Scene::noise, shot_of({.preset = Preset::clean}, kSeed, i), 0.3);
         EXPECT_NE(pushed(noise, DeviceLocator(little)).status, Status::ok);
     }
     EXPECT_GE(found, 57) << "seed " << kSeed;
@@ -177,7 +167,8 @@ TEST(Locate, ADeviceRefusesWhatHasNoPosition) {
     device.effort = Effort::device;
     for (const Scene scene : kScenes) {
         for (std::uint64_t i = 0; i < 20; ++i) {
-            const GreyImage frame = render_scene(scene, shot_of(Preset::clean, i), 0.8);
+            const GreyImage frame =
+                render_scene(scene, shot_of({.preset = Preset::clean}, kSeed, i), 0.8);
             EXPECT_NE(Locator(memory, device).locate(frame.view()).status, Status::ok)
                 << name(scene) << ", shot " << i << ", seed " << kSeed;
         }
@@ -196,7 +187,7 @@ TEST(Locate, UsedMemoryIsAsGoodAsFreshOne) {
     // Other sizes and failures in between leave nothing behind.
     const auto used_memory = std::make_unique<LargeMemory>();
     Locator used(*used_memory);
-    const GreyImage big = render(shot_of(Preset::nominal, 3, 640, 480));
+    const GreyImage big = render(shot_of({.width_px = 640, .height_px = 480}, kSeed, 3));
     const GreyImage tiny = blank(10, 10);
     for (const GreyImage& frame : mixed_frames()) {
         const auto fresh_memory = std::make_unique<LargeMemory>();
@@ -214,7 +205,7 @@ TEST(Locate, UsedMemoryIsAsGoodAsFreshOne) {
 
 TEST(Locate, TheTraceKeepsTheFix) {
     SmallMemory memory;
-    const GreyImage frame = render(shot_of(Preset::nominal, 0));
+    const GreyImage frame = render(shot_of({.preset = Preset::nominal}, kSeed, 0));
     Options options;
     options.show_stages = true;
     Locator locator(memory, options);
@@ -226,7 +217,7 @@ TEST(Locate, TheTraceKeepsTheFix) {
 
 TEST(Locate, RowsCountOnlyInAFrameThatWasBegun) {
     SmallMemory memory;
-    const GreyImage frame = render(shot_of(Preset::nominal, 0));
+    const GreyImage frame = render(shot_of({.preset = Preset::nominal}, kSeed, 0));
     Locator locator(memory);
     locator.push_row(frame.pixels.data());
     EXPECT_EQ(locator.finish().status, Status::bad_argument);
@@ -248,7 +239,7 @@ TEST(Locate, RowsCountOnlyInAFrameThatWasBegun) {
 
 TEST(Locate, MillimetresComeFromTheSpacingInTheOptions) {
     SmallMemory memory;
-    const GreyImage frame = render(shot_of(Preset::nominal, 0));
+    const GreyImage frame = render(shot_of({.preset = Preset::nominal}, kSeed, 0));
     Options options;
     options.spacing_nm = 300'000;
     const Fix fix = Locator(memory, options).locate(frame.view());
@@ -261,7 +252,7 @@ TEST(Locate, MillimetresComeFromTheSpacingInTheOptions) {
 
 TEST(Locate, RowsMayLieApartOrUpsideDown) {
     SmallMemory memory;
-    const GreyImage frame = render(shot_of(Preset::nominal, 1));
+    const GreyImage frame = render(shot_of({.preset = Preset::nominal}, kSeed, 1));
     const Fix fix = Locator(memory).locate(frame.view());
     ASSERT_EQ(fix.status, Status::ok);
     for (const int stride : {188, 189, 256, 1000, -188, -300}) {
@@ -277,7 +268,7 @@ TEST(Locate, RowsMayLieApartOrUpsideDown) {
 TEST(Locate, TheReferencePointMayLieAnywhere) {
     SmallMemory memory;
     for (std::uint64_t i = 0; i < 10; ++i) {
-        const Shot shot = shot_of(Preset::clean, i);
+        const Shot shot = shot_of({.preset = Preset::clean}, kSeed, i);
         const GreyImage frame = render(shot);
         const Fix at_centre = Locator(memory).locate(frame.view());
         ASSERT_EQ(at_centre.status, Status::ok);
@@ -312,7 +303,7 @@ TEST(Locate, TheReferencePointMayLieAnywhere) {
 TEST(Locate, ALensIsUndone) {
     SmallMemory memory;
     for (std::uint64_t i = 0; i < 10; ++i) {
-        Shot shot = shot_of(Preset::clean, i);
+        Shot shot = shot_of({.preset = Preset::clean}, kSeed, i);
         shot.camera.k = -1.5e-5;
         const GreyImage frame = render(shot);
         Options options;
@@ -326,105 +317,18 @@ TEST(Locate, ALensIsUndone) {
     }
 }
 
-TEST(Locate, SizesOutOfRangeAreRefused) {
-    SmallMemory small;
-    const auto large = std::make_unique<LargeMemory>();
-    const auto status_of = [](int width, int height, auto& memory) {
-        const GreyImage image = blank(width, height);
-        return Locator(memory).locate(image.view()).status;
-    };
-    EXPECT_EQ(status_of(63, 120, small), Status::image_too_small);
-    EXPECT_EQ(status_of(120, 63, small), Status::image_too_small);
-    EXPECT_EQ(status_of(1, 1, small), Status::image_too_small);
-    EXPECT_EQ(Locator(small).locate({}).status, Status::image_too_small);
-    EXPECT_EQ(Locator(small).locate({nullptr, -5, -5, 0}).status, Status::image_too_small);
-    EXPECT_EQ(status_of(189, 120, small), Status::image_too_large);
-    EXPECT_EQ(status_of(64, 4097, *large), Status::image_too_large);
-    EXPECT_EQ(Locator(*large).begin(4097, 64), Status::image_too_large);
-    for (const auto& [width, height] :
-         {std::pair{64, 64}, std::pair{188, 120}, std::pair{64, 4096}}) {
-        EXPECT_EQ(status_of(width, height, small), Status::no_contrast) << width;
-    }
-}
-
-TEST(Locate, AFrameWithoutAPositionTellsWhy) {
-    // What is in the picture decides which stage may refuse it.
-    const std::map<Scene, std::set<Status>> allowed{
-        {Scene::black, {Status::no_contrast, Status::too_few_dots}},
-        {Scene::white, {Status::no_contrast, Status::too_few_dots}},
-        {Scene::noise, {Status::too_few_dots, Status::no_grid}},
-        {Scene::text, {Status::too_few_dots, Status::no_grid}},
-        {Scene::plain_grid, {Status::no_displacement}},
-        {Scene::random_symbols, {Status::not_in_code, Status::not_certain, Status::mirrored}},
-        {Scene::scattered_dots, {Status::no_grid}},
-        {Scene::checkerboard, {Status::too_few_dots, Status::no_grid}},
-        {Scene::seam_vertical, {Status::not_certain, Status::not_in_code}},
-        {Scene::seam_horizontal, {Status::not_certain, Status::not_in_code}},
-        {Scene::mirrored, {Status::mirrored}},
-    };
-    SmallMemory memory;
-    for (const Scene scene : kScenes) {
-        for (std::uint64_t i = 0; i < 20; ++i) {
-            const GreyImage frame = render_scene(scene, shot_of(Preset::clean, i), 0.8);
-            const Status status = Locator(memory).locate(frame.view()).status;
-            EXPECT_TRUE(allowed.at(scene).contains(status))
-                << name(scene) << " gave " << name(status) << ", shot " << i << ", seed " << kSeed;
-        }
-    }
-}
-
 // The second attempt measures dots where the code has them, also those that are no blobs.
 TEST(Locate, UsesNoMoreDotsThanItSaw) {
     SmallMemory memory;
     int by_second = 0;
     for (std::uint64_t i = 0; i < 20; ++i) {
-        const Fix fix = Locator(memory).locate(render(shot_of(Preset::hard, i)).view());
+        const Fix fix =
+            Locator(memory).locate(render(shot_of({.preset = Preset::hard}, kSeed, i)).view());
         if (fix.status != Status::ok) continue;
         by_second += fix.attempt == Attempt::second;
         EXPECT_LE(fix.dots_used, fix.dots_seen) << "shot " << i << ", seed " << kSeed;
     }
     EXPECT_GT(by_second, 10);
-}
-
-TEST(Locate, AFrameWithoutAnyDotIsRefusedEvenIfNoDotIsAskedFor) {
-    // One dark corner: contrast, and a blob that is too large for a dot.
-    GreyImage image{std::vector<std::uint8_t>(64 * 64, 255), 64, 64};
-    for (std::size_t v = 0; v < 32; ++v)
-        std::fill_n(image.pixels.begin() + static_cast<std::ptrdiff_t>(64 * v), 32,
-                    std::uint8_t{0});
-    SmallMemory memory;
-    Options options;
-    options.lattice.min_dots = 0;
-    options.blobs.min_area_px = 1 << 20;
-    for (const Effort effort : {Effort::device, Effort::once, Effort::twice}) {
-        options.effort = effort;
-        EXPECT_EQ(Locator(memory, options).locate(image.view()).status, Status::too_few_dots);
-    }
-}
-
-TEST(Locate, EveryStageCanRefuse) {
-    // A frame of the pattern, made worse step by step until each stage has had its say.
-    SmallMemory memory;
-    Shot shot = shot_of(Preset::clean, 0);
-    const GreyImage frame = render(shot);
-    Options options;
-    options.integrity.max_p_wrong_log2 = -100000;
-    EXPECT_EQ(Locator(memory, options).locate(frame.view()).status, Status::not_certain);
-    options = {};
-    options.lattice.min_dots = 10000;
-    EXPECT_EQ(Locator(memory, options).locate(frame.view()).status, Status::too_few_dots);
-    // Another profile differs in a4, and so in nearly every difference.
-    options = {};
-    options.profile = Profile::microdots;
-    const Status other = Locator(memory, options).locate(frame.view()).status;
-    EXPECT_TRUE(other == Status::not_certain || other == Status::not_in_code) << name(other);
-    // Five columns of dots.
-    shot.page.origin = {shot.pose.cell.x - 2, shot.pose.cell.y - 30};
-    shot.page.columns = 5;
-    shot.page.rows = 60;
-    shot.pose.theta_rad = radians(90);
-    const Status narrow = Locator(memory).locate(render(shot).view()).status;
-    EXPECT_EQ(narrow, Status::grid_too_small) << name(narrow);
 }
 
 }  // namespace

@@ -1,0 +1,208 @@
+// Windows and centres of dots compared with plain computations of the same.
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "core/kernels/kernels.hpp"
+#include "random_inputs.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+using namespace core;
+
+/// Expects the sums of a window to be those added pixel by pixel.
+void expect_sums(const Picture& picture, int half_px, int cut_q8, const MeasuredDots& dots,
+                 std::size_t k) {
+    const int u = dots.window_u[k];
+    const int v = dots.window_v[k];
+    const auto corner = [&](int du, int dv) {
+        return picture.at(std::clamp(u + du, 0, picture.view.width_px - 1),
+                          std::clamp(v + dv, 0, picture.view.height_px - 1));
+    };
+    const int paper = (corner(-half_px, -half_px) + corner(half_px, -half_px) +
+                       corner(-half_px, half_px) + corner(half_px, half_px) + 2) /
+                      4;
+    const int cut = paper - (paper * cut_q8 >> 8);
+    int mass = 0;
+    int sum_u = 0;
+    int sum_v = 0;
+    for (int dv = -half_px; dv <= half_px; ++dv) {
+        for (int du = -half_px; du <= half_px; ++du) {
+            const int dark = std::max(cut - picture.at_or_white(u + du, v + dv), 0);
+            mass += dark;
+            sum_u += du * dark;
+            sum_v += dv * dark;
+        }
+    }
+    ASSERT_EQ(dots.paper[k], paper) << u << ' ' << v << " half " << half_px;
+    ASSERT_EQ(dots.mass[k], mass) << u << ' ' << v << " half " << half_px;
+    ASSERT_EQ(dots.sum_u[k], sum_u) << u << ' ' << v << " half " << half_px;
+    ASSERT_EQ(dots.sum_v[k], sum_v) << u << ' ' << v << " half " << half_px;
+}
+
+TEST(KernelsWindows, WindowsAreSummedUpToTheBorder) {
+    repeat_with_each_form(40, [](const Kernels& kernels, Rng& rng) {
+        Picture picture(whole(rng, 64, 200), whole(rng, 64, 200), whole(rng, 0, 3), rng);
+        const int half_px = whole(rng, 2, kMostHalfWindow_px);
+        CellsInView view;
+        view.centre_x = static_cast<float>(picture.view.width_px - 1) / 2;
+        view.centre_y = static_cast<float>(picture.view.height_px - 1) / 2;
+        view.width_px = static_cast<float>(picture.view.width_px);
+        view.height_px = static_cast<float>(picture.view.height_px);
+        view.plane = {0, 0, 0.1F, 0, 0, 0.1F, 0, 0, 0};
+        DotTable table(200);
+        table.dots.count = 200;
+        for (std::size_t k = 0; k < 200; ++k) {
+            table.dots.window_u[k] = whole(rng, 0, picture.view.width_px - 1);
+            table.dots.window_v[k] = whole(rng, 0, picture.view.height_px - 1);
+        }
+        // Windows around the first and the last pixel of the image are among them.
+        table.dots.window_u[0] = table.dots.window_v[0] = 0;
+        table.dots.window_u[1] = picture.view.width_px - 1;
+        table.dots.window_v[1] = picture.view.height_px - 1;
+        table.dots.window_u[2] = picture.view.width_px - 1 - half_px;
+        table.dots.window_v[2] = picture.view.height_px - 1 - half_px;
+        const int cut_q8 = whole(rng, 10, 220);
+        kernels.measure_windows(picture.view, view, {static_cast<float>(half_px), 1, cut_q8},
+                                table.dots);
+        for (std::size_t k = 0; k < 200; ++k) {
+            expect_sums(picture, half_px, cut_q8, table.dots, k);
+            if (testing::Test::HasFatalFailure()) return;
+        }
+    });
+}
+
+/// One dot on an image, with what `measure_windows` might say of it.
+struct OneDot {
+    static constexpr int kSide_px = 80;
+    static constexpr double kPaper = 200;
+    std::vector<std::uint8_t> pixels;
+    ImageView view{nullptr, kSide_px, kSide_px, kSide_px};
+    CellsInView cells;
+    DotTable table{8};
+
+    /// Draws a Gaussian dot at (u, v), believed to be `off_px` to the right of that and below.
+    OneDot(double u, double v, double sigma_px, double off_px) {
+        for (int y = 0; y < kSide_px; ++y) {
+            for (int x = 0; x < kSide_px; ++x) {
+                const double squared = (x - u) * (x - u) + (y - v) * (y - v);
+                const double dark = 160 * std::exp(-squared / (2 * sigma_px * sigma_px));
+                pixels.push_back(static_cast<std::uint8_t>(std::lround(kPaper - dark)));
+            }
+        }
+        view.pixels = pixels.data();
+        MeasuredDots& dots = table.dots;
+        dots.count = 1;
+        dots.window_u[0] = static_cast<int>(u);
+        dots.window_v[0] = static_cast<int>(v);
+        dots.mass[0] = 10000;
+        dots.sum_u[0] = static_cast<int>(std::lround(10000 * (u + off_px - dots.window_u[0])));
+        dots.sum_v[0] = static_cast<int>(std::lround(10000 * (v + off_px - dots.window_v[0])));
+        dots.paper[0] = static_cast<int>(kPaper);
+        dots.x[0] = static_cast<float>(u + off_px);
+        dots.y[0] = static_cast<float>(v + off_px);
+    }
+};
+
+TEST(KernelsWindows, CentresAreFoundWhereDotsAre) {
+    repeat_with_each_form(200, [](const Kernels& kernels, Rng& rng) {
+        constexpr double kMargin_px = 2;
+        const double sigma_px = rng.uniform(0.7, 4);
+        // Narrower bells cover hardly more than the flat top of a dot, in whole grey levels.
+        const auto reach_px = static_cast<float>(rng.uniform(std::max(3.3, 2.5 * sigma_px), 12));
+        const auto anywhere = [&] { return rng.uniform(20, OneDot::kSide_px - 21); };
+        const auto at_border = [&] { return rng.uniform(kMargin_px, kMargin_px + 1); };
+        // A large dot at the border would be seen only in part.
+        const bool is_inside = sigma_px > 0.8 || rng.below(2) == 0;
+        const double u = is_inside ? anywhere() : at_border();
+        const double v = anywhere();
+        OneDot dot(u, v, sigma_px, rng.uniform(-0.15, 0.15));
+        kernels.refine_centres(dot.view, dot.cells, reach_px, dot.table.dots);
+        // Rounding to grey levels leaves a few thousandths; the border cuts off a dot's skirt.
+        const double most_px = is_inside ? 0.01 : 0.04;
+        EXPECT_NEAR(dot.table.dots.x[0], u, most_px) << sigma_px << ' ' << reach_px;
+        EXPECT_NEAR(dot.table.dots.y[0], v, most_px) << sigma_px << ' ' << reach_px;
+    });
+}
+
+TEST(KernelsWindows, CentresFarFromTheirDotsStay) {
+    for (const Kernels* kernels : forms()) {
+        OneDot dot(40.3, 41.2, 1, 0.9);
+        const float x = dot.table.dots.x[0];
+        kernels->refine_centres(dot.view, dot.cells, 3.3F, dot.table.dots);
+        EXPECT_EQ(dot.table.dots.x[0], x);
+        OneDot none(40.3, 41.2, 1, 0.1);
+        none.table.dots.x[0] = kNoDot_px;
+        kernels->refine_centres(none.view, none.cells, 3.3F, none.table.dots);
+        EXPECT_EQ(none.table.dots.x[0], kNoDot_px);
+    }
+}
+
+TEST(KernelsWindows, PredictedCentresAreFoundHoweverFarDotsAreOff) {
+    repeat_with_each_form(100, [](const Kernels& kernels, Rng& rng) {
+        // The same dot is listed several times, with predictions around it: how fast a bell's
+        // moments grow with the distance is measured on those that are near.
+        const double u = rng.uniform(20, OneDot::kSide_px - 21);
+        const double v = rng.uniform(20, OneDot::kSide_px - 21);
+        OneDot dot(u, v, rng.uniform(0.9, 1.5), 0);
+        MeasuredDots& dots = dot.table.dots;
+        dots.count = 8;
+        std::vector<double> off;
+        for (std::size_t k = 0; k < 8; ++k) {
+            off.push_back(k < 4 ? rng.uniform(-0.1, 0.1) : rng.uniform(-0.6, 0.6));
+            dots.paper[k] = static_cast<int>(OneDot::kPaper);
+            dots.x[k] = static_cast<float>(u + off[k]);
+            dots.y[k] = static_cast<float>(v - off[k]);
+        }
+        dots.x[5] = kNoDot_px;
+        kernels.find_centres(dot.view, dot.cells, static_cast<float>(rng.uniform(3.3, 4)), 1, dots);
+        for (std::size_t k = 0; k < 8; ++k) {
+            if (k == 5) continue;
+            EXPECT_NEAR(dots.x[k], u, 0.02) << off[k];
+            EXPECT_NEAR(dots.y[k], v, 0.02) << off[k];
+        }
+        EXPECT_EQ(dots.x[5], kNoDot_px);
+    });
+}
+
+TEST(KernelsWindows, PredictedDotsAreReadByTheDarkestPlace) {
+    repeat_with_each_form(40, [](const Kernels& kernels, Rng& rng) {
+        // The dot is below the intersection at (40, 40), which is symbol 3; the grid is upright.
+        const OneDot dot(40, 41.8, 1, 0);
+        CellsInView view = dot.cells;
+        view.plane = {0, 0, 1 / 11.0F, 0, 0, 1 / 11.0F, 0, 0, 0};
+        view.displacement = 1.8F / 11;
+        const float by[4][2] = {{0, -1.8F}, {-1.8F, 0}, {1.8F, 0}, {0, 1.8F}};
+        const int expected = whole(rng, 0, 3);
+        DotTable table(8);
+        MeasuredDots& dots = table.dots;
+        dots.count = 1;
+        dots.column[0] = static_cast<float>(whole(rng, -32, 31));
+        dots.row[0] = static_cast<float>(whole(rng, -32, 31));
+        dots.bits[0] = expected;
+        dots.x[0] = 40 + by[expected][0];
+        dots.y[0] = 40 + by[expected][1];
+        BitLines columns;
+        BitLines rows;
+        const BitsRead read = kernels.read_levels(dot.view, view, 100, dots, &columns, &rows);
+        EXPECT_EQ(read.seen, 1);
+        EXPECT_EQ(read.read, 1);
+        EXPECT_EQ(read.wrong_x, (expected & 1) == 0 ? 1 : 0);
+        EXPECT_EQ(read.wrong_y, expected < 2 ? 1 : 0);
+        EXPECT_EQ(read.right, expected == 3 ? 1 : 0);
+        EXPECT_EQ(dots.x[0] < kNoDot_px, expected == 3);
+        const auto i = static_cast<std::size_t>(dots.column[0] + 32);
+        const auto j = static_cast<std::size_t>(dots.row[0] + 32);
+        EXPECT_EQ(columns.valid[i], std::uint64_t{1} << j);
+        EXPECT_EQ(columns.bits[i], columns.valid[i]);
+        EXPECT_EQ(rows.valid[j], std::uint64_t{1} << i);
+        EXPECT_EQ(rows.bits[j], rows.valid[j]);
+        // Where a dot should be far darker, none is seen.
+        dots.x[0] = 20;
+        EXPECT_EQ(kernels.read_levels(dot.view, view, 100, dots, nullptr, nullptr).seen, 0);
+    });
+}
+
+}  // namespace
+}  // namespace dotpose::core_test
