@@ -70,8 +70,7 @@ class PlaneNormalFloat {
     bool determines(std::size_t parameter) const { return m_[parameter][parameter] > 0; }
 
   private:
-    std::array<Parameters, kPoseParameters> m_{};  ///< the lower triangle of M; of L after
-                                                   ///< `decompose`
+    std::array<Parameters, kPoseParameters> m_{};  ///< lower triangle of M, later L
     Parameters right_{};
     float squared_residuals_ = 0;
     int points_ = 0;

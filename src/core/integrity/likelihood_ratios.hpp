@@ -113,8 +113,7 @@ class LikelihoodRatios {
     int hopeless_score_ = 0;
     std::array<std::uint8_t, kMaxLines> rolls_{};
     std::array<std::int16_t, kMaxLines> least_losses_{};
-    std::array<std::int16_t, kMostTracked> log2_of_nearest_q8_;  ///< number of the rolls that lose
-                                                                 ///< least; for hard bits only
+    std::array<std::int16_t, kMostTracked> log2_of_nearest_q8_;  ///< of hard bits only
 };
 
 /// By how much the rolls of an alternative exceed those of the reading, by line, modulo 63; a shift

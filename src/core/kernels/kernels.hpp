@@ -28,8 +28,7 @@ struct Waves {
 struct CellPass {
     float reach_px = 0;  ///< dots farther from the centre, along either axis, are left out
     float most_off = 0;  ///< largest distance of a dot from the nearest place of its cell, spacings
-    float displacement = 0;  ///< of a cell's four places from its middle, spacings; 0 to use the
-                             ///< middle
+    float displacement = 0;  ///< of a cell's places from its middle, spacings; 0: middle
     bool with_perspective = false;
 };
 
@@ -81,8 +80,7 @@ struct WindowOptions {
 };
 inline constexpr int kMostHalfWindow_px = 24;
 inline constexpr float kMostBellReach_px = 24;
-inline constexpr float kQuickBellReach_px = 4;  ///< takes a tenth of the instructions of wider
-                                                ///< bells
+inline constexpr float kQuickBellReach_px = 4;  ///< takes a tenth of a wider bell's time
 
 /// Sums for the fit of nine parameters; see PlaneNormalFloat.
 struct FitSums {
@@ -99,8 +97,7 @@ struct FittingDots {
     int points = 0;
     int outliers = 0;           ///< dots that lie too far off
     float squares = 0;          ///< sum of the dots' squared residuals, spacings^2
-    float squares_of_runs = 0;  ///< sum of the runs' squared residual sums over their number of
-                                ///< dots
+    float squares_of_runs = 0;  ///< sum over runs: dots times squared mean residual
     int runs = 0;
 };
 

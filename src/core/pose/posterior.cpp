@@ -27,8 +27,7 @@ Symmetric spread_of(const FurtherTerms& terms, const PlaneNormalFloat& normal, f
 
 /// The posterior of the terms if they are of one kind.
 struct PosteriorOfKind {
-    Symmetric precision;  ///< inverse covariance of noise and terms together, in units of the
-                          ///< noise's
+    Symmetric precision;  ///< of noise and terms together, in units of that of the noise
     Pair mean;
     float distance;  ///< squared distance of the fitted terms from 0, in deviations
     float share;     ///< probability of the kind: prior, after `weigh` posterior

@@ -23,8 +23,7 @@ constexpr float kBehind = tuned::kBehind;
 
 /// Sums over the dots of one part. Dots are together if a common displacement may explain them.
 struct PartSums {
-    Four counts{};   ///< dots, their log odds for the plane as it is; dots together, their squared
-                     ///< residuals
+    Four counts{};   ///< dots, log odds of the plane as it is; dots together, squared residuals
     Four places{};   ///< of dots together: x, y, residuals along x and y
     Four squares{};  ///< of dots together: squared distances from the reference point, turning
 
