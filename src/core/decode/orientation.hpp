@@ -19,7 +19,8 @@ struct Orientation {
 Orientation rank_turns(const Grid& grid, const Region& region);
 
 /// Returns whether the region agrees much better with the mirrored pattern, whose columns carry the
-/// bits of rows, than with the pattern itself, which `agreement` of rank_turns is for.
+/// bits of rows, than with the pattern itself. `agreement` is that with the pattern, from
+/// `rank_turns`.
 bool is_mirrored(const Grid& grid, const Region& region, std::int32_t agreement);
 
 }  // namespace dotpose::core

@@ -14,9 +14,8 @@ struct Residuals {
     Four weight;
 };
 
-/// Sums over points of which the normal equations consist. Letters in the names: u and v for scale,
-/// a and b for tilts, c for the bend, r for residuals; "turned" are products with scale, turn and
-/// shear.
+/// Sums over points of which the normal equations consist; "turned" are products with scale, turn
+/// and shear.
 class PlaneSumsFloat {
   public:
     void add(const Projections& projections, const Residuals& residuals);

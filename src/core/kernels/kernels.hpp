@@ -184,8 +184,9 @@ struct Kernels {
     /// Lists the cells in view, with the middle of their windows, the symbols of their dots and, in
     /// `x` and `y`, where a camera with this lens sees the dots.
     void (*list_cells)(const CellsInView& view, MeasuredDots& dots);
-    /// Finds the shift at which the mean of the dots' surroundings is darkest, and the level to cut
-    /// at. Returns false if too few dots are in view.
+    /// Finds the shift at which the mean of the dots' surroundings is darkest, and by which share
+    /// of the paper's level it is darker there, in 1/256. Returns false if too few dots are in
+    /// view.
     bool (*find_shift)(const ImageView& image, const MeasuredDots& dots, int most_px, int step_px,
                        Vec& shift_px, int& cut_q8);
     /// Sets the centres of what is dark in the dots' windows; a dot is dropped if that is much more
