@@ -181,7 +181,7 @@ class Finder {
 float sum_of_double_alternatives(const RankedLines& lines, float negligible, float most) {
     const int anchors = std::min(lines.count(), kMostAnchors);
     const auto expected = expected_double_alternatives(lines, anchors);
-    const auto feared = [&](int shared) {
+    const auto expected_odds = [&](int shared) {
         return kMargin * expected[static_cast<std::size_t>(shared)];
     };
     // With every anchor fewer that has to be shared, more pairs of anchors are gone through: for
@@ -189,9 +189,10 @@ float sum_of_double_alternatives(const RankedLines& lines, float negligible, flo
     // the fix would be lost otherwise.
     constexpr int kFewestForDetail = 4;
     int shared = std::min(kFewestFound, anchors);
-    while (shared > 2 && feared(shared) > (shared > kFewestForDetail ? negligible : most / 8))
+    while (shared > 2 &&
+           expected_odds(shared) > (shared > kFewestForDetail ? negligible : most / 8))
         --shared;
-    const float rest = feared(shared);
+    const float rest = expected_odds(shared);
     return kFloor + (rest > most ? rest : rest + Finder(lines, anchors, shared).sum());
 }
 

@@ -192,7 +192,7 @@ struct Kernels {
     /// Sets the centres of what is dark in the dots' windows; a dot is dropped if that is much more
     /// or less than in a typical window, whose mass is returned.
     float (*measure_windows)(const ImageView& image, const CellsInView& view,
-                             const WindowOptions& look, MeasuredDots& dots);
+                             const WindowOptions& options, MeasuredDots& dots);
     /// Sets centres without the bias of a threshold: where the darkness around each dot balances,
     /// weighted by a bell. Its reach is at most kMostBellReach_px, and less where the image ends.
     void (*refine_centres)(const ImageView& image, const CellsInView& view, float reach_px,

@@ -1,5 +1,6 @@
 // Frames without a fix, and what each of them is refused for.
 #include <map>
+#include <memory>
 #include <set>
 #include <vector>
 

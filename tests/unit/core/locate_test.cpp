@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <numbers>
 
 #include <gmock/gmock.h>

@@ -226,14 +226,14 @@ TEST_F(KernelsTest, WindowsAreTheSame) {
                           rng.below(2) * 0.03, rng);
         random.view.step = 1;
         random.view.first_column = random.view.first_row = -60;
-        const WindowOptions look{static_cast<float>(spacing_px), number(rng, 0.2, 0.5),
-                                 whole(rng, 10, 220)};
+        const WindowOptions options{static_cast<float>(spacing_px), number(rng, 0.2, 0.5),
+                                    whole(rng, 10, 220)};
         const float bell_reach_px = number(rng, 3.3, kMostBellReach_px);
         DotTable listed(4096);
         portable_kernels().list_cells(random.view, listed.dots);
         expect_same([&](const Kernels& kernels, Record& record) {
             DotTable table(listed);
-            kernels.measure_windows(picture.view, random.view, look, table.dots);
+            kernels.measure_windows(picture.view, random.view, options, table.dots);
             table.record_measures(record);
             kernels.refine_centres(picture.view, random.view, bell_reach_px, table.dots);
             table.record_measures(record);
