@@ -98,16 +98,16 @@ struct OpenBlob {
     std::uint16_t last_v = 0;
     /// The blob that this one was merged into; for an unused one, the next unused blob.
     OpenBlob* part_of = nullptr;
-    bool has_core = false;
+    bool passes_high = false;  ///< whether a pixel is darker than the high threshold
 };
 
 /// A stretch of blob pixels in one row.
 struct Run {
     std::uint16_t begin = 0;
-    std::uint16_t end = 0;    ///< exclusive
-    std::uint32_t mass = 0;   ///< sum of weights: darkness below the low threshold, in grey levels
-    std::uint32_t sum_x = 0;  ///< sum of weight times u, modulo 2^32
-    bool has_core = false;
+    std::uint16_t end = 0;     ///< exclusive
+    std::uint32_t mass = 0;    ///< sum of weights: darkness below the low threshold, in grey levels
+    std::uint32_t sum_x = 0;   ///< sum of weight times u, modulo 2^32
+    bool passes_high = false;  ///< whether a pixel is darker than the high threshold
     OpenBlob* blob = nullptr;  ///< blob of the run; none if there were too many
 };
 

@@ -94,8 +94,8 @@ class WorkspaceOf : public Workspace {
         smoothing.column_sums = smooth_sums_;
         light.rows = rows_;
         light.tiles = tiles_;
-        light.half_low_levels = half_extents_;
-        light.high_levels = cores_;
+        light.half_low_levels = half_low_levels_;
+        light.high_levels = high_levels_;
         open.runs = runs_;
         open.blobs = blobs_;
         dots = dots_;
@@ -140,8 +140,8 @@ class WorkspaceOf : public Workspace {
     alignas(
         8) std::array<std::uint8_t, 2 * kBand_px * kTiles * kTileWidth_px + kReadAhead_px> rows_{};
     std::array<Tile, 4 * kTiles> tiles_{};
-    alignas(8) std::array<std::uint8_t, kLevels> half_extents_{};
-    alignas(8) std::array<std::uint8_t, kLevels> cores_{};
+    alignas(8) std::array<std::uint8_t, kLevels> half_low_levels_{};
+    alignas(8) std::array<std::uint8_t, kLevels> high_levels_{};
     std::array<Run, 2 * kRuns> runs_{};
     std::array<OpenBlob, 2 * kRuns> blobs_{};
     std::array<Dot, MaxDots> dots_{};

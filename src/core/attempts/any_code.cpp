@@ -23,7 +23,7 @@ namespace {
 
 namespace tuned = tuning::any_code;
 
-enum class Step { tracked, outwards, rows, second, closer, device };
+enum class Step { tracked, outwards, rows, second, resampled, device };
 
 /// More bit errors than any frame has.
 constexpr int kMostErrors = std::numeric_limits<int>::max();
@@ -85,7 +85,7 @@ class AnyCode {
             if (attempt(Step::tracked, code) && judge(code).is_certain) return accepted(code);
         }
         if (!may_try_twice()) return locate_by({Step::outwards, Step::rows});
-        return locate_by({Step::outwards, Step::rows, Step::second, Step::closer});
+        return locate_by({Step::outwards, Step::rows, Step::second, Step::resampled});
     }
 
     bool may_try_twice() const { return options_.effort == Effort::twice && w_.has_second_attempt; }
@@ -182,7 +182,8 @@ class AnyCode {
     std::span<const Profile> worth_trying(Step step) const {
         // Sampling the cells again costs three times the rest, so it is done only where the fewest
         // bits contradict.
-        if (step == Step::closer) return {&closer_, fewest_errors_ == kMostErrors ? 0U : 1U};
+        if (step == Step::resampled)
+            return {&worth_resampling_, fewest_errors_ == kMostErrors ? 0U : 1U};
         // If there is a second attempt, it also finds what rows would show in the other profiles.
         if (step == Step::rows && may_try_twice()) return std::span(order_).first(1);
         std::size_t count = 1;
@@ -211,7 +212,7 @@ class AnyCode {
                 return locate_by_rows(kernels(), image_, options_, w_);
             case Step::second:
                 return attempt_filtered(code, false);
-            case Step::closer:
+            case Step::resampled:
                 return attempt_filtered(code, true);
             case Step::device:
                 detect_image(image_, options_, w_);
@@ -243,7 +244,7 @@ class AnyCode {
             is_seen_ = false;
         } else if (status == Status::not_certain && w_.fix.bit_errors < fewest_errors_) {
             fewest_errors_ = w_.fix.bit_errors;
-            closer_ = code;
+            worth_resampling_ = code;
         }
         if (status == Status::ok) status = measure_and_weigh(image_, options_, w_);
         return status == Status::ok;
@@ -261,7 +262,7 @@ class AnyCode {
         }
         const bool may_be_improved = step == Step::outwards || step == Step::rows;
         if (may_be_improved && is_rough(w_.fix) && may_try_twice()) {
-            if (!attempt(Step::closer, code) || !judge(code).is_certain) attempt(step, code);
+            if (!attempt(Step::resampled, code) || !judge(code).is_certain) attempt(step, code);
         }
         return accepted(code);
     }
@@ -309,8 +310,9 @@ class AnyCode {
     // The members below hold what the second attempt has found so far.
     bool is_seen_ = false;  ///< whether the workspace holds dots and cells of the filtered image
     Fix seen_;              ///< the fix at that time, without a position
-    Profile closer_ = Profile::anoto;  ///< profile that may gain from sampling the cells again
-    int fewest_errors_ = kMostErrors;  ///< number of bit errors in `closer_`
+    Profile worth_resampling_ =
+        Profile::anoto;                ///< profile that may gain from sampling the cells again
+    int fewest_errors_ = kMostErrors;  ///< number of bit errors in `worth_resampling_`
 };
 
 }  // namespace

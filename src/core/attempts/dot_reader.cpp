@@ -74,11 +74,10 @@ BitsRead DotReader::read(const CellsInView& view, Hypothesis& hypothesis, BitBlo
     BitLines* const rows = block != nullptr ? &block->rows : nullptr;
     if (hypothesis.is_exact)
         return kernels_.read_levels(image_, view, hypothesis.depth_q8, dots_, columns, rows);
-    WindowOptions windows = window_options(hypothesis);
+    WindowOptions window = window_options(hypothesis);
     // Away from the centre most windows may be empty, so their own typical mass is not used.
-    if (hypothesis.shows_part) windows.typical_mass = typical_mass_;
-    typical_mass_ = hypothesis.typical_mass =
-        kernels_.measure_windows(image_, view, windows, dots_);
+    if (hypothesis.shows_part) window.typical_mass = typical_mass_;
+    typical_mass_ = hypothesis.typical_mass = kernels_.measure_windows(image_, view, window, dots_);
     if (hypothesis.shows_part) leave_out_table(dots_, paper_);
     return kernels_.read_bits(dots_, hypothesis.pattern_from_image, hypothesis.displacement,
                               columns, rows);

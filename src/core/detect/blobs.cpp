@@ -69,9 +69,9 @@ std::int32_t mean_q8(std::uint32_t sum, std::uint32_t mass) {
 
 /// Whether a blob is small, away from the border, and has a pixel below the high threshold.
 bool may_be_dot(const OpenBlob& blob, const Light& light) {
-    return blob.has_core && blob.area_px <= kMaxDotArea_px && blob.first_v > 0 && blob.left > 0 &&
-           blob.right < light.width_px && blob.right - blob.left <= kMaxDotSide_px &&
-           blob.last_v - blob.first_v < kMaxDotSide_px;
+    return blob.passes_high && blob.area_px <= kMaxDotArea_px && blob.first_v > 0 &&
+           blob.left > 0 && blob.right < light.width_px &&
+           blob.right - blob.left <= kMaxDotSide_px && blob.last_v - blob.first_v < kMaxDotSide_px;
 }
 
 void close_blob(const OpenBlob& blob, const Light& light, DotList list) {
@@ -114,7 +114,7 @@ OpenBlob* open_blob(const Run& run, int v, OpenBlobs& open) {
     blob->right = run.end;
     blob->first_v = blob->last_v = static_cast<std::uint16_t>(v);
     blob->part_of = nullptr;
-    blob->has_core = run.has_core;
+    blob->passes_high = run.passes_high;
     return blob;
 }
 
@@ -127,7 +127,7 @@ void add_run(const Run& run, int v, OpenBlob& blob) {
     blob.left = std::min(blob.left, run.begin);
     blob.right = std::max(blob.right, run.end);
     blob.last_v = static_cast<std::uint16_t>(v);
-    blob.has_core |= run.has_core;
+    blob.passes_high |= run.passes_high;
 }
 
 /// Merges `other` into `blob`, because both belong to the same dark spot.
@@ -139,7 +139,7 @@ void unite(OpenBlob& blob, OpenBlob& other) {
     blob.left = std::min(blob.left, other.left);
     blob.right = std::max(blob.right, other.right);
     blob.first_v = std::min(blob.first_v, other.first_v);
-    blob.has_core |= other.has_core;
+    blob.passes_high |= other.passes_high;
     other.part_of = &blob;
     other.last_v = kNoRow;
 }

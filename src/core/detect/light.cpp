@@ -143,9 +143,9 @@ void set_levels(const std::uint8_t* papers, std::size_t tiles, unsigned to_low_q
         const unsigned paper = *papers;
         // The low threshold is even, so that runs may compare seven bits.
         const unsigned half_low = (paper - (paper * to_low_q16 >> 16)) >> 1;
-        const unsigned core = std::min(paper - (paper * to_high_q16 >> 16), 2 * half_low);
+        const unsigned high = std::min(paper - (paper * to_high_q16 >> 16), 2 * half_low);
         half_low_levels = fill(half_low_levels, half_low);
-        high_levels = fill(high_levels, core);
+        high_levels = fill(high_levels, high);
     }
 }
 

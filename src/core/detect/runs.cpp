@@ -43,9 +43,9 @@ const std::uint8_t* find_dark(const std::uint8_t* begin, const std::uint8_t* row
         }
         word = word_at(pixels);
     }
-    const unsigned extent = 2U * *half_low_levels;
+    const unsigned low = 2U * *half_low_levels;
     if (pixels < begin) pixels = begin;
-    while (*pixels >= extent)
+    while (*pixels >= low)
         ++pixels;
     return pixels;
 }
@@ -55,30 +55,30 @@ const std::uint8_t* write_run(const std::uint8_t* pixel, const std::uint8_t* row
                               const Light& light, Run& run) {
     const std::uint8_t* const row_end = row + whole_width(light);
     run.begin = static_cast<std::uint16_t>(pixel - row);
-    bool has_core = false;
+    bool passes_high = false;
     std::uint32_t mass = 0;
     std::uint32_t moment = 0;  // sum of weight times (last - u): each weight counts again for every
                                // pixel after it
     const std::uint8_t* tile_end = nullptr;
     do {
         const auto column = static_cast<std::size_t>(pixel - row);
-        const unsigned extent = 2U * light.half_low_levels[column];
-        const unsigned core = light.high_levels[column];
+        const unsigned low = 2U * light.half_low_levels[column];
+        const unsigned high = light.high_levels[column];
         tile_end = row + (column / kTileWidth_px + 1) * kTileWidth_px;
         unsigned deepest = 0;
-        for (; pixel != tile_end && *pixel < extent; ++pixel) {
-            const unsigned depth = extent - *pixel;
+        for (; pixel != tile_end && *pixel < low; ++pixel) {
+            const unsigned depth = low - *pixel;
             moment += mass;
             mass += depth;
             if (depth > deepest) deepest = depth;
         }
-        if (deepest + core > extent) has_core = true;
+        if (deepest + high > low) passes_high = true;
     } while (pixel == tile_end && pixel != row_end);
     const auto end = static_cast<std::uint32_t>(pixel - row);
     run.end = static_cast<std::uint16_t>(end);
     run.mass = mass;
     run.sum_x = mass * (end - 1) - moment;
-    run.has_core = has_core;
+    run.passes_high = passes_high;
     return pixel;
 }
 

@@ -58,8 +58,8 @@ inline void darken(GreyImage& image, Vec2 centre, double sigma, double depth) {
 
 /// What counts as dark in a column of the band that was measured last.
 struct Levels {
-    int extent = 0;
-    int core = 0;
+    int low = 0;
+    int high = 0;
 };
 inline Levels levels_at(const Light& light, int u) {
     const auto column = static_cast<std::size_t>(u);

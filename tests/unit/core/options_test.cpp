@@ -49,7 +49,7 @@ const Range kRanges[] = {
     [[maybe_unused]] const auto& [profile, effort, decoder, lens, threshold, blobs, lattice,
                                   integrity, most_dots, spacing, show_stages, dx, dy] = o;
     [[maybe_unused]] const auto& [k, centre_dx, centre_dy] = lens;
-    [[maybe_unused]] const auto& [extent, core, min_contrast] = threshold;
+    [[maybe_unused]] const auto& [low, high, min_contrast] = threshold;
     [[maybe_unused]] const auto& [min_area, min_mass, max_area] = blobs;
     [[maybe_unused]] const auto& [min_dots, max_offset] = lattice;
     [[maybe_unused]] const auto& [max_p_wrong, max_bit_error] = integrity;

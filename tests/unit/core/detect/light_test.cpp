@@ -72,12 +72,12 @@ TEST(Light, ThresholdsLieAtTheirSharesOfTheContrast) {
                 const double mean = std::floor(p - (p - i) / 8.0);
                 // The contrast is known in steps of 1/64 of the paper's level.
                 const double step = mean / 64 + 1;
-                const double extent = mean - (mean - i) * options.low_q8 / 256;
-                const double core = mean - (mean - i) * options.high_q8 / 256;
+                const double low = mean - (mean - i) * options.low_q8 / 256;
+                const double high = mean - (mean - i) * options.high_q8 / 256;
                 // Rounded down to an even level.
-                ASSERT_NEAR(level.extent, extent - 0.5, step * options.low_q8 / 256 + 2);
-                ASSERT_EQ(level.extent % 2, 0);
-                ASSERT_NEAR(level.core, core, step * options.high_q8 / 256 + 1.5);
+                ASSERT_NEAR(level.low, low - 0.5, step * options.low_q8 / 256 + 2);
+                ASSERT_EQ(level.low % 2, 0);
+                ASSERT_NEAR(level.high, high, step * options.high_q8 / 256 + 1.5);
             }
         });
     }
@@ -100,11 +100,11 @@ TEST(Light, LevelsAreTheSameInAllColumnsOfATile) {
             for (int u = 0; u < whole_width(w.light); ++u) {
                 const Levels of_tile = levels_of_tile(w.light, u / kTileWidth_px);
                 const Levels here = levels_at(w.light, u);
-                ASSERT_EQ(here.extent, of_tile.extent) << "column " << u;
-                ASSERT_EQ(here.core, of_tile.core) << "column " << u;
+                ASSERT_EQ(here.low, of_tile.low) << "column " << u;
+                ASSERT_EQ(here.high, of_tile.high) << "column " << u;
             }
-            EXPECT_GT(levels_of_tile(w.light, 0).extent, levels_of_tile(w.light, 5).extent);
-            EXPECT_GT(levels_of_tile(w.light, 0).core, levels_of_tile(w.light, 5).core);
+            EXPECT_GT(levels_of_tile(w.light, 0).low, levels_of_tile(w.light, 5).low);
+            EXPECT_GT(levels_of_tile(w.light, 0).high, levels_of_tile(w.light, 5).high);
         });
     }
 }
@@ -139,7 +139,7 @@ TEST(Light, ADefectPixelIsHalfAsDarkAsInk) {
                 int dark_tiles = 0;
                 for_each_band(image, {.min_contrast = min_contrast}, w.light, [&](int) {
                     for (int t = 0; t < w.light.tiles_per_band; ++t)
-                        dark_tiles += levels_of_tile(w.light, t).extent > 0;
+                        dark_tiles += levels_of_tile(w.light, t).low > 0;
                 });
                 const bool is_pair = width == 2 && u % 2 == 0;
                 // In its tile and all around it; in two if it is split.
@@ -158,7 +158,7 @@ TEST(Light, BlankAreasHaveNoInk) {
     for (const int level : {0, 1, 7, 100, 255}) {
         for_each_band(blank(100, 70, level), {}, w.light, [&](int) {
             for (int t = 0; t < w.light.tiles_per_band; ++t) {
-                EXPECT_EQ(levels_of_tile(w.light, t).extent, 0) << level;
+                EXPECT_EQ(levels_of_tile(w.light, t).low, 0) << level;
             }
         });
     }
@@ -171,7 +171,7 @@ TEST(Light, BlankAreasHaveNoInk) {
         for_each_band(image, options, w.light, [&](int band) {
             for (int t = 0; t < w.light.tiles_per_band; ++t) {
                 const bool is_near = std::abs(t - 1) <= 1 && std::abs(band - 2) <= 1;
-                EXPECT_EQ(levels_of_tile(w.light, t).extent > 0, is_near && ink == 150)
+                EXPECT_EQ(levels_of_tile(w.light, t).low > 0, is_near && ink == 150)
                     << "tile " << t << ", band " << band << ", ink " << ink;
             }
         });
@@ -189,13 +189,13 @@ TEST(Light, ThresholdsFollowAShadow) {
     for_each_band(image, {}, w.light, [&](int) {
         for (const int t : {0, 2, 4}) {
             const Levels level = levels_of_tile(w.light, t);
-            EXPECT_GT(level.core, 30);
-            EXPECT_LT(level.extent, 210);
+            EXPECT_GT(level.high, 30);
+            EXPECT_LT(level.low, 210);
         }
         for (const int t : {6, 7, 9}) {
             const Levels level = levels_of_tile(w.light, t);
-            EXPECT_GT(level.core, 10);
-            EXPECT_LT(level.extent, 70);
+            EXPECT_GT(level.high, 10);
+            EXPECT_LT(level.low, 70);
         }
     });
 }

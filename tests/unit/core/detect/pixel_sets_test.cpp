@@ -17,19 +17,19 @@ constexpr std::uint64_t kSeed = 52;
 struct Set {
     int area_px = 0;
     int left, top, right, bottom;
-    bool has_core = false;
+    bool passes_high = false;
 };
 
 /// Pixels by the levels of their tiles.
 struct Marked {
     std::vector<char> is_dark;
-    std::vector<char> is_core;
+    std::vector<char> is_below_high;
 };
 
 Marked marked(const GreyImage& image, Light& light) {
     Marked result;
     result.is_dark.resize(image.pixels.size());
-    result.is_core.resize(image.pixels.size());
+    result.is_below_high.resize(image.pixels.size());
     begin_light(image.width_px, image.height_px, light);
     int band = 0;
     for (int row = 0; row < image.height_px; ++row) {
@@ -39,8 +39,8 @@ Marked marked(const GreyImage& image, Light& light) {
                 for (int u = 0; u < image.width_px; ++u) {
                     const auto p = static_cast<std::size_t>(v * image.width_px + u);
                     const Levels level = levels_at(light, u);
-                    result.is_dark[p] = image.pixels[p] < level.extent;
-                    result.is_core[p] = image.pixels[p] < level.core;
+                    result.is_dark[p] = image.pixels[p] < level.low;
+                    result.is_below_high[p] = image.pixels[p] < level.high;
                 }
             }
         }
@@ -64,7 +64,7 @@ Set flood(Marked& pixels, int width, int height, int u, int v) {
         found.right = std::max(found.right, p.x);
         found.top = std::min(found.top, p.y);
         found.bottom = std::max(found.bottom, p.y);
-        found.has_core |= pixels.is_core[static_cast<std::size_t>(p.y * width + p.x)] != 0;
+        found.passes_high |= pixels.is_below_high[static_cast<std::size_t>(p.y * width + p.x)] != 0;
         for (int y = std::max(p.y - 1, 0); y <= std::min(p.y + 1, height - 1); ++y) {
             for (int x = std::max(p.x - 1, 0); x <= std::min(p.x + 1, width - 1); ++x) {
                 if (take(x, y)) open.push_back({x, y});
@@ -85,7 +85,7 @@ std::vector<Set> expected_sets(const GreyImage& image, Light& light) {
             const bool at_border = set.left == 0 || set.top == 0 ||
                                    set.right == image.width_px - 1 ||
                                    set.bottom == image.height_px - 1;
-            if (set.has_core && !at_border) sets.push_back(set);
+            if (set.passes_high && !at_border) sets.push_back(set);
         }
     }
     return sets;

@@ -28,18 +28,18 @@ struct Row {
         begin_light(width_px, kMinFrameSide_px, light);
         for (int u = 0; u < whole_width(light); u += kTileWidth_px) {
             const int half_low = rng.below(6) == 0 ? 0 : static_cast<int>(rng.below(128));
-            const int core = static_cast<int>(rng.below(2 * half_low + 1U));
+            const int high = static_cast<int>(rng.below(2 * half_low + 1U));
             for (int k = u; k < u + kTileWidth_px; ++k) {
                 light.half_low_levels[static_cast<std::size_t>(k)] =
                     static_cast<std::uint8_t>(half_low);
-                light.high_levels[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(core);
+                light.high_levels[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(high);
             }
             const bool is_close = rng.below(2) == 0;
             for (int k = u; k < std::min(u + kTileWidth_px, width_px); ++k) {
                 const bool is_dark = rng.uniform(0, 1) < dark_share;
                 int level = static_cast<int>(is_dark ? rng.below(2 * half_low + 1U)
                                                      : 255 - rng.below(256 - 2 * half_low));
-                if (is_close) level = (rng.below(2) == 0 ? 2 * half_low : core) - is_dark;
+                if (is_close) level = (rng.below(2) == 0 ? 2 * half_low : high) - is_dark;
                 pixels[static_cast<std::size_t>(k)] =
                     static_cast<std::uint8_t>(std::clamp(level, 0, 255));
             }
@@ -54,7 +54,7 @@ std::vector<dotpose::core::Run> expected_runs(const Light& light) {
     bool is_dark = false;
     for (int u = 0; u < whole_width(light); ++u) {
         const Levels level = levels_at(light, u);
-        const int weight = level.extent - row[u];
+        const int weight = level.low - row[u];
         const bool was_dark = std::exchange(is_dark, weight > 0);
         if (!is_dark) continue;
         if (!was_dark) runs.push_back({.begin = static_cast<std::uint16_t>(u)});
@@ -62,7 +62,7 @@ std::vector<dotpose::core::Run> expected_runs(const Light& light) {
         run.end = static_cast<std::uint16_t>(u + 1);
         run.mass += static_cast<std::uint32_t>(weight);
         run.sum_x += static_cast<std::uint32_t>(weight * u);
-        run.has_core |= row[u] < level.core;
+        run.passes_high |= row[u] < level.high;
     }
     return runs;
 }
@@ -76,7 +76,7 @@ void expect_runs(std::span<const dotpose::core::Run> found,
         ASSERT_EQ(found[i].end, expected[i].end);
         ASSERT_EQ(found[i].mass, expected[i].mass);
         ASSERT_EQ(found[i].sum_x, expected[i].sum_x);
-        ASSERT_EQ(found[i].has_core, expected[i].has_core);
+        ASSERT_EQ(found[i].passes_high, expected[i].passes_high);
     }
 }
 
