@@ -7,7 +7,7 @@
 
 #include "../drive.hpp"
 #include "dotpose/tools/image_file.hpp"
-#include "locate_command.hpp"
+#include "sheets_command.hpp"
 
 namespace dotpose::test {
 namespace {
@@ -59,6 +59,71 @@ TEST_F(Examples, FollowGoesWithTheRobot) {
         }
     }
     EXPECT_EQ(lines.back(), "lost");
+}
+
+TEST_F(Examples, FollowSheetsTellsSheetPlaceAndSpeed) {
+    ASSERT_EQ(ToolCommand::run("print -o table.svg --paper 80x60 --sheets s.json --name table"), 0)
+        << errors_;
+    const json sheet = json::parse(read_file(directory_ / "s.json"))["sheets"].at(0);
+    // 1 mm from frame to frame, 100 frames a second.
+    for (int i = 0; i < 10; ++i) {
+        const std::string name = "f" + std::to_string(100 + i) + ".pgm";
+        const auto seed = static_cast<std::uint64_t>(i);
+        write_pgm(directory_ / name, frame_of(sheet, 30.0 + i, 25, 0.5, seed).view());
+    }
+    ASSERT_EQ(run_example("follow_sheets s.json 100 f*.pgm"), 0) << errors_;
+    const auto lines = lines_of(output_);
+    ASSERT_EQ(lines.size(), 10U);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        double x_mm = 0;
+        double y_mm = 0;
+        double angle_rad = 0;
+        double mm_per_s = 0;
+        ASSERT_EQ(
+            std::sscanf(lines[i].c_str(), "table: x %lf mm, y %lf mm, angle %lf rad, %lf mm/s",
+                        &x_mm, &y_mm, &angle_rad, &mm_per_s),
+            4)
+            << lines[i];
+        EXPECT_NEAR(x_mm, 30.0 + static_cast<double>(i), 0.02);
+        EXPECT_NEAR(y_mm, 25, 0.02);
+        EXPECT_NEAR(angle_rad, 0.5, 0.005);
+        if (i >= 5) {
+            EXPECT_NEAR(mm_per_s, 100, 3);
+        }
+    }
+}
+
+TEST_F(Examples, DevicePacketsAreThoseThatListenReads) {
+    for (int i = 0; i < 3; ++i) {
+        write_pgm(directory_ / ("f" + std::to_string(i) + ".pgm"),
+                  render(shot(static_cast<std::uint64_t>(i))).view());
+    }
+    ASSERT_EQ(run_example("device_packets f0.pgm f1.pgm f2.pgm > p.bin"), 0) << errors_;
+    ASSERT_EQ(ToolCommand::run("listen p.bin"), 0) << errors_;
+    const auto lines = lines_of(output_);
+    ASSERT_EQ(lines.size(), 3U) << output_;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        const json record = json::parse(lines[i]);
+        EXPECT_EQ(record["status"], "ok");
+        EXPECT_NEAR(record["x_grid"], x_grid(shot(i).pose), 0.03);
+        EXPECT_NEAR(record["y_grid"], y_grid(shot(i).pose), 0.03);
+    }
+}
+
+TEST_F(Examples, OpencvVideoLocatesEachFrame) {
+    for (int i = 0; i < 3; ++i) {
+        write_pgm(directory_ / ("f" + std::to_string(i) + ".pgm"),
+                  render(shot(static_cast<std::uint64_t>(i))).view());
+    }
+    // OpenCV takes numbered images for a video.
+    ASSERT_EQ(run_example("opencv_video f%d.pgm"), 0) << errors_;
+    const auto lines = lines_of(output_);
+    ASSERT_EQ(lines.size(), 3U) << output_;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        double x_mm = 0;
+        ASSERT_EQ(std::sscanf(lines[i].c_str(), "x %lf mm", &x_mm), 1) << lines[i];
+        EXPECT_NEAR(x_mm, x_grid(shot(i).pose) * kDefaultSpacing_mm, 0.015);
+    }
 }
 
 }  // namespace

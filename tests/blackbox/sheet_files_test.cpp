@@ -29,35 +29,6 @@ constexpr double kTolerance_mm = 0.02;
 
 using SheetFiles = SheetsCommand;
 
-/// A nominal frame of a place on a page, given in mm of the page; only the numbers of the sheet
-/// file say where on the code plane that is.
-GreyImage frame_of(const json& sheet, double x_mm, double y_mm, double theta_rad,
-                   std::uint64_t seed) {
-    Setup setup;
-    setup.seed = seed;
-    setup.random_section = false;
-    Shot shot = draw_shot(setup, 0);
-    Pattern& pattern = shot.page.pattern;
-    pattern.profile = sheet["code"] == "microdots" ? Profile::microdots
-                      : sheet["code"] == "libdots" ? Profile::libdots
-                                                   : Profile::anoto;
-    pattern.section = {sheet["section_u"], sheet["section_v"]};
-    pattern.spacing_mm = sheet["spacing_mm"];
-    pattern.displacement_mm = sheet["displacement_mm"];
-    pattern.dot_mm = sheet["dot_mm"];
-    shot.page.origin = {sheet["origin_x"], sheet["origin_y"]};
-    shot.page.columns = sheet["columns"];
-    shot.page.rows = sheet["rows"];
-    const double x = (x_mm - sheet["first_x_mm"].get<double>()) / pattern.spacing_mm;
-    const double y = (y_mm - sheet["first_y_mm"].get<double>()) / pattern.spacing_mm;
-    shot.pose.cell = {shot.page.origin.x + static_cast<std::uint32_t>(std::floor(x)),
-                      shot.page.origin.y + static_cast<std::uint32_t>(std::floor(y))};
-    shot.pose.fraction_x = x - std::floor(x);
-    shot.pose.fraction_y = y - std::floor(y);
-    shot.pose.theta_rad = theta_rad;
-    return render(shot);
-}
-
 TEST_F(SheetFiles, tell_sheet_place_and_world_pose) {
     ASSERT_EQ(print("-o table.svg --paper 80x60 --sheets sheets.json --name table"), 0) << errors_;
     ASSERT_EQ(print("-o desk.svg --paper 60x90 --sheets sheets.json --name 'the desk'"), 0);

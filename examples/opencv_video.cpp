@@ -1,0 +1,42 @@
+// Locates what OpenCV captures, a cv::Mat at a time: dotpose_opencv_video CAMERA_OR_VIDEO
+#include <cctype>
+#include <cstdio>
+#include <string>
+
+#include <opencv2/imgproc.hpp>
+#include <opencv2/videoio.hpp>
+
+#include <dotpose/tools/heap_locator.hpp>
+
+namespace {
+
+/// Returns a grey cv::Mat as dotpose sees it. Nothing is copied, so the Mat must outlive the view.
+dotpose::ImageView view_of(const cv::Mat& grey) {
+    return {grey.data, grey.cols, grey.rows, static_cast<std::ptrdiff_t>(grey.step)};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc != 2) return 2;
+    const std::string source = argv[1];
+    const bool is_number = source.size() == 1 && std::isdigit(source[0]) != 0;
+    cv::VideoCapture capture;
+    if (!(is_number ? capture.open(source[0] - '0') : capture.open(source))) {
+        std::fprintf(stderr, "cannot open %s\n", argv[1]);
+        return 1;
+    }
+    dotpose::HeapLocator locator;
+    cv::Mat frame;
+    cv::Mat grey;
+    while (capture.read(frame)) {
+        cv::cvtColor(frame, grey, cv::COLOR_BGR2GRAY);
+        const dotpose::Fix fix = locator.locate(view_of(grey));
+        if (fix.status == dotpose::Status::ok) {
+            std::printf("x %.3f mm, y %.3f mm, angle %.4f rad\n", fix.x_mm(), fix.y_mm(),
+                        fix.theta_rad());
+        } else {
+            std::puts(dotpose::message(fix.status));
+        }
+    }
+}
