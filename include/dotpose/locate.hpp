@@ -43,8 +43,9 @@ class RowLocator {
     Status begin(int width_px, int height_px);
 
     /// Starts a frame whose dots are measured where the prediction expects them, as their rows come
-    /// in. If the frame does not confirm the prediction, `finish` returns `not_tracked`; a caller
-    /// that still has the rows can then push them again without a prediction.
+    /// in. If the prediction cannot be used or the frame does not confirm it, the status returned,
+    /// or that of `finish`, is not_tracked; a caller that still has the rows can then push them
+    /// again without a prediction.
     Status begin(int width_px, int height_px, const Prediction& prediction);
 
     /// Takes the next row of `width_px` pixels, which need not stay valid afterwards. Rows beyond

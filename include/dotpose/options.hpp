@@ -28,7 +28,7 @@ struct Lens {
 
 struct ThresholdOptions {
     /// Share of the local contrast, in 1/256, by which a pixel of a blob is darker than the paper:
-    /// the low threshold of paper section II-B.1. A smaller one joins neighbouring dots, a larger
+    /// the low threshold. A smaller one joins neighbouring dots, a larger
     /// one loses blurred ones. [1 to 256]
     int low_q8 = 120;
     /// Share of the local contrast, in 1/256, by which some pixel of a blob must be darker: the

@@ -226,8 +226,8 @@ struct Reach {
           deciding(full <= tuned::kDenseAtMost * spacing_px ? full : tuned::kDense * spacing_px),
           now(deciding) {
         if (!hypothesis.shows_part) return;
-        // At the edge of the pattern many cells have no dot, and where it is in islands, one island
-        // may not make the position certain: so more is read than usual.
+        // The first round is smaller than usual, because the pattern may end anywhere. The deciding
+        // reach is larger, because one island may not make the position certain.
         deciding = std::min(full, tuned::kDecidingOfPart * spacing_px);
         now = std::min(full, tuned::kDenseOfPart * spacing_px);
     }
