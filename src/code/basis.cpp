@@ -3,7 +3,7 @@
 namespace dotpose::code {
 namespace {
 
-/// Inverse of a modulo the prime m.
+/// Returns the inverse of a modulo the prime m.
 consteval std::uint32_t inverse(std::uint32_t a, std::uint32_t m) {
     std::uint32_t x = 1;
     while (a % m * x % m != 1)
@@ -13,11 +13,12 @@ consteval std::uint32_t inverse(std::uint32_t a, std::uint32_t m) {
 
 }  // namespace
 
-// Garner's mixed-radix form of the Chinese remainder theorem, which stays within 32 bits.
+// Solves the Chinese remainder theorem in Garner's mixed-radix form, which stays within 32 bits.
 std::uint32_t position_at(const Basis& basis, const std::array<std::uint32_t, 4>& places) {
     constexpr std::uint32_t kM1 = 236, kM2 = 233, kM3 = 31, kM4 = 241;
     static_assert(kM1 * kM2 * kM3 * kM4 == kPositionsPerAxis);
-    // The next digit of the form: what is left of the remainder, divided by the product so far.
+    // Returns the next digit of the form: the remainder minus the digits so far, divided by the
+    // product of the lengths so far.
     const auto digit = [&](std::size_t n, std::uint32_t so_far, std::uint32_t inverse) {
         const Secondary& a = basis[n];
         return a.place_of((places[n] + a.length - a.place_of(so_far)) * inverse);

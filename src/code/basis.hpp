@@ -1,4 +1,4 @@
-// The four secondary number sequences of a profile.
+// Basis: the four secondary number sequences of a profile.
 #pragma once
 
 #include <array>
@@ -33,8 +33,8 @@ constexpr const Twins& twins(Profile profile) {
     return kTwins<kA4Restored>;
 }
 
-/// The position that stands at these places of the sequences: that which leaves these remainders
-/// modulo 236, 233, 31 and 241.
+/// Returns the position at which the four sequences stand at these places: the number with these
+/// remainders modulo 236, 233, 31 and 241.
 std::uint32_t position_at(const Basis& basis, const std::array<std::uint32_t, 4>& places);
 
 }  // namespace dotpose::code

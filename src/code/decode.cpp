@@ -1,4 +1,5 @@
-// Symbols -> position (paper section II-A and II-B.7), exact, for windows without errors.
+// Decoding: finds the position of a window of symbols without errors, exactly (paper sections II-A
+// and II-B.7).
 #include <array>
 
 #include "code/basis.hpp"
@@ -13,12 +14,13 @@ constexpr int kSmallestWindow = code::kMainOrder;
 using Rolls = std::array<std::uint8_t, kLargestWindow>;
 using Deltas = std::array<std::uint8_t, kLargestWindow - 1>;
 
-/// Places of one secondary sequence at which the digits of all differences stand.
+/// The places of one secondary sequence at which the digits of all differences stand.
 struct Places {
     std::uint32_t first = 0;
     int count = 0;
 };
 
+/// Whether the digits of all differences stand in the sequence from a place on.
 bool stands_at(const code::Secondary& a, int digit, std::span<const std::uint8_t> deltas,
                std::uint32_t place) {
     for (const std::uint8_t d : deltas) {
@@ -40,7 +42,7 @@ Places find(const code::Secondary& a, int digit, std::span<const std::uint8_t> d
     Places places;
     if (first == code::kAbsent) return places;
     if (!a.has_twins) {
-        // The digits of the key stand there, and nowhere else.
+        // The place of the key is unique; only the further digits must still be compared.
         std::uint32_t next = first + std::uint32_t{code::kOrder};
         if (next >= a.length) next -= a.length;
         return {first, stands_at(a, digit, deltas.subspan(code::kOrder), next) ? 1 : 0};
@@ -52,7 +54,8 @@ Places find(const code::Secondary& a, int digit, std::span<const std::uint8_t> d
     return places;
 }
 
-/// Place in the main sequence of a whole column or row of bits; kAbsent if there is none.
+/// Returns the place in the main sequence of a whole column or row of bits; kAbsent if there is
+/// none.
 std::uint8_t place_in_main(const Window& window, bool columns, int line) {
     const int length = columns ? window.rows : window.columns;
     const auto bit = [&](int i) -> unsigned {
@@ -73,7 +76,8 @@ std::uint8_t place_in_main(const Window& window, bool columns, int line) {
     return place;
 }
 
-/// Rolls of all columns (or rows) of a window, and the position of the first of them.
+/// Reads the rolls of all columns (or rows) of a window; sets the first roll and the position of
+/// the first line. Errors: not_in_code, ambiguous.
 Status read_axis(Profile profile, const Window& window, bool columns, std::uint8_t& first_roll,
                  std::uint32_t& position) {
     Rolls rolls{};

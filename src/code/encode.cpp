@@ -1,4 +1,4 @@
-// Position -> symbols (paper section II-A), in O(1) per column and row.
+// Encoding: computes the symbols of a position (paper section II-A), in O(1) per column and row.
 #include "code/basis.hpp"
 #include "dotpose/code.hpp"
 
@@ -13,9 +13,9 @@ int delta(Profile profile, std::uint32_t p) noexcept {
 }
 
 int roll(Profile profile, std::uint32_t p) noexcept {
-    // The sum of p differences, taken apart: p times the constant 5, and for each sequence its
-    // whole turns and the digits of the turn begun. The turns are the lines in them divided by
-    // their length, which modulo 63 is a multiplication.
+    // The sum of p differences consists of p times the constant 5 and, for each sequence, its whole
+    // turns and the digits of the turn begun. The number of whole turns is the number of lines in
+    // them divided by the length, which modulo 63 is a multiplication.
     const std::uint32_t lines = code::modulo_sections(p) + 4 * kSections;
     std::uint32_t sum = code::kSmallestDelta * lines;
     for (const code::Secondary& a : code::basis(profile)) {
@@ -44,14 +44,15 @@ int section_of(Profile profile, int roll_seen, std::uint32_t position,
 
 namespace {
 
-/// One axis of a place: its position, the section of its own lines and that of those across.
+/// One axis of a place: its position, the section of its own lines, and the section of the lines
+/// across.
 struct AxisPlace {
     std::uint32_t position;
     std::uint8_t own;
     std::uint8_t cross;
 };
 
-// By itself, as it is needed twice and rarely goes past an end.
+// Not inlined, as it is called twice and rarely goes past an end.
 [[gnu::noinline]] AxisPlace moved(Profile profile, AxisPlace place, std::int32_t distance) {
     const std::int64_t target = std::int64_t{place.position} + distance;
     const bool is_before = target < 0;
@@ -59,8 +60,8 @@ struct AxisPlace {
         place.position = static_cast<std::uint32_t>(target);
         return place;
     }
-    // Going once around x, columns find their rolls shifted by those of a whole turn, and rows read
-    // at an x that is a whole turn larger.
+    // After a whole turn around x, the rolls of columns are shifted by those of the turn, and rows
+    // are read at an x that is larger by the turn.
     const auto shifted = [&](int section, int by) {
         const int sum = section + (is_before ? kSections - by : by);
         return static_cast<std::uint8_t>(sum % kSections);

@@ -1,5 +1,5 @@
-// Rolls anywhere on the plane; those of consecutive lines one after the other, which is quicker
-// than each by itself.
+// Rolls of lines anywhere on the plane. Those of consecutive lines are computed together, which is
+// quicker than one by one.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,12 @@
 
 namespace dotpose::code {
 
-/// The roll in [0, 63) that the column (row) `position` of a section shows from the row (column)
+/// Returns the roll, in [0, 63), of column (row) `position` of a section, counted from row (column)
 /// `cross` on.
 int roll_from(Profile profile, std::uint32_t position, int section, std::uint32_t cross);
 
-/// Sets rolls[i] to that of the line `position` + i, where the first of them shows `first_roll`.
-/// Stepping by differences carries over the end of the code.
+/// Sets rolls[i] to the roll of line `position` + i, given the roll of line `position`. Stepping by
+/// differences also works across the end of the code.
 void follow_rolls(Profile profile, std::uint32_t position, int first_roll,
                   std::span<std::uint8_t> rolls);
 

@@ -1,5 +1,6 @@
-// The five kinds of sequence the code is built from, as published, and proofs that they are what
-// the code needs. Paper section II-A; patent US 6,667,695; a4: see docs/position-code.md.
+// Sequences: the five kinds of sequence that the code is built from, as published, and proofs that
+// they have the properties the code needs. Paper section II-A; patent US 6,667,695; a4: see
+// docs/position-code.md.
 #pragma once
 
 #include <array>
@@ -49,7 +50,7 @@ inline constexpr auto kA4Microdots = digits(
 
 // ---- Proofs, by enumeration at compile time -----------------------------------------------------
 
-/// The `length` digits from `start`, cyclic, read as one number to `base`.
+/// Returns the `length` digits from `start` on, cyclic, read as one number to `base`.
 template <std::size_t Length>
 constexpr unsigned key(const Digits<Length>& sequence, std::size_t start, int length,
                        unsigned base) {
@@ -60,8 +61,8 @@ constexpr unsigned key(const Digits<Length>& sequence, std::size_t start, int le
     return value;
 }
 
-/// Whether every string of `order` digits stands at most once in the cycle, and every digit is
-/// below `base`: the definition of a quasi De Bruijn sequence.
+/// Whether every string of `order` digits stands at most once in the cycle and every digit is below
+/// `base`: the definition of a quasi De Bruijn sequence.
 template <std::size_t Length>
 consteval bool is_quasi_de_bruijn(const Digits<Length>& sequence, int order, unsigned base) {
     constexpr std::size_t kMostStrings = 2187;  // 7 digits to base 3

@@ -1,4 +1,4 @@
-// The one table of status names and messages.
+// Names and messages of all statuses, in one table.
 #include "dotpose/status.hpp"
 
 #include <algorithm>
@@ -47,12 +47,12 @@ constexpr bool in_order() {
 }
 static_assert(in_order(), "one row for each Status, in its order");
 
-/// The names alone, so that a device that prints no message does not keep them.
+/// The names alone, so that a device that prints no message does not store the messages.
 constexpr auto kNames = [] {
     std::array<std::array<char, 20>, kStatusCount> names{};
     for (std::size_t i = 0; i < names.size(); ++i) {
         const std::string_view name = kTexts[i].name;
-        std::copy_n(name.data(), name.size() + 1, names[i].begin());  // with its end
+        std::copy_n(name.data(), name.size() + 1, names[i].begin());  // with the terminating zero
     }
     return names;
 }();

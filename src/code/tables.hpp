@@ -1,4 +1,4 @@
-// Lookup tables made from the sequences at compile time: rolls for O(1) encoding, and the place of
+// Lookup tables, made from the sequences at compile time: rolls for O(1) encoding, and the place of
 // every string for decoding.
 #pragma once
 
@@ -11,49 +11,54 @@
 
 namespace dotpose::code {
 
-/// No such string in the sequence.
+/// Marks a string that does not occur in the sequence.
 inline constexpr std::uint8_t kAbsent = 255;
-/// Differences (one digit each) that it takes to look up a place.
+/// Number of differences (one digit each) from which a place is looked up.
 inline constexpr int kOrder = 5;
 
-/// Lines beyond its end to which a sequence's rolls are continued.
+/// Number of lines beyond its end to which a sequence's rolls are continued, for a line and for a
+/// vector that begins within these.
 inline constexpr std::size_t kLinesAhead = 64;
 inline constexpr std::size_t kVectorAhead = 32;
 
-/// n modulo 63 without a division, which small processors lack: 64 leaves 1. For n < 4095.
+/// Returns n modulo 63 for n < 4095, without a division, which small processors lack: 64 modulo 63
+/// is 1.
 constexpr std::uint32_t few_modulo_sections(std::uint32_t n) {
     n = (n & 63) + (n >> 6);
     return n < kSections ? n : n - kSections;
 }
 
-/// The same of any number.
+/// Returns n modulo 63 for any n.
 constexpr std::uint32_t modulo_sections(std::uint32_t n) {
     n = (n & 0xFFFFFF) + (n >> 24);
     n = (n & 0xFFF) + (n >> 12);
     return few_modulo_sections((n & 63) + (n >> 6));
 }
 
-/// A secondary number sequence in a form that code of one type can walk.
+/// A secondary number sequence in one type for all lengths and bases.
 struct Secondary {
-    const std::uint8_t* digits;  ///< `length` of them
-    /// By line, from place 0 on: what the digits before it add to the roll, modulo 63. Beyond the
-    /// end of the sequence it goes on for `kLinesAhead` lines, and for a vector that begins within.
+    const std::uint8_t* digits;  ///< `length` digits
+    /// By line, from place 0 on: sum of the weighted digits before it, modulo 63, which they add to
+    /// the roll. The table goes on beyond the end of the sequence for `kLinesAhead` lines and a
+    /// vector.
     const std::uint8_t* rolls;
-    const std::uint8_t* first_place_of;  ///< by the key of 5 digits; kAbsent where there is none
-    /// By digit: a bit for each place, whether it stands there, from the lowest bit on. Beyond the
-    /// end of the sequence it goes on: for 256 bits from each of `kLinesAhead` places on.
+    const std::uint8_t* first_place_of;  ///< first place by the key of 5 digits; kAbsent where
+                                         ///< there is none
+    /// By digit: one bit for each place, from the lowest bit on, which is 1 where the digit stands
+    /// there. The table goes on beyond the end of the sequence, for 256 bits from each of
+    /// `kLinesAhead` places.
     const std::uint32_t* const* places_of;
     std::uint32_t reciprocal;     ///< 2^20 / length
-    std::uint16_t rest_of_65536;  ///< modulo length
+    std::uint16_t rest_of_65536;  ///< 65536 modulo length
     std::uint8_t length;
-    std::uint8_t turn_roll;  ///< per line, on whole turns: see `roll`
+    std::uint8_t turn_roll;  ///< roll per line on whole turns: see `roll`
     std::uint8_t base;
-    std::uint8_t weight;  ///< in the basis equation of section II-A
+    std::uint8_t weight;  ///< weight in the basis equation of section II-A
     bool has_twins;       ///< whether some string of 5 digits stands twice
 
-    /// The place of a position: that modulo `length`, without a division.
+    /// Returns the place of a position: the position modulo `length`, without a division.
     constexpr std::uint32_t place_of(std::uint32_t position) const {
-        // Less than 2^24.
+        // The sum is less than 2^24.
         const std::uint32_t n = (position >> 16) * rest_of_65536 + (position & 0xFFFF);
         std::uint32_t rest = n - ((n >> 8) * reciprocal >> 12) * length;
         while (rest >= length)
@@ -62,7 +67,7 @@ struct Secondary {
     }
 };
 
-/// See Secondary::rolls.
+/// Returns the table Secondary::rolls of a sequence.
 template <std::size_t Length>
 consteval Digits<Length + kLinesAhead + kVectorAhead> rolls(const Digits<Length>& sequence,
                                                             int weight) {
@@ -74,7 +79,7 @@ consteval Digits<Length + kLinesAhead + kVectorAhead> rolls(const Digits<Length>
     return result;
 }
 
-/// See Secondary::places_of.
+/// Returns the table Secondary::places_of of a sequence for one digit.
 template <std::size_t Length>
 consteval auto places_of(const Digits<Length>& sequence, int digit) {
     std::array<std::uint32_t, (256 + kLinesAhead) / 32> words{};
@@ -84,7 +89,7 @@ consteval auto places_of(const Digits<Length>& sequence, int digit) {
     return words;
 }
 
-/// The roll that a turn of a sequence adds, divided by the turn's length, modulo 63.
+/// Returns the roll that a turn of a sequence adds, divided by the turn's length, modulo 63.
 consteval std::uint8_t turn_roll(std::size_t length, unsigned roll_of_turn) {
     std::size_t inverse = 1;
     while (length * inverse % kSections != 1)
@@ -92,7 +97,7 @@ consteval std::uint8_t turn_roll(std::size_t length, unsigned roll_of_turn) {
     return static_cast<std::uint8_t>(roll_of_turn * inverse % kSections);
 }
 
-/// First place of each string of `Order` digits, by its key.
+/// Returns the first place of each string of `Order` digits, by its key.
 template <unsigned Base, int Order, std::size_t Length>
 consteval auto first_places(const Digits<Length>& sequence) {
     constexpr std::size_t kKeys = [] {
@@ -109,8 +114,8 @@ consteval auto first_places(const Digits<Length>& sequence) {
     return places;
 }
 
-/// For each place the next one, cyclic, at which the same `Order` digits stand; itself if none
-/// does.
+/// Returns for each place the next one, cyclic, at which the same `Order` digits stand; the place
+/// itself if there is no other.
 template <unsigned Base, int Order, std::size_t Length>
 consteval Digits<Length> next_twins(const Digits<Length>& sequence) {
     Digits<Length> twins{};
@@ -123,6 +128,7 @@ consteval Digits<Length> next_twins(const Digits<Length>& sequence) {
     return twins;
 }
 
+/// The tables of one sequence.
 template <unsigned Base, const auto& Sequence, std::uint8_t Weight>
 struct Tables {
     static constexpr std::size_t kLength = Sequence.size();
@@ -148,13 +154,14 @@ struct Tables {
 
 using Basis = std::array<Secondary, 4>;
 
-/// d = 5 + a1 + 3 a2 + 9 a3 + 18 a4 (section II-A).
+/// The sequences of a profile in the basis equation d = 5 + a1 + 3 a2 + 9 a3 + 18 a4 (section
+/// II-A).
 template <const auto& A4>
 inline constexpr Basis kBasis{Tables<3, kA1, 1>::kSecondary, Tables<3, kA2, 3>::kSecondary,
                               Tables<2, kA3, 9>::kSecondary, Tables<3, A4, 18>::kSecondary};
 
-/// By sequence and place: the next with the same 3 digits, and with the same 4 digits, each in a
-/// cycle.
+/// By sequence and place: the next place with the same 3 digits, and with the same 4 digits, each
+/// in a cycle.
 using Twins = std::array<std::array<const std::uint8_t*, 2>, 4>;
 
 template <unsigned Base, const auto& Sequence>
@@ -171,7 +178,7 @@ inline constexpr Twins kTwins{TwinTables<3, kA1>::kBoth, TwinTables<3, kA2>::kBo
 inline constexpr int kSmallestDelta = 5;
 inline constexpr int kLargestDelta = 58;
 
-/// Digits a1..a4 of each difference, from 5 to 58.
+/// The digits a1..a4 of each difference from 5 to 58.
 inline constexpr auto kDigitsOfDelta = [] {
     std::array<std::array<std::uint8_t, 4>, kLargestDelta - kSmallestDelta + 1> result{};
     for (int i = 0; i < static_cast<int>(result.size()); ++i) {
@@ -182,7 +189,7 @@ inline constexpr auto kDigitsOfDelta = [] {
     return result;
 }();
 
-/// The main sequence from any index on, 256 bits long.
+/// The main sequence, continued so that 256 bits follow any index.
 inline constexpr auto kMainRepeated = [] {
     std::array<std::uint8_t, kSections + 256> bits{};
     for (std::size_t i = 0; i < bits.size(); ++i)
@@ -200,7 +207,7 @@ inline constexpr auto kMainWords = [] {
     return words;
 }();
 
-/// Bits of the main sequence that tell the place in it.
+/// Number of bits of the main sequence that determine the place in it.
 inline constexpr int kMainOrder = 6;
 inline constexpr auto kPlaceInMain = first_places<2, kMainOrder>(kMain);
 

@@ -1,4 +1,4 @@
-// How many lines a position shares with those of other profiles that differ from it in a4.
+// How many lines a position shares with positions of the other profiles that differ from it in a4.
 // Generated; tests/unit/code/unshared_codes_test.cpp counts them anew.
 #pragma once
 
@@ -11,10 +11,10 @@
 
 namespace dotpose::code {
 
-/// By the profile read, the other one, and numbers of lines as in `kUnsharedOf`: for each place in
-/// a4 of the first line a digit, so many of the lines are not shared at least by any place of the
-/// other profile, at any shift. The same place does not count, where the profiles have it at the
-/// same rolls.
+/// By the profile read, the other profile, and a number of lines as in `kUnsharedOf`: one digit for
+/// each place in a4 of the first line. It is the least number of these lines that are not shared
+/// with a place of the other profile, over all its places and shifts. The same place does not count
+/// where both profiles have it with the same rolls.
 inline constexpr std::array<std::array<std::array<std::string_view, 3>, kProfileCount>,
                             kProfileCount>
     kUnsharedInOther{{

@@ -1,4 +1,4 @@
-// How many lines a position shares with those that differ from it in one sequence. Generated;
+// How many lines a position shares with positions that differ from it in one sequence. Generated;
 // tests/unit/code/unshared_lines_test.cpp counts them anew.
 #pragma once
 
@@ -8,16 +8,15 @@
 
 namespace dotpose::code {
 
-/// The table has these numbers of lines in a row.
+/// The numbers of consecutive lines for which the table has values.
 inline constexpr std::array<int, 3> kUnsharedOf{10, 13, 16};
 
-/// First entry of each sequence: a1, a2, a3 and the restored a4.
+/// First entry of each sequence in the table: a1, a2, a3 and the restored a4.
 inline constexpr std::array<std::size_t, 4> kUnsharedFrom{0, 236, 469, 500};
 
-/// By number of lines, sequence and place of the first of them: of the lines, so many are not
-/// shared at least by any position that stands elsewhere in this sequence alone. Times 16, and
-/// added to it the same of a view of which one part is read at one shift of such a position and the
-/// rest at another.
+/// By number of lines, sequence and place of the first line: the least number of the lines that are
+/// not shared with a position that stands elsewhere in this sequence alone, times 16; plus the same
+/// for a view of which one part is read at one shift of such a position and the rest at another.
 inline constexpr std::array<std::array<std::uint8_t, 741>, 3> kUnshared{{
     {{
         17, 17, 33, 32, 33, 48, 49, 49, 33, 48, 49, 49, 49, 48, 49, 49, 33, 49, 32, 49, 49, 49, 49,
