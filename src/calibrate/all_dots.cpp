@@ -8,8 +8,8 @@
 namespace dotpose::calibrate {
 namespace {
 
-/// How far a dot may be from where it is expected, in spacings: beyond all errors of print and fit,
-/// so that the fit decides which dots are outliers, and closer than another dot can be.
+/// Greatest distance, in spacings, of a dot from its expected place: beyond all errors of print and
+/// fit, so that the fit decides which dots are outliers, but closer than another dot can be.
 constexpr double kReach_sigmas = 6;
 constexpr double kLeastReach = 0.1;
 constexpr double kMostReach = 1.0 / 3;
@@ -19,7 +19,7 @@ struct Candidate {
     LocatedDot dot;
 };
 
-/// A blob as the dot of the intersection that is nearest to where it should be.
+/// Returns a blob as the dot of the intersection nearest to it.
 Candidate candidate(PixelPoint pixel, const Place& start, double x, double y, double displacement,
                     Profile profile) {
     const Vec step{static_cast<std::int32_t>(std::lround(x)),
@@ -50,7 +50,7 @@ void take_all_dots(const LensFit& fit, const FitSetting& setting, Profile profil
                 nearest.try_emplace({found.dot.step.x, found.dot.step.y}, found);
             if (!is_new && found.off < entry->second.off) entry->second = found;
         }
-        // A frame that the fit does not describe keeps what was read.
+        // A frame that the fit does not describe keeps the dots that were read.
         if (2 * nearest.size() < frame.dots.size()) continue;
         frame.dots.clear();
         for (const auto& [step, found] : nearest)

@@ -1,4 +1,4 @@
-// The dots of frames whose camera is known from a first fit.
+// All dots: finds the dots of frames whose camera is known from a first fit.
 #pragma once
 
 #include <vector>
@@ -7,12 +7,12 @@
 
 namespace dotpose::calibrate {
 
-/// Puts all dots that lie where `fit` has the code's dots in the place of those that `locate` read.
+/// Replaces the dots that `locate` read by all blobs that lie where `fit` expects the code's dots.
 ///
-/// `locate` reads what it needs for a pose. Where its plane fits badly, in the corners of a
-/// slightly tilted camera, it leaves dots out, and rather those whose errors add to what the plane
-/// has wrong. What is left tells too little perspective: by three deviations at 8 degrees, measured
-/// by the unit test ASlightTiltTellsAnUnbiasedFocalLength without this.
+/// `locate` reads the dots that a pose needs. Where its plane fits badly, in the corners of a
+/// slightly tilted camera, it leaves dots out, and mostly those whose errors add to the error of
+/// the plane. The remaining dots show too little perspective: by three standard deviations at 8
+/// degrees, as the unit test ASlightTiltTellsAnUnbiasedFocalLength measured without this function.
 void take_all_dots(const LensFit& fit, const FitSetting& setting, Profile profile,
                    std::vector<LocatedFrame>& frames);
 

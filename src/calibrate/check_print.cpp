@@ -1,4 +1,4 @@
-// The check of a print: crops -> anchors -> fields -> dots -> scale, sizes, faults.
+// Checks a print: from crops to anchors, fields, dots, and then scale, sizes and faults.
 #include "dotpose/tools/check_print.hpp"
 
 #include <algorithm>
@@ -23,12 +23,13 @@ namespace {
 
 using namespace dotpose::calibrate;
 
-/// A file that states a resolution at which the dots would be this many times too far apart, or too
-/// near, does not know: it is a photo.
+/// If a stated resolution makes the dots this many times too far apart, or too near, the image is a
+/// photo and the resolution is not believed.
 constexpr double kUnbelievableScale = 2;
 constexpr std::size_t kLeastDots = 30;
 
-/// Tells how far the work is. Its length is not known before: each part closes in on the end.
+/// Reports progress. The amount of work is not known before, so each part reduces the rest by a
+/// share.
 class Work {
   public:
     explicit Work(const CheckPrintOptions& options) : options_(options) {}
@@ -69,7 +70,7 @@ void validate(const CheckPrintOptions& options) {
     }
 }
 
-/// The sheet whose region holds a cell.
+/// Returns the sheet whose region holds a cell; none if there is none.
 std::optional<std::size_t> sheet_at(const CheckPrintOptions& options, Section section, Cell cell) {
     Sheet place;
     place.pattern.profile = options.pattern.profile;
@@ -82,8 +83,7 @@ std::optional<std::size_t> sheet_at(const CheckPrintOptions& options, Section se
     return static_cast<std::size_t>(found - options.sheets.begin());
 }
 
-/// Finds out what a field was printed as: its place in the code says so on test pages and on sheets
-/// that are known.
+/// Finds how a field was printed; on test pages and known sheets, its place in the code tells.
 void identify(const Field& field, const CheckPrintOptions& options, PrintField& result) {
     result.pattern = options.pattern;
     for (const auto& map : field.maps) {
@@ -95,14 +95,14 @@ void identify(const Field& field, const CheckPrintOptions& options, PrintField& 
         result.sheet = sheet_at(options, field.code.section, cell);
         if (patch) result.pattern = *patch;
         if (result.sheet) result.pattern = options.sheets[*result.sheet].pattern;
-        // The middle of a tile may lie on the margin.
+        // The middle of a tile may lie on the margin, so further tiles are tried.
         if (patch || result.sheet) break;
     }
     result.pattern.profile = options.pattern.profile;
     result.pattern.section = field.code.section;
 }
 
-/// The mean distance of neighbouring dots in a field.
+/// Returns the mean spacing of the dots in a field, in px.
 double spacing_px(const Field& field) {
     double sum = 0;
     int count = 0;
@@ -114,7 +114,7 @@ double spacing_px(const Field& field) {
     return count > 0 ? sum / count : 0;
 }
 
-/// The resolution, unless the dots show that it is none.
+/// Returns the resolution, unless the dots contradict it.
 std::optional<Resolution> believable(const std::optional<Resolution>& resolution,
                                      const Pattern& pattern, const Field& field) {
     if (!resolution) return std::nullopt;
@@ -132,7 +132,7 @@ double PrintField::bad_share() const {
 
 namespace {
 
-/// Where bits contradict the profile that was given: whether the page is of another one.
+/// If bits contradict the given profile, checks whether the page has another one, and reports it.
 void look_for_another_code(const ImageView& scan, const CropDone& done, PrintCheck& check) {
     constexpr double kSuspicious = 0.002;
     constexpr float kSure = 1e-3F;
@@ -148,14 +148,14 @@ void look_for_another_code(const ImageView& scan, const CropDone& done, PrintChe
                                           name(code), name(check.code), name(code))});
 }
 
-/// A field with all its cells.
+/// A field with all its cells and the result for it.
 struct CollectedField {
     Field field;
     CellGrid grid;
     PrintField result;
 };
 
-/// Each part of the page once, the largest first.
+/// Collects the fields, each part of the page once, the largest field first.
 std::vector<CollectedField> collect_fields(const ImageView& scan, const Tiling& tiling,
                                            const std::vector<Anchor>& anchors,
                                            const CheckPrintOptions& options, const CropDone& done) {
@@ -166,7 +166,7 @@ std::vector<CollectedField> collect_fields(const ImageView& scan, const Tiling& 
     std::ranges::stable_sort(fields, std::ranges::greater{}, tiles);
     std::vector<CollectedField> collected;
     for (auto field = fields.begin(); field != fields.end(); ++field) {
-        if (tiles(*field) == 0) continue;  // another one has taken them over
+        if (tiles(*field) == 0) continue;  // another field has taken over its tiles
         PrintField result;
         identify(*field, options, result);
         field->code.profile = result.pattern.profile;
@@ -183,7 +183,7 @@ std::vector<CollectedField> collect_fields(const ImageView& scan, const Tiling& 
     return collected;
 }
 
-/// Measures all fields, on a scan or on a photo, as the largest of them tells.
+/// Measures all fields, as on a scan or as on a photo, depending on the largest of them.
 void measure_fields(const ImageView& scan, std::vector<CollectedField> collected,
                     const CheckPrintOptions& options, PrintCheck& check) {
     std::vector<Match> matches;

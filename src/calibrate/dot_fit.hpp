@@ -1,4 +1,4 @@
-// Least squares over the dots of one frame, without those that lie too far off.
+// Dot fit: least squares over the dots of one frame, without outliers.
 #pragma once
 
 #include <algorithm>
@@ -11,22 +11,23 @@
 
 namespace dotpose::calibrate {
 
-/// What one dot says: rows * parameters = wanted, along both axes.
+/// The equation of one dot along both axes: rows * parameters = wanted.
 template <int kSize>
 struct DotEquation {
     Eigen::Matrix<double, 2, kSize> rows;
     Eigen::Vector2d wanted;
 };
 
+/// The result of a fit.
 template <int kSize>
 struct DotFit {
     Eigen::Matrix<double, kSize, 1> parameters = Eigen::Matrix<double, kSize, 1>::Zero();
     Eigen::Matrix<double, kSize, kSize> covariance = Eigen::Matrix<double, kSize, kSize>::Zero();
-    double variance = 0;  ///< of a dot along one axis
-    int dots = 0;         ///< used
+    double variance = 0;  ///< variance of a dot along one axis
+    int dots = 0;         ///< number of dots used
 };
 
-/// The dots whose residual, squared, is at most `limit`.
+/// Fits the dots whose squared residual in the last fit is at most `limit`.
 template <int kSize>
 DotFit<kSize> fit_near_dots(const std::vector<DotEquation<kSize>>& dots, double limit,
                             const DotFit<kSize>& last) {
@@ -49,7 +50,7 @@ DotFit<kSize> fit_near_dots(const std::vector<DotEquation<kSize>>& dots, double 
     return fit;
 }
 
-/// Dots that lie more than four standard deviations off are left out.
+/// Fits all dots except those more than four standard deviations off.
 template <int kSize>
 DotFit<kSize> fit_dots(const std::vector<DotEquation<kSize>>& dots) {
     constexpr int kRounds = 3;
@@ -63,7 +64,7 @@ DotFit<kSize> fit_dots(const std::vector<DotEquation<kSize>>& dots) {
             squares.push_back((dot.rows * fit.parameters - dot.wanted).squaredNorm());
         const auto median = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
         std::ranges::nth_element(squares, median);
-        // Squared distances of a plane Gaussian have their median at 1.39 sigma^2.
+        // The median of the squared distances of a plane Gaussian is 1.39 sigma^2.
         limit = kOutlier_sigmas * kOutlier_sigmas * *median / 1.386;
     }
     return fit;

@@ -1,6 +1,5 @@
-// The calibration of a lens: frames -> located frames -> fit -> the same once more with the lens
-// known
-// -> once more with all dots -> camera and verdict.
+// Calibrates a lens: locates the frames, fits the lens, repeats both with the lens known, and once
+// more with all dots; then sets the camera and the verdict.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,23 +21,23 @@ namespace {
 
 using namespace dotpose::calibrate;
 
-/// Parts of the image whose coverage by dots is told.
+/// Number of parts of the image, across and down, whose coverage by dots is reported.
 constexpr int kPartsAcross = 12;
 constexpr int kPartsDown = 8;
 constexpr double kLeastCoverage = 0.85;
-/// Dots wider than this, in spacings, are out of focus: twice as wide as printed, they begin
-/// to touch.
+/// Dots wider than this, in spacings, are out of focus: at twice their printed width they begin to
+/// touch.
 constexpr double kWidestDot = 0.32;
 /// Frames whose places differ by less than this, in spacings, show the same dots.
 constexpr double kSamePlace = 1.5;
 
-/// Frames as `calibrate_lens` gets them, checked against each other.
+/// The frames given to `calibrate_lens`, checked against each other.
 class Series {
   public:
     Series(int frames, const FrameAt& frame_at, const CalibrateOptions& options)
         : frame_at_(frame_at), options_(options), total_(2 * frames) {}
 
-    /// The frame, unless it is the same as an earlier one.
+    /// Returns the frame for the first reading, unless it is the same as an earlier one.
     std::optional<GreyImage> first_look(int index) {
         GreyImage image = frame_at_(index);
         if (width_px == 0) {
@@ -83,8 +82,8 @@ Lens lens_of(const Camera& camera) {
     return options.lens;
 }
 
-/// By how much the residuals of one frame shrink, in units of their variance, if this frame alone
-/// may have its own scale, shear and perspective. By chance: 5.
+/// Returns the decrease of the residuals of one frame, in units of their variance, if this frame
+/// alone has its own scale, shear and perspective. By chance it is 5.
 double gain_of_own_view(const LocatedFrame& frame,
                         const std::vector<std::array<double, 2>>& residuals,
                         const std::vector<char>& is_outlier, const FitSetting& setting,
@@ -97,7 +96,7 @@ double gain_of_own_view(const LocatedFrame& frame,
         if (is_outlier[k]) continue;
         const double a = (frame.dots[k].pixel.u - (setting.width_px - 1) / 2.0) / reach_px;
         const double b = (frame.dots[k].pixel.v - (setting.height_px - 1) / 2.0) / reach_px;
-        // To first order: place, turn, scale, shear, perspective.
+        // To first order, the parameters are place, turn, scale, shear, perspective.
         Parameters along_u;
         along_u << 1, 0, -b, a, a, b, a * a, a * b;
         Parameters along_v;
@@ -108,7 +107,7 @@ double gain_of_own_view(const LocatedFrame& frame,
     return right.dot(normal.ldlt().solve(right)) / (sigma_px * sigma_px);
 }
 
-/// Whether heights and tilts of the frames differ by more than chance.
+/// Whether heights and tilts of the frames differ by more than noise explains.
 bool is_held_by_hand(const std::vector<LocatedFrame>& located, const FitSetting& setting,
                      const LensFit& mounted) {
     double gain = 0;
@@ -220,7 +219,7 @@ void judge(bool is_same, LensCalibration& result) {
     }
 }
 
-/// All but the verdict.
+/// Fills in the calibration except for the verdict.
 void describe(const std::vector<LocatedFrame>& located, const Fits& fits, LensCalibration& result) {
     result.is_mounted = fits.after.stand != Stand::by_hand;
     result.residual_before_px = fits.before.residual_px;
@@ -326,7 +325,7 @@ LensCalibration calibrate_lens(int frames, const FrameAt& frame_at,
     FrameReader reader(given_code(options));
     const auto first = read_first(frames, series, reader, result);
     const FitSetting setting{series.width_px, series.height_px, options.pattern.spacing_mm};
-    // Only with the lens known are dots found out to the corners.
+    // Only with a known lens are dots found up to the corners.
     reader.use_lens(lens_of(camera_of(fit_all(first, setting).after, setting)));
     auto located = read_again(first, series, reader);
     take_all_dots(fit_all(located, setting).after, setting, reader.profile(), located);

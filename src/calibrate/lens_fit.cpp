@@ -13,18 +13,18 @@ namespace {
 
 constexpr int kRounds = 3;
 constexpr double kOutlier_sigmas = 4;
-/// Residual to be expected before any is known.
+/// Standard deviation of the residuals that is assumed before any is known.
 constexpr double kFirstSigma_px = 0.3;
-/// What is known of cameras before the first frame: the distortion centre is within some 5 % of
-/// the image's diagonal from its centre, the field of view some 55 degrees, pixels are square to
-/// 2 %. It counts only where frames say nothing: the centre of no distortion, the focal length
-/// without tilt, the shape of pixels where the tilt never changes.
-constexpr double kCentrePrior = 0.1;  // reaches
+/// What is known of cameras before the first frame: the distortion centre is within about 5 % of
+/// the image's diagonal from its centre, the field of view is about 55 degrees, pixels are square
+/// to 2 %. These priors matter only where the frames determine nothing: the centre without
+/// distortion, the focal length without tilt, the shape of pixels where the tilt never changes.
+constexpr double kCentrePrior = 0.1;  // reaches (half diagonals)
 constexpr double kReachPerFocal = 0.5;
 constexpr double kReachPerFocalPrior = 0.5;
 constexpr double kSquarePrior = 0.02;
 
-/// One dot, as the residuals need it.
+/// One dot in the form that the residuals need.
 struct Seen {
     double u;  ///< reaches, from the image centre
     double v;
@@ -33,9 +33,9 @@ struct Seen {
     double nominal_y;
     double displaced_x;  ///< mm per unit of displacement
     double displaced_y;
-    double mm_per_px;  ///< about
+    double mm_per_px;  ///< approximate
 
-    /// Undistorted px from the distortion centre.
+    /// Returns undistorted px from the distortion centre.
     template <typename T>
     std::array<T, 2> undistorted(const T* lens) const {
         const T x = u - lens[1] / reach_px;
@@ -43,7 +43,7 @@ struct Seen {
         const T stretch = reach_px / (1.0 + lens[0] * (x * x + y * y));  // eq. 2
         return {stretch * x, stretch * y};
     }
-    /// The printed place seen from the frame's pose, turned by `-turn`, in mm.
+    /// Returns the printed place as seen from the frame's pose, turned by minus its angle, in mm.
     template <typename T>
     std::array<T, 2> printed(const T& displacement, const T* pose) const {
         using std::cos;
@@ -56,10 +56,12 @@ struct Seen {
     }
 };
 
+/// The distance of a seen dot from its printed place, for a mounted camera.
 struct MountedResidual {
     Seen seen;
 
-    /// In mm, from what the distortion centre looks at, along the image axes there.
+    /// Returns the place in mm from the point under the distortion centre, along the image axes
+    /// there.
     template <typename T>
     std::array<T, 2> on_paper(const T* lens, const T* paper) const {
         const auto [a, b] = seen.undistorted(lens);
@@ -77,7 +79,8 @@ struct MountedResidual {
     }
 };
 
-/// The camera of simulate.hpp, but its pixels need not be square.
+/// The distance of a seen dot from its printed place, for the camera of simulate.hpp, but with
+/// pixels that need not be square.
 struct HandheldResidual {
     Seen seen;
 
@@ -113,7 +116,7 @@ struct HandheldResidual {
     }
 };
 
-/// weight * (parameter[index] - expected)
+/// The residual of a prior: weight * (parameter[index] - expected).
 template <int kSize>
 struct Prior {
     int index;
@@ -148,7 +151,7 @@ Seen seen_of(const LocatedDot& dot, const LocatedFrame& frame, const FitSetting&
             mm / frame.spacing_px};
 }
 
-/// The similarity from undistorted px to mm that fits best: place, turn, mm per px.
+/// Returns the similarity from undistorted px to mm that fits best: place, turn, mm per px.
 std::array<double, 6> first_pose(const LocatedFrame& frame, const FitSetting& setting,
                                  const SharedModel& camera) {
     using Complex = std::complex<double>;
@@ -208,7 +211,7 @@ class Fitter {
             ceres::Solve(options, &problem, &summary);
             evaluate();
             if (round == kRounds - 1) estimate_sigmas(problem);
-            // Squared distances of a plane Gaussian have their median at 1.39 sigma^2.
+            // The median of the squared distances of a plane Gaussian is 1.39 sigma^2.
             sigma_px = mark_outliers();
         }
     }
@@ -255,7 +258,7 @@ class Fitter {
         }
     }
 
-    /// Sets the residuals and their sums.
+    /// Sets the residuals, their sum of squares and the numbers of dots and parameters.
     void evaluate() {
         const SharedModel& c = fit_.camera;
         fit_.squares_px2 = 0;
@@ -284,13 +287,14 @@ class Fitter {
         fit_.residual_px = std::sqrt(fit_.squares_px2 / freedom);
     }
 
+    /// Marks the outliers; returns the standard deviation of the residuals, in px.
     double mark_outliers() {
         std::vector<double> squares;
         for (const auto& frame : fit_.residuals_px) {
             for (const auto& [du, dv] : frame)
                 squares.push_back(du * du + dv * dv);
         }
-        constexpr double kMedian = 1.386;  // of the square of a plane Gaussian, in sigma^2
+        constexpr double kMedian = 1.386;  // median of the square of a plane Gaussian, in sigma^2
         const double variance = median_of(std::move(squares)) / kMedian;
         for (std::size_t i = 0; i < frames_.size(); ++i) {
             for (std::size_t k = 0; k < frames_[i].dots.size(); ++k) {

@@ -1,4 +1,4 @@
-// Least squares over the dots of all frames: one camera, and one pose for each frame.
+// Lens fit: least squares over the dots of all frames, for one camera and one pose per frame.
 #pragma once
 
 #include <array>
@@ -10,35 +10,36 @@
 
 namespace dotpose::calibrate {
 
-/// How the camera stood over the paper.
+/// How the camera was held over the paper.
 enum class Stand {
-    ideal,    ///< straight above, at one height; and its lens has no distortion
-    mounted,  ///< at one height and tilt
-    by_hand,  ///< at another height and tilt in each frame
+    ideal,    ///< straight above, at one height, with a lens without distortion
+    mounted,  ///< at one height and tilt in all frames
+    by_hand,  ///< at its own height and tilt in each frame
 };
 
-/// What all frames share; which parts mean something depends on the stand. Lengths in the image
-/// are in px from the image centre; `reach` is half the image's diagonal.
+/// The parameters that all frames share; which of them are used depends on the stand. Lengths in
+/// the image are in px from the image centre; `reach` is half the image's diagonal.
 struct SharedModel {
     std::array<double, 3> lens{};          ///< k reach^2, distortion centre
-    std::array<double, 5> paper{};         ///< PaperScale, but perspective times reach
+    std::array<double, 5> paper{};         ///< as PaperScale, with perspective times reach
     std::array<double, 3> shape{0, 1, 0};  ///< by hand: reach / focal length, aspect, skew
-    double displacement = 1.0 / 6;         ///< of the dots as they are seen, in spacings
+    double displacement = 1.0 / 6;         ///< displacement of the dots as seen, in spacings
 };
 
+/// The result of a fit.
 struct LensFit {
     Stand stand = Stand::mounted;
     SharedModel camera;
     SharedModel sigma;  ///< standard deviations
     /// Covariance of `camera.lens` and `camera.paper`.
     Eigen::Matrix<double, 8, 8> mounted_covariance = Eigen::Matrix<double, 8, 8>::Zero();
-    /// Of each frame: place (mm, from the intersection where its steps start), turn; by hand also
-    /// mm per px and tilt.
+    /// By frame: place (mm, from the intersection where its steps start) and turn; by hand also mm
+    /// per px and tilt.
     std::vector<std::array<double, 6>> poses;
-    std::vector<std::vector<std::array<double, 2>>> residuals_px;  ///< of each dot of each frame
+    std::vector<std::vector<std::array<double, 2>>> residuals_px;  ///< by frame and dot
     std::vector<std::vector<char>> is_outlier;
-    double squares_px2 = 0;  ///< sum, of the dots used
-    int dots = 0;            ///< used
+    double squares_px2 = 0;  ///< sum over the dots used
+    int dots = 0;            ///< number of dots used
     int parameters = 0;
     double residual_px = 0;  ///< rms per axis, corrected for the parameters
 };
@@ -48,16 +49,17 @@ struct FitSetting {
     int width_px = 0;
     int height_px = 0;
     double spacing_mm = 0;
+    /// Returns half the image's diagonal.
     double reach_px() const;
 };
 
-/// Starts from `start` if there is one. Dots that lie more than four standard deviations off are
-/// left out.
+/// Fits camera and poses, starting from `start` if there is one. Dots more than four standard
+/// deviations off are left out.
 LensFit fit_lens(const std::vector<LocatedFrame>& frames, const FitSetting& setting, Stand stand,
                  const LensFit* start = nullptr);
 
-/// Where a fit has a pixel of one of its frames on the paper: mm from the intersection where the
-/// frame's steps start.
+/// Returns where a pixel of a frame lies on the paper by the fit, in mm from the intersection where
+/// the frame's steps start.
 std::array<double, 2> place_on_paper(const LensFit& fit, std::size_t frame, PixelPoint pixel,
                                      const FitSetting& setting);
 

@@ -7,14 +7,14 @@
 namespace dotpose::calibrate {
 namespace {
 
-/// Lenses to try where none is known, as k r^2 in the corner of the image.
+/// Lenses that are tried if none is known, as k r^2 in the corner of the image.
 constexpr std::array kCornerStretches = {0.0, -0.06, -0.12, -0.18, -0.25, 0.06, 0.12};
 
-/// The distance from the dots' centres at which they are half as dark as in the middle, by the
-/// mean profile of all dots, in spacings.
+/// Returns the distance from the dots' centres, in spacings, at which they are half as dark as in
+/// the middle, from the mean profile of all dots.
 double half_width(const ImageView& image, const std::vector<LocatedDot>& dots, double spacing_px) {
     constexpr int kBins = 10;
-    constexpr double kReach = 0.35;  // spacings; neighbours may be 2/3 away
+    constexpr double kReach = 0.35;  // spacings; the next dot may be 2/3 away
     std::array<double, kBins> sums{};
     std::array<double, kBins> counts{};
     const int reach_px = static_cast<int>(std::ceil(kReach * spacing_px));
@@ -81,7 +81,7 @@ std::optional<LocatedFrame> FrameReader::read(const ImageView& image) {
     for (const double stretch : kCornerStretches) {
         const Lens lens = Lens::from_k(stretch / (reach_px * reach_px));
         if (!locate_with(image, lens)) continue;
-        lens_ = lens;  // the first to try with the next frame
+        lens_ = lens;  // tried first with the next frame
         return read_trace(image);
     }
     return std::nullopt;
@@ -97,7 +97,7 @@ bool FrameReader::locate_with(const ImageView& image, const Lens& lens) {
 LocatedFrame FrameReader::read_trace(const ImageView& image) const {
     const Trace trace = locator_.trace();
     const Lens& lens = trace.options.lens;
-    // The lens that was used, as it was rounded.
+    // The camera has the lens that was used, with its rounding.
     Camera used;
     used.k_per_px2 = lens.k_q40 * 0x1p-40;
     used.centre_px = {(image.width_px - 1) / 2.0 + lens.centre_dx_q8 / 256.0,

@@ -1,4 +1,4 @@
-// Located frames: the dots of each as pixels, with the places where the code has them printed.
+// Located frames: the dots of each frame as pixels, with their places in the code.
 #pragma once
 
 #include <optional>
@@ -11,38 +11,42 @@
 
 namespace dotpose::calibrate {
 
+/// A dot and its intersection.
 struct LocatedDot {
     PixelPoint pixel;
-    Vec step;  ///< its intersection, in spacings from the frame's `place`
+    Vec step;  ///< intersection, in spacings from the frame's `place`
     Symbol symbol = Symbol::up;
 };
 
-/// The dots that `locate` read, as undistorted pixels; they start at `trace.decoding.place`.
+/// Returns the dots that `locate` read, as undistorted pixels; steps start at
+/// `trace.decoding.place`.
 std::vector<LocatedDot> dots_read(const Trace& trace);
 
+/// The dots of one frame.
 struct LocatedFrame {
-    int index = 0;                  ///< of the frame
-    Place place;                    ///< where the steps start
-    std::vector<LocatedDot> dots;   ///< pixels in the image as it is, distorted
-    std::vector<PixelPoint> blobs;  ///< all that look like dots, in the image as it is
-    double dot_width = 0;           ///< at half depth, in spacings
+    int index = 0;                  ///< index of the frame
+    Place place;                    ///< place where the steps start
+    std::vector<LocatedDot> dots;   ///< pixels of the image, distorted
+    std::vector<PixelPoint> blobs;  ///< all blobs of a dot's size, in pixels of the image,
+                                    ///< distorted
+    double dot_width = 0;           ///< width at half depth, in spacings
     double spacing_px = 0;
 };
 
-/// Locates frames with a lens that may be known or not.
+/// Locates frames with a lens that may be known or unknown.
 class FrameReader {
   public:
-    /// Without a profile, it is found out from the frames.
+    /// Without a profile, it is found from the frames.
     explicit FrameReader(std::optional<Profile> profile);
 
-    /// From now on the lens is known.
+    /// Sets the lens, which is known from now on.
     void use_lens(const Lens& lens) {
         lens_ = lens;
         is_known_ = true;
     }
-    /// That of the frames, as far as is known by now.
+    /// Returns the profile of the frames, as far as it is known.
     Profile profile() const { return reader_.code(); }
-    /// Nothing if the frame cannot be located.
+    /// Locates a frame; none if it cannot be located.
     std::optional<LocatedFrame> read(const ImageView& image);
 
   private:

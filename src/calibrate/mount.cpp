@@ -1,4 +1,4 @@
-// Where a camera sits on a robot: from a turn on the spot, and from a straight drive.
+// Finds where a camera sits on a robot, from a turn on the spot and from a straight drive.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -22,12 +22,12 @@ using Eigen::Vector2d;
 constexpr int kLeastSpinFrames = 3;
 constexpr double kLeastTurn_rad = std::numbers::pi / 6;
 constexpr double kLeastDrive_mm = 5;
-/// A robot that turns by more than this does not drive straight, nor does one whose path leaves its
-/// mean line at a larger angle.
+/// Greatest angle that a robot may turn, or its path may differ from the mean line, in a straight
+/// drive.
 constexpr double kMostSwerve_rad = std::numbers::pi / 36;
-/// Chance of taking a robot that stayed on the spot for one that moved on while it turned.
+/// Probability that a robot that stayed on the spot is taken for one that moved on while it turned.
 constexpr double kFalseDrift = 1e-3;
-/// Degrees of freedom with which a drift can be told from chance.
+/// Least number of frames from which a drift can be distinguished from noise.
 constexpr int kLeastDriftFrames = 5;
 
 /// Place (mm, from the first frame's cell) and angle of the image centre in one frame.
@@ -36,13 +36,14 @@ struct Station {
     double theta_rad = 0;
 };
 
+/// The stations of all frames that could be located.
 struct Stations {
     Camera camera;  ///< without reference point and offset
     std::vector<Station> stations;
     double mm_per_px = 0;  ///< mean
 };
 
-/// Steps from one cell to another, the shorter way around the plane.
+/// Returns the steps from one cell to another, by the shorter way around the plane.
 double steps(std::uint32_t from, std::uint32_t to) {
     return std::remainder(double(to) - double(from), double(kPositionsPerAxis));
 }
@@ -97,7 +98,7 @@ Stations locate_stations(int frames, const FrameAt& frame_at, const std::optiona
     return result;
 }
 
-/// The smallest arc that holds all angles: a turn without the widest gap.
+/// Returns the smallest arc that holds all angles: a full turn minus the widest gap.
 double arc_of(const std::vector<Station>& stations) {
     std::vector<double> angles;
     for (const Station& station : stations)
@@ -109,8 +110,8 @@ double arc_of(const std::vector<Station>& stations) {
     return 2 * std::numbers::pi - widest;
 }
 
-/// The undistorted pixel of a point given in mm from what the image centre looks at, along the
-/// image axes there.
+/// Returns the undistorted pixel of a point given in mm from the point under the image centre,
+/// along the image axes there.
 PixelPoint pixel_of(const Vector2d& offset_mm, const Stations& stations) {
     if (!stations.camera.paper) {
         const PixelPoint centre = image_centre(stations.camera);
@@ -120,8 +121,8 @@ PixelPoint pixel_of(const Vector2d& offset_mm, const Stations& stations) {
     return pixel_from_image_centre(stations.camera, {offset_mm.x(), offset_mm.y()});
 }
 
-/// Of a point given in mm from the image centre: what the calibration of the lens did not tell of
-/// where the image centre looks, and in which direction. Per axis.
+/// Returns the standard deviation, per axis, of a point given in mm from the image centre, as far
+/// as it comes from the calibration of the lens: from place and direction of the image centre.
 double sigma_of_lens_mm(const Camera& camera, const Vector2d& offset_mm) {
     const auto sigma = [&](const char* key) {
         const auto found = camera.sigma.find(key);
@@ -137,16 +138,16 @@ void require_stations(std::size_t found, int least, int frames) {
                             frames, least));
 }
 
-/// A turn about one point, by least squares: pivot + t drift - turn(theta) offset = place, linear
-/// in all three; t runs from -1 at the first frame to 1 at the last.
+/// A turn about one point, by least squares: pivot + t drift - turn(theta) offset = place, which is
+/// linear in all three; t runs from -1 at the first frame to 1 at the last.
 struct SpotTurn {
     Vector2d pivot;
-    Vector2d offset;          ///< of the pivot from the image centre, along the image axes
-    double squares_mm2 = 0;   ///< of the residuals
-    double offset_share = 0;  ///< variance of the offset, per axis, over that of a place
+    Vector2d offset;          ///< from the image centre to the pivot, along the image axes
+    double squares_mm2 = 0;   ///< sum of the squared residuals
+    double offset_share = 0;  ///< variance of the offset, per axis, relative to that of a place
 };
 
-/// `kParameters`: 4 for a robot that stays on the spot, 6 for one that drifts as well.
+/// Fits a turn. `kParameters` is 4 for a robot that stays on the spot, 6 for one that also drifts.
 template <int kParameters>
 SpotTurn fit_turn(const std::vector<Station>& stations) {
     using Rows = Eigen::Matrix<double, 2, kParameters>;
@@ -176,9 +177,9 @@ SpotTurn fit_turn(const std::vector<Station>& stations) {
     return result;
 }
 
-/// By how much a drift of the robot falsifies the offset, per axis; 0 where chance explains what
-/// looks like one. With two parameters more, the F test of m = 2 n - 6 degrees of freedom has the
-/// tail (squares with drift / squares without) ^ (m / 2).
+/// Returns the error of the offset, per axis, from a drift of the robot; 0 if noise explains it.
+/// With two more parameters, the F test of m = 2 n - 6 degrees of freedom has the tail (squares
+/// with drift / squares without) ^ (m / 2).
 double bias_of_drift_mm(const std::vector<Station>& stations, const SpotTurn& on_the_spot) {
     if (stations.size() < kLeastDriftFrames) return 0;
     const SpotTurn drifting = fit_turn<6>(stations);
@@ -188,9 +189,9 @@ double bias_of_drift_mm(const std::vector<Station>& stations, const SpotTurn& on
     return (drifting.offset - on_the_spot.offset).norm() / std::numbers::sqrt2;
 }
 
-/// The bars are the pattern's own measure. A point that leaves the cell it stood in (residual above
-/// one spacing) did not stay where it was; and a reference that is not known to half a spacing does
-/// not even tell the cell that the robot stands on.
+/// Throws Error unless the centre of rotation is good enough, by the pattern's own measure. A point
+/// that leaves its cell (residual above one spacing) did not stay where it was, and a reference
+/// uncertain by more than half a spacing does not even determine the cell that the robot stands on.
 void require_spin(const SpinCalibration& spin, double spacing_mm) {
     if (spin.residual_mm > spacing_mm) {
         throw Error(
@@ -211,8 +212,8 @@ void require_spin(const SpinCalibration& spin, double spacing_mm) {
         spin.sigma_mm, spacing_mm / 2, why));
 }
 
-/// Names in the order of the drive, and none of them off the line by more than a robot would be
-/// that turned by kMostSwerve_rad in the middle.
+/// Throws Error unless the frames are in the order of the drive, and none is farther off the line
+/// than a robot that turned by kMostSwerve_rad in the middle.
 void require_straight(const std::vector<Vector2d>& on_line, double length_mm) {
     const double most_mm = std::tan(kMostSwerve_rad) * length_mm / 2;
     double farthest_mm = on_line.front().x();
@@ -319,7 +320,7 @@ DriveCalibration calibrate_drive(int frames, const FrameAt& frame_at,
     require_straight(on_line, result.length_mm);
     const double theta_rad = std::atan2(heading.y(), heading.x());
     result.residual_mm = std::sqrt(std::max(axes.eigenvalues()[0], 0.0) / count);
-    // Of the line's direction, and of the mean angle.
+    // Variances of the line's direction and of the mean angle are added.
     const double line = result.residual_mm * result.residual_mm / axes.eigenvalues()[1];
     double squares = 0;
     double swerve_rad = 0;

@@ -1,4 +1,5 @@
-// The pose of a camera whose view of the paper is known: place, angle and scale, by least squares.
+// Fits the pose of a camera whose view of the paper is known: place, angle and scale, by least
+// squares.
 #include "dotpose/tools/mounted_pose.hpp"
 
 #include <algorithm>
@@ -17,9 +18,9 @@ using namespace dotpose::calibrate;
 
 constexpr std::size_t kLeastDots = 12;
 
-/// printed + displacement * displaced = place + (c, -s; s, c) (x, y), all in spacings of true
-/// length but (x, y), in mm from `middle`; parameters: place, c, s, displacement, which ink and
-/// blur change.
+/// The equation of a dot: printed + displacement * displaced = place + (c, -s; s, c) (x, y). All
+/// lengths are in spacings of true length, except (x, y), in mm from `middle`. The parameters are
+/// place, c, s, and the displacement, which ink and blur change.
 constexpr int kParameters = 5;
 
 struct PoseFit : DotFit<kParameters> {
@@ -69,7 +70,8 @@ void write_place(double x, double y, Profile profile, const Place& place, Fix& f
     fix.fraction_y_q16 = static_cast<std::uint16_t>(y_q16 & 65535);
 }
 
-/// `x`, `y`: the reference point in mm from the middle of the dots; `theta_rad`: true and nominal.
+/// Writes the covariance at the reference point (`x`, `y`), in mm from the middle of the dots. The
+/// variance of the angle is that on the paper, which is nearly that of the nominal angle.
 void write_covariance(const PoseFit& fit, double x, double y, const AxisScale& print, Fix& out) {
     const double c = fit.parameters[2];
     const double s = fit.parameters[3];
@@ -91,7 +93,8 @@ void write_covariance(const PoseFit& fit, double x, double y, const AxisScale& p
 Fix with_camera(const Fix& fix, const Camera& camera, const Trace& trace, const AxisScale& print) {
     if (fix.status != Status::ok) return fix;
     Fix result = fix;
-    // Of true lengths; nominal ones are turned a little where a print is longer one way.
+    // The angle on the paper; the nominal one differs a little where a print is longer along one
+    // axis.
     double theta_rad =
         std::atan2(std::sin(fix.theta_rad()) * print.y, std::cos(fix.theta_rad()) * print.x);
     const auto dots = dots_read(trace);
@@ -110,7 +113,8 @@ Fix with_camera(const Fix& fix, const Camera& camera, const Trace& trace, const 
         result.dots_used = pose.dots;
         result.dots_seen = std::max(result.dots_seen, result.dots_used);
         result.residual_px = static_cast<float>(std::sqrt(pose.variance) * fix.spacing_px());
-        // At the image centre: elsewhere, image rows of a tilted camera run in another direction.
+        // The angle counts at the image centre; elsewhere, image rows of a tilted camera run in
+        // another direction.
         const PixelPoint centre{(camera.width_px - 1) / 2.0, (camera.height_px - 1) / 2.0};
         theta_rad =
             std::atan2(pose.parameters[3], pose.parameters[2]) + image_axis_rad(camera, centre);

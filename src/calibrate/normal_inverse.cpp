@@ -11,22 +11,22 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// The part of J^T J of a block that is not shared.
+/// The part of J^T J that belongs to one block that is not shared.
 struct Own {
-    Index begin;  ///< its first column
+    Index begin;  ///< first column of the block
     MatrixXd with_shared;
     MatrixXd with_itself;
 };
 
-/// J^T J, as far as it is not 0.
+/// J^T J without the parts that are 0.
 struct Normal {
     ceres::CRSMatrix jacobian;  ///< the columns of the shared blocks come first
     MatrixXd shared;
     std::vector<Own> owns;
-    std::vector<std::size_t> own_of_column;  ///< of those that are not shared
+    std::vector<std::size_t> own_of_column;  ///< by column, for those that are not shared
 };
 
-/// Of one scale, so that no precision is lost.
+/// Returns the inverse, computed with the parameters scaled alike so that no precision is lost.
 MatrixXd inverse_of(const MatrixXd& normal) {
     const Eigen::VectorXd scale = normal.diagonal().cwiseSqrt().cwiseMax(1e-30).cwiseInverse();
     const MatrixXd scaled = scale.asDiagonal() * normal * scale.asDiagonal();
@@ -34,7 +34,7 @@ MatrixXd inverse_of(const MatrixXd& normal) {
     return scale.asDiagonal() * inverse * scale.asDiagonal();
 }
 
-/// `work(column, value)` with what one row of the Jacobian holds.
+/// Calls `work(column, value)` for each element of one row of the Jacobian.
 template <typename Work>
 void for_each_in_row(const ceres::CRSMatrix& matrix, std::size_t row, Work work) {
     for (auto i = static_cast<std::size_t>(matrix.rows[row]);
@@ -83,7 +83,7 @@ Normal normal_of(ceres::Problem& problem, const std::vector<double*>& shared) {
     return normal;
 }
 
-/// How the best values of a block follow the shared ones, with the sign turned.
+/// Returns how the best values of a block follow the shared ones, with opposite sign.
 MatrixXd following(const Own& own) {
     return inverse_of(own.with_itself) * own.with_shared;
 }

@@ -1,4 +1,4 @@
-// Covariances of problems that share a few parameters among many poses.
+// Normal inverse: covariances of problems that share a few parameters among many poses.
 #pragma once
 
 #include <vector>
@@ -8,13 +8,13 @@
 
 namespace dotpose::calibrate {
 
-/// The block of (J^T J)^-1 that belongs to the shared blocks of parameters, in their order. No
-/// residual may depend on more than one of the other blocks. Of these problems ceres::Covariance
-/// would take a minute.
+/// Returns the block of (J^T J)^-1 that belongs to the shared blocks of parameters, in their order.
+/// No residual may depend on more than one of the other blocks. ceres::Covariance would take a
+/// minute for these problems.
 Eigen::MatrixXd normal_inverse(ceres::Problem& problem, const std::vector<double*>& shared);
 
-/// By how much the shared blocks' best values move with each residual, those in the order in which
-/// they were added: times its transpose it is the matrix above.
+/// Returns how much the best values of the shared blocks change with each residual, in the order in
+/// which residuals were added. This matrix times its transpose is `normal_inverse`.
 Eigen::MatrixXd normal_gain(ceres::Problem& problem, const std::vector<double*>& shared);
 
 }  // namespace dotpose::calibrate

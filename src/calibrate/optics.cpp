@@ -11,7 +11,7 @@ namespace dotpose {
 namespace {
 
 constexpr double kRadPerS_per_rpm = 2 * std::numbers::pi / 60;
-/// What `locate` reads.
+/// Limits of what `locate` reads.
 constexpr double kLeastSpacing_px = 6;
 constexpr double kGoodSpacing_px = 8;
 constexpr double kMostSpacing_px = 60;
@@ -48,7 +48,7 @@ void set_field(const Optics& o, OpticsReport& r) {
     r.dots_in_view = r.field_width_mm * r.field_height_mm / (o.spacing_mm * o.spacing_mm);
 }
 
-/// Paper III-A.3.
+/// Sets whether 8 x 8 dots fit into the field, by paper III-A.3.
 void set_block(const Optics& o, OpticsReport& r) {
     const double side_mm = o.spacing_mm * (7 + 2.0 / 6) + o.dot_mm;
     r.block_diagonal_mm = std::numbers::sqrt2 * side_mm;
@@ -58,7 +58,8 @@ void set_block(const Optics& o, OpticsReport& r) {
     r.block_fits_anywhere = shorter_mm >= r.block_anywhere_mm;
 }
 
-/// Paper III-A.2: blur along the image axes; a turn moves the middle of the far edge fastest.
+/// Sets the limits of motion, by paper III-A.2: blur along the image axes; in a turn the middle of
+/// the far edge is fastest.
 void set_motion(const Optics& o, OpticsReport& r) {
     const double blur_mm = o.largest_blur_px * r.mm_per_px;
     const double radius_mm = std::max(r.field_width_mm, r.field_height_mm) / 2;
@@ -69,7 +70,7 @@ void set_motion(const Optics& o, OpticsReport& r) {
     r.blur_px = motion_mm_s * o.exposure_s / r.mm_per_px;
 }
 
-/// Where a point's blur on the sensor is one pixel wide.
+/// Sets the distances at which the blur of a point on the sensor is one pixel wide.
 void set_depth(const Optics& o, OpticsReport& r) {
     const double squared = o.focal_mm * o.focal_mm;
     const double spread = o.f_number * o.pixel_um / 1000 * (o.distance_mm - o.focal_mm);
@@ -81,7 +82,7 @@ void advise_on_scale(const Optics& o, OpticsReport& r) {
     const auto say = [&r](bool is_fault, std::string text) {
         r.advice.push_back({is_fault, std::move(text)});
     };
-    // The distance at which the spacing has so many pixels.
+    // Returns the distance at which the spacing has `px` pixels.
     const auto distance_mm = [&](double px) {
         return o.focal_mm * (1 + o.spacing_mm / px / (o.pixel_um / 1000));
     };

@@ -13,18 +13,19 @@
 namespace dotpose::calibrate {
 namespace {
 
-/// A focal length that is known to this share is worth telling.
+/// Greatest relative standard deviation of a focal length that is worth reporting.
 constexpr double kWorthTelling = 0.15;
 
 using Paper = Eigen::Matrix<double, 5, 1>;
 using PaperCovariance = Eigen::Matrix<double, 5, 5>;
 
-/// A view (PaperScale, perspective times reach) against that of a tilted camera with square pixels.
+/// The difference between a view (PaperScale, perspective times reach) and that of a tilted camera
+/// with square pixels.
 struct TiltResidual {
     Paper seen;
     PaperCovariance whitening;
 
-    /// tilt: mm per px, about x, about y, reach / focal length.
+    /// `tilt`: mm per px, angle about x, angle about y, reach / focal length.
     template <typename T>
     bool operator()(const T* tilt, T* residual) const {
         using std::cos;
@@ -34,16 +35,17 @@ struct TiltResidual {
         const T sx = sin(tilt[1]);
         const T cy = cos(tilt[2]);
         const T sy = sin(tilt[2]);
-        // simulate.hpp: the paper's axes are s = (cy, sx sy, -cx sy) and t = (0, cx, sx). At the
-        // centre, (s, t) per px to the right is (1, -sx sy / cx) / cy, and per px down (0, 1 / cx),
-        // each times mm per px; the paper's x axis is then turned onto the first.
+        // As in simulate.hpp, the paper's axes are s = (cy, sx sy, -cx sy) and t = (0, cx, sx). At
+        // the centre, (s, t) per px to the right is (1, -sx sy / cx) / cy, and per px down (0, 1 /
+        // cx), each times mm per px; the paper's x axis is then turned onto the first.
         const T right_s = 1.0 / cy;
         const T right_t = -sx * sy / (cx * cy);
         const T down_t = 1.0 / cx;
         const T length = sqrt(right_s * right_s + right_t * right_t);
         const T down_along = down_t * right_t / length;
         const T down_across = down_t * right_s / length;
-        // Depth is 1 + (z_s s + z_t t) / distance; the divisor is what is left of it.
+        // Depth is 1 + (z_s s + z_t t) / distance; the divisor of the view is its inverse, which
+        // turns the signs of the perspective.
         const T per_px_u = tilt[3] * (-cx * sy * right_s + sx * right_t);
         const T per_px_v = tilt[3] * (sx * down_t);
         const T view[5] = {tilt[0] * length, tilt[0] * down_across, down_along / length, -per_px_u,
@@ -57,11 +59,11 @@ struct TiltResidual {
     }
 };
 
-/// x, y (mm) and direction (radians) of the image centre.
+/// Place (x, y in mm) and direction (radians) of the image centre.
 using CentrePose = Eigen::Vector3d;
 
-/// Of a camera, once what it sees has been laid as `with_camera` does, by place, angle and scale,
-/// onto what the other one sees in the same pixels.
+/// Returns the pose of the image centre of `camera`, after its view is laid onto that of `other` in
+/// the same pixels by place, angle and scale, as `with_camera` does.
 CentrePose centre_pose(const Camera& camera, const Camera& other) {
     using Point = std::complex<double>;
     const auto seen = [](const Camera& by, PixelPoint straight) {
@@ -94,7 +96,7 @@ CentrePose centre_pose(const Camera& camera, const Camera& other) {
     return {at.real(), at.imag(), std::arg(turn) + image_axis_rad(camera, centre)};
 }
 
-/// With one of the parameters of `LensFit::mounted_covariance` moved.
+/// Returns the camera with one parameter of `LensFit::mounted_covariance` moved by a step.
 Camera with_moved(Camera camera, Eigen::Index parameter, double step, double reach_px) {
     PaperScale& paper = camera.paper.value();
     const std::array<double*, 8> values = {
@@ -125,7 +127,7 @@ void describe_mounted(const LensFit& fit, double reach_px, Camera& camera) {
 
     const PaperCovariance lower = fit.mounted_covariance.bottomRightCorner<5, 5>().llt().matrixL();
     const auto residual = new TiltResidual{Eigen::Map<const Paper>(paper.data()), lower.inverse()};
-    // Perspective is tilt over focal length; half a reach per focal length is a usual lens.
+    // Perspective is tilt over focal length; half a reach per focal length is typical of lenses.
     std::array tilt{std::sqrt(paper[0] * paper[1]), -2 * paper[4], 2 * paper[3], 0.5};
     ceres::Problem problem;
     problem.AddResidualBlock(new ceres::AutoDiffCostFunction<TiltResidual, 5, 4>(residual), nullptr,
@@ -156,7 +158,7 @@ void describe_mounted(const LensFit& fit, double reach_px, Camera& camera) {
 }
 
 void describe_centre(const LensFit& fit, double reach_px, Camera& camera) {
-    // So small a step that differences are derivatives, for any parameter.
+    // The step is so small that differences are derivatives, for any parameter.
     constexpr double kStep_sigmas = 0.01;
     const CentrePose here = centre_pose(camera, camera);
     Eigen::Matrix<double, 3, 8> derivative;

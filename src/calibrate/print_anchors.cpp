@@ -9,14 +9,14 @@ namespace {
 
 constexpr double kTileCells = 24;
 constexpr int kLargestTile_px = 2048;
-/// Where dots are nearer to each other than this, crops are magnified.
+/// Spacing below which crops are magnified.
 constexpr double kSmallSpacing_px = 9;
-/// So many crops say how far apart the dots are.
+/// Number of crops from which the spacing is known well enough.
 constexpr std::size_t kEnoughProbes = 40;
-/// Pixels of the crops of one kind that are looked at first, spread over the page.
+/// Number of pixels in the first crops of one kind, spread over the page.
 constexpr int kFirstLook_px = 8'000'000;
 
-/// Side of the crops that are tried, and how they are magnified: 8 cells and more have to fit.
+/// Side of a crop that is tried, and its magnification; at least 8 cells must fit.
 struct Probe {
     int side_px = 0;
     int zoom = 1;
@@ -36,7 +36,7 @@ void CropLocator::use_effort(Effort effort) {
 
 std::optional<Tiling> CropLocator::choose_tiling(const CropDone& done) {
     for (const bool thorough : {true, false}) {
-        // Few crops with all effort, and if they show nothing, every corner of the page with less.
+        // First some crops are located with full effort; if they show nothing, all crops with less.
         use_effort(thorough ? Effort::twice : Effort::once);
         for (const Probe& probe : kProbes) {
             zoom_ = probe.zoom;
@@ -55,7 +55,7 @@ std::optional<Tiling> CropLocator::choose_tiling(const CropDone& done) {
     return std::nullopt;
 }
 
-/// Median distance of neighbouring dots in every `step`-th tile that shows a pattern; 0: in none.
+/// Returns the median spacing in every `step`-th tile that shows a pattern; 0 if none does.
 double CropLocator::probe_spacing_px(const Tiling& tiling, int step, const CropDone& done) {
     std::vector<double> spacings_px;
     for (int tile = 0; tile < tiling.count() && spacings_px.size() < kEnoughProbes; tile += step) {
@@ -104,7 +104,7 @@ std::optional<Anchor> CropLocator::locate_in(const PixelRect& rect) {
     return anchor;
 }
 
-/// The crop, each pixel made `zoom_` x `zoom_`, with values between those of the scan.
+/// Returns the crop magnified by `zoom_`, with interpolated pixels.
 ImageView CropLocator::magnified(const PixelRect& rect) {
     const int width = rect.u_end - rect.u_begin;
     const int height = rect.v_end - rect.v_begin;

@@ -12,27 +12,28 @@
 
 namespace dotpose::calibrate {
 
+/// One such place.
 struct Anchor {
     int tile = 0;
     LocalMap map;
     Section section;
 };
 
-/// Told after each crop.
+/// Called after each crop.
 using CropDone = std::function<void()>;
 
 /// Runs `locate` on crops of a scan.
 class CropLocator {
   public:
-    /// Without a profile, it is found out from all crops.
+    /// Without a profile, it is found from all crops.
     CropLocator(const ImageView& scan, std::optional<Profile> profile);
 
-    /// Side of tiles that hold some 24 x 24 cells; nothing if no crop of any size shows a pattern.
-    /// The crops may be magnified: `locate` needs 6 px from dot to dot.
+    /// Returns tiles that hold about 24 x 24 cells; none if no crop of any size shows a pattern.
+    /// The crops may be magnified, because `locate` needs 6 px from dot to dot.
     std::optional<Tiling> choose_tiling(const CropDone& done);
 
-    /// Locates in every second tile, with some of its surroundings, like the black fields of a
-    /// chessboard; the tiles between are quicker followed than located in.
+    /// Locates in every second tile, like the black fields of a chessboard, with some surroundings;
+    /// it is quicker to follow the grid into the tiles between than to locate there.
     std::vector<Anchor> find_anchors(const Tiling& tiling, const CropDone& done);
 
     const CodeReader& code() const { return reader_; }

@@ -9,20 +9,20 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Outer lines of cells belong to a field if this share of the cells, and the share above of the
-/// dots, read right.
+/// Outer lines of cells belong to a field if at least this share of their cells, and
+/// kLeastRightShare of their dots, read right.
 constexpr double kLeastLineShare = 0.5;
-/// And if they have this share of the dots of the longest line.
+/// They must also have more than this share of the dots of the longest line.
 constexpr double kLeastLength = 0.15;
 
-/// A part of the scan with the map by which to look for cells in it.
+/// A part of the scan, and the map by which its cells are found.
 struct View {
     LocalMap map;
     PixelRect rect;
 };
 
-/// A tile with its own map, or with those of its neighbours: a tile that shows only the edge of a
-/// field, beside other print, has none.
+/// Returns a tile with its own map; if it has none, with those of its neighbours, because a tile
+/// that shows only the edge of a field, beside other print, has no map.
 std::vector<View> views_of(int tile, const Tiling& tiling, const Field& field) {
     const PixelRect rect = tiling.rect(tile);
     if (const auto& own = field.maps[static_cast<std::size_t>(tile)]) return {{*own, rect}};
@@ -38,7 +38,7 @@ std::vector<View> views_of(int tile, const Tiling& tiling, const Field& field) {
     return views;
 }
 
-/// The rectangle of cells that the maps of a field can reach, none of them seen yet.
+/// Returns the rectangle of cells that the maps of a field can reach, none of them seen yet.
 CellGrid empty_grid(const Tiling& tiling, const Field& field) {
     Vector2d low = Vector2d::Constant(1e18);
     Vector2d high = -low;
@@ -70,14 +70,14 @@ CellGrid empty_grid(const Tiling& tiling, const Field& field) {
     return grid;
 }
 
-/// How much of a column or row of cells was looked at, and how much of that reads right.
+/// Counts of a column or row: cells that were measured, dots among them, and dots that read right.
 struct Coverage {
     int seen = 0;
     int dots = 0;
     int right = 0;
 };
 
-/// Takes outer columns and rows off a grid until they read right.
+/// Removes outer columns and rows from a grid until the outermost ones read right.
 class Trimmer {
   public:
     Trimmer(const CellGrid& grid, const std::vector<bool>& seen) : grid_(grid), seen_(seen) {
@@ -131,7 +131,8 @@ class Trimmer {
         return coverage;
     }
 
-    /// A few cells of a line that is cut off, or of other print, do not make it a line of dots.
+    /// Whether a line belongs to the field; a few cells of a cut-off line, or of other print, are
+    /// not enough.
     static bool is_enough(const Coverage& line, int longest) {
         return line.right >= kLeastLineShare * line.seen &&
                line.right >= kLeastRightShare * line.dots && line.right > kLeastLength * longest;
@@ -163,7 +164,7 @@ CellGrid collect_cells(const ImageView& scan, const Tiling& tiling, const Field&
                 const std::int64_t j = std::int64_t{cell.y} - grid.origin.y;
                 if (i < 0 || j < 0 || i >= grid.columns || j >= grid.rows) continue;
                 const auto index = static_cast<std::size_t>(j * grid.columns + i);
-                // Views overlap: what reads right counts.
+                // Views overlap; a cell that reads right in one of them counts.
                 if (!grid.cells[index].is_right()) grid.cells[index] = cell;
                 seen[index] = true;
             }

@@ -1,4 +1,4 @@
-// All cells of one field.
+// Print cells: collects all cells of one field.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@ struct CellGrid {
     Cell origin;
     int columns = 0;
     int rows = 0;
-    std::vector<SeenCell> cells;  ///< those never looked at have no dot
+    std::vector<SeenCell> cells;  ///< cells that were not measured have no dot
 
     const SeenCell& at(int i, int j) const {
         return cells[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) +
@@ -20,8 +20,8 @@ struct CellGrid {
     }
 };
 
-/// Measures all cells of a field. Outer columns and rows in which fewer than half of the cells read
-/// right are not part of it. No columns if nothing is left.
+/// Measures all cells of a field. Outer columns and rows of which less than half reads right are
+/// left out. If nothing is left, the grid has no columns.
 CellGrid collect_cells(const ImageView& scan, const Tiling& tiling, const Field& field);
 
 }  // namespace dotpose::calibrate

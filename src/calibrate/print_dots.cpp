@@ -12,23 +12,24 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr std::array kSymbols = {Symbol::up, Symbol::left, Symbol::right, Symbol::down};
-/// Farther from its intersection than this, in spacings, ink belongs to another dot.
+/// Greatest distance of ink from its intersection, in spacings; farther ink belongs to another dot.
 constexpr double kFarthest = 0.42;
-/// Less dark than this share of a dot is no dot.
+/// Least darkness of a dot, as a share of that of a typical one.
 constexpr double kLeastShare = 0.35;
-/// Darkness below this share of a dot's does not move its centre: noise, and ringing of JPEG.
+/// Share of a dot's darkness that is subtracted before its centroid is computed: noise and ringing
+/// of JPEG.
 constexpr double kFloorShare = 0.15;
-/// Dots are summed up to half the way to the nearest neighbour there can be, in spacings.
+/// Radius, in spacings, within which a dot is summed up: half the way to the nearest possible dot.
 constexpr double kReach = 1.0 / 3;
-/// Print on a cell's border is no dot if it is darker than this share of one, text or pictures, and
-/// than noise makes blank paper by chance.
+/// Other print, such as text or pictures, is assumed where a cell's border is darker than this
+/// share of a dot's darkness, and darker than this number of standard deviations of blank paper.
 constexpr double kOtherPrintShare = 0.35;
 constexpr double kOtherPrint_sigmas = 6;
 constexpr int kCentrings = 4;
 constexpr double kCentred_px = 0.01;
 constexpr int kLeastToFit = 30;
 
-/// Median; reorders.
+/// Returns the median; reorders the values.
 double median(std::vector<double>& values) {
     if (values.empty()) return 0;
     const auto middle = values.begin() + static_cast<long>(values.size() / 2);
@@ -36,7 +37,7 @@ double median(std::vector<double>& values) {
     return *middle;
 }
 
-/// Mean of the middle half.
+/// Returns the mean of the middle half of the values.
 double middle_mean(std::vector<double>& values) {
     if (values.empty()) return 0;
     std::ranges::sort(values);
@@ -47,6 +48,7 @@ double middle_mean(std::vector<double>& values) {
     return sum / static_cast<double>(values.size() - 2 * quarter);
 }
 
+/// Returns the grey level at a point, interpolated linearly.
 double level_at(const ImageView& scan, const Vector2d& pixel) {
     const double u = std::clamp(pixel.x(), 0.0, scan.width_px - 1.001);
     const double v = std::clamp(pixel.y(), 0.0, scan.height_px - 1.001);
@@ -67,7 +69,7 @@ struct CellRange {
     std::int64_t y_end = 0;
 };
 
-/// Cells that can lie in a rectangle.
+/// Returns the cells that may lie in a rectangle.
 CellRange cells_in(const PixelRect& rect, const LocalMap& map) {
     Vector2d low = Vector2d::Constant(1e18);
     Vector2d high = -low;
@@ -87,7 +89,7 @@ CellRange cells_in(const PixelRect& rect, const LocalMap& map) {
     return {first(low.x()), end(high.x()), first(low.y()), end(high.y())};
 }
 
-/// Measures dots in the light of one tile.
+/// Measures dots in one tile, relative to its paper.
 class Meter {
   public:
     Meter(const ImageView& scan, const LocalMap& map, double displacement, double paper)
@@ -102,7 +104,7 @@ class Meter {
           paper_(paper),
           per_paper_(1 / paper) {}
 
-    /// The likeliest of the four places of a dot, and how dark it is there.
+    /// Returns the greatest darkness among the four places of a dot; sets `place_px` to that place.
     double likeliest(const Vector2d& intersection_px, Vector2d& place_px) const {
         double best = -1e9;
         for (const Symbol symbol : kSymbols) {
@@ -116,7 +118,7 @@ class Meter {
         return best;
     }
 
-    /// Centres on the dot near `place_px`, starting there, and measures it.
+    /// Measures the dot near `place_px`, after moving to its centroid from there.
     void measure(const Vector2d& intersection_px, Vector2d place_px, double strength,
                  SeenCell& cell) const {
         double moved_px = 1;
@@ -140,9 +142,9 @@ class Meter {
         cell.mass_px2 = static_cast<float>(mass(place_px));
     }
 
-    /// Whether the border of a cell is no blank paper: by `least_darkness` darker or, where most of
-    /// the tile is filled with grey, lighter. Left out are the middles of its sides, where swollen
-    /// dots may run together.
+    /// Whether the border of a cell is not blank: darker by `least_darkness` or, where most of the
+    /// tile is filled with grey, lighter. The middles of the cell's sides do not count, because
+    /// swollen dots may run together there.
     bool is_covered(const Vector2d& cell, double least_darkness) const {
         for (const double along : {-0.5, -0.25, 0.25, 0.5}) {
             for (const double across : {-0.5, 0.5}) {
@@ -157,7 +159,7 @@ class Meter {
     }
 
   private:
-    /// Mean darkness of five points.
+    /// Returns the mean darkness of five points around `p`.
     double strength_at(const Vector2d& p) const {
         double sum = darkness_at(scan_, p, paper_);
         for (const double step : {-sample_px_, sample_px_}) {
@@ -212,14 +214,15 @@ class Meter {
     Eigen::Matrix2d cells_per_px_;
     double displacement_;
     double reach_px_;
-    double inner_px2_;  ///< squared distances from which on and to which pixels count in part
+    double inner_px2_;  ///< squared distances between which pixels count in part
     double outer_px2_;
     double sample_px_;
     double paper_;
     double per_paper_;
 };
 
-/// Level of the paper in the corners of the cells, which no dot comes near, and its noise.
+/// Sets the level of the paper, from the corners of the cells, which no dot comes near, and its
+/// noise.
 void measure_paper(const ImageView& scan, const PixelRect& rect, const LocalMap& map,
                    SeenTile& tile) {
     const CellRange range = cells_in(rect, map);
@@ -232,7 +235,7 @@ void measure_paper(const ImageView& scan, const PixelRect& rect, const LocalMap&
     }
     tile.paper = middle_mean(levels);
     if (tile.paper <= 0) return;
-    // Half of what is normally distributed lies within 0.6745 standard deviations.
+    // Half of a normal distribution lies within 0.6745 standard deviations.
     constexpr double kSigmaPerQuartiles = 1 / (2 * 0.6745);
     const std::size_t quarter = levels.size() / 4;
     tile.noise =
@@ -279,7 +282,7 @@ SeenTile measure_tile(const ImageView& scan, const PixelRect& rect, const LocalM
     }
     tile.strength = median(strengths);
     const double expected = strength.value_or(tile.strength);
-    // Noise does not hide print that is as dark as a dot.
+    // However great the noise, print as dark as a dot counts as other print.
     const double other_print =
         std::max(kOtherPrintShare * expected, std::min(kOtherPrint_sigmas * tile.noise, expected));
     for (std::size_t i = 0; i < tile.cells.size(); ++i) {
@@ -302,7 +305,7 @@ std::optional<LocalMap> fit_map(const SeenTile& tile, const Code& code,
     LocalMap map;
     map.centre_cell = middle;
     map.perspective_per_cell = perspective.at(middle);
-    // With the perspective known, the rest is linear: in the cells as they would be without it.
+    // With the perspective known, the map is linear in the cells as they would be without it.
     const auto without = [&](const SeenCell& cell) {
         const Vector2d d = code.dot_cell(cell.x, cell.y, cell.nominal) - middle;
         return Vector2d(d / (1 + map.perspective_per_cell.dot(d)));
@@ -316,7 +319,7 @@ std::optional<LocalMap> fit_map(const SeenTile& tile, const Code& code,
         squares += c * c.transpose();
         products += c * cell.centre_px().transpose();
     }
-    // A single line of dots says nothing across it.
+    // A single line of dots does not determine the map across it.
     const Eigen::Matrix2d spread = squares.topLeftCorner<2, 2>();
     if (spread.determinant() < 1e-3 * spread.trace() * spread.trace()) return std::nullopt;
     const Eigen::Matrix<double, 3, 2> solution = squares.ldlt().solve(products);

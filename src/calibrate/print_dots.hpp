@@ -1,4 +1,4 @@
-// Measures the dots of one tile of a scan where a map says they should be.
+// Print dots: measures the dots of one tile of a scan where a map expects them.
 #pragma once
 
 #include <cstdint>
@@ -17,22 +17,24 @@ struct Code {
     double displacement = 1.0 / 6;  ///< in spacings
 
     Symbol symbol(std::int64_t x, std::int64_t y) const;
-    /// Nominal place of a dot, in cells.
+    /// Returns the nominal place of a dot, in cells.
     Eigen::Vector2d dot_cell(std::int64_t x, std::int64_t y, Symbol symbol) const;
 };
 
-/// One cell, as seen. Darkness is relative to the paper: 0 paper, 1 black.
+/// The measurement of one cell. Darkness is relative to the paper: 0 paper, 1 black.
 struct SeenCell {
-    std::uint32_t x = 0;  ///< the cell
+    std::uint32_t x = 0;  ///< column of the cell
     std::uint32_t y = 0;
     Symbol nominal = Symbol::up;
-    bool is_covered = false;   ///< other print crosses the cell's border, where no dot comes near
-    Symbol read = Symbol::up;  ///< with a dot only, as all below
+    bool is_covered = false;  ///< whether other print crosses the cell's border, where no dot comes
+                              ///< near
+    Symbol read = Symbol::up;  ///< valid with a dot only, as all members below
     bool has_dot = false;
     float u_px = 0;  ///< centre
     float v_px = 0;
-    float strength = 0;  ///< mean darkness around its middle over that to be expected; always known
-    float mass_px2 = 0;  ///< darkness summed over the dot
+    float strength = 0;  ///< mean darkness around its middle, relative to the expected one; always
+                         ///< valid
+    float mass_px2 = 0;  ///< sum of darkness over the dot
     float peak = 0;      ///< darkness of its middle
     float paper = 0;     ///< grey level of the blank paper around
 
@@ -40,24 +42,26 @@ struct SeenCell {
     bool is_right() const { return has_dot && read == nominal; }
 };
 
+/// The measurement of one tile.
 struct SeenTile {
     std::vector<SeenCell> cells;
-    double paper = 0;     ///< grey level of the blank paper between dots; 0: none to be seen
+    double paper = 0;     ///< grey level of the blank paper between dots; 0: no paper is visible
     double noise = 0;     ///< standard deviation of the darkness of blank paper
     double strength = 0;  ///< median over the cells of the darkness of the likeliest place
     int dots = 0;
-    int right = 0;  ///< dots that read as they should
+    int right = 0;  ///< number of dots that read right
 };
 
 /// Measures all cells of the code plane whose intersections lie in `rect` or within half a spacing
-/// of it. `strength`: darkness to be expected of a dot; without it, that of the tile itself.
+/// of it. `strength` is the expected darkness of a dot; without it, that of the tile itself is
+/// used.
 SeenTile measure_tile(const ImageView& scan, const PixelRect& rect, const LocalMap& map,
                       const Code& code, std::optional<double> strength);
 
-/// Darkness between paper and black at a point, by interpolation.
+/// Returns the darkness at a point, 0 for paper and 1 for black, by interpolation.
 double darkness_at(const ImageView& scan, const Eigen::Vector2d& pixel, double paper);
 
-/// The map fitted to the dots that read right; nothing if there are too few of them.
+/// Returns the map fitted to the dots that read right; none if there are too few.
 std::optional<LocalMap> fit_map(const SeenTile& tile, const Code& code,
                                 const Perspective& perspective);
 

@@ -13,14 +13,15 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Anchors continue each other if their cells agree to so many cells, and to this share of the
-/// distance between them: paper creeps, cameras see in perspective.
+/// Anchors belong to one field if their cells agree to this number of cells plus this share of the
+/// distance between them: paper stretches, and cameras see it in perspective.
 constexpr double kAgree_cells = 1.5;
 constexpr double kAgreeShare = 0.05;
-/// A tile belongs to a field if so many of its dots, and kLeastRightShare of all, read right.
+/// Least number of dots that must read right in a tile of a field; kLeastRightShare of all must,
+/// too.
 constexpr int kLeastRight = 12;
 
-/// The map of the tile in `field` that is nearest to a point, if any.
+/// Returns the map of `field` in the tile nearest to a point; null if it has none.
 const LocalMap* nearest_map(const Field& field, const Vector2d& pixel) {
     const LocalMap* nearest = nullptr;
     for (const auto& map : field.maps) {
@@ -64,7 +65,7 @@ std::vector<int> neighbours_of(int tile, const Tiling& tiling) {
     return neighbours;
 }
 
-/// Fits the maps that there are to the dots, and learns how dark dots and how light the paper are.
+/// Fits the existing maps to the dots, and sets the darkness of dots and the level of the paper.
 void refine_maps(const ImageView& scan, const Tiling& tiling, Field& field) {
     std::vector<double> papers;
     for (int t = 0; t < tiling.count(); ++t) {
@@ -83,9 +84,10 @@ void refine_maps(const ImageView& scan, const Tiling& tiling, Field& field) {
     field.paper = median_of(papers);
 }
 
-/// Gives a tile the map of its neighbour, continued; false if the tile shows no part of the field.
-/// First from the dots next to the neighbour, because a camera that is tilted or bends lines leads
-/// the grid away from where that map has it. With few dots, the neighbour's map is the better one.
+/// Extends the map of a neighbour into a tile. Returns false if the tile shows no part of the
+/// field. The map is first fitted to the dots next to the neighbour, because a tilted camera or a
+/// bent lens leads the grid away from the neighbour's map. With few dots, the neighbour's map is
+/// better.
 bool continue_into(int t, int from, const ImageView& scan, const Tiling& tiling, Field& field) {
     const PixelRect rect = tiling.rect(t);
     const LocalMap& beside = *field.maps[static_cast<std::size_t>(from)];
@@ -104,7 +106,7 @@ bool continue_into(int t, int from, const ImageView& scan, const Tiling& tiling,
     return true;
 }
 
-/// Carries the grid from tile to tile.
+/// Extends the grid from tile to tile.
 void spread(const ImageView& scan, const Tiling& tiling, Field& field) {
     std::deque<int> queue;
     for (int t = 0; t < tiling.count(); ++t) {
@@ -120,7 +122,8 @@ void spread(const ImageView& scan, const Tiling& tiling, Field& field) {
     }
 }
 
-/// The perspective in which the maps see the page; none if lengths hardly differ across it.
+/// Returns the perspective of the whole page, from the maps; none if lengths hardly differ across
+/// it.
 Perspective perspective_of(const Field& field) {
     constexpr double kNotable = 0.003;
     std::vector<Match> places;

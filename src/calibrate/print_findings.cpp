@@ -14,33 +14,35 @@ namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180;
 
-/// Deviations of the scale that no printer or paper makes by itself, and those worth a remark.
+/// Deviations of the scale: too large for any printer or paper, so that the driver must have
+/// scaled; and large enough for a remark.
 constexpr double kDriverScale = 0.015;
 constexpr double kNotableScale = 0.002;
 constexpr double kUnevenScale = 0.002;
-/// Beyond this, the pattern or the resolution is not what was said.
+/// Deviation of the scale beyond which the stated pattern or resolution must be wrong.
 constexpr double kImplausibleScale = 0.25;
 constexpr double kNotableRotation_rad = 0.2 * kDegree_rad;
 constexpr double kNotableSkew_rad = 0.1 * kDegree_rad;
 constexpr double kNotableDistortion_mm = 0.1;
-/// Dots that grew or shrank by more than what usual printers do.
+/// Growth of dots beyond what usual printers do.
 constexpr double kSwollenGain = 0.5;
 constexpr double kThinGain = -0.3;
 constexpr double kNotableShare = 0.01;
 constexpr double kLeastContrast = 0.2;
-/// Where there are fewer pixels from dot to dot, faults of single dots are the scan's own: scatter,
-/// in spacings, and share of wrong bits from which on it is to blame.
+/// Below this number of pixels per spacing, faults of single dots may come from the scan: from this
+/// scatter, in spacings, and from this share of wrong bits on, they are attributed to it.
 constexpr double kCoarse_px = 10;
 constexpr double kCoarseScatter = 0.05;
 constexpr double kCoarseWrongShare = 0.001;
 constexpr double kLeastSpacing_px = 5;
-/// A patch of a test page is good if no more of its cells than this are bad.
+/// Greatest share of bad cells in a good patch of a test page.
 constexpr double kGoodPatch = 0.005;
 
 std::string percent(double share, int decimals = 1) {
     return fmt::format("{:.{}f} %", 100 * share, decimals);
 }
 
+/// Writes the findings about a print.
 class Findings {
   public:
     Findings(const CheckPrintOptions& options, const PrintCheck& check,
@@ -203,7 +205,7 @@ class Findings {
                           percent(std::abs(ratio), 2), percent(field.scale_ratio->uncertainty, 2)));
     }
 
-    /// What a photo does not show of the dots.
+    /// Adds a remark about what a photo does not show of the dots.
     void remark_untold(const PrintField& field, bool are_dots_told) {
         if (field.are_sizes_told && are_dots_told) return;
         const double dot_px = field.dot_mm * field.spacing_px / field.pattern.spacing_mm;
@@ -233,7 +235,7 @@ class Findings {
                               "of {:.3f} mm; choose a larger --dot, and switch off toner saving",
                               field.dot_mm, field.pattern.dot_mm));
         }
-        // Where pixels are as large as dots, no dot is dark; its size says the same.
+        // Where pixels are as large as dots, no dot is dark, but `dot_mm` shows a pale dot as well.
         if (field.spacing_px >= kCoarse_px && field.contrast < kLeastContrast) {
             fault(FindingKind::pale,
                   fmt::format("the dots are only {} darker than the paper: print in black, "
@@ -286,17 +288,17 @@ class Findings {
     const CheckPrintOptions& options_;
     const PrintCheck& check_;
     std::vector<Finding>& findings_;
-    std::optional<std::size_t> field_;  ///< being judged
+    std::optional<std::size_t> field_;  ///< index of the field being judged
 };
 
-/// How far a printed dot is from what the pattern wants: a sixth of the spacing.
+/// Returns how far the size of printed dots is from the best one, a sixth of the spacing.
 double dot_error(const PrintField& field) {
     const double wanted_mm = field.pattern.spacing_mm / 6;
     return std::abs(std::log(std::max(field.dot_mm, 1e-6) / wanted_mm));
 }
 
-/// Of the patches that read well, for each spacing the one whose dots came out nearest to a sixth
-/// of it; of the spacings the finest, which gives the most dots in view.
+/// Chooses for each spacing, among the patches that read well, the one whose dots came out nearest
+/// to a sixth of it; and of the spacings the finest, which gives the most dots in view.
 void choose_best(PrintCheck& check) {
     std::map<double, std::size_t> best;
     for (std::size_t i = 0; i < check.fields.size(); ++i) {

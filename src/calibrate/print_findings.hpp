@@ -1,4 +1,4 @@
-// What the measures of a print mean for its user.
+// Print findings: what the measurements of a print mean for its user.
 #pragma once
 
 #include "dotpose/tools/check_print.hpp"

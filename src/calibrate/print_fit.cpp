@@ -19,25 +19,26 @@ using Parameters = Eigen::Matrix<double, 9, 1>;
 constexpr int kPerspective = 6;
 constexpr int kLens = 8;
 
-/// Lengths to divide by, so that all parameters are of one size.
+/// Lengths by which parameters are scaled to similar size.
 struct Reach {
     double paper_mm = 0;
     double seen = 0;
 };
 
-/// Which of the parameters are fitted.
+/// Which parameters are fitted.
 struct Free {
     bool perspective = false;
     bool lens = false;
 };
 
-/// The derivative of the lens's displacement at the place `q`, counted from its centre.
+/// Returns the derivative of the lens's displacement at the place `q`, counted from the lens
+/// centre.
 Matrix2d lens_slope(const PlaneFit& fit, const Vector2d& q) {
     return (1 + fit.lens * q.squaredNorm()) * Matrix2d::Identity() +
            2 * fit.lens * q * q.transpose();
 }
 
-/// One Gauss-Newton step over the matches whose residual is at most `limit`. Returns the rms
+/// Makes one Gauss-Newton step over the matches whose residual is at most `limit`. Returns the rms
 /// residual before the step.
 double step(const std::vector<Match>& matches, Free free, const Reach& reach, double limit,
             PlaneFit& fit) {
@@ -115,7 +116,7 @@ PlaneFit fit_plane(const std::vector<Match>& matches, ViewModel model,
     }
     double limit = std::numeric_limits<double>::infinity();
     for (int round = 0; round < kRounds; ++round) {
-        // The first steps go without perspective and lens, which need a start that is nearly right.
+        // The first steps fix perspective and lens, which need a start that is nearly right.
         for (int i = 0; i < kSteps; ++i) {
             const bool has_start = round > 0 || i > 0;
             const Free free{has_start && model != ViewModel::flat,

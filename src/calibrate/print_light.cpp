@@ -11,12 +11,13 @@ namespace {
 
 using Terms = Eigen::Matrix<double, 6, 1>;
 
-/// A surface of second degree takes so many tiles, a plane so many; with fewer, the edges of the
-/// field, where tiles show other print as well, weigh too much.
+/// Least number of tiles for a surface of second degree, and for a plane; with fewer, the edges of
+/// the field, where tiles also show other print, have too much weight.
 constexpr int kEnoughForCurves = 60;
 constexpr int kEnoughForSlopes = 25;
 
-/// Constant, slopes and curves at the middle of a tile, as far as `count` of them are asked for.
+/// Returns the terms of the surface at the middle of a tile, constant, slopes and curves, of which
+/// the first `count` are used.
 Terms terms_of(int tile, const Tiling& tiling, int count) {
     const double u = 2.0 * (tile % tiling.columns + 0.5) / tiling.columns - 1;
     const double v = 2.0 * (tile / tiling.columns + 0.5) / tiling.rows - 1;
@@ -29,7 +30,7 @@ Terms terms_of(int tile, const Tiling& tiling, int count) {
 struct Sample {
     Terms terms;
     double strength = 0;
-    double off = 0;  ///< from the surface
+    double off = 0;  ///< distance from the surface
 };
 
 double median(std::vector<Sample>& samples, double Sample::*value) {
@@ -38,10 +39,10 @@ double median(std::vector<Sample>& samples, double Sample::*value) {
     return (*middle).*value;
 }
 
-/// Least squares from the median on, again and again without what lies far off.
+/// Fits a surface by least squares, beginning with the median, in rounds without outliers.
 Terms surface_through(std::vector<Sample>& samples) {
     constexpr int kRounds = 5;
-    constexpr double kOutlier = 4;  // medians
+    constexpr double kOutlier = 4;  // in medians of the distances
     Terms surface = Terms::Zero();
     surface[0] = median(samples, &Sample::strength);
     for (int round = 0; round < kRounds; ++round) {
@@ -75,7 +76,7 @@ std::vector<double> smooth_strengths(const Field& field, const Tiling& tiling) {
     std::vector<double> result(field.strengths.size());
     if (samples.empty()) return result;
     const Terms surface = surface_through(samples);
-    // Where no tile is known, a surface leads anywhere.
+    // Far from known tiles the surface may take any value, so it is limited.
     const auto [least, most] = std::ranges::minmax(samples, {}, &Sample::strength);
     for (int t = 0; t < tiling.count(); ++t) {
         result[static_cast<std::size_t>(t)] =

@@ -1,4 +1,4 @@
-// How dark dots are to be expected across a page: light and focus change slowly over it.
+// Print light: the expected darkness of dots across a page, on which light and focus change slowly.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace dotpose::calibrate {
 
-/// For every tile, the darkness of a dot by a smooth surface through those of the tiles with maps.
-/// A tile in which many dots are missing does not bend it.
+/// Returns for every tile the darkness of a dot, by a smooth surface through those of the tiles
+/// with maps. Tiles in which many dots are missing do not bend it.
 std::vector<double> smooth_strengths(const Field& field, const Tiling& tiling);
 
 }  // namespace dotpose::calibrate

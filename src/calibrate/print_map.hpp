@@ -1,4 +1,4 @@
-// Where the cells of the code are seen in a scan, around one place.
+// Print map: where the cells of the code are seen in a scan, around one place.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,8 +8,8 @@
 
 namespace dotpose::calibrate {
 
-/// Maps between the code plane, in cells, and the scan, in px. Good for some tens of cells.
-/// pixel = centre + (px_per_cell * d) / (1 + perspective . d), with d = cell - centre.
+/// Maps between the code plane, in cells, and the scan, in px, within some tens of cells: pixel =
+/// centre + (px_per_cell * d) / (1 + perspective . d), with d = cell - centre.
 struct LocalMap {
     Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
     Eigen::Vector2d centre_cell = Eigen::Vector2d::Zero();
@@ -27,7 +27,8 @@ struct LocalMap {
     double spacing_px() const { return std::sqrt(std::abs(px_per_cell.determinant())); }
 };
 
-/// How a camera sees the paper as a whole: the perspective of the map around any place.
+/// The perspective in which a camera sees the whole paper; `at` gives that of the map around a
+/// place.
 struct Perspective {
     Eigen::Vector2d centre_cell = Eigen::Vector2d::Zero();
     Eigen::Vector2d per_cell = Eigen::Vector2d::Zero();
@@ -47,14 +48,14 @@ struct PixelRect {
     Eigen::Vector2d centre_px() const {
         return {0.5 * (u_begin + u_end - 1), 0.5 * (v_begin + v_end - 1)};
     }
-    /// Whether a point lies in it or at most `border_px` outside.
+    /// Whether a point lies in the rectangle or at most `border_px` outside.
     bool contains(const Eigen::Vector2d& pixel, double border_px) const {
         return pixel.x() >= u_begin - 0.5 - border_px && pixel.x() < u_end - 0.5 + border_px &&
                pixel.y() >= v_begin - 0.5 - border_px && pixel.y() < v_end - 0.5 + border_px;
     }
 };
 
-/// Cells of the scan are looked for tile by tile.
+/// The tiles of a scan, in which cells are searched one after the other.
 struct Tiling {
     int width_px = 0;
     int height_px = 0;

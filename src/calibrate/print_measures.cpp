@@ -15,11 +15,11 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kInch_mm = 25.4;
-/// Two dots have run together if it is nearly as dark between them as on them.
+/// Darkness between two dots, relative to the dots, from which they count as run together.
 constexpr double kMergedShare = 0.6;
-/// Fewest dots of a part of the page whose distortion is told.
+/// Fewest dots of a part of the page whose distortion is reported.
 constexpr int kLeastBinDots = 60;
-/// Ink is taken to be as dark as the darkest dots if these are darker than expected.
+/// Ink is assumed to be as dark as this quantile of the dots if they are darker than expected.
 constexpr double kDarkest = 0.98;
 constexpr double kSigmaPerDeviation = 1.4826;
 
@@ -30,7 +30,7 @@ double quantile(std::vector<double>& values, double share) {
     return values[index];
 }
 
-/// Between pixels and the units of the fit: mm of the scan, or px of a photo.
+/// Conversion between pixels and the units of the fit: mm of the scan, or px of a photo.
 struct Units {
     Vector2d per_px = Vector2d::Ones();
 
@@ -42,7 +42,8 @@ struct Units {
     Vector2d to_px(const Vector2d& value) const { return value.cwiseQuotient(per_px); }
 };
 
-/// Places on the paper from the first cell of the region: small numbers.
+/// Returns the nominal place of a cell's dot in mm from the first cell of the region, which keeps
+/// numbers small.
 Vector2d nominal_mm(const CellGrid& grid, const Field& field, const Pattern& pattern,
                     const SeenCell& cell) {
     const Vector2d origin(grid.origin.x, grid.origin.y);
@@ -63,11 +64,11 @@ PrintScale scale_of(const Eigen::Matrix2d& linear) {
     return scale;
 }
 
-/// Where the dots of a field should be seen.
+/// The fit of a field, which says where its dots should be seen.
 struct Fitted {
     PlaneFit fit;
     Units units;
-    bool is_photo = false;  ///< how large a mm is seen depends on the place
+    bool is_photo = false;  ///< whether the scale depends on the place
 
     double mm_per_unit(const Vector2d& place_mm) const {
         return is_photo ? 1 / fit.units_per_mm(place_mm) : 1;
@@ -75,13 +76,14 @@ struct Fitted {
     double mm_per_px(const Vector2d& place_mm) const {
         return mm_per_unit(place_mm) * std::sqrt(units.per_px.x() * units.per_px.y());
     }
-    /// How far a dot is from there, on the paper.
+    /// Returns the distance of a dot from its fitted place, in mm on the paper.
     Vector2d off_mm(const Vector2d& place_mm, const Vector2d& seen_px) const {
         return mm_per_unit(place_mm) * (units.from_px(seen_px) - fit.seen(place_mm));
     }
 };
 
-/// From the differences of neighbours, which distortion moves together.
+/// Returns the scatter of single dots, from the differences of neighbours, which distortion moves
+/// together.
 double measure_scatter_mm(const Measuring& m, const Fitted& fitted, const Pattern& pattern) {
     std::vector<double> steps_mm;
     const auto off_mm = [&](const SeenCell& cell) {
@@ -192,11 +194,12 @@ void measure_dots(const Measuring& m, const Fitted& fitted, PrintField& result) 
     result.dot_sigma_mm = kSigmaPerDeviation * quantile(diameters_mm, 0.5);
 }
 
-/// Whether what a photo shows of its dots is more than noise, blur, and the tone curves of cameras.
+/// Sets whether a photo shows sizes and faults of dots despite noise, blur, and the tone curves of
+/// cameras.
 void judge_photo_of_dots(const Measuring& m, PrintField& result) {
-    // A dot's edge is uncertain by about a pixel.
+    // The edge of a dot is uncertain by about a pixel.
     constexpr double kLeastDot_px = 6;
-    // A place without a dot has to be told from one with a dot of a third of the usual darkness.
+    // A place without a dot must differ from one with a dot of a third of the usual darkness.
     constexpr double kLargestSpread = 0.12;
     const double mm_per_px = result.pattern.spacing_mm / result.spacing_px;
     result.are_sizes_told = result.dot_mm / mm_per_px >= kLeastDot_px;

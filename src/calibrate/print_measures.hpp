@@ -1,4 +1,4 @@
-// What the cells of a field say about the print.
+// Print measures: measurements of a print from the cells of a field.
 #pragma once
 
 #include <optional>
@@ -10,19 +10,20 @@
 
 namespace dotpose::calibrate {
 
-/// All that is known of a field.
+/// The inputs of the measurements of a field.
 struct Measuring {
     const ImageView& scan;
     const Field& field;
     const CellGrid& grid;
-    std::optional<Resolution> resolution;  ///< of a scan; none for photos
+    std::optional<Resolution> resolution;  ///< resolution of a scan; none for photos
     double ink_reflectance = 0;
 };
 
-/// The dots that read right: nominal places from the first cell on, and places in px.
+/// Returns the dots that read right: nominal places from the first cell on, and seen places in px.
 std::vector<Match> matches_of(const CellGrid& grid, const Field& field, const Pattern& pattern);
 
-/// Fills `result` apart from its pattern. False if fewer than `least_dots` dots read right.
+/// Measures a field: fills `result` except for its pattern. Returns false if fewer than
+/// `least_dots` dots read right.
 bool measure_field(const Measuring& measuring, std::size_t least_dots, PrintField& result);
 
 }  // namespace dotpose::calibrate

@@ -8,21 +8,22 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// A hand holds a camera straight to a degree or so, by which lengths change by 1 % across its
-/// view; scanners bend a page by less than a tenth of that.
+/// Relative change of lengths across the page from which a camera is assumed: a camera held
+/// straight by hand is off by about a degree, which gives 1 %; scanners bend a page by less than a
+/// tenth of that.
 constexpr double kLeastSign = 0.003;
-/// And a camera explains so much of what a flat page leaves open. The carriage of a scanner that
-/// runs unevenly moves dots along one axis only.
+/// Greatest residual of a camera's fit, relative to that of a flat page, from which a camera is
+/// assumed. The carriage of a scanner that runs unevenly moves dots along one axis only.
 constexpr double kLargestResidual = 0.8;
 
-/// The plane that a camera of one focal length and principal point sees.
+/// The plane that a camera with a given focal length and principal point sees.
 struct Plane {
-    double x_over_y = 1;   ///< lengths along the two axes of the paper
-    double cos_angle = 0;  ///< between them
+    double x_over_y = 1;   ///< ratio of lengths along the two axes of the paper
+    double cos_angle = 0;  ///< cosine of the angle between them
 };
 
-/// With lengths in focal lengths, the homography's columns are the axes of the paper, turned and
-/// scaled; `principal`: where the camera looks, px from the middle of the image.
+/// Returns the plane. With lengths in focal lengths, the homography's columns are the axes of the
+/// paper, turned and scaled; `principal` is the principal point in px from the middle of the image.
 Plane plane_seen(const PlaneFit& fit, double focal_px, const Vector2d& principal) {
     const Vector2d& p = fit.perspective_per_mm;
     const Vector2d offset = fit.offset - principal;
@@ -38,11 +39,13 @@ Plane plane_seen(const PlaneFit& fit, double focal_px, const Vector2d& principal
 }  // namespace
 
 std::optional<ScaleRatio> scale_ratio_of(const PlaneFit& fit, double longer_side_px) {
-    // From wide angles to short telephoto lenses, such as phones have.
+    // Range of focal lengths, in image sides, from wide angles to the short telephoto lenses of
+    // phones.
     constexpr double kShortestFocal = 0.5;
     constexpr double kLongestFocal = 2;
     constexpr double kFocalStep = 1.02;
-    // How far off the middle cameras look, and how far from right angles printers are.
+    // Greatest distance of a principal point from the middle, in image sides, and greatest cosine
+    // of the angle between printed axes.
     constexpr double kPrincipalShift = 0.01;
     constexpr double kLargestCos = 0.002;
     constexpr double kLargestUncertainty = 0.005;
@@ -59,7 +62,7 @@ std::optional<ScaleRatio> scale_ratio_of(const PlaneFit& fit, double longer_side
         }
     }
     if (least > most || most - least > 2 * kLargestUncertainty) return std::nullopt;
-    // Lenses have more terms than the one that is fitted.
+    // Real lenses have more terms than the one that is fitted.
     constexpr double kLensUncertainty = 0.0005;
     return ScaleRatio{0.5 * (least + most), 0.5 * (most - least) + kLensUncertainty};
 }

@@ -1,4 +1,4 @@
-// How an image of a page was taken: on a flatbed, or by a camera.
+// Print view: whether an image of a page was taken on a flatbed or by a camera.
 #pragma once
 
 #include <optional>
@@ -9,12 +9,14 @@
 
 namespace dotpose::calibrate {
 
-/// Perspective and lens that no scanner has; nothing if the page lies as on a scanner.
+/// Returns perspective and lens if they are larger than on any scanner; none if the page lies as on
+/// a scanner.
 std::optional<CameraSigns> signs_of_camera(const std::vector<Match>& matches,
                                            const Eigen::Vector2d& middle_px);
 
-/// The ratio of the scales of a page in a photo of square pixels, by a fit of ViewModel::camera
-/// whose `lens_centre` is the middle of the image. `longer_side_px`: of the image.
+/// Returns the ratio of the scales of a page in a photo with square pixels, from a fit of
+/// ViewModel::camera whose `lens_centre` is the middle of the image, with its longer side
+/// `longer_side_px`. None if it is too uncertain.
 std::optional<ScaleRatio> scale_ratio_of(const PlaneFit& fit, double longer_side_px);
 
 }  // namespace dotpose::calibrate

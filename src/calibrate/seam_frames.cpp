@@ -14,14 +14,14 @@
 namespace dotpose::calibrate {
 namespace {
 
-/// A fix may lie beyond the page whose dots it was read from: by at most a frame.
+/// Greatest distance of a fix beyond the page whose dots it was read from: a frame.
 constexpr double kBeyondPage_mm = 400;
-/// For the scale along both axes to mean something.
+/// Fewest dots of a view, so that the scale along both axes is meaningful.
 constexpr std::size_t kLeastDots = 30;
-/// Once this share of a frame's dots is explained, no more parts are looked at.
+/// Share of a frame's dots from which no more of its parts are located.
 constexpr double kNearlyAll = 0.9;
 
-/// Along one axis: begin and length, as shares of the side.
+/// A part of the image along one axis: begin and length, as shares of the side.
 struct Stretch {
     double begin;
     double length;
@@ -29,7 +29,8 @@ struct Stretch {
 constexpr std::array kStretches = {Stretch{0, 1}, Stretch{0, 0.5}, Stretch{0.5, 0.5},
                                    Stretch{0, 0.66}, Stretch{0.34, 0.66}};
 
-/// The fix moved to another place, given in steps from where the pattern of the frame starts.
+/// Returns the fix moved to another place, given in steps from where the pattern of the frame
+/// starts.
 Fix moved_to(const Fix& fix, const Trace& trace, Vec step) {
     const Place place = moved(trace.options.profile, trace.decoding.place, step.x, step.y);
     Fix result = fix;
@@ -48,8 +49,8 @@ Vec mean_step(const std::vector<LocatedDot>& dots) {
             static_cast<std::int32_t>(std::lround(sum.y()))};
 }
 
-/// Place of a fix on a sheet as it was meant to be printed, mm from its first intersection; it may
-/// lie beyond the page.
+/// Place of a fix on a sheet as it was meant to be printed, in mm from its first intersection; it
+/// may lie beyond the page.
 struct NominalPlace {
     Eigen::Vector2d mm;
     double theta_rad;
@@ -66,8 +67,8 @@ std::optional<NominalPlace> place_beyond(const SheetEntry& entry, Profile profil
                         place->theta_rad};
 }
 
-/// By a camera whose view is known: an affine map fitted to the dots. `first`: where the steps
-/// start.
+/// Sets the view from a camera whose view is known: an affine map fitted to the dots. `first` is
+/// the place where the steps start.
 void see_with_scale(const std::vector<LocatedDot>& dots, const Camera& camera,
                     const Eigen::Vector2d& first, double spacing_mm, SheetView& view) {
     std::vector<Eigen::Vector2d> points;
@@ -76,7 +77,7 @@ void see_with_scale(const std::vector<LocatedDot>& dots, const Camera& camera,
         points.emplace_back(point.x_mm, point.y_mm);
         view.middle += points.back() / static_cast<double>(dots.size());
     }
-    // Place, axes column by column, displacement.
+    // The parameters are place, axes column by column, and displacement.
     std::vector<DotEquation<7>> equations;
     for (std::size_t i = 0; i < dots.size(); ++i) {
         const Eigen::Vector2d p = points[i] - view.middle;
@@ -94,7 +95,7 @@ void see_with_scale(const std::vector<LocatedDot>& dots, const Camera& camera,
     view.rows = 6;
 }
 
-/// By the fix of any other camera: where its image centre lies, and its x axis.
+/// Sets the view from the fix of any other camera: the place of its image centre, and its x axis.
 void see_without_scale(const Fix& fix, const NominalPlace& centre, double spacing_mm,
                        SheetView& view) {
     const double c = std::cos(centre.theta_rad);
@@ -125,7 +126,7 @@ SeamLocator::SeamLocator(const std::vector<SheetEntry>& sheets, const std::optio
     }
 }
 
-/// The whole, then halves and corners, then smaller and larger parts.
+/// Returns the whole image, then halves and corners, then smaller and larger parts.
 std::vector<SeamLocator::Part> SeamLocator::parts_of(const GreyImage& image) {
     std::vector<Part> parts;
     const auto cut = [](const Stretch& stretch, int side, int& begin, int& length) {
@@ -156,8 +157,8 @@ std::vector<SheetView> SeamLocator::views_with(const GreyImage& image, Effort ef
     int dots_seen = 0;
     for (const Part& part : parts_of(image)) {
         const auto view = view_in(image, part, effort);
-        dots_seen =
-            std::max(dots_seen, locator_.trace().fix.dots_seen);  // first of all in the whole
+        // The first part is the whole image, so from then on this is the number of all its dots.
+        dots_seen = std::max(dots_seen, locator_.trace().fix.dots_seen);
         if (!view) continue;
         const auto same = std::ranges::find(views, view->sheet, &SheetView::sheet);
         if (same == views.end()) {
@@ -173,14 +174,15 @@ std::vector<SheetView> SeamLocator::views_with(const GreyImage& image, Effort ef
     return views;
 }
 
-/// The camera as it would be if its sensor ended with the part; wanted is the image centre.
+/// Returns the camera as if its sensor ended with the part; its reference point is the image
+/// centre.
 Camera SeamLocator::camera_of(const GreyImage& image, const Part& part) const {
     Camera camera;
     if (camera_) {
         camera = *camera_;
         if (camera.width_px != image.width_px || camera.height_px != image.height_px) {
             Options unused;
-            use_camera(camera, image.width_px, image.height_px, unused);  // says what is wrong
+            use_camera(camera, image.width_px, image.height_px, unused);  // throws the error
         }
     } else {
         camera.centre_px = {(image.width_px - 1) / 2.0, (image.height_px - 1) / 2.0};
@@ -222,7 +224,7 @@ std::optional<SheetView> SeamLocator::view_of(const Fix& fix, const Camera& came
     const double spacing_mm = entry.sheet.pattern.spacing_mm;
     SheetView view;
     view.sheet = static_cast<std::size_t>(&entry - sheets_.data());
-    // What lies beyond the sheet's edge are dots of another one.
+    // Dots beyond the sheet's edge belong to another sheet.
     std::erase_if(dots, [&](const LocatedDot& dot) {
         const Cell cell = moved(profile, trace.decoding.place, dot.step.x, dot.step.y).cell;
         const bool is_on = cell.x - entry.sheet.origin.x < unsigned(entry.sheet.columns) &&

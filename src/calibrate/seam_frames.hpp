@@ -1,4 +1,4 @@
-// Seam frames: what frames that show parts of several sheets tell of each.
+// Seam frames: how frames that show parts of several sheets lie on each of them.
 #pragma once
 
 #include <cstdint>
@@ -13,32 +13,32 @@
 
 namespace dotpose::calibrate {
 
-/// How one frame's camera lies on one sheet: the point q of the camera frame is seen at
-/// p = place + axes (q - middle), in mm of the sheet as it was meant to be printed, from its first
-/// intersection. A camera whose view
-/// is known measures in mm of its own; of any other one only the direction of its x axis and where
-/// its image centre lies are known, and `middle` is that centre.
+/// How one frame's camera lies on one sheet: the point q of the camera frame is seen at p = place +
+/// axes (q - middle), in mm of the sheet as it was meant to be printed, from its first
+/// intersection. A camera whose view is known measures in mm of its own. Of any other camera, only
+/// the direction of its x axis and the place of its image centre are known, and `middle` is that
+/// centre.
 struct SheetView {
-    std::size_t sheet = 0;  ///< index
+    std::size_t sheet = 0;  ///< index of the sheet
     int frame = 0;
     Eigen::Vector2d middle = Eigen::Vector2d::Zero();
     Eigen::Vector2d place = Eigen::Vector2d::Zero();
     Eigen::Matrix2d axes = Eigen::Matrix2d::Identity();
-    /// Makes the errors of place and axes (column by column) ones of deviation 1; rows beyond
-    /// `rows` are 0: what is not known.
+    /// Scales the errors of place and axes (column by column) to standard deviation 1; rows from
+    /// `rows` on are 0, because these combinations are not known.
     Eigen::Matrix<double, 6, 6> whitening = Eigen::Matrix<double, 6, 6>::Zero();
     int rows = 0;
-    std::vector<std::uint64_t> dots;  ///< their cells
+    std::vector<std::uint64_t> dots;  ///< cells of the dots
 
     bool has_scale() const { return rows == 6; }
 };
 
-/// Locates in parts of frames: a frame that shows two patterns is refused as a whole.
+/// Locates parts of frames, because a frame that shows two patterns is refused as a whole.
 class SeamLocator {
   public:
     SeamLocator(const std::vector<SheetEntry>& sheets, const std::optional<Camera>& camera);
 
-    /// All sheets that are seen, each by the part that shows most of it. Throws Error.
+    /// Returns all sheets that are seen, each by the part that shows most of it. Throws Error.
     std::vector<SheetView> views(const GreyImage& image);
 
   private:

@@ -15,19 +15,19 @@
 namespace dotpose::calibrate {
 namespace {
 
-/// Of the whitened residual of one view, beyond which it counts less: one in 70 by chance.
+/// Size of the whitened residual of a view beyond which it counts less: one in 70 by chance.
 constexpr double kRobust_sigmas = 4;
-/// What is not to move.
+/// Standard deviation of parameters that must not move.
 constexpr double kPinned = 1e-7;
-/// Of a camera's scale against the sheets', before the first frame.
+/// Relative standard deviation of a camera's scale against the sheets', before the first frame.
 constexpr double kCameraPrior = 0.03;
-/// Of a camera's aspect and skew, if its file does not tell; pixels are square.
+/// Standard deviation of a camera's aspect and skew if its file has none; pixels are square.
 constexpr double kSquarePrior = 0.002;
 
-/// A view, with camera, frame and sheet as parameters, in standard deviations.
+/// The residual of a view, by camera, frame and sheet as parameters, in standard deviations.
 struct ViewResidual {
     const SheetView& view;
-    Eigen::Vector2d first_mm;  ///< of the sheet's first intersection, from the page's corner
+    Eigen::Vector2d first_mm;  ///< place of the sheet's first intersection, from the page's corner
 
     template <typename T>
     bool operator()(const T* camera, const T* frame, const T* sheet, T* residual) const {
@@ -63,7 +63,7 @@ struct ViewResidual {
     }
 };
 
-/// (sum of weights * parameters - expected) / sigma
+/// The residual of a constraint: (sum of weights * parameters - expected) / sigma.
 template <int kSize>
 struct Pin {
     std::array<double, kSize> weights;
@@ -97,7 +97,7 @@ void pin_one(ceres::Problem& problem, std::array<double, kSize>& block, std::siz
     pin(problem, block, weights, expected, sigma);
 }
 
-/// A point of the camera frame, and the camera's x axis, on the page of a view's sheet.
+/// Returns a point of the camera frame, with the camera's x axis, on the page of a view's sheet.
 PlanePose on_page(const SheetView& view, const Eigen::Vector2d& in_camera, const Sheet& sheet,
                   const AxisScale& scale) {
     const Eigen::Vector2d at = view.place + view.axes * (in_camera - view.middle);
@@ -105,7 +105,7 @@ PlanePose on_page(const SheetView& view, const Eigen::Vector2d& in_camera, const
             std::atan2(scale.y * view.axes(1, 0), scale.x * view.axes(0, 0))};
 }
 
-/// Relative standard deviation of a value of the camera file; 0 if it does not tell.
+/// Returns the relative standard deviation of a value of the camera file; 0 if the file has none.
 double relative_sigma(const Camera& camera, const char* key, double value) {
     const auto found = camera.sigma.find(key);
     return found == camera.sigma.end() ? 0 : found->second / value;
@@ -169,7 +169,7 @@ bool SheetGraph::has_scale() const {
     return std::ranges::any_of(views_, &SheetView::has_scale);
 }
 
-/// In the camera frame of a view.
+/// Returns the image centre in the camera frame of a view.
 Eigen::Vector2d SheetGraph::centre_in_camera(const SheetView& view) const {
     if (!view.has_scale()) return {0, 0};
     const CameraPoint point =
@@ -186,7 +186,7 @@ PlanePose SheetGraph::image_centre(const SheetView& view) const {
                                       print_scale(view.sheet));
 }
 
-/// First poses, seam by seam: each by the frame that shows most of both.
+/// Sets first poses of the sheets, seam by seam: each by the frame that shows most of both sheets.
 void SheetGraph::spread_from_fixed() {
     const auto start = [this](std::size_t sheet, const PlanePose& pose) {
         const AxisScale scale = sheets_[sheet].print_scale();
@@ -219,7 +219,7 @@ void SheetGraph::spread_from_fixed() {
     }
 }
 
-/// First poses of the frames; leaves out views that tell nothing of how the sheets lie.
+/// Sets first poses of the frames; removes views that do not help to place the sheets.
 void SheetGraph::start_frames() {
     std::map<int, int> counts;
     std::erase_if(views_, [this](const SheetView& view) { return !is_connected(view.sheet); });
@@ -273,7 +273,8 @@ void SheetGraph::pin_sheets(ceres::Problem& problem) {
                 pin_one(problem, node, k, 0, kPinned);
         }
         if (i == fixed_ && !has_scale()) {
-            // Views that are fitted to parts of frames would tell it, but err all alike.
+            // Views fitted to parts of frames would determine the aspect, but all have the same
+            // error.
             pin<5>(problem, node, {0, 0, 0, 1, -1}, logs[0] - logs[1], kPinned);
         }
         if (i == fixed_ && reference_.by == By::fixed_sheet) {
@@ -303,13 +304,13 @@ void SheetGraph::pin_camera(ceres::Problem& problem) {
     pin_one(problem, camera_scale_, 2, 0, skew > 0 ? skew : kSquarePrior);
 }
 
-/// Those of an affine map fitted to the dots, of such a size that dots that err by their deviation
-/// make whitened residuals of deviation 1.
+/// Returns the shares of an affine map fitted to the dots, scaled so that dots with errors of their
+/// standard deviation give whitened residuals of standard deviation 1.
 std::vector<SheetGraph::DotShare> SheetGraph::dot_shares(const SheetView& view) const {
     const Pattern& pattern = sheets_[view.sheet].sheet.pattern;
     const Cell first = sheets_[view.sheet].sheet.origin;
     const Eigen::Matrix2d camera_from_sheet = view.axes.inverse();
-    Eigen::Matrix3Xd places(3, view.dots.size());  // 1, x, y, as the camera sees them
+    Eigen::Matrix3Xd places(3, view.dots.size());  // 1, x, y in the camera frame
     for (Eigen::Index i = 0; i < places.cols(); ++i) {
         const std::uint64_t dot = view.dots[static_cast<std::size_t>(i)];
         const Eigen::Vector2d steps(static_cast<double>((dot >> 32) - first.x),
@@ -336,7 +337,8 @@ std::vector<SheetGraph::DotShare> SheetGraph::dot_shares(const SheetView& view) 
     return shares;
 }
 
-/// Of what is shared, by how the dots were printed: a dot errs alike in all frames that show it.
+/// Returns the covariance of the shared parameters that comes from printing: a dot has the same
+/// error in all frames that show it.
 Eigen::MatrixXd SheetGraph::print_covariance(const Eigen::MatrixXd& gain) const {
     std::map<std::pair<std::size_t, std::uint64_t>, Eigen::MatrixX2d> of_dots;
     Eigen::Index row = 0;
@@ -366,7 +368,8 @@ void SheetGraph::estimate_variances(ceres::Problem& problem, double cost) {
     const int parameters =
         problem.NumParameters() - (has_scale() ? 0 : static_cast<int>(camera_scale_.size()));
     if (has_scale()) shared.push_back(camera_scale_.data());
-    // What frames say of themselves knows nothing of how sheets bend.
+    // Residuals within frames do not include how sheets bend, so the misfit between frames scales
+    // the errors.
     const double misfit = std::max(2 * cost / std::max(residuals - parameters, 1), 1.0);
     const Eigen::MatrixXd gain = normal_gain(problem, shared);
     const auto pins = gain.rightCols(gain.cols() - 6 * static_cast<Eigen::Index>(views_.size()));
@@ -380,7 +383,7 @@ void SheetGraph::estimate_variances(ceres::Problem& problem, double cost) {
             ++row;
         }
         if (has_scale()) continue;
-        for (const std::size_t scale : {3, 4})  // they are those against the fixed sheet
+        for (const std::size_t scale : {3, 4})  // errors are against the fixed sheet
             variances_[i][scale] += kUsualPrintError * kUsualPrintError;
     }
 }

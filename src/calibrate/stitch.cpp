@@ -1,5 +1,5 @@
-// Stitching: how sheets lie beside each other, and how long they were printed, from frames that
-// show two of them.
+// Stitching: finds how sheets lie beside each other, and how long they were printed, from frames
+// that show two of them.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -16,7 +16,8 @@ namespace {
 
 using namespace dotpose::calibrate;
 
-/// The one flip: the fixed sheet's y is down and its angles clockwise, the world's are not.
+/// Converts a pose to the world. The fixed sheet's y is down and its angles are clockwise; the
+/// world's are not.
 WorldPose world_of(const PlanePose& pose, const WorldPose& fixed) {
     const double c = std::cos(fixed.yaw_rad);
     const double s = std::sin(fixed.yaw_rad);
@@ -26,7 +27,7 @@ WorldPose world_of(const PlanePose& pose, const WorldPose& fixed) {
             std::remainder(fixed.yaw_rad - pose.turn, 2 * std::numbers::pi)};
 }
 
-/// The views of each frame one after the other.
+/// Returns the views of all frames, frame by frame.
 std::vector<SheetView> views_of(int frames, const FrameAt& frame_at,
                                 const std::vector<SheetEntry>& sheets,
                                 const std::optional<Camera>& camera,
@@ -47,7 +48,7 @@ std::vector<SheetView> views_of(int frames, const FrameAt& frame_at,
     return all;
 }
 
-/// Each view of a frame against the one that shows most.
+/// Compares each view of a frame with the one that shows most.
 void describe_seams(const std::vector<SheetView>& views, const SheetGraph& graph,
                     Stitching& result) {
     struct Sums {
@@ -64,7 +65,7 @@ void describe_seams(const std::vector<SheetView>& views, const SheetGraph& graph
         });
         for (; first != last; ++first) {
             if (first == best || !graph.is_connected(first->sheet)) continue;
-            // Always in one order, so that disagreements can be compared.
+            // The order of the sheets is always the same, so that disagreements can be compared.
             const bool is_lower = first->sheet < best->sheet;
             const SheetView& a = is_lower ? *first : *best;
             const SheetView& b = is_lower ? *best : *first;
@@ -87,8 +88,8 @@ void describe_seams(const std::vector<SheetView>& views, const SheetGraph& graph
     }
 }
 
-/// The sheet that stays, of those that are seen beside another one: the first with a pose in the
-/// world, otherwise the first.
+/// Returns the sheet that stays, among those seen beside another one: the first with a world pose,
+/// otherwise the first.
 std::size_t fixed_sheet(const std::vector<SheetEntry>& sheets,
                         const std::vector<SheetView>& views) {
     std::set<std::size_t> joined;
