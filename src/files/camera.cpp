@@ -1,4 +1,4 @@
-// A camera's geometry, and its use in `locate`.
+// Camera: its geometry, and its use in `locate`.
 #include "dotpose/files/camera.hpp"
 
 #include <cmath>
@@ -13,7 +13,8 @@ namespace dotpose {
 namespace {
 
 constexpr double kFarthestCentre_px = 1000;
-/// Far outside any image, and far inside what the fixed-point pose can express.
+/// Greatest distance of the reference point: far outside any image, and far inside the range of the
+/// fixed-point pose.
 constexpr double kFarthestReference_px = 10'000;
 constexpr double kLongestFocal_px = 1e6;
 constexpr double kLeastStretch = 0.5;
@@ -50,12 +51,12 @@ void require_lens(const Camera& camera) {
 }
 
 void require_paper(const PaperScale& paper, const Camera& camera) {
-    // From a microscope's to that of a camera over a hall.
+    // The range reaches from a microscope to a camera over a hall.
     const auto is_length = [](double mm) { return mm >= 1e-6 && mm <= 1e3; };
     require(is_length(paper.mm_per_px_x) && is_length(paper.mm_per_px_y), "mm_per_px",
             "must be from 0.000001 to 1000");
     require(std::abs(paper.skew) <= 0.5, "skew", "must be from -0.5 to 0.5");
-    // The horizon, where the divisor of on_paper is 0, lies far outside of the image.
+    // The horizon, where the divisor of `on_paper` is 0, must lie far outside of the image.
     const double most_u =
         std::max(std::abs(camera.centre_px.u), std::abs(camera.width_px - 1 - camera.centre_px.u));
     const double most_v =
@@ -108,7 +109,7 @@ PixelPoint undistorted(const Camera& camera, PixelPoint pixel) {
 PixelPoint distorted(const Camera& camera, PixelPoint point) {
     const double du = point.u - camera.centre_px.u;
     const double dv = point.v - camera.centre_px.v;
-    // Eq. 2 solved for r_d: the root that goes to r_u with k.
+    // Eq. 2 solved for r_d, by the root that approaches r_u as k approaches 0.
     const double root = std::sqrt(std::max(1 - 4 * camera.k_per_px2 * (du * du + dv * dv), 0.0));
     const double stretch = 2 / (1 + root);
     return {camera.centre_px.u + stretch * du, camera.centre_px.v + stretch * dv};
@@ -124,7 +125,8 @@ CameraPoint on_paper(const Camera& camera, PixelPoint point) {
 
 PixelPoint on_image(const Camera& camera, CameraPoint point) {
     const PaperScale& paper = camera.paper.value();
-    // Without the divisor: (a, b) = divisor * (flat_a, flat_b), and the divisor is linear in both.
+    // (a, b) = divisor * (flat_a, flat_b), and the divisor is linear in both, so it can be
+    // eliminated.
     const double flat_b = point.y_mm / paper.mm_per_px_y;
     const double flat_a = point.x_mm / paper.mm_per_px_x - paper.skew * flat_b;
     const double divisor = 1 / (1 - paper.perspective_u * flat_a - paper.perspective_v * flat_b);

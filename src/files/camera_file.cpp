@@ -68,7 +68,7 @@ Camera read_native(const YamlMap& file) {
     return camera;
 }
 
-/// Short enough to read, and exact to far below any standard deviation.
+/// Returns a number that is short to read, and exact to far below any standard deviation.
 std::string text_of(double value) {
     return fmt::format("{:.10g}", value);
 }

@@ -11,11 +11,11 @@
 namespace dotpose::files {
 namespace {
 
-/// Undistorted places farther off come from an iteration that does not converge.
+/// Greatest undistorted coordinate; larger ones come from an iteration that does not converge.
 constexpr double kMostPx = 1e6;
 
-/// k, the centre, and an affine map, which the fit of every pose takes up by itself; lengths in
-/// units of half the image diagonal.
+/// Number of parameters: k, the centre, and an affine map, as the fit of every pose contains one;
+/// lengths are in units of half the image diagonal.
 constexpr std::size_t kParameters = 9;
 using Fit = LeastSquares<kParameters>;
 using Parameters = Fit::Vector;
@@ -26,11 +26,11 @@ struct Pair {
     PixelPoint wanted;
 };
 
-/// affine(eq. 2(seen)) - wanted.
+/// The residual of a pair, affine(eq. 2(seen)) - wanted, and its derivatives.
 struct Misfit {
     double u = 0;
     double v = 0;
-    Parameters du{};  ///< by the parameters
+    Parameters du{};  ///< derivative by the parameters
     Parameters dv{};
 
     Misfit(const Pair& pair, const Parameters& p) {
@@ -42,7 +42,7 @@ struct Misfit {
         const double y = shrink * b;
         u = p[3] + p[4] * x + p[5] * y - pair.wanted.u;
         v = p[6] + p[7] * x + p[8] * y - pair.wanted.v;
-        // Of x and y by k and by both coordinates of the centre.
+        // Derivatives of x and y by k and by both coordinates of the centre.
         const double by_k = -shrink * r2;
         const double bend = 2 * p[0] * shrink;
         const std::array dx = {by_k * x, bend * x * a - shrink, bend * x * b};
@@ -66,7 +66,7 @@ double squares_of(const std::vector<Pair>& pairs, const Parameters& parameters) 
     return squares;
 }
 
-/// The step of Levenberg and Marquardt.
+/// Returns a step of Levenberg and Marquardt.
 Parameters step_of(const std::vector<Pair>& pairs, const Parameters& parameters, double damping) {
     Fit fit;
     Parameters norms2{};
@@ -85,7 +85,7 @@ Parameters step_of(const std::vector<Pair>& pairs, const Parameters& parameters,
     return fit.solve();
 }
 
-/// Improves the parameters until steps are lost in rounding; returns their sum of squares.
+/// Improves the parameters until steps are lost in rounding; returns the sum of squares.
 double minimise(const std::vector<Pair>& pairs, Parameters& parameters) {
     constexpr int kMostSteps = 500;
     constexpr double kMostDamping = 1e9;
@@ -120,7 +120,7 @@ PixelPoint PlumbBob::undistorted(PixelPoint pixel) const {
     const double yd = (pixel.v - cy) / fy;
     double x = xd;
     double y = yd;
-    // By fixed-point iteration, as there is no closed inverse.
+    // Solved by fixed-point iteration, as there is no closed form.
     constexpr int kIterations = 100;
     for (int i = 0; i < kIterations; ++i) {
         const double r2 = x * x + y * y;
@@ -136,7 +136,7 @@ PixelPoint PlumbBob::undistorted(PixelPoint pixel) const {
 double fit_division_model(const PlumbBob& lens, Camera& camera) {
     camera.k_per_px2 = 0;
     camera.centre_px = {lens.cx, lens.cy};
-    // Without distortion nothing tells where its centre is.
+    // Without distortion, its centre is not determined.
     if (lens.is_straight()) return 0;
     constexpr int kSteps = 16;
     const double reach_px = std::hypot(camera.width_px, camera.height_px) / 2;

@@ -1,12 +1,12 @@
-/// The lens of ROS and OpenCV, and the division model (paper eq. 2) that comes nearest to it.
+/// Converts the lens of ROS and OpenCV to the nearest division model (paper eq. 2).
 #pragma once
 
 #include "dotpose/files/camera.hpp"
 
 namespace dotpose::files {
 
-/// http://docs.ros.org/en/api/sensor_msgs/html/msg/CameraInfo.html, plumb_bob: the lens of OpenCV,
-/// which leads from the undistorted to the distorted image.
+/// The lens of OpenCV, which leads from the undistorted to the distorted image; plumb_bob in
+/// http://docs.ros.org/en/api/sensor_msgs/html/msg/CameraInfo.html.
 struct PlumbBob {
     double fx = 0;
     double fy = 0;
@@ -20,13 +20,13 @@ struct PlumbBob {
 
     bool is_straight() const { return k1 == 0 && k2 == 0 && t1 == 0 && t2 == 0 && k3 == 0; }
 
-    /// Where a camera without distortion would see what this one sees at `pixel`; far outside of
-    /// any image where that cannot be told.
+    /// Returns where a camera without distortion would see what this one sees at `pixel`; a point
+    /// far outside of any image if that cannot be computed.
     PixelPoint undistorted(PixelPoint pixel) const;
 };
 
-/// Sets `k_per_px2` and `centre_px` to what is nearest to `lens` all over the image, whose size is
-/// known. Returns the misfit in px, rms over the image; infinite if the lens cannot be inverted.
+/// Sets `k_per_px2` and `centre_px` to the model nearest to `lens` over the image, whose size must
+/// be set. Returns the misfit in px, rms over the image; infinite if the lens cannot be inverted.
 double fit_division_model(const PlumbBob& lens, Camera& camera);
 
 }  // namespace dotpose::files

@@ -9,7 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
-// The tools library calls them too.
+// Visible outside of the library because the tools library calls them too.
 #pragma GCC visibility push(default)
 
 namespace dotpose::files {

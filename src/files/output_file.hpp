@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string_view>
 
-// The tools library calls them too.
+// Visible outside of the library because the tools library calls them too.
 #pragma GCC visibility push(default)
 
 namespace dotpose::files {

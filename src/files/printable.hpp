@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-// The tools library calls them too.
+// Visible outside of the library because the tools library calls them too.
 #pragma GCC visibility push(default)
 
 namespace dotpose::files {

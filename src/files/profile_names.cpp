@@ -18,7 +18,7 @@ std::optional<Profile> profile_by_name(std::string_view asked) {
     for (const Profile profile : {Profile::anoto, Profile::libdots, Profile::microdots}) {
         if (asked == name(profile)) return profile;
     }
-    // This was the name of the profile in sheet files and scripts of earlier versions.
+    // Earlier versions called the profile by this name in sheet files and scripts.
     if (asked == "published") return Profile::libdots;
     return std::nullopt;
 }

@@ -12,7 +12,8 @@
 namespace dotpose::files {
 namespace {
 
-/// What eq. 2 may be off plumb_bob, rms over the image.
+/// Greatest difference, in px rms over the image, between eq. 2 and the plumb_bob lens that it
+/// replaces.
 constexpr double kLargestMisfit_px = 0.5;
 
 /// Focal lengths, centres and distortion coefficients of cameras are far below these; a fit to
@@ -20,7 +21,8 @@ constexpr double kLargestMisfit_px = 0.5;
 constexpr double kMostPx = 1e6;
 constexpr double kMostDistortion = 1e3;
 
-/// The list under a key of camera_calibration_parsers' matrices, or of a printed message.
+/// Returns the list under a key, as in the matrices of camera_calibration_parsers or in a printed
+/// message.
 std::vector<double> coefficients(const YamlMap& file, const char* nested, const char* lower,
                                  const char* upper, std::size_t count) {
     if (file.has(nested)) return file.map(nested).numbers("data", count);

@@ -1,4 +1,4 @@
-// Cameras as ROS describes them.
+// ROS camera: reads cameras as ROS describes them.
 #pragma once
 
 #include "dotpose/files/camera.hpp"
@@ -6,10 +6,12 @@
 
 namespace dotpose::files {
 
-/// Whether this is a camera_info file: of camera_calibration_parsers, or a printed message.
+/// Whether this is a camera_info file, written by camera_calibration_parsers or as a printed
+/// message.
 bool is_camera_info(const YamlMap& file);
 
-/// Throws Error, naming the key.
+/// Returns the camera of a camera_info file. Throws Error, naming the key, if a value is missing or
+/// out of range, or the lens cannot be converted.
 Camera camera_from_camera_info(const YamlMap& file);
 
 }  // namespace dotpose::files

@@ -1,11 +1,11 @@
-/// The checks of `validate(sheet)` one by one, for who makes sheets.
+/// The checks of `validate(sheet)` one by one, for code that makes sheets.
 #pragma once
 
 #include <cstdint>
 
 #include "dotpose/files/sheet.hpp"
 
-// The tools library calls them too.
+// Visible outside of the library because the tools library calls them too.
 #pragma GCC visibility push(default)
 
 namespace dotpose::files {
@@ -17,7 +17,8 @@ inline constexpr double kTolerance_mm = 1e-7;
 /// Throws BadArgument unless each side of a page is in (0, kMaxPage_mm].
 void validate_paper(double width_mm, double height_mm);
 
-/// Throws BadArgument: a length that is not above 0, dots that touch, no such section.
+/// Throws BadArgument for a length that is not above 0, dots that touch, or a section that does not
+/// exist.
 void validate_pattern(const Pattern& pattern);
 
 /// Throws BadArgument unless `count` rows or columns, which is what messages call them, can be read

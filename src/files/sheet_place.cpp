@@ -38,13 +38,13 @@ bool in_region(const Sheet& sheet, Offset offset) {
            offset.y < sheet.rows - 0.5;
 }
 
-/// Returns the same angle in (-pi, pi].
+/// Returns the angle wrapped into (-pi, pi].
 double wrapped(double angle_rad) {
     const double angle = std::remainder(angle_rad, 2 * std::numbers::pi);
     return angle <= -std::numbers::pi ? angle + 2 * std::numbers::pi : angle;
 }
 
-/// Variances and covariances of coordinates of which each was made longer by its factor.
+/// Returns the covariance of coordinates that are each multiplied by a factor.
 PoseCovariance scaled(const auto& covariance, const std::array<double, 3>& factors) {
     PoseCovariance result{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -94,8 +94,8 @@ std::optional<SheetPlace> find_sheet(std::span<const SheetEntry> sheets, Profile
 std::optional<WorldPlace> world_place(const SheetPlace& place) {
     const auto& world = place.entry->world;
     if (!world) return std::nullopt;
-    // On a sheet y points down and angles are clockwise, in the world y points up and angles are
-    // counter-clockwise. All other code uses one of the two only.
+    // On a sheet y points down and angles are clockwise; in the world y points up and angles are
+    // counter-clockwise. All other code uses only one of the two.
     const double right_m = place.x_mm / 1000;
     const double up_m = -place.y_mm / 1000;
     const double yaw_of_image_rad = -place.theta_rad;

@@ -1,4 +1,4 @@
-// Reads values of a YAML file, with errors that name the file and the key.
+// YAML reader: reads values of a YAML file, with errors that name the file and the key.
 #pragma once
 
 #include <filesystem>
@@ -10,23 +10,25 @@
 
 namespace dotpose::files {
 
-/// One mapping of a file.
+/// One mapping of a YAML file. All functions that read values throw Error if the key is missing or
+/// its value has the wrong type.
 class YamlMap {
   public:
-    /// Throws Error: the file cannot be read, is no YAML, or holds no mapping.
+    /// Reads a file. Throws Error if it cannot be read, is not YAML, or does not hold a mapping.
     explicit YamlMap(const std::filesystem::path& path);
 
     bool has(const std::string& key) const { return static_cast<bool>(node_[key]); }
     std::string text(const std::string& key) const;
     int integer(const std::string& key) const;
     double number(const std::string& key) const;
-    /// A list of exactly `count` numbers; of any length if it is 0.
+    /// Returns a list of exactly `count` numbers; of any length if `count` is 0.
     std::vector<double> numbers(const std::string& key, std::size_t count) const;
     YamlMap map(const std::string& key) const;
     std::vector<std::string> keys() const;
 
-    /// Throws Error if a key is none of these.
+    /// Throws Error if there is a key other than these.
     void allow_only(std::initializer_list<const char*> keys) const;
+    /// Throws Error that names the file and the key.
     [[noreturn]] void fail(const std::string& key, const std::string& what) const;
 
   private:
@@ -36,7 +38,7 @@ class YamlMap {
     double finite(const YAML::Node& node, const std::string& key) const;
 
     std::string file_;
-    std::string prefix_;  ///< of keys in messages
+    std::string prefix_;  ///< what stands before keys in messages
     YAML::Node node_;
 };
 
