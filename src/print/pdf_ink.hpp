@@ -30,17 +30,17 @@ ColourKind kind_of_space(QPDFObjectHandle space, QPDFObjectHandle spaces);
 /// that a printer computes from grey or RGB.
 double black_of(ColourKind kind, std::span<const double> colour);
 
-/// The change that was asked for.
+/// The changes of colours that `OverlayOptions` asks for.
 struct InkChange {
     bool black_to_cmy = false;
     double lighten = 0;
 
     bool is_none() const { return !black_to_cmy && lighten == 0; }
 
-    /// The kind of the colour that replaces one of the kind `from`.
+    /// Returns the kind of the colour that replaces one of the kind `from`.
     ColourKind kind(ColourKind from) const;
-    /// The components, of the kind `kind(from)`, of the colour that replaces this one. `from` must
-    /// not be `ColourKind::other`.
+    /// Returns the components, of the kind `kind(from)`, of the colour that replaces this one.
+    /// `from` must not be `ColourKind::other`.
     std::vector<double> apply(ColourKind from, std::span<const double> colour) const;
 };
 

@@ -9,7 +9,7 @@ namespace dotpose::print {
 
 struct PageContent {
     bool paints_black = false;   ///< text or drawings that need black ink
-    bool paints_images = false;  ///< images, whose colours are not looked at
+    bool paints_images = false;  ///< images, whose colours are not examined
     bool paints_areas = false;   ///< filled shapes, shadings or images: they cover what is below
     int unclosed_saves = 0;      ///< q without Q at the end
     int extra_restores = 0;      ///< Q without q before it
