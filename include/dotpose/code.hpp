@@ -33,6 +33,7 @@ enum class Profile : std::uint8_t {
     microdots,            ///< another a4, as printed by py-microdots and its ports
     published = libdots,  ///< earlier name of `libdots`
 };
+/// Number of values of Profile.
 inline constexpr int kProfileCount = 3;
 
 /// A grid intersection by column x and row y; each in [0, kPositionsPerAxis).
@@ -54,9 +55,11 @@ struct Section {
 /// bit.
 enum class Symbol : std::uint8_t { up = 0, left = 1, right = 2, down = 3 };
 
+/// Returns the symbol with these bits, each 0 or 1.
 constexpr Symbol make_symbol(int x_bit, int y_bit) {
     return static_cast<Symbol>(x_bit | (y_bit << 1));
 }
+/// Return the x bit, which belongs to the column, and the y bit, which belongs to the row: 0 or 1.
 constexpr int x_bit(Symbol symbol) {
     return static_cast<int>(symbol) & 1;
 }

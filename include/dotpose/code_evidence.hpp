@@ -79,6 +79,7 @@ class Locator;
 /// Locates the frames of one sheet, in a given profile or in the one that the frames show.
 class CodeReader {
   public:
+    /// Reads in the profile given; without one, in the likeliest by all frames.
     explicit CodeReader(std::optional<Profile> given = std::nullopt) : given_(given) {}
 
     /// Locates an image; afterwards the locator's options have the profile that was read. Errors

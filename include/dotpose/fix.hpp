@@ -81,6 +81,7 @@ struct Fix {
     /// known.
     double x_mm() const { return x_grid() * spacing_mm(); }
     double y_mm() const { return y_grid() * spacing_mm(); }
+    /// Spacing of the printed grid in mm; not a number if it is not known.
     double spacing_mm() const {
         return spacing_nm > 0 ? spacing_nm / 1e6 : std::numeric_limits<double>::quiet_NaN();
     }

@@ -19,6 +19,7 @@
 
 namespace dotpose {
 
+/// When a device counts as moving, and how often it takes frames.
 struct PacerOptions {
     /// Time without movement after which the device counts as stationary. A longer time costs
     /// energy; a shorter one delays the start after each short stop.
@@ -39,8 +40,10 @@ struct PacerOptions {
     bool lost_is_moved = true;
 };
 
+/// Whether the device moves, by the frames so far.
 enum class Motion : std::uint8_t { moving, stationary };
 
+/// Decides when the next frame is taken.
 class FramePacer {
   public:
     explicit FramePacer(const PacerOptions& options = {}) : options_(options) {}

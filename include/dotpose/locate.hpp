@@ -34,6 +34,7 @@ class RowLocator {
     RowLocator(const RowLocator&) = delete;
     RowLocator& operator=(const RowLocator&) = delete;
 
+    /// Returns the options in use.
     const Options& options() const { return options_; }
     /// Sets the options of the frames to come. A frame that was begun and not finished is dropped.
     void set_options(const Options& options);

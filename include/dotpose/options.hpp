@@ -26,6 +26,7 @@ struct Lens {
     }
 };
 
+/// Options of the thresholds between paper and dots (paper section II-B.1).
 struct ThresholdOptions {
     /// Share of the local contrast, in 1/256, by which a pixel of a blob is darker than the paper:
     /// the low threshold. A smaller one joins neighbouring dots, a larger
@@ -38,6 +39,7 @@ struct ThresholdOptions {
     int min_contrast = 8;
 };
 
+/// Options of the choice of dots among dark blobs (paper section II-B.1).
 struct BlobOptions {
     /// Fewest pixels of a dot. 1 keeps salt and pepper noise. [0 to 2^20]
     int min_area_px = 2;
@@ -48,6 +50,7 @@ struct BlobOptions {
     int max_area_ratio = 5;
 };
 
+/// Options of the search for the grid (paper sections II-B.2 and II-B.3).
 struct LatticeOptions {
     /// Fewest dots from which a grid is searched; 6 x 6 is the least that can carry a position. [0
     /// to 2^20]
@@ -57,6 +60,7 @@ struct LatticeOptions {
     int max_offset_q16 = 24000;
 };
 
+/// Limits beyond which a position is refused as not certain.
 struct IntegrityOptions {
     /// Bound, as log2, of the probability of being wrong above which a position is refused; 2^-30 <
     /// 1e-9. [-2^20 to 0]
@@ -79,6 +83,7 @@ enum class Decoder : std::uint8_t {
     all,     ///< all dots in view
 };
 
+/// All options of a Locator.
 struct Options {
     Profile profile = Profile::anoto;
     Effort effort = Effort::twice;

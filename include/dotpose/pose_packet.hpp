@@ -24,6 +24,7 @@
 
 namespace dotpose {
 
+/// Version of the format that is written, and the only one that is read.
 inline constexpr int kPacketVersion = 1;
 
 /// What one frame told, as far as a packet carries it. Unless `status` is ok, only the members

@@ -18,6 +18,7 @@
 
 namespace dotpose {
 
+/// The expected map from the image to the pattern, with its uncertainty.
 struct Prediction {
     /// The map from the image to the pattern, counted in spacings from `place`.
     PlaneFromImage pattern_from_image;

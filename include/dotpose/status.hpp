@@ -9,6 +9,7 @@
 
 namespace dotpose {
 
+/// The result of a call; `message` gives a sentence for each value. Values keep their numbers.
 enum class [[nodiscard]] Status : std::uint8_t{
     ok,
     // Faults of the arguments.

@@ -67,6 +67,7 @@ struct GridCell {
 struct Turn {
     int quarters = 0;  ///< 0 to 3, from +x towards +y
 
+    /// Returns a step of the grid as a step of the pattern.
     constexpr Vec operator()(Vec grid) const {
         switch (quarters) {
             case 1:
@@ -79,6 +80,7 @@ struct Turn {
                 return grid;
         }
     }
+    /// Returns the turn from the pattern to the grid.
     constexpr Turn inverse() const { return {(4 - quarters) % 4}; }
 };
 
@@ -110,9 +112,11 @@ struct GridView {
     std::span<const GridCell> cells;  ///< row by row
     Region region;                    ///< the cells of the grid that they are
 
+    /// Returns the cell in column i and row j of the grid, which must be in the region.
     const GridCell& at(int i, int j) const {
         return cells[static_cast<std::size_t>((j - region.j0) * region.columns + (i - region.i0))];
     }
+    /// Whether the region has the cell in column i and row j of the grid.
     bool contains(int i, int j) const {
         return i >= region.i0 && j >= region.j0 && i < region.i0 + region.columns &&
                j < region.j0 + region.rows;

@@ -60,6 +60,7 @@ struct Sighting {
 /// and its spacing known, at most 20 mm.
 Sighting sighting_of(const Fix& fix, std::int64_t time_us);
 
+/// How the robot moves, and when sightings are believed.
 struct TrackOptions {
     /// Standard deviation of the robot's acceleration while it manoeuvres; the filter estimates by
     /// itself how far it is lower at other times. A larger one follows sudden changes faster.
@@ -130,6 +131,7 @@ enum class Verdict : std::uint8_t {
     gated,       ///< physically impossible, and not confirmed yet
     too_weak,    ///< weak, and the prior does not help
 };
+/// Number of values of Verdict.
 inline constexpr int kVerdictCount = 5;
 /// Returns the identifier, such as "with_prior".
 const char* name(Verdict verdict) noexcept;
@@ -143,6 +145,7 @@ struct TrackEvents {
     bool moving = false;      ///< the robot was stationary and moves again
 };
 
+/// The state after a frame.
 struct Track {
     bool is_lost = true;
     bool is_stationary = false;
@@ -164,6 +167,7 @@ using Matrix3 = std::array<Vector3, 3>;
 using Vector9 = std::array<float, 9>;
 using Covariance9 = std::array<Vector9, 9>;
 
+/// The state of the filter.
 struct MotionEstimate {
     TrackedPose pose;
     Vector3 acceleration{};    ///< mm/s^2, rad/s^2
@@ -178,6 +182,7 @@ struct MotionEstimate {
 
 }  // namespace track
 
+/// Follows one robot through its sightings.
 class Tracker {
   public:
     /// Starts as lost.
@@ -187,6 +192,7 @@ class Tracker {
     /// not newer than the last one are ignored.
     const Track& update(std::int64_t time_us, const Sighting* sighting);
 
+    /// Returns the state after the newest frame.
     const Track& track() const { return track_; }
 
     /// Predicts where the frame at `time_us` will show the pattern. The prediction is that of

@@ -17,6 +17,7 @@
 
 namespace dotpose {
 
+/// A point of an image, in px: u to the right, v down from the centre of the first pixel.
 struct PixelPoint {
     double u = 0;
     double v = 0;
@@ -40,6 +41,7 @@ struct Tilt {
     double y_rad = 0;  ///< about the image y axis; above 0, it comes closer towards the right
 };
 
+/// What a camera file holds: one camera and its place on a robot.
 struct Camera {
     int width_px = 0;
     int height_px = 0;

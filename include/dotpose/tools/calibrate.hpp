@@ -32,6 +32,7 @@ namespace dotpose {
 /// Returns frame `index` of the series, from 0. May throw Error.
 using FrameAt = std::function<GreyImage(int index)>;
 
+/// What all calibrations need to know.
 struct CalibrateOptions {
     /// The pattern that was printed; only profile and spacing matter. Lengths are true if the
     /// spacing is.
@@ -57,6 +58,7 @@ enum class CalibrationVerdict {
     out_of_focus,    ///< dots are blurred to a third of the spacing
     corners_unseen,  ///< too few dots near the image corners
 };
+/// Returns the identifier, such as "out_of_focus".
 const char* name(CalibrationVerdict verdict);
 
 /// One dot of one frame, with its distance from where the camera's model expects it, in px of the
@@ -68,6 +70,7 @@ struct CalibrationDot {
     PixelPoint after;   ///< residual of the calibrated camera
 };
 
+/// The calibrated camera, with the evidence for it.
 struct LensCalibration {
     Camera camera;
     /// Whether the camera is mounted, so that all frames share height and tilt. If not, it was
@@ -110,6 +113,7 @@ enum class MountVerdict {
     good,
     drifted,  ///< the robot moved on while it turned, by more than noise explains
 };
+/// Returns the identifier, such as "drifted".
 const char* name(MountVerdict verdict);
 
 /// Where the camera sits: found from the centre of rotation of a robot that turns on the spot.
@@ -206,6 +210,7 @@ struct SeamSighting {
     double second_x_mm = 0;
     double second_y_mm = 0;
 };
+/// The sheets laid out in the world, with the evidence for it.
 struct Stitching {
     /// The given sheets in order, with the world poses and print scales of those stitched.
     std::vector<SheetEntry> sheets;

@@ -30,6 +30,7 @@
 
 namespace dotpose {
 
+/// What is known of the print and its image.
 struct CheckPrintOptions {
     /// The pattern that was printed. The section is read from the image. Patches of a test page
     /// encode how they were printed, so only the profile counts for them.
@@ -141,6 +142,7 @@ enum class FindingKind {
 /// Returns the identifier as written in output, for example "uneven_scale".
 const char* name(FindingKind kind);
 
+/// One fault or remark.
 struct Finding {
     FindingKind kind = FindingKind::good;
     bool is_fault = false;             ///< true: a fault to correct; false: a remark
@@ -155,6 +157,7 @@ struct CameraSigns {
     double lens = 0;         ///< relative displacement of the outermost dots by the lens
 };
 
+/// The result of the check.
 struct PrintCheck {
     /// All fields, the largest first. Empty if there is no pattern in the image.
     std::vector<PrintField> fields;

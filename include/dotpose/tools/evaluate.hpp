@@ -32,6 +32,7 @@
 
 namespace dotpose {
 
+/// A frame with its true pose.
 struct KnownFrame {
     GreyImage image;
     Truth truth;
@@ -52,6 +53,7 @@ FrameSource frames_of_setup(const Setup& setup);
 /// Called now and then from the calling thread; false stops the work with an Error.
 using Progress = std::function<bool(int done, int total)>;
 
+/// The frames to locate, and how.
 struct FrameRun {
     int frames = 0;
     FrameSource frame_at;

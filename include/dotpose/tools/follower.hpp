@@ -26,6 +26,7 @@
 
 namespace dotpose {
 
+/// What is known of sheets, code and camera.
 struct FollowerOptions {
     Options locate;
     /// The sheets that may be seen. Empty: poses are given in the pattern frame.
@@ -62,6 +63,7 @@ struct Followed {
     Track track;
 };
 
+/// Locates single images, or images of a sequence one after the other.
 class Follower {
   public:
     explicit Follower(const FollowerOptions& options);

@@ -17,6 +17,7 @@ class LocatorMemory {
     std::unique_ptr<LargeMemory> memory_ = std::make_unique<LargeMemory>();
 };
 
+/// A Locator for images up to 4096 x 4096 px that owns its memory of 1.7 MB on the heap.
 class HeapLocator : private LocatorMemory, public Locator {
   public:
     explicit HeapLocator(const Options& options = {}) : Locator(*memory_, options) {}

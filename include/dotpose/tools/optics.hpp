@@ -44,11 +44,13 @@ struct Optics {
 /// per px, 8.59 x 5.48 mm.
 Optics paper_optics();
 
+/// One fault or remark about a device.
 struct OpticsAdvice {
     bool is_fault = false;  ///< true: the device would not work well; false: a remark
     std::string text;       ///< one sentence: the fault and what to change
 };
 
+/// What the camera of a device sees of the pattern.
 struct OpticsReport {
     double magnification = 0;
     double mm_per_px = 0;
@@ -83,6 +85,7 @@ struct OpticsReport {
     std::vector<OpticsAdvice> advice;
 };
 
+/// Returns the report on a device. Throws BadArgument for values out of range.
 OpticsReport design_optics(const Optics& optics);
 
 }  // namespace dotpose

@@ -9,8 +9,10 @@
 
 namespace dotpose {
 
+/// All values of Decoder and of Effort, for tables.
 inline constexpr std::array kDecoders = {Decoder::window, Decoder::all};
 inline constexpr std::array kEfforts = {Effort::device, Effort::once, Effort::twice};
+/// Return the name of an option value, such as "window" and "twice".
 const char* name(Decoder decoder);
 const char* name(Effort effort);
 

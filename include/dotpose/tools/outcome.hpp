@@ -20,6 +20,7 @@ struct Deviation {
     double y_grid = 0;
     double theta_rad = 0;  ///< in [-pi, pi]
 };
+/// Returns how far a fix is off the truth.
 Deviation deviation_of(const Fix& fix, const Truth& truth);
 
 /// The result of locating one frame once.
@@ -29,7 +30,10 @@ struct Outcome {
     double elapsed_us = 0;  ///< time of `locate` alone
     std::string problem;    ///< fault of the file; if not empty, the rest is not valid
 
+    /// Whether the frame was read and located, rightly or wrongly.
     bool is_fix() const { return problem.empty() && fix.status == Status::ok; }
+    /// Whether there is a fix that is off by more than kWrongFrom_grid or kWrongFrom_deg, in
+    /// another section, or on a frame without a pose.
     bool is_wrong() const;
 };
 

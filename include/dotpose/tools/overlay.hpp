@@ -26,6 +26,7 @@ struct OverlaidPage {
     Sheet sheet;
 };
 
+/// What is laid over which pages.
 struct OverlayOptions {
     Pattern pattern;       ///< code, section and measures of the dots
     Cell origin;           ///< first cell of the first page; the others follow as in `make_sheets`
@@ -49,6 +50,7 @@ struct OverlayOptions {
     std::function<void(std::span<OverlaidPage>)> place;
 };
 
+/// What was done to the document.
 struct OverlayReport {
     std::vector<OverlaidPage> pages;
     std::vector<std::string> warnings;  ///< for the user: what may hide dots or was not converted

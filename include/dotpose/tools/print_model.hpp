@@ -15,6 +15,7 @@ class PrintModel {
     static constexpr double kSide_mm = 200;  ///< side of the area on which the amplitudes are
                                              ///< reached
 
+    /// The greatest errors on the area, along x and y, in mm; by default those of Table III.
     PrintModel(double worst_x_mm = 0.15, double worst_y_mm = 0.27);
 
     /// Returns printed minus intended place, at a place relative to the middle of the area.

@@ -16,6 +16,7 @@
 
 namespace dotpose {
 
+/// How the experiment is simulated.
 struct ProtocolOptions {
     int samples = 20;  ///< number of samples at each position and angle
     /// Light, blur and noise are those of the device and drawn once; the page gives the places of
@@ -44,11 +45,13 @@ struct Station {
     int wrong = 0;
 };
 
+/// The results of the experiment on one page.
 struct ProtocolResult {
     std::vector<Station> positions;  ///< 11 x 11 on 200 x 200 mm, in a spiral from the middle
     std::vector<Station> angles;     ///< 36 angles, at the middle
 };
 
+/// The experiment on a perfect page and on a printed one.
 struct Protocol {
     int samples = 0;
     ProtocolResult perfect;  ///< every dot in its intended place, except for its jitter
@@ -60,6 +63,7 @@ Protocol run_protocol(const ProtocolOptions& options);
 
 /// Returns Table III in Markdown, with the paper's figures beside the simulated ones.
 std::string table_3(const Protocol& protocol);
+/// Writes one line for each station.
 void write_stations_csv(std::ostream& out, std::span<const Station> stations);
 
 /// Writes table-3.md, positions.csv, angles.csv (the printed page) and figure-13, -14, -15, each as

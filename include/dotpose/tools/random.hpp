@@ -21,12 +21,14 @@ constexpr std::uint64_t scramble(std::uint64_t bits) noexcept {
 /// The generator splitmix64. It is cheap to seed, so every frame and every printed dot has its own.
 class Rng {
   public:
+    /// Starts the stream of a seed.
     explicit constexpr Rng(std::uint64_t seed) noexcept : state_(seed) {}
 
     /// Starts an independent stream for item `index` of a run, whatever was drawn before.
     constexpr Rng(std::uint64_t seed, std::uint64_t index) noexcept
         : state_(scramble(scramble(seed + kStep) + kStep * (index + 1))) {}
 
+    /// Returns 64 random bits.
     constexpr std::uint64_t bits() noexcept {
         state_ += kStep;
         return scramble(state_);

@@ -22,8 +22,10 @@ struct Quantiles {
     double p95 = std::numeric_limits<double>::quiet_NaN();
     double max = std::numeric_limits<double>::quiet_NaN();
 };
+/// Returns the quantiles of some values, in any order.
 Quantiles quantiles_of(std::vector<double> values);
 
+/// Counts and errors of many frames.
 struct Score {
     int frames = 0;  ///< readable frames; each is located, wrong, or has a status other than ok
     int unreadable = 0;
@@ -43,6 +45,7 @@ struct Score {
 
     double located_share() const { return frames > 0 ? 1.0 * located / frames : 0; }
 };
+/// Returns the score of some outcomes.
 Score score_of(std::span<const Outcome> outcomes);
 
 /// Returns the score in words and numbers, for tables: (name, value).

@@ -68,6 +68,7 @@ struct CameraPose {
     double tilt_y_rad = 0;
 };
 
+/// Return the position in spacings, cell and fraction together.
 double x_grid(const CameraPose& pose);
 double y_grid(const CameraPose& pose);
 
@@ -102,7 +103,9 @@ struct Imperfections {
 
 /// The named conditions for which accuracy is given.
 enum class Preset : std::uint8_t { clean, nominal, hard };
+/// All values of Preset, for tables.
 inline constexpr std::array kPresets = {Preset::clean, Preset::nominal, Preset::hard};
+/// Returns the identifier, such as "nominal".
 const char* name(Preset preset);
 
 /// Draws each imperfection uniformly from the preset's range.
@@ -145,6 +148,7 @@ struct Page {
     std::function<Vec2(Vec2 place_grid)> shift_mm;
 };
 
+/// Returns the page of a printed sheet. Throws BadArgument if the sheet has no intersections.
 Page page_of(const Sheet& sheet, std::uint64_t seed = 1);
 
 /// Camera geometry between pixels and offsets from the pose point; the two functions are each
@@ -156,6 +160,7 @@ class Projection {
     /// Returns the pixel of an offset. A point that the camera cannot see at all gives a pixel 1e9
     /// away.
     Vec2 pixel_from_offset(Vec2 offset_mm) const;
+    /// Returns the offset that a pixel shows, in mm.
     Vec2 offset_from_pixel(Vec2 pixel) const;
     /// Computes `offset_from_pixel` for adjacent pixels, from `first_pixel` to the right.
     void offsets_from_row(Vec2 first_pixel, std::span<Vec2> offsets_mm) const;
@@ -235,6 +240,7 @@ struct PartialView {
 /// if there is no room for the islands.
 void cover_partly(Shot& shot, const PartialView& view);
 
+/// Renders a shot.
 GreyImage render(const Shot& shot);
 
 /// Frames without one valid position, which a locator must refuse. At a seam, the position and
@@ -252,10 +258,12 @@ enum class Scene : std::uint8_t {
     seam_horizontal,  ///< two sections one above the other
     mirrored,         ///< the pattern seen from behind
 };
+/// All values of Scene, for tables.
 inline constexpr std::array kScenes = {
     Scene::black,         Scene::white,           Scene::noise,          Scene::text,
     Scene::plain_grid,    Scene::random_symbols,  Scene::scattered_dots, Scene::checkerboard,
     Scene::seam_vertical, Scene::seam_horizontal, Scene::mirrored};
+/// Returns the identifier, such as "seam_vertical".
 const char* name(Scene scene);
 
 /// Renders `scene` with the shot's camera, pose and imperfections in place of its page. `density`

@@ -16,6 +16,7 @@
 
 namespace dotpose {
 
+/// The condition that gets worse, with its unit.
 enum class SweepKind : std::uint8_t {
     noise,      ///< sensor noise, grey levels
     blur,       ///< sigma of the lens's blur, px
@@ -24,11 +25,14 @@ enum class SweepKind : std::uint8_t {
     spacing,    ///< grid spacing in the image, px
     occlusion,  ///< share of the image behind a straight dark edge from a random side, %
 };
+/// All values of SweepKind, for tables.
 inline constexpr std::array kSweepKinds = {SweepKind::noise,   SweepKind::blur,
                                            SweepKind::missing, SweepKind::tilt,
                                            SweepKind::spacing, SweepKind::occlusion};
+/// Returns the identifier, such as "occlusion".
 const char* name(SweepKind kind);
 
+/// What is the same at each value of the condition.
 struct SweepOptions {
     Setup setup;                 ///< all other conditions
     int frames_per_value = 200;  ///< the same frames for each value
@@ -37,12 +41,14 @@ struct SweepOptions {
     Progress progress;
 };
 
+/// The scores at one value of the condition.
 struct SweepPoint {
     double value = 0;  ///< value of the condition, in the unit of its kind
     Score window;      ///< score with Decoder::window; `all` with Decoder::all
     Score all;
 };
 
+/// The scores over one condition.
 struct Sweep {
     SweepKind kind = SweepKind::noise;
     Preset preset = Preset::nominal;
@@ -50,7 +56,9 @@ struct Sweep {
     std::vector<SweepPoint> points;
 };
 
+/// Simulates and locates the frames of all values. Throws Error if `progress` returns false.
 Sweep run_sweep(SweepKind kind, const SweepOptions& options);
+/// Writes one line for each value and decoder.
 void write_sweep_csv(std::ostream& out, const Sweep& sweep);
 
 /// Writes sweep-KIND.csv, .svg and .png.

@@ -21,12 +21,14 @@
 
 namespace dotpose {
 
+/// First cell, on both axes, of the region that is kept for test pages.
 inline constexpr std::uint32_t kTestPageCell = 410'000'000;
 /// Cells between the patches of neighbouring settings; a patch has at most half as many per axis.
 inline constexpr std::uint32_t kTestPatchCells = 10'000;
 /// Unit of spacings and diameters on a test page.
 inline constexpr double kTestUnit_mm = 25.4 / 1200;
 
+/// What a test page shows.
 struct TestPageOptions {
     Profile profile = Profile::anoto;
     Paper paper;

@@ -25,6 +25,7 @@ struct Truth {
     double spacing_mm = kDefaultSpacing_mm;
 };
 
+/// Returns the true pose of a simulated frame.
 Truth truth_of(const Shot& shot);
 
 /// One line of truth.csv.
