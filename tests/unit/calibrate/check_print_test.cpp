@@ -1,5 +1,4 @@
-// What is found on prints that were scanned by a renderer of the tests' own
-// (tests/scanned_page.hpp).
+// Checks of prints that a renderer of the tests' own has scanned (tests/scanned_page.hpp).
 #include "dotpose/tools/check_print.hpp"
 
 #include <algorithm>
@@ -34,7 +33,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// What is left of a scan that was saved as JPEG.
+/// Returns the scan as it is after saving it as JPEG.
 GreyImage through_jpeg(const GreyImage& scan, int quality) {
     const test::TemporaryDirectory directory;
     const auto path = directory.path() / "scan.jpg";
@@ -141,7 +140,7 @@ TEST(CheckPrint, maps_distortion) {
     settings.wave_mm = 0.3;
     const PrintCheck result = check(scan_page(make_sheet(options), settings), 300);
     ASSERT_EQ(result.fields.size(), 1U);
-    // Part of a sine is taken up by the fitted scale.
+    // The fitted scale removes a part of the sine.
     EXPECT_NEAR(result.fields[0].largest_distortion_mm, settings.wave_mm, 0.1);
     EXPECT_LT(result.fields[0].scatter_mm, 0.01);
     EXPECT_THAT(remarks(result), Contains("distorted"));
@@ -149,7 +148,7 @@ TEST(CheckPrint, maps_distortion) {
     for (const DistortionBin& bin : result.fields[0].distortion) {
         EXPECT_NEAR(bin.du_mm, 0, 0.005);
         const double along_mm = bin.v_px * 25.4 / settings.dpi - height_mm / 2;
-        // What the fit takes up is a line through the middle.
+        // The part removed by the fit is a line through the middle.
         const double line_mm = (result.fields[0].scale->scale_y - 1) * along_mm;
         const double wave_mm = settings.wave_mm * std::sin(2 * std::numbers::pi * along_mm / 100);
         EXPECT_NEAR(bin.dv_mm, wave_mm - line_mm, 0.03);
@@ -188,7 +187,7 @@ TEST(CheckPrint, sees_a_photo_without_scale) {
     imperfections.noise_sigma = 3;
     imperfections.missing = 0.03;
     const GreyImage photo = render(page_of(sheet), camera, pose, imperfections, 1);
-    const PrintCheck result = check(photo, 72);  // what phones write into files
+    const PrintCheck result = check(photo, 72);  // the resolution that phones write into files
     ASSERT_EQ(result.fields.size(), 1U);
     EXPECT_FALSE(result.fields[0].scale);
     EXPECT_FALSE(result.resolution);
@@ -197,8 +196,8 @@ TEST(CheckPrint, sees_a_photo_without_scale) {
     EXPECT_THAT(remarks(result), Contains("no_resolution"));
 }
 
-/// A photo of a flawless print of 110 x 90 mm from near, with so much perspective as phones see of
-/// a page that fills their view.
+/// Returns a photo of a flawless print of 110 x 90 mm from near, with as much perspective as in a
+/// phone's photo of a page that fills its view.
 GreyImage phone_photo(double tilt_rad, double mm_per_px = 0.06, double missing = 0) {
     SheetOptions options;
     options.paper = {110, 90};
@@ -224,7 +223,7 @@ GreyImage phone_photo(double tilt_rad, double mm_per_px = 0.06, double missing =
 
 TEST(CheckPrint, photos_of_a_flawless_print_have_no_faults_and_no_scale) {
     for (const double tilt_degrees : {1.0, 10.0, 25.0}) {
-        // The resolution that the middle of the view has.
+        // The resolution given is that in the middle of the view.
         const PrintCheck result = check(phone_photo(tilt_degrees * kDegree_rad), 25.4 / 0.06);
         ASSERT_EQ(result.fields.size(), 1U) << tilt_degrees;
         const PrintField& field = result.fields[0];
@@ -303,7 +302,7 @@ TEST(CheckPrint, test_page_tells_the_best_settings) {
         EXPECT_EQ(field->bits_wrong, 0);
         EXPECT_NEAR(field->gain(), 0.5, 0.1);
     }
-    // Wanted is a sixth of the spacing: 4 and 6 units, printed as 6 (or 3) and as 9 (or 6).
+    // The best dots are a sixth of the spacing: 4 and 6 units, printed as 6 (or 3) and as 9 (or 6).
     ASSERT_EQ(result.best_per_spacing.size(), 2U);
     const auto dot_of = [&](std::size_t i) {
         return std::lround(result.fields[result.best_per_spacing[i]].pattern.dot_mm / kTestUnit_mm);
@@ -316,7 +315,7 @@ TEST(CheckPrint, test_page_tells_the_best_settings) {
 }
 
 TEST(CheckPrint, patches_whose_dots_reach_all_around_are_not_good) {
-    // Dots of 0.27 mm, 0.25 mm apart where they come nearest, 0.38 mm elsewhere.
+    // Dots of 0.27 mm are 0.25 mm apart where they come nearest, 0.38 mm elsewhere.
     TestPageOptions options;
     options.paper = {60, 60};
     options.margin_mm = 5;

@@ -18,7 +18,7 @@ using test::ScanSettings;
 struct Fault {
     const char* name;
     ScanSettings settings;
-    std::vector<std::string> verdict;  ///< faults to be found, no others
+    std::vector<std::string> verdict;  ///< faults that must be found, and no others
 };
 void PrintTo(const Fault& fault, std::ostream* out) {
     *out << fault.name << " at " << fault.settings.dpi << " dpi";

@@ -18,14 +18,14 @@ namespace dotpose::calibrate_test {
 
 inline constexpr double kDegree_rad = std::numbers::pi / 180;
 
-/// The paper's lens, III-A.3: 188 x 120 px, 12 % in the corner.
+/// Returns the paper's camera, III-A.3: 188 x 120 px, a distortion of 12 % in the corner.
 inline CameraModel paper_camera() {
     CameraModel camera;
     camera.k = -8.7e-6;
     return camera;
 }
 
-/// Frame `index` of a run, nominal, with a tilt.
+/// Returns frame `index` of a run with preset nominal and a tilt.
 inline GreyImage nominal_frame(const CameraModel& camera, std::uint64_t seed, int index,
                                double tilt_x_deg = 0, double tilt_y_deg = 0) {
     Setup setup;
@@ -37,7 +37,8 @@ inline GreyImage nominal_frame(const CameraModel& camera, std::uint64_t seed, in
     return render(shot);
 }
 
-/// The shot moved so that its centre looks at this place of the pattern, in section (0, 0).
+/// Returns the shot, moved so that its centre looks at this place of the pattern, in section (0,
+/// 0).
 inline Shot moved_to(Shot shot, double x_mm, double y_mm, double theta_rad) {
     const double x = x_mm / kDefaultSpacing_mm;
     const double y = y_mm / kDefaultSpacing_mm;
@@ -49,7 +50,7 @@ inline Shot moved_to(Shot shot, double x_mm, double y_mm, double theta_rad) {
     return shot;
 }
 
-/// What a perfect calibration of a simulated camera that looks straight down would say.
+/// Returns the perfect calibration of a simulated camera that looks straight down.
 inline Camera true_camera(const CameraModel& model) {
     Camera camera;
     camera.width_px = model.width_px;
@@ -62,10 +63,10 @@ inline Camera true_camera(const CameraModel& model) {
 
 // ---- A robot that carries the camera ----
 
-/// The image centre lies here, from the robot's centre, along the image axes.
+/// Place of the image centre, from the robot's centre, along the image axes.
 inline constexpr Vec2 kCameraOnRobot_mm{-14.5, 6.25};
 
-/// A robot that stands at a place, in a direction of its image x axis.
+/// Returns the frame of a robot that stands at a place, with the image x axis in a direction.
 inline GreyImage robot_frame(const CameraModel& camera, std::uint64_t seed, int index, double x_mm,
                              double y_mm, double theta_rad) {
     Setup setup;
@@ -78,13 +79,12 @@ inline GreyImage robot_frame(const CameraModel& camera, std::uint64_t seed, int 
                            x_mm + c * x - s * y, y_mm + s * x + c * y, theta_rad));
 }
 
-/// Where it turns on the spot.
+/// Place where the robot turns on the spot.
 inline constexpr double kPivot_x_mm = 60'000;
 inline constexpr double kPivot_y_mm = 45'000;
 
-/// How far a robot that stands elsewhere is located from where it is, along its own axes, and by
-/// how much it is turned: means over many directions, so that what is left is the calibration's
-/// error.
+/// Error of the located place of a robot that stands elsewhere, along its own axes, and of its
+/// angle: means over many directions, which leave only the error of the calibration.
 struct RobotError {
     Vec2 place_mm;
     double heading_rad = 0;
@@ -121,12 +121,12 @@ inline RobotError robot_error(const Camera& camera, const CameraModel& model, st
 
 // ---- A table with four sheets ----
 
-/// Sheets of 120 x 120 dots; the pattern reaches to the edge but for this.
+/// Sheets have 120 x 120 dots; the pattern reaches to the edge except for this margin.
 inline constexpr int kSide_cells = 120;
 inline constexpr double kMargin_mm = 0.3;
 inline constexpr double kPage_mm = (kSide_cells - 1) * kDefaultSpacing_mm + 2 * kMargin_mm;
 
-/// On the table: mm, x right, y down, angles clockwise.
+/// Place of a sheet on the table: mm, x right, y down, angles clockwise.
 struct Lying {
     double x_mm;
     double y_mm;
@@ -135,12 +135,12 @@ struct Lying {
 };
 using Table = std::array<Lying, 4>;
 
-/// Gaps of 0 to 3 mm, turns of up to 1 degree.
+/// A table with gaps of 0 to 3 mm and turns of up to 1 degree.
 inline const Table kTable = {Lying{0, 0, 0}, Lying{kPage_mm + 0.2, 0.4, 0.6 * kDegree_rad},
                              Lying{-0.3, kPage_mm + 1.4, -0.3 * kDegree_rad},
                              Lying{kPage_mm + 2.6, kPage_mm + 1.9, -1.0 * kDegree_rad}};
 
-/// Named a to d.
+/// Returns the sheets, named a to d.
 inline std::vector<SheetEntry> sheets_of_table() {
     std::vector<SheetEntry> entries;
     for (std::uint32_t i = 0; i < kTable.size(); ++i) {
@@ -163,7 +163,7 @@ inline CameraModel wide_camera() {
     return camera;
 }
 
-/// What the camera sees at a place of the table; dots of all sheets are dark on one paper.
+/// Returns the camera's frame at a place of the table; dots of all sheets are dark on one paper.
 inline GreyImage table_frame(const Table& table, const CameraModel& camera, std::uint64_t seed,
                              int index, double x_mm, double y_mm, double theta_rad) {
     Setup setup;
@@ -177,7 +177,7 @@ inline GreyImage table_frame(const Table& table, const CameraModel& camera, std:
         const double dy = y_mm - lying.y_mm;
         const double c = std::cos(lying.turn_rad);
         const double s = std::sin(lying.turn_rad);
-        constexpr double kTooFar_mm = kPage_mm / 2 + 12;  // for any dot to be in view
+        constexpr double kTooFar_mm = kPage_mm / 2 + 12;  // beyond, no dot is in view
         if (std::abs(dx - kPage_mm / 2) > kTooFar_mm) continue;
         if (std::abs(dy - kPage_mm / 2) > kTooFar_mm) continue;
         const Sheet& sheet = entries[i].sheet;
@@ -189,7 +189,7 @@ inline GreyImage table_frame(const Table& table, const CameraModel& camera, std:
         shot.page = page_of(sheet, seed + i + 1);
         shot.page.print_scale = lying.print;
         const GreyImage image = render(shot);
-        // Light and noise are the same each time.
+        // Light and noise are the same for each sheet.
         if (result.pixels.empty()) result = image;
         for (std::size_t k = 0; k < image.pixels.size(); ++k)
             result.pixels[k] = std::min(result.pixels[k], image.pixels[k]);
@@ -197,7 +197,7 @@ inline GreyImage table_frame(const Table& table, const CameraModel& camera, std:
     return result;
 }
 
-/// Frame `index` of a drive along the seams, with the camera at any angle.
+/// Returns frame `index` of a drive along the seams, with the camera at any angle.
 inline GreyImage seam_frame(const Table& table, const CameraModel& camera, std::uint64_t seed,
                             int index) {
     Rng rng(seed, static_cast<std::uint64_t>(index));

@@ -78,7 +78,7 @@ TEST(CalibrateSpin, TheReferenceStaysPutAfterwards) {
         ASSERT_EQ(fix.status, Status::ok);
         EXPECT_NEAR(fix.x_mm(), kPivot_x_mm, 0.03);
         EXPECT_NEAR(fix.y_mm(), kPivot_y_mm, 0.03);
-        // 16 mm from the camera, an angle is most of the error.
+        // At 16 mm from the camera, the angle makes most of the error.
         const auto variance = static_cast<double>(fix.covariance[0][0]);
         EXPECT_LT(std::abs(fix.x_mm() - kPivot_x_mm), 5 * kDefaultSpacing_mm * std::sqrt(variance));
     }
@@ -89,8 +89,8 @@ double off_mm(const RobotError& error) {
     return std::hypot(error.place_mm.x, error.place_mm.y);
 }
 
-// 15.8 mm away, 4 um and 3e-4 radians across are 5.3 um per axis: what the camera file does not
-// know the reference does not know either.
+// At a distance of 15.8 mm, 4 um and 3e-4 radians across give 5.3 um per axis: an uncertainty of
+// the camera file is also one of the reference.
 TEST(CalibrateSpin, AddsWhatTheLensDoesNotTell) {
     const CameraModel model = paper_camera();
     const auto frame_at = [&](int i) {
@@ -104,8 +104,8 @@ TEST(CalibrateSpin, AddsWhatTheLensDoesNotTell) {
                 std::hypot(of_turn_mm, 0.004, 3e-4 * away_mm / std::sqrt(2)), 1e-5);
 }
 
-// In undistorted pixels so far outside the image an estimated lens is off by more than this. But
-// that is told by the same lens as all fixes, so that it never shows on the paper.
+// In undistorted pixels this far outside the image, an estimated lens is wrong by more than this.
+// The same lens gives the reference and all fixes, so the error never shows on the paper.
 TEST(CalibrateSpin, IsExactWithAnEstimatedLens) {
     const CameraModel model = paper_camera();
     for (const std::uint64_t seed : {61, 62, 63}) {
@@ -121,13 +121,13 @@ TEST(CalibrateSpin, IsExactWithAnEstimatedLens) {
             << "seed " << seed;
         EXPECT_LT(off_mm(robot_error(spin.camera, model, seed + 20)), 0.02) << "seed " << seed;
 
-        // A new calibration of the lens, with the reference of the old one.
+        // The reference of the old calibration is used with a new calibration of the lens.
         const auto other_frame = [&](int i) { return nominal_frame(model, seed + 30, i); };
         Camera again = calibrate_lens(20, other_frame, {}).camera;
         again.reference_px = reference_in(again, spin.camera);
         EXPECT_LT(off_mm(robot_error(again, model, seed + 20)), 0.02) << "seed " << seed;
 
-        // The heading is a matter of the image centre, wherever the reference is.
+        // The heading is that at the image centre, wherever the reference is.
         const auto drive_frame = [&](int i) {
             return robot_frame(model, seed + 40, i, kPivot_x_mm + 5 * i, kPivot_y_mm, 0);
         };
@@ -141,7 +141,7 @@ TEST(CalibrateSpin, IsExactWithAnEstimatedLens) {
 TEST(CalibrateDrive, FindsTheHeading) {
     const CameraModel model = paper_camera();
     constexpr double kDirection_rad = 2.1;
-    constexpr double kOffset_rad = -1.65;  // heading less image x axis
+    constexpr double kOffset_rad = -1.65;  // heading minus the angle of the image x axis
     const auto frame_at = [&](int i) {
         return robot_frame(model, 56, i, kPivot_x_mm + 5 * i * std::cos(kDirection_rad),
                            kPivot_y_mm + 5 * i * std::sin(kDirection_rad),
@@ -193,7 +193,8 @@ std::string refusal(const std::function<void()>& calibrate) {
     return "not refused";
 }
 
-/// Frame `i` of 12 of a robot that turns by `step_deg` and moves by `drift_mm` along x each time.
+/// Returns frame `i` of 12 of a robot that turns by `step_deg` and moves by `drift_mm` along x from
+/// frame to frame.
 FrameAt turning(const CameraModel& model, double step_deg, double drift_mm) {
     return [=](int i) {
         return robot_frame(model, 65, i, kPivot_x_mm + drift_mm * i, kPivot_y_mm,
@@ -201,8 +202,8 @@ FrameAt turning(const CameraModel& model, double step_deg, double drift_mm) {
     };
 }
 
-// A drive with the robot turning slowly is no turn on the spot, however well an arc about a far
-// point goes through it.
+// A drive of a slowly turning robot is not a turn on the spot, however well an arc about a far
+// point fits it.
 TEST(CalibrateSpin, RefusesADrive) {
     const CameraModel model;
     EXPECT_THAT(
@@ -210,12 +211,13 @@ TEST(CalibrateSpin, RefusesADrive) {
         HasSubstr("no frames of a turn on the spot: the point that stays put best moved by"));
     EXPECT_THAT(refusal([&] { calibrate_spin(12, turning(model, 30, 4), {}, {}); }),
                 HasSubstr("no frames of a turn on the spot"));
-    // Half a millimetre in all, over 40 degrees: the residual is small, and the point far off.
+    // The robot moves by half a millimetre in all over 40 degrees: the residual is small, and the
+    // point far off.
     EXPECT_THAT(refusal([&] { calibrate_spin(12, turning(model, 3.6, 0.05), {}, {}); }),
                 HasSubstr("the robot moved on while it turned"));
 }
 
-// 12 frames all around, and the robot moves on by 0.02 mm each time.
+// In 12 frames all around, the robot moves on by 0.02 mm from frame to frame.
 TEST(CalibrateSpin, CountsADriftInItsDeviation) {
     const CameraModel model;
     const SpinCalibration still = calibrate_spin(12, turning(model, 30, 0), {}, {});

@@ -29,7 +29,8 @@ GreyImage plain_frame(const CameraModel& camera, int index) {
     return table_frame(kTable, camera, 62, index, 30, 30, 0.1 * index);
 }
 
-/// As printers do it: up to 0.3 % off, and differently along the axes. The mean of the first is 1.
+/// Returns a table of sheets with usual print errors: up to 0.3 %, and different along the axes.
+/// The mean of the first sheet is 1.
 Table printed_table() {
     Table table = kTable;
     table[0].print = {1.0012, 1 / 1.0012};
@@ -70,10 +71,10 @@ TEST(StitchSheets, FindsHowFourSheetsLieAndHowLongTheyWerePrinted) {
     for (const Seam& seam : stitching.seams)
         EXPECT_LT(seam.residual_mm, 0.02) << seam.first << seam.second;
 
-    // One world: on both sides of a seam, and as far from it as can be.
+    // All places are in one world: on both sides of a seam, and as far from it as possible.
     HeapLocator locator;
     Camera camera = true_camera(model);
-    // 20 mm to the right of the image: a wrong scale would show.
+    // The reference is 20 mm to the right of the image, so that a wrong scale would show.
     camera.reference_px =
         PixelPoint{(model.width_px - 1) / 2.0 + 20 / model.mm_per_px, (model.height_px - 1) / 2.0};
     for (const auto& [x_mm, y_mm] : {std::pair(20.0, 40.0), std::pair(90.0, 110.0)}) {
@@ -95,7 +96,7 @@ TEST(StitchSheets, FindsHowFourSheetsLieAndHowLongTheyWerePrinted) {
     }
 }
 
-/// Over the upper seam only: sheets a and b.
+/// Returns frames over the upper seam only: sheets a and b.
 FrameAt upper_seam(const Table& table, const CameraModel& model) {
     return [&](int i) {
         return table_frame(table, model, 65, i, kPage_mm + 0.5, 8 + 2.0 * i, 0.7 * i);
@@ -113,7 +114,7 @@ TEST(StitchSheets, OnlyAReferenceMakesPrintScalesTrue) {
         EXPECT_NEAR(stitching.sheets[i].print_scale_x, x, 5 * sheet.sigma_scale_x) << i;
         EXPECT_NEAR(stitching.sheets[i].print_scale_y, y, 5 * sheet.sigma_scale_y) << i;
     };
-    // Of the first sheet the file says 1: the mean stays so, and all others are told by it.
+    // The file has 1 for the first sheet: that mean stays, and all other scales follow from it.
     const auto relative = stitch_sheets(25, frame_at, sheets_of_table(), true_camera(model), {});
     expect_scale(relative, 0, 1.001, 0.999);
     expect_scale(relative, 1, 1.001 / 1.003, 1.003 / 1.003);
@@ -129,7 +130,7 @@ TEST(StitchSheets, OnlyAReferenceMakesPrintScalesTrue) {
     EXPECT_LT(off_mm(*by_width.sheets[1].world, table[1]), 0.02);
 }
 
-// Dots err alike in all frames that show them: the same frames once more tell nothing.
+// Dots have the same error in all frames that show them, so the same frames again add nothing.
 TEST(StitchSheets, FramesThatRepeatDotsDoNotMakeItMoreCertain) {
     const CameraModel model = wide_camera();
     const FrameAt seam = upper_seam(kTable, model);
@@ -163,7 +164,7 @@ TEST(DrawStitching, ShowsSheetsBeforeAndAfter) {
         return text.str();
     };
     EXPECT_THAT(picture(), HasSubstr("not all of these sheets lay in the world"));
-    // 1 mm to the right of where it lies; less where it lies.
+    // The sheet file has the sheet 1 mm to the right of its true place: 0.71 mm rms per axis.
     before[1].world =
         WorldPose{(kTable[1].x_mm + 1) / 1000, -kTable[1].y_mm / 1000, -kTable[1].turn_rad};
     EXPECT_THAT(picture(), testing::AllOf(HasSubstr(">Before<"), HasSubstr(">After<"),
@@ -179,14 +180,14 @@ TEST(StitchSheets, SaysWhichScalesTheFramesDoNotTell) {
     entries[1].print_scale_x = 1.002;
     const auto stitching = stitch_sheets(12, upper_seam(kTable, model), entries, camera, {});
     ASSERT_EQ(stitching.stitched.size(), 2U);
-    // Nothing tells how much longer the first sheet is one way than the other.
+    // No frame shows how much longer the first sheet is along one axis than along the other.
     for (const StitchedSheet& sheet : stitching.stitched) {
         EXPECT_FALSE(is_told(sheet.sigma_scale_x)) << sheet.name;
         EXPECT_FALSE(is_told(sheet.sigma_scale_y)) << sheet.name;
     }
     EXPECT_NEAR(stitching.sheets[0].print_scale_x, 1, 1e-5);
     EXPECT_NEAR(stitching.sheets[0].print_scale_y, 1, 1e-5);
-    // The second can be compared with it along the seam, and a little across.
+    // The second sheet can be compared with it along the seam, and a little across.
     EXPECT_NEAR(stitching.sheets[1].print_scale_y, 1, 5e-4);
     EXPECT_NEAR(stitching.sheets[1].print_scale_x, 1, 2e-3);
     EXPECT_LT(off_mm(*stitching.sheets[1].world, kTable[1]), 0.05);
@@ -209,7 +210,7 @@ TEST(StitchSheets, KeepsTheSheetThatLiesInTheWorldAndNamesThoseNotSeen) {
     const CameraModel model = wide_camera();
     std::vector<SheetEntry> entries = sheets_of_table();
     entries[1].world = WorldPose{1.25, -0.5, 0.3};
-    // Over the upper seam only: sheets a and b.
+    // The frames are over the upper seam only: sheets a and b.
     const auto frame_at = [&](int i) {
         return table_frame(kTable, model, 64, i, kPage_mm + 0.5, 10 + 2.0 * i, 0.7 * i);
     };
@@ -231,7 +232,7 @@ TEST(StitchSheets, KeepsTheSheetThatLiesInTheWorldAndNamesThoseNotSeen) {
     EXPECT_FALSE(stitching.sheets[2].world.has_value());
 }
 
-// A frame that did not show the sheet in the world crashed.
+// Regression: a frame that did not show the sheet in the world made this crash.
 TEST(StitchSheets, FramesMustShowASheetThatLiesInTheWorld) {
     const CameraModel model = wide_camera();
     const auto c_beside_d = [&](int i) {

@@ -1,4 +1,4 @@
-// Positions from places in the four sequences, against division.
+// Positions from places in the four sequences, compared with division.
 #include "code/basis.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Symbols -> position: exact where the code carries the window, refused everywhere else.
+// Positions of windows: exact where the code carries the window, refused everywhere else.
 #include <array>
 #include <cstdint>
 #include <random>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint32_t kSeed = 7998798;
 
-/// Where a refused `place` must still stand.
+/// The value that `place` must keep after a refusal.
 constexpr Place kUntouched{{1, 2}, {3, 4}};
 
 /// The places modulo 241 at which 5 digits of the published a4 also stand elsewhere.
@@ -292,8 +292,8 @@ Grid across_sections(const Place& place, std::uint8_t other_u, int columns, int 
 }
 
 TEST(Decode, RefusesElevenColumnsAcrossTwoSections) {
-    // One difference is wrong. Of 10, five on one side of it fix the position, which it
-    // contradicts.
+    // One difference is wrong. Of 10 differences, five on one side of it fix the position, which
+    // the wrong one contradicts.
     std::mt19937 rng(kSeed);
     int found_in_8 = 0;
     constexpr int kDraws = 20'000;
@@ -316,7 +316,8 @@ TEST(Decode, RefusesElevenColumnsAcrossTwoSections) {
     EXPECT_NEAR(static_cast<double>(found_in_8) / kDraws, 0.0075, 0.0025);
 }
 
-// Why the profile must be the sheet's: counted from the sequences by a program in another language.
+// The profile must be that of the sheet: windows were counted from the sequences by a program in
+// another language.
 TEST(Decode, TheOtherProfileReadsSomeWindowsWrong) {
     using Pair = std::pair<Profile, Profile>;
     for (const auto& [printed, read] :

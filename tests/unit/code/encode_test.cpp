@@ -1,4 +1,5 @@
-// Position -> symbols, against vectors, the plain sum and a formula that shares nothing with it.
+// Symbols of positions, compared with vectors, the plain sum, and a formula that shares nothing
+// with it.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -18,7 +19,8 @@ namespace {
 
 constexpr std::uint32_t kSeed = 20130;
 
-/// Each residue i of a sequence is passed ceil((p - i) / length) times before p.
+/// Returns the roll by counting: each residue i of a sequence is passed ceil((p - i) / length)
+/// times before p.
 int roll_by_counting(Profile profile, std::uint64_t p) {
     const auto texts = secondary_texts(profile);
     std::uint64_t sum = 5 * p;

@@ -161,8 +161,8 @@ inline Grid reference_window(Profile profile, const Place& place, int columns, i
     return grid;
 }
 
-/// The symbol as seen when the page is turned a quarter turn clockwise. With y down that turns the
-/// vector (right, down) into (-down, right).
+/// Returns the symbol as seen when the page is turned a quarter turn clockwise. With y down, that
+/// turns the vector (right, down) into (-down, right).
 inline Symbol turned(Symbol symbol) {
     for (const auto& [from, d] : kDisplacements) {
         if (from != symbol) continue;
@@ -173,7 +173,7 @@ inline Symbol turned(Symbol symbol) {
     return symbol;
 }
 
-/// The window on a page turned clockwise: its bottom left symbol comes to the top left.
+/// Returns the window on a page turned clockwise: its bottom left symbol comes to the top left.
 inline Grid turned(const Grid& grid) {
     Grid result{grid.rows, grid.columns, grid.symbols};
     for (int r = 0; r < grid.rows; ++r) {
@@ -185,7 +185,7 @@ inline Grid turned(const Grid& grid) {
     return result;
 }
 
-/// Whether `place` really shows the window: what an `ok` promises.
+/// Whether `place` really shows the window, as the status ok promises.
 inline bool shows(Profile profile, const Place& place, const Grid& grid) {
     return place.cell.x < kL && place.cell.y < kL && place.section.u < 63 && place.section.v < 63 &&
            reference_window(profile, place, grid.columns, grid.rows) == grid;

@@ -1,4 +1,5 @@
-// Rolls of consecutive lines against those of each by itself and a second implementation.
+// Rolls of consecutive lines, compared with those computed one by one and by a second
+// implementation.
 #include "code/rolls.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// The facts about the sequences that docs/position-code.md states and the rest of dotpose relies
-// on, by enumeration of what the public functions give.
+// Facts about the sequences that docs/position-code.md states and dotpose relies on, by enumeration
+// of the results of the public functions.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +15,7 @@
 namespace dotpose::code_test {
 namespace {
 
-/// All strings of `length` of a cyclic sequence, by place.
+/// Returns all strings of `length` of a cyclic sequence, by place.
 std::vector<std::string> strings_of(const std::string& cycle, std::size_t length) {
     std::vector<std::string> result;
     for (std::size_t start = 0; start < cycle.size(); ++start) {
@@ -34,7 +34,7 @@ std::vector<std::string> main_strings(std::size_t length) {
     return strings_of(cycle, length);
 }
 
-/// a4 is the most significant digit of a difference: d = 5 + a1 + 3 a2 + 9 a3 + 18 a4.
+/// Returns a4, the most significant digit of a difference: d = 5 + a1 + 3 a2 + 9 a3 + 18 a4.
 std::string a4_of(Profile profile) {
     std::string cycle;
     for (std::uint32_t p = 0; p < 241; ++p) {
@@ -90,7 +90,7 @@ int smallest_distance_to_turned(std::size_t length) {
     return smallest;
 }
 
-/// Strings that stand at several places, with these places.
+/// Returns the strings that stand at several places, with these places.
 std::map<std::string, std::vector<int>> doubled(const std::string& cycle, std::size_t length) {
     std::map<std::string, std::vector<int>> places;
     const auto all = strings_of(cycle, length);
@@ -100,7 +100,7 @@ std::map<std::string, std::vector<int>> doubled(const std::string& cycle, std::s
     return places;
 }
 
-/// The ternary strings of length 5 that a cycle leaves out.
+/// Returns the ternary strings of length 5 that do not occur in a cycle.
 std::set<std::string> absent(const std::string& cycle) {
     std::set<std::string> result;
     for (int key = 0; key < 243; ++key) {
@@ -148,8 +148,8 @@ TEST(MainSequence, LongerStringsDifferInMorePlaces) {
     EXPECT_EQ(smallest_distance_to_turned(17), 2);
 }
 
-// The paper (II-B.7) says 36 %; enumeration says 8/21. A string of 8 bits, one of them flipped, the
-// nearest string of main, ties broken at random.
+// The paper (II-B.7) says 36 %; enumeration says 8/21. One bit of a string of 8 bits is flipped,
+// and the nearest string of main is chosen, with ties broken at random.
 TEST(MainSequence, TheNearestStringIsTheRightOneIn38Percent) {
     const auto all = main_strings(8);
     double right = 0;

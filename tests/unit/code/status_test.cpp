@@ -51,7 +51,7 @@ TEST(Status, ValuesCountFromZero) {
     }
 }
 
-// Receivers in other languages know the numbers from there.
+// Receivers in other languages take the numbers from this document.
 TEST(Status, NumbersAreThoseOfTheDocumentedPackets) {
     std::ifstream file(std::string(DOTPOSE_SOURCE_DIR) + "/docs/pose-packet.md");
     const std::string text(std::istreambuf_iterator<char>(file), {});
@@ -62,7 +62,7 @@ TEST(Status, NumbersAreThoseOfTheDocumentedPackets) {
     }
 }
 
-// They are on the line between devices and hosts of different versions.
+// The numbers are sent between devices and hosts of different versions.
 TEST(Status, NumbersAreThoseOfTheFirstVersion) {
     EXPECT_EQ(static_cast<int>(Status::ok), 0);
     EXPECT_EQ(static_cast<int>(Status::grid_too_small), 8);

@@ -1,4 +1,4 @@
-// Lookup tables against divisions and the text of the sequences.
+// Lookup tables, compared with divisions and the text of the sequences.
 #include "code/tables.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t kSeed = 61;
 
-/// Numbers near both ends of 32 bits and anywhere in between.
+/// Returns numbers near both ends of the range of 32 bits and anywhere in between.
 std::vector<std::uint32_t> many_numbers() {
     std::vector<std::uint32_t> numbers;
     for (std::uint32_t n = 0; n < 70000; ++n) {

@@ -1,4 +1,5 @@
-// The table of lines that places of other profiles do not share, against the reference's rolls.
+// The table of lines that places of other profiles do not share, compared with the rolls of the
+// reference.
 #include "code/unshared_codes.hpp"
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 namespace dotpose::code_test {
 namespace {
 
-/// What the digits of a4 before each line from `place` on add to the roll.
+/// Returns what the digits of a4 before each line from `place` on add to the roll.
 std::vector<int> a4_rolls(Profile profile, std::size_t place, int lines) {
     const std::string_view a4 = secondary_texts(profile)[3];
     std::vector<int> rolls;

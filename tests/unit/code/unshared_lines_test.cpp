@@ -1,4 +1,4 @@
-// The table of lines that are not shared, counted anew.
+// The table of lines that are not shared, counted again.
 #include "code/unshared_lines.hpp"
 
 #include <algorithm>
@@ -14,7 +14,8 @@ namespace {
 constexpr std::size_t kMost = 16;
 using Lines = std::array<int, kMost + 1>;
 
-/// The most lines that have grown by the same, of the first n from one end, for every n.
+/// Returns, for every n, how many of the first n lines from one end have grown by the same offset
+/// at most.
 Lines most_equal(const std::array<int, kMost>& offsets, std::size_t lines, bool from_last) {
     std::array<int, kSections> counts{};
     Lines most{};
@@ -25,7 +26,7 @@ Lines most_equal(const std::array<int, kMost>& offsets, std::size_t lines, bool 
     return most;
 }
 
-/// The entry of a place: of the lines, those that no other place of the sequence shares.
+/// Returns the entry of a place: the number of lines that no other place of the sequence shares.
 int entry(const Secondary& a, std::uint32_t place, int count) {
     const auto lines = static_cast<std::size_t>(count);
     int most_at_one = 0;

@@ -10,7 +10,7 @@
 
 namespace dotpose::code_test {
 
-/// The 8 x 8 letters whose top left one stands at `place`.
+/// The 8 x 8 letters of the window whose top left symbol stands at `place`.
 struct CodeVector {
     Profile profile;
     Place place;
@@ -49,7 +49,8 @@ inline constexpr std::array<CodeVector, 7> kCodeVectors{{
 }};
 
 /// Offsets of the main sequence in adjacent rows of commercial paper, as published in 2005 with the
-/// Free Dot Toolkit. Six of them (five differences) tell a position: one straight run.
+/// Free Dot Toolkit. Six of them (five differences) determine a position; all of them form one
+/// straight run.
 inline constexpr std::array<std::uint8_t, 25> kPaperRollsFrom1117{
     34, 46, 6, 33, 46, 41, 9, 52, 28, 44, 10, 18, 1, 59, 17, 8, 42, 54, 40, 29, 59, 31, 56, 51, 7};
 inline constexpr std::array<std::uint8_t, 30> kPaperRollsFrom1097{

@@ -1,5 +1,5 @@
-// After start nothing is allocated: a Locator lives on the memory given to it.
-// scripts/check-core-symbols reads the same from the object code, malloc included.
+// Nothing is allocated after the start: a Locator uses only the memory given to it.
+// scripts/check-core-symbols checks the same in the object code, malloc included.
 #include <cstdlib>
 #include <memory>
 #include <new>
@@ -18,7 +18,7 @@ thread_local int allocations = 0;
 
 void* counted(std::size_t size, std::size_t alignment) {
     ++allocations;
-    // aligned_alloc takes whole multiples of the alignment.
+    // aligned_alloc needs a multiple of the alignment.
     const std::size_t whole = (size + alignment - 1) / alignment * alignment;
     void* memory = std::aligned_alloc(alignment, whole == 0 ? alignment : whole);
     if (memory == nullptr) throw std::bad_alloc();
@@ -50,7 +50,7 @@ void* counted(std::size_t size, std::size_t alignment) {
 namespace dotpose::core_test {
 namespace {
 
-/// Frames of every end: read at once, read at the second attempt, refused.
+/// Returns frames with every outcome: read at once, read at the second attempt, refused.
 std::vector<GreyImage> frames_of(int width_px, int height_px) {
     std::vector<GreyImage> frames;
     for (const Preset preset : kPresets) {
@@ -67,7 +67,7 @@ std::vector<GreyImage> frames_of(int width_px, int height_px) {
     return frames;
 }
 
-/// Locates all frames in all ways; `fixes` counts those that were found.
+/// Locates all frames in all ways; `fixes` counts the fixes.
 int allocations_of(const std::vector<GreyImage>& frames, Locator& locator, int& fixes) {
     int counted = 0;
     for (const GreyImage& frame : frames) {

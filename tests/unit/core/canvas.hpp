@@ -1,4 +1,4 @@
-// Small images drawn by hand, and what the pixel stages make of them.
+// Small images drawn by hand, and the results of the pixel stages for them.
 #pragma once
 
 #include <cmath>
@@ -32,14 +32,15 @@ inline void fill(GreyImage& image, int u0, int v0, int u1, int v1, int level) {
     }
 }
 
-/// Share of a Gaussian of deviation `sigma` about `centre` that falls on the pixel at `u`.
+/// Returns the share of a Gaussian of deviation `sigma` about `centre` that falls on the pixel at
+/// `u`.
 inline double gaussian_share(int u, double centre, double sigma) {
     const double scale = sigma * std::numbers::sqrt2;
     return 0.5 * (std::erf((u + 0.5 - centre) / scale) - std::erf((u - 0.5 - centre) / scale));
 }
 
-/// Takes a Gaussian spot out of the light: `depth` of it at the centre. Integrated over each pixel,
-/// so the centre of gravity is exact up to the rounding of the levels.
+/// Removes a Gaussian spot from the light, `depth` of it at the centre. The spot is integrated over
+/// each pixel, so its centroid is exact up to the rounding of the levels.
 inline void darken(GreyImage& image, Vec2 centre, double sigma, double depth) {
     const double peak = depth * 2 * std::numbers::pi * sigma * sigma;
     const int reach = static_cast<int>(6 * sigma) + 2;
@@ -56,7 +57,7 @@ inline void darken(GreyImage& image, Vec2 centre, double sigma, double depth) {
     }
 }
 
-/// What counts as dark in a column of the band that was measured last.
+/// Thresholds in a column of the band that was measured last: low and high.
 struct Levels {
     int low = 0;
     int high = 0;
@@ -69,7 +70,7 @@ inline Levels levels_of_tile(const Light& light, int tile) {
     return levels_at(light, tile * kTileWidth_px);
 }
 
-/// The blobs of an image that may be dots, before the size filter.
+/// Returns the blobs of an image that may be dots, before the size filter.
 inline std::vector<Dot> blobs_of(const GreyImage& image, Workspace& w,
                                  const ThresholdOptions& options = {}) {
     const core::DotList list{w.dots, w.dot_count, w.dots_kept_within_px};
@@ -94,7 +95,7 @@ inline std::vector<Dot> blobs_of(const GreyImage& image) {
     return blobs_of(image, workspace);
 }
 
-/// Distance to the nearest of some dots.
+/// Returns the distance to the nearest of some dots.
 inline double nearest_px(const std::vector<Dot>& dots, Vec2 place) {
     double nearest = 1e9;
     for (const Dot& dot : dots)

@@ -1,4 +1,4 @@
-// How frames add up to a profile.
+// How the evidence of frames for a profile adds up.
 #include "dotpose/code_evidence.hpp"
 
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@ namespace dotpose {
 namespace {
 
 constexpr Cell kPlace{1000, 2000};
-/// A frame against which this profile is so much less likely, log2.
+/// Returns the log odds of a frame that makes this profile less likely by this log2.
 CodeEvidence::LogOdds against(Profile profile, int log2) {
     CodeEvidence::LogOdds odds{};
     odds[static_cast<std::size_t>(profile)] = -256 * log2;
@@ -38,7 +38,7 @@ TEST(CodeEvidence, CountsThePlaceOnceAndItsFramesAsChances) {
     for (int frame = 0; frame < 4; ++frame)
         evidence.add({kPlace.x + static_cast<std::uint32_t>(frame), kPlace.y},
                      against(Profile::anoto, frame == 1 ? 20 : 8));
-    // The one that told most, of four: 20 - log2(4).
+    // The strongest of four frames counts: 20 - log2(4).
     EXPECT_NEAR(evidence.log2_q8(Profile::anoto), -18 * 256, 24);
 }
 

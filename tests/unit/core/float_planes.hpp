@@ -1,4 +1,4 @@
-// Planes of tilted cameras at random, and their formula in double precision.
+// Random planes of tilted cameras, and their formula in double precision.
 #pragma once
 
 #include "core/math/float_plane.hpp"
@@ -6,7 +6,7 @@
 
 namespace dotpose::core_test {
 
-/// pattern = at + (du x + dv y) / (1 + tilt . (x, y) + bend (x^2 + y^2)).
+/// Computes pattern = at + (du x + dv y) / (1 + tilt . (x, y) + bend (x^2 + y^2)).
 inline Vec2 formula(const core::FloatPlane& p, Vec2 px) {
     const double divisor = 1 + double{p.tilt_x} * px.x + double{p.tilt_y} * px.y +
                            double{p.bend} * (px.x * px.x + px.y * px.y);
@@ -14,7 +14,7 @@ inline Vec2 formula(const core::FloatPlane& p, Vec2 px) {
             double{p.at_y} + (double{p.du_y} * px.x + double{p.dv_y} * px.y) / divisor};
 }
 
-/// The plane of a square grid, turned anyhow, whose sides differ by a little; `tilt` per px.
+/// Returns the plane of a nearly square grid, turned by any angle; `tilt` is per px.
 inline core::FloatPlane random_float_plane(double spacing_px, double tilt, Rng& rng) {
     const double angle = rng.uniform(0, 2 * std::numbers::pi);
     const double direction = rng.uniform(0, 2 * std::numbers::pi);
@@ -32,7 +32,7 @@ inline core::FloatPlane random_float_plane(double spacing_px, double tilt, Rng& 
     return p;
 }
 
-/// The image point of a point of the pattern, by Newton's method with differences.
+/// Returns the image point of a point of the pattern, by Newton's method with differences.
 inline Vec2 image_of(const core::FloatPlane& plane, Vec2 pattern) {
     Vec2 px;
     for (int step = 0; step < 30; ++step) {

@@ -1,4 +1,5 @@
-// Ideal grids and dots in double precision, from plane geometry alone: what the stages should find.
+// Ideal grids and dots in double precision, from plane geometry alone, as the stages should find
+// them.
 #pragma once
 
 #include <algorithm>
@@ -38,7 +39,7 @@ inline double length(Vec2 a) {
     return std::hypot(a.x, a.y);
 }
 
-/// Nearest fixed-point value with `bits` fractional bits.
+/// Returns the nearest fixed-point value with `bits` fractional bits.
 inline Vec fixed(Vec2 a, int bits) {
     return {static_cast<std::int32_t>(std::lround(std::ldexp(a.x, bits))),
             static_cast<std::int32_t>(std::lround(std::ldexp(a.y, bits)))};
@@ -59,7 +60,7 @@ struct Mesh {
     Vec2 origin;
 
     Vec2 at(double i, double j) const { return origin + i * u + j * v; }
-    /// Grid coordinates of an image point.
+    /// Returns the grid coordinates of an image point.
     Vec2 inverse(Vec2 p) const {
         const Vec2 d = p - origin;
         const double area = u.x * v.y - u.y * v.x;
@@ -85,7 +86,8 @@ struct PlacedDot {
     Vec2 centre_px;
 };
 
-/// Dots of all cells |i|, |j| <= `reach` inside the image, at displacement(i, j) in spacings.
+/// Returns the dots of all cells |i|, |j| <= `reach` inside the image, displaced by displacement(i,
+/// j) in spacings.
 template <typename Displacement>
 std::vector<PlacedDot> placed_dots(const Mesh& mesh, int reach, Vec2 image_px,
                                    Displacement displacement) {
@@ -109,13 +111,13 @@ inline std::vector<Dot> dots_of(const std::vector<PlacedDot>& placed) {
     return dots;
 }
 
-/// A sixth of the spacing in one of the four directions, at random.
+/// Returns a sixth of the spacing in one of the four directions, at random.
 inline Vec2 random_displacement(Rng& rng) {
     const auto symbol = static_cast<Symbol>(rng.below(4));
     return {dx(symbol) / 6.0, dy(symbol) / 6.0};
 }
 
-/// The pattern as a camera above it sees it, without perspective: the image point p_px is the
+/// The pattern as seen by a camera above it, without perspective: the image point p_px is the
 /// pattern point place + `at_centre` + R(theta) (p_px - centre_px) / spacing_px.
 struct View {
     Profile profile = Profile::anoto;
@@ -126,7 +128,7 @@ struct View {
     Vec2 image_px{188, 120};
 
     Vec2 centre_px() const { return {(image_px.x - 1) / 2, (image_px.y - 1) / 2}; }
-    /// Spacings per px: the columns of R(theta) / spacing.
+    /// Pattern steps per image step, in spacings per px: the columns of R(theta) / spacing.
     Vec2 du() const { return {std::cos(theta_rad) / spacing_px, std::sin(theta_rad) / spacing_px}; }
     Vec2 dv() const { return {-du().y, du().x}; }
     Vec2 pattern(Vec2 p_px) const {
@@ -139,8 +141,8 @@ struct View {
         m.origin = centre_px() - at_centre.x * m.u - at_centre.y * m.v;
         return m;
     }
-    /// The same grid as a stage may find it: `turn` takes its steps to pattern steps, and its cell
-    /// (0, 0) is the pattern's intersection `zero`.
+    /// Returns the same grid as a stage may find it: `turn` maps its steps to pattern steps, and
+    /// its cell (0, 0) is the pattern's intersection `zero`.
     Mesh mesh_turned(Turn turn, Vec zero) const {
         const Mesh m = mesh();
         const auto along = [&](Vec step) { return step.x * m.u + step.y * m.v; };
@@ -148,7 +150,7 @@ struct View {
     }
 };
 
-/// All dots of the view, in the order of pattern rows.
+/// Returns all dots of the view, in the order of pattern rows.
 inline std::vector<PlacedDot> pattern_dots(const View& view) {
     const auto displacement = [&](int i, int j) -> Vec2 {
         const Place at = moved(view.profile, view.place, i, j);

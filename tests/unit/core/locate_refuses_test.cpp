@@ -37,7 +37,7 @@ TEST(LocateRefuses, SizesOutOfRangeAreRefused) {
 }
 
 TEST(LocateRefuses, AFrameWithoutAPositionTellsWhy) {
-    // What is in the picture decides which stage may refuse it.
+    // The content of the picture decides which stages may refuse it.
     const std::map<Scene, std::set<Status>> allowed{
         {Scene::black, {Status::no_contrast, Status::too_few_dots}},
         {Scene::white, {Status::no_contrast, Status::too_few_dots}},
@@ -64,7 +64,7 @@ TEST(LocateRefuses, AFrameWithoutAPositionTellsWhy) {
 }
 
 TEST(LocateRefuses, AFrameWithoutAnyDotIsRefusedEvenIfNoDotIsAskedFor) {
-    // One dark corner: contrast, and a blob that is too large for a dot.
+    // One dark corner gives contrast, and a blob that is too large for a dot.
     GreyImage image{std::vector<std::uint8_t>(64 * 64, 255), 64, 64};
     for (std::size_t v = 0; v < 32; ++v)
         std::fill_n(image.pixels.begin() + static_cast<std::ptrdiff_t>(64 * v), 32,
@@ -80,7 +80,7 @@ TEST(LocateRefuses, AFrameWithoutAnyDotIsRefusedEvenIfNoDotIsAskedFor) {
 }
 
 TEST(LocateRefuses, EveryStageCanRefuse) {
-    // A frame of the pattern, made worse step by step until each stage has had its say.
+    // A frame of the pattern is made worse step by step until each stage has refused it.
     SmallMemory memory;
     Shot shot = shot_of({.preset = Preset::clean}, kSeed, 0);
     const GreyImage frame = render(shot);
@@ -95,7 +95,7 @@ TEST(LocateRefuses, EveryStageCanRefuse) {
     options.profile = Profile::microdots;
     const Status other = Locator(memory, options).locate(frame.view()).status;
     EXPECT_TRUE(other == Status::not_certain || other == Status::not_in_code) << name(other);
-    // Five columns of dots.
+    // Only five columns have dots.
     shot.page.origin = {shot.pose.cell.x - 2, shot.pose.cell.y - 30};
     shot.page.columns = 5;
     shot.page.rows = 60;

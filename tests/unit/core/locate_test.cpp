@@ -1,4 +1,4 @@
-// The whole pipeline as a function: rows or image, any memory, any order of frames.
+// The whole pipeline as a function of rows or an image, in any memory, with frames in any order.
 #include "dotpose/locate.hpp"
 
 #include <cmath>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 34;
 
-/// Frames that are read and frames that are not, in one size.
+/// Returns frames that are read and frames that are not, in one size.
 std::vector<GreyImage> mixed_frames() {
     std::vector<GreyImage> frames;
     for (std::uint64_t i = 0; i < 8; ++i) {
@@ -29,7 +29,7 @@ std::vector<GreyImage> mixed_frames() {
     return frames;
 }
 
-/// All that a fix says, bit by bit. The bytes between its members mean nothing.
+/// Expects all members of two fixes to be equal, bit by bit; the bytes between them do not count.
 void expect_same(const Fix& a, const Fix& b) {
     EXPECT_EQ(a.status, b.status);
     EXPECT_EQ(a.dots_seen, b.dots_seen);
@@ -47,7 +47,7 @@ void expect_same(const Fix& a, const Fix& b) {
     EXPECT_EQ(std::memcmp(a.covariance, b.covariance, sizeof a.covariance), 0);
 }
 
-/// By rows, with a Locator or a DeviceLocator.
+/// Locates by rows, with a Locator or a DeviceLocator.
 template <typename AnyLocator>
 Fix pushed(const GreyImage& image, AnyLocator&& locator) {
     static_cast<void>(locator.begin(image.width_px, image.height_px));
@@ -60,20 +60,20 @@ Fix pushed(const GreyImage& image, AnyLocator&& locator) {
     return locator.finish();
 }
 
-/// Rows that are gone are located from their blobs, an image from windows around its dots: the same
-/// place, to what noise makes of either.
+/// Rows that are not kept are located from their blobs, an image from windows around its dots: both
+/// give the same place, except for noise.
 TEST(Locate, RowsGiveTheSamePoseAsTheImage) {
     SmallMemory by_rows;
     SmallMemory at_once;
     Options options;
-    options.effort = Effort::once;  // rows that have gone by cannot be tried again
+    options.effort = Effort::once;  // rows that are not kept cannot be tried again
     int found = 0;
     for (const GreyImage& frame : mixed_frames()) {
         const Fix whole = Locator(at_once, options).locate(frame.view());
         const Fix rows = pushed(frame, Locator(by_rows, options));
         if (rows.status != Status::ok) continue;
         ++found;
-        // What the rows show, the image shows.
+        // If the rows can be located, so can the image.
         ASSERT_EQ(whole.status, Status::ok);
         EXPECT_EQ(rows.section, whole.section);
         EXPECT_NEAR(rows.x_grid(), whole.x_grid(), 0.02);
@@ -94,7 +94,7 @@ TEST(Locate, ADeviceGetsTheSameFromRowsAndImage) {
     for (const GreyImage& frame : mixed_frames()) {
         const Fix fix = Locator(at_once, device).locate(frame.view());
         expect_same(pushed(frame, Locator(by_rows, device)), fix);
-        // A DeviceLocator does the same from the image as from rows, whatever the effort says.
+        // A DeviceLocator gives the same from the image as from rows, whatever the effort says.
         expect_same(pushed(frame, DeviceLocator(little)),
                     DeviceLocator(little).locate(frame.view()));
         found += fix.status == Status::ok ? 1 : 0;
@@ -117,7 +117,7 @@ TEST(Locate, ADeviceLocatesNominalFrames) {
         errors_um.push_back(
             std::hypot(fix.x_grid() - x_grid(shot.pose), fix.y_grid() - y_grid(shot.pose)) *
             spacing_um);
-        // What is off by a tenth of a spacing was not read there.
+        // An error of a tenth of a spacing would mean that the place was read wrong.
         EXPECT_LT(errors_um.back(), 0.1 * spacing_um);
         EXPECT_EQ(fix.section, shot.page.pattern.section);
         EXPECT_LT(
@@ -125,7 +125,7 @@ TEST(Locate, ADeviceLocatesNominalFrames) {
             0.01);
         EXPECT_LE(fix.p_wrong_log2, device.integrity.max_p_wrong_log2);
         EXPECT_GE(fix.dots_used, 36);
-        // There is no floating point on a device.
+        // A device computes no floating point.
         EXPECT_EQ(fix.residual_px, 0);
         for (const auto& row : fix.covariance)
             EXPECT_THAT(row, testing::Each(0.0F));
@@ -147,7 +147,7 @@ TEST(Locate, LittleMemoryIsEnoughForADevice) {
         const Fix fix = pushed(frame, Locator(small, device));
         expect_same(pushed(frame, DeviceLocator(little)), fix);
         found += fix.status == Status::ok;
-        // Noise and graphics fill it up; afterwards it is as good as new.
+        // Noise and graphics fill the memory; afterwards it must work as before.
         const Shot hard = shot_of({.preset = Preset::hard}, kSeed, i);
         const Fix full = pushed(render(hard), DeviceLocator(little));
         if (full.status == Status::ok) {
@@ -185,7 +185,7 @@ TEST(Locate, SmallAndLargeMemoryGiveTheSameFix) {
 }
 
 TEST(Locate, UsedMemoryIsAsGoodAsFreshOne) {
-    // Other sizes and failures in between leave nothing behind.
+    // Frames of other sizes and failures in between leave no trace.
     const auto used_memory = std::make_unique<LargeMemory>();
     Locator used(*used_memory);
     const GreyImage big = render(shot_of({.width_px = 640, .height_px = 480}, kSeed, 3));
@@ -197,7 +197,7 @@ TEST(Locate, UsedMemoryIsAsGoodAsFreshOne) {
         EXPECT_EQ(used.locate(big.view()).status, Status::ok);
         expect_same(used.locate(frame.view()), fresh);
         EXPECT_EQ(used.locate(tiny.view()).status, Status::image_too_small);
-        // A frame that was given up half way.
+        // The frame is begun and dropped half way.
         EXPECT_EQ(used.begin(frame.width_px, frame.height_px), Status::ok);
         for (int v = 0; v < 50; ++v)
             used.push_row(frame.view().row(v));
@@ -226,13 +226,13 @@ TEST(Locate, RowsCountOnlyInAFrameThatWasBegun) {
     EXPECT_EQ(locator.finish().status, Status::image_too_small);
     EXPECT_EQ(pushed(frame, locator).status, Status::ok);
     EXPECT_EQ(locator.finish().status, Status::bad_argument);
-    // Nor more of them than it has.
+    // Rows beyond the height of the frame are ignored.
     const Fix fix = pushed(frame, locator);
     ASSERT_EQ(locator.begin(frame.width_px, frame.height_px), Status::ok);
     for (int v = 0; v < 3 * frame.height_px; ++v)
         locator.push_row(frame.view().row(v % frame.height_px));
     expect_same(locator.finish(), fix);
-    // Options that change in the middle of a frame give it up.
+    // A change of options in the middle of a frame drops it.
     ASSERT_EQ(locator.begin(frame.width_px, frame.height_px), Status::ok);
     locator.set_options({});
     EXPECT_EQ(locator.finish().status, Status::bad_argument);
@@ -282,18 +282,19 @@ TEST(Locate, TheReferencePointMayLieAnywhere) {
             options.reference_dy_q8 = static_cast<std::int32_t>(offset.y * 256);
             const Fix fix = Locator(memory, options).locate(frame.view());
             ASSERT_EQ(fix.status, Status::ok);
-            // Where the camera's geometry puts that pixel, in spacings from the pose's cell.
+            // Expected is the place of that pixel by the camera's geometry, in spacings from the
+            // pose's cell.
             const Vec2 pixel = Vec2{93.5, 59.5} + offset;
             const Vec2 from_pose = 1 / kDefaultSpacing_mm *
                                    Projection(shot.camera, shot.pose).offset_from_pixel(pixel);
             const double x = fix.x_grid() - shot.pose.cell.x - shot.pose.fraction_x;
             const double y = fix.y_grid() - shot.pose.cell.y - shot.pose.fraction_y;
-            // 1/100 spacing at the image's border, more outside of it.
+            // The tolerance is 1/100 spacing at the image's border, more outside of it.
             const double tolerance = 0.01 + length(offset) * 1e-4;
             EXPECT_NEAR(x, from_pose.x, tolerance);
             EXPECT_NEAR(y, from_pose.y, tolerance);
-            // Chance may look like a trace of tilt, which turns the axes across the image: by as
-            // much as positions are off, over half the image, and more outside of it.
+            // Noise may look like a slight tilt, which turns the axes across the image: by the
+            // error of positions over half the image, and more outside of it.
             const double apart_rad =
                 std::remainder(fix.theta_rad() - at_centre.theta_rad(), 2 * std::numbers::pi);
             EXPECT_NEAR(apart_rad, 0, 1e-4 * std::max(1.0, length(offset) / 100));
@@ -318,7 +319,7 @@ TEST(Locate, ALensIsUndone) {
     }
 }
 
-// The second attempt measures dots where the code has them, also those that are no blobs.
+// The second attempt measures dots where the code has them, also those that are not blobs.
 TEST(Locate, UsesNoMoreDotsThanItSaw) {
     SmallMemory memory;
     int by_second = 0;

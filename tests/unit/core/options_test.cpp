@@ -1,4 +1,4 @@
-// Every option has a range in which no stage can overflow; what is outside of it is refused.
+// Every option has a range in which no stage can overflow; values outside of it are refused.
 #include <climits>
 #include <cstdint>
 #include <functional>
@@ -20,7 +20,7 @@ GreyImage a_frame() {
     return render(draw_shot(setup, 0));
 }
 
-/// A field, and the values at the ends of its range as options.hpp documents it.
+/// A field, and the ends of its range as options.hpp documents it.
 struct Range {
     const char* field;
     std::function<void(Options&, int)> set;
@@ -44,7 +44,7 @@ const Range kRanges[] = {
 
 #undef FIELD
 
-/// A new field does not compile here before it is in the tests below.
+/// Does not compile if Options has a new field, which must then be added to the tests below.
 [[maybe_unused]] void has_all_fields(const Options& o) {
     [[maybe_unused]] const auto& [profile, effort, decoder, lens, threshold, blobs, lattice,
                                   integrity, most_dots, spacing, show_stages, dx, dy] = o;
@@ -55,7 +55,7 @@ const Range kRanges[] = {
     [[maybe_unused]] const auto& [max_p_wrong, max_bit_error] = integrity;
 }
 
-/// What each way to locate says of the options.
+/// Expects each way to locate to refuse the options, or to accept them.
 void expect_refusal(const Options& options, bool is_refused, const char* field, int value) {
     static const auto kMemory = std::make_unique<LargeMemory>();
     static const GreyImage kFrame = a_frame();

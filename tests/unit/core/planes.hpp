@@ -1,4 +1,4 @@
-// Planes at random, and what they mean in double precision.
+// Random planes, and their formula in double precision.
 #pragma once
 
 #include "geometry.hpp"
@@ -15,8 +15,8 @@ inline Vec2 formula(const PlaneFromImage& plane, Vec2 p) {
            1 / divisor * (r.x * real(plane.du_q24, 24) + r.y * real(plane.dv_q24, 24));
 }
 
-/// Without perspective or lens, in a square image. `dv` is 0.8 to `longest` times as long as `du`,
-/// about at a right angle.
+/// Returns a plane without perspective or lens, in a square image. `dv` is 0.8 to `longest` times
+/// as long as `du`, at about a right angle.
 inline PlaneFromImage affine_plane(double side_px, double spacing_px, double longest, Rng& rng) {
     const double angle = rng.uniform(0, 6.3);
     const Vec2 du{std::cos(angle) / spacing_px, std::sin(angle) / spacing_px};

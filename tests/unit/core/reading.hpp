@@ -1,4 +1,4 @@
-// An ideal view of the pattern as the grid that the decoder is given.
+// An ideal view of the pattern as the grid that the decoder gets.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ struct Reading {
     Reading(const View& view_, Turn turn_) : Reading(view_, turn_, dots_of(pattern_dots(view_))) {}
 
     const Grid& grid() const { return owned.grid; }
-    /// What the grid stands for, as geometry has it.
+    /// Returns the true decoding of the grid, by geometry.
     Decoding truth() const {
         Decoding true_decoding = decoding;
         true_decoding.pattern_from_grid = turn;

@@ -1,4 +1,4 @@
-// Camera files: their keys, their errors, their geometry; and those of ROS.
+// Camera files: their keys, errors and geometry, and camera_info files of ROS.
 #include "dotpose/files/camera_file.hpp"
 
 #include <cmath>
@@ -51,7 +51,7 @@ class CameraFile : public testing::Test {
         }
         return "not refused";
     }
-    /// What is said of the whole file with one part replaced.
+    /// Returns the error for the whole file with one part replaced.
     std::string refusal_with(const std::string& part, const std::string& other) const {
         std::string text = kWhole;
         text.replace(text.find(part), part.size(), other);
@@ -165,7 +165,7 @@ TEST(CameraGeometry, IsEquations1And2AndTheirInverse) {
 }
 
 TEST(CameraGeometry, TheScaleIsThatOfATiltedCamera) {
-    // The simulator's pinhole, and the view that its pixels have of the paper.
+    // Compares the simulator's pinhole with the view that its pixels have of the paper.
     CameraModel model;
     CameraPose pose;
     pose.tilt_x_rad = 0.3;
@@ -174,12 +174,12 @@ TEST(CameraGeometry, TheScaleIsThatOfATiltedCamera) {
     const double f = model.working_distance_mm / model.mm_per_px;
     Camera camera;
     camera.centre_px = {93.5, 59.5};
-    // The paper's normal: its axes are (cy, sx sy, -cx sy) and (0, cx, sx). The divisor is 0 where
-    // rays are at right angles to it.
+    // The axes of the paper's plane are (cy, sx sy, -cx sy) and (0, cx, sx). The divisor is 0 where
+    // rays are at right angles to its normal.
     const double nx = std::sin(-0.2);
     const double ny = -std::sin(0.3) * std::cos(-0.2);
     const double nz = std::cos(0.3) * std::cos(-0.2);
-    // The first order by differences.
+    // First derivatives come from differences.
     const double h = 1e-4;
     const auto at = [&](double u, double v) { return projection.offset_from_pixel({u, v}); };
     const double x_u = (at(93.5 + h, 59.5).x - at(93.5 - h, 59.5).x) / (2 * h);
@@ -211,7 +211,7 @@ rectification_matrix:
   data: [1, 0, 0, 0, 1, 0, 0, 0, 1]
 )";
 
-/// OpenCV's lens, forwards: where the camera of kRos sees a direction.
+/// Returns where the camera of kRos sees a direction, by OpenCV's lens.
 PixelPoint seen_by_ros(double x, double y) {
     const double r2 = x * x + y * y;
     const double radial = 1 - 0.25 * r2 + 0.1 * r2 * r2;
@@ -224,7 +224,8 @@ TEST_F(CameraFile, ALensOfRosIsConvertedNotRelabelled) {
     EXPECT_NEAR(camera.focal_px.value(), 600, 1e-9);
     EXPECT_NEAR(camera.centre_px.u, 330, 2);
     EXPECT_NEAR(camera.centre_px.v, 236, 2);
-    // Straight lines are straight again, all over the image: to what one coefficient can do.
+    // Straight lines are straight again all over the image, as far as one coefficient can make
+    // them.
     for (const double offset : {-0.3, -0.1, 0.2, 0.3}) {
         for (const bool is_row : {true, false}) {
             const auto point = [&](double along) {

@@ -14,7 +14,7 @@ inline Sheet page(double width_mm = 30, double height_mm = 20) {
     return make_sheet(options);
 }
 
-/// A file as a user may have written it.
+/// Returns a file as a user may have written it.
 inline nlohmann::json hand_written() {
     return nlohmann::json::parse(R"({
         "format": "dotpose-sheets", "version": 1,

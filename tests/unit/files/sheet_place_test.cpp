@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// 20 x 10 cells, 0.5 mm apart; the first is 4 mm right of and 3 mm below the page's corner, so the
-/// last lies at (13.5, 7.5) mm. 6.5 and 2.5 mm of margin follow.
+/// Returns a sheet of 20 x 10 cells, 0.5 mm apart; the first is 4 mm right of and 3 mm below the
+/// page's corner, so the last lies at (13.5, 7.5) mm. Margins of 6.5 and 2.5 mm follow.
 SheetEntry small_entry(Cell origin) {
     SheetEntry entry;
     entry.name = "small";
@@ -91,7 +91,8 @@ TEST(find_sheet, a_margin_gives_way_to_the_neighbours_own_region) {
 
 TEST(find_sheet, the_margin_of_a_sheet_at_the_plane_s_corner_has_the_last_cells) {
     const std::vector<SheetEntry> sheets = {small_entry({0, 0})};
-    // Three cells to the upper left, in the section the pattern continues in there.
+    // The place is three cells to the upper left, in the section in which the pattern continues
+    // there.
     const Place place = moved(Profile::anoto, {{0, 0}, {10, 20}}, -3, -3);
     ASSERT_EQ(place.cell, (Cell{kPositionsPerAxis - 3, kPositionsPerAxis - 3}));
     Fix fix = fix_at(place.cell, 0.5, 0);
@@ -134,7 +135,7 @@ TEST(world_place, flips_y_and_turns_counter_clockwise) {
     SheetPlace place{&entry, 100, 200, 0};
     EXPECT_FALSE(world_place(place));
 
-    // Not turned: 100 mm right of and 200 mm below the corner.
+    // The page is not turned: the place is 100 mm right of and 200 mm below the corner.
     entry.world = {5, 7, 0};
     auto pose = world_place(place);
     ASSERT_TRUE(pose);
@@ -149,7 +150,7 @@ TEST(world_place, flips_y_and_turns_counter_clockwise) {
     EXPECT_NEAR(pose->y_m, 7.1, 1e-12);
     EXPECT_NEAR(pose->yaw_rad, kPi / 2, 1e-12);
 
-    // An image turned clockwise on the page by 30 degrees.
+    // The image is turned clockwise on the page by 30 degrees.
     place.theta_rad = kPi / 6;
     EXPECT_NEAR(world_place(place)->yaw_rad, kPi / 3, 1e-12);
 }
@@ -177,7 +178,7 @@ TEST(world_place, half_a_turn_is_positive) {
     EXPECT_EQ(world_place({&entry, 0, 0, 0})->yaw_rad, kPi);
 }
 
-/// A fix with a covariance whose every element matters.
+/// Returns a fix with a covariance whose every element matters.
 Fix uncertain_fix() {
     Fix fix = fix_at({1010, 2003}, 0.5, 0.25, 0.7);
     constexpr float kCovariance[3][3] = {
@@ -188,8 +189,8 @@ Fix uncertain_fix() {
 
 using Matrix = std::array<std::array<double, 3>, 3>;
 
-/// J C J^T, where column k of J is what moving the fix by coordinate k, in spacings and radians,
-/// does to the pose: by central differences, without any formula for the derivatives.
+/// Returns J C J^T, where column k of J is the change of the pose when the fix moves by coordinate
+/// k, in spacings and radians: by central differences, without any formula for the derivatives.
 template <typename PoseOf>
 Matrix expected_covariance(const Fix& fix, const PoseOf& pose_of) {
     const auto moved_by = [&fix](std::size_t coordinate, double sign) {
@@ -260,7 +261,7 @@ TEST(covariance_in_the_world, is_what_small_movements_say) {
         };
         const auto expected = expected_covariance(fix, [&](const Fix& moved) {
             const WorldPlace place = place_of(moved);
-            // From the true angle on, so that none of them is half a turn.
+            // Angles are taken from the true one, so that none of them is half a turn.
             const double yaw =
                 std::remainder(place.yaw_rad - place_of(fix).yaw_rad, 2 * std::numbers::pi);
             return std::array{place.x_m, place.y_m, yaw};
@@ -270,7 +271,8 @@ TEST(covariance_in_the_world, is_what_small_movements_say) {
 }
 
 TEST(covariance_in_the_world, of_a_page_turned_by_a_quarter) {
-    // Right on the page is the world's y, down on it is the world's x, and angles turn around.
+    // Right on the page is the world's y, down on it is the world's x, and angles change their
+    // sign.
     const PoseCovariance on_sheet = {{{1, 2, 3}, {2, 5, 6}, {3, 6, 9}}};
     const PoseCovariance in_world = world_covariance(on_sheet, kPi / 2);
     const Matrix expected = {{{5, 2, -6}, {2, 1, -3}, {-6, -3, 9}}};

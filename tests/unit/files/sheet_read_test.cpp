@@ -74,7 +74,7 @@ TEST(read_sheets, reads_the_example_of_the_documentation) {
     write_file(directory / "s.json", page.substr(first, page.find("```", first) - first));
     const auto sheets = read_sheets(directory / "s.json");
     ASSERT_EQ(sheets.size(), 1U);
-    // The page that the text above the example prints.
+    // The page is the one that the text above the example prints.
     SheetFile file(directory / "other.json");
     const SheetEntry table = file.allocate("table", make_sheet({}))[0];
     EXPECT_EQ(sheets[0].sheet.origin, table.sheet.origin);
@@ -82,7 +82,7 @@ TEST(read_sheets, reads_the_example_of_the_documentation) {
     EXPECT_EQ(sheets[0].sheet.rows, table.sheet.rows);
     EXPECT_NEAR(sheets[0].sheet.origin_x_mm, table.sheet.origin_x_mm, 1e-9);
     EXPECT_TRUE(sheets[0].world);
-    // Saved again, it is the same text.
+    // Saved again, the file has the same text.
     const std::string text = read_file(directory / "s.json");
     SheetFile same(directory / "s.json");
     same.save();
@@ -95,7 +95,7 @@ void expect_refused(const std::string& text, const std::string& problem) {
     EXPECT_THAT([&] { (void)read_sheets(directory / "s.json"); },
                 ThrowsMessage<Error>(AllOf(HasSubstr("s.json"), HasSubstr(problem))))
         << text;
-    // Who wants to change the file is told the same, and the file stays as it is.
+    // A program that wants to change the file gets the same error, and the file stays as it is.
     EXPECT_THAT([&] { const SheetFile file(directory / "s.json"); },
                 ThrowsMessage<Error>(HasSubstr(problem)));
     EXPECT_EQ(read_file(directory / "s.json"), text);

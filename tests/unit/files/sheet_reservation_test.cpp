@@ -39,7 +39,7 @@ TEST_F(SheetReservations, are_in_the_file_before_the_page_and_marked_until_it_is
     EXPECT_EQ(saved()["sheets"][0]["reserved"], true);
     ASSERT_EQ(read_sheets(path_).size(), 1U);
     EXPECT_TRUE(read_sheets(path_)[0].is_reserved);
-    // Others go on meanwhile, with other regions.
+    // Another program takes other regions meanwhile.
     SheetReservation other(path_, [](SheetFile& file) { file.allocate("b", page()); });
     reservation.confirm();
     other.confirm();
@@ -58,7 +58,7 @@ TEST_F(SheetReservations, that_are_given_up_leave_the_file_as_it_was) {
     write_file(path_, by_hand);
     { const SheetReservation reservation(path_, enter_a); }
     EXPECT_EQ(read_file(path_), by_hand);
-    // What others did meanwhile stays.
+    // Changes that others made meanwhile stay.
     {
         const SheetReservation reservation(path_, enter_a);
         SheetFile file(path_);
@@ -171,7 +171,7 @@ TEST_F(SheetReservations, no_page_is_without_its_entry_whenever_its_printer_is_k
     constexpr int kStep_us = 100;
     for (int n = 0; n < kPrints; ++n)
         print_and_die(path_.parent_path(), n, (n + 1) * kStep_us);
-    // Reading fails where two share cells.
+    // Reading would fail if two sheets shared cells.
     const auto sheets = fs::exists(path_) ? read_sheets(path_) : std::vector<SheetEntry>();
     for (int n = 0; n < kPrints; ++n) {
         const std::string name = "n" + std::to_string(n);

@@ -1,4 +1,4 @@
-/// Helpers of the print tests: a directory of their own, and readers that share no code with the
+/// Helpers of the print tests: temporary directories, and readers that share no code with the
 /// writers under test.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace dotpose::print_test {
 
-/// An empty directory, removed at the end.
+/// An empty directory that is removed at the end.
 class TemporaryDirectory {
   public:
     TemporaryDirectory();
@@ -17,7 +17,7 @@ class TemporaryDirectory {
     TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
 
     std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-    /// Names of all files inside, hidden ones too, sorted.
+    /// Returns the names of all files inside, hidden ones too, sorted.
     std::vector<std::string> names() const;
     const std::filesystem::path& path() const { return path_; }
 
@@ -28,7 +28,7 @@ class TemporaryDirectory {
 std::string read_file(const std::filesystem::path& path);
 void write_file(const std::filesystem::path& path, const std::string& content);
 
-/// A 1-bit page as a reader of the format sees it.
+/// A page of 1 bit per pixel, as a reader of the format sees it.
 struct Bitmap {
     int width_px = 0;
     int height_px = 0;

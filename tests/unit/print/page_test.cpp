@@ -19,7 +19,7 @@ using print_test::TemporaryDirectory;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// Two regions of 10 x 8 cells and a bar between them, on 40 x 20 mm.
+/// Returns a page with two regions of 10 x 8 cells and a bar between them, on 40 x 20 mm.
 PrintPage two_regions() {
     PrintPage page;
     page.width_mm = 40;

@@ -96,7 +96,7 @@ TEST(write_raster, first_letters_are_those_of_the_code) {
     }
 }
 
-/// Where the dots are that should be at each intersection: error of the ink's centroid, in pixels.
+/// Errors of the ink's centroids against the dots that should be at each intersection, in pixels.
 struct Errors {
     double largest_px = 0;
     double mean_px = 0;

@@ -20,7 +20,8 @@ void expect_refused(const SheetOptions& options, const char* part_of_message) {
                 ThrowsMessage<BadArgument>(HasSubstr(part_of_message)));
 }
 
-/// Distances of the outermost possible ink from the edges of the page: left, right.
+/// Returns the distances of the outermost possible ink from two opposite edges of the page: left,
+/// right.
 std::pair<double, double> free_mm(double first_mm, int count, double size_mm,
                                   const Pattern& pattern) {
     const double ink_mm = pattern.displacement_mm + pattern.dot_mm / 2;

@@ -19,7 +19,7 @@ struct Vector {
     std::vector<std::string> rows;
 };
 
-// Made by an implementation that shares nothing with this one.
+// Vectors made by an implementation that shares nothing with this one.
 const std::vector<Vector> kVectors = {
     {Profile::anoto,
      {0, 0},

@@ -31,7 +31,7 @@ Sheet page() {
     return make_sheet(options);
 }
 
-/// While it lives, no file can grow over `limit_bytes`: a disk that is full.
+/// While it lives, no file can grow over `limit_bytes`, as on a full disk.
 class FileSizeLimit {
   public:
     explicit FileSizeLimit(rlim_t limit_bytes) {
@@ -126,7 +126,7 @@ TEST(write_sheet, says_why_a_file_cannot_be_created) {
     EXPECT_THAT(directory.names(), ElementsAre("folder.png", "pipe.png"));
 }
 
-/// For a child process: root may write everywhere, so it becomes somebody else first.
+/// Writes a file in a child process: root may write everywhere, so it becomes another user first.
 [[noreturn]] void write_without_rights(const fs::path& path) {
     constexpr uid_t kNobody = 65534;
     if (geteuid() == 0 && setuid(kNobody) != 0) _exit(3);

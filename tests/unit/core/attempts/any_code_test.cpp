@@ -1,4 +1,4 @@
-// Frames in a profile that is not given, against those in the one that is.
+// Frames whose profile is not given, compared with frames whose profile is given.
 #include <memory>
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ TEST_F(AnyCodeTest, GivenAProfileAllIsAsItWas) {
         for (std::uint64_t i = 0; i < 12; ++i) {
             SCOPED_TRACE(i);
             const GreyImage image = render(draw_shot(setup_of(preset), i));
-            // What is left in the memory makes no difference.
+            // The content of the memory makes no difference.
             static_cast<void>(Locator(*memory_).locate_in_any_code(image.view(), {}));
             const Fix fix = Locator(*memory_).locate_in_code(image.view()).fix;
             expect_equal(fix, Locator(*memory_).locate(image.view()));
@@ -68,7 +68,7 @@ TEST_F(AnyCodeTest, FramesThatBothProfilesExplainSayNothing) {
     CodeEvidence evidence;
     for (std::uint32_t i = 0; i < 40; ++i) {
         Shot shot = draw_shot(setup_of(Preset::nominal), i);
-        // In the middle of where anoto and libdots agree.
+        // The place is in the middle of a region in which anoto and libdots agree.
         shot.pose.cell = {241 * (1000 + i) + 100, 241 * 2000 + 100};
         const CodeReading reading =
             Locator(*memory_).locate_in_any_code(render(shot).view(), evidence);
@@ -87,7 +87,6 @@ TEST_F(AnyCodeTest, RefusesWhatLocateRefuses) {
               Status::bad_argument);
     EXPECT_EQ(Locator(*memory_).locate_in_any_code({nullptr, 188, 120, 188}, {}).fix.status,
               Status::bad_argument);
-    // It has no room to compare profiles.
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// The tracked attempt of devices: what predictions it follows, and that it follows no wrong one.
+// The tracked attempt of devices: which predictions it follows, and that it never follows a wrong
+// one.
 #include "core/attempts/device_tracked.hpp"
 
 #include <array>
@@ -42,7 +43,7 @@ bool is_right(const Fix& fix, const Shot& shot) {
 
 class DeviceTracked : public testing::Test {
   protected:
-    /// By the device's tracked attempt alone.
+    /// Locates by the device's tracked attempt alone.
     Fix tracked(const GreyImage& image, const Prediction& prediction) {
         static_cast<void>(locator_.begin(image.width_px, image.height_px, prediction));
         for (int v = 0; v < image.height_px; ++v)
@@ -101,7 +102,7 @@ TEST_F(DeviceTracked, GoesOnFromItsOwnFixes) {
         shot.pose.fraction_y -= 0.2;
         shot.pose.theta_rad += 0.03;
         shot.seed += 1;
-        // Clouds.
+        // The light changes, as under clouds.
         shot.imperfections.paper_level = 230 - 90 * (i % 2);
         fix = locator_.locate(render(shot).view(), Prediction::like(fix));
         ASSERT_EQ(fix.status, Status::ok) << i;
@@ -124,7 +125,8 @@ TEST_F(DeviceTracked, LocatesAfreshWhatItRefuses) {
     EXPECT_EQ(fix.cell, before.cell);
 }
 
-/// The place whose columns from 16 to the left of `place` to 16 to the right share most rolls.
+/// Returns the place whose columns, from 16 to the left of `place` to 16 to the right, share most
+/// rolls with it.
 Place worst_alternative(Place place) {
     constexpr std::size_t kLines = 20;
     const code::Basis& basis = code::basis(Profile::anoto);
@@ -154,7 +156,7 @@ Place worst_alternative(Place place) {
             }
         }
     }
-    // The rows are as they were.
+    // The rows stay as they were.
     const int row = code::roll_from(Profile::anoto, place.cell.y, place.section.v, place.cell.x);
     alternative.section.v = static_cast<std::uint8_t>(
         section_of(Profile::anoto, row, place.cell.y, alternative.cell.x));
@@ -176,7 +178,7 @@ TEST_F(DeviceTracked, FollowsNoWrongPrediction) {
         wrong[2].place = moved(Profile::anoto, right.place, 0, -2);
         wrong[3].place.section.v = static_cast<std::uint8_t>((right.place.section.v + 5) % 63);
         wrong[4].place.cell.y = (right.place.cell.y + 12345) % kPositionsPerAxis;
-        // Turned by a quarter.
+        // Turned by a quarter turn.
         std::swap(wrong[5].pattern_from_image.du_q24, wrong[5].pattern_from_image.dv_q24);
         wrong[5].pattern_from_image.du_q24.x *= -1;
         wrong[5].pattern_from_image.du_q24.y *= -1;
@@ -219,7 +221,7 @@ TEST_F(DeviceTracked, TakesPredictionsOfAnyBits) {
         Prediction prediction = Prediction::like(before);
         std::array<std::uint32_t, sizeof prediction / 4> words;
         std::memcpy(words.data(), &prediction, sizeof words);
-        // All words at random, or a few of those that are right.
+        // Either all words are random, or a few words of the right prediction.
         const int changes = i % 4 == 0 ? static_cast<int>(4 * words.size()) : 1 + i % 4;
         for (int n = 0; n < changes; ++n) {
             const auto word = static_cast<std::size_t>(rng_.below(words.size()));
@@ -244,7 +246,8 @@ TEST_F(DeviceTracked, RefusesFramesThatEndTooSoonOrHaveNoRoom) {
     EXPECT_EQ(locator_.finish().status, Status::not_tracked);
     EXPECT_EQ(locator_.begin(63, 64, prediction), Status::image_too_small);
     EXPECT_EQ(locator_.begin(188, 4096, prediction), Status::not_tracked);
-    // What is begun without a prediction is not tracked: it is located, however far off that is.
+    // A frame begun without a prediction is located, not tracked, however far the last prediction
+    // is off.
     const Prediction wrong = moved(prediction, Profile::anoto, {50 << 16, 0}, 0, {});
     EXPECT_EQ(tracked(image, wrong).status, Status::not_tracked);
     ASSERT_EQ(locator_.begin(188, 120), Status::ok);

@@ -1,4 +1,4 @@
-// The first attempt: frames of all sizes, and what is left of them in the workspace.
+// The first attempt: frames of all sizes, and its results in the workspace.
 #include "core/attempts/first.hpp"
 
 #include <gtest/gtest.h>
@@ -114,7 +114,7 @@ TEST(LocateOutwards, RefusesWhatShowsNoPosition) {
             if (!is_seam) {
                 EXPECT_NE(fix.status, Status::ok);
             } else if (fix.status == Status::ok) {
-                // Of either side.
+                // The fix may be on either side.
                 EXPECT_NEAR(fix.x_grid(), x_grid(shot.pose), 1);
                 EXPECT_NEAR(fix.y_grid(), y_grid(shot.pose), 1);
             }
@@ -165,10 +165,10 @@ TEST(LocateOutwards, ShowsItsDotsAndCellsWhenAsked) {
                 if (!cell.has_dot()) continue;
                 ++read;
                 const Vec2 at = real(w.found_dots()[cell.dot].centre_q8, 8);
-                // Blobs at the border are cut off.
+                // Blobs at the border are cut off by it.
                 const bool is_inside = at.x > 6 && at.y > 6 && at.x < 181 && at.y < 113;
                 const double off_px = nearest_px(others, at);
-                // Of two dots that touch, rows make one or none.
+                // Two dots that touch are one blob or none in rows.
                 if (is_inside && off_px > 5) ++alone;
                 EXPECT_TRUE(!is_inside || off_px < 0.3 || off_px > 5) << off_px;
                 const Place place = moved(options.profile, w.decoding.place, k, j);
@@ -179,7 +179,7 @@ TEST(LocateOutwards, ShowsItsDotsAndCellsWhenAsked) {
         }
         EXPECT_EQ(read, w.dot_count);
         EXPECT_LE(alone, 2);
-        // Without being asked it leaves none.
+        // Without `show_stages` it leaves no dots.
         options.show_stages = false;
         core::make_first_attempt(image.view(), options, large_workspace());
         EXPECT_EQ(w.dot_count, 0);

@@ -1,4 +1,4 @@
-// Views of which the pattern covers a part only, with `locate` at its first attempt.
+// Views that the pattern covers only in part, with `locate` at its first attempt.
 #include <memory>
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ void expect_located_at_once(const PartialView& view) {
         outcome.fix = Locator(*memory, options).locate(image.view());
         EXPECT_EQ(outcome.fix.status, Status::ok) << "frame " << i;
         EXPECT_FALSE(outcome.is_wrong()) << "frame " << i;
-        // Whoever tracks on counts from the image centre.
+        // The next prediction counts from the image centre.
         EXPECT_EQ(outcome.fix.pattern_from_image.centre_q8, (Vec{639 * 128, 479 * 128}));
         const Fix next =
             Locator(*memory, options).locate(image.view(), Prediction::like(outcome.fix));
@@ -57,7 +57,7 @@ TEST(PartialViews, IslandsAreLocatedAtOnce) {
     expect_located_at_once(view);
 }
 
-/// Their attempt starts in the middle of the dots, though noise on blank paper may look like some.
+/// The devices' attempt starts at the centroid of the dots, which noise on blank paper may move.
 TEST(PartialViews, BordersAndCornersOnADarkTableAreLocatedByDevices) {
     PartialView view;
     view.least_share = 0.25;
@@ -81,7 +81,8 @@ TEST(PartialViews, BordersAndCornersOnADarkTableAreLocatedByDevices) {
 }
 
 TEST(PartialViews, CoverWhatTheyShould) {
-    // Ink has a 36th of pi of each cell's area: pixels darker than any paper tell where dots are.
+    // Ink covers a 36th of pi of each cell's area; pixels darker than any paper show where dots
+    // are.
     PartialView view;
     view.least_share = view.most_share = 0.3;
     for (std::uint64_t i = 0; i < 4; ++i) {

@@ -1,4 +1,4 @@
-// Simulated frames of any spacing, and what a fix of them has to say.
+// Simulated frames of any spacing, and checks of their fixes.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@
 
 namespace dotpose::core_test {
 
-/// What may be changed of a frame of preset nominal.
+/// Changes to a frame of preset nominal.
 struct ShotSize {
     double spacing_px = 11;
     int width_px = 188;
@@ -32,7 +32,7 @@ inline Shot shot_of(const ShotSize& size, std::uint64_t seed, std::uint64_t inde
     setup.camera.width_px = size.width_px;
     setup.camera.height_px = size.height_px;
     setup.camera.mm_per_px = setup.pattern.spacing_mm / size.spacing_px;
-    // The same field of view for all spacings.
+    // The field of view is the same for all spacings.
     setup.camera.working_distance_mm = 350 * setup.camera.mm_per_px * size.width_px / 188;
     return draw_shot(setup, index);
 }
@@ -41,7 +41,7 @@ inline double turn_between(double a_rad, double b_rad) {
     return std::abs(std::remainder(a_rad - b_rad, 2 * std::numbers::pi));
 }
 
-/// Whether a fix names the cell and the section, within a fifth of a spacing and two degrees.
+/// Whether a fix has the right cell and section, within a fifth of a spacing and two degrees.
 inline bool is_right(const Fix& fix, const Shot& shot) {
     return std::abs(fix.x_grid() - x_grid(shot.pose)) < 0.2 &&
            std::abs(fix.y_grid() - y_grid(shot.pose)) < 0.2 &&
@@ -49,7 +49,7 @@ inline bool is_right(const Fix& fix, const Shot& shot) {
            fix.section == shot.page.pattern.section;
 }
 
-/// All that a fix says, bit by bit.
+/// Expects all members of two fixes to be equal, bit by bit.
 inline void expect_same_bits(const Fix& a, const Fix& b) {
     EXPECT_EQ(a.status, b.status);
     EXPECT_EQ(a.attempt, b.attempt);
@@ -68,7 +68,7 @@ inline void expect_same_bits(const Fix& a, const Fix& b) {
     EXPECT_EQ(std::memcmp(a.covariance, b.covariance, sizeof a.covariance), 0);
 }
 
-/// The forms of the kernels that this machine has.
+/// Returns the forms of the kernels that this machine has.
 inline std::vector<const core::Kernels*> kernel_forms() {
     std::vector<const core::Kernels*> forms{&core::portable_kernels(), &core::wide_kernels()};
     if (core::avx2_kernels() != nullptr) forms.push_back(core::avx2_kernels());

@@ -16,8 +16,8 @@ std::int32_t bam(double rad) {
     return static_cast<std::int32_t>(std::lround(rad * kBamPerRadian));
 }
 
-/// What the geometry of the shot has under the pixels: the plane of a camera that looks straight
-/// down, or the tilted one.
+/// Returns the prediction that matches the geometry of the shot: the plane of a camera that looks
+/// straight down, or of a tilted one.
 Prediction true_prediction(const Shot& shot) {
     Prediction prediction;
     const Pattern& pattern = shot.page.pattern;
@@ -31,7 +31,7 @@ Prediction true_prediction(const Shot& shot) {
     plane.at_centre_q16 = fixed({shot.pose.fraction_x, shot.pose.fraction_y}, 16);
     plane.du_q24 = fixed(0.5 * (at(1, 0) - at(-1, 0)), 24);
     plane.dv_q24 = fixed(0.5 * (at(0, 1) - at(0, -1)), 24);
-    // at(x, 0) = du x / (1 + tilt x).
+    // Along x, at(x, 0) = du x / (1 + tilt x).
     constexpr double kFar_px = 50;
     const auto tilt = [](Vec2 ahead, Vec2 behind) {
         const double a = length(ahead);
@@ -69,7 +69,7 @@ Options options_for(const Shot& shot) {
     return options;
 }
 
-/// Far off in the same section, near, in another section.
+/// Returns predictions that are far off in the same section, near, and in another section.
 std::vector<Prediction> wrong_predictions(const Shot& shot, Rng& rng) {
     const Prediction truth = true_prediction(shot);
     std::vector<Prediction> wrong;
@@ -135,7 +135,7 @@ TEST(LocateTracked, FollowsTheFixOfTheFrameBefore) {
         Shot shot = shot_of({}, kSeed, i);
         Fix fix = Locator(large_memory()).locate(render(shot).view());
         ASSERT_EQ(fix.status, Status::ok);
-        // The light goes, the camera goes on a little.
+        // The light is halved, and the camera moves on a little.
         shot.imperfections.paper_level *= 0.5;
         shot.pose.fraction_x += 0.2;
         shot.pose.theta_rad += radians(1);
@@ -158,7 +158,7 @@ TEST(LocateTracked, FollowsATiltedCamera) {
         if (fix.status != Status::ok) continue;
         ++found;
         EXPECT_TRUE(is_right(fix, shot));
-        // From its own fix once more.
+        // The same image is tracked from its own fix.
         const Fix again = tracked(image, Prediction::like(fix));
         EXPECT_EQ(again.status, Status::ok);
         EXPECT_NEAR(again.x_grid(), fix.x_grid(), 0.003);
@@ -238,7 +238,7 @@ std::int32_t any_number(Rng& rng) {
     }
 }
 
-/// A prediction some fields of which are nonsense.
+/// Returns a prediction in which some fields are nonsense.
 Prediction garbled(Prediction p, Rng& rng) {
     PlaneFromImage& plane = p.pattern_from_image;
     const std::array numbers{&plane.centre_q8.x,
@@ -255,7 +255,7 @@ Prediction garbled(Prediction p, Rng& rng) {
                              &p.displacement_q16,
                              &p.sigma_q16,
                              &p.sigma_theta_bam};
-    // One of them, or many.
+    // One of the fields is changed, or many.
     const std::uint32_t share = rng.below(2) == 0 ? 1 : 8;
     const std::size_t one = rng.below(static_cast<std::uint32_t>(numbers.size() + 4));
     const auto is_hit = [&](std::size_t i) { return i == one || rng.below(16) < share - 1; };

@@ -1,4 +1,4 @@
-// Blobs and their centres, on images drawn by hand.
+// Blobs and their centroids, on images drawn by hand.
 #include "core/detect/blobs.hpp"
 
 #include <string>
@@ -15,8 +15,8 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 22;
 
-/// The threshold cuts the skirts of a dot off in whole pixels, which shifts its centre this far at
-/// unlucky phases.
+/// Greatest and usual shift of a dot's centroid, because the threshold cuts off its skirts in whole
+/// pixels.
 constexpr double kWorstShift_px = 0.25;
 constexpr double kUsualShift_px = 0.11;
 
@@ -39,7 +39,8 @@ TEST(Blobs, ABlurredDotIsFoundAtEverySubPixelPhase) {
         double squares = 0;
         for (int phase = 0; phase < 64; ++phase) {
             const Vec2 centre{40 + phase % 8 / 8.0, 33 + phase / 8 / 8.0};
-            // Dots so large are printed in a grid so wide that only large images show enough of it.
+            // Dots as large as this are printed in so wide a grid that only large images show
+            // enough of it.
             GreyImage image = sigma < 4 ? blank(80, 64) : blank(256, 256);
             darken(image, centre, sigma, 0.7);
             const auto dots = blobs_of(image);
@@ -73,7 +74,7 @@ TEST(Blobs, DotsThatTouchAreOneAndDotsThatDoNotAreTwo) {
     }
 }
 
-/// Expects one blob of all pixels drawn, at their centre of gravity.
+/// Expects one blob of all pixels drawn, with its centroid at theirs.
 void expect_one(std::initializer_list<std::string_view> picture) {
     Vec2 sum;
     int area = 0;
@@ -88,13 +89,13 @@ void expect_one(std::initializer_list<std::string_view> picture) {
         shape.append(line).append("\n");
         ++v;
     }
-    // Placed at several columns: the shape then lies on one tile, or across a border of two.
+    // At these columns the shape lies on one tile, or across a border of two.
     for (const int u0 : {24, 29, 33}) {
         const auto dots = blobs_of(drawn(picture, u0));
         ASSERT_EQ(dots.size(), 1u) << shape << "at " << u0;
         EXPECT_EQ(dots[0].area_px, 4 * area) << shape << "at " << u0;
         const Vec2 centre = Vec2{u0 + 0.5, 30.5} + 2.0 / area * sum;
-        // Levels differ by some percent from tile to tile, and with them the weights.
+        // Levels differ by some percent from tile to tile, and so do the weights.
         EXPECT_LT(nearest_px(dots, centre), 0.3) << shape << "at " << u0;
     }
 }
@@ -132,7 +133,7 @@ TEST(Blobs, WhatTouchesTheBorderIsNoDot) {
 }
 
 TEST(Blobs, FoundInUnevenLight) {
-    // Dots every 9.3 px; light falls to a third from one corner to the other.
+    // Dots are 9.3 px apart; the light falls to a third from one corner to the other.
     GreyImage image = blank(190, 120);
     std::vector<Vec2> centres;
     for (double y = 7.2; y < 113; y += 9.3) {
@@ -222,7 +223,7 @@ TEST(Blobs, AFullListKeepsTheDotsNearestTheCentre) {
 }
 
 TEST(Blobs, NoMoreRunsAreLookedAtThanTheWorkspaceSays) {
-    // Seven rows of ten dots, each of two runs.
+    // The image has seven rows of ten dots, each of two runs.
     GreyImage image = blank(188, 120);
     for (int v = 10; v < 80; v += 10) {
         for (int u = 10; u < 110; u += 10)
@@ -233,12 +234,12 @@ TEST(Blobs, NoMoreRunsAreLookedAtThanTheWorkspaceSays) {
         w.open.most_runs = rows * 20;
         EXPECT_EQ(static_cast<int>(blobs_of(image, w).size()), rows * 10);
     }
-    // A row that is cut short ends the dots in it there.
+    // A row without room for all its runs ends the dots in it there.
     w.open.most_runs = 3 * 20 + 5;
     EXPECT_EQ(blobs_of(image, w).size(), 35u);
 }
 
-/// The 8-connected sets of dark pixels, found by flooding.
+/// An 8-connected set of dark pixels, found by flooding.
 struct Flood {
     Vec2 centre;
     int area = 0;
@@ -271,7 +272,7 @@ Flood flood(GreyImage& image, int u, int v) {
 }
 
 bool is_at(const Dot& dot, const Flood& blob) {
-    // Weights vary with the threshold from tile to tile, over at most the blob's size.
+    // Weights vary with the threshold from tile to tile, at most by the blob's size.
     const double size = std::max(blob.right - blob.left, blob.bottom - blob.top) + 1;
     return dot.area_px == blob.area && length(real(dot.centre_q8, 8) - blob.centre) <= 0.1 * size;
 }
@@ -293,7 +294,7 @@ void compare_with_flooding(GreyImage image) {
                 continue;
             }
             ++all;
-            // Dots of any lens and spacing are smaller than this.
+            // The dots of any lens and spacing are smaller than this.
             if (blob.right - blob.left > 30 || blob.bottom - blob.top > 30) continue;
             ++least;
             ASSERT_TRUE(contains(blob))
@@ -309,8 +310,8 @@ TEST(Blobs, RandomPixelsFormTheSetsThatFloodingFinds) {
     for (int i = 0; i < 60; ++i) {
         GreyImage image =
             blank(64 + static_cast<int>(rng.below(220)), 64 + static_cast<int>(rng.below(220)));
-        // So dense that even tiles in corners have ink around them, in one of the four rows there
-        // that are looked at.
+        // The image is so dense that even tiles in corners have ink around them, in one of the four
+        // rows that are measured there.
         const double density = rng.uniform(0.2, 0.42);
         const int side = density < 0.3 ? 2 : 1;
         for (int v = 0; v + side <= image.height_px; v += side) {
@@ -326,7 +327,7 @@ TEST(Blobs, RandomPixelsFormTheSetsThatFloodingFinds) {
     }
 }
 
-/// Dots of one size with some others among them, and what the filter leaves.
+/// Dots of one size with some others among them, and those that the filter leaves.
 struct Sifted {
     std::vector<Dot> dots;
     int count = 0;
@@ -363,7 +364,7 @@ TEST(Blobs, TheSizeFilterIsRelativeToTheMedianDot) {
 }
 
 TEST(Blobs, SaltAndPepperIsSiftedOut) {
-    // 1 % of single dark and light pixels among dots of about nine.
+    // Among dots of about nine pixels, 1 % of the pixels are single dark or light ones.
     Rng rng(kSeed);
     GreyImage image = blank(188, 120);
     std::vector<Vec2> centres;

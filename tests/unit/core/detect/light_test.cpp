@@ -10,7 +10,8 @@ namespace {
 
 using namespace core;
 
-/// Paper of one level with dark squares of 2 x 2 px every 8 px, where tiles look for them.
+/// Returns paper of one level with dark squares of 2 x 2 px every 8 px, in the rows that tiles
+/// measure.
 GreyImage dotted(int width_px, int height_px, int paper, int ink) {
     GreyImage image = blank(width_px, height_px, paper);
     for (int v = 2; v + 2 <= height_px; v += 8) {
@@ -20,7 +21,7 @@ GreyImage dotted(int width_px, int height_px, int paper, int ink) {
     return image;
 }
 
-/// Shows `visit(band)` every band in the order in which it becomes ready.
+/// Calls `visit(band)` for every band, in the order in which bands become ready.
 template <typename Visit>
 void for_each_band(const GreyImage& image, const ThresholdOptions& options, Light& light,
                    Visit visit) {
@@ -49,7 +50,7 @@ TEST(Light, EveryBandBecomesReadyOnceWhateverTheHeight) {
             for_each_band(image, {}, w.light, [&](int band) {
                 EXPECT_EQ(band_begin(w.light, band), covered);
                 covered = band_end(w.light, band);
-                // The rows of the band are still there.
+                // The rows of the band are still kept.
                 for (int v = band_begin(w.light, band); v < covered; ++v) {
                     EXPECT_EQ(kept_row(w.light, v)[width - 1], 200);
                 }
@@ -68,7 +69,7 @@ TEST(Light, ThresholdsLieAtTheirSharesOfTheContrast) {
         for_each_band(dotted(128, 80, paper, ink), options, w.light, [&, p = paper, i = ink](int) {
             for (int t = 0; t < 8; ++t) {
                 const Levels level = levels_of_tile(w.light, t);
-                // Of a tile the third and seventh row count: ink is a quarter of the third.
+                // The third and seventh row of a tile count; ink is a quarter of the third.
                 const double mean = std::floor(p - (p - i) / 8.0);
                 // The contrast is known in steps of 1/64 of the paper's level.
                 const double step = mean / 64 + 1;
@@ -85,7 +86,7 @@ TEST(Light, ThresholdsLieAtTheirSharesOfTheContrast) {
 
 TEST(Light, LevelsAreTheSameInAllColumnsOfATile) {
     LargeWorkspace w;
-    // Low tiles and high ones; whole tiles and cut ones; light that changes from tile to tile.
+    // Tiles are low and high, whole and cut; the light changes from tile to tile.
     for (const auto& [width, height] :
          {std::pair{120, 80}, std::pair{101, 64}, std::pair{400, 256}, std::pair{397, 250}}) {
         SCOPED_TRACE(testing::Message() << width << " x " << height);
@@ -134,7 +135,7 @@ TEST(Light, ADefectPixelIsHalfAsDarkAsInk) {
         for (const int width : {1, 2}) {
             GreyImage image = blank(120, 80);
             fill(image, u, 34, u + width, 35, 20);
-            // Of the 180 levels of the ink, which also takes some from the paper's mean.
+            // The ink has 180 levels less than the paper, and also lowers the paper's mean.
             for (const int min_contrast : {70, 100}) {
                 int dark_tiles = 0;
                 for_each_band(image, {.min_contrast = min_contrast}, w.light, [&](int) {
@@ -142,7 +143,8 @@ TEST(Light, ADefectPixelIsHalfAsDarkAsInk) {
                         dark_tiles += levels_of_tile(w.light, t).low > 0;
                 });
                 const bool is_pair = width == 2 && u % 2 == 0;
-                // In its tile and all around it; in two if it is split.
+                // The tile of the mark and the eight around it count as dark; if the mark is split
+                // over two tiles, those and the ten around them.
                 const bool is_split = width == 2 && u == 31;
                 EXPECT_EQ(dark_tiles, min_contrast == 100 && !is_pair ? 0
                                       : is_split                      ? 12
@@ -162,7 +164,8 @@ TEST(Light, BlankAreasHaveNoInk) {
             }
         });
     }
-    // Less than the least contrast is blank, more is not; far from the ink it stays blank.
+    // Contrast below the minimum counts as blank, contrast above it does not; tiles far from the
+    // ink stay blank.
     ThresholdOptions options;
     options.min_contrast = 20;
     for (const int ink : {185, 150}) {

@@ -1,4 +1,4 @@
-// Where patches lie, and the light in them.
+// Places of patches, and their thresholds.
 #include "core/detect/patch.hpp"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ TEST(Patch, LiesAroundItsCentreWithinTheImage) {
         EXPECT_GE(patch->top_px, 0);
         EXPECT_LE(patch->left_px + patch->width_px * scale, image.width_px);
         EXPECT_LE(patch->top_px + patch->height_px * scale, image.height_px);
-        // As near to the centre as the image lets it.
+        // The patch is as near to the centre as the image allows.
         const double off_u = double{core::middle_u_px(*patch)} - u;
         if (patch->left_px > 0 && patch->left_px + patch->width_px * scale < image.width_px) {
             EXPECT_LE(std::abs(off_u), 1);
@@ -56,7 +56,7 @@ TEST(Patch, IsNeverLargerThanItsMemory) {
     EXPECT_EQ(patch->height_px, Patch::kMostHeight_px);
 }
 
-/// A patch whose tiles have these levels: paper, and the darkest in each.
+/// Returns a patch whose tiles have these levels of paper and of the darkest pixel.
 std::unique_ptr<Patch> lit_patch(int width_px, int height_px, int paper, int darkest) {
     auto patch = std::make_unique<Patch>();
     patch->width_px = width_px;
@@ -76,7 +76,8 @@ TEST(PatchContrast, IsThatOfTheTypicalTile) {
             patch->darkness[i] = 55;
         ASSERT_TRUE(core::measure_contrast(*patch));
         EXPECT_NEAR(patch->depth_q8, 256.0 * (200 - darkest) / 200, 4.1);
-        // Between dot and paper, nearer to the dot; in the same proportion where it is darker.
+        // The threshold lies between dot and paper, nearer to the dot; in a darker tile it is in
+        // proportion.
         const double depth = (200 - darkest) / 200.0;
         EXPECT_NEAR(patch->thresholds[2], 200 * (1 - depth * 150 / 256), 3);
     }
@@ -98,7 +99,7 @@ TEST(PatchContrast, ThresholdsFollowTheLight) {
 TEST(PatchContrast, WhatIsBlankHasNone) {
     EXPECT_FALSE(core::measure_contrast(*lit_patch(160, 96, 200, 195)));
     EXPECT_FALSE(core::measure_contrast(*lit_patch(160, 96, 0, 0)));
-    // Something dark in a few tiles only.
+    // Only a few tiles have something dark.
     const auto patch = lit_patch(160, 96, 200, 199);
     for (std::size_t i = 0; i < 10; ++i)
         patch->darkness[i] = 200;

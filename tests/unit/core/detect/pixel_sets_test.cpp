@@ -1,4 +1,4 @@
-// Which pixels belong to a blob: exactly those darker than the level of their tile.
+// The pixels of a blob: exactly those darker than the threshold of their tile.
 #include <algorithm>
 #include <utility>
 
@@ -20,7 +20,7 @@ struct Set {
     bool passes_high = false;
 };
 
-/// Pixels by the levels of their tiles.
+/// Pixels compared with the thresholds of their tiles.
 struct Marked {
     std::vector<char> is_dark;
     std::vector<char> is_below_high;
@@ -74,7 +74,7 @@ Set flood(Marked& pixels, int width, int height, int u, int v) {
     return found;
 }
 
-/// Sets away from the border that have a pixel dark enough.
+/// Returns the sets away from the border that have a pixel below the high threshold.
 std::vector<Set> expected_sets(const GreyImage& image, Light& light) {
     Marked pixels = marked(image, light);
     std::vector<Set> sets;
@@ -110,7 +110,7 @@ void expect_sets(const GreyImage& image) {
 }
 
 TEST(PixelSets, AreThoseDarkerThanTheirTilesLevel) {
-    // Grey levels of all kinds, also one step to either side of the threshold, in uneven light.
+    // Grey levels are of all kinds, also one step to either side of the threshold, in uneven light.
     Rng rng(kSeed);
     for (int i = 0; i < 60; ++i) {
         const int width = 64 + static_cast<int>(rng.below(260));
@@ -138,7 +138,8 @@ TEST(PixelSets, AreThoseDarkerThanTheirTilesLevel) {
 }
 
 TEST(PixelSets, RunsBeginAndEndAtAnyColumn) {
-    // Bars of every length from every column of eight, each with a gap of one pixel in a row.
+    // There are bars of every length, from every column of eight, each with a gap of one pixel in a
+    // row.
     for (int length = 2; length <= 26; ++length) {
         GreyImage image = blank(200, 140);
         std::size_t bars = 0;

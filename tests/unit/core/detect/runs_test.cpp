@@ -1,4 +1,4 @@
-// Runs against a search pixel by pixel in plain arithmetic, on rows of all kinds.
+// Runs, compared with a search pixel by pixel in plain arithmetic, on rows of all kinds.
 #include "core/detect/runs.hpp"
 
 #include <algorithm>
@@ -23,7 +23,8 @@ struct Row {
 
     void draw(Rng& rng, int width_px) {
         std::vector<std::uint8_t> pixels(static_cast<std::size_t>(width_px));
-        // From rare specks to hardly any paper, and grey levels at and about the thresholds.
+        // Rows range from rare specks to hardly any paper, with grey levels at and about the
+        // thresholds.
         const double dark_share = rng.uniform(0, 1);
         begin_light(width_px, kMinFrameSide_px, light);
         for (int u = 0; u < whole_width(light); u += kTileWidth_px) {

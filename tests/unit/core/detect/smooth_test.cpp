@@ -1,4 +1,4 @@
-// What the filter of the second attempt leaves of drawn images.
+// The results of the second attempt's filter on drawn images.
 #include "core/detect/smooth.hpp"
 
 #include <gtest/gtest.h>
@@ -55,7 +55,7 @@ TEST(Smooth, SinglePixelsVanish) {
         }
         EXPECT_NEAR(found.view().row(60)[90], kEvenLevel, 1);
     }
-    // Two that touch are no impulse: there is a dark spot.
+    // Two pixels that touch are not an impulse but a dark spot.
     GreyImage image = blank(188, 120);
     fill(image, 90, 60, 92, 61, 0);
     EXPECT_LT(smoothed(image).view().row(60)[90], kEvenLevel - 30);
@@ -98,7 +98,7 @@ TEST(Smooth, AGradientOfTheLightBecomesEven) {
                 ASSERT_NEAR(found.view().row(v)[u], kEvenLevel, 2) << u << ", " << v;
             }
         }
-        // Nearer to the border the surroundings reach 4 px inwards only: 2 px of the slope.
+        // Nearer to the border the surroundings reach only 4 px inwards: 2 px of the slope.
         expect_even(found, 5);
     }
 }

@@ -1,4 +1,4 @@
-// Tiles against plain arithmetic, on noise.
+// Tiles of noise, compared with plain arithmetic.
 #include "core/detect/tiles.hpp"
 
 #include <algorithm>
@@ -14,8 +14,8 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 71;
 
-/// Of every fourth row about the middle the mean, and the darkest mean of two pixels side by side,
-/// the first in an even column. Rows go on after the last column.
+/// Returns the mean over every fourth row about the middle, and the darkest mean of two adjacent
+/// pixels, the first in an even column. Rows go on after the last column.
 Tile expected_tile(const Light& light, int band, int tile) {
     const int begin = band_begin(light, band);
     const int end = band_end(light, band);

@@ -14,7 +14,7 @@ TEST(Undistort, IsEquations1And2) {
     Rng rng(kSeed);
     for (const Vec2 size : {Vec2{64, 64}, Vec2{188, 120}, Vec2{640, 480}, Vec2{4096, 4096}}) {
         const Vec2 centre{(size.x - 1) / 2, (size.y - 1) / 2};
-        // From half the radius at the corner to twice it.
+        // The lens changes the radius at the corner to between half of it and twice.
         for (const double at_corner : {-0.5, -0.2, -0.01, 0.0, 0.01, 0.3, 1.0}) {
             const double k = at_corner / (centre.x * centre.x + centre.y * centre.y);
             std::vector<Dot> dots;
@@ -48,7 +48,8 @@ TEST(Undistort, DistortedIsTheInverse) {
                 const Vec seen = fixed({rng.uniform(0, size.x), rng.uniform(0, size.y)}, 8);
                 const Vec again =
                     core::distorted(lens, centre, core::undistorted(lens, centre, seen));
-                // Both round to 1/256 px; a lens of 0.2 magnifies what is lost up to twofold.
+                // Both directions round to 1/256 px; a lens of 0.2 magnifies the rounding up to
+                // twofold.
                 ASSERT_LE(std::abs(again.x - seen.x), 3) << at_corner << ", seed " << kSeed;
                 ASSERT_LE(std::abs(again.y - seen.y), 3) << at_corner << ", seed " << kSeed;
             }
@@ -71,13 +72,14 @@ TEST(Undistort, TheLensMayBeCentredElsewhere) {
     }
 }
 
-// As a plane has them that is seen from the side; the fuzzer found one.
+// Regression: the fuzzer found a plane seen from the side, which has such points.
 TEST(Undistort, PointsFarOutsideTheImageKeepTheirDirection) {
     for (const std::int32_t k_q40 : {-385875968, INT32_MIN, INT32_MAX}) {
         const Lens lens{k_q40};
         for (const int far_px : {4096, 11'500, 1'000'000}) {
             const Vec r{far_px * 256, -far_px * 128};
-            // In whole fifths: 2 / (1 + 4), and 2 where no point of the image shows it.
+            // The factors are in fifths: 2 / (1 + 4), and 2 where no point of the image shows the
+            // point.
             const int fifths = k_q40 < 0 ? 2 : 10;
             const Vec seen = core::distorted(lens, {}, r);
             EXPECT_NEAR(seen.x, r.x / 5 * fifths, far_px) << k_q40;

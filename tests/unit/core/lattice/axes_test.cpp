@@ -14,7 +14,7 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 25;
 
-/// Symmetric edges among the dots nearest the middle of an image.
+/// Returns the symmetric edges among the dots nearest the middle of an image.
 std::vector<Edge> edges_of(const std::vector<Dot>& dots, Vec2 image_px) {
     std::array<std::uint16_t, kMaxSeeds> seeds;
     const Vec centre = fixed({(image_px.x - 1) / 2, (image_px.y - 1) / 2}, 8);
@@ -56,7 +56,7 @@ TEST(Axes, AreFoundAtAnyAngleAndSpacing) {
                 length_errors.push_back(std::abs(length(axis) / spacing - 1));
                 angle_errors.push_back(std::abs(std::remainder(degrees(axis) - angle, 90)));
             }
-            // From u to v is the turn from +x to +y.
+            // v is u turned from +x towards +y.
             EXPECT_NEAR(std::remainder(degrees(found.v) - degrees(found.u) - 90, 360), 0, 1e-6);
         }
     }
@@ -79,7 +79,7 @@ TEST(Axes, AreNearlyExactWithoutDisplacements) {
         const auto dots = dots_of(placed_dots(mesh, 20, image, [](int, int) { return Vec2{}; }));
         Lattice lattice;
         ASSERT_EQ(axes_of(edges_of(dots, image), lattice), Status::ok) << angle;
-        // Made 4 % longer, because displaced neighbours seem nearer than they are.
+        // The axes are made 4 % longer, because displaced neighbours seem nearer than they are.
         EXPECT_NEAR(length(mesh_of(lattice).u), 11 * 1.043, 0.05) << angle;
         EXPECT_NEAR(std::remainder(degrees(mesh_of(lattice).u) - angle, 90), 0, 0.2) << angle;
     }
@@ -141,8 +141,8 @@ TEST(Axes, APlaneHasASpacingOfAtLeastFourPixels) {
 }
 
 TEST(Axes, BlobsFarApartDoNotOverflow) {
-    // 40 blobs in a row of the largest image may be 100 px apart and more; no camera sees a grid
-    // so.
+    // In a row of the largest image, 40 blobs may be 100 px apart and more, but no grid has such a
+    // spacing.
     Lattice lattice;
     for (const int step_px : {70, 100, 300, 1000}) {
         std::vector<Edge> edges;

@@ -1,4 +1,4 @@
-// First estimates of grids, as far off as they may be, and what a stage should make of them.
+// First estimates of grids with the greatest errors, and checks of what a stage makes of them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 
 namespace dotpose::core_test {
 
-/// Off by a share of its length, an angle and a share of a cell, as the first estimate may be.
+/// Returns the mesh with errors in length, angle and place, as large as in a first estimate.
 inline Mesh spoilt(const Mesh& mesh, Rng& rng) {
     const auto turned = [&](Vec2 a) {
         const double angle = radians(rng.uniform(-1, 1));
@@ -21,8 +21,8 @@ inline Mesh spoilt(const Mesh& mesh, Rng& rng) {
     return result;
 }
 
-/// The plane gives every dot its cell, and intersections their place to within a tolerance in
-/// spacings. The grid may count from another intersection than the mesh.
+/// Expects the plane to give every dot its cell, and intersections their place within a tolerance
+/// in spacings. The grid may count from another intersection than the mesh.
 inline void expect_grid(const PlaneFromImage& plane, const std::vector<PlacedDot>& dots,
                         const std::vector<Vec2>& intersections_px, double tolerance) {
     const auto at = [&](Vec2 p) { return real(core::plane_point_q16(plane, fixed(p, 8)), 16); };
@@ -44,14 +44,14 @@ inline std::vector<Vec2> intersections(const Mesh& mesh, const std::vector<Place
     return places;
 }
 
-/// Dots as the pattern has them, up to `reach` cells from the origin.
+/// Returns dots displaced as in the pattern, up to `reach` cells from the origin.
 inline std::vector<PlacedDot> displaced_dots(const Mesh& mesh, int reach, Vec2 image_px, Rng& rng) {
     return placed_dots(mesh, reach, image_px, [&](int, int) { return random_displacement(rng); });
 }
 
-/// The error at an image's corner of the fit of three parameters per axis to dots that are
-/// displaced by 1/6 along one axis at random: 0.12 per dot. The variance there is 1 / n for the
-/// mean and 3 / n for each slope. Five times the deviation.
+/// Returns the tolerance at an image's corner for a fit of three parameters per axis to dots that
+/// are displaced by 1/6 along one axis at random, which is 0.12 per dot. The variance there is 1 /
+/// n for the mean and 3 / n for each slope; the tolerance is five standard deviations.
 inline double affine_tolerance(const std::vector<PlacedDot>& dots) {
     return 5 * 0.118 * std::sqrt(7.0 / static_cast<double>(dots.size()));
 }

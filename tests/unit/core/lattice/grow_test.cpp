@@ -22,7 +22,7 @@ TEST(GrowGrid, ReachesOverTheLargestImage) {
     Rng rng(kSeed);
     for (const double angle : {0.0, 0.3, 0.785}) {
         SCOPED_TRACE(testing::Message() << "angle " << angle << ", seed " << kSeed);
-        // As many dots as the largest workspace keeps, out to the corners.
+        // There are as many dots as the largest workspace keeps, out to the corners.
         constexpr Vec2 kLargest_px{4096, 4096};
         const Mesh mesh = square_mesh(33, angle, {2048, 2048});
         const auto placed = displaced_dots(mesh, 95, kLargest_px, rng);
@@ -49,7 +49,7 @@ TEST(GrowGrid, IsTheSameWithManyMoreDotsFarOff) {
         const Lattice first = lattice_of(spoilt(mesh, rng));
         PlaneFromImage plane;
         ASSERT_EQ(grow_grid(dots, {}, centre_q8(kImage_px), first, plane), Status::ok);
-        // Beyond 500 cells they do not count.
+        // Dots beyond 500 cells do not count.
         const Vec2 far = mesh.at(504, 0);
         dots.resize(dots.size() + 5000, dot_at(far));
         PlaneFromImage same;
@@ -66,8 +66,8 @@ TEST(GrowGrid, BearsGapsAndDotsWhereNoneShouldBe) {
         SCOPED_TRACE(testing::Message() << "grid " << i << ", seed " << kSeed);
         const Mesh mesh = small_mesh(rng);
         const auto placed = displaced_dots(mesh, 20, kImage_px, rng);
-        // One in six is missing; of the rest one in twelve is joined by one anywhere; a stroke
-        // hides a strip.
+        // One dot in six is missing; one in twelve of the rest is joined by one at a random place;
+        // a stroke hides a strip.
         const double strip = rng.uniform(20, 160);
         std::vector<Dot> dots;
         for (const PlacedDot& d : placed) {
@@ -80,8 +80,8 @@ TEST(GrowGrid, BearsGapsAndDotsWhereNoneShouldBe) {
         PlaneFromImage plane;
         ASSERT_EQ(grow_grid(dots, {}, centre_q8(kImage_px), lattice_of(spoilt(mesh, rng)), plane),
                   Status::ok);
-        // Every second dot is enough to tell cells, in which dots lie 1/6 off, apart; false ones
-        // pull.
+        // Half of the dots suffice to distinguish cells, in which dots lie 1/6 off; false ones add
+        // errors.
         expect_grid(plane, placed, intersections(mesh, placed), 0.25);
         if (testing::Test::HasFatalFailure()) return;
     }

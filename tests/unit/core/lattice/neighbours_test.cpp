@@ -1,4 +1,4 @@
-// Seeds, neighbours and symmetric edges against brute force.
+// Seeds, neighbours and symmetric edges, compared with brute force.
 #include "core/lattice/neighbours.hpp"
 
 #include <numeric>
@@ -28,7 +28,7 @@ std::int64_t squared_distance(const Dot& a, const Dot& b) {
     return x * x + y * y;
 }
 
-/// No grid has cells of 128 px.
+/// Whether two dots are near enough: no grid has cells of 128 px.
 bool may_be_neighbours(const Dot& a, const Dot& b) {
     const std::int32_t x = std::abs(a.centre_q8.x - b.centre_q8.x);
     const std::int32_t y = std::abs(a.centre_q8.y - b.centre_q8.y);
@@ -37,8 +37,8 @@ bool may_be_neighbours(const Dot& a, const Dot& b) {
 
 constexpr int kKinds = 6;
 
-/// Points of one of several kinds: scattered, in clumps, on a line, on a grid, some twice, on a
-/// grid whose last row has one dot when the list is full.
+/// Returns points of one of several kinds: scattered, in clumps, on a line, on a grid, some twice,
+/// on a grid whose last row has one dot when the list is full.
 std::vector<Dot> points(Rng& rng, int count, int kind) {
     std::vector<Dot> dots;
     for (int i = 0; i < count; ++i) {
@@ -61,7 +61,7 @@ TEST(Neighbours, AreTheFourNearestOfAll) {
                           : set < 10 ? set + 1
                                      : 1 + static_cast<int>(rng.below(kMaxSeeds));
         const auto dots = points(rng, count, set % kKinds);
-        // Seeds are some of the dots, in any order.
+        // Seeds are some of the dots, in random order.
         auto seeds = all_of(dots);
         for (std::size_t i = seeds.size(); i > 1; --i) {
             std::swap(seeds[i - 1], seeds[rng.below(static_cast<std::uint32_t>(i))]);
@@ -89,7 +89,8 @@ TEST(Neighbours, AreTheFourNearestOfAll) {
                 }
                 ASSERT_GE(neighbour, 0);
                 ASSERT_NE(neighbour, static_cast<int>(s));
-                // Of equally far dots either will do, so distances are compared.
+                // Any of several dots at the same distance may be chosen, so distances are
+                // compared.
                 ASSERT_EQ(squared_distance(dots[seeds[s]],
                                            dots[seeds[static_cast<std::size_t>(neighbour)]]),
                           expected[n]);
@@ -132,7 +133,7 @@ TEST(Neighbours, EdgesAreThosePairsThatBothEndsCount) {
             const Vec from = dots[static_cast<std::size_t>(edge.from)].centre_q8;
             const Vec to = dots[static_cast<std::size_t>(edge.to)].centre_q8;
             ASSERT_EQ(edge.step_q8, (Vec{to.x - from.x, to.y - from.y}));
-            // Fig. 4: all point down, level ones to the right.
+            // As in Fig. 4, all edges point down, level ones to the right.
             ASSERT_TRUE(edge.step_q8.y > 0 || (edge.step_q8.y == 0 && edge.step_q8.x >= 0));
         }
         ASSERT_EQ(static_cast<int>(found.size()), count);  // each once
@@ -174,7 +175,7 @@ TEST(Neighbours, SeedsAreTheDotsNearestTheCentre) {
 }
 
 TEST(Neighbours, AMixedUpCrowdAtTheCentreStillGivesSeeds) {
-    // More dots than seeds at one distance: some of them are taken.
+    // More dots than seeds have the same distance: some of them are chosen.
     std::vector<Dot> dots(500, dot_at({50, 50}));
     dots.push_back(dot_at({4000, 4000}));
     std::array<std::uint16_t, kMaxSeeds> seeds;

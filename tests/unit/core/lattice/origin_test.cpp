@@ -1,4 +1,4 @@
-// The origin of the grid from the phase of its dots: displaced, missing and false ones.
+// The origin of the grid from the phase of its dots, with displaced, missing and false ones.
 #include "core/lattice/origin.hpp"
 
 #include <numeric>
@@ -14,7 +14,7 @@ constexpr std::uint64_t kSeed = 26;
 constexpr Vec2 kImage_px{188, 120};
 constexpr Vec2 kCentre_px{93.5, 59.5};
 
-/// The origin found from all dots.
+/// Returns the origin found from all dots.
 Vec2 origin_of(const std::vector<Dot>& dots, const Mesh& mesh, Vec2 near_px) {
     std::vector<std::uint16_t> seeds(dots.size());
     std::iota(seeds.begin(), seeds.end(), std::uint16_t{0});
@@ -26,13 +26,14 @@ Vec2 origin_of(const std::vector<Dot>& dots, const Mesh& mesh, Vec2 near_px) {
     return real(lattice.origin_q16, 16);
 }
 
-/// How far a point is from the nearest intersection, in spacings, along the worse axis.
+/// Returns the distance of a point from the nearest intersection, in spacings, along the worse
+/// axis.
 double off_intersection(const Mesh& mesh, Vec2 p) {
     const Vec2 g = mesh.inverse(p);
     return std::max(std::abs(g.x - std::round(g.x)), std::abs(g.y - std::round(g.y)));
 }
 
-/// The origin is that intersection, to a tolerance in spacings, which a point is nearest to.
+/// Expects the origin at the intersection nearest to a point, within a tolerance in spacings.
 void expect_origin(const std::vector<Dot>& dots, const Mesh& mesh, Vec2 near_px, double tolerance) {
     const Vec2 origin = origin_of(dots, mesh, near_px);
     EXPECT_LT(off_intersection(mesh, origin), tolerance);
@@ -82,7 +83,7 @@ TEST(Origin, BearsDotsThatAreMissingOrFalse) {
              placed_dots(mesh, 20, kImage_px, [&](int, int) { return random_displacement(rng); })) {
             const double fate = rng.uniform();
             if (fate > 0.2) dots.push_back(dot_at(d.centre_px));
-            // One in ten is joined by one anywhere in its cell.
+            // One dot in ten is joined by one at a random place in its cell.
             if (fate < 0.9) continue;
             dots.push_back(dot_at(
                 mesh.at(d.cell.x + rng.uniform(-0.5, 0.5), d.cell.y + rng.uniform(-0.5, 0.5))));
@@ -92,7 +93,8 @@ TEST(Origin, BearsDotsThatAreMissingOrFalse) {
 }
 
 TEST(Origin, OnlyDotsAFewCellsAwayHaveASay) {
-    // Farther off, an axis that is a little too long puts dots half a cell beside their places.
+    // Farther away, an axis that is a little too long would put dots half a cell beside their
+    // places.
     for_many_grids([](const Mesh& mesh, Rng&) {
         const auto displaced_far_away = [](int i, int j) {
             return std::max(std::abs(i), std::abs(j)) <= 6 ? Vec2{} : Vec2{0.3, -0.3};

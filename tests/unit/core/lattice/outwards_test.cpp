@@ -1,4 +1,4 @@
-// Grids of dots in double precision, seen by tilted cameras, and what is no grid.
+// Grids of dots in double precision, seen by tilted cameras, and dots that form no grid.
 #include "core/lattice/outwards.hpp"
 
 #include <memory>
@@ -17,8 +17,8 @@ constexpr std::uint64_t kSeed = 75;
 
 struct Trouble {
     double missing = 0;
-    double extra = 0;      ///< dots anywhere, per dot
-    double jitter_px = 0;  ///< deviation, per axis
+    double extra = 0;      ///< false dots at random places, per dot
+    double jitter_px = 0;  ///< standard deviation, per axis
     double displacement = 1 / 6.0;
 };
 
@@ -62,7 +62,8 @@ std::unique_ptr<Patch> patch_of(const FloatPlane& plane, const Trouble& trouble,
     return patch;
 }
 
-/// By how much the planes differ at most, but for a whole number of cells and quarter turns.
+/// Returns the greatest difference of two planes, except for a whole number of cells and quarter
+/// turns.
 double difference(const FloatPlane& found, const FloatPlane& truth, Vec2 half_px) {
     double least = 1e9;
     for (int quarters = 0; quarters < 4; ++quarters) {
@@ -92,7 +93,7 @@ TEST(FindGrid, FindsThePlaneOfTiltedCameras) {
     int exact = 0;
     for (int i = 0; i < 60; ++i) {
         SCOPED_TRACE(testing::Message() << i << ", seed " << kSeed);
-        // tan 20 degrees at a focal length of 350 px.
+        // The tilt is up to 20 degrees at a focal length of 350 px.
         const double tilt = std::tan(radians(rng.uniform(0, 20))) / 350;
         const double spacing_px = rng.uniform(6, 20);
         const FloatPlane truth = random_float_plane(spacing_px, tilt, rng);
@@ -103,8 +104,9 @@ TEST(FindGrid, FindsThePlaneOfTiltedCameras) {
         EXPECT_LT(difference(grid.grid_from_image, truth, {20, 20}), 0.1);
         EXPECT_NEAR(grid.displacement, 1 / 6.0, 0.03);
         EXPECT_LT(grid.variance, 0.003);
-        // Near enough for windows around the intersections to hold the dots. A grid that ended soon
-        // may miss them farther out, and is refused when its dots are measured.
+        // The plane must be near enough for windows around the intersections to hold the dots. A
+        // grid that ended soon may miss dots farther out, and is refused when its dots are
+        // measured.
         exact += difference(grid.grid_from_image, truth, {56, 40}) < 0.15 &&
                  difference(grid.grid_from_image, truth, {112, 80}) < 0.45;
     }
@@ -136,7 +138,7 @@ TEST(FindGrid, FindsCoarseGridsInReducedPatches) {
         ASSERT_TRUE(core::find_grid(core::kernels(), *patch, core::whole_view(*patch), grid))
             << scale;
         EXPECT_LT(difference(grid.grid_from_image, truth, {112.0 * scale, 80.0 * scale}), 0.05);
-        // They are too coarse, or else too fine, for a patch of another scale.
+        // These dots are too coarse or too fine for a patch of another scale.
         patch->scale = scale == 2 ? 4 : 1;
         EXPECT_FALSE(core::find_grid(core::kernels(), *patch, core::whole_view(*patch), grid) &&
                      difference(grid.grid_from_image, truth, {40, 40}) > 0.2);
@@ -148,7 +150,7 @@ TEST(FindGrid, RefusesWhatIsNoGrid) {
     for (int i = 0; i < 60; ++i) {
         SCOPED_TRACE(testing::Message() << i << ", seed " << kSeed);
         core::PatchGrid grid;
-        // Dots anywhere.
+        // Dots are at random places.
         const auto scattered = empty_patch();
         std::vector<Vec2> dots;
         const int count = 60 + static_cast<int>(rng.below(400));
@@ -157,11 +159,11 @@ TEST(FindGrid, RefusesWhatIsNoGrid) {
         finish_patch(*scattered, dots);
         EXPECT_FALSE(
             core::find_grid(core::kernels(), *scattered, core::whole_view(*scattered), grid));
-        // Dots on their intersections.
+        // Dots lie on their intersections.
         const auto plain =
             patch_of(random_float_plane(rng.uniform(7, 15), 1e-4, rng), {0, 0, 0.02, 0}, rng);
         EXPECT_FALSE(core::find_grid(core::kernels(), *plain, core::whole_view(*plain), grid));
-        // Too few of them.
+        // There are too few dots.
         const auto few = patch_of(random_float_plane(11, 0, rng), {}, rng);
         few->dots.count = 39;
         EXPECT_FALSE(core::find_grid(core::kernels(), *few, core::whole_view(*few), grid));

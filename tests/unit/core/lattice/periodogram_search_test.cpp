@@ -1,4 +1,4 @@
-// The grid from the dots' periodogram, from first estimates that are well off.
+// The grid from the dots' periodogram, from inaccurate first estimates.
 #include "core/lattice/periodogram_search.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 46;
 
-/// Difference of two directions of a square grid, in degrees.
+/// Returns the difference of two directions of a square grid, in degrees.
 double turned_degrees(double a_rad, double b_rad) {
     return std::remainder(a_rad - b_rad, std::numbers::pi / 2) * 180 / std::numbers::pi;
 }
@@ -49,7 +49,8 @@ TEST(SearchPeriodogram, RecoversTheGridWithAThirdOfTheDotsMissing) {
         EXPECT_NEAR(turned_degrees(std::atan2(found.u.y, found.u.x), angle), 0, 0.5);
         EXPECT_NEAR(length(found.v) / spacing, 1, 0.01);
         EXPECT_NEAR(turned_degrees(std::atan2(found.v.y, found.v.x), angle), 0, 0.5);
-        // The origin is some intersection: 150 displacements of 0.12 spacings leave 0.01.
+        // The origin may be any intersection; 150 displacements of 0.12 spacings leave an error of
+        // 0.01.
         const Vec2 at = mesh.inverse(found.origin);
         EXPECT_NEAR(std::remainder(at.x, 1), 0, 0.06);
         EXPECT_NEAR(std::remainder(at.y, 1), 0, 0.06);
@@ -57,7 +58,8 @@ TEST(SearchPeriodogram, RecoversTheGridWithAThirdOfTheDotsMissing) {
 }
 
 TEST(SearchPeriodogram, RecoversTheGridThatATiltedCameraSees) {
-    // Tilted by 30 degrees about any axis: one direction is seen shorter by cos 30.
+    // The camera is tilted by 30 degrees about any axis, so that one direction is shorter by cos
+    // 30.
     Rng rng(kSeed);
     for (int i = 0; i < 60; ++i) {
         SCOPED_TRACE(testing::Message() << "grid " << i << ", seed " << kSeed);
@@ -76,7 +78,7 @@ TEST(SearchPeriodogram, RecoversTheGridThatATiltedCameraSees) {
         const std::vector<Dot> dots = dots_of(placed_dots(mesh, 40, image, displacement));
         std::array<std::uint16_t, kMaxSeeds> seeds;
         const int count = choose_seeds(dots, fixed(centre, 8), seeds);
-        // What clustered edges give is about square.
+        // Clustered edges give an estimate that is about square.
         Lattice lattice = lattice_of({0.97 * flat.u, 0.97 * flat.v, centre});
         search_periodogram(dots, std::span(seeds).first(static_cast<std::size_t>(count)),
                            fixed(centre, 8), 12, lattice);

@@ -36,7 +36,7 @@ TEST(RefineGrid, ReachesOverATiltedPage) {
                 places.push_back(projection.pixel_from_offset(kDefaultSpacing_mm * cell));
             }
         }
-        // The grid's axes as the camera sees them in the middle.
+        // The mesh has the grid's axes as the camera sees them in the middle.
         const Vec2 middle = projection.pixel_from_offset({});
         const Mesh mesh{projection.pixel_from_offset({kDefaultSpacing_mm, 0}) - middle,
                         projection.pixel_from_offset({0, kDefaultSpacing_mm}) - middle, middle};

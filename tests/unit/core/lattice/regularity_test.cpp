@@ -1,5 +1,5 @@
-// What growing and refining a grid have in common: it reaches over the whole image from a rough
-// estimate in its middle, and what is none is refused.
+// What growing and refining a grid have in common: both reach over the whole image from a rough
+// estimate in its middle, and refuse dots that form no grid.
 #include "core/lattice/regularity.hpp"
 
 #include <ostream>
@@ -18,8 +18,9 @@ using namespace core;
 constexpr std::uint64_t kSeed = 47;
 constexpr Vec2 kImage_px{188, 120};
 
-/// Displacements are noise of 0.12 spacings. At the corners, where it shows most, a fit of 8
-/// parameters to 100 dots or more is off by 0.12 sqrt(8 / 100) times 2, rarely 3 times that.
+/// Returns the tolerance where displacements count as noise of 0.12 spacings. At the corners, where
+/// the error is greatest, a fit of 8 parameters to 100 dots or more has 2 times, rarely 3 times,
+/// the error 0.12 sqrt(8 / 100).
 double perspective_tolerance(const std::vector<PlacedDot>&) {
     return 0.25;
 }
@@ -27,7 +28,7 @@ double perspective_tolerance(const std::vector<PlacedDot>&) {
 struct Stage {
     const char* name;
     decltype(grow_grid)* find_grid;
-    /// Of fits to displaced dots, and to dots on their intersections, in spacings.
+    /// Tolerances of fits to displaced dots, and to dots on their intersections, in spacings.
     double (*tolerance)(const std::vector<PlacedDot>& dots);
     double plain_tolerance;
 };
@@ -38,7 +39,7 @@ void PrintTo(const Stage& stage, std::ostream* out) {
 class OutwardGrid : public testing::TestWithParam<Stage> {};
 INSTANTIATE_TEST_SUITE_P(
     , OutwardGrid,
-    testing::Values(Stage{"grown", grow_grid, affine_tolerance, 0.006},  // takes dots in 1/8 px
+    testing::Values(Stage{"grown", grow_grid, affine_tolerance, 0.006},  // uses dots in 1/8 px
                     Stage{"refined", refine_grid, perspective_tolerance, 0.002}),
     [](const auto& test) { return test.param.name; });
 
@@ -51,7 +52,7 @@ TEST_P(OutwardGrid, ReachesOverTheWholeImage) {
         SCOPED_TRACE(testing::Message() << "grid " << i << ", seed " << kSeed << ", " << image.x
                                         << " x " << image.y << " at " << spacing);
         Mesh mesh = square_mesh(spacing, rng.uniform(0, 6.3), {image.x / 2, image.y / 2});
-        if (i % 2 == 1) mesh.v = mesh.v + rng.uniform(-0.1, 0.1) * mesh.u;  // seen from aside
+        if (i % 2 == 1) mesh.v = mesh.v + rng.uniform(-0.1, 0.1) * mesh.u;  // seen at an angle
         const auto placed = displaced_dots(mesh, 45, image, rng);
         PlaneFromImage plane;
         ASSERT_EQ(GetParam().find_grid(dots_of(placed), {}, centre_q8(image),
@@ -95,7 +96,7 @@ TEST_P(OutwardGrid, RefusesScatteredDots) {
     }
 }
 
-/// The bounds themselves: 7 of 10 near, and mean squares of 1/10 and 1/256.
+/// The cases lie at the bounds: 7 of 10 near, and mean squares of 1/10 and 1/256.
 TEST(Regularity, JudgesByItsBounds) {
     const auto verdict = [](int near, double mean_square) {
         const Regularity regularity{100, near, 9};

@@ -1,4 +1,4 @@
-// Cells of points in 32 bits against double precision.
+// Cells of points in 32 bits, compared with double precision.
 #include "core/math/cells.hpp"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ TEST(Cells, PlanePointsAreThoseOfTheFormula) {
         const Cells cells(plane);
         const auto reach = static_cast<std::int32_t>(4 * side);
         for (int j = 0; j < 200; ++j) {
-            // The corners first.
+            // The first points are the corners.
             const auto coordinate = [&](int corner) {
                 if (j < 4) return corner != 0 ? reach : -reach;
                 return static_cast<std::int32_t>(rng.below(static_cast<std::uint32_t>(2 * reach))) -
@@ -46,7 +46,7 @@ TEST(Cells, PlanePointsAreThoseOfTheFormula) {
             };
             const Vec p{coordinate(j & 1), coordinate(j & 2)};
             const Vec2 exact = formula(plane, real(plane.centre_q8, 8) + real(p, 3));
-            // Slopes are cut to 2^-18 per px on either axis, the sum to 2^-16.
+            // Slopes are truncated to 2^-18 per px on either axis, the sum to 2^-16.
             const double tolerance =
                 (std::abs(p.x) + std::abs(p.y)) / 8.0 / (1 << 18) + 2.0 / 65536;
             const Vec2 found = real(cells.plane_point_q16(p), 16);

@@ -1,4 +1,4 @@
-// Integer arithmetic against <cmath> in double and long double precision.
+// Integer arithmetic, compared with <cmath> in double and long double precision.
 #include "core/math/fixed.hpp"
 
 #include <cmath>
@@ -17,7 +17,7 @@ using namespace core;
 constexpr std::uint64_t kSeed = 20;
 constexpr double kBamPerRad = 2147483648.0 / std::numbers::pi;
 
-/// a - b of two binary angles, the short way round.
+/// Returns the difference a - b of two binary angles, the shorter way around.
 double bam_difference(std::int32_t a, double b_rad) {
     return std::remainder(a - b_rad * kBamPerRad, 4294967296.0);
 }
@@ -44,7 +44,7 @@ TEST(Fixed, QuotientsAreRoundedToNearestHalvesAwayFromZero) {
     for (int i = 0; i < 100000; ++i) {
         const auto n = static_cast<std::int64_t>(rng.bits()) >> (24 + rng.below(40));
         const std::int64_t d = 1 + rng.below(1U << (1 + rng.below(20)));
-        // Long double keeps the quotient exact enough to tell any half from its neighbours.
+        // Long double keeps the quotient exact enough to distinguish any half from its neighbours.
         const auto expected =
             std::llround(static_cast<long double>(n) / static_cast<long double>(d));
         ASSERT_EQ(divide_rounded(n, d), expected) << n << " / " << d << ", seed " << kSeed;
@@ -100,7 +100,7 @@ TEST(Fixed, SquareRootIsTheLargestWhoseSquareFits) {
     }
 }
 
-/// The median and the upper quartile against sorting.
+/// Compares the median and the upper quartile with sorting.
 void expect_ranks(const std::vector<std::int32_t>& values) {
     std::vector<std::int32_t> sorted = values;
     std::sort(sorted.begin(), sorted.end());
@@ -115,7 +115,7 @@ TEST(Fixed, MedianAndQuartileAreThoseOfTheSorted) {
     for (int i = 0; i < 3000 && !HasFailure(); ++i) {
         SCOPED_TRACE("list " + std::to_string(i) + ", seed " + std::to_string(kSeed));
         std::vector<std::int32_t> values(1 + rng.below(300));
-        // From a few that repeat to all there are.
+        // Values range from a few that repeat to all of 32 bits.
         const std::uint32_t most = UINT32_MAX >> rng.below(32);
         for (std::int32_t& value : values)
             value = static_cast<std::int32_t>((rng.below(UINT32_MAX) & most) - 2);

@@ -1,4 +1,4 @@
-// Planes in single precision against their formula in double precision.
+// Planes in single precision, compared with their formula in double precision.
 #include "core/math/float_plane.hpp"
 
 #include <limits>
@@ -39,7 +39,7 @@ TEST(FloatPlane, FarAwayItDoesNotFold) {
     plane.du_x = plane.dv_y = 0.1F;
     plane.tilt_x = -0.01F;
     EXPECT_FLOAT_EQ(core::plane_point(plane, {75, 10}).x, 30);
-    // The divisor stays at a quarter beyond.
+    // Farther away the divisor stays at a quarter.
     EXPECT_FLOAT_EQ(core::plane_point(plane, {100, 10}).x, 40);
     EXPECT_FLOAT_EQ(core::plane_point(plane, {200, 10}).y, 4);
 }
@@ -100,7 +100,7 @@ TEST(FloatPlane, TellsWhatACameraMaySee) {
     for (int i = 0; i < 200; ++i) {
         const FloatPlane good = random_float_plane(rng.uniform(5, 80), rng.uniform(0, 4e-3), rng);
         ASSERT_TRUE(core::is_within_reason(good, 94, 60));
-        // Each of its numbers may be nonsense.
+        // Each of its numbers may be invalid.
         for (float FloatPlane::*number :
              {&FloatPlane::at_x, &FloatPlane::at_y, &FloatPlane::du_x, &FloatPlane::du_y,
               &FloatPlane::dv_x, &FloatPlane::dv_y, &FloatPlane::tilt_x, &FloatPlane::tilt_y,
@@ -113,19 +113,19 @@ TEST(FloatPlane, TellsWhatACameraMaySee) {
                 EXPECT_FALSE(core::is_within_reason(bad, 94, 60)) << i;
             }
         }
-        // From behind.
+        // The plane is seen from behind.
         FloatPlane bad = good;
         std::swap(bad.du_x, bad.dv_x);
         std::swap(bad.du_y, bad.dv_y);
         EXPECT_FALSE(core::is_within_reason(bad, 94, 60));
-        // Folded within the image, or counted from the other end of the world.
+        // The plane is folded within the image, or counted from far away.
         bad = good;
         bad.tilt_x = 0.01F;
         EXPECT_FALSE(core::is_within_reason(bad, 94, 60));
         bad = good;
         bad.at_y = 1e6F;
         EXPECT_FALSE(core::is_within_reason(bad, 94, 60));
-        // From the side: both steps along nearly one line.
+        // The plane is seen from the side: both steps lie nearly along one line.
         bad = good;
         bad.dv_x = bad.du_x + 0.1F * good.dv_x;
         bad.dv_y = bad.du_y + 0.1F * good.dv_y;

@@ -1,4 +1,5 @@
-// Points between image and plane (paper eq. 3-5, with perspective and lens) in double precision.
+// Points between image and plane (paper eq. 3-5, with perspective and lens), compared with double
+// precision.
 #include "core/math/plane.hpp"
 
 #include <gtest/gtest.h>
@@ -13,8 +14,8 @@ using namespace core;
 
 constexpr std::uint64_t kSeed = 26;
 
-/// A camera above the plane, which may be tilted and have a wide lens: each changes the scale by up
-/// to 10 % towards the corners.
+/// Returns the plane of a camera above it, which may be tilted and have a wide lens: each changes
+/// the scale by up to 10 % towards the corners.
 PlaneFromImage random_plane(Rng& rng, double side_px, bool is_bent) {
     PlaneFromImage plane = affine_plane(side_px, rng.uniform(6, 60), 1.2, rng);
     if (is_bent) {
@@ -87,8 +88,8 @@ TEST(Plane, ImagePointsAreTheInverse) {
 }
 
 TEST(Plane, TheSearchForImagePointsEndsWhereTheMapFolds) {
-    // As much lens as any fit can hold, far outside of what it was fitted to: no image point is
-    // there, and none of the numbers may overflow on the way.
+    // The plane has as much lens as any fit can hold, far outside of the dots it was fitted to: no
+    // image point is there, and no number may overflow on the way.
     Rng rng(kSeed);
     for (int i = 0; i < 2000; ++i) {
         SCOPED_TRACE(testing::Message() << "plane " << i << ", seed " << kSeed);
@@ -96,7 +97,7 @@ TEST(Plane, TheSearchForImagePointsEndsWhereTheMapFolds) {
         const auto any = [&] { return static_cast<std::int32_t>(rng.bits()) >> rng.below(13); };
         plane.lens_q40 = any();
         if (i % 2 == 1) {
-            // Dots that are none may be fitted by anything.
+            // Planes fitted to false dots may have any values.
             plane.du_q24 = {any(), any()};
             plane.dv_q24 = {any(), any()};
             plane.perspective_q30 = {any(), any()};
