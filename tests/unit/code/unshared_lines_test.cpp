@@ -20,8 +20,8 @@ Lines most_equal(const std::array<int, kMost>& offsets, std::size_t lines, bool 
     std::array<int, kSections> counts{};
     Lines most{};
     for (std::size_t n = 0; n < lines; ++n) {
-        const int offsets = offsets[from_last ? lines - 1 - n : n];
-        most[n + 1] = std::max(most[n], ++counts[static_cast<std::size_t>(offsets)]);
+        const int offset = offsets[from_last ? lines - 1 - n : n];
+        most[n + 1] = std::max(most[n], ++counts[static_cast<std::size_t>(offset)]);
     }
     return most;
 }

@@ -22,7 +22,7 @@ struct OwnPlaces {
         for (std::size_t k = 0; k < own.size(); ++k)
             own[k] = rng.below(basis[k].length);
     }
-    int offsets(std::size_t k, std::uint32_t place, int line) const {
+    int offset(std::size_t k, std::uint32_t place, int line) const {
         return (basis[k].rolls[place + static_cast<std::uint32_t>(line)] -
                 basis[k].rolls[own[k] + static_cast<std::uint32_t>(line)] + 63) %
                63;
@@ -86,7 +86,7 @@ TEST(KernelsAlternatives, ListHasAllPlacesThatLoseTooLittle) {
             found;  // sequence, place and the shift at which it shares a line
         for (const auto& [k, place, line] :
              std::span(list.places).first(static_cast<std::size_t>(list.count)))
-            found.insert({k, place, places.offsets(k, place, line)});
+            found.insert({k, place, places.offset(k, place, line)});
         for (std::size_t k = 0; k < 4; ++k) {
             if ((sequences >> k & 1) == 0) {
                 const auto is_of_it = [&](const auto& alternative) {
@@ -100,7 +100,7 @@ TEST(KernelsAlternatives, ListHasAllPlacesThatLoseTooLittle) {
                 for (int shift = 0; shift < 63; ++shift) {
                     int lost = 0;
                     for (const auto& [line, loss] : lines)
-                        lost += places.offsets(k, place, line) == shift ? 0 : loss;
+                        lost += places.offset(k, place, line) == shift ? 0 : loss;
                     const std::array<int, 3> alternative{static_cast<int>(k),
                                                          static_cast<int>(place), shift};
                     // Losses are counted from the shared line on, so others may be listed, too.
