@@ -23,7 +23,7 @@ void print(const dotpose::Followed& now) {
     }
     std::printf("%s: x %.3f mm, y %.3f mm, angle %.4f rad, %.1f mm/s", place->entry->name.c_str(),
                 place->x_mm, place->y_mm, place->theta_rad,
-                std::hypot(now.track.pose.vx_mm_s, now.track.pose.vy_mm_s));
+                std::hypot(double{now.track.pose.vx_mm_s}, double{now.track.pose.vy_mm_s}));
     if (const auto world = dotpose::world_place(*place))
         std::printf(", world %.5f m, %.5f m, yaw %.4f rad", world->x_m, world->y_m, world->yaw_rad);
     std::puts("");

@@ -232,7 +232,7 @@ void expect_near(const PoseCovariance& found, const Matrix& expected) {
 
 TEST(covariance_on_a_sheet, is_what_small_movements_say) {
     const Fix fix = uncertain_fix();
-    for (const auto [x_scale, y_scale] : {std::pair(1.0, 1.0), std::pair(0.8, 1.3)}) {
+    for (const auto& [x_scale, y_scale] : {std::pair(1.0, 1.0), std::pair(0.8, 1.3)}) {
         SheetEntry entry = small_entry({1000, 2000});
         entry.print_scale_x = x_scale;
         entry.print_scale_y = y_scale;
