@@ -223,7 +223,7 @@ void add_check_print(CLI::App& app, int& exit_code) {
             "text or json")
         ->type_name("NAME")
         ->default_str("text")
-        ->check(CLI::IsMember({"text", "json"}));
+        ->check(one_of({"text", "json"}));
     command->add_option("-o,--out", arguments->out, "Also draw a map of the distortion (.svg)")
         ->type_name("FILE");
     CLI::Option* fit = command->add_flag(

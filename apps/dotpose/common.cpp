@@ -26,6 +26,10 @@ const std::map<std::string, DotDrawing> kDrawings = {
     {"strokes", DotDrawing::strokes},
 };
 
+/// The values of --code, besides auto, and the name that libdots had in earlier versions.
+const std::vector<std::string> kCodes = {"anoto", "libdots", "microdots"};
+const std::vector<std::string> kEarlierCodes = {"published"};
+
 std::vector<std::string> g_arguments;
 
 std::string quoted_for_shell(const std::string& word) {
@@ -71,39 +75,28 @@ std::string require_spacing(const std::string& text) {
                        kLeast_mm, kMost_mm, kDefaultSpacing_mm);
 }
 
-Profile parse_code(const std::string& asked, const char* names) {
-    const auto found = profile_by_name(asked);
-    if (!found) throw CLI::ValidationError("--code", fmt::format("'{}' is not {}", asked, names));
-    return *found;
-}
-
 }  // namespace
 
 void add_code_option(CLI::App& command, Profile& profile) {
     command
         .add_option_function<std::string>(
-            "--code",
-            [&profile](const std::string& asked) {
-                profile = parse_code(asked, "anoto, libdots or microdots");
-            },
-            "Code profile: anoto, libdots or microdots")
+            "--code", [&profile](const std::string& asked) { profile = *profile_by_name(asked); },
+            "Code profile: " + alternatives(kCodes))
         ->type_name("NAME")
-        ->default_str(profile_name(profile));
+        ->default_str(profile_name(profile))
+        ->check(one_of(kCodes, kEarlierCodes));
 }
 
 void add_code_option(CLI::App& command, std::optional<Profile>& code) {
+    std::vector<std::string> names = {"auto"};
+    names.insert(names.end(), kCodes.begin(), kCodes.end());
     command
         .add_option_function<std::string>(
-            "--code",
-            [&code](const std::string& asked) {
-                code.reset();
-                if (asked != "auto") {
-                    code = parse_code(asked, "auto, anoto, libdots or microdots");
-                }
-            },
-            "Code profile that was printed: anoto, libdots or microdots; auto: found out")
+            "--code", [&code](const std::string& asked) { code = profile_by_name(asked); },
+            "Code profile that was printed: " + alternatives(kCodes) + "; auto: found out")
         ->type_name("NAME")
-        ->default_str("auto");
+        ->default_str("auto")
+        ->check(one_of(names, kEarlierCodes));
 }
 
 void add_section_option(CLI::App& command, Section& section) {
@@ -196,7 +189,7 @@ void add_format_option(CLI::App& command, RecordFormat& format) {
             "jsonl (a JSON object per line) or csv")
         ->type_name("NAME")
         ->default_str("jsonl")
-        ->check(CLI::IsMember({"jsonl", "csv"}));
+        ->check(one_of({"jsonl", "csv"}));
 }
 
 void add_size_option(CLI::App& command, CameraModel& camera) {
@@ -214,21 +207,17 @@ void add_size_option(CLI::App& command, CameraModel& camera) {
 }
 
 void add_drawing_option(CLI::App& command, DotDrawing& drawing) {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : kDrawings)
+        names.push_back(name);
     command
         .add_option_function<std::string>(
-            "--dots",
-            [&drawing](const std::string& name) {
-                const auto found = kDrawings.find(name);
-                if (found == kDrawings.end()) {
-                    throw CLI::ValidationError(
-                        "--dots", fmt::format("'{}' is not auto, glyphs or strokes", name));
-                }
-                drawing = found->second;
-            },
+            "--dots", [&drawing](const std::string& name) { drawing = kDrawings.at(name); },
             "Dots of a PDF: glyphs are small and fast, strokes are exact at any spacing; auto "
             "takes glyphs where they are exact at --dpi")
         ->type_name("NAME")
-        ->default_str("auto");
+        ->default_str("auto")
+        ->check(one_of(names));
 }
 
 std::optional<std::vector<std::uint32_t>> whole_numbers(std::string_view text,

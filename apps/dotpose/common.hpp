@@ -8,8 +8,8 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
-#include <fmt/core.h>
 
+#include "choices.hpp"
 #include "dotpose/files/camera.hpp"
 #include "dotpose/files/sheet.hpp"
 #include "dotpose/options.hpp"
@@ -64,22 +64,21 @@ void add_size_option(CLI::App& command, CameraModel& camera);
 template <typename Values, typename Store>
 CLI::Option* add_named(CLI::App& command, const std::string& flag, const Values& values,
                        const std::string& default_name, const std::string& help, Store store) {
-    std::string names;
+    std::vector<std::string> names;
     for (const auto value : values)
-        names += (names.empty() ? "" : ", ") + std::string(name(value));
+        names.emplace_back(name(value));
     return command
         .add_option_function<std::string>(
             flag,
-            [&values, names, flag, store](const std::string& asked) {
+            [&values, store](const std::string& asked) {
                 for (const auto value : values) {
                     if (asked == name(value)) return store(value);
                 }
-                throw CLI::ValidationError(flag,
-                                           fmt::format("'{}' is not one of {}", asked, names));
             },
-            help + ": " + names)
+            help + ": " + alternatives(names))
         ->type_name("NAME")
-        ->default_str(default_name);
+        ->default_str(default_name)
+        ->check(one_of(names));
 }
 
 /// The options --code, --section, --spacing, --displacement and --dot.

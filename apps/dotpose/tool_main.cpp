@@ -2,36 +2,94 @@
 
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <memory>
+#include <vector>
 
+#include <fmt/core.h>
+
+#include "choices.hpp"
 #include "common.hpp"
 #include "dotpose/files/error.hpp"
 #include "exit_codes.hpp"
 #include "terminal_text.hpp"
+#include "usage_errors.hpp"
 
 namespace dotpose::cli {
 namespace {
 
+constexpr const char* kVersion = "dotpose " DOTPOSE_VERSION;
+
+/// Returns where the documents are, which are installed beside the tool.
+std::string places_of_documents() {
+    std::error_code failed;
+    const auto tool = std::filesystem::read_symlink("/proc/self/exe", failed);
+    const auto folder = (tool.parent_path() / DOTPOSE_DOCUMENTS_FROM_TOOL).lexically_normal();
+    if (!std::filesystem::is_directory(folder, failed))
+        return "Documents: README.md and docs/ of the source; examples in C++: examples/";
+    return fmt::format("Documents: {0}/README.md and {0}/docs\nExamples in C++: {0}/examples",
+                       folder.string());
+}
+
+std::string first_day() {
+    return "A first day:\n"
+           "  dotpose print -o sheet.pdf   a sheet of dots; print it at 100 %\n"
+           "  dotpose locate photo.jpg     where on it a picture was taken\n"
+           "  dotpose watch 0              where on it a camera is, live\n\n"
+           "dotpose COMMAND --help has all options and more examples.\n" +
+           places_of_documents();
+}
+
+/// Adds the commands `help` and `version`. The first stores the words that ask for the help wanted
+/// in `help_words`, which must outlive the app, the last one first.
+void add_help_and_version(CLI::App& app, std::vector<std::string>& help_words) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands({}))
+        names.push_back(command->get_name());
+    const auto topic = std::make_shared<std::string>();
+    CLI::App* help = app.add_subcommand(kHelpCommand, "Show the options of a command");
+    help->add_option("command", *topic, "The command, none for a list of all")
+        ->type_name("NAME")
+        ->check(one_of(names));
+    help->callback([topic, &help_words] {
+        help_words = {"--help"};
+        if (!topic->empty()) help_words.push_back(*topic);
+    });
+    app.add_subcommand("version", "Print the version")->callback([] {
+        fmt::print("{}\n", kVersion);
+    });
+}
+
 int run(int argc, char** argv, const std::function<void(CLI::App& app, int& exit_code)>& add) {
     remember_command_line(argc, argv);
     CLI::App app("Locates a camera on a sheet printed with a dot position code.", "dotpose");
-    app.set_version_flag("--version", "dotpose " DOTPOSE_VERSION);
+    app.set_version_flag("--version", kVersion);
     app.require_subcommand(1);
+    app.get_formatter()->label("SUBCOMMAND", "COMMAND");
     int exit_code = 0;
     add(app, exit_code);
     refuse_non_finite_numbers(app);
+    std::vector<std::string> help_words;
+    add_help_and_version(app, help_words);
+    for (CLI::App* command : app.get_subcommands({})) {
+        command->group("Commands");
+        command->preparse_callback(
+            [command, argc, argv](std::size_t) { require_two_hyphens(*command, argc, argv); });
+    }
+    app.footer(first_day());
     try {
         app.parse(argc, argv);
+        if (!help_words.empty()) app.parse(help_words);
         return exit_code;
     } catch (const CLI::Success& request) {
         return app.exit(request);  // --help and --version
     } catch (const CLI::ParseError& error) {
-        tell(error.what());
-        std::fputs("Try: dotpose --help\n", stderr);
-        return kExitUsage;
+        tell(usage_error(app, error));
     } catch (const BadArgument& error) {
         tell(error.what());
-        return kExitUsage;
     }
+    fmt::print(stderr, "Try: {}\n", help_command(app));
+    return kExitUsage;
 }
 
 }  // namespace

@@ -1,0 +1,119 @@
+#include "usage_errors.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "nearest_name.hpp"
+
+namespace dotpose::cli {
+namespace {
+
+bool is_option(std::string_view word) {
+    return word.size() > 1 && word[0] == '-';
+}
+
+/// Returns the option without its value: "--format" of "--format=csv".
+std::string without_value(const std::string& word) {
+    return word.substr(0, word.find('='));
+}
+
+std::vector<std::string> command_names(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands({}))
+        names.push_back(command->get_name());
+    return names;
+}
+
+std::vector<std::string> long_options(const CLI::App& command) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command.get_options()) {
+        for (const std::string& name : option->get_lnames())
+            names.push_back("--" + name);
+    }
+    return names;
+}
+
+/// Returns the words that the command did not understand, those that look like options first.
+std::vector<std::string> unknown_words(const CLI::App& command) {
+    std::vector<std::string> words = command.remaining();
+    std::erase(words, "--");
+    std::stable_partition(words.begin(), words.end(), is_option);
+    return words;
+}
+
+std::string unknown_to(const CLI::App& command, const std::string& word) {
+    if (!is_option(word)) return fmt::format("unexpected argument '{}'", word);
+    const std::string option = without_value(word);
+    return fmt::format("unknown option '{}'{}", option,
+                       did_you_mean(option, long_options(command)));
+}
+
+/// Describes a word before the command, or in its place.
+std::string unknown_at_start(const CLI::App& app, const std::string& word) {
+    if (!is_option(word))
+        return fmt::format("unknown command '{}'{}", word, did_you_mean(word, command_names(app)));
+    if (app.get_subcommands().empty()) return unknown_to(app, word);
+    const std::string command = app.get_subcommands().front()->get_name();
+    return fmt::format("unknown option '{}'; options of a command follow it: dotpose {} {}",
+                       without_value(word), command, without_value(word));
+}
+
+/// Returns the text between two others, or an empty string if they do not enclose `text`.
+std::string enclosed(const std::string& text, std::string_view before, std::string_view after) {
+    if (!text.starts_with(before) || !text.ends_with(after)) return {};
+    return text.substr(before.size(), text.size() - before.size() - after.size());
+}
+
+/// Puts an error of CLI11 into words that name the next step.
+std::string in_plain_words(const CLI::ParseError& error) {
+    const std::string text = error.what();
+    if (text == CLI::RequiredError::Subcommand(1).what()) return "no command given";
+    const std::string not_converted = enclosed(text, "Could not convert: ", "");
+    if (const std::size_t at = not_converted.find(" = "); at != std::string::npos) {
+        return fmt::format("{}: '{}' is not a number that it takes", not_converted.substr(0, at),
+                           not_converted.substr(at + 3));
+    }
+    const std::string lacks = enclosed(text, "", " missing");
+    if (const std::size_t at = lacks.find(": 1 required "); at != std::string::npos)
+        return fmt::format("{} lacks its value", lacks.substr(0, at));
+    return text;
+}
+
+}  // namespace
+
+std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
+    const std::vector<std::string> at_start = unknown_words(app);
+    if (!at_start.empty()) return unknown_at_start(app, at_start.front());
+    for (const CLI::App* command : app.get_subcommands()) {
+        const std::vector<std::string> words = unknown_words(*command);
+        if (!words.empty()) return unknown_to(*command, words.front());
+    }
+    return in_plain_words(error);
+}
+
+void require_two_hyphens(const CLI::App& command, int argc, const char* const* argv) {
+    std::vector<std::string> mistakes;
+    for (const CLI::Option* option : command.get_options()) {
+        if (option->get_snames().empty() || option->get_items_expected_max() == 0) continue;
+        for (const std::string& name : option->get_lnames())
+            mistakes.push_back("-" + name);
+    }
+    for (int i = 2; i < argc && std::string_view(argv[i]) != "--"; ++i) {
+        const std::string option = without_value(argv[i]);
+        if (std::find(mistakes.begin(), mistakes.end(), option) == mistakes.end()) continue;
+        throw CLI::ParseError(
+            fmt::format("unknown option '{}'; did you mean '-{}'?", option, option),
+            CLI::ExitCodes::ExtrasError);
+    }
+}
+
+std::string help_command(const CLI::App& app) {
+    const std::vector<CLI::App*> commands = app.get_subcommands();
+    if (commands.empty() || commands.front()->get_name() == kHelpCommand) return "dotpose --help";
+    return fmt::format("dotpose {} --help", commands.front()->get_name());
+}
+
+}  // namespace dotpose::cli

@@ -1,0 +1,66 @@
+#include "choices.hpp"
+
+#include <string>
+
+#include <gmock/gmock.h>
+
+namespace dotpose::cli {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+/// An app with options of three kinds.
+struct Options {
+    Options() {
+        app.add_option("--code", code)->check(one_of({"anoto", "libdots"}, {"published"}));
+        app.add_option("--name", name)->check(CLI::Validator([](std::string&) { return ""; }, ""));
+        app.add_flag("--json");
+    }
+
+    /// Returns the message of the error, empty if there was none.
+    std::string parse(const std::string& words) {
+        try {
+            app.parse(words);
+        } catch (const CLI::ValidationError& error) {
+            return error.what();
+        }
+        return {};
+    }
+
+    CLI::App app;
+    std::string code, name;
+};
+
+TEST(Choices, AcceptsTheNamesAndEarlierOnes) {
+    Options options;
+    for (const std::string accepted : {"anoto", "libdots", "published"}) {
+        EXPECT_EQ(options.parse("--code " + accepted), "");
+        EXPECT_EQ(options.code, accepted);
+    }
+}
+
+TEST(Choices, RefusesOthersAndTellsTheNearest) {
+    Options options;
+    EXPECT_EQ(options.parse("--code libdot"),
+              "--code: 'libdot' is not anoto or libdots; did you mean 'libdots'?");
+    EXPECT_EQ(options.parse("--code banana"), "--code: 'banana' is not anoto or libdots");
+    EXPECT_EQ(options.parse("--code publishe"), "--code: 'publishe' is not anoto or libdots");
+}
+
+TEST(Choices, AreKnownOfTheOption) {
+    Options options;
+    EXPECT_THAT(choices_of(*options.app.get_option("--code")), ElementsAre("anoto", "libdots"));
+    EXPECT_THAT(choices_of(*options.app.get_option("--name")), IsEmpty());
+    EXPECT_THAT(choices_of(*options.app.get_option("--json")), IsEmpty());
+}
+
+TEST(Choices, AsAList) {
+    EXPECT_EQ(alternatives({}), "");
+    EXPECT_EQ(alternatives({"a"}), "a");
+    EXPECT_EQ(alternatives({"a", "b"}), "a or b");
+    EXPECT_EQ(alternatives({"a", "b", "c"}), "a, b or c");
+}
+
+}  // namespace
+}  // namespace dotpose::cli
