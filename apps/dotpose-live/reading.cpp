@@ -8,7 +8,7 @@ Plane plane_of(const Follower& follower) {
     return follower.is_in_world() ? Plane::sheet_world : Plane::pattern;
 }
 
-Reading read(const video::Frame& frame, Follower& follower) {
+Reading read(const capture::Frame& frame, Follower& follower) {
     const Followed now = follower.follow(frame.image.view(), frame.time_us);
     Reading reading;
     reading.index = frame.index;

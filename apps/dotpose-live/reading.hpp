@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
+#include "capture/frame_source.hpp"
 #include "dotpose/tools/follower.hpp"
 #include "locate_record.hpp"
-#include "video/frame_source.hpp"
 
 namespace dotpose::cli {
 
@@ -22,6 +22,6 @@ struct Reading {
 };
 
 /// Follows the robot to this frame.
-Reading read(const video::Frame& frame, Follower& follower);
+Reading read(const capture::Frame& frame, Follower& follower);
 
 }  // namespace dotpose::cli

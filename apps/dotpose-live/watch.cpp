@@ -18,8 +18,8 @@
 #include "reading.hpp"
 #include "robot_state.hpp"
 #include "run_files.hpp"
+#include "source_arguments.hpp"
 #include "terminal_text.hpp"
-#include "video/frame_source.hpp"
 #include "watch_outputs.hpp"
 
 namespace dotpose::cli {
@@ -36,7 +36,7 @@ constexpr const char* kExamples =
     "frame is taken and those in between are counted; of all else every frame. Ctrl-C ends.\n";
 
 struct WatchArguments {
-    video::SourceOptions source;
+    SourceArguments sources;
     FollowerArguments follower;
     OutputOptions outputs;
     MqttArguments mqtt;
@@ -52,10 +52,10 @@ void report(const WatchOutputs& outputs, std::int64_t dropped) {
                tally.frames, tally.fixes, tally.lost, tally.kidnapped, dropped, outputs.rate());
 }
 
-void require_apart(const WatchArguments& arguments) {
+RunFiles files_of(const WatchArguments& arguments, const Sources& sources) {
     const OutputOptions& outputs = arguments.outputs;
     RunFiles files;
-    files.reads("", video::files_of(arguments.source.name));
+    sources.add_files(files);
     arguments.follower.add_files(files);
     files.reads("--mqtt-ca", arguments.mqtt.ca_file());
     files.writes_lines(outputs.out, content_of(outputs.format));
@@ -63,6 +63,7 @@ void require_apart(const WatchArguments& arguments) {
     files.writes("--map", outputs.map, Content::svg);
     files.writes("--record", outputs.screen.record, Content::own);
     files.writes("--packets", outputs.packets, Content::packets);
+    return files;
 }
 
 /// Writes to standard error why most frames fail, and whether another code explains them.
@@ -83,30 +84,20 @@ FollowerOptions options_of(const WatchArguments& arguments) {
     return options;
 }
 
-/// Returns the exit status.
-int run(WatchArguments& arguments) {
-    require_apart(arguments);
-    catch_interrupts();
-    ignore_broken_pipes();
-    arguments.source.stop = interrupted;
-    arguments.source.tell = tell;
-    const auto source = video::open_source(arguments.source);
-    Follower follower(options_of(arguments));
-    arguments.outputs.world_map = std::filesystem::path(arguments.follower.sheets).stem().string();
-    if (source->rate() > 0) arguments.outputs.screen.fps = source->rate();
-    arguments.outputs.screen.has_window = !arguments.has_no_window && video::has_display();
-    WatchOutputs outputs(arguments.outputs, follower);
-    int exit_code = 0;
+/// Follows the robot over all frames. Returns the exit status. Throws BadArgument if frames cannot
+/// be located with the arguments.
+int follow(const WatchArguments& arguments, capture::FrameSource& source, Follower& follower,
+           WatchOutputs& outputs) {
     try {
-        video::Frame frame;
+        capture::Frame frame;
         FailureHint hint;
         bool is_warned = false;
         bool goes_on = true;
-        while (goes_on && source->next(frame)) {
+        while (goes_on && source.next(frame)) {
             if (arguments.follower.is_inverted) invert(frame.image);
             const Reading reading = read(frame, follower);
             tell_once_in_a_while(reading, frame.image.view(), follower, hint, is_warned);
-            goes_on = outputs.take(frame, reading, source->dropped());
+            goes_on = outputs.take(frame, reading, source.dropped());
             if (arguments.frames > 0 && outputs.tally().frames >= arguments.frames) break;
         }
     } catch (const BadArgument&) {
@@ -114,8 +105,36 @@ int run(WatchArguments& arguments) {
     } catch (const Error& error) {
         // The map and the counts of the frames before the failure are still written.
         tell(error.what());
-        exit_code = kExitFailed;
+        return kExitFailed;
     }
+    return 0;
+}
+
+/// Returns the exit status.
+int run(WatchArguments& arguments) {
+    Sources sources(arguments.sources);
+    const RunFiles files = files_of(arguments, sources);
+    catch_interrupts();
+    ignore_broken_pipes();
+    bool is_unreadable = false;
+    capture::SourceOptions source_options = arguments.sources.options;
+    source_options.stop = interrupted;
+    source_options.tell = tell;
+    source_options.before_reading = [&files](const std::string& file) {
+        files.require_not_written(file);
+    };
+    source_options.on_unreadable = [&is_unreadable](const std::string&, const Error& error) {
+        tell(error.what());
+        is_unreadable = true;
+    };
+    const auto source = sources.open(source_options);
+    source->open();
+    Follower follower(options_of(arguments));
+    arguments.outputs.world_map = std::filesystem::path(arguments.follower.sheets).stem().string();
+    if (source->rate() > 0) arguments.outputs.screen.fps = source->rate();
+    arguments.outputs.screen.has_window = !arguments.has_no_window && video::has_display();
+    WatchOutputs outputs(arguments.outputs, follower);
+    int exit_code = follow(arguments, *source, follower, outputs);
     try {
         outputs.finish();
     } catch (const Error& error) {
@@ -123,48 +142,8 @@ int run(WatchArguments& arguments) {
         exit_code = kExitFailed;
     }
     report(outputs, source->dropped());
-    return exit_code;
-}
-
-video::Region parse_region(const std::string& text) {
-    const auto numbers = whole_numbers(text, ",,x", kMaxImageSide_px);
-    if (!numbers) {
-        throw CLI::ValidationError(
-            "--roi",
-            fmt::format("'{}' is not LEFT,TOP,WIDTHxHEIGHT in px, such as 10,20,640x480", text));
-    }
-    const auto number = [&numbers](std::size_t i) { return static_cast<int>((*numbers)[i]); };
-    return {number(0), number(1), number(2), number(3)};
-}
-
-void add_source_options(CLI::App& command, video::SourceOptions& source) {
-    command
-        .add_option(
-            "source", source.name,
-            "Camera (0, 1 ..., /dev/video0, or URL), video file, folder or glob of images, or -")
-        ->type_name("SOURCE")
-        ->required();
-    command
-        .add_option_function<std::string>(
-            "--size",
-            [&source](const std::string& text) {
-                const FrameSize size = parse_frame_size("--size", text);
-                source.width_px = size.width_px;
-                source.height_px = size.height_px;
-            },
-            "Of raw frames; of a camera, what it is asked for")
-        ->type_name("WxH");
-    command.add_option("--fps", source.fps, "Frames per second, where the frames tell no time")
-        ->type_name("N")
-        ->check(CLI::Range(0.001, 1e6).description(""));
-    command.add_option("--exposure", source.exposure, "Of a camera, in its driver's unit")
-        ->type_name("N");
-    command.add_option("--gain", source.gain, "Of a camera, in its driver's unit")->type_name("N");
-    command
-        .add_option_function<std::string>(
-            "--roi", [&source](const std::string& text) { source.region = parse_region(text); },
-            "Part of the frame to look at")
-        ->type_name("X,Y,WxH");
+    // Single images that cannot be read are passed over; but none at all is a failure.
+    return is_unreadable && outputs.tally().frames == 0 ? kExitFailed : exit_code;
 }
 
 void add_output_options(CLI::App& command, WatchArguments& arguments) {
@@ -241,7 +220,7 @@ void add_watch(CLI::App& app, int& exit_code) {
     CLI::App* command =
         app.add_subcommand("watch", "Follow a camera live, or a video frame by frame");
     command->footer(kExamples);
-    add_source_options(*command, arguments->source);
+    arguments->sources.add_to(*command);
     add_follower_options(*command, arguments->follower,
                          "Sheet file: also tell the sheet, and track the robot in the world");
     add_track_options(*command, arguments->follower.options.track);

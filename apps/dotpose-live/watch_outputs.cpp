@@ -115,7 +115,7 @@ WatchOutputs::WatchOutputs(const OutputOptions& options, const Follower& followe
     if (options.mqtt) states_.emplace(options);
 }
 
-bool WatchOutputs::take(const video::Frame& frame, const Reading& reading, std::int64_t dropped) {
+bool WatchOutputs::take(const capture::Frame& frame, const Reading& reading, std::int64_t dropped) {
     tally_.count(reading);
     newest_ = reading.track;
     path_.add(reading.track);
@@ -154,7 +154,7 @@ bool WatchOutputs::is_anything_left() const {
     return lines_ || log_ || packets_ || states_ || !options_.map.empty() || screen_.is_on();
 }
 
-bool WatchOutputs::show(const video::Frame& frame, const Reading& reading, std::int64_t dropped) {
+bool WatchOutputs::show(const capture::Frame& frame, const Reading& reading, std::int64_t dropped) {
     const Fix& fix = reading.record.fix;
     const bool ok = fix.status == Status::ok;
     const TrackedPose& pose = reading.track.pose;

@@ -85,7 +85,7 @@ class WatchOutputs {
 
     /// Writes the outputs of a frame. Returns false if the user closed the window or all outputs
     /// have lost their readers. Throws Error if an output cannot be written.
-    bool take(const video::Frame& frame, const Reading& reading, std::int64_t dropped);
+    bool take(const capture::Frame& frame, const Reading& reading, std::int64_t dropped);
 
     /// Writes the map and closes the recording. Throws Error if that fails.
     void finish();
@@ -95,7 +95,7 @@ class WatchOutputs {
     double rate() const;
 
   private:
-    bool show(const video::Frame& frame, const Reading& reading, std::int64_t dropped);
+    bool show(const capture::Frame& frame, const Reading& reading, std::int64_t dropped);
     void write_line(const std::string& line);
     void write_packet(const Reading& reading);
     bool is_anything_left() const;

@@ -11,13 +11,14 @@
 #include <fmt/core.h>
 
 #include "calibrate_report.hpp"
+#include "calibration_frames.hpp"
 #include "commands.hpp"
 #include "common.hpp"
 #include "dotpose/files/camera_file.hpp"
 #include "dotpose/tools/draw.hpp"
-#include "dotpose/tools/frame_file.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"
+#include "source_arguments.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
@@ -26,15 +27,16 @@ namespace {
 constexpr const char* kExamples =
     "Examples:\n"
     "  dotpose calibrate frames/*.png -o camera.yaml --draw camera.svg\n"
+    "  dotpose calibrate video.mp4 -o camera.yaml\n"
     "  dotpose calibrate --camera camera.yaml -o camera.yaml --spin turn/*.png --drive line/*.png\n"
     "  dotpose calibrate --stitch --sheets sheets.json --camera camera.yaml seams/*.png\n\n"
     "Take 5 to 50 frames of any printed sheet, some centimetres and any angle apart; 12 of the "
     "robot\n"
-    "turning on the spot; some of it driving straight ahead. Exit status 1 if frames do not tell\n"
-    "what is asked.\n";
+    "turning on the spot; some of it driving straight ahead. Of a video or a camera, up to 50\n"
+    "frames that show new places are taken. Exit status 1 if frames do not tell what is asked.\n";
 
 struct CalibrateArguments {
-    std::vector<std::string> images;
+    SourceArguments sources;
     std::vector<std::string> spin;
     std::vector<std::string> drive;
     bool stitch = false;
@@ -48,32 +50,52 @@ struct CalibrateArguments {
     CalibrateOptions options;
 };
 
-using Names = std::vector<std::string>;
+/// The sources of the frames for each part of the work, as far as they are given.
+struct Series {
+    std::optional<Sources> lens;
+    std::optional<Sources> spin;
+    std::optional<Sources> drive;
+};
 
-FrameAt frames_of(const Names& names) {
-    return [&names](int index) { return read_frame(names[static_cast<std::size_t>(index)]); };
+/// Returns the arguments with other sources and without a list.
+SourceArguments with_names(SourceArguments arguments, const std::vector<std::string>& names) {
+    arguments.names = names;
+    arguments.list.clear();
+    return arguments;
+}
+
+Series series_of(const CalibrateArguments& arguments) {
+    Series series;
+    if (arguments.sources.is_given()) series.lens.emplace(arguments.sources);
+    if (!arguments.spin.empty()) series.spin.emplace(with_names(arguments.sources, arguments.spin));
+    if (!arguments.drive.empty()) {
+        series.drive.emplace(with_names(arguments.sources, arguments.drive));
+    }
+    return series;
 }
 
 /// Runs `work(frames, frame_at, options)` and shows its progress.
 template <typename Work>
-auto with_progress(const Names& names, const std::string& what, CalibrateOptions options,
+auto with_progress(const CalibrateArguments& arguments, Sources& sources, const std::string& what,
                    Work work) {
+    CalibrateOptions options = arguments.options;
+    const CalibrationFrames frames(arguments.sources, sources, options);
     ProgressLine line(what);
     options.progress = [&line](int done, int total) {
         line.update(done, total);
         return !interrupted();
     };
-    return work(static_cast<int>(names.size()), frames_of(names), options);
+    return work(
+        frames.count(), [&frames](int index) { return frames.at(index); }, options);
 }
 
 /// Calibrates the lens and then the mount, if frames for them are given. Returns a report.
-std::string calibrate_camera(const CalibrateArguments& arguments) {
+std::string calibrate_camera(const CalibrateArguments& arguments, Series& series) {
     std::string report;
     std::optional<Camera> camera = arguments.camera.camera;
     std::optional<LensCalibration> lens;
-    if (!arguments.images.empty()) {
-        lens = with_progress(arguments.images, "calibrating the lens", arguments.options,
-                             calibrate_lens);
+    if (series.lens) {
+        lens = with_progress(arguments, *series.lens, "calibrating the lens", calibrate_lens);
         if (camera) {
             lens->camera.reference_px = reference_in(lens->camera, *camera);
             lens->camera.theta_offset_rad = camera->theta_offset_rad;
@@ -83,22 +105,22 @@ std::string calibrate_camera(const CalibrateArguments& arguments) {
         camera = lens->camera;
         report += lens_report(*lens);
     }
-    const auto go_on = [&](const Names& names, const char* what, auto calibrate, auto report_of) {
-        if (names.empty()) return;
+    const auto go_on = [&](std::optional<Sources>& sources, const char* what, auto calibrate,
+                           auto report_of) {
+        if (!sources) return;
         const auto found = with_progress(
-            names, what, arguments.options,
+            arguments, *sources, what,
             [&](int frames, const FrameAt& frame_at, const CalibrateOptions& options) {
                 return calibrate(frames, frame_at, camera, options);
             });
         camera = found.camera;
         report += report_of(found);
     };
-    go_on(arguments.spin, "calibrating the mount", calibrate_spin,
-          [&](const SpinCalibration& spin) {
-              if (!arguments.spin_picture.empty()) draw_spin(arguments.spin_picture, spin);
-              return spin_report(spin);
-          });
-    go_on(arguments.drive, "calibrating the heading", calibrate_drive, drive_report);
+    go_on(series.spin, "calibrating the mount", calibrate_spin, [&](const SpinCalibration& spin) {
+        if (!arguments.spin_picture.empty()) draw_spin(arguments.spin_picture, spin);
+        return spin_report(spin);
+    });
+    go_on(series.drive, "calibrating the heading", calibrate_drive, drive_report);
     if (lens && !arguments.picture.empty()) draw_calibration(arguments.picture, *lens);
     if (!arguments.out.empty()) write_camera(arguments.out, *camera);
     return report;
@@ -121,10 +143,10 @@ ScaleReference parse_reference(const std::string& text) {
 
 /// Finds the world poses and print scales of sheets and writes them into the sheet file. Returns a
 /// report.
-std::string stitch(const CalibrateArguments& arguments) {
+std::string stitch(const CalibrateArguments& arguments, Sources& sources) {
     SheetFile file(arguments.sheets, {.tell = tell, .stop = interrupted});
     const Stitching stitching = with_progress(
-        arguments.images, "stitching", arguments.options,
+        arguments, sources, "stitching",
         [&](int frames, const FrameAt& frame_at, const CalibrateOptions& options) {
             return stitch_sheets(frames, frame_at, file.sheets(), arguments.camera.camera, options,
                                  arguments.reference);
@@ -136,11 +158,11 @@ std::string stitch(const CalibrateArguments& arguments) {
     return stitching_report(stitching);
 }
 
-void require_apart(const CalibrateArguments& arguments) {
+void require_apart(const CalibrateArguments& arguments, const Series& series) {
     RunFiles files;
-    files.reads("", arguments.images);
-    files.reads("--spin", arguments.spin);
-    files.reads("--drive", arguments.drive);
+    for (const auto* sources : {&series.lens, &series.spin, &series.drive}) {
+        if (*sources) (*sources)->add_files(files);
+    }
     files.updates("--sheets", arguments.sheets, Content::json);
     // The output may be the camera file that is read: it keeps the values that are not calibrated
     // now.
@@ -158,13 +180,15 @@ void require_apart(const CalibrateArguments& arguments) {
 /// Returns the exit status.
 int run(const CalibrateArguments& arguments) {
     const bool has_mount = !arguments.spin.empty() || !arguments.drive.empty();
-    if (arguments.images.empty() && !has_mount) {
-        throw BadArgument("no images given: name 5 to 50 frames");
+    if (!arguments.sources.is_given() && !has_mount) {
+        throw BadArgument("no frames given: name 5 to 50 images, or a video or camera");
     }
     if (arguments.stitch && has_mount) throw BadArgument("--stitch is a job of its own");
-    require_apart(arguments);
+    Series series = series_of(arguments);
+    require_apart(arguments, series);
     catch_interrupts();
-    const std::string report = arguments.stitch ? stitch(arguments) : calibrate_camera(arguments);
+    const std::string report =
+        arguments.stitch ? stitch(arguments, *series.lens) : calibrate_camera(arguments, series);
     std::fputs(report.c_str(), stdout);
     return 0;
 }
@@ -176,8 +200,7 @@ void add_calibrate(CLI::App& app, int& exit_code) {
     CLI::App* command =
         app.add_subcommand("calibrate", "Find lens and mount of a camera from frames of a sheet");
     command->footer(kExamples);
-    command->add_option("images", arguments->images, "PGM, PNG, JPEG, BMP or TIFF files")
-        ->type_name("IMAGE");
+    arguments->sources.add_to(*command);
     command->add_option("-o,--out", arguments->out, "Camera file to write (YAML)")
         ->type_name("FILE");
     command
@@ -190,14 +213,14 @@ void add_calibrate(CLI::App& app, int& exit_code) {
     command
         ->add_option("--spin", arguments->spin,
                      "Frames of the robot turning on the spot: find its centre (reference_px)")
-        ->type_name("IMAGE");
+        ->type_name("SOURCE");
     command->add_option("--draw-spin", arguments->spin_picture, "Also draw the turn (.svg)")
         ->type_name("FILE")
         ->needs(command->get_option("--spin"));
     command
         ->add_option("--drive", arguments->drive,
                      "Frames of a straight drive ahead, in order: find the heading (theta_offset)")
-        ->type_name("IMAGE");
+        ->type_name("SOURCE");
     CLI::Option* stitch = command->add_flag(
         "--stitch", arguments->stitch,
         "Find how the sheets of a sheet file lie, from frames that show two, and write it there");

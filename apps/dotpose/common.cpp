@@ -253,8 +253,8 @@ FrameSize parse_frame_size(const std::string& flag, const std::string& text) {
 
 void refuse_non_finite_numbers(CLI::App& app) {
     // Values of these types are text: a file may be called "nan".
-    const std::set<std::string> texts = {"DIR",   "FILE", "FILE|-", "IMAGE", "NAME", "PART",
-                                         "RANGE", "SCAN", "SOURCE", "TEXT",  "URL"};
+    const std::set<std::string> texts = {"DIR",   "FILE", "FILE|-", "NAME", "PART",
+                                         "RANGE", "SCAN", "SOURCE", "TEXT", "URL"};
     const auto is_finite = [](const std::string& text) -> std::string {
         double value = 0;
         if (!CLI::detail::lexical_cast(text, value) || std::isfinite(value)) return {};
@@ -269,6 +269,10 @@ void refuse_non_finite_numbers(CLI::App& app) {
 
 void remember_command_line(int argc, char** argv) {
     g_arguments.assign(argv, argv + argc);
+}
+
+std::vector<std::string> given_arguments() {
+    return {g_arguments.begin() + 1, g_arguments.end()};
 }
 
 std::string command_line() {

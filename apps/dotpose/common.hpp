@@ -126,6 +126,9 @@ void refuse_non_finite_numbers(CLI::App& app);
 /// Stores the arguments of `main` for `command_line`.
 void remember_command_line(int argc, char** argv);
 
+/// Returns the arguments of `main`, without the name of the program.
+std::vector<std::string> given_arguments();
+
 /// Returns the command line as the user could type it again, quoted where a shell needs it.
 std::string command_line();
 

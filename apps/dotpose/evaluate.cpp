@@ -17,7 +17,9 @@
 #include "dotpose/tools/protocol.hpp"
 #include "dotpose/tools/score.hpp"
 #include "dotpose/tools/sweep.hpp"
+#include "known_frames.hpp"
 #include "progress.hpp"
+#include "source_arguments.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
@@ -28,6 +30,7 @@ namespace fs = std::filesystem;
 constexpr const char* kExamples =
     "Examples:\n"
     "  dotpose evaluate frames                  frames against the poses in frames/truth.csv\n"
+    "  dotpose evaluate drive.mp4 --poses poses.csv\n"
     "  dotpose evaluate --preset hard           simulated frames; nothing is written\n"
     "  dotpose evaluate --sweep noise -o out    success and error over the noise: CSV and "
     "pictures\n"
@@ -51,7 +54,8 @@ const char* name(TruthOf truth) {
 }
 
 struct EvaluateArguments {
-    std::string folder;
+    SourceArguments sources;
+    std::string poses;
     std::optional<Preset> preset;
     std::optional<SweepKind> sweep;
     bool protocol = false;
@@ -160,20 +164,30 @@ void locate_with(const Camera& camera, const std::vector<TruthRow>& rows, FrameR
     };
 }
 
-int evaluate_folder(const EvaluateArguments& arguments) {
-    const fs::path folder = arguments.folder;
+/// Describes the sources in a few words, for the line that shows the progress.
+std::string what_is_read(const SourceArguments& sources) {
+    if (sources.names.size() == 1 && sources.list.empty()) return sources.names.front();
+    return "the frames";
+}
+
+int evaluate_sources(const EvaluateArguments& arguments) {
     const auto spacing_mm =
         arguments.spacing_given ? std::optional(arguments.spacing_mm) : std::nullopt;
-    std::vector<TruthRow> rows = read_truth(folder / "truth.csv", spacing_mm);
-    if (arguments.code) {
-        for (TruthRow& row : rows)
-            row.profile = arguments.options.profile;
-    }
+    const KnownFrames known = known_frames(arguments.sources, arguments.poses, spacing_mm);
     FrameRun run;
-    run.frames = static_cast<int>(rows.size());
-    run.frame_at = frames_of_folder(folder, rows);
-    if (arguments.camera.camera) locate_with(*arguments.camera.camera, rows, run);
-    return evaluate_run(arguments, arguments.folder, run);
+    run.frames = static_cast<int>(known.rows.size());
+    run.frame_at = known.frame_at;
+    if (arguments.code) {
+        run.frame_at = [&arguments, read = run.frame_at](int index) {
+            KnownFrame frame = read(index);
+            frame.profile = arguments.options.profile;
+            return frame;
+        };
+    }
+    if (arguments.camera.camera) locate_with(*arguments.camera.camera, known.rows, run);
+    const int exit_code = evaluate_run(arguments, what_is_read(arguments.sources), run);
+    known.finish();
+    return exit_code;
 }
 
 int evaluate_preset(const EvaluateArguments& arguments) {
@@ -224,19 +238,21 @@ int evaluate_protocol(const EvaluateArguments& arguments) {
 
 int run(EvaluateArguments& arguments) {
     const bool writes = arguments.sweep || arguments.protocol;
-    const bool has_folder = !arguments.folder.empty();
+    const bool has_sources = arguments.sources.is_given();
     // A preset is a job of its own only without a sweep and the protocol, whose conditions it sets.
-    const int jobs = static_cast<int>(has_folder) + static_cast<int>(arguments.sweep.has_value()) +
+    const int jobs = static_cast<int>(has_sources) + static_cast<int>(arguments.sweep.has_value()) +
                      static_cast<int>(arguments.protocol) +
                      static_cast<int>(arguments.preset && !writes);
-    if (jobs != 1 || (has_folder && arguments.preset)) {
-        throw BadArgument("name one thing to evaluate: DIR, --preset, --sweep or --protocol");
+    if (jobs != 1 || (has_sources && arguments.preset)) {
+        throw BadArgument(
+            "name one thing to evaluate: frames with their poses, --preset, --sweep or --protocol");
     }
     if (writes && arguments.out.empty()) throw BadArgument("name a folder for the results: -o DIR");
-    if (writes && arguments.json) throw BadArgument("--json is for DIR and --preset only");
-    if (has_folder && arguments.frames) throw BadArgument("--frames is for simulated frames only");
+    if (writes && arguments.json) throw BadArgument("--json is for frames and --preset only");
+    if (!has_sources && !arguments.poses.empty()) throw BadArgument("--poses is for frames only");
+    if (has_sources && arguments.frames) throw BadArgument("--frames is for simulated frames only");
     if (auto& camera = arguments.camera.camera) {
-        if (!has_folder) throw BadArgument("--camera is for frames in a folder only");
+        if (!has_sources) throw BadArgument("--camera is not for simulated frames");
         if (arguments.truth_of == TruthOf::image) {
             camera->reference_px.reset();
             camera->theta_offset_rad = 0;
@@ -250,15 +266,21 @@ int run(EvaluateArguments& arguments) {
     pattern.displacement_mm = pattern.dot_mm = arguments.spacing_mm / 6;
     arguments.setup.camera.k = arguments.options.lens.k_q40 * 0x1p-40;
     catch_interrupts();
-    if (has_folder) return evaluate_folder(arguments);
+    if (has_sources) return evaluate_sources(arguments);
     if (arguments.sweep) return evaluate_sweep(arguments);
     if (arguments.protocol) return evaluate_protocol(arguments);
     return evaluate_preset(arguments);
 }
 
 void add_jobs(CLI::App& command, const std::shared_ptr<EvaluateArguments>& arguments) {
-    command.add_option("folder", arguments->folder, "Folder with images and their truth.csv")
-        ->type_name("DIR");
+    arguments->sources.add_to(command);
+    command.get_option("--size")->description(
+        "Of simulated frames (default 188x120) and raw ones; of a camera, what it is asked for");
+    command
+        .add_option("--poses", arguments->poses,
+                    "True poses of the frames: a CSV file as simulate writes it")
+        ->type_name("FILE")
+        ->default_str("truth.csv beside the frames");
     add_named(command, "--preset", kPresets, "", "Simulate frames in these conditions",
               [arguments](Preset preset) { arguments->preset = preset; });
     add_named(command, "--sweep", kSweepKinds, "", "Worsen one condition step by step",
@@ -276,7 +298,6 @@ void add_jobs(CLI::App& command, const std::shared_ptr<EvaluateArguments>& argum
     command.add_option("--seed", arguments->setup.seed, "Another seed, other frames")
         ->type_name("N")
         ->capture_default_str();
-    add_size_option(command, arguments->setup.camera);
 }
 
 }  // namespace
@@ -290,8 +311,9 @@ void add_evaluate(CLI::App& app, int& exit_code) {
     add_attempt_options(*command, arguments->options);
     add_code_option(*command, arguments->code);
     add_spacing_option(*command, arguments->spacing_mm);
-    CLI::Option* camera = add_camera_option(
-        *command, arguments->camera, "Camera file that DIR is located with, as by locate --camera");
+    CLI::Option* camera =
+        add_camera_option(*command, arguments->camera,
+                          "Camera file that frames are located with, as by locate --camera");
     camera->excludes(add_lens_option(*command, arguments->options.lens));
     add_named(*command, "--truth", kTruths, "image",
               "Whose pose truth.csv has: that of the image centre, as simulate writes it, or that "
@@ -309,6 +331,10 @@ void add_evaluate(CLI::App& app, int& exit_code) {
     command->callback([arguments, command, &exit_code] {
         arguments->spacing_given = command->count("--spacing") > 0;
         arguments->code_is_found_out = command->count("--code") > 0 && !arguments->code;
+        if (const auto& size = arguments->sources.options; size.width_px > 0) {
+            arguments->setup.camera.width_px = size.width_px;
+            arguments->setup.camera.height_px = size.height_px;
+        }
         arguments->options.profile = arguments->code.value_or(Profile::anoto);
         exit_code = run(*arguments);
     });

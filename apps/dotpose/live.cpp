@@ -1,4 +1,5 @@
-// Starts `dotpose-live`, the program beside this one, for the commands that it executes.
+// Starts `dotpose-live`, the program beside this one, for what it alone can do: some commands, and
+// cameras and videos for all commands that read frames.
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -6,22 +7,27 @@
 #include <string>
 #include <vector>
 
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include "commands.hpp"
+#include "common.hpp"
 #include "dotpose/files/error.hpp"
+#include "live_sources.hpp"
 
 namespace dotpose::cli {
 namespace {
 
-/// Replaces this process by the other program. Throws Error if that fails.
-[[noreturn]] void become_live(const CLI::App& command) {
+std::string live_program() {
     std::error_code failed;
     const auto here = std::filesystem::read_symlink("/proc/self/exe", failed);
-    const std::string program = (here.parent_path() / "dotpose-live").string();
-    std::vector<std::string> words = {"dotpose", command.get_name()};
-    for (const std::string& word : command.remaining())
-        words.push_back(word);
+    return (here.parent_path() / "dotpose-live").string();
+}
+
+/// Replaces this process by the other program. Returns only if that fails, with errno.
+int become_live() {
+    std::vector<std::string> words = given_arguments();
+    words.insert(words.begin(), "dotpose");
     std::vector<char*> arguments;
     for (std::string& word : words)
         arguments.push_back(word.data());
@@ -29,18 +35,41 @@ namespace {
     // Timeout in seconds for a camera that delivers no frames. OpenCV reads the variable when it is
     // loaded, so it is set before the program starts.
     setenv("OPENCV_VIDEOIO_V4L_SELECT_TIMEOUT", "2", 0);
-    execv(program.c_str(), arguments.data());
-    throw Error("cannot start " + program + ": " + std::strerror(errno));
+    execv(live_program().c_str(), arguments.data());
+    return errno;
+}
+
+[[noreturn]] void throw_missing(const std::string& what, int error_number) {
+    throw Error(
+        fmt::format("{} the program dotpose-live, and {} cannot be started: {}; build it "
+                    "(target dotpose_live_cli) and install it beside dotpose",
+                    what, live_program(), std::strerror(error_number)));
 }
 
 void add_forwarded(CLI::App& app, const char* name, const char* what) {
     CLI::App* command = app.add_subcommand(name, what);
     command->set_help_flag();
     command->prefix_command();
-    command->callback([command] { become_live(*command); });
+    command->callback(
+        [name] { throw_missing(fmt::format("'dotpose {}' needs", name), become_live()); });
 }
 
+constexpr const char* kSourcesNeed = "cameras, URLs and videos need";
+
 }  // namespace
+
+void hand_over() {
+    throw_missing(kSourcesNeed, become_live());
+}
+
+void hand_over_if_possible() {
+    static_cast<void>(become_live());
+}
+
+std::unique_ptr<capture::FrameSource> open_live(const std::string& name,
+                                                const capture::SourceOptions&) {
+    throw_missing("cannot read " + name + ": " + kSourcesNeed, ENOENT);
+}
 
 void add_live(CLI::App& app) {
     add_forwarded(app, "watch", "Follow a camera live, or a video frame by frame");

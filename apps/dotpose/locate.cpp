@@ -9,14 +9,14 @@
 #include "commands.hpp"
 #include "common.hpp"
 #include "dotpose/tools/follower.hpp"
-#include "dotpose/tools/frame_file.hpp"
+#include "dotpose/tools/image_file.hpp"
 #include "follower_arguments.hpp"
-#include "image_names.hpp"
 #include "lines.hpp"
 #include "locate_record.hpp"
 #include "picture_advice.hpp"
 #include "picture_folder.hpp"
 #include "run_files.hpp"
+#include "source_arguments.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
@@ -31,20 +31,20 @@ constexpr const char* kExamples =
     "  dotpose locate --draw pictures frame.png\n"
     "  dotpose locate --sheets sheets.json frame.png\n"
     "  dotpose locate --camera camera.yaml frame.png\n"
-    "  find frames -name '*.png' | sort | dotpose locate --list -\n\n"
-    "One line per image, also for those without a fix. Exit status 1 if some image could not be\n"
-    "read, 2 for wrong usage.\n";
+    "  find frames -name '*.png' | sort | dotpose locate --list -\n"
+    "  dotpose locate drive.mp4\n\n"
+    "One line per image or frame, also for those without a fix; frame N of a video is called\n"
+    "drive.mp4#N. Exit status 1 if something could not be read, 2 for wrong usage.\n";
 
 struct LocateArguments {
-    std::vector<std::string> images;
-    std::string list;
+    SourceArguments sources;
     std::string out;
     std::string draw_folder;
     RecordFormat format = RecordFormat::jsonl;
     FollowerArguments follower;
 };
 
-/// Reads and locates one image after the other.
+/// Locates one image after the other.
 class ImageLocator {
   public:
     ImageLocator(const LocateArguments& arguments, const RunFiles& files)
@@ -54,53 +54,26 @@ class ImageLocator {
 
     bool has_sheets() const { return !follower_.sheets().empty(); }
 
-    /// Throws Error if the image cannot be read.
-    Record operator()(const std::string& name) {
-        image_ = {};
-        try {
-            // Images that are too large are reduced, unless a camera file gives their size.
-            image_ = arguments_.follower.camera.camera ? read_frame(name) : read_image(name);
-        } catch (const ImageTooLarge& large) {
-            return too_large(name, large);
-        }
-        if (arguments_.follower.is_inverted) invert(image_);
+    /// Throws Error if the image has not the size that the camera file is for. The image must stay
+    /// until it has been drawn.
+    Record operator()(const std::string& name, GreyImage& image) {
+        if (arguments_.follower.is_inverted) invert(image);
         const auto start = steady_clock::now();
-        const Located located = locate(name);
+        const Located located = locate(name, image);
         const std::chrono::duration<double, std::micro> elapsed = steady_clock::now() - start;
         if (located.reduced_by > 1) {
             const ImageView small = follower_.image();
-            tell(fmt::format("{}: reduced from {} x {} to {} x {} px", name, image_.width_px,
-                             image_.height_px, small.width_px, small.height_px));
+            tell(fmt::format("{}: reduced from {} x {} to {} x {} px", name, image.width_px,
+                             image.height_px, small.width_px, small.height_px));
         }
         Record record = record_of(located, follower_);
         record.file = name;
-        record.width_px = image_.width_px;
-        record.height_px = image_.height_px;
+        record.width_px = image.width_px;
+        record.height_px = image.height_px;
         record.elapsed_us = elapsed.count();
         record.advice = advice(record.fix.status);
         spacing_mm_ = record.spacing_mm;
         return record;
-    }
-
-    /// Draws the image just located, if pictures are wanted. Throws Error.
-    void draw(const std::string& name) {
-        if (!pictures_ || image_.pixels.empty()) return;
-        pictures_->add(name, follower_.image(), follower_.trace(), spacing_mm_);
-    }
-
-  private:
-    static FollowerOptions options_of(const LocateArguments& arguments) {
-        FollowerOptions options = arguments.follower.read();
-        options.locate.show_stages = !arguments.draw_folder.empty();
-        return options;
-    }
-
-    Located locate(const std::string& name) {
-        try {
-            return follower_.locate(image_);
-        } catch (const BadArgument& error) {
-            throw Error(fmt::format("{}: {}", name, error.what()));
-        }
     }
 
     /// Returns the record of an image that is refused because of its header, without reading
@@ -115,6 +88,26 @@ class ImageLocator {
         return record;
     }
 
+    /// Draws the image just located, if pictures are wanted. Throws Error.
+    void draw(const std::string& name) {
+        if (pictures_) pictures_->add(name, follower_.image(), follower_.trace(), spacing_mm_);
+    }
+
+  private:
+    static FollowerOptions options_of(const LocateArguments& arguments) {
+        FollowerOptions options = arguments.follower.read();
+        options.locate.show_stages = !arguments.draw_folder.empty();
+        return options;
+    }
+
+    Located locate(const std::string& name, const GreyImage& image) {
+        try {
+            return follower_.locate(image);
+        } catch (const BadArgument& error) {
+            throw Error(fmt::format("{}: {}", name, error.what()));
+        }
+    }
+
     std::string advice(Status status) {
         if (status == Status::ok) return {};
         if (!scratch_) scratch_ = std::make_unique<LargeMemory>();
@@ -125,53 +118,104 @@ class ImageLocator {
     Follower follower_;
     std::unique_ptr<LargeMemory> scratch_;  ///< for a look at what could not be located
     std::optional<PictureFolder> pictures_;
-    GreyImage image_;
     double spacing_mm_ = 0;
 };
 
-RunFiles files_of(const LocateArguments& arguments, const ImageNames& names) {
+RunFiles files_of(const LocateArguments& arguments, const Sources& sources) {
     RunFiles files;
     arguments.follower.add_files(files);
-    files.reads("--list", arguments.list);
-    files.reads("", names.known());
+    sources.add_files(files);
     files.writes_lines(arguments.out, content_of(arguments.format));
     return files;
 }
 
-/// Returns the exit status.
-int run(const LocateArguments& arguments) {
-    if (arguments.images.empty() && arguments.list.empty()) {
-        throw BadArgument("no images given: name some, or use --list");
+/// One run over all frames. After a frame or source that fails, it goes on with the next one.
+class LocateRun {
+  public:
+    LocateRun(const LocateArguments& arguments, Sources& sources)
+        : files_(files_of(arguments, sources)),
+          locator_(arguments, files_),
+          lines_(arguments.out),
+          is_csv_(arguments.format == RecordFormat::csv),
+          frames_(sources.open(options_of(arguments))) {}
+
+    /// Returns the exit status. Throws Error if the lines cannot be written.
+    int operator()() {
+        if (is_csv_) lines_.write(csv_header(locator_.has_sheets()));
+        capture::Frame frame;
+        while (next(frame)) {
+            const std::string name = frames_->name_of_frame();
+            Record record;
+            if (!attempt([&] { record = locator_(name, frame.image); })) continue;
+            write(record);
+            if (!frame.image.pixels.empty()) attempt([&] { locator_.draw(name); });
+        }
+        return exit_code_;
     }
-    const bool is_csv = arguments.format == RecordFormat::csv;
-    ImageNames names(arguments.images, arguments.list);
-    const RunFiles files = files_of(arguments, names);
-    ImageLocator locator(arguments, files);
-    Lines lines(arguments.out);
-    int exit_code = 0;
-    // After a file that fails, the run goes on with the next one.
-    const auto attempt = [&exit_code](const auto& action) {
+
+  private:
+    capture::SourceOptions options_of(const LocateArguments& arguments) {
+        capture::SourceOptions options = arguments.sources.options;
+        // Images that are too large are reduced, unless a camera file gives their size.
+        if (!arguments.follower.camera.camera) options.max_pixels = kDefaultImagePixels;
+        options.tell = tell;
+        options.before_reading = [this](const std::string& file) {
+            files_.require_not_written(file);
+        };
+        options.on_unreadable = [this](const std::string& file, const Error& error) {
+            if (const auto* large = dynamic_cast<const ImageTooLarge*>(&error)) {
+                write(locator_.too_large(file, *large));
+            } else {
+                fail(error);
+            }
+        };
+        return options;
+    }
+
+    /// Gets the next frame of any source that can be read. Returns false after the last one.
+    bool next(capture::Frame& frame) {
+        while (true) {
+            try {
+                return frames_->next(frame);
+            } catch (const BadArgument&) {
+                throw;
+            } catch (const Error& error) {
+                fail(error);
+            }
+        }
+    }
+
+    void write(const Record& record) {
+        lines_.write(is_csv_ ? csv_line(record) : json_line(record));
+    }
+
+    void fail(const Error& error) {
+        tell(error.what());
+        exit_code_ = kExitFailed;
+    }
+
+    template <typename Action>
+    bool attempt(const Action& action) {
         try {
             action();
             return true;
         } catch (const Error& error) {
-            tell(error.what());
-            exit_code = kExitFailed;
+            fail(error);
             return false;
         }
-    };
-    if (is_csv) lines.write(csv_header(locator.has_sheets()));
-    while (const auto name = names.next()) {
-        Record record;
-        const bool is_read = attempt([&] {
-            files.require_not_written(*name);
-            record = locator(*name);
-        });
-        if (!is_read) continue;
-        lines.write(is_csv ? csv_line(record) : json_line(record));
-        attempt([&] { locator.draw(*name); });
     }
-    return exit_code;
+
+    RunFiles files_;
+    ImageLocator locator_;
+    Lines lines_;
+    bool is_csv_;
+    std::unique_ptr<capture::SourceList> frames_;
+    int exit_code_ = 0;
+};
+
+int run(const LocateArguments& arguments) {
+    Sources sources(arguments.sources);
+    return LocateRun(arguments, sources)();
 }
 
 }  // namespace
@@ -180,12 +224,7 @@ void add_locate(CLI::App& app, int& exit_code) {
     const auto arguments = std::make_shared<LocateArguments>();
     CLI::App* command = app.add_subcommand("locate", "Find where images look on the pattern");
     command->footer(kExamples);
-    command->add_option("images", arguments->images, "PGM, PNG, JPEG, BMP or TIFF files")
-        ->type_name("IMAGE");
-    command
-        ->add_option("--list", arguments->list,
-                     "Read names from a file, or from - (standard input)")
-        ->type_name("FILE|-");
+    arguments->sources.add_to(*command);
     add_follower_options(*command, arguments->follower,
                          "Sheet file: also tell the sheet, and the place on it and in the world");
     add_format_option(*command, arguments->format);

@@ -9,6 +9,20 @@ namespace dotpose::cli {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Returns the name of an image without its ending, or drive-17 for the frame drive.mp4#17.
+std::string stem_of(const std::string& name) {
+    const std::size_t mark = name.rfind('#');
+    if (mark == std::string::npos ||
+        name.find_first_not_of("0123456789", mark + 1) != std::string::npos) {
+        return fs::path(name).stem().string();
+    }
+    return fs::path(name.substr(0, mark)).stem().string() + "-" + name.substr(mark + 1);
+}
+
+}  // namespace
+
 PictureFolder::PictureFolder(fs::path folder, const RunFiles& files)
     : folder_(std::move(folder)), files_(files) {
     std::error_code error;
@@ -22,7 +36,7 @@ PictureFolder::PictureFolder(fs::path folder, const RunFiles& files)
 
 void PictureFolder::add(const std::string& image_name, ImageView image, const Trace& trace,
                         double spacing_mm) {
-    const std::string stem = fs::path(image_name).stem().string();
+    const std::string stem = stem_of(image_name);
     std::string file = stem + ".svg";
     for (int n = 2; !used_.insert(file).second; ++n)
         file = fmt::format("{}-{}.svg", stem, n);

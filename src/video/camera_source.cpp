@@ -10,12 +10,15 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "capture/source_kind.hpp"
 #include "video/latest.hpp"
 #include "video/sources.hpp"
 
 namespace dotpose::video {
 namespace {
 
+using capture::Frame;
+using capture::SourceOptions;
 using std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
@@ -45,12 +48,12 @@ auto guarded(const std::string& name, const Action& action) {
 }
 
 /// Reads a camera in a separate thread, so that `next` always returns the newest frame.
-class Camera : public FrameSource {
+class Camera : public capture::FrameSource {
   public:
-    explicit Camera(const SourceOptions& options)
-        : options_(options), is_remote_(is_url(options.name)) {
+    Camera(const std::string& name, const SourceOptions& options)
+        : name_(name), options_(options), is_remote_(capture::is_url(name)) {
         if (!open()) {
-            throw Error(fmt::format("cannot open the camera {}: {}", options.name,
+            throw Error(fmt::format("cannot open the camera {}: {}", name,
                                     is_remote_ ? "nothing answers there, or what does is no video"
                                                : "there is none, or another program uses it"));
         }
@@ -76,16 +79,15 @@ class Camera : public FrameSource {
 
   private:
     bool open() {
-        return guarded(options_.name, [this] {
+        return guarded(name_, [this] {
             if (is_remote_) {
-                return capture_.open(options_.name, cv::CAP_FFMPEG,
+                return capture_.open(name_, cv::CAP_FFMPEG,
                                      {cv::CAP_PROP_OPEN_TIMEOUT_MSEC, kPatience_ms,
                                       cv::CAP_PROP_READ_TIMEOUT_MSEC, kPatience_ms});
             }
-            const bool is_number =
-                options_.name.find_first_not_of("0123456789") == std::string::npos;
-            const bool is_open = is_number ? capture_.open(std::stoi(options_.name), cv::CAP_V4L2)
-                                           : capture_.open(options_.name, cv::CAP_V4L2);
+            const bool is_number = name_.find_first_not_of("0123456789") == std::string::npos;
+            const bool is_open = is_number ? capture_.open(std::stoi(name_), cv::CAP_V4L2)
+                                           : capture_.open(name_, cv::CAP_V4L2);
             if (is_open) set_up();
             return is_open;
         });
@@ -128,7 +130,7 @@ class Camera : public FrameSource {
                 try_again();
                 continue;
             }
-            if (is_away_) options_.tell("the camera " + options_.name + " is back");
+            if (is_away_) options_.tell("the camera " + name_ + " is back");
             is_away_ = false;
             read_at_ = steady_clock::now();
             newest_us_ = time_us();
@@ -153,7 +155,7 @@ class Camera : public FrameSource {
     /// Waits half a second and tries to open the camera again.
     void try_again() {
         if (!is_away_) {
-            options_.tell("the camera " + options_.name + " does not answer; waiting for it");
+            options_.tell("the camera " + name_ + " does not answer; waiting for it");
         }
         is_away_ = true;
         capture_.release();
@@ -167,6 +169,7 @@ class Camera : public FrameSource {
 
     static constexpr int kPatience_ms = 2000;  ///< timeout for cameras in the network
 
+    std::string name_;
     SourceOptions options_;
     bool is_remote_;
     cv::VideoCapture capture_;
@@ -182,11 +185,12 @@ class Camera : public FrameSource {
 
 }  // namespace
 
-std::unique_ptr<FrameSource> open_camera(const SourceOptions& options) {
+std::unique_ptr<capture::FrameSource> open_camera(const std::string& name,
+                                                  const SourceOptions& options) {
     // OpenCV must not print its own messages: failures are reported as Error.
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);  // AV_LOG_QUIET
-    return std::make_unique<Camera>(options);
+    return std::make_unique<Camera>(name, options);
 }
 
 }  // namespace dotpose::video

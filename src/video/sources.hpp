@@ -1,23 +1,20 @@
-// Functions that open each kind of source; frame_source.hpp describes the kinds.
+// Opens the sources of frames that need the libraries for cameras and videos.
 #pragma once
 
-#include "video/frame_source.hpp"
+#include <memory>
+#include <string>
+
+#include "capture/frame_source.hpp"
 
 namespace dotpose::video {
 
-std::unique_ptr<FrameSource> open_raw(const SourceOptions& options);
-std::unique_ptr<FrameSource> open_images(const SourceOptions& options);
-std::unique_ptr<FrameSource> open_video(const SourceOptions& options);
-std::unique_ptr<FrameSource> open_camera(const SourceOptions& options);
+/// A file. Throws Error if it cannot be read or is no video.
+std::unique_ptr<capture::FrameSource> open_video(const std::string& name,
+                                                 const capture::SourceOptions& options);
 
-/// Returns the images of a folder or glob, in the order of their names. Throws Error if the folder
-/// cannot be read.
-std::vector<std::string> images_at(const std::string& name);
-
-/// Whether the name is a URL of a source in the network.
-bool is_url(const std::string& name);
-
-/// Returns the time of a frame in microseconds from its number and the frame rate.
-std::int64_t time_of(std::int64_t index, double fps);
+/// A camera's number, device (/dev/video...) or URL (http://..., rtsp://...). Throws Error if it
+/// cannot be opened.
+std::unique_ptr<capture::FrameSource> open_camera(const std::string& name,
+                                                  const capture::SourceOptions& options);
 
 }  // namespace dotpose::video

@@ -22,6 +22,9 @@ extern "C" {
 namespace dotpose::video {
 namespace {
 
+using capture::Frame;
+using capture::SourceOptions;
+
 /// Frees objects of FFmpeg's libraries.
 struct Release {
     void operator()(AVFormatContext* file) const { avformat_close_input(&file); }
@@ -76,17 +79,20 @@ class GreyConverter {
     Owned<SwsContext> converter_;
 };
 
-class VideoFile : public FrameSource {
+class VideoFile : public capture::FrameSource {
   public:
-    explicit VideoFile(const SourceOptions& options)
-        : options_(options), packet_(owned(av_packet_alloc())), picture_(owned(av_frame_alloc())) {
-        if (!std::filesystem::exists(options.name)) {
-            throw Error("cannot read " + options.name + ": no such file or camera");
+    VideoFile(const std::string& name, const SourceOptions& options)
+        : name_(name),
+          options_(options),
+          packet_(owned(av_packet_alloc())),
+          picture_(owned(av_frame_alloc())) {
+        if (!std::filesystem::exists(name)) {
+            throw Error("cannot read " + name + ": no such file or camera");
         }
-        if (!std::ifstream(options.name)) throw Error("cannot read " + options.name);
+        if (!std::ifstream(name)) throw Error("cannot read " + name);
         // FFmpeg must not print its own messages: failures are reported as Error.
         av_log_set_level(AV_LOG_QUIET);
-        if (!open()) throw Error(options.name + " is no video, or of a kind that is not known");
+        if (!open()) throw Error(name + " is no video, or of a kind that is not known");
     }
 
     bool next(Frame& frame) override {
@@ -111,7 +117,7 @@ class VideoFile : public FrameSource {
     bool open() {
         AVFormatContext* file = nullptr;
         // With the prefix, the part of a name before a colon is not taken for a protocol.
-        const std::string url = "file:" + options_.name;
+        const std::string url = "file:" + name_;
         if (avformat_open_input(&file, url.c_str(), nullptr, nullptr) < 0) return false;
         file_.reset(file);
         // This must come before packets are read, which adds entries to the index.
@@ -154,13 +160,13 @@ class VideoFile : public FrameSource {
         const std::string counts = fmt::format("{}{} frames were read", frames_, of);
         if (is_damaged_ || is_short) {
             throw Error(
-                fmt::format("{} is damaged or cut short: {}{}", options_.name, counts,
+                fmt::format("{} is damaged or cut short: {}{}", name_, counts,
                             is_counted_ ? "; times after the damage are only counted" : ""));
         }
         const bool is_regular = av_cmp_q(stream_->avg_frame_rate, stream_->r_frame_rate) == 0;
         if (is_regular && frames_ < promised()) {
-            options_.tell(fmt::format("{} has gaps, from damage or from its recording: {}",
-                                      options_.name, counts));
+            options_.tell(
+                fmt::format("{} has gaps, from damage or from its recording: {}", name_, counts));
         }
     }
 
@@ -235,11 +241,12 @@ class VideoFile : public FrameSource {
         if (waits_for_key_frame_) return false;
         to_grey_(*picture_, frame.image);
         frame.time_us =
-            options_.fps ? time_of(frames_, *options_.fps) : std::llround(time_s_ * 1e6);
+            options_.fps ? capture::time_of(frames_, *options_.fps) : std::llround(time_s_ * 1e6);
         frame.index = frames_++;
         return true;
     }
 
+    std::string name_;
     SourceOptions options_;
     Owned<AVFormatContext> file_;
     AVStream* stream_ = nullptr;  ///< the video stream, owned by `file_`
@@ -260,8 +267,9 @@ class VideoFile : public FrameSource {
 
 }  // namespace
 
-std::unique_ptr<FrameSource> open_video(const SourceOptions& options) {
-    return std::make_unique<VideoFile>(options);
+std::unique_ptr<capture::FrameSource> open_video(const std::string& name,
+                                                 const SourceOptions& options) {
+    return std::make_unique<VideoFile>(name, options);
 }
 
 }  // namespace dotpose::video

@@ -388,7 +388,7 @@ TEST_F(LocateCommand, help_shows_an_example_and_all_options) {
     EXPECT_EQ(exit_code_, 0);
     EXPECT_THAT(output_, HasSubstr("dotpose locate --format csv frames/*.pgm > poses.csv"));
     for (const char* option : {"--list", "--spacing", "--code", "--k", "--reference", "--format",
-                               "--out", "--draw", "--sheets", "--inverted", "IMAGE"}) {
+                               "--out", "--draw", "--sheets", "--inverted", "SOURCE"}) {
         EXPECT_THAT(output_, HasSubstr(option));
     }
 }

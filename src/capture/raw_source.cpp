@@ -8,9 +8,9 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include "video/sources.hpp"
+#include "capture/frame_source.hpp"
 
-namespace dotpose::video {
+namespace dotpose::capture {
 namespace {
 
 class RawSource : public FrameSource {
@@ -75,4 +75,4 @@ std::unique_ptr<FrameSource> open_raw(const SourceOptions& options) {
     return std::make_unique<RawSource>(options);
 }
 
-}  // namespace dotpose::video
+}  // namespace dotpose::capture

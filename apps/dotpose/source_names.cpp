@@ -1,4 +1,4 @@
-#include "image_names.hpp"
+#include "source_names.hpp"
 
 #include <filesystem>
 #include <iostream>
@@ -9,9 +9,10 @@
 
 namespace dotpose::cli {
 
-ImageNames::ImageNames(std::vector<std::string> images, const std::string& list)
-    : known_(std::move(images)), list_name_(list) {
+SourceNames::SourceNames(std::vector<std::string> names, const std::string& list)
+    : known_(std::move(names)), list_name_(list) {
     if (list.empty()) return;
+    is_pipe_ = list == "-" || !std::filesystem::is_regular_file(list);
     if (list == "-") {
         list_ = &std::cin;
         return;
@@ -19,22 +20,23 @@ ImageNames::ImageNames(std::vector<std::string> images, const std::string& list)
     file_.open(list);
     if (!file_) throw Error("cannot read the list " + list);
     list_ = &file_;
-    if (!std::filesystem::is_regular_file(list)) return;
+    if (is_pipe_) return;
     while (const auto name = next_of_list())
         known_.push_back(*name);
 }
 
-std::optional<std::string> ImageNames::next() {
+std::optional<std::string> SourceNames::next() {
     return next_known_ < known_.size() ? known_[next_known_++] : next_of_list();
 }
 
-std::optional<std::string> ImageNames::next_of_list() {
+std::optional<std::string> SourceNames::next_of_list() {
     std::string line;
     try {
         while (list_ != nullptr && files::next_line(*list_, line)) {
             if (!line.empty()) return line;
         }
     } catch (const Error& error) {
+        list_ = nullptr;
         throw Error("the list " + list_name_ + ": " + error.what());
     }
     return std::nullopt;

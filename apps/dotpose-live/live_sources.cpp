@@ -1,0 +1,18 @@
+#include "live_sources.hpp"
+
+#include "capture/source_kind.hpp"
+#include "video/sources.hpp"
+
+namespace dotpose::cli {
+
+void hand_over() {}
+
+void hand_over_if_possible() {}
+
+std::unique_ptr<capture::FrameSource> open_live(const std::string& name,
+                                                const capture::SourceOptions& options) {
+    const bool is_camera = capture::kind_of(name) == capture::SourceKind::camera;
+    return is_camera ? video::open_camera(name, options) : video::open_video(name, options);
+}
+
+}  // namespace dotpose::cli

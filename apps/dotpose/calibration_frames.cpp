@@ -1,0 +1,87 @@
+#include "calibration_frames.hpp"
+
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "capture/source_kind.hpp"
+#include "dotpose/tools/follower.hpp"
+#include "dotpose/tools/frame_file.hpp"
+#include "live_sources.hpp"
+#include "new_places.hpp"
+#include "progress.hpp"
+#include "terminal_text.hpp"
+
+namespace dotpose::cli {
+namespace {
+
+/// Most frames of one source. More take longer and tell no more.
+constexpr std::size_t kMostChosen = 50;
+
+Follower follower_for(const CalibrateOptions& calibration) {
+    FollowerOptions options;
+    options.code = given_code(calibration);
+    options.spacing_mm = calibration.pattern.spacing_mm;
+    return Follower(options);
+}
+
+}  // namespace
+
+CalibrationFrames::CalibrationFrames(const SourceArguments& arguments, Sources& sources,
+                                     const CalibrateOptions& options)
+    : region_(arguments.options.region) {
+    capture::SourceOptions source_options = arguments.options;
+    source_options.stop = interrupted;
+    source_options.tell = tell;
+    source_options.open_live = open_live;
+    for (const std::string& name : sources.all_names()) {
+        const capture::SourceKind kind = capture::kind_of(name);
+        if (kind == capture::SourceKind::image || kind == capture::SourceKind::images) {
+            for (std::string& file : capture::files_of(name))
+                frames_.push_back({std::move(file), {}});
+        } else {
+            choose(name, source_options, options);
+        }
+    }
+}
+
+void CalibrationFrames::choose(const std::string& source, const capture::SourceOptions& options,
+                               const CalibrateOptions& calibration) {
+    const bool is_endless = capture::kind_of(source) == capture::SourceKind::camera;
+    std::optional<std::string> name = source;
+    capture::SourceList list([&name] { return std::exchange(name, std::nullopt); }, options);
+    Follower follower = follower_for(calibration);
+    NewPlaces places;
+    std::vector<GreyImage> chosen;
+    std::int64_t frames = 0;
+    std::int64_t located = 0;
+    capture::Frame frame;
+    while (!(is_endless && chosen.size() == kMostChosen) && list.next(frame)) {
+        const Located found = follower.locate(frame.image);
+        ++frames;
+        located += found.fix.status == Status::ok;
+        if (found.reduced_by > 1 || !places.take(found.fix, frame.image.view())) continue;
+        chosen.push_back(std::move(frame.image));
+        if (chosen.size() <= kMostChosen) continue;
+        remove_every_second(chosen);
+        places.thin_out();
+    }
+    if (interrupted()) throw Error("interrupted");
+    if (located == 0) {
+        throw Error(fmt::format("{}: none of its {} frames shows a pattern that can be located",
+                                source, frames));
+    }
+    tell(fmt::format("{}: {} of {} frames located; {} that show new places are used", source,
+                     located, frames, chosen.size()));
+    for (GreyImage& image : chosen)
+        frames_.push_back({{}, std::move(image)});
+}
+
+GreyImage CalibrationFrames::at(int index) const {
+    const Frame& frame = frames_[static_cast<std::size_t>(index)];
+    if (frame.file.empty()) return frame.image;
+    const GreyImage image = read_frame(frame.file);
+    return region_ ? capture::cropped(image, *region_) : image;
+}
+
+}  // namespace dotpose::cli

@@ -1,0 +1,190 @@
+#include "known_frames.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "capture/source_kind.hpp"
+#include "dotpose/tools/frame_file.hpp"
+#include "live_sources.hpp"
+#include "progress.hpp"
+#include "terminal_text.hpp"
+
+namespace dotpose::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using capture::SourceKind;
+
+/// Whether a path ends with all components of another one.
+bool ends_with(const fs::path& path, const fs::path& end) {
+    const std::vector<fs::path> all(path.begin(), path.end());
+    const std::vector<fs::path> last(end.begin(), end.end());
+    return last.size() <= all.size() && std::equal(last.rbegin(), last.rend(), all.rbegin());
+}
+
+/// Finds the poses of images in files of poses, each of which is read once.
+class Poses {
+  public:
+    Poses(std::string given, std::optional<double> spacing_mm)
+        : given_(std::move(given)), spacing_mm_(spacing_mm) {}
+
+    fs::path file_for(const fs::path& folder) const {
+        return given_.empty() ? folder / "truth.csv" : fs::path(given_);
+    }
+
+    const std::vector<TruthRow>& rows_for(const fs::path& folder) {
+        const fs::path file = file_for(folder);
+        const auto known = rows_.find(file);
+        if (known != rows_.end()) return known->second;
+        if (!fs::exists(file)) {
+            throw Error(fmt::format(
+                "true poses are needed, and there is no {}: name their file with --poses",
+                file.string()));
+        }
+        return rows_.emplace(file, read_truth(file, spacing_mm_)).first->second;
+    }
+
+    TruthRow row_of(const fs::path& image) {
+        if (!fs::exists(image)) {
+            throw Error("cannot read " + image.string() + ": no such file or folder");
+        }
+        const fs::path folder = image.parent_path();
+        const fs::path path = image.lexically_normal();
+        for (const TruthRow& row : rows_for(folder)) {
+            if (!ends_with(path, fs::path(row.file).lexically_normal())) continue;
+            TruthRow found = row;
+            found.file = image.string();
+            return found;
+        }
+        throw Error(fmt::format("{} has no pose of {}", file_for(folder).string(), image.string()));
+    }
+
+  private:
+    std::string given_;
+    std::optional<double> spacing_mm_;
+    std::map<fs::path, std::vector<TruthRow>> rows_;
+};
+
+KnownFrames known_images(const std::vector<std::string>& names,
+                         const std::optional<capture::Region>& region, Poses& poses) {
+    KnownFrames known;
+    for (const std::string& name : names) {
+        if (fs::is_directory(name)) {
+            for (TruthRow row : poses.rows_for(name)) {
+                row.file = (fs::path(name) / row.file).string();
+                known.rows.push_back(std::move(row));
+            }
+            continue;
+        }
+        for (const std::string& image : capture::files_of(name))
+            known.rows.push_back(poses.row_of(image));
+    }
+    known.frame_at = frames_of_folder("", known.rows);
+    if (!region) return known;
+    known.frame_at = [region, read = known.frame_at](int index) {
+        KnownFrame frame = read(index);
+        if (frame.problem.empty()) frame.image = capture::cropped(frame.image, *region);
+        return frame;
+    };
+    return known;
+}
+
+/// Frames that can only be read one after the other, for threads that want them almost in order.
+class FramesInOrder {
+  public:
+    /// Opens the first source. Throws Error or BadArgument if that fails.
+    FramesInOrder(std::vector<std::string> names, capture::SourceOptions options)
+        : names_(std::move(names)), list_([this] { return next_name(); }, std::move(options)) {
+        list_.open();
+    }
+
+    void set_poses(std::vector<TruthRow> rows) { rows_ = std::move(rows); }
+
+    KnownFrame at(int index) {
+        const TruthRow& row = rows_[static_cast<std::size_t>(index)];
+        KnownFrame frame{{}, row.truth, row.profile, {}};
+        const std::lock_guard lock(mutex_);
+        while (read_ <= index && !is_over_)
+            read();
+        const auto found = waiting_.find(index);
+        if (found == waiting_.end()) {
+            frame.problem =
+                problem_.empty() ? fmt::format("there is no frame {}", index) : problem_;
+            return frame;
+        }
+        frame.image = std::move(found->second);
+        waiting_.erase(found);
+        if (frame.image.pixels.empty()) frame.problem = fmt::format("frame {} is empty", index);
+        return frame;
+    }
+
+    void tell_if_more() {
+        capture::Frame frame;
+        if (is_over_ || interrupted() || !list_.next(frame)) return;
+        tell(fmt::format("there are more frames than the {} poses; the others were left out",
+                         rows_.size()));
+    }
+
+  private:
+    std::optional<std::string> next_name() {
+        if (next_name_ == names_.size()) return std::nullopt;
+        return names_[next_name_++];
+    }
+
+    void read() {
+        capture::Frame frame;
+        try {
+            is_over_ = !list_.next(frame);
+        } catch (const Error& error) {
+            problem_ = error.what();
+            is_over_ = true;
+        }
+        if (is_over_) return;
+        read_ = frame.index + 1;
+        waiting_[frame.index] = std::move(frame.image);
+    }
+
+    std::vector<std::string> names_;
+    std::vector<TruthRow> rows_;
+    std::size_t next_name_ = 0;
+    std::mutex mutex_;
+    capture::SourceList list_;
+    std::map<std::int64_t, GreyImage> waiting_;  ///< read, but not asked for yet
+    std::int64_t read_ = 0;                      ///< number after that of the newest frame
+    bool is_over_ = false;
+    std::string problem_;  ///< why the frames ended early
+};
+
+}  // namespace
+
+KnownFrames known_frames(const SourceArguments& arguments, const std::string& poses,
+                         std::optional<double> spacing_mm) {
+    const std::vector<std::string> names = Sources(arguments).all_names();
+    Poses known(poses, spacing_mm);
+    const bool are_images = std::ranges::all_of(names, [](const std::string& name) {
+        const SourceKind kind = capture::kind_of(name);
+        return kind == SourceKind::image || kind == SourceKind::images;
+    });
+    if (are_images) return known_images(names, arguments.options.region, known);
+    capture::SourceOptions options = arguments.options;
+    options.stop = interrupted;
+    options.tell = tell;
+    options.open_live = open_live;
+    const auto frames = std::make_shared<FramesInOrder>(names, options);
+    KnownFrames result;
+    result.rows = known.rows_for(fs::path(names.front()).parent_path());
+    for (std::size_t i = 0; i < result.rows.size(); ++i)
+        result.rows[i].file = fmt::format("frame {}", i);
+    frames->set_poses(result.rows);
+    result.frame_at = [frames](int index) { return frames->at(index); };
+    result.finish = [frames] { frames->tell_if_more(); };
+    return result;
+}
+
+}  // namespace dotpose::cli

@@ -1,0 +1,23 @@
+/// Cameras and videos, which only the program in apps/dotpose-live reads: the libraries for them
+/// take a tenth of a second to load. Each of the two programs defines these functions.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "capture/frame_source.hpp"
+
+namespace dotpose::cli {
+
+/// In `dotpose`, replaces this process by dotpose-live with the same command line. Throws Error if
+/// that program is missing. In dotpose-live, does nothing.
+void hand_over();
+
+/// The same, but in `dotpose` goes on if dotpose-live is missing.
+void hand_over_if_possible();
+
+/// Opens a camera or video. In `dotpose`, throws Error that says what is missing.
+std::unique_ptr<capture::FrameSource> open_live(const std::string& name,
+                                                const capture::SourceOptions& options);
+
+}  // namespace dotpose::cli

@@ -1,0 +1,105 @@
+#include "source_arguments.hpp"
+
+#include <algorithm>
+
+#include <fmt/core.h>
+
+#include "capture/source_kind.hpp"
+#include "common.hpp"
+#include "dotpose/tools/image_file.hpp"
+#include "live_sources.hpp"
+
+namespace dotpose::cli {
+namespace {
+
+capture::Region parse_region(const std::string& text) {
+    const auto numbers = whole_numbers(text, ",,x", kMaxImageSide_px);
+    if (!numbers) {
+        throw CLI::ValidationError(
+            "--roi",
+            fmt::format("'{}' is not LEFT,TOP,WIDTHxHEIGHT in px, such as 10,20,640x480", text));
+    }
+    const auto number = [&numbers](std::size_t i) { return static_cast<int>((*numbers)[i]); };
+    return {number(0), number(1), number(2), number(3)};
+}
+
+const SourceArguments& checked(const SourceArguments& arguments) {
+    if (!arguments.is_given()) {
+        throw BadArgument(
+            "no source of frames given: name images, a folder, a video or a camera, or use --list");
+    }
+    const auto times = std::ranges::count(arguments.names, "-") + (arguments.list == "-");
+    if (times > 1) throw BadArgument("standard input is named twice");
+    return arguments;
+}
+
+}  // namespace
+
+void SourceArguments::add_to(CLI::App& command) {
+    command.add_option("sources", names, kSourcesHelp)->type_name("SOURCE");
+    command
+        .add_option("--list", list, "Read names of sources from a file, or from - (standard input)")
+        ->type_name("FILE|-");
+    add_frame_options(command);
+}
+
+void SourceArguments::add_frame_options(CLI::App& command) {
+    command
+        .add_option_function<std::string>(
+            "--size",
+            [this](const std::string& text) {
+                const FrameSize size = parse_frame_size("--size", text);
+                options.width_px = size.width_px;
+                options.height_px = size.height_px;
+            },
+            "Of raw frames; of a camera, what it is asked for")
+        ->type_name("WxH");
+    command.add_option("--fps", options.fps, "Frames per second, where the frames tell no time")
+        ->type_name("N")
+        ->check(CLI::Range(0.001, 1e6).description(""));
+    command.add_option("--exposure", options.exposure, "Of a camera, in its driver's unit")
+        ->type_name("N");
+    command.add_option("--gain", options.gain, "Of a camera, in its driver's unit")->type_name("N");
+    command
+        .add_option_function<std::string>(
+            "--roi", [this](const std::string& text) { options.region = parse_region(text); },
+            "Part of the frame to look at")
+        ->type_name("X,Y,WxH");
+}
+
+Sources::Sources(const SourceArguments& arguments)
+    : list_(arguments.list), names_(checked(arguments).names, arguments.list) {
+    const bool needs_live = std::ranges::any_of(names_.known(), [](const std::string& name) {
+        return capture::needs_video_libraries(capture::kind_of(name));
+    });
+    if (needs_live) hand_over();
+    if (names_.has_pipe()) hand_over_if_possible();
+}
+
+void Sources::add_files(RunFiles& files) const {
+    files.reads("--list", list_);
+    for (const std::string& name : names_.known()) {
+        std::vector<std::string> its_files;
+        try {
+            its_files = capture::files_of(name);
+        } catch (const Error&) {
+            continue;  // it is reported when the source is opened
+        }
+        files.reads("", its_files);
+    }
+}
+
+std::vector<std::string> Sources::all_names() {
+    std::vector<std::string> all;
+    while (const auto name = names_.next())
+        all.push_back(*name);
+    return all;
+}
+
+std::unique_ptr<capture::SourceList> Sources::open(capture::SourceOptions options) {
+    options.open_live = open_live;
+    return std::make_unique<capture::SourceList>([this] { return names_.next(); },
+                                                 std::move(options));
+}
+
+}  // namespace dotpose::cli

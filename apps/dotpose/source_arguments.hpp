@@ -1,0 +1,58 @@
+/// The arguments that say where frames come from, which all commands that read frames share.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "capture/source_list.hpp"
+#include "run_files.hpp"
+#include "source_names.hpp"
+
+namespace dotpose::cli {
+
+/// What the sources of a command can be, for its help.
+inline constexpr const char* kSourcesHelp =
+    "Images, folders, globs ('*.png'), videos, cameras (0, /dev/video0, URL), or - for raw frames";
+
+struct SourceArguments {
+    std::vector<std::string> names;
+    std::string list;  ///< file with further names, "-" for standard input, or empty
+    capture::SourceOptions options;
+
+    bool is_given() const { return !names.empty() || !list.empty(); }
+
+    /// Adds the sources, --list and the options of cameras, videos and raw frames.
+    void add_to(CLI::App& command);
+
+    /// Adds --size, --fps, --exposure, --gain and --roi alone.
+    void add_frame_options(CLI::App& command);
+};
+
+/// The sources of one run.
+class Sources {
+  public:
+    /// If a camera or a video is among them that this program cannot read, the program that can
+    /// takes the place of this process (live_sources.hpp): make this object before any output is
+    /// opened. Throws BadArgument if no source is named, or if standard input is named twice;
+    /// Error if the list, a folder or a glob cannot be read.
+    explicit Sources(const SourceArguments& arguments);
+
+    /// Registers the list and all files that are known from the start.
+    void add_files(RunFiles& files) const;
+
+    /// Returns all names, those in a pipe too.
+    std::vector<std::string> all_names();
+
+    /// Returns the frames of all sources. This object must outlive them.
+    std::unique_ptr<capture::SourceList> open(capture::SourceOptions options);
+
+  private:
+    std::string list_;
+    SourceNames names_;
+};
+
+}  // namespace dotpose::cli

@@ -1,0 +1,49 @@
+// Reads images one after the other.
+#include <utility>
+
+#include "capture/frame_source.hpp"
+#include "dotpose/tools/image_file.hpp"
+
+namespace dotpose::capture {
+namespace {
+
+constexpr double kDefaultFps = 30;
+
+class ImageSource : public FrameSource {
+  public:
+    ImageSource(std::function<std::optional<std::string>()> next_path, const SourceOptions& options)
+        : next_path_(std::move(next_path)), options_(options) {}
+
+    bool next(Frame& frame) override {
+        while (!options_.stop()) {
+            const auto path = next_path_();
+            if (!path) return false;
+            frame.index = taken_++;
+            frame.time_us = time_of(frame.index, rate());
+            frame.file = *path;
+            try {
+                options_.before_reading(*path);
+                frame.image = read_image(*path, options_.max_pixels);
+                return true;
+            } catch (const Error& error) {
+                options_.on_unreadable(*path, error);
+            }
+        }
+        return false;
+    }
+    double rate() const override { return options_.fps.value_or(kDefaultFps); }
+
+  private:
+    std::function<std::optional<std::string>()> next_path_;
+    SourceOptions options_;
+    std::int64_t taken_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameSource> open_images(std::function<std::optional<std::string>()> next_path,
+                                         const SourceOptions& options) {
+    return std::make_unique<ImageSource>(std::move(next_path), options);
+}
+
+}  // namespace dotpose::capture
