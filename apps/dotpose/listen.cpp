@@ -148,8 +148,11 @@ class LossCounter {
     }
     void report(std::uint32_t damaged) const {
         if (arrived_ == 0 || damaged > 0 || lost_ > 0) {
-            fmt::print(stderr, "dotpose: {} packets, {} stretches damaged, {} packets lost\n",
-                       arrived_, damaged, lost_);
+            fmt::print(stderr, "dotpose: {} packets, {} stretches damaged, {} packets lost{}\n",
+                       arrived_, damaged, lost_,
+                       arrived_ == 0 ? "; is it what a device or 'dotpose watch --packets' sent, "
+                                       "and the --baud of the line right?"
+                                     : "");
         }
     }
 

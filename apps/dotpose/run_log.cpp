@@ -98,7 +98,10 @@ std::map<std::string, std::size_t> columns_of(const std::string& header) {
 std::vector<LogRow> read_log(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     std::string line;
-    if (std::filesystem::is_directory(path) || !file) throw Error("cannot read " + path.string());
+    if (std::filesystem::is_directory(path) || !file) {
+        throw Error("cannot read " + path.string() +
+                    ": name a file that 'dotpose watch --log' wrote");
+    }
     int number = 1;
     try {
         if (!files::next_line(file, line)) throw Error("it is empty");

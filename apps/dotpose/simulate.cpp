@@ -203,6 +203,8 @@ void run(SimulateArguments& arguments, bool section_given, int& exit_code) {
     const std::filesystem::path folder = arguments.out;
     std::error_code failed;
     std::filesystem::create_directories(folder, failed);
+    if (std::filesystem::exists(folder) && !std::filesystem::is_directory(folder))
+        throw Error(printable(arguments.out) + " is a file: name a folder for the frames");
     const std::filesystem::path truth_path = folder / "truth.csv";
     std::ofstream truth(truth_path);
     truth << kTruthHeader;

@@ -45,7 +45,11 @@ std::vector<std::string> unknown_words(const CLI::App& command) {
 }
 
 std::string unknown_to(const CLI::App& command, const std::string& word) {
-    if (!is_option(word)) return fmt::format("unexpected argument '{}'", word);
+    if (!is_option(word)) {
+        const bool writes = command.get_option_no_throw("--out") != nullptr;
+        return fmt::format("unexpected argument '{}'{}", word,
+                           writes ? "; the file to write is named with -o" : "");
+    }
     const std::string option = without_value(word);
     return fmt::format("unknown option '{}'{}", option,
                        did_you_mean(option, long_options(command)));
@@ -71,6 +75,7 @@ std::string enclosed(const std::string& text, std::string_view before, std::stri
 std::string in_plain_words(const CLI::ParseError& error) {
     const std::string text = error.what();
     if (text == CLI::RequiredError::Subcommand(1).what()) return "no command given";
+    if (text == "--out is required") return "--out is required: name the file to write, -o FILE";
     const std::string not_converted = enclosed(text, "Could not convert: ", "");
     if (const std::size_t at = not_converted.find(" = "); at != std::string::npos) {
         return fmt::format("{}: '{}' is not a number that it takes", not_converted.substr(0, at),

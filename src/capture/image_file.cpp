@@ -7,6 +7,7 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "capture/image_codec.hpp"
@@ -58,6 +59,17 @@ struct Content {
     Bytes bytes;
 };
 
+/// Returns what to do with a file that is no image but of another known kind, or an empty string.
+std::string advice_for(const Bytes& bytes) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (text.starts_with("%PDF"))
+        return ", but a PDF: make an image of a page, for example with pdftoppm -r 600 -png";
+    if (text.starts_with("<?xml") || text.starts_with("<svg"))
+        return ", but a drawing: make an image of it, for example with rsvg-convert --zoom 4";
+    if (text.starts_with("{")) return ", but JSON: a sheet file is given with --sheets";
+    return {};
+}
+
 Content read_file(const std::filesystem::path& path, int max_pixels) {
     const File file(std::fopen(path.c_str(), "rb"));
     if (!file) throw Error(system_reason());
@@ -70,7 +82,7 @@ Content read_file(const std::filesystem::path& path, int max_pixels) {
             "a photo in HEIC or AVIF format, which is not read: make it a JPEG first, for "
             "example with heif-convert PHOTO.heic PHOTO.jpg");
     }
-    if (!format) throw Error("not a PNM, PNG, JPEG, BMP or TIFF image");
+    if (!format) throw Error("not a PNM, PNG, JPEG, BMP or TIFF image" + advice_for(bytes));
     // The file is read to its end, because pipes have no size that could be asked for.
     const std::size_t most = max_file_bytes(max_pixels);
     std::size_t chunk = std::size_t{1} << 16;

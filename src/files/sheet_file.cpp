@@ -71,7 +71,12 @@ class Patience {
 
 std::vector<SheetEntry> read_sheets(const fs::path& path) {
     const auto text = text_of(path);
-    if (!text) throw_system("read", path, ENOENT);
+    if (!text) {
+        throw Error(
+            fmt::format("cannot read {0}: no such file; 'dotpose print --sheets {0} --name "
+                        "NAME' prints a sheet and begins it",
+                        path.string()));
+    }
     return files::sheets_from_json(*text, path.string());
 }
 

@@ -1,9 +1,11 @@
 #include "dotpose/tools/overlay.hpp"
 
 #include <algorithm>
+#include <fstream>
 #include <memory>
 #include <new>
 #include <set>
+#include <string>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -23,7 +25,19 @@ namespace dotpose {
 namespace fs = std::filesystem;
 namespace {
 
+/// Whether "%PDF-" stands among the first 1024 bytes, where readers look for it.
+bool begins_like_pdf(const fs::path& path) {
+    std::string head(1024, '\0');
+    std::ifstream file(path, std::ios::binary);
+    file.read(head.data(), static_cast<std::streamsize>(head.size()));
+    return head.find("%PDF-") != std::string::npos;
+}
+
 [[noreturn]] void throw_damaged(const fs::path& path, const std::string& reason) {
+    if (!begins_like_pdf(path)) {
+        throw Error(
+            fmt::format("{} is no PDF: save or print the document as a PDF first", path.string()));
+    }
     throw Error(fmt::format("{}: damaged PDF: {}; 'qpdf {} repaired.pdf' may mend it",
                             path.string(), reason, path.string()));
 }

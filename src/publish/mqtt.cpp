@@ -60,7 +60,9 @@ void parse_url(const std::string& url, MqttOptions& options) {
     const std::size_t scheme = url.find("://");
     const std::string name = url.substr(0, scheme);
     if (scheme == std::string::npos || (name != "mqtt" && name != "mqtts")) {
-        throw BadArgument("'" + url + "' is not mqtt://HOST or mqtts://HOST");
+        const std::string meant =
+            scheme == std::string::npos ? "; did you mean mqtt://" + url + "?" : std::string();
+        throw BadArgument("'" + url + "' is not mqtt://HOST or mqtts://HOST" + meant);
     }
     options.has_tls = name == "mqtts";
     options.port = options.has_tls ? kTlsPort : kPort;

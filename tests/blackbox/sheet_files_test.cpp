@@ -237,7 +237,9 @@ TEST_F(SheetFiles, locate_refuses_wrong_usage_and_bad_files) {
         const char* file;
         const char* problem;
     } bad[] = {
-        {"missing.json", "dotpose: cannot read missing.json: No such file or directory\n"},
+        {"missing.json",
+         "dotpose: cannot read missing.json: no such file; 'dotpose print --sheets missing.json "
+         "--name NAME' prints a sheet and begins it\n"},
         {"sheets.json", "dotpose: sheets.json: sheets[0].rows is missing\n"},
         {"empty.json", "dotpose: empty.json has no sheets\n"},
     };

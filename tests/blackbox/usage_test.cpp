@@ -46,7 +46,8 @@ TEST_F(Usage, OptionsThatDoNotExist) {
 TEST_F(Usage, AMisspeltOptionIsToldBeforeTheOneThatIsMissing) {
     expect_refusal("print --ouut a.pdf", "unknown option '--ouut'; did you mean '--out'?",
                    "dotpose print --help");
-    expect_refusal("print", "--out is required", "dotpose print --help");
+    expect_refusal("print", "--out is required: name the file to write, -o FILE",
+                   "dotpose print --help");
 }
 
 TEST_F(Usage, ALongOptionWithOneHyphen) {

@@ -209,8 +209,7 @@ TEST(read_sheets, refuses_equal_names_and_shared_cells) {
 TEST(read_sheets, says_why_a_file_cannot_be_read) {
     const TemporaryDirectory directory;
     EXPECT_THAT([&] { (void)read_sheets(directory / "s.json"); },
-                ThrowsMessage<Error>(
-                    AllOf(HasSubstr("cannot read"), HasSubstr("No such file or directory"))));
+                ThrowsMessage<Error>(AllOf(HasSubstr("cannot read"), HasSubstr("no such file"))));
     fs::create_directory(directory / "folder");
     EXPECT_THAT([&] { (void)read_sheets(directory / "folder"); },
                 ThrowsMessage<Error>(HasSubstr("Is a directory")));
