@@ -46,9 +46,10 @@ std::vector<std::string> unknown_words(const CLI::App& command) {
 
 std::string unknown_to(const CLI::App& command, const std::string& word) {
     if (!is_option(word)) {
-        const bool writes = command.get_option_no_throw("--out") != nullptr;
+        const CLI::Option* out = command.get_option_no_throw("--out");
+        const bool lacks_output = out != nullptr && out->count() == 0;
         return fmt::format("unexpected argument '{}'{}", word,
-                           writes ? "; the file to write is named with -o" : "");
+                           lacks_output ? "; the file to write is named with -o" : "");
     }
     const std::string option = without_value(word);
     return fmt::format("unknown option '{}'{}", option,

@@ -1,5 +1,6 @@
 // Plausible mistakes of new users: the exit status says that it went wrong, and one message names
 // the cause and the next step.
+#include <ostream>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -52,7 +53,8 @@ constexpr Mistake kMistakes[] = {
     {"TextAsSheetFile", "locate --sheets notes.txt a.pgm", 1, "notes.txt is no sheet file",
      "line 1"},
     {"SheetFileAsCamera", "locate --camera sheets.json a.pgm", 1, "sheets.json", "no camera file"},
-    {"OutputForgotten", "locate -o a.pgm", 2, "-o a.pgm", "was the name of the output left out?"},
+    {"OutputForgotten", "locate -o a.pgm frames", 2, "-o a.pgm",
+     "was the name of the output left out?"},
     {"PrintWithoutOutput", "print", 2, "--out is required", "-o FILE"},
     {"PrintWithoutMinusO", "print sheet.pdf", 2, "unexpected argument 'sheet.pdf'", "-o"},
     {"PrintToOtherFormat", "print -o sheet.docx", 2, "sheet.docx", ".pdf, .svg, .png"},
@@ -87,6 +89,11 @@ constexpr Mistake kMistakes[] = {
     {"NoPackets", "listen notes.txt", 0, "0 packets", "watch --packets"},
 };
 
+/// Names the mistake where a test is listed.
+void PrintTo(const Mistake& mistake, std::ostream* out) {
+    *out << "dotpose " << mistake.arguments;
+}
+
 class Mistakes : public ToolCommand, public testing::WithParamInterface<Mistake> {};
 
 TEST_P(Mistakes, NameTheCauseAndTheNextStep) {
@@ -105,7 +112,7 @@ TEST_P(Mistakes, NameTheCauseAndTheNextStep) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OfNewUsers, Mistakes, testing::ValuesIn(kMistakes),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& test) { return test.param.name; });
 
 }  // namespace
 }  // namespace dotpose::test

@@ -164,7 +164,7 @@ TEST_F(PdfCommands, overlay_refuses_and_writes_nothing) {
         {"in.pdf", 2, "--out"},
         {"-o out.pdf", 2, "pdf"},
         {"missing.pdf -o out.pdf", 1, "cannot read missing.pdf: No such file"},
-        {"no.pdf -o out.pdf", 1, "no.pdf: damaged PDF"},
+        {"no.pdf -o out.pdf", 1, "no.pdf is no PDF"},
         {"cut.pdf -o out.pdf", 1, "cut.pdf: damaged PDF"},
         {"locked.pdf -o out.pdf", 1, "a password is needed"},
         {"locked.pdf -o out.pdf --password x", 1, "wrong password"},

@@ -96,8 +96,15 @@ TEST_F(Usage, ValuesThatAreMissingOrNoNumbers) {
 }
 
 TEST_F(Usage, MistakesFoundAfterParsingNameTheHelpToo) {
-    expect_refusal("locate", "no images given: name some, or use --list", "dotpose locate --help");
-    expect_refusal("replay run.csv extra", "unexpected argument 'extra'", "dotpose replay --help");
+    expect_refusal("locate",
+                   "no source of frames given: name images, a folder, a video or a camera, or use "
+                   "--list",
+                   "dotpose locate --help");
+    expect_refusal("replay run.csv extra",
+                   "unexpected argument 'extra'; the file to write is named with -o",
+                   "dotpose replay --help");
+    expect_refusal("replay run.csv -o a.svg extra", "unexpected argument 'extra'",
+                   "dotpose replay --help");
 }
 
 TEST_F(Usage, HelpOfACommandIsThatOfItsOption) {
