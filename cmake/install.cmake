@@ -1,4 +1,3 @@
-include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/dotpose)
@@ -43,8 +42,13 @@ if(TARGET dotpose_cli)
     install(TARGETS dotpose_cli)
 endif()
 if(TARGET dotpose_live_cli)
-    install(TARGETS dotpose_live_cli)
+    install(TARGETS dotpose_live_cli DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/dotpose)
 endif()
+
+# The documents link to each other, so they lie there as in the source.
+install(FILES README.md CONTRIBUTING.md LICENSE TYPE DOC)
+install(DIRECTORY docs TYPE DOC)
+install(DIRECTORY examples TYPE DOC FILES_MATCHING PATTERN "*.cpp")
 
 configure_package_config_file(cmake/dotposeConfig.cmake.in dotposeConfig.cmake
                               INSTALL_DESTINATION ${config_dir})

@@ -52,10 +52,9 @@ function(dotpose_library name)
     add_library(${name} ${objects})
     dotpose_set_up_library(${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
     if(BUILD_SHARED_LIBS)
-        # Until 1.0, minor versions may change what programs were compiled against.
         set_target_properties(${name} PROPERTIES
-            VERSION ${PROJECT_VERSION}
-            SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+            VERSION ${DOTPOSE_INTERFACE}.${PROJECT_VERSION}
+            SOVERSION ${DOTPOSE_INTERFACE})
         add_library(${name}_inside STATIC EXCLUDE_FROM_ALL ${objects})
         list(TRANSFORM arg_PUBLIC APPEND _inside)
         dotpose_set_up_library(${name}_inside PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
@@ -74,16 +73,22 @@ function(dotpose_set_up_library name)
     set_target_properties(${name} PROPERTIES LINKER_LANGUAGE CXX)
 endfunction()
 
+# dotpose_sources(RESULT): within a function with the arguments SOURCES and EXCEPT, the sources named, or
+# all of the directory but some.
+macro(dotpose_sources result)
+    set(${result} ${arg_SOURCES})
+    if(NOT ${result})
+        file(GLOB_RECURSE ${result} CONFIGURE_DEPENDS *.cpp)
+        list(TRANSFORM arg_EXCEPT PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+        list(REMOVE_ITEM ${result} ${arg_EXCEPT})
+    endif()
+endmacro()
+
 # dotpose_program(NAME [LIGHT] [SOURCES file...] [EXCEPT file...] [USES target...]): one program from
 # the sources named, or from all of the directory but some. LIGHT: see dotpose_compile_light.
 function(dotpose_program name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "LIGHT" "" "SOURCES;EXCEPT;USES")
-    set(sources ${arg_SOURCES})
-    if(NOT sources)
-        file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp)
-        list(TRANSFORM arg_EXCEPT PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
-        list(REMOVE_ITEM sources ${arg_EXCEPT})
-    endif()
+    dotpose_sources(sources)
     if(NOT sources)
         return()
     endif()
@@ -93,6 +98,19 @@ function(dotpose_program name)
         dotpose_compile_light(${name})
     endif()
     target_link_libraries(${name} PRIVATE ${arg_USES})
+endfunction()
+
+# dotpose_objects(NAME [SOURCES file...] [EXCEPT file...] [USES target...]): sources that several
+# programs share, compiled once and light. A program names all such targets it needs, also those that
+# another one of them uses.
+function(dotpose_objects name)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;EXCEPT;USES")
+    dotpose_sources(sources)
+    add_library(${name} OBJECT ${sources})
+    dotpose_use_internals(${name})
+    dotpose_compile_light(${name})
+    target_include_directories(${name} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
+    target_link_libraries(${name} PUBLIC ${arg_USES})
 endfunction()
 
 # What takes the time of most programs is in the libraries: their own sources are compiled in half

@@ -9,4 +9,7 @@ namespace dotpose::cli {
 void add_watch(CLI::App& app, int& exit_code);
 void add_fleet(CLI::App& app, int& exit_code);
 
+/// Registers all of these.
+void add_live_commands(CLI::App& app, int& exit_code);
+
 }  // namespace dotpose::cli

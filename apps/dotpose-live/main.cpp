@@ -5,8 +5,7 @@
 int main(int argc, char** argv) {
     return dotpose::cli::tool_main(argc, argv, [](CLI::App& app, int& exit_code) {
         using namespace dotpose::cli;
-        add_watch(app, exit_code);
-        add_fleet(app, exit_code);
+        add_live_commands(app, exit_code);
         // `dotpose` starts this program for cameras and videos.
         add_locate(app, exit_code);
         add_calibrate(app, exit_code);

@@ -21,7 +21,10 @@ void add_optics(CLI::App& app, int& exit_code);
 void add_listen(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);
 
-/// Registers the commands that the program in apps/dotpose-live executes.
+/// Registers all of these.
+void add_commands(CLI::App& app, int& exit_code);
+
+/// Registers the commands that the program in apps/dotpose-live executes, without their options.
 void add_live(CLI::App& app);
 
 }  // namespace dotpose::cli

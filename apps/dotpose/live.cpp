@@ -1,5 +1,5 @@
-// Starts `dotpose-live`, the program beside this one, for what it alone can do: some commands, and
-// cameras and videos for all commands that read frames.
+// Starts the program `dotpose-live` for what it alone can do: some commands, and cameras and videos
+// for all commands that read frames.
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -18,10 +18,14 @@
 namespace dotpose::cli {
 namespace {
 
+/// Returns the path of the other program: apart from the programs that users start where dotpose is
+/// installed, else beside this one.
 std::string live_program() {
     std::error_code failed;
-    const auto here = std::filesystem::read_symlink("/proc/self/exe", failed);
-    return (here.parent_path() / "dotpose-live").string();
+    const auto folder = std::filesystem::read_symlink("/proc/self/exe", failed).parent_path();
+    const auto installed = (folder / DOTPOSE_LIVE_FROM_TOOL).lexically_normal();
+    if (std::filesystem::exists(installed, failed)) return installed.string();
+    return (folder / "dotpose-live").string();
 }
 
 /// Replaces this process by the other program. Returns only if that fails, with errno.

@@ -158,8 +158,9 @@ void add_print(CLI::App& app, int& /*exit_code*/) {
         ->type_name("N")
         ->capture_default_str();
     add_drawing_option(*command, arguments->print.drawing);
-    command->add_flag("!--no-labels", arguments->print.labels,
-                      "No text and rulers in the margins of a .pdf");
+    command->add_flag_callback(
+        "--no-labels", [arguments] { arguments->print.labels = false; },
+        "No text and rulers in the margins of a .pdf");
     arguments->entries.add_to(*command);
     CLI::Option* test_page = command->add_flag(
         "--test-page", arguments->test_page,

@@ -18,8 +18,6 @@
 namespace dotpose::cli {
 namespace {
 
-constexpr const char* kVersion = "dotpose " DOTPOSE_VERSION;
-
 /// Returns where the documents are, which are installed beside the tool.
 std::string places_of_documents() {
     std::error_code failed;
@@ -29,15 +27,6 @@ std::string places_of_documents() {
         return "Documents: README.md and docs/ of the source; examples in C++: examples/";
     return fmt::format("Documents: {0}/README.md and {0}/docs\nExamples in C++: {0}/examples",
                        folder.string());
-}
-
-std::string first_day() {
-    return "A first day:\n"
-           "  dotpose print -o sheet.pdf   a sheet of dots; print it at 100 %\n"
-           "  dotpose locate photo.jpg     where on it a picture was taken\n"
-           "  dotpose watch 0              where on it a camera is, live\n\n"
-           "dotpose COMMAND --help has all options and more examples.\n" +
-           places_of_documents();
 }
 
 /// Adds the commands `help` and `version`. The first stores the words that ask for the help wanted
@@ -60,27 +49,21 @@ void add_help_and_version(CLI::App& app, std::vector<std::string>& help_words) {
     });
 }
 
-int run(int argc, char** argv, const std::function<void(CLI::App& app, int& exit_code)>& add) {
+int run(int argc, char** argv, const AddCommands& add) {
     remember_command_line(argc, argv);
-    CLI::App app("Locates a camera on a sheet printed with a dot position code.", "dotpose");
-    app.set_version_flag("--version", kVersion);
-    app.require_subcommand(1);
-    app.get_formatter()->label("SUBCOMMAND", "COMMAND");
-    int exit_code = 0;
-    add(app, exit_code);
-    refuse_non_finite_numbers(app);
-    std::vector<std::string> help_words;
-    add_help_and_version(app, help_words);
+    CommandLine line(add);
+    CLI::App& app = line.app;
     for (CLI::App* command : app.get_subcommands({})) {
-        command->group("Commands");
         command->preparse_callback(
             [command, argc, argv](std::size_t) { require_two_hyphens(*command, argc, argv); });
     }
-    app.footer(first_day());
+    app.footer(fmt::format(
+        "A first day:\n{}\ndotpose COMMAND --help has all options and more examples.\n{}",
+        kFirstDay, places_of_documents()));
     try {
         app.parse(argc, argv);
-        if (!help_words.empty()) app.parse(help_words);
-        return exit_code;
+        if (!line.help_words.empty()) app.parse(line.help_words);
+        return line.exit_code;
     } catch (const CLI::Success& request) {
         return app.exit(request);  // --help and --version
     } catch (const CLI::ParseError& error) {
@@ -94,8 +77,19 @@ int run(int argc, char** argv, const std::function<void(CLI::App& app, int& exit
 
 }  // namespace
 
-int tool_main(int argc, char** argv,
-              const std::function<void(CLI::App& app, int& exit_code)>& add) noexcept {
+CommandLine::CommandLine(const AddCommands& add)
+    : app("Locates a camera on a sheet printed with a dot position code.", "dotpose") {
+    app.set_version_flag("--version", kVersion);
+    app.require_subcommand(1);
+    app.get_formatter()->label("SUBCOMMAND", "COMMAND");
+    add(app, exit_code);
+    refuse_non_finite_numbers(app);
+    add_help_and_version(app, help_words);
+    for (CLI::App* command : app.get_subcommands({}))
+        command->group("Commands");
+}
+
+int tool_main(int argc, char** argv, const AddCommands& add) noexcept {
     try {
         return run(argc, argv, add);
     } catch (const std::exception& error) {

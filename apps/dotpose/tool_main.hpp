@@ -3,14 +3,34 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
 namespace dotpose::cli {
 
+inline constexpr const char* kVersion = "dotpose " DOTPOSE_VERSION;
+
+/// What a new user does first, as the help shows it.
+inline constexpr const char* kFirstDay =
+    "  dotpose print -o sheet.pdf   a sheet of dots; print it at 100 %\n"
+    "  dotpose locate photo.jpg     where on it a picture was taken\n"
+    "  dotpose watch 0              where on it a camera is, live\n";
+
+using AddCommands = std::function<void(CLI::App& app, int& exit_code)>;
+
+/// What a program understands: the commands that `add` registers, and `help` and `version`.
+struct CommandLine {
+    explicit CommandLine(const AddCommands& add);
+
+    CLI::App app;
+    int exit_code = 0;
+    /// After parsing: the words that ask for the help wanted, the last one first; else none.
+    std::vector<std::string> help_words;
+};
+
 /// Parses the command line with the subcommands that `add` registers and runs the one that is
 /// named. Turns exceptions into a message and an exit status.
-int tool_main(int argc, char** argv,
-              const std::function<void(CLI::App& app, int& exit_code)>& add) noexcept;
+int tool_main(int argc, char** argv, const AddCommands& add) noexcept;
 
 }  // namespace dotpose::cli

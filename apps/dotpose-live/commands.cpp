@@ -1,0 +1,10 @@
+#include "commands.hpp"
+
+namespace dotpose::cli {
+
+void add_live_commands(CLI::App& app, int& exit_code) {
+    add_watch(app, exit_code);
+    add_fleet(app, exit_code);
+}
+
+}  // namespace dotpose::cli

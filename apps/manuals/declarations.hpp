@@ -1,0 +1,44 @@
+/// What the commands declare to CLI11, as plain text for manual pages and completions.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace dotpose::manuals {
+
+/// What a shell may offer as a value.
+enum class ValueKind { none, file, folder, text };
+
+struct OptionText {
+    std::string short_name;  ///< such as "-o", or empty
+    std::string long_name;   ///< such as "--out"; empty for an argument without an option
+    std::string argument;    ///< name of an argument without an option, such as "images"
+    std::string type;        ///< such as "FILE"; empty for a flag
+    std::string default_text;
+    std::string help;
+    std::vector<std::string> needs, excludes;  ///< other options
+    std::vector<std::string> choices;          ///< all possible values, none if there are others
+    ValueKind kind = ValueKind::none;
+    bool is_required = false;
+    bool is_repeated = false;  ///< takes any number of values
+    int values = 1;            ///< how many values follow the option, if not repeated
+};
+
+struct CommandText {
+    std::string name;
+    std::string what;                 ///< what it does, in one line
+    std::string notes;                ///< examples and more, below the options in its help
+    std::vector<OptionText> options;  ///< arguments without an option among them
+};
+
+struct ToolText {
+    std::string version;    ///< "dotpose 1.2.3"
+    std::string first_day;  ///< examples for a new user
+    CommandText top;        ///< the tool itself, with the options that precede a command
+    std::vector<CommandText> commands;
+};
+
+/// Returns the declarations of all commands, of `dotpose` and of `dotpose-live`.
+ToolText declarations();
+
+}  // namespace dotpose::manuals
