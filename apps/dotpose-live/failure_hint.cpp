@@ -1,6 +1,7 @@
 #include "failure_hint.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <memory>
 
 #include <fmt/core.h>
@@ -16,10 +17,53 @@ constexpr std::size_t kLeastFrames = 3;
 /// Most frames that are kept, in case the times of a source do not advance.
 constexpr std::size_t kMostFrames = 2000;
 
+std::string reason_with_advice(Record record, ImageView image, const Options& options,
+                               double bits_per_px) {
+    const auto scratch = std::make_unique<LargeMemory>();
+    record.advice = advice_on(image, record.fix.status, options, *scratch, bits_per_px);
+    return reason(record);
+}
+
+GreyImage copy_of(ImageView image) {
+    GreyImage copy{{}, image.width_px, image.height_px};
+    for (int v = 0; v < image.height_px; ++v)
+        copy.pixels.insert(copy.pixels.end(), image.row(v), image.row(v) + image.width_px);
+    return copy;
+}
+
 }  // namespace
 
-std::string FailureHint::after(const Reading& reading, ImageView image, const Options& options) {
+/// Keeps the first frame with a status, then the second, fourth, eighth ...: one from late in the
+/// run, with few copies.
+void FailureHint::remember(const Record& record, ImageView image, const Options& options,
+                           double bits_per_px) {
+    ++frames_;
+    if (record.fix.status == Status::ok) return;
+    ++failed_;
+    Failures& alike = failures_[record.fix.status];
+    if (std::has_single_bit(static_cast<std::uint64_t>(++alike.count))) {
+        alike.record = record;
+        alike.image = copy_of(image);
+    }
+    options_ = options;
+    bits_per_px_ = bits_per_px;
+}
+
+std::string FailureHint::at_end() const {
+    if (2 * failed_ <= frames_) return {};
+    const auto most = std::ranges::max_element(
+        failures_, {}, [](const auto& entry) { return entry.second.count; });
+    const Failures& failures = most->second;
+    return fmt::format(
+        "{} of {} frames were not located; {}: {}", failed_, frames_,
+        failures.count == failed_ ? "one of them" : "one of the most frequent kind",
+        reason_with_advice(failures.record, failures.image.view(), options_, bits_per_px_));
+}
+
+std::string FailureHint::after(const Reading& reading, ImageView image, const Options& options,
+                               double bits_per_px) {
     const Record& record = reading.record;
+    remember(record, image, options, bits_per_px);
     last_second_.push_back({reading.time_us, record.fix.status != Status::ok});
     // The oldest frame that is kept must be a second old; until then it is too early to judge.
     while (last_second_.size() > kMostFrames ||
@@ -36,11 +80,8 @@ std::string FailureHint::after(const Reading& reading, ImageView image, const Op
     const bool is_time = is_long_enough && failed >= kLeastFrames && !is_told_;
     if (!is_time || record.fix.status == Status::ok) return {};
     is_told_ = true;
-    const auto scratch = std::make_unique<LargeMemory>();
-    Record newest = record;
-    newest.advice = advice_on(image, record.fix.status, options, *scratch);
     return fmt::format("most frames of the last second were not located; the newest: {}",
-                       reason(newest));
+                       reason_with_advice(record, image, options, bits_per_px));
 }
 
 }  // namespace dotpose::cli

@@ -2,9 +2,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <fmt/core.h>
+#include <fmt/format.h>
 
 #include "commands.hpp"
 #include "common.hpp"
@@ -13,6 +16,7 @@
 #include "exit_codes.hpp"
 #include "failure_hint.hpp"
 #include "follower_arguments.hpp"
+#include "frame_saver.hpp"
 #include "mqtt_arguments.hpp"
 #include "progress.hpp"
 #include "reading.hpp"
@@ -20,6 +24,7 @@
 #include "run_files.hpp"
 #include "source_arguments.hpp"
 #include "terminal_text.hpp"
+#include "video/camera_list.hpp"
 #include "watch_outputs.hpp"
 
 namespace dotpose::cli {
@@ -27,7 +32,9 @@ namespace {
 
 constexpr const char* kExamples =
     "Examples:\n"
+    "  dotpose watch --list-cameras\n"
     "  dotpose watch 0 --size 640x480 --exposure 50\n"
+    "  dotpose watch 0 --save frames            and then: dotpose calibrate frames\n"
     "  dotpose watch http://192.168.4.1:81/stream --sheets sheets.json\n"
     "  dotpose watch run.mp4 --sheets sheets.json --log run.csv --map run.svg\n"
     "  dotpose watch 'frames/*.pgm' --fps 50 --record run-overlay.mp4\n"
@@ -40,6 +47,8 @@ struct WatchArguments {
     FollowerArguments follower;
     OutputOptions outputs;
     MqttArguments mqtt;
+    SaveOptions save;
+    bool lists_cameras = false;
     bool has_no_window = false;
     std::int64_t frames = 0;  ///< number of frames to take; 0 for no limit
 };
@@ -68,8 +77,8 @@ RunFiles files_of(const WatchArguments& arguments, const Sources& sources) {
 
 /// Writes to standard error why most frames fail, and whether another code explains them.
 void tell_once_in_a_while(const Reading& reading, ImageView image, const Follower& follower,
-                          FailureHint& hint, bool& is_warned) {
-    const std::string advice = hint.after(reading, image, follower.used_options());
+                          double bits_per_px, FailureHint& hint, bool& is_warned) {
+    const std::string advice = hint.after(reading, image, follower.used_options(), bits_per_px);
     if (!advice.empty()) tell(advice);
     const std::string doubt = is_warned ? std::string() : warning(reading.record);
     if (doubt.empty()) return;
@@ -84,19 +93,29 @@ FollowerOptions options_of(const WatchArguments& arguments) {
     return options;
 }
 
+/// Saves a frame as it came from its source.
+void save(FrameSaver& saver, GreyImage& image, const Fix& fix, bool is_inverted) {
+    if (is_inverted) invert(image);
+    saver.take(image.view(), fix);
+    if (is_inverted) invert(image);
+}
+
 /// Follows the robot over all frames. Returns the exit status. Throws BadArgument if frames cannot
 /// be located with the arguments.
 int follow(const WatchArguments& arguments, capture::FrameSource& source, Follower& follower,
-           WatchOutputs& outputs) {
+           std::optional<FrameSaver>& saver, WatchOutputs& outputs, FailureHint& hint) {
     try {
         capture::Frame frame;
-        FailureHint hint;
         bool is_warned = false;
         bool goes_on = true;
         while (goes_on && source.next(frame)) {
             if (arguments.follower.is_inverted) invert(frame.image);
             const Reading reading = read(frame, follower);
-            tell_once_in_a_while(reading, frame.image.view(), follower, hint, is_warned);
+            tell_once_in_a_while(reading, frame.image.view(), follower, source.bits_per_px(), hint,
+                                 is_warned);
+            if (saver) {
+                save(*saver, frame.image, reading.record.fix, arguments.follower.is_inverted);
+            }
             goes_on = outputs.take(frame, reading, source.dropped());
             if (arguments.frames > 0 && outputs.tally().frames >= arguments.frames) break;
         }
@@ -110,8 +129,32 @@ int follow(const WatchArguments& arguments, capture::FrameSource& source, Follow
     return 0;
 }
 
+void print_cameras() {
+    const std::vector<video::FoundCamera> cameras = video::find_cameras();
+    if (cameras.empty()) fmt::print("{}\n", video::in_one_line(cameras));
+    for (const video::FoundCamera& camera : cameras) {
+        fmt::print("{}  {}{}{}\n", camera.device, printable(camera.name),
+                   camera.problem.empty() ? "" : ": ", camera.problem);
+        for (const video::CameraSize& size : camera.sizes) {
+            std::string rates;
+            for (const double rate : size.rates)
+                rates +=
+                    fmt::format("{}{:g}", rates.empty() ? "" : ", ", std::round(rate * 100) / 100);
+            fmt::print("  {:<12}{:<24}{}\n", size.size, rates.empty() ? "" : rates + " frames/s",
+                       fmt::join(size.formats, ", "));
+        }
+    }
+}
+
 /// Returns the exit status.
 int run(WatchArguments& arguments) {
+    if (arguments.lists_cameras) {
+        print_cameras();
+        return 0;
+    }
+    if (arguments.save.every > 0 && arguments.save.folder.empty()) {
+        throw BadArgument("--save-every needs a folder: --save DIR");
+    }
     Sources sources(arguments.sources);
     const RunFiles files = files_of(arguments, sources);
     catch_interrupts();
@@ -133,8 +176,11 @@ int run(WatchArguments& arguments) {
     arguments.outputs.world_map = std::filesystem::path(arguments.follower.sheets).stem().string();
     if (source->rate() > 0) arguments.outputs.screen.fps = source->rate();
     arguments.outputs.screen.has_window = !arguments.has_no_window && video::has_display();
+    std::optional<FrameSaver> saver;
+    if (!arguments.save.folder.empty()) saver.emplace(arguments.save);
     WatchOutputs outputs(arguments.outputs, follower);
-    int exit_code = follow(arguments, *source, follower, outputs);
+    FailureHint hint;
+    int exit_code = follow(arguments, *source, follower, saver, outputs, hint);
     try {
         outputs.finish();
     } catch (const Error& error) {
@@ -142,6 +188,8 @@ int run(WatchArguments& arguments) {
         exit_code = kExitFailed;
     }
     report(outputs, source->dropped());
+    if (saver) tell(fmt::format("{} frames saved in {}", saver->saved(), arguments.save.folder));
+    if (const std::string why = hint.at_end(); !why.empty()) tell(why);
     // Single images that cannot be read are passed over; but none at all is a failure.
     return is_unreadable && outputs.tally().frames == 0 ? kExitFailed : exit_code;
 }
@@ -157,6 +205,15 @@ void add_output_options(CLI::App& command, WatchArguments& arguments) {
     add_file("--map", outputs.map, "Draw the path at the end (SVG)");
     add_file("--record", outputs.screen.record, "Video with the overlay (.mp4 or .avi)");
     add_file("--packets", outputs.packets, "Send pose packets to a file or device");
+    command
+        .add_option("--save", arguments.save.folder,
+                    "Save frames that show a new place, for dotpose calibrate (PNG)")
+        ->type_name("DIR");
+    command.add_option("--save-every", arguments.save.every, "Save every N-th frame instead")
+        ->type_name("N")
+        ->check(CLI::Range(1, 2'000'000'000).description(""));
+    command.add_flag("--list-cameras", arguments.lists_cameras,
+                     "Print the cameras of this computer with their sizes and rates, and end");
     command.add_flag("--no-window", arguments.has_no_window,
                      "Show nothing, even where there is a display");
     command.add_option("--frames", arguments.frames, "End after so many")

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <numbers>
 
 #include <fcntl.h>
 #include <fmt/core.h>
@@ -13,6 +12,7 @@
 #include "dotpose/files/error.hpp"
 #include "dotpose/pose_packet.hpp"
 #include "files/output_file.hpp"
+#include "panel_text.hpp"
 #include "reading_fields.hpp"
 #include "robot_state.hpp"
 #include "terminal_text.hpp"
@@ -155,29 +155,14 @@ bool WatchOutputs::is_anything_left() const {
 }
 
 bool WatchOutputs::show(const capture::Frame& frame, const Reading& reading, std::int64_t dropped) {
-    const Fix& fix = reading.record.fix;
-    const bool ok = fix.status == Status::ok;
-    const TrackedPose& pose = reading.track.pose;
     video::Scene scene;
     scene.image = frame.image.view();
     scene.trace = follower_.trace();
-    scene.is_good = ok;
+    scene.is_good = reading.record.fix.status == Status::ok;
     scene.y_up = reading.plane == Plane::sheet_world;
     scene.path = path_.marks();
     scene.sheets = sheets_;
-    scene.lines.push_back(fmt::format("frame {}   {:.3f} s   {}", reading.index,
-                                      static_cast<double>(reading.time_us) * 1e-6,
-                                      ok ? name(fix.attempt) : ""));
-    scene.lines.push_back(ok ? fmt::format("{} dots, {} bits wrong, p {:.0e}", fix.dots_used,
-                                           fix.bit_errors, fix.p_wrong())
-                             : std::string(name(fix.status)));
-    scene.lines.push_back(state_name(reading.track) + " " + event_names(reading.track.events));
-    if (!reading.track.is_lost) {
-        scene.lines.push_back(fmt::format("x {:.3f}  y {:.3f} mm", pose.x_mm(), pose.y_mm()));
-        scene.lines.push_back(fmt::format(
-            "{:.2f} deg   {:.1f} mm/s", pose.theta_rad() * 180 / std::numbers::pi,
-            std::hypot(static_cast<double>(pose.vx_mm_s), static_cast<double>(pose.vy_mm_s))));
-    }
+    scene.lines = panel_text(reading);
     scene.lines.push_back(fmt::format("{:.0f} frames/s, {} dropped", rate(), dropped));
     return screen_.show(scene);
 }

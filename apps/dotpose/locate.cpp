@@ -55,8 +55,8 @@ class ImageLocator {
     bool has_sheets() const { return !follower_.sheets().empty(); }
 
     /// Throws Error if the image has not the size that the camera file is for. The image must stay
-    /// until it has been drawn.
-    Record operator()(const std::string& name, GreyImage& image) {
+    /// until it has been drawn. `bits_per_px` is that of its source.
+    Record operator()(const std::string& name, GreyImage& image, double bits_per_px) {
         if (arguments_.follower.is_inverted) invert(image);
         const auto start = steady_clock::now();
         const Located located = locate(name, image);
@@ -71,7 +71,7 @@ class ImageLocator {
         record.width_px = image.width_px;
         record.height_px = image.height_px;
         record.elapsed_us = elapsed.count();
-        record.advice = advice(record.fix.status);
+        record.advice = advice(record.fix.status, bits_per_px);
         spacing_mm_ = record.spacing_mm;
         return record;
     }
@@ -108,10 +108,11 @@ class ImageLocator {
         }
     }
 
-    std::string advice(Status status) {
+    std::string advice(Status status, double bits_per_px) {
         if (status == Status::ok) return {};
         if (!scratch_) scratch_ = std::make_unique<LargeMemory>();
-        return advice_on(follower_.image(), status, follower_.used_options(), *scratch_);
+        return advice_on(follower_.image(), status, follower_.used_options(), *scratch_,
+                         bits_per_px);
     }
 
     const LocateArguments& arguments_;
@@ -146,7 +147,9 @@ class LocateRun {
         while (next(frame)) {
             const std::string name = frames_->name_of_frame();
             Record record;
-            if (!attempt([&] { record = locator_(name, frame.image); })) continue;
+            if (!attempt([&] { record = locator_(name, frame.image, frames_->bits_per_px()); })) {
+                continue;
+            }
             write(record);
             if (!frame.image.pixels.empty()) attempt([&] { locator_.draw(name); });
         }

@@ -178,8 +178,8 @@ bool is_out_of_focus(ImageView image) {
 
 }  // namespace
 
-std::string advice_on(ImageView image, Status status, const Options& options,
-                      LargeMemory& scratch) {
+std::string advice_on(ImageView image, Status status, const Options& options, LargeMemory& scratch,
+                      double bits_per_px) {
     if (status == Status::ok || status == Status::image_too_small ||
         status == Status::image_too_large || status == Status::no_contrast ||
         status == Status::ambiguous_code) {
@@ -203,6 +203,14 @@ std::string advice_on(ImageView image, Status status, const Options& options,
         return fmt::format(
             "the sheet is tilted too much, by about {:.0f} degrees: look more straight down on it",
             *tilt_degrees);
+    }
+    // H.264 and HEVC of sharp frames lose the first dots at 0.1 bits per px (docs/live.md).
+    constexpr double kTooFewBits_per_px = 0.15;
+    if (bits_per_px > 0 && bits_per_px < kTooFewBits_per_px) {
+        return fmt::format(
+            "the video is compressed too much, to {:.2g} bits per pixel, so that its dots are "
+            "blurred: record it with a higher quality, in H.264 with a CRF of 28 or less",
+            bits_per_px);
     }
     if (is_out_of_focus(image)) {
         return "the picture is out of focus, or shaken: focus, change the distance, or hold still";

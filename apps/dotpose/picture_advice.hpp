@@ -11,7 +11,9 @@
 namespace dotpose::cli {
 
 /// Returns a sentence without a full stop, or an empty text if the picture gives no reason.
-/// `status` is the result of `locate` with `options`; `scratch` is overwritten.
-std::string advice_on(ImageView image, Status status, const Options& options, LargeMemory& scratch);
+/// `status` is the result of `locate` with `options`; `scratch` is overwritten. `bits_per_px` is
+/// what a lossy compression of the video has left (capture/frame_source.hpp), or 0.
+std::string advice_on(ImageView image, Status status, const Options& options, LargeMemory& scratch,
+                      double bits_per_px = 0);
 
 }  // namespace dotpose::cli

@@ -44,6 +44,10 @@ class FrameSource {
 
     /// Frames per second as the source states it, or 0 if it is not known.
     virtual double rate() const { return 0; }
+
+    /// Mean number of bits per pixel that lossy compression left of the frames so far; 0 if it is
+    /// not known or not lossy.
+    virtual double bits_per_px() const { return 0; }
 };
 
 struct SourceOptions {

@@ -81,6 +81,7 @@ bool SourceList::next(Frame& frame) {
             continue;
         }
         newest_ = {{}, frame.time_us, frame.index, frame.file};
+        bits_per_px_ = source_->bits_per_px();
         put_in_order(frame);
         if (options_.region && !frame.image.pixels.empty()) {
             frame.image = cropped(frame.image, *options_.region);

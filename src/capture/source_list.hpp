@@ -27,6 +27,7 @@ class SourceList : public FrameSource {
     bool next(Frame& frame) override;
     std::int64_t dropped() const override;
     double rate() const override { return source_ ? source_->rate() : 0; }
+    double bits_per_px() const override { return bits_per_px_; }
 
     /// Returns the name of the frame that `next` gave last: the path of an image; of other
     /// sources SOURCE#N, where N is the number of the frame in the source, from 0.
@@ -44,8 +45,9 @@ class SourceList : public FrameSource {
     std::vector<std::string> images_;          ///< of the newest folder or glob, or one image
     std::size_t next_image_ = 0;
     std::unique_ptr<FrameSource> source_;
-    std::string name_;  ///< of the source that is open
-    Frame newest_;      ///< without its image; as its source numbers it
+    std::string name_;        ///< of the source that is open
+    Frame newest_;            ///< without its image; as its source numbers it
+    double bits_per_px_ = 0;  ///< of the newest source that has given a frame
     std::int64_t dropped_before_ = 0;
     std::int64_t next_index_ = 0;
     std::int64_t next_time_us_ = 0;

@@ -1,9 +1,12 @@
 // Reads cameras, at this computer (V4L2) or in the network, through OpenCV.
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include <fmt/core.h>
 #include <opencv2/core/utils/logger.hpp>
@@ -11,6 +14,7 @@
 #include <opencv2/videoio.hpp>
 
 #include "capture/source_kind.hpp"
+#include "video/camera_list.hpp"
 #include "video/latest.hpp"
 #include "video/sources.hpp"
 
@@ -53,9 +57,7 @@ class Camera : public capture::FrameSource {
     Camera(const std::string& name, const SourceOptions& options)
         : name_(name), options_(options), is_remote_(capture::is_url(name)) {
         if (!open()) {
-            throw Error(fmt::format("cannot open the camera {}: {}", name,
-                                    is_remote_ ? "nothing answers there, or what does is no video"
-                                               : "there is none, or another program uses it"));
+            throw Error(fmt::format("cannot open the camera {}: {}", name, why_not_open()));
         }
         rate_ = capture_.get(cv::CAP_PROP_FPS);
         thread_ = std::thread([this] { run(); });
@@ -78,6 +80,22 @@ class Camera : public capture::FrameSource {
     double rate() const override { return rate_; }
 
   private:
+    /// Returns the path of a camera of this computer, which may be named by its number.
+    std::string device() const {
+        const bool is_number = name_.find_first_not_of("0123456789") == std::string::npos;
+        return is_number ? "/dev/video" + name_ : name_;
+    }
+
+    std::string why_not_open() const {
+        if (is_remote_) return "nothing answers there, or what does is no video";
+        const std::vector<FoundCamera> cameras = find_cameras();
+        const bool exists =
+            std::ranges::find(cameras, device(), &FoundCamera::device) != cameras.end();
+        return fmt::format(
+            "{}; {}", exists ? "another program uses it, or it gives no pictures" : "there is none",
+            in_one_line(cameras));
+    }
+
     bool open() {
         return guarded(name_, [this] {
             if (is_remote_) {
@@ -85,9 +103,7 @@ class Camera : public capture::FrameSource {
                                      {cv::CAP_PROP_OPEN_TIMEOUT_MSEC, kPatience_ms,
                                       cv::CAP_PROP_READ_TIMEOUT_MSEC, kPatience_ms});
             }
-            const bool is_number = name_.find_first_not_of("0123456789") == std::string::npos;
-            const bool is_open = is_number ? capture_.open(std::stoi(name_), cv::CAP_V4L2)
-                                           : capture_.open(name_, cv::CAP_V4L2);
+            const bool is_open = capture_.open(device(), cv::CAP_V4L2);
             if (is_open) set_up();
             return is_open;
         });

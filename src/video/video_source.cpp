@@ -112,6 +112,10 @@ class VideoFile : public capture::FrameSource {
         return false;
     }
     double rate() const override { return options_.fps.value_or(rate_); }
+    double bits_per_px() const override {
+        if (!is_lossy_ || packet_px_ == 0) return 0;
+        return 8.0 * static_cast<double>(packet_bytes_) / static_cast<double>(packet_px_);
+    }
 
   private:
     bool open() {
@@ -134,6 +138,8 @@ class VideoFile : public capture::FrameSource {
         if (rate.num > 0 && rate.den > 0) rate_ = av_q2d(rate);
         decoder_ = owned(avcodec_alloc_context3(codec));
         decoder_->pkt_timebase = stream_->time_base;
+        const AVCodecDescriptor* description = avcodec_descriptor_get(decoder_->codec_id);
+        is_lossy_ = description != nullptr && (description->props & AV_CODEC_PROP_LOSSY) != 0;
         return avcodec_parameters_to_context(decoder_.get(), stream_->codecpar) >= 0 &&
                avcodec_open2(decoder_.get(), codec, nullptr) >= 0;
     }
@@ -185,6 +191,7 @@ class VideoFile : public capture::FrameSource {
             const bool is_video = packet_->stream_index == stream_->index;
             if (is_video) {
                 if ((packet_->flags & AV_PKT_FLAG_CORRUPT) != 0) pass_over();
+                packet_bytes_ += packet_->size;
                 correct_time();
                 if (avcodec_send_packet(decoder_.get(), packet_.get()) < 0) pass_over();
             }
@@ -240,6 +247,7 @@ class VideoFile : public capture::FrameSource {
         if (picture_->key_frame != 0) waits_for_key_frame_ = false;
         if (waits_for_key_frame_) return false;
         to_grey_(*picture_, frame.image);
+        packet_px_ += std::int64_t{picture_->width} * picture_->height;
         frame.time_us =
             options_.fps ? capture::time_of(frames_, *options_.fps) : std::llround(time_s_ * 1e6);
         frame.index = frames_++;
@@ -257,6 +265,9 @@ class VideoFile : public capture::FrameSource {
     double rate_ = 30;
     double begin_s_ = 0;  ///< time of the first picture in the file
     double time_s_ = 0;   ///< time of the newest picture after the first
+    bool is_lossy_ = false;
+    std::int64_t packet_bytes_ = 0;  ///< of the packets that were decoded
+    std::int64_t packet_px_ = 0;     ///< of the frames that were returned
     bool has_begun_ = false;
     bool is_damaged_ = false;
     bool has_index_ = false;

@@ -1,7 +1,8 @@
 // A camera for a machine without one: loaded with LD_PRELOAD, it answers what OpenCV asks the
 // kernel about /dev/video0. It shows the raw grey frames of the file FAKE_CAMERA, of the size
 // FAKE_CAMERA_SIZE, again and again; without the file it is unplugged. What it is asked to set, and
-// the times of its frames in us, stand in the file FAKE_CAMERA_LOG.
+// the times of its frames in us, stand in the file FAKE_CAMERA_LOG. It says that it can do 640x480
+// at 15 frames/s as well.
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
@@ -111,6 +112,34 @@ int give_frame(v4l2_buffer& buffer) {
     return 0;
 }
 
+/// The size with this index, 0 x 0 after the last one.
+v4l2_frmsize_discrete size_at(unsigned index) {
+    if (index == 0) {
+        return {static_cast<unsigned>(camera.width_px), static_cast<unsigned>(camera.height_px)};
+    }
+    return index == 1 ? v4l2_frmsize_discrete{640, 480} : v4l2_frmsize_discrete{};
+}
+
+/// Answers what the camera can do.
+int tell_entry(unsigned long request, void* argument) {
+    if (request == VIDIOC_ENUM_FMT) {
+        auto& format = *static_cast<v4l2_fmtdesc*>(argument);
+        format.pixelformat = V4L2_PIX_FMT_YUYV;
+        return format.index == 0 ? 0 : failed(EINVAL);
+    }
+    if (request == VIDIOC_ENUM_FRAMESIZES) {
+        auto& size = *static_cast<v4l2_frmsizeenum*>(argument);
+        size.type = V4L2_FRMSIZE_TYPE_DISCRETE;
+        size.discrete = size_at(size.index);
+        return size.discrete.width > 0 ? 0 : failed(EINVAL);
+    }
+    auto& interval = *static_cast<v4l2_frmivalenum*>(argument);
+    interval.type = V4L2_FRMIVAL_TYPE_DISCRETE;
+    interval.discrete = {1, interval.index == 0 ? 15U : 30U};
+    const unsigned most = interval.width == 640 ? 1 : 2;
+    return interval.index < most ? 0 : failed(EINVAL);
+}
+
 int set_rate(v4l2_streamparm& rate) {
     v4l2_fract& interval = rate.parm.capture.timeperframe;
     if (interval.numerator > 0) camera.fps = interval.denominator * 1.0 / interval.numerator;
@@ -158,6 +187,10 @@ int answer(unsigned long request, void* argument) {
         case VIDIOC_G_FMT:
             tell_format(*static_cast<v4l2_format*>(argument));
             return 0;
+        case VIDIOC_ENUM_FMT:
+        case VIDIOC_ENUM_FRAMESIZES:
+        case VIDIOC_ENUM_FRAMEINTERVALS:
+            return tell_entry(request, argument);
         case VIDIOC_S_PARM:
             return set_rate(*static_cast<v4l2_streamparm*>(argument));
         case VIDIOC_G_PARM:

@@ -141,6 +141,50 @@ TEST_F(Cameras, ThatIsNotThere) {
                            ": nothing answers there, or what does is no video\n");
 }
 
+TEST_F(Cameras, AreListedWithSizesAndRates) {
+#ifdef __SANITIZE_ADDRESS__
+    GTEST_SKIP() << "the sanitizer must be loaded first";
+#endif
+    const std::string fake =
+        "FAKE_CAMERA=$PWD/camera.raw FAKE_CAMERA_SIZE=188x120 FAKE_CAMERA_LOG=$PWD/log "
+        "LD_PRELOAD='" DOTPOSE_FAKE_CAMERA "' \"$T\" watch ";
+    ASSERT_EQ(shell(fake + "--list-cameras"), 0) << errors_;
+    EXPECT_THAT(output_, testing::StartsWith("/dev/video0  fake\n"
+                                             "  188x120     30, 15 frames/s         YUYV\n"
+                                             "  640x480     15 frames/s             YUYV\n"));
+    EXPECT_EQ(shell(fake + "--no-window 63"), 1);
+    EXPECT_THAT(errors_, testing::StartsWith("dotpose: cannot open the camera 63: there is none; "
+                                             "cameras are /dev/video0 (fake)"));
+}
+
+TEST_F(Cameras, CalibrateTakesItsFramesUntilTheUserEndsIt) {
+#ifdef __SANITIZE_ADDRESS__
+    GTEST_SKIP() << "the sanitizer must be loaded first";
+#endif
+    ASSERT_EQ(shell("export FAKE_CAMERA=$PWD/camera.raw FAKE_CAMERA_SIZE=188x120 "
+                    "FAKE_CAMERA_LOG=$PWD/log\n"
+                    "LD_PRELOAD='" DOTPOSE_FAKE_CAMERA
+                    "' \"$T\" calibrate 0 -o camera.yaml 2>told & tool=$!\n"
+                    "until [ $(grep -c time log) -ge 10 ] || ! kill -0 $tool; do sleep 0.05; done\n"
+                    "kill -INT $tool; wait $tool; echo $? > status"),
+              0)
+        << errors_;
+    // The camera rests.
+    EXPECT_THAT(file("told"), HasSubstr("frames located; 1 that show new places are used"));
+    EXPECT_THAT(file("told"), HasSubstr("a single frame"));
+    EXPECT_EQ(file("status"), "1\n");
+}
+
+TEST_F(Cameras, NoneIsANormalResult) {
+    if (fs::exists("/dev/video0")) GTEST_SKIP() << "there is a camera";
+    EXPECT_EQ(run("watch --list-cameras"), 0);
+    EXPECT_EQ(output_, "no camera was found at /dev/video*\n");
+    EXPECT_EQ(run("watch 99999999999"), 1);
+    EXPECT_EQ(errors_,
+              "dotpose: cannot open the camera 99999999999: there is none; no camera was "
+              "found at /dev/video*\n");
+}
+
 class Window : public Cameras {};
 
 TEST_F(Window, ShowsTheFramesAndEndsWithAKey) {

@@ -1,0 +1,98 @@
+#include "frame_saver.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include "capture/image_codec.hpp"
+#include "dotpose/files/error.hpp"
+
+namespace dotpose::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kPrefix = "frame_";
+
+/// Returns the number that follows the largest one of the frames in a folder.
+std::int64_t number_after(const fs::path& folder) {
+    std::int64_t next = 0;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+        const std::string name = entry.path().stem().string();
+        if (!name.starts_with(kPrefix)) continue;
+        std::int64_t number = 0;
+        std::from_chars(name.data() + kPrefix.size(), name.data() + name.size(), number);
+        next = std::max(next, number + 1);
+    }
+    return next;
+}
+
+struct Closer {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+[[noreturn]] void throw_unwritten(const fs::path& path, int error_number) {
+    throw Error("cannot write " + path.string() + ": " + std::strerror(error_number));
+}
+
+/// Writes a new file. Returns false if there is one of this name already.
+bool write_new(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
+    const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor < 0 && errno == EEXIST) return false;
+    if (descriptor < 0) throw_unwritten(path, errno);
+    std::unique_ptr<std::FILE, Closer> file(fdopen(descriptor, "wb"));
+    errno = 0;
+    const bool is_written =
+        file && std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
+    // Closing writes what is buffered, which fails if the disk is full.
+    const bool is_closed = file && std::fclose(file.release()) == 0;
+    if (is_written && is_closed) return true;
+    const int error_number = errno;
+    unlink(path.c_str());
+    throw_unwritten(path, error_number);
+}
+
+}  // namespace
+
+FrameSaver::FrameSaver(SaveOptions options) : options_(std::move(options)) {
+    std::error_code failed;
+    // Only the last folder of the path is created: if others are missing, the name is mistyped.
+    fs::create_directory(options_.folder, failed);
+    if (!fs::is_directory(options_.folder)) {
+        throw Error(fmt::format("cannot create the folder {}: {}", options_.folder,
+                                failed ? failed.message() : "a file has this name"));
+    }
+    next_number_ = number_after(options_.folder);
+}
+
+bool FrameSaver::is_wanted(ImageView image, const Fix& fix) {
+    const std::int64_t number = frames_++;
+    return options_.every > 0 ? number % options_.every == 0 : places_.take(fix, image);
+}
+
+void FrameSaver::take(ImageView image, const Fix& fix) {
+    if (image.width_px == 0 || !is_wanted(image, fix)) return;
+    GreyImage copy{{}, image.width_px, image.height_px};
+    for (int v = 0; v < image.height_px; ++v)
+        copy.pixels.insert(copy.pixels.end(), image.row(v), image.row(v) + image.width_px);
+    const std::vector<std::uint8_t> bytes = capture::encode_png(copy);
+    // Another program may save into the same folder.
+    while (!write_new(fs::path(options_.folder) / fmt::format("frame_{:06}.png", next_number_),
+                      bytes)) {
+        ++next_number_;
+    }
+    ++next_number_;
+    ++saved_;
+}
+
+}  // namespace dotpose::cli

@@ -1,0 +1,41 @@
+/// Saves frames as images, for `dotpose calibrate` or to look at them later.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "dotpose/fix.hpp"
+#include "dotpose/image.hpp"
+#include "new_places.hpp"
+
+namespace dotpose::cli {
+
+struct SaveOptions {
+    std::string folder;      ///< empty: nothing is saved
+    std::int64_t every = 0;  ///< one in this many frames; 0: those that show a new place
+};
+
+class FrameSaver {
+  public:
+    /// Creates the folder, whose parent must exist. Throws Error if that fails.
+    explicit FrameSaver(SaveOptions options);
+
+    /// Saves the frame if it is wanted, without loss, as frame_000000.png and so on. Numbers go on
+    /// after the last image in the folder; no file is ever overwritten. Throws Error if it cannot
+    /// be written.
+    void take(ImageView image, const Fix& fix);
+
+    std::int64_t saved() const { return saved_; }
+
+  private:
+    bool is_wanted(ImageView image, const Fix& fix);
+
+    SaveOptions options_;
+    NewPlaces places_;
+    std::int64_t frames_ = 0;
+    std::int64_t saved_ = 0;
+    std::int64_t next_number_ = 0;
+};
+
+}  // namespace dotpose::cli
