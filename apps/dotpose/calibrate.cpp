@@ -65,12 +65,17 @@ SourceArguments with_names(SourceArguments arguments, const std::vector<std::str
 }
 
 Series series_of(const CalibrateArguments& arguments) {
+    const SourceArguments spin = with_names(arguments.sources, arguments.spin);
+    const SourceArguments drive = with_names(arguments.sources, arguments.drive);
+    if (arguments.sources.reads_of_standard_input() + spin.reads_of_standard_input() +
+            drive.reads_of_standard_input() >
+        1) {
+        throw BadArgument("standard input is named twice");
+    }
     Series series;
     if (arguments.sources.is_given()) series.lens.emplace(arguments.sources);
-    if (!arguments.spin.empty()) series.spin.emplace(with_names(arguments.sources, arguments.spin));
-    if (!arguments.drive.empty()) {
-        series.drive.emplace(with_names(arguments.sources, arguments.drive));
-    }
+    if (spin.is_given()) series.spin.emplace(spin);
+    if (drive.is_given()) series.drive.emplace(drive);
     return series;
 }
 

@@ -1,5 +1,6 @@
 #include "calibration_frames.hpp"
 
+#include <string>
 #include <utility>
 
 #include <fmt/core.h>
@@ -47,7 +48,11 @@ CalibrationFrames::CalibrationFrames(const SourceArguments& arguments, Sources& 
 
 void CalibrationFrames::choose(const std::string& source, const capture::SourceOptions& options,
                                const CalibrateOptions& calibration) {
-    const bool is_endless = capture::kind_of(source) == capture::SourceKind::camera;
+    const bool is_camera = capture::kind_of(source) == capture::SourceKind::camera;
+    if (is_camera) {
+        tell("move the camera over the sheet, until it has shown " + std::to_string(kMostChosen) +
+             " places or you end it with Ctrl-C");
+    }
     std::optional<std::string> name = source;
     capture::SourceList list([&name] { return std::exchange(name, std::nullopt); }, options);
     Follower follower = follower_for(calibration);
@@ -56,7 +61,7 @@ void CalibrationFrames::choose(const std::string& source, const capture::SourceO
     std::int64_t frames = 0;
     std::int64_t located = 0;
     capture::Frame frame;
-    while (!(is_endless && chosen.size() == kMostChosen) && list.next(frame)) {
+    while (!(is_camera && chosen.size() == kMostChosen) && list.next(frame)) {
         const Located found = follower.locate(frame.image);
         ++frames;
         located += found.fix.status == Status::ok;
@@ -66,6 +71,7 @@ void CalibrationFrames::choose(const std::string& source, const capture::SourceO
         remove_every_second(chosen);
         places.thin_out();
     }
+    if (is_camera) forget_interrupt();
     if (interrupted()) throw Error("interrupted");
     if (located == 0) {
         throw Error(fmt::format("{}: none of its {} frames shows a pattern that can be located",

@@ -13,8 +13,9 @@ namespace dotpose::cli {
 /// places. Images stay on the disk; the chosen frames are kept in memory.
 class CalibrationFrames {
   public:
-    /// Reads videos and raw frames to their end, and a camera until it has shown enough. Throws
-    /// Error if a source fails, if none of its frames is located, or after an interrupt.
+    /// Reads videos and raw frames to their end, and a camera until it has shown enough or an
+    /// interrupt ends it. Throws Error if a source fails, if none of its frames is located, or
+    /// after an interrupt of another source.
     CalibrationFrames(const SourceArguments& arguments, Sources& sources,
                       const CalibrateOptions& options);
 

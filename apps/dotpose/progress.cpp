@@ -43,6 +43,11 @@ bool interrupted() {
     return signal_seen != 0;
 }
 
+void forget_interrupt() {
+    signal_seen = 0;
+    catch_interrupts();
+}
+
 ProgressLine::ProgressLine(std::string what)
     : what_(std::move(what)),
       on_terminal_(isatty(STDERR_FILENO) == 1),

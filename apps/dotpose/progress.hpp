@@ -14,6 +14,10 @@ void ignore_broken_pipes();
 void catch_interrupts();
 bool interrupted();
 
+/// Makes `interrupted` false again, and the next signal like the first one: for a part of the work
+/// that the user may end, while the program goes on.
+void forget_interrupt();
+
 /// A line such as "printing sheet.png: 42 %" on standard error. It is shown if standard error is a
 /// terminal and the work takes more than a second, and removed at the end.
 class ProgressLine {

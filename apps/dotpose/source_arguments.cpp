@@ -28,12 +28,15 @@ const SourceArguments& checked(const SourceArguments& arguments) {
         throw BadArgument(
             "no source of frames given: name images, a folder, a video or a camera, or use --list");
     }
-    const auto times = std::ranges::count(arguments.names, "-") + (arguments.list == "-");
-    if (times > 1) throw BadArgument("standard input is named twice");
+    if (arguments.reads_of_standard_input() > 1) throw BadArgument("standard input is named twice");
     return arguments;
 }
 
 }  // namespace
+
+std::int64_t SourceArguments::reads_of_standard_input() const {
+    return std::ranges::count(names, "-") + (list == "-" ? 1 : 0);
+}
 
 void SourceArguments::add_to(CLI::App& command) {
     command.add_option("sources", names, kSourcesHelp)->type_name("SOURCE");

@@ -1,6 +1,7 @@
 /// The arguments that say where frames come from, which all commands that read frames share.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,6 +25,9 @@ struct SourceArguments {
     capture::SourceOptions options;
 
     bool is_given() const { return !names.empty() || !list.empty(); }
+
+    /// Returns how often standard input is named, as the list or for raw frames.
+    std::int64_t reads_of_standard_input() const;
 
     /// Adds the sources, --list and the options of cameras, videos and raw frames.
     void add_to(CLI::App& command);

@@ -198,6 +198,8 @@ TEST_F(Sources, WrongOnesAreNamed) {
         EXPECT_EQ(run(command + " 'nothing*.png'"), 1) << command;
         EXPECT_THAT(errors_, HasSubstr("no images at nothing*.png")) << command;
     }
+    EXPECT_EQ(run("calibrate - --spin - --size 188x120"), 2);
+    EXPECT_THAT(errors_, HasSubstr("standard input is named twice"));
     EXPECT_EQ(run("watch nowhere.png"), 1);
     EXPECT_THAT(errors_, HasSubstr("cannot read nowhere.png: no such file"));
     EXPECT_EQ(run("locate " + image(0) + " --roi 0,0,500x10"), 2);

@@ -356,7 +356,8 @@ TEST_F(Watch, SaysWhatIsWrongWithTheSource) {
     EXPECT_EQ(run("watch 'nothing*.png'"), 1);
     EXPECT_EQ(errors_, "dotpose: no images at nothing*.png\n");
     EXPECT_EQ(run("watch -"), 2);
-    EXPECT_EQ(errors_, "dotpose: raw frames need their size: --size WxH\n");
+    EXPECT_EQ(errors_,
+              "dotpose: raw frames need their size: --size WxH\nTry: dotpose watch --help\n");
     EXPECT_EQ(run("watch - --size 7"), 2);
     EXPECT_EQ(run("watch"), 2);
     EXPECT_EQ(run("watch --help"), 0);
