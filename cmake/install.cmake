@@ -40,6 +40,8 @@ foreach(target IN ITEMS dotpose dotpose_files dotpose_tools)
 endforeach()
 if(TARGET dotpose_cli)
     install(TARGETS dotpose_cli)
+    # The schema of the lines that the tool writes.
+    install(DIRECTORY docs/schema DESTINATION ${CMAKE_INSTALL_DATADIR}/dotpose)
 endif()
 if(TARGET dotpose_live_cli)
     install(TARGETS dotpose_live_cli DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/dotpose)

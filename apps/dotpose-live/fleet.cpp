@@ -15,6 +15,7 @@
 #include "files/output_file.hpp"
 #include "fleet_state.hpp"
 #include "mqtt_arguments.hpp"
+#include "output_arguments.hpp"
 #include "path_memory.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"
@@ -27,7 +28,7 @@ using std::chrono::steady_clock;
 
 constexpr const char* kExamples =
     "Examples:\n"
-    "  dotpose fleet --mqtt mqtt://broker --sheets table.json --map fleet.svg\n"
+    "  dotpose fleet --mqtt mqtt://broker --sheets table.json --draw fleet.svg\n"
     "  dotpose fleet --mqtt mqtts://me@broker --mqtt-ca ca.pem --seconds 60\n\n"
     "Lists all robots that publish to the broker (dotpose watch --mqtt), on a terminal live, else "
     "at\n"
@@ -99,7 +100,7 @@ void run(const FleetArguments& arguments) {
     RunFiles files;
     files.reads("--sheets", arguments.sheets);
     files.reads("--mqtt-ca", arguments.mqtt.ca_file());
-    files.writes("--map", arguments.map, Content::svg);
+    files.writes("--draw", arguments.map, Content::svg);
     catch_interrupts();
     FleetView view(arguments);
     FleetState fleet;
@@ -129,8 +130,7 @@ void add_fleet(CLI::App& app, int&) {
     command->footer(kExamples);
     arguments->mqtt.add_to(*command)->required();
     add_sheets_option(*command, arguments->sheets, "Sheet file: draw its sheets on the map");
-    command->add_option("--map", arguments->map, "Map to draw (SVG), again and again")
-        ->type_name("FILE");
+    add_draw_option(*command, arguments->map, "Map to draw (SVG), again and again");
     command->add_option("--every", arguments->every_s, "Time between two looks")
         ->type_name("S")
         ->capture_default_str()

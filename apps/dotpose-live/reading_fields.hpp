@@ -17,9 +17,9 @@ std::string state_name(const Track& track);
 /// none.
 std::string event_names(const TrackEvents& events);
 
-std::vector<Field> fields(const Reading& reading);
+std::vector<Field> fields(const Reading& reading, Units units);
 
 /// Returns the header line of a run with or without sheets.
-std::string csv_header_of_readings(bool has_sheets);
+std::string csv_header_of_readings(bool has_sheets, Units units);
 
 }  // namespace dotpose::cli

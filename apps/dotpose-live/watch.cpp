@@ -36,7 +36,7 @@ constexpr const char* kExamples =
     "  dotpose watch 0 --size 640x480 --exposure 50\n"
     "  dotpose watch 0 --save frames            and then: dotpose calibrate frames\n"
     "  dotpose watch http://192.168.4.1:81/stream --sheets sheets.json\n"
-    "  dotpose watch run.mp4 --sheets sheets.json --log run.csv --map run.svg\n"
+    "  dotpose watch run.mp4 --sheets sheets.json --log run.csv --draw run.svg\n"
     "  dotpose watch 'frames/*.pgm' --fps 50 --record run-overlay.mp4\n"
     "  ffmpeg -i run.mp4 -f rawvideo -pix_fmt gray - | dotpose watch - --size 640x480 --fps 30\n\n"
     "One line per frame with the raw and the tracked pose (docs/live.md). Of a camera the newest\n"
@@ -67,9 +67,9 @@ RunFiles files_of(const WatchArguments& arguments, const Sources& sources) {
     sources.add_files(files);
     arguments.follower.add_files(files);
     files.reads("--mqtt-ca", arguments.mqtt.ca_file());
-    files.writes_lines(outputs.out, content_of(outputs.format));
+    files.writes_lines(outputs.lines.out, content_of(outputs.lines.format));
     files.writes("--log", outputs.log, Content::csv);
-    files.writes("--map", outputs.map, Content::svg);
+    files.writes("--draw", outputs.map, Content::svg);
     files.writes("--record", outputs.screen.record, Content::own);
     files.writes("--packets", outputs.packets, Content::packets);
     return files;
@@ -196,13 +196,12 @@ int run(WatchArguments& arguments) {
 
 void add_output_options(CLI::App& command, WatchArguments& arguments) {
     OutputOptions& outputs = arguments.outputs;
-    add_format_option(command, outputs.format);
+    add_line_options(command, outputs.lines);
+    add_draw_option(command, outputs.map, "Draw the path at the end (SVG)");
     const auto add_file = [&command](const char* flag, std::string& path, const char* help) {
         command.add_option(flag, path, help)->type_name("FILE");
     };
-    add_file("-o,--out", outputs.out, "File to write instead of standard output");
-    add_file("--log", outputs.log, "Also write all lines as CSV, for dotpose replay");
-    add_file("--map", outputs.map, "Draw the path at the end (SVG)");
+    add_file("--log", outputs.log, "Also write all lines as CSV in mm, for dotpose replay");
     add_file("--record", outputs.screen.record, "Video with the overlay (.mp4 or .avi)");
     add_file("--packets", outputs.packets, "Send pose packets to a file or device");
     command

@@ -99,17 +99,19 @@ WatchOutputs::WatchOutputs(const OutputOptions& options, const Follower& followe
     : options_(options),
       follower_(follower),
       sheets_(map_sheets(follower.sheets(), plane_of(follower))),
-      lines_(std::in_place, options.out),
+      lines_(std::in_place, options.lines.out),
       screen_(options.screen),
       begun_(std::chrono::steady_clock::now()) {
     for (const std::string& late : {options.map, options.screen.record}) {
         if (!late.empty()) files::require_writable(late);
     }
-    const std::string header = csv_header_of_readings(!follower.sheets().empty());
-    if (options.format == RecordFormat::csv) write_line(header);
+    const bool has_sheets = !follower.sheets().empty();
+    if (options.lines.format == RecordFormat::csv) {
+        write_line(csv_header_of_readings(has_sheets, options.lines.units));
+    }
     if (!options.log.empty()) {
         log_.emplace(options.log);
-        log_->write(header);
+        log_->write(csv_header_of_readings(has_sheets, Units::mm));
     }
     if (!options.packets.empty()) packets_.emplace(options.packets);
     if (options.mqtt) states_.emplace(options);
@@ -119,10 +121,8 @@ bool WatchOutputs::take(const capture::Frame& frame, const Reading& reading, std
     tally_.count(reading);
     newest_ = reading.track;
     path_.add(reading.track);
-    const auto values = fields(reading);
-    const bool is_csv = options_.format == RecordFormat::csv;
-    write_line(is_csv ? csv_line(values) : json_line(values));
-    if (log_) log_->write(csv_line(values));
+    write_line(line_of(fields(reading, options_.lines.units), options_.lines.format));
+    if (log_) log_->write(csv_line(fields(reading, Units::mm)));
     write_packet(reading);
     if (states_) states_->take(reading);
     if (!is_anything_left()) return false;

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "fields.hpp"
 #include "lines.hpp"
+#include "output_arguments.hpp"
 #include "path_memory.hpp"
 #include "publish/mqtt.hpp"
 #include "reading.hpp"
@@ -18,9 +18,8 @@
 namespace dotpose::cli {
 
 struct OutputOptions {
-    RecordFormat format = RecordFormat::jsonl;
+    LineArguments lines;
     // An empty path means that the output is not written.
-    std::string out;                           ///< file for lines; empty for standard output
     std::string log;                           ///< CSV file of all frames
     std::string map;                           ///< SVG file of the path, written at the end
     std::string packets;                       ///< file or device for pose packets

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -16,6 +17,8 @@
 #include "common.hpp"
 #include "dotpose/files/camera_file.hpp"
 #include "dotpose/tools/draw.hpp"
+#include "old_spellings.hpp"
+#include "output_arguments.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"
 #include "source_arguments.hpp"
@@ -94,6 +97,24 @@ auto with_progress(const CalibrateArguments& arguments, Sources& sources, const 
         frames.count(), [&frames](int index) { return frames.at(index); }, options);
 }
 
+/// Returns the picture of the turn: that of --draw, or if it shows the lens, one beside it, with
+/// "-spin" in its name.
+std::string spin_picture_of(const CalibrateArguments& arguments) {
+    if (!arguments.spin_picture.empty() || arguments.picture.empty()) return arguments.spin_picture;
+    if (arguments.spin.empty() || !arguments.sources.is_given()) return arguments.picture;
+    const std::filesystem::path lens = arguments.picture;
+    const std::string name = lens.stem().string() + "-spin" + lens.extension().string();
+    return (lens.parent_path() / name).string();
+}
+
+/// Writes the camera file to the file of -o or to standard output.
+void write_result(const std::string& out, const Camera& camera) {
+    if (out.empty()) return;
+    const DocumentOutput output(out, ".yaml");
+    write_camera(output.path(), camera);
+    output.finish();
+}
+
 /// Calibrates the lens and then the mount, if frames for them are given. Returns a report.
 std::string calibrate_camera(const CalibrateArguments& arguments, Series& series) {
     std::string report;
@@ -122,12 +143,13 @@ std::string calibrate_camera(const CalibrateArguments& arguments, Series& series
         report += report_of(found);
     };
     go_on(series.spin, "calibrating the mount", calibrate_spin, [&](const SpinCalibration& spin) {
-        if (!arguments.spin_picture.empty()) draw_spin(arguments.spin_picture, spin);
+        const std::string picture = spin_picture_of(arguments);
+        if (!picture.empty()) draw_spin(picture, spin);
         return spin_report(spin);
     });
     go_on(series.drive, "calibrating the heading", calibrate_drive, drive_report);
     if (lens && !arguments.picture.empty()) draw_calibration(arguments.picture, *lens);
-    if (!arguments.out.empty()) write_camera(arguments.out, *camera);
+    write_result(arguments.out, *camera);
     return report;
 }
 
@@ -179,7 +201,10 @@ void require_apart(const CalibrateArguments& arguments, const Series& series) {
         files.writes("-o", arguments.out, Content::yaml);
     }
     files.writes("--draw", arguments.picture, Content::svg);
-    files.writes("--draw-spin", arguments.spin_picture, Content::svg);
+    const std::string spin_picture = spin_picture_of(arguments);
+    if (!arguments.spin.empty() && spin_picture != arguments.picture) {
+        files.writes("--draw", spin_picture, Content::svg);
+    }
 }
 
 /// Returns the exit status.
@@ -194,7 +219,7 @@ int run(const CalibrateArguments& arguments) {
     catch_interrupts();
     const std::string report =
         arguments.stitch ? stitch(arguments, *series.lens) : calibrate_camera(arguments, series);
-    std::fputs(report.c_str(), stdout);
+    std::fputs(report.c_str(), arguments.out == kStandardOutput ? stderr : stdout);
     return 0;
 }
 
@@ -206,21 +231,27 @@ void add_calibrate(CLI::App& app, int& exit_code) {
         app.add_subcommand("calibrate", "Find lens and mount of a camera from frames of a sheet");
     command->footer(kExamples);
     arguments->sources.add_to(*command);
-    command->add_option("-o,--out", arguments->out, "Camera file to write (YAML)")
-        ->type_name("FILE");
     command
-        ->add_option("--draw", arguments->picture,
-                     "Also draw residuals and coverage of the image, or with --stitch the sheets "
-                     "before and after (.svg)")
-        ->type_name("FILE");
+        ->add_option("-o,--out", arguments->out,
+                     "Camera file to write (YAML), or - for standard output")
+        ->type_name("FILE|-");
+    add_draw_option(*command, arguments->picture,
+                    "Also draw residuals and coverage of the image, with --spin the turn (beside "
+                    "the other, as NAME-spin.svg), with --stitch the sheets before and after");
     add_camera_option(*command, arguments->camera,
                       "Camera file to start from: its lens where no frames of a sheet are given");
     command
         ->add_option("--spin", arguments->spin,
                      "Frames of the robot turning on the spot: find its centre (reference_px)")
         ->type_name("SOURCE");
-    command->add_option("--draw-spin", arguments->spin_picture, "Also draw the turn (.svg)")
+    command
+        ->add_option_function<std::string>("--draw-spin",
+                                           [arguments](const std::string& path) {
+                                               tell(spelling_note("--draw-spin", "--draw"));
+                                               arguments->spin_picture = path;
+                                           })
         ->type_name("FILE")
+        ->group("")
         ->needs(command->get_option("--spin"));
     command
         ->add_option("--drive", arguments->drive,

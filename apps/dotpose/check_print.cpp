@@ -18,6 +18,8 @@
 #include "dotpose/tools/draw.hpp"
 #include "dotpose/tools/image_file.hpp"
 #include "exit_codes.hpp"
+#include "lines.hpp"
+#include "output_arguments.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"
 #include "terminal_text.hpp"
@@ -28,7 +30,7 @@ namespace {
 constexpr const char* kExamples =
     "Examples:\n"
     "  dotpose check-print scan.png\n"
-    "  dotpose check-print scan.jpg --dpi 600 --spacing 0.508 --dot 0.085 -o map.svg\n"
+    "  dotpose check-print scan.jpg --dpi 600 --spacing 0.508 --dot 0.085 --draw map.svg\n"
     "  dotpose check-print scan.png --fit --sheets sheets.json\n"
     "  dotpose print --test-page -o test.pdf    (print and scan it, then)\n"
     "  dotpose check-print test-scan.png\n\n"
@@ -41,10 +43,10 @@ constexpr const char* kExamples =
 
 struct CheckPrintArguments {
     std::string scan;
-    std::string out;
+    ReportArguments report;
+    std::string picture;
     std::optional<double> dpi;
     int max_megapixels = kDefaultImagePixels / 1'000'000;
-    bool as_json = false;
     bool fit = false;
     std::string sheets;
     bool code_given = false;
@@ -160,12 +162,13 @@ void require_apart(const CheckPrintArguments& arguments) {
     RunFiles files;
     files.reads("", arguments.scan);
     files.reads("--sheets", arguments.sheets);
-    files.writes("-o", arguments.out, Content::svg);
+    files.writes("-o", arguments.report.out, content_of(arguments.report));
+    files.writes("--draw", arguments.picture, Content::svg);
 }
 
 /// Returns the exit status.
 int run(const CheckPrintArguments& arguments) {
-    if (!arguments.out.empty()) require_svg(arguments.out);
+    if (!arguments.picture.empty()) require_svg(arguments.picture);
     require_apart(arguments);
     std::vector<SheetEntry> sheets;
     if (!arguments.sheets.empty()) sheets = read_sheets(arguments.sheets);
@@ -181,13 +184,13 @@ int run(const CheckPrintArguments& arguments) {
         };
         check = check_print(scan.view(), options);
     }
-    if (!arguments.out.empty() && !check.fields.empty()) {
-        draw_distortion(arguments.out, scan.view(), check);
+    if (!arguments.picture.empty() && !check.fields.empty()) {
+        draw_distortion(arguments.picture, scan.view(), check);
     }
     const CheckedScan checked{arguments.scan, scan.width_px, scan.height_px, sheets};
-    const std::string report =
-        arguments.as_json ? json_report(checked, check) : text_report(checked, check);
-    std::fputs(report.c_str(), stdout);
+    Lines(arguments.report.out)
+        .write(arguments.report.as_json ? json_report(checked, check)
+                                        : text_report(checked, check));
     if (arguments.fit) {
         require_scan(arguments.scan, check);
         std::fputs(fit_sheets(arguments.sheets, sheets, check).c_str(), stderr);
@@ -216,16 +219,8 @@ void add_check_print(CLI::App& app, int& exit_code) {
         ->capture_default_str()
         ->check(CLI::Range(1, kMaxImagePixels / 1'000'000));
     arguments->pattern.add_to(*command, PatternArguments::Use::expected);
-    command
-        ->add_option_function<std::string>(
-            "--format",
-            [arguments](const std::string& name) { arguments->as_json = name == "json"; },
-            "text or json")
-        ->type_name("NAME")
-        ->default_str("text")
-        ->check(one_of({"text", "json"}));
-    command->add_option("-o,--out", arguments->out, "Also draw a map of the distortion (.svg)")
-        ->type_name("FILE");
+    add_report_options(*command, arguments->report);
+    add_draw_option(*command, arguments->picture, "Also draw a map of the distortion (.svg)");
     CLI::Option* fit = command->add_flag(
         "--fit", arguments->fit, "Write the scale found into the sheet file, for true millimetres");
     CLI::Option* sheets =

@@ -179,19 +179,6 @@ void add_attempt_options(CLI::App& command, Options& options) {
               [&options](Effort effort) { options.effort = effort; });
 }
 
-void add_format_option(CLI::App& command, RecordFormat& format) {
-    command
-        .add_option_function<std::string>(
-            "--format",
-            [&format](const std::string& name) {
-                format = name == "csv" ? RecordFormat::csv : RecordFormat::jsonl;
-            },
-            "jsonl (a JSON object per line) or csv")
-        ->type_name("NAME")
-        ->default_str("jsonl")
-        ->check(one_of({"jsonl", "csv"}));
-}
-
 void add_size_option(CLI::App& command, CameraModel& camera) {
     command
         .add_option_function<std::string>(
@@ -253,8 +240,8 @@ FrameSize parse_frame_size(const std::string& flag, const std::string& text) {
 
 void refuse_non_finite_numbers(CLI::App& app) {
     // Values of these types are text: a file may be called "nan".
-    const std::set<std::string> texts = {"DIR",   "FILE", "FILE|-", "NAME", "PART",
-                                         "RANGE", "SCAN", "SOURCE", "TEXT", "URL"};
+    const std::set<std::string> texts = {"DIR",   "FILE", "FILE|-", "FILE|-|DIR", "NAME", "PART",
+                                         "RANGE", "SCAN", "SOURCE", "TEXT",       "URL"};
     const auto is_finite = [](const std::string& text) -> std::string {
         double value = 0;
         if (!CLI::detail::lexical_cast(text, value) || std::isfinite(value)) return {};

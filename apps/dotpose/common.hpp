@@ -15,7 +15,6 @@
 #include "dotpose/options.hpp"
 #include "dotpose/tools/print.hpp"
 #include "dotpose/tools/simulate.hpp"
-#include "fields.hpp"
 
 namespace dotpose::cli {
 
@@ -53,9 +52,6 @@ CLI::Option* add_camera_option(CLI::App& command, CameraArgument& camera, const 
 
 /// Adds --decoder and --effort. `options` must outlive the command.
 void add_attempt_options(CLI::App& command, Options& options);
-
-/// Adds --format jsonl|csv, the format of output lines.
-void add_format_option(CLI::App& command, RecordFormat& format);
 
 /// Adds --size WxH, the size of a simulated frame.
 void add_size_option(CLI::App& command, CameraModel& camera);

@@ -18,7 +18,10 @@
 #include "dotpose/tools/score.hpp"
 #include "dotpose/tools/sweep.hpp"
 #include "known_frames.hpp"
+#include "lines.hpp"
+#include "output_arguments.hpp"
 #include "progress.hpp"
+#include "run_files.hpp"
 #include "source_arguments.hpp"
 #include "terminal_text.hpp"
 
@@ -59,7 +62,7 @@ struct EvaluateArguments {
     std::optional<Preset> preset;
     std::optional<SweepKind> sweep;
     bool protocol = false;
-    std::string out;
+    ReportArguments report;  ///< of sweep and protocol, `out` is a folder
     std::optional<int> frames;
     Setup setup;
     Options options;
@@ -70,7 +73,6 @@ struct EvaluateArguments {
     std::optional<Profile> code;     ///< the profile in which all frames are read
     bool code_is_found_out = false;  ///< whether to ignore the profiles in truth.csv
     int threads = 0;
-    bool json = false;
 };
 
 Progress progress_on(ProgressLine& line) {
@@ -107,24 +109,23 @@ nlohmann::ordered_json json_of(const Score& score) {
         {"elapsed_us", json_of(score.elapsed_us)}};
 }
 
-void print_score(const Score& score, bool as_json) {
-    if (as_json) {
-        fmt::print("{}\n", json_of(score).dump(2));
-        return;
-    }
+std::string report_of(const Score& score, bool as_json) {
+    if (as_json) return json_of(score).dump(2) + '\n';
+    std::string text;
     for (const auto& [what, value] : described(score))
-        fmt::print("{:<44}{}\n", what, value);
+        text += fmt::format("{:<44}{}\n", what, value);
+    return text;
 }
 
 /// Returns the exit status.
-int report(const std::vector<Outcome>& outcomes, bool as_json) {
+int report(const std::vector<Outcome>& outcomes, const ReportArguments& arguments) {
     int exit_code = 0;
     for (const Outcome& outcome : outcomes) {
         if (outcome.problem.empty()) continue;
         tell(outcome.problem);
         exit_code = kExitFailed;
     }
-    print_score(score_of(outcomes), as_json);
+    Lines(arguments.out).write(report_of(score_of(outcomes), arguments.as_json));
     return exit_code;
 }
 
@@ -141,7 +142,7 @@ int evaluate_run(const EvaluateArguments& arguments, const std::string& what, Fr
     }
     run.threads = arguments.threads;
     run.progress = progress_on(line);
-    return report(evaluate(run).front(), arguments.json);
+    return report(evaluate(run).front(), arguments.report);
 }
 
 /// Locates the frames as `locate --camera` does. Images whose size is not that of the camera file
@@ -190,6 +191,15 @@ int evaluate_sources(const EvaluateArguments& arguments) {
     return exit_code;
 }
 
+void require_apart(const EvaluateArguments& arguments) {
+    RunFiles files;
+    files.reads("", arguments.sources.names);
+    files.reads("--list", arguments.sources.list);
+    files.reads("--poses", arguments.poses);
+    files.reads("--camera", arguments.camera.path);
+    files.writes("-o", arguments.report.out, content_of(arguments.report));
+}
+
 int evaluate_preset(const EvaluateArguments& arguments) {
     FrameRun run;
     run.frames = arguments.frames.value_or(1000);
@@ -204,7 +214,7 @@ void make_folder(const fs::path& folder) {
 }
 
 int evaluate_sweep(const EvaluateArguments& arguments) {
-    make_folder(arguments.out);
+    make_folder(arguments.report.out);
     const std::string kind = dotpose::name(*arguments.sweep);
     ProgressLine line("evaluating " + kind);
     SweepOptions options;
@@ -213,13 +223,13 @@ int evaluate_sweep(const EvaluateArguments& arguments) {
     options.locate = arguments.options;
     options.threads = arguments.threads;
     options.progress = progress_on(line);
-    write_sweep(arguments.out, run_sweep(*arguments.sweep, options));
-    fmt::print("{0}/sweep-{1}.csv, {0}/sweep-{1}.svg and .png\n", arguments.out, kind);
+    write_sweep(arguments.report.out, run_sweep(*arguments.sweep, options));
+    fmt::print("{0}/sweep-{1}.csv, {0}/sweep-{1}.svg and .png\n", arguments.report.out, kind);
     return 0;
 }
 
 int evaluate_protocol(const EvaluateArguments& arguments) {
-    make_folder(arguments.out);
+    make_folder(arguments.report.out);
     ProgressLine line("evaluating the paper's protocol");
     ProtocolOptions options;
     options.setup = arguments.setup;
@@ -228,11 +238,11 @@ int evaluate_protocol(const EvaluateArguments& arguments) {
     options.threads = arguments.threads;
     options.progress = progress_on(line);
     const Protocol protocol = run_protocol(options);
-    write_protocol(arguments.out, protocol);
+    write_protocol(arguments.report.out, protocol);
     fmt::print(
         "{}\n{}: table-3.md, positions.csv, angles.csv, figure-13, figure-14 and figure-15, each "
         ".svg and .png\n",
-        table_3(protocol), arguments.out);
+        table_3(protocol), arguments.report.out);
     return 0;
 }
 
@@ -247,8 +257,14 @@ int run(EvaluateArguments& arguments) {
         throw BadArgument(
             "name one thing to evaluate: frames with their poses, --preset, --sweep or --protocol");
     }
-    if (writes && arguments.out.empty()) throw BadArgument("name a folder for the results: -o DIR");
-    if (writes && arguments.json) throw BadArgument("--json is for frames and --preset only");
+    const ReportArguments& report = arguments.report;
+    if (writes && (report.out.empty() || report.out == kStandardOutput)) {
+        throw BadArgument("name a folder for the results: -o DIR");
+    }
+    if (writes && report.as_json) {
+        throw BadArgument("--format json is for frames and --preset only");
+    }
+    if (!writes) require_apart(arguments);
     if (!has_sources && !arguments.poses.empty()) throw BadArgument("--poses is for frames only");
     if (has_sources && arguments.frames) throw BadArgument("--frames is for simulated frames only");
     if (auto& camera = arguments.camera.camera) {
@@ -287,8 +303,6 @@ void add_jobs(CLI::App& command, const std::shared_ptr<EvaluateArguments>& argum
               [arguments](SweepKind kind) { arguments->sweep = kind; });
     add_named(command, "--protocol", kProtocols, "", "Simulate a published experiment",
               [arguments](PaperProtocol) { arguments->protocol = true; });
-    command.add_option("-o,--out", arguments->out, "Folder for the results; made if missing")
-        ->type_name("DIR");
     command
         .add_option("--frames", arguments->frames,
                     "How many; of a sweep for each value, of the protocol at each place")
@@ -327,7 +341,10 @@ void add_evaluate(CLI::App& app, int& exit_code) {
         ->type_name("N")
         ->check(CLI::Range(0, 1024))
         ->capture_default_str();
-    command->add_flag("--json", arguments->json, "Print one JSON object");
+    add_report_options(*command, arguments->report,
+                       "File to write instead of standard output; of a sweep and of the protocol, "
+                       "the folder for the results, which is made if missing");
+    command->get_option("--out")->type_name("FILE|-|DIR");
     command->callback([arguments, command, &exit_code] {
         arguments->spacing_given = command->count("--spacing") > 0;
         arguments->code_is_found_out = command->count("--code") > 0 && !arguments->code;

@@ -53,23 +53,21 @@ std::string p_wrong_text(double p_wrong) {
 
 std::string json_line(const std::vector<Field>& fields) {
     std::string line = "{";
-    std::string section_u;
+    std::string_view open_array;
     for (const Field& field : fields) {
         if (field.text.empty()) continue;
-        const std::string_view name = field.name;
-        if (name == "section_u") {
-            section_u = field.text;
+        const std::string value = field.is_string ? json_string(field.text) : field.text;
+        if (!open_array.empty() && field.array == open_array) {
+            line += ',' + value;
             continue;
         }
+        if (!open_array.empty()) line += ']';
+        open_array = field.array;
         if (line.size() > 1) line += ',';
-        if (name == "section_v") {
-            line += fmt::format("\"section\":[{},{}]", section_u, field.text);
-        } else {
-            line += fmt::format("\"{}\":{}", name,
-                                field.is_string ? json_string(field.text) : field.text);
-        }
+        line += open_array.empty() ? fmt::format("\"{}\":{}", field.name, value)
+                                   : fmt::format("\"{}\":[{}", field.array, value);
     }
-    return line + "}\n";
+    return line + (open_array.empty() ? "}\n" : "]}\n");
 }
 
 std::string csv_header(const std::vector<Field>& fields) {
@@ -89,6 +87,10 @@ std::string csv_line(const std::vector<Field>& fields) {
     }
     line.back() = '\n';
     return line;
+}
+
+std::string line_of(const std::vector<Field>& fields, RecordFormat format) {
+    return format == RecordFormat::csv ? csv_line(fields) : json_line(fields);
 }
 
 }  // namespace dotpose::cli

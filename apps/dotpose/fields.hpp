@@ -8,12 +8,20 @@
 
 namespace dotpose::cli {
 
-enum class RecordFormat { jsonl, csv };
+/// The format of output lines.
+enum class RecordFormat { json, csv };
+
+/// The version of the JSON lines, which every line begins with. docs/schema/lines-VERSION.json
+/// describes it. Within a version keys may be added, but none goes away or changes its meaning.
+inline constexpr const char* kSchemaVersion = "1";
 
 struct Field {
-    const char* name;
+    std::string name;
     std::string text;  ///< empty if the field has no value in this line
     bool is_string = false;
+    /// Name of the JSON array that the field is an element of. Neighbours with the same name make
+    /// one array; in CSV they are columns of their own.
+    std::string array = {};
 };
 
 /// Formats a number; returns an empty text for NaN and infinity, which JSON cannot express.
@@ -26,10 +34,10 @@ std::string degrees(double angle_rad);
 std::string p_wrong_text(double p_wrong);
 
 /// These functions return a line with its line break. JSON has only the fields with a value, CSV
-/// has all columns. The fields section_u and section_v, in this order, become one field in JSON. In
-/// JSON, bytes that are not UTF-8 are replaced.
+/// has all columns. In JSON, bytes that are not UTF-8 are replaced.
 std::string json_line(const std::vector<Field>& fields);
 std::string csv_header(const std::vector<Field>& fields);
 std::string csv_line(const std::vector<Field>& fields);
+std::string line_of(const std::vector<Field>& fields, RecordFormat format);
 
 }  // namespace dotpose::cli

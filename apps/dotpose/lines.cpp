@@ -12,7 +12,7 @@ void throw_unwritable(const std::string& output, int error_number) {
 }
 
 Lines::Lines(const std::string& path) : path_(path) {
-    if (path.empty()) return;
+    if (path.empty() || path == "-") return;
     file_.reset(std::fopen(path.c_str(), "w"));
     if (!file_) throw Error("cannot create " + path + ": " + std::strerror(errno));
 }
@@ -22,7 +22,7 @@ void Lines::write(const std::string& line) {
     errno = 0;
     const bool written = std::fwrite(line.data(), 1, line.size(), stream) == line.size();
     if (written && std::fflush(stream) == 0) return;
-    throw_unwritable(path_.empty() ? "to standard output" : path_, errno != 0 ? errno : EIO);
+    throw_unwritable(file_ ? path_ : "to standard output", errno != 0 ? errno : EIO);
 }
 
 }  // namespace dotpose::cli

@@ -21,7 +21,7 @@ struct ReaderLeft : Error {
 /// Standard output or a file. Every line is flushed, so that none is lost if the tool is stopped.
 class Lines {
   public:
-    /// An empty path is standard output. Throws Error if the file cannot be created.
+    /// An empty path or "-" is standard output. Throws Error if the file cannot be created.
     explicit Lines(const std::string& path);
 
     /// Throws Error if the line cannot be written: ReaderLeft if the reader has closed the output

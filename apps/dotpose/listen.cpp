@@ -21,6 +21,7 @@
 #include "dotpose/pose_packet.hpp"
 #include "fields.hpp"
 #include "lines.hpp"
+#include "output_arguments.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"
 
@@ -47,8 +48,7 @@ constexpr std::array kBauds = {
 
 struct ListenArguments {
     std::string source;
-    std::string out;
-    RecordFormat format = RecordFormat::jsonl;
+    LineArguments lines;
     double spacing_mm = kDefaultSpacing_mm;
     Baud baud{115200, B115200};
 };
@@ -109,29 +109,46 @@ class ByteSource {
     std::array<std::uint8_t, 4096> buffer_{};
 };
 
-std::vector<Field> fields(const PosePacket& packet, double spacing_mm) {
+/// Returns the pose of a packet in the frame of the units, or none if it has no fix.
+std::optional<PlanePose> pose_of(const PosePacket& packet, double spacing_mm, Units units) {
+    if (packet.status != Status::ok) return std::nullopt;
+    const PlanePose pose{
+        packet.x_grid() * spacing_mm, packet.y_grid() * spacing_mm, packet.theta_rad(), {}};
+    return units == Units::ros ? with_other_y(pose) : pose;
+}
+
+/// The larger standard deviation of x and y.
+Field deviation_field(const PosePacket& packet, double spacing_mm, Units units) {
+    const double sigma_mm = packet.deviation_q12 * spacing_mm / 4096;
+    // The value 255 also stands for larger deviations, so the deviation is not known then.
+    const bool is_known = packet.status == Status::ok && packet.deviation_q12 < 255;
+    if (units == Units::ros) return {"sigma_m", is_known ? metres(sigma_mm) : ""};
+    return {"sigma_mm", is_known ? decimal(sigma_mm, 6) : ""};
+}
+
+std::vector<Field> fields(const PosePacket& packet, double spacing_mm, Units units) {
     const bool ok = packet.status == Status::ok;
     const auto if_ok = [ok](std::string text) { return ok ? std::move(text) : std::string(); };
     const auto number = [](unsigned value) { return fmt::format("{}", value); };
-    // The value 255 also stands for larger deviations, so the deviation is not known then.
-    const bool has_deviation = packet.deviation_q12 < 255;
-    return {
+    std::vector<Field> all = {
+        {"schema", kSchemaVersion},
         {"sequence", number(packet.sequence)},
         {"time_us", number(packet.time_us)},
         {"status", name(packet.status), true},
         {"message", ok ? "" : message(packet.status), true},
         {"code", profile_name(packet.profile), true},
-        {"x_mm", if_ok(decimal(packet.x_grid() * spacing_mm, 6))},
-        {"y_mm", if_ok(decimal(packet.y_grid() * spacing_mm, 6))},
-        {"theta_deg", if_ok(degrees(packet.theta_rad()))},
+    };
+    const std::vector<Field> evidence = {
         {"x_grid", if_ok(decimal(packet.x_grid(), 6))},
         {"y_grid", if_ok(decimal(packet.y_grid(), 6))},
-        {"section_u", if_ok(number(packet.section.u))},
-        {"section_v", if_ok(number(packet.section.v))},
+        {"section_u", if_ok(number(packet.section.u)), false, "section"},
+        {"section_v", if_ok(number(packet.section.v)), false, "section"},
         {"p_wrong", if_ok(p_wrong_text(std::ldexp(1.0, -packet.certainty)))},
-        {"sigma_mm",
-         has_deviation ? if_ok(decimal(packet.deviation_q12 * spacing_mm / 4096, 6)) : ""},
+        deviation_field(packet, spacing_mm, units),
     };
+    append(all, pose_fields(pattern_names(units), units, pose_of(packet, spacing_mm, units)));
+    append(all, evidence);
+    return all;
 }
 
 /// Counts lost packets for the report at the end.
@@ -165,19 +182,20 @@ class LossCounter {
 void run(const ListenArguments& arguments) {
     RunFiles files;
     files.reads("", arguments.source);
-    files.writes_lines(arguments.out, content_of(arguments.format));
+    files.writes_lines(arguments.lines.out, content_of(arguments.lines.format));
     catch_interrupts();
     ByteSource source(arguments);
-    Lines lines(arguments.out);
+    Lines lines(arguments.lines.out);
     PacketReader reader;
     LossCounter losses;
-    const bool is_csv = arguments.format == RecordFormat::csv;
-    if (is_csv) lines.write(csv_header(fields({}, arguments.spacing_mm)));
+    const auto [out, format, units] = arguments.lines;
+    if (format == RecordFormat::csv) {
+        lines.write(csv_header(fields({}, arguments.spacing_mm, units)));
+    }
     for (auto bytes = source.next(); !bytes.empty(); bytes = source.next()) {
         for (const std::uint8_t byte : bytes) {
             if (!reader.push(byte)) continue;
-            const auto values = fields(reader.packet(), arguments.spacing_mm);
-            lines.write(is_csv ? csv_line(values) : json_line(values));
+            lines.write(line_of(fields(reader.packet(), arguments.spacing_mm, units), format));
             losses.count(reader.packet());
         }
     }
@@ -215,9 +233,7 @@ void add_listen(CLI::App& app, int&) {
         ->required();
     add_baud_option(*command, arguments->baud);
     add_spacing_option(*command, arguments->spacing_mm);
-    add_format_option(*command, arguments->format);
-    command->add_option("-o,--out", arguments->out, "File to write instead of standard output")
-        ->type_name("FILE");
+    add_line_options(*command, arguments->lines);
     command->callback([arguments] { run(*arguments); });
 }
 

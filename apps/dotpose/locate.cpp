@@ -13,6 +13,7 @@
 #include "follower_arguments.hpp"
 #include "lines.hpp"
 #include "locate_record.hpp"
+#include "output_arguments.hpp"
 #include "picture_advice.hpp"
 #include "picture_folder.hpp"
 #include "run_files.hpp"
@@ -29,6 +30,7 @@ constexpr const char* kExamples =
     "  dotpose locate frame.png\n"
     "  dotpose locate --format csv frames/*.pgm > poses.csv\n"
     "  dotpose locate --draw pictures frame.png\n"
+    "  dotpose locate --units ros --sheets sheets.json frame.png\n"
     "  dotpose locate --sheets sheets.json frame.png\n"
     "  dotpose locate --camera camera.yaml frame.png\n"
     "  find frames -name '*.png' | sort | dotpose locate --list -\n"
@@ -38,9 +40,8 @@ constexpr const char* kExamples =
 
 struct LocateArguments {
     SourceArguments sources;
-    std::string out;
+    LineArguments lines;
     std::string draw_folder;
-    RecordFormat format = RecordFormat::jsonl;
     FollowerArguments follower;
 };
 
@@ -126,7 +127,7 @@ RunFiles files_of(const LocateArguments& arguments, const Sources& sources) {
     RunFiles files;
     arguments.follower.add_files(files);
     sources.add_files(files);
-    files.writes_lines(arguments.out, content_of(arguments.format));
+    files.writes_lines(arguments.lines.out, content_of(arguments.lines.format));
     return files;
 }
 
@@ -136,13 +137,16 @@ class LocateRun {
     LocateRun(const LocateArguments& arguments, Sources& sources)
         : files_(files_of(arguments, sources)),
           locator_(arguments, files_),
-          lines_(arguments.out),
-          is_csv_(arguments.format == RecordFormat::csv),
+          lines_(arguments.lines.out),
+          format_(arguments.lines.format),
+          units_(arguments.lines.units),
           frames_(sources.open(options_of(arguments))) {}
 
     /// Returns the exit status. Throws Error if the lines cannot be written.
     int operator()() {
-        if (is_csv_) lines_.write(csv_header(locator_.has_sheets()));
+        if (format_ == RecordFormat::csv) {
+            lines_.write(csv_header(locator_.has_sheets(), units_));
+        }
         capture::Frame frame;
         while (next(frame)) {
             const std::string name = frames_->name_of_frame();
@@ -188,9 +192,7 @@ class LocateRun {
         }
     }
 
-    void write(const Record& record) {
-        lines_.write(is_csv_ ? csv_line(record) : json_line(record));
-    }
+    void write(const Record& record) { lines_.write(line_of(fields(record, units_), format_)); }
 
     void fail(const Error& error) {
         tell(error.what());
@@ -211,7 +213,8 @@ class LocateRun {
     RunFiles files_;
     ImageLocator locator_;
     Lines lines_;
-    bool is_csv_;
+    RecordFormat format_;
+    Units units_;
     std::unique_ptr<capture::SourceList> frames_;
     int exit_code_ = 0;
 };
@@ -230,9 +233,7 @@ void add_locate(CLI::App& app, int& exit_code) {
     arguments->sources.add_to(*command);
     add_follower_options(*command, arguments->follower,
                          "Sheet file: also tell the sheet, and the place on it and in the world");
-    add_format_option(*command, arguments->format);
-    command->add_option("-o,--out", arguments->out, "File to write instead of standard output")
-        ->type_name("FILE");
+    add_line_options(*command, arguments->lines);
     command
         ->add_option("--draw", arguments->draw_folder,
                      "Also write a picture (SVG) of what was seen in each image; the last "

@@ -20,21 +20,21 @@ double sigma(const Fix& fix, std::size_t axis) {
     return std::sqrt(static_cast<double>(fix.covariance[axis][axis]));
 }
 
+/// Returns a pose of the paper, whose y points down, in the frame of these units.
+std::optional<PlanePose> in_frame_of(Units units, const std::optional<PlanePose>& pose) {
+    return pose && units == Units::ros ? std::optional(with_other_y(*pose)) : pose;
+}
+
 /// The fields that `--sheets` adds.
-std::vector<Field> sheet_fields(const std::optional<SheetPlace>& place) {
-    std::vector<Field> fields = {
-        {"sheet", {}, true}, {"x_sheet_mm", {}}, {"y_sheet_mm", {}},
-        {"x_m", {}},         {"y_m", {}},        {"yaw_rad", {}},
-    };
-    if (!place) return fields;
-    fields[0].text = place->entry->name;
-    fields[1].text = decimal(place->x_mm, 6);
-    fields[2].text = decimal(place->y_mm, 6);
-    if (const auto world = world_place(*place)) {
-        fields[3].text = decimal(world->x_m, 9);
-        fields[4].text = decimal(world->y_m, 9);
-        fields[5].text = decimal(world->yaw_rad, 8);
-    }
+std::vector<Field> sheet_fields(const std::optional<SheetPlace>& place, Units units) {
+    std::optional<PlanePose> pose;
+    if (place) pose = PlanePose{place->x_mm, place->y_mm, place->theta_rad, place->covariance};
+    pose = in_frame_of(units, pose);
+    const PoseNames names = sheet_names(units);
+    std::vector<Field> fields = {{"sheet", place ? place->entry->name : std::string(), true}};
+    append(fields, pose_fields(names, units, pose));
+    append(fields, covariance_fields(names, units, pose));
+    append(fields, world_fields(place ? world_place(*place) : std::nullopt));
     return fields;
 }
 
@@ -66,7 +66,7 @@ double mm(std::uint32_t cell, std::uint16_t fraction_q16, double spacing_mm) {
 }
 
 /// The fields of the profile and, if two profiles are possible, of the positions in both.
-std::vector<Field> code_fields(const Record& record) {
+std::vector<Field> code_fields(const Record& record, Units units) {
     const CodeReading& reading = record.reading;
     const Fix& fix = reading.fix;
     const bool is_ok = fix.status == Status::ok;
@@ -76,24 +76,71 @@ std::vector<Field> code_fields(const Record& record) {
         return has_other ? std::move(text) : std::string();
     };
     const auto place = [&](bool is_known, Cell cell) {
-        const double spacing_mm = record.spacing_mm;
-        return std::array{
-            is_known ? decimal(mm(cell.x, fix.fraction_x_q16, spacing_mm), 6) : std::string(),
-            is_known ? decimal(mm(cell.y, fix.fraction_y_q16, spacing_mm), 6) : std::string()};
+        const double x_mm = mm(cell.x, fix.fraction_x_q16, record.spacing_mm);
+        const double y_mm = mm(cell.y, fix.fraction_y_q16, record.spacing_mm);
+        if (!is_known) return std::array<std::string, 2>{};
+        if (units == Units::ros) return std::array{metres(x_mm), metres(-y_mm)};
+        return std::array{decimal(x_mm, 6), decimal(y_mm, 6)};
     };
-    const auto [x_mm, y_mm] = place(is_ambiguous, fix.cell);
-    const auto [other_x_mm, other_y_mm] = place(has_other, reading.other_cell);
+    const auto [x, y] = place(is_ambiguous, fix.cell);
+    const auto [other_x, other_y] = place(has_other, reading.other_cell);
+    const std::string unit = units == Units::ros ? "_m" : "_mm";
     const bool is_judged = is_ok && !record.code_is_given;
     return {
         {"code", is_ok || is_ambiguous ? name(reading.code) : "", true},
         {"code_p_wrong",
          is_judged ? fmt::format("{:.3g}", reading.evidence.p_wrong(reading.code)) : ""},
-        {"code_x_mm", x_mm},
-        {"code_y_mm", y_mm},
+        {"code_x" + unit, x},
+        {"code_y" + unit, y},
         {"other_code", if_other(name(reading.other_code)), true},
-        {"other_x_mm", other_x_mm},
-        {"other_y_mm", other_y_mm},
+        {"other_x" + unit, other_x},
+        {"other_y" + unit, other_y},
         {"warning", warning(record), true},
+    };
+}
+
+/// Returns the text if the fix has what the covariance is estimated from, else an empty one.
+std::string if_judged(const Fix& fix, std::string text) {
+    return fix.status == Status::ok && fix.has_covariance() ? std::move(text) : std::string();
+}
+
+/// The fields that say where in the code the fix is, and what speaks for it.
+std::vector<Field> evidence_fields(const Fix& fix) {
+    const bool ok = fix.status == Status::ok;
+    const auto if_ok = [ok](std::string text) { return ok ? std::move(text) : std::string(); };
+    return {
+        {"x_grid", if_ok(decimal(fix.x_grid(), 6))},
+        {"y_grid", if_ok(decimal(fix.y_grid(), 6))},
+        {"section_u", if_ok(fmt::format("{}", fix.section.u)), false, "section"},
+        {"section_v", if_ok(fmt::format("{}", fix.section.v)), false, "section"},
+        {"dots_seen", fmt::format("{}", fix.dots_seen)},
+        {"dots_used", if_ok(fmt::format("{}", fix.dots_used))},
+        {"attempt", if_ok(name(fix.attempt)), true},
+        {"surface", if_judged(fix, name(fix.surface)), true},
+        {"bit_errors", if_ok(fmt::format("{}", fix.bit_errors))},
+        {"p_wrong", if_ok(p_wrong_text(fix.p_wrong()))},
+    };
+}
+
+/// The fields of the standard deviations, in mm and degrees.
+std::vector<Field> deviation_fields(const Record& record) {
+    const Fix& fix = record.fix;
+    const auto text = [&fix](double value) { return if_judged(fix, decimal(value, 6)); };
+    return {
+        {"sigma_x_mm", text(sigma(fix, 0) * record.spacing_mm)},
+        {"sigma_y_mm", text(sigma(fix, 1) * record.spacing_mm)},
+        {"sigma_theta_deg", text(sigma(fix, 2) * 180 / std::numbers::pi)},
+    };
+}
+
+/// The fields about the image and the work with it.
+std::vector<Field> image_fields(const Record& record) {
+    const Fix& fix = record.fix;
+    const bool ok = fix.status == Status::ok;
+    return {
+        {"residual_px", if_judged(fix, decimal(static_cast<double>(fix.residual_px), 4))},
+        {"spacing_px", ok ? decimal(fix.spacing_px(), 4) : ""},
+        {"elapsed_us", decimal(record.elapsed_us, 1)},
     };
 }
 
@@ -167,59 +214,32 @@ std::string reason(const Record& record) {
     return plain.empty() || record.advice.empty() ? plain : plain + "; " + record.advice;
 }
 
-std::vector<Field> fields(const Record& record) {
-    const Fix& fix = record.fix;
-    const double spacing_mm = record.spacing_mm;
-    const bool ok = fix.status == Status::ok;
-    const auto if_ok = [ok](std::string text) { return ok ? std::move(text) : std::string(); };
-    const auto if_judged = [&](double value, int decimals) {
-        return ok && fix.has_covariance() ? decimal(value, decimals) : std::string();
-    };
-    std::vector<Field> all = {
-        {"file", record.file, true},
-        {"status", name(fix.status), true},
-        {"message", reason(record), true},
-        {"x_mm", if_ok(decimal(fix.x_grid() * spacing_mm, 6))},
-        {"y_mm", if_ok(decimal(fix.y_grid() * spacing_mm, 6))},
-        {"theta_deg", if_ok(degrees(fix.theta_rad()))},
-        {"x_grid", if_ok(decimal(fix.x_grid(), 6))},
-        {"y_grid", if_ok(decimal(fix.y_grid(), 6))},
-        {"section_u", if_ok(fmt::format("{}", fix.section.u))},
-        {"section_v", if_ok(fmt::format("{}", fix.section.v))},
-        {"dots_seen", fmt::format("{}", fix.dots_seen)},
-        {"dots_used", if_ok(fmt::format("{}", fix.dots_used))},
-        {"attempt", if_ok(name(fix.attempt)), true},
-        {"surface", fix.has_covariance() ? if_ok(name(fix.surface)) : std::string(), true},
-        {"bit_errors", if_ok(fmt::format("{}", fix.bit_errors))},
-        {"p_wrong", if_ok(p_wrong_text(fix.p_wrong()))},
-        {"sigma_x_mm", if_judged(sigma(fix, 0) * spacing_mm, 6)},
-        {"sigma_y_mm", if_judged(sigma(fix, 1) * spacing_mm, 6)},
-        {"sigma_theta_deg", if_judged(sigma(fix, 2) * 180 / std::numbers::pi, 6)},
-        {"residual_px", if_judged(static_cast<double>(fix.residual_px), 4)},
-        {"spacing_px", if_ok(decimal(fix.spacing_px(), 4))},
-        {"elapsed_us", decimal(record.elapsed_us, 1)},
-    };
-    for (Field& field : code_fields(record))
-        all.push_back(std::move(field));
-    if (record.has_sheets) {
-        for (Field& field : sheet_fields(record.place))
-            all.push_back(std::move(field));
+std::vector<Field> fields(const Record& record, Units units) {
+    const PoseNames names = pattern_names(units);
+    std::optional<PlanePose> pose;
+    if (record.fix.status == Status::ok) {
+        pose = in_frame_of(units, pattern_pose(record.fix, record.spacing_mm));
     }
+    std::vector<Field> all = {
+        {"schema", kSchemaVersion},
+        {"file", record.file, true},
+        {"status", name(record.fix.status), true},
+        {"message", reason(record), true},
+    };
+    append(all, pose_fields(names, units, pose));
+    append(all, evidence_fields(record.fix));
+    if (units == Units::mm) append(all, deviation_fields(record));
+    append(all, covariance_fields(names, units, pose));
+    append(all, image_fields(record));
+    append(all, code_fields(record, units));
+    if (record.has_sheets) append(all, sheet_fields(record.place, units));
     return all;
 }
 
-std::string json_line(const Record& record) {
-    return json_line(fields(record));
-}
-
-std::string csv_header(bool has_sheets) {
+std::string csv_header(bool has_sheets, Units units) {
     Record record;
     record.has_sheets = has_sheets;
-    return csv_header(fields(record));
-}
-
-std::string csv_line(const Record& record) {
-    return csv_line(fields(record));
+    return csv_header(fields(record, units));
 }
 
 }  // namespace dotpose::cli

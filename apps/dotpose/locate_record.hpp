@@ -7,6 +7,7 @@
 
 #include "dotpose/tools/follower.hpp"
 #include "fields.hpp"
+#include "pose_fields.hpp"
 
 namespace dotpose::cli {
 
@@ -36,12 +37,9 @@ std::string warning(const Record& record);
 std::string reason(const Record& record);
 
 /// Returns the fields in the order of the output.
-std::vector<Field> fields(const Record& record);
+std::vector<Field> fields(const Record& record, Units units);
 
-/// These functions return a line with its line break. JSON has only the fields with a value, CSV
-/// has all columns. In JSON, bytes of a file name that are not UTF-8 are replaced.
-std::string json_line(const Record& record);
-std::string csv_header(bool has_sheets);
-std::string csv_line(const Record& record);
+/// Returns the header line of a run with or without sheets, with its line break.
+std::string csv_header(bool has_sheets, Units units);
 
 }  // namespace dotpose::cli

@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kExamples =
     "Examples:\n"
-    "  dotpose optics --paper\n"
+    "  dotpose optics --device paper\n"
     "  dotpose optics --size 640x480 --pixel 3 --focal 4 --distance 25 --speed 500 --turn 120\n\n"
     "Lengths are those of a thin lens that is focused on the paper. Exit status 1 if the device\n"
     "would not work well.\n";
@@ -84,8 +84,13 @@ void add_optics(CLI::App& app, int& exit_code) {
     const auto add = [command](const char* flag, auto& value, const char* unit, const char* help) {
         return command->add_option(flag, value, help)->type_name(unit)->capture_default_str();
     };
-    CLI::Option* paper = command->add_flag("--paper", arguments->is_paper,
-                                           "The paper's device, and where the paper rounds");
+    CLI::Option* paper =
+        command
+            ->add_option_function<std::string>(
+                "--device", [arguments](const std::string&) { arguments->is_paper = true; },
+                "paper: the paper's device, and where the paper rounds")
+            ->type_name("NAME")
+            ->check(one_of({"paper"}));
     add_size_option(*command, arguments->size);
     add("--pixel", optics.pixel_um, "UM", "From pixel to pixel on the sensor, after binning");
     add("--focal", optics.focal_mm, "MM", "Focal length");

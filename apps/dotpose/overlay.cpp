@@ -9,6 +9,7 @@
 #include "commands.hpp"
 #include "common.hpp"
 #include "files/output_file.hpp"
+#include "output_arguments.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"
 #include "sheet_entries.hpp"
@@ -49,7 +50,7 @@ void run(OverlayArguments& arguments) {
     catch_interrupts();
     std::optional<SheetReservation> reservation;
     if (arguments.entries.given()) {
-        files::require_writable(arguments.out);
+        if (arguments.out != kStandardOutput) files::require_writable(arguments.out);
         options.place = [&](std::span<OverlaidPage> pages) {
             const auto enter_all = [&](SheetFile& file) {
                 for (auto& [number, sheet] : pages)
@@ -58,6 +59,7 @@ void run(OverlayArguments& arguments) {
             arguments.entries.reserve(enter_all, reservation);
         };
     }
+    const DocumentOutput output(arguments.out, ".pdf");
     OverlayReport report;
     {
         ProgressLine line("writing " + arguments.out);
@@ -65,11 +67,13 @@ void run(OverlayArguments& arguments) {
             line.update(rows_done, rows);
             return !interrupted();
         };
-        report = overlay_pdf(arguments.in, arguments.out, options);
+        report = overlay_pdf(arguments.in, output.path(), options);
     }
+    output.finish();
     if (reservation) arguments.entries.confirm(*reservation, arguments.out);
     for (const auto& [number, sheet] : report.pages)
-        fmt::print("{} {}: {}{}\n", printable(arguments.out), number, region_text(sheet),
+        fmt::print(output.report_stream(), "{} {}: {}{}\n", printable(arguments.out), number,
+                   region_text(sheet),
                    printable(arguments.entries.summary({number, report.pages.size() == 1})));
     for (const std::string& warning : report.warnings)
         tell("warning: " + warning);
@@ -96,7 +100,9 @@ void add_overlay(CLI::App& app, int& /*exit_code*/) {
     command->add_option("pdf", arguments->in, "Document that gets dots")
         ->type_name("FILE")
         ->required();
-    command->add_option("-o,--out", arguments->out, "PDF to write")->type_name("FILE")->required();
+    command->add_option("-o,--out", arguments->out, "PDF to write, or - for standard output")
+        ->type_name("FILE|-")
+        ->required();
     command
         ->add_option("--pages", options.pages, "Pages that get dots, such as 1-3,7; z is the last")
         ->type_name("RANGE")

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <fmt/core.h>
 
@@ -12,6 +14,7 @@
 #include "common.hpp"
 #include "dotpose/tools/test_page.hpp"
 #include "files/output_file.hpp"
+#include "output_arguments.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"
 #include "sheet_entries.hpp"
@@ -22,6 +25,7 @@ namespace {
 
 struct PrintArguments {
     std::string out;
+    std::string ending;  ///< of the format that was asked for, such as ".pdf"; empty for none
     std::string paper = "A4";
     bool landscape = false;
     SheetOptions sheet;
@@ -40,9 +44,30 @@ constexpr const char* kExamples =
     "  dotpose print -o tiles.pdf --pages 12 --origin 5000,0\n"
     "  dotpose print -o poster.png --paper A3 --landscape --origin 1000,2000 --dpi 1200\n\n"
     "  dotpose print -o table.pdf --sheets sheets.json --name table\n"
-    "  dotpose print -o test.pdf --test-page\n\n"
+    "  dotpose print -o test.pdf --test-page\n"
+    "  dotpose print -o - --format pdf | lp\n\n"
     "Print at 100 %, without \"fit to page\". Give each sheet an origin of its own, or let a\n"
     "sheet file do so: it is made if missing, and 'dotpose locate --sheets' reads it.\n";
+
+/// The formats, named after the endings of their files.
+const std::vector<std::string> kFormats = {"pdf", "svg", "png", "tif", "txt"};
+
+/// Returns the format of the output. Throws BadArgument if it is not known, or if the name of the
+/// file is that of another one.
+PrintFormat format_of(const PrintArguments& arguments) {
+    if (arguments.out == kStandardOutput) {
+        if (arguments.ending.empty()) {
+            throw BadArgument("-o - needs --format: " + alternatives(kFormats));
+        }
+        return print_format("document" + arguments.ending);
+    }
+    const PrintFormat format = print_format(arguments.out);
+    if (!arguments.ending.empty() && print_format("document" + arguments.ending) != format) {
+        throw BadArgument(fmt::format("--format {}: the name {} is that of another format",
+                                      arguments.ending.substr(1), arguments.out));
+    }
+    return format;
+}
 
 bool has_resolution(PrintFormat format) {
     return format != PrintFormat::text && format != PrintFormat::svg;
@@ -56,14 +81,20 @@ double default_margin_mm(PrintFormat format, const Paper& paper) {
     return format == PrintFormat::pdf && !is_small ? kWithLabels_mm : SheetOptions{}.margin_mm;
 }
 
+/// Returns the name of the document.
+std::string name_of(const PrintArguments& arguments) {
+    if (arguments.entries.given()) return arguments.entries.name();
+    if (arguments.out == kStandardOutput) return "sheet";
+    return std::filesystem::path(arguments.out).stem().string();
+}
+
 /// Runs `write`, shows its progress on the terminal and stops it after Ctrl-C.
 template <typename Write>
 void with_progress(const PrintArguments& arguments, const Write& write) {
     catch_interrupts();
     ProgressLine line("printing " + arguments.out);
     PrintOptions options = arguments.print;
-    options.name = arguments.entries.given() ? arguments.entries.name()
-                                             : std::filesystem::path(arguments.out).stem().string();
+    options.name = name_of(arguments);
     options.command = command_line();
     options.progress = [&line](int done, int total) {
         line.update(done, total);
@@ -78,13 +109,15 @@ void print_test_page(const PrintArguments& arguments, const Paper& paper) {
     options.paper = paper;
     options.margin_mm = std::max(options.margin_mm, arguments.margin_mm.value_or(0));
     const PrintPage page = make_test_page(options);
+    const DocumentOutput output(arguments.out, arguments.ending);
     with_progress(arguments, [&](const PrintOptions& print_options) {
-        write_page(page, arguments.out, print_options);
+        write_page(page, output.path(), print_options);
     });
-    fmt::print(
-        "{}: test page {:g} x {:g} mm, {} patches; print it, scan it, then run: dotpose "
-        "check-print SCAN\n",
-        arguments.out, page.width_mm, page.height_mm, page.sheets.size());
+    output.finish();
+    fmt::print(output.report_stream(),
+               "{}: test page {:g} x {:g} mm, {} patches; print it, scan it, then run: dotpose "
+               "check-print SCAN\n",
+               printable(arguments.out), page.width_mm, page.height_mm, page.sheets.size());
 }
 
 void require_apart(const PrintArguments& arguments) {
@@ -98,9 +131,9 @@ void run(const PrintArguments& arguments) {
     SheetOptions options = arguments.sheet;
     options.paper = paper_by_name(arguments.paper);
     if (arguments.landscape) options.paper = landscape(options.paper);
+    const PrintFormat format = format_of(arguments);
     if (arguments.test_page) return print_test_page(arguments, options.paper);
     options.pattern = arguments.pattern.pattern();
-    const PrintFormat format = print_format(arguments.out);
     options.margin_mm = arguments.margin_mm.value_or(default_margin_mm(format, options.paper));
     std::vector<Sheet> sheets = make_sheets(options, arguments.pages);
     const auto page = [&sheets](std::size_t i) {
@@ -108,7 +141,7 @@ void run(const PrintArguments& arguments) {
     };
     std::optional<SheetReservation> reservation;
     if (arguments.entries.given()) {
-        files::require_writable(arguments.out);
+        if (arguments.out != kStandardOutput) files::require_writable(arguments.out);
         catch_interrupts();
         const auto enter_all = [&](SheetFile& file) {
             for (std::size_t i = 0; i < sheets.size(); ++i)
@@ -116,17 +149,20 @@ void run(const PrintArguments& arguments) {
         };
         arguments.entries.reserve(enter_all, reservation);
     }
+    const DocumentOutput output(arguments.out, arguments.ending);
     with_progress(arguments, [&](const PrintOptions& print_options) {
-        write_sheets(sheets, arguments.out, print_options);
+        write_sheets(sheets, output.path(), print_options);
     });
+    output.finish();
     if (reservation) arguments.entries.confirm(*reservation, arguments.out);
     const std::string resolution =
         has_resolution(format) ? fmt::format(", {:g} dpi", arguments.print.dpi) : "";
     for (std::size_t i = 0; i < sheets.size(); ++i) {
         const std::string number =
             sheets.size() > 1 ? fmt::format("{}/{}, ", i + 1, sheets.size()) : "";
-        fmt::print("{}: {}{}{}{}\n", printable(arguments.out), number, region_text(sheets[i]),
-                   resolution, printable(arguments.entries.summary(page(i))));
+        fmt::print(output.report_stream(), "{}: {}{}{}{}\n", printable(arguments.out), number,
+                   region_text(sheets[i]), resolution,
+                   printable(arguments.entries.summary(page(i))));
     }
 }
 
@@ -136,9 +172,18 @@ void add_print(CLI::App& app, int& /*exit_code*/) {
     const auto arguments = std::make_shared<PrintArguments>();
     CLI::App* command = app.add_subcommand("print", "Make a sheet of dots to print");
     command->footer(kExamples);
-    command->add_option("-o,--out", arguments->out, "File to write: .pdf, .svg, .png, .tif or .txt")
-        ->type_name("FILE")
+    command
+        ->add_option("-o,--out", arguments->out,
+                     "File to write: .pdf, .svg, .png, .tif or .txt, or - for standard output")
+        ->type_name("FILE|-")
         ->required();
+    command
+        ->add_option_function<std::string>(
+            "--format", [arguments](const std::string& name) { arguments->ending = '.' + name; },
+            "Of the file: " + alternatives(kFormats))
+        ->type_name("NAME")
+        ->default_str("by the ending of its name")
+        ->check(one_of(kFormats));
     command
         ->add_option("--paper", arguments->paper,
                      "A0 to A6, Letter, Legal, Tabloid or WIDTHxHEIGHT in mm")

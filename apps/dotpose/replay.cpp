@@ -8,6 +8,8 @@
 #include "commands.hpp"
 #include "dotpose/files/error.hpp"
 #include "files/output_file.hpp"
+#include "lines.hpp"
+#include "output_arguments.hpp"
 #include "run_files.hpp"
 #include "run_log.hpp"
 #include "terminal_text.hpp"
@@ -18,14 +20,14 @@ namespace {
 constexpr const char* kExamples =
     "Examples:\n"
     "  dotpose watch run.mp4 --log run.csv\n"
-    "  dotpose replay run.csv -o run.svg\n"
-    "  dotpose replay run.csv --json\n\n"
+    "  dotpose replay run.csv --draw run.svg\n"
+    "  dotpose replay run.csv --format json -o run.json\n\n"
     "The picture shows the path, and speed, dots and certainty over time, with all gaps.\n";
 
 struct ReplayArguments {
     std::string log;
-    std::string out;
-    bool json = false;
+    std::string picture;
+    ReportArguments report;
 };
 
 std::string list_of(const std::map<std::string, std::int64_t>& counts) {
@@ -39,9 +41,10 @@ double share(std::int64_t part, std::int64_t whole) {
     return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0;
 }
 
-void print_text(const RunStatistics& run) {
-    const auto line = [](const char* what, const std::string& value) {
-        fmt::print("{:<28}{}\n", what, value);
+std::string text_report(const RunStatistics& run) {
+    std::string text;
+    const auto line = [&text](const char* what, const std::string& value) {
+        text += fmt::format("{:<28}{}\n", what, value);
     };
     line("frames", fmt::format("{}", run.frames));
     line("duration", fmt::format("{:.3f} s", run.duration_s));
@@ -56,9 +59,10 @@ void print_text(const RunStatistics& run) {
     line("speed while moving", fmt::format("mean {:.1f} mm/s, largest {:.1f} mm/s",
                                            run.mean_speed_mm_s, run.largest_speed_mm_s));
     line("largest p_wrong", fmt::format("{:.3g}", run.largest_p_wrong));
+    return text;
 }
 
-void print_json(const RunStatistics& run) {
+std::string json_report(const RunStatistics& run) {
     const nlohmann::ordered_json json = {{"frames", run.frames},
                                          {"duration_s", run.duration_s},
                                          {"fixes", run.fixes},
@@ -73,24 +77,23 @@ void print_json(const RunStatistics& run) {
                                          {"mean_speed_mm_s", run.mean_speed_mm_s},
                                          {"largest_speed_mm_s", run.largest_speed_mm_s},
                                          {"largest_p_wrong", run.largest_p_wrong}};
-    fmt::print("{}\n", with_escaped_controls(
-                           json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace)));
+    return with_escaped_controls(
+               json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace)) +
+           '\n';
 }
 
 void run(const ReplayArguments& arguments) {
     RunFiles files;
     files.reads("", arguments.log);
-    files.writes("-o", arguments.out, Content::svg);
-    if (!arguments.out.empty()) files::require_writable(arguments.out);
+    files.writes("-o", arguments.report.out, content_of(arguments.report));
+    files.writes("--draw", arguments.picture, Content::svg);
+    if (!arguments.picture.empty()) files::require_writable(arguments.picture);
     const auto rows = read_log(arguments.log);
     const RunStatistics statistics = statistics_of(rows);
-    if (arguments.json) {
-        print_json(statistics);
-    } else {
-        print_text(statistics);
-    }
-    if (arguments.out.empty()) return;
-    files::OutputFile file(arguments.out);
+    Lines(arguments.report.out)
+        .write(arguments.report.as_json ? json_report(statistics) : text_report(statistics));
+    if (arguments.picture.empty()) return;
+    files::OutputFile file(arguments.picture);
     file.write(draw_run(rows, std::filesystem::path(arguments.log).filename().string()));
     file.commit();
 }
@@ -105,8 +108,8 @@ void add_replay(CLI::App& app, int&) {
     command->add_option("log", arguments->log, "CSV file of dotpose watch --log")
         ->type_name("FILE")
         ->required();
-    command->add_option("-o,--out", arguments->out, "Picture to draw (SVG)")->type_name("FILE");
-    command->add_flag("--json", arguments->json, "Print one JSON object");
+    add_report_options(*command, arguments->report);
+    add_draw_option(*command, arguments->picture, "Also draw the run (SVG)");
     command->callback([arguments] { run(*arguments); });
 }
 

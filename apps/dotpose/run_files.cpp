@@ -34,6 +34,8 @@ const char* name(Content content) {
             return "an SVG picture";
         case Content::packets:
             return "pose packets";
+        case Content::text:
+            return "a report";
         case Content::own:
             break;
     }
@@ -70,6 +72,10 @@ Content content_of(RecordFormat format) {
     return format == RecordFormat::csv ? Content::csv : Content::json;
 }
 
+Content content_of(const ReportArguments& report) {
+    return report.as_json ? Content::json : Content::text;
+}
+
 std::optional<FileIdentity> identity_of(const std::string& path) {
     if (path.empty()) return std::nullopt;
     struct stat found {};
@@ -100,14 +106,18 @@ void RunFiles::reads(const std::string& option, const std::vector<std::string>& 
 
 void RunFiles::writes(const std::string& option, const std::string& path, Content content) {
     if (path.empty()) return;
+    if (path == "-") {
+        if (option == "-o") return add_output("standard output", "/dev/stdout");
+        throw BadArgument(fmt::format(
+            "{} - needs the name of a file: only -o takes - for standard output", option));
+    }
     const std::string label = label_of(option, path);
     require_fitting_name(label, path, content);
     add_output(label, path);
 }
 
 void RunFiles::writes_lines(const std::string& path, Content content) {
-    if (!path.empty()) return writes("-o", path, content);
-    add_output("standard output", "/dev/stdout");
+    writes("-o", path.empty() ? "-" : path, content);
 }
 
 void RunFiles::updates(const std::string& option, const std::string& path, Content content) {

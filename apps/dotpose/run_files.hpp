@@ -15,13 +15,15 @@
 #include <sys/types.h>
 
 #include "fields.hpp"
+#include "output_arguments.hpp"
 
 namespace dotpose::cli {
 
 /// The kind of data in an output file; `own` means that the ending of its name chooses the format.
-enum class Content { json, csv, yaml, svg, packets, own };
+enum class Content { json, csv, yaml, svg, packets, text, own };
 
 Content content_of(RecordFormat format);
+Content content_of(const ReportArguments& report);
 
 /// Identity of a file: names with equal identities refer to one file, whatever links and folders
 /// they contain. Names of new files that differ only in upper and lower case have equal identities.
@@ -47,7 +49,8 @@ class RunFiles {
 
     /// Registers an output. It is refused if the ending of its name is that of an image or video
     /// of another kind than `content`: with `-o frames/*.png`, where the name of the output is
-    /// missing, the first frame would be overwritten.
+    /// missing, the first frame would be overwritten. "-" is standard output for `-o`, and refused
+    /// for other options.
     void writes(const std::string& option, const std::string& path, Content content);
 
     /// Registers the output of lines to the file of `-o`, or to standard output without it.

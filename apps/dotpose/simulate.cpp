@@ -18,6 +18,7 @@
 #include "commands.hpp"
 #include "common.hpp"
 #include "dotpose/tools/image_file.hpp"
+#include "output_arguments.hpp"
 #include "progress.hpp"
 #include "terminal_text.hpp"
 
@@ -45,7 +46,8 @@ struct NumberOption {
     double Imperfections::*member;
 };
 constexpr NumberOption kNumberOptions[] = {
-    {"--paper", "LEVEL", "Grey level of paper at the image centre", &Imperfections::paper_level},
+    {"--paper-level", "LEVEL", "Grey level of paper at the image centre",
+     &Imperfections::paper_level},
     {"--ink", "FRACTION", "Reflectance of ink, relative to paper", &Imperfections::ink_reflectance},
     {"--palest-ink", "FRACTION", "Contrast of the palest of four inks, one for each direction",
      &Imperfections::palest_ink},
@@ -188,6 +190,9 @@ std::vector<std::string> write_frames(const SimulateArguments& arguments, int fi
 }
 
 void prepare(SimulateArguments& arguments, bool section_given) {
+    if (arguments.out == kStandardOutput) {
+        throw BadArgument("-o takes a folder here; frames cannot go to standard output");
+    }
     arguments.setup.pattern = arguments.pattern.pattern();
     arguments.setup.random_section = !section_given;
     for (const double coordinate : arguments.at_grid.values) {

@@ -12,6 +12,7 @@
 #include "common.hpp"
 #include "dotpose/files/error.hpp"
 #include "exit_codes.hpp"
+#include "old_spellings.hpp"
 #include "terminal_text.hpp"
 #include "usage_errors.hpp"
 
@@ -91,7 +92,14 @@ CommandLine::CommandLine(const AddCommands& add)
 
 int tool_main(int argc, char** argv, const AddCommands& add) noexcept {
     try {
-        return run(argc, argv, add);
+        Respelt line = in_new_spelling({argv + 1, argv + argc});
+        for (const std::string& note : line.notes)
+            tell(note);
+        std::vector<char*> words = {argv[0]};
+        for (std::string& word : line.words)
+            words.push_back(word.data());
+        words.push_back(nullptr);
+        return run(static_cast<int>(words.size()) - 1, words.data(), add);
     } catch (const std::exception& error) {
         tell(error.what());
         return kExitFailed;

@@ -13,7 +13,7 @@ namespace dotpose::manuals {
 namespace {
 
 ValueKind kind_of(const std::string& type) {
-    const std::set<std::string> files = {"FILE", "FILE|-", "IMAGE", "SCAN", "SOURCE"};
+    const std::set<std::string> files = {"FILE", "FILE|-", "FILE|-|DIR", "IMAGE", "SCAN", "SOURCE"};
     if (type.empty()) return ValueKind::none;
     if (files.contains(type)) return ValueKind::file;
     return type == "DIR" ? ValueKind::folder : ValueKind::text;
@@ -52,8 +52,10 @@ CommandText text_of(CLI::App& command) {
     text.name = command.get_name();
     text.what = command.get_description();
     text.notes = command.get_footer();
-    for (CLI::Option* option : command.get_options())
-        text.options.push_back(text_of(*option));
+    for (CLI::Option* option : command.get_options()) {
+        // Earlier spellings have no group, and no help shows them.
+        if (!option->get_group().empty()) text.options.push_back(text_of(*option));
+    }
     return text;
 }
 

@@ -182,7 +182,7 @@ TEST_F(AnyCode, a_page_tells_it_to_check_print) {
 
 TEST_F(AnyCode, each_frame_is_evaluated_by_itself) {
     ASSERT_EQ(ToolCommand::run("simulate -o frames --frames 8 --seed 3 --code libdots"), 0);
-    ASSERT_EQ(ToolCommand::run("evaluate frames --code auto --json"), 0);
+    ASSERT_EQ(ToolCommand::run("evaluate frames --code auto --format json"), 0);
     const json any = json::parse(output_);
     EXPECT_EQ(any["wrong"], 0) << any;
     EXPECT_GE(any["located"], 6) << any;

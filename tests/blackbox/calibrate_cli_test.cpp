@@ -34,7 +34,7 @@ TEST_F(CalibrateCommand, WritesACameraFileThatLocateReads) {
     const json known = json::parse(output_);
     EXPECT_NEAR(record["x_mm"].get<double>(), known["x_mm"].get<double>(), 0.006);
     EXPECT_NEAR(record["y_mm"].get<double>(), known["y_mm"].get<double>(), 0.006);
-    ASSERT_EQ(run("evaluate frames --camera camera.yaml --json"), 0) << errors_;
+    ASSERT_EQ(run("evaluate frames --camera camera.yaml --format json"), 0) << errors_;
     EXPECT_EQ(json::parse(output_)["wrong"], 0);
 }
 
@@ -56,7 +56,7 @@ TEST_F(CalibrateCommand, LocateAbsorbsAnUnknownLensOfUpToFivePercent) {
                           k + " --frames " + std::to_string(c.frames)),
                       0)
                 << errors_;
-            ASSERT_EQ(run("evaluate frames --json"), 0) << errors_;
+            ASSERT_EQ(run("evaluate frames --format json"), 0) << errors_;
             const json score = json::parse(output_);
             SCOPED_TRACE(std::string(c.size) + ", k " + k + ": " + output_);
             EXPECT_EQ(score["wrong"], 0);
@@ -87,7 +87,7 @@ TEST_F(CalibrateCommand, FindsReferenceAndHeading) {
     std::ofstream(directory_ / "lens.yaml")
         << "{format: dotpose-camera, version: 1, width_px: 188, height_px: 120, "
            "k_per_px2: -8.7e-06, centre_px: [93.5, 59.5], mm_per_px: [0.046, 0.046]}";
-    ASSERT_EQ(run("calibrate --camera lens.yaml -o robot.yaml --draw-spin turn.svg --spin" + turn +
+    ASSERT_EQ(run("calibrate --camera lens.yaml -o robot.yaml --draw turn.svg --spin" + turn +
                   " --drive" + drive),
               0)
         << errors_;
@@ -134,13 +134,13 @@ TEST_F(CalibrateCommand, ACameraFileOfAnotherSizeIsAnErrorOfEachImage) {
 }
 
 TEST_F(CalibrateCommand, OpticsGivesThePapersNumbers) {
-    ASSERT_EQ(run("optics --paper"), 0) << errors_;
+    ASSERT_EQ(run("optics --device paper"), 0) << errors_;
     for (const char* number : {"5.39 mm", "353 mm/s", "785 rpm", "10.19 mm"})
         EXPECT_THAT(output_, HasSubstr(number));
     EXPECT_EQ(run("optics --distance 60"), 1);  // too far off
     EXPECT_THAT(output_, HasSubstr("CHANGE: "));
     EXPECT_EQ(run("optics --distance 5"), 2);
-    EXPECT_EQ(run("optics --paper --focal 4"), 2);
+    EXPECT_EQ(run("optics --device paper --focal 4"), 2);
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ TEST_F(CheckPrintCommand, tells_people_what_is_wrong_and_why) {
     settings.scale_x = settings.scale_y = 0.97;
     settings.missing = 0.05;
     write_jpeg("scan.jpg", scan_of_60_x_50_mm(settings), 600);
-    run("check-print scan.jpg -o map.svg");
+    run("check-print scan.jpg --draw map.svg");
     EXPECT_EQ(exit_code_, 3) << errors_;
     EXPECT_THAT(errors_, IsEmpty());
     EXPECT_THAT(output_, StartsWith("scan.jpg: 1417 x 1181 px, 600 dpi\n"));
@@ -191,7 +191,7 @@ TEST_F(CheckPrintCommand, without_a_resolution_nothing_is_said_of_scale) {
 TEST_F(CheckPrintCommand, a_scan_without_a_pattern_is_status_1) {
     const GreyImage blank{std::vector<std::uint8_t>(400 * 300, 230), 400, 300};
     write_pgm(directory_ / "blank.pgm", blank.view());
-    run("check-print blank.pgm -o map.svg");
+    run("check-print blank.pgm --draw map.svg");
     EXPECT_EQ(exit_code_, 1);
     EXPECT_EQ(output_, "blank.pgm: 400 x 300 px\nno pattern was found in this image\n");
     EXPECT_FALSE(fs::exists(directory_ / "map.svg"));
@@ -247,7 +247,7 @@ TEST_F(CheckPrintCommand, wrong_usage_is_status_2) {
         "check-print blank.pgm --dpi 0",                //
         "check-print blank.pgm --dpi x",                //
         "check-print blank.pgm --format csv",           //
-        "check-print blank.pgm -o map.jpg",             //
+        "check-print blank.pgm --draw map.jpg",         //
         "check-print blank.pgm --spacing 0",            //
         "check-print blank.pgm --displacement 0.4",     //
         "check-print blank.pgm --section 1,1",          // it is found

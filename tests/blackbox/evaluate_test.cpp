@@ -68,14 +68,14 @@ constexpr std::size_t kSectionU = 6;
 
 TEST_F(EvaluateCommand, AFolderGivesTheNumbersOfTheSameFramesInMemory) {
     ASSERT_EQ(run("simulate -o frames --frames 10 --seed 7"), 0) << errors_;
-    ASSERT_EQ(run("evaluate frames --json"), 0) << errors_;
+    ASSERT_EQ(run("evaluate frames --format json"), 0) << errors_;
     const json folder = result();
     EXPECT_EQ(folder["frames"], 10);
     EXPECT_EQ(folder["located"], 10);
     EXPECT_EQ(folder["wrong"], 0);
     EXPECT_GT(folder["position_um"]["median"], 0);
     EXPECT_LT(folder["position_um"]["max"], 10);
-    ASSERT_EQ(run("evaluate --preset nominal --frames 10 --seed 7 --json"), 0) << errors_;
+    ASSERT_EQ(run("evaluate --preset nominal --frames 10 --seed 7 --format json"), 0) << errors_;
     const json memory = result();
     EXPECT_EQ(memory["located"], folder["located"]);
     // truth.csv has 8 decimals of a grid unit.
@@ -86,12 +86,12 @@ TEST_F(EvaluateCommand, AFolderGivesTheNumbersOfTheSameFramesInMemory) {
 TEST_F(EvaluateCommand, ATamperedPositionOrSectionIsAWrongFix) {
     ASSERT_EQ(run("simulate -o frames --frames 3 --section 3,4"), 0) << errors_;
     tamper({{kXGrid, "12345"}});
-    ASSERT_EQ(run("evaluate frames --json"), 0) << errors_;
+    ASSERT_EQ(run("evaluate frames --format json"), 0) << errors_;
     EXPECT_EQ(result()["wrong"], 1);
     EXPECT_EQ(result()["located"], 2);
     ASSERT_EQ(run("simulate -o frames --frames 3 --section 3,4"), 0) << errors_;
     tamper({{kSectionU, "5"}});
-    ASSERT_EQ(run("evaluate frames --json"), 0) << errors_;
+    ASSERT_EQ(run("evaluate frames --format json"), 0) << errors_;
     EXPECT_EQ(result()["wrong"], 1);
 }
 
@@ -100,15 +100,15 @@ TEST_F(EvaluateCommand, FramesWithoutFixAreShownByStatusAndAreNoFailure) {
     ASSERT_EQ(run("evaluate frames"), 0) << errors_;
     EXPECT_THAT(output_, HasSubstr("not located: "));
     EXPECT_THAT(output_, HasSubstr("0 (0.00 %)"));
-    ASSERT_EQ(run("evaluate frames --json"), 0);
+    ASSERT_EQ(run("evaluate frames --format json"), 0);
     EXPECT_TRUE(result()["position_um"]["median"].is_null());
 }
 
 TEST_F(EvaluateCommand, ProfileAndSpacingAreTakenFromTheTruthUnlessGiven) {
     ASSERT_EQ(run("simulate -o frames --frames 2 --code microdots --spacing 0.6"), 0);
-    ASSERT_EQ(run("evaluate frames --json"), 0);
+    ASSERT_EQ(run("evaluate frames --format json"), 0);
     EXPECT_EQ(result()["located"], 2);
-    ASSERT_EQ(run("evaluate frames --code anoto --json"), 0);
+    ASSERT_EQ(run("evaluate frames --code anoto --format json"), 0);
     EXPECT_EQ(result()["located"], 0);
 }
 
@@ -119,15 +119,15 @@ TEST_F(EvaluateCommand, ACameraFileIsUsedAsLocateDoes) {
         << "{format: dotpose-camera, version: 1, width_px: 188, height_px: 120, k_per_px2: "
            "-8.7e-06, centre_px: [93.5, 59.5], mm_per_px: [0.046, 0.046], reference_px: "
            "[202.195652, 59.5], theta_offset_rad: 1.570796327}";
-    ASSERT_EQ(run("evaluate frames --k -8.7e-6 --json"), 0) << errors_;
+    ASSERT_EQ(run("evaluate frames --k -8.7e-6 --format json"), 0) << errors_;
     const json lens_alone = result();
-    ASSERT_EQ(run("evaluate frames --camera robot.yaml --json"), 0) << errors_;
+    ASSERT_EQ(run("evaluate frames --camera robot.yaml --format json"), 0) << errors_;
     const json image = result();
     EXPECT_EQ(image["located"], 5);
     EXPECT_LT(image["position_um"]["max"], 5);
     // The view is used as well: of five parameters instead of eight, the angle is more exact.
     EXPECT_NE(image["angle_deg"]["max"], lens_alone["angle_deg"]["max"]);
-    ASSERT_EQ(run("evaluate frames --camera robot.yaml --truth robot --json"), 0) << errors_;
+    ASSERT_EQ(run("evaluate frames --camera robot.yaml --truth robot --format json"), 0) << errors_;
     EXPECT_EQ(result()["wrong"], 5);  // truth.csv has the image centre
 
     std::ofstream truth(directory_ / "frames/truth.csv");
@@ -138,7 +138,7 @@ TEST_F(EvaluateCommand, ACameraFileIsUsedAsLocateDoes) {
     for (int i = 0; i < 5; ++i)
         truth << "frame_00000" << i << ".pgm,120," << x << ',' << y << '\n';
     truth.close();
-    ASSERT_EQ(run("evaluate frames --camera robot.yaml --truth robot --json"), 0) << errors_;
+    ASSERT_EQ(run("evaluate frames --camera robot.yaml --truth robot --format json"), 0) << errors_;
     EXPECT_EQ(result()["located"], 5);
     // An angle of 0.03 degrees is 3 um at 5 mm; the truth was written with 6 digits.
     EXPECT_LT(result()["position_um"]["max"], 15);
@@ -159,7 +159,7 @@ TEST_F(EvaluateCommand, WhatCannotBeReadIsNamedAndTheRestIsDone) {
     EXPECT_THAT(errors_, HasSubstr("nowhere"));
     ASSERT_EQ(run("simulate -o frames --frames 2"), 0);
     fs::remove(directory_ / "frames/frame_000001.pgm");
-    EXPECT_EQ(run("evaluate frames --json"), 1);
+    EXPECT_EQ(run("evaluate frames --format json"), 1);
     EXPECT_THAT(errors_, HasSubstr("frame_000001.pgm"));
     EXPECT_EQ(result()["frames"], 1);
     EXPECT_EQ(result()["unreadable"], 1);

@@ -40,7 +40,7 @@ TEST_F(Hostile, FileNamesDoNotActOnTheTerminal) {
     const std::string name = std::string("evil") + kActs + ".pgm";
     fs::rename(directory_ / "frames/frame_000000.pgm", directory_ / name);
     put(std::string("none") + kActs + ".pgm", "P5 none");
-    for (const char* format : {"jsonl", "csv"}) {
+    for (const char* format : {"json", "csv"}) {
         run(std::string("locate --format ") + format + " evil* none*");
         expect_harmless(output_);
         expect_harmless(errors_);
@@ -189,18 +189,18 @@ TEST_F(Hostile, AbsurdNumbersOfALogAreRefused) {
 
 TEST_F(Hostile, AMapThatCannotBeWrittenIsToldBeforeTheRun) {
     simulate(3);
-    EXPECT_EQ(run("watch frames --map /nonexistent/x.svg"), 1);
+    EXPECT_EQ(run("watch frames --draw /nonexistent/x.svg"), 1);
     EXPECT_THAT(errors_, HasSubstr("cannot create /nonexistent/x.svg: No such file or directory"));
     EXPECT_EQ(output_, "");
     EXPECT_EQ(run("watch frames --record /nonexistent/x.mp4"), 1);
     EXPECT_EQ(output_, "");
-    EXPECT_EQ(run("fleet --mqtt mqtt://127.0.0.1:1 --map /nonexistent/x.svg"), 1);
+    EXPECT_EQ(run("fleet --mqtt mqtt://127.0.0.1:1 --draw /nonexistent/x.svg"), 1);
     EXPECT_THAT(errors_, HasSubstr("cannot create /nonexistent/x.svg"));
 }
 
 TEST_F(Hostile, AReaderThatLeavesEndsNeitherMapNorLog) {
     simulate(40);
-    EXPECT_EQ(shell("\"$T\" watch frames --map map.svg --log log.csv | head -n 1"), 0);
+    EXPECT_EQ(shell("\"$T\" watch frames --draw map.svg --log log.csv | head -n 1"), 0);
     EXPECT_EQ(std::ranges::count(output_, '\n'), 1);
     EXPECT_EQ(std::ranges::count(file("log.csv"), '\n'), 41);
     EXPECT_THAT(file("map.svg"), HasSubstr("40 frames"));

@@ -96,8 +96,8 @@ TEST_F(Listen, CountsDamagedAndLostPackets) {
     put(std::string("half a packet") + '\0' + on_the_line(packet_at(1, 1)) + damaged +
         on_the_line(packet_at(3, 3)));
     ASSERT_EQ(run("listen - --format csv", (directory_ / "packets.bin").string()), 0);
-    EXPECT_THAT(output_, HasSubstr("\n1,20000,ok,"));
-    EXPECT_THAT(output_, HasSubstr("\n3,60000,ok,"));
+    EXPECT_THAT(output_, HasSubstr("\n1,1,20000,ok,"));
+    EXPECT_THAT(output_, HasSubstr("\n1,3,60000,ok,"));
     EXPECT_EQ(std::ranges::count(output_, '\n'), 3);
     EXPECT_EQ(errors_, "dotpose: 2 packets, 2 stretches damaged, 1 packets lost\n");
 }

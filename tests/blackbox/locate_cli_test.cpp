@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "../xml_check.hpp"
+#include "csv_columns.hpp"
 #include "locate_command.hpp"
 
 namespace dotpose::test {
@@ -193,14 +194,7 @@ TEST_F(LocateCommand, csv_says_the_same_as_json) {
         ASSERT_EQ(cells.size(), header.size());
         for (std::size_t i = 0; i < cells.size(); ++i) {
             if (header[i] == "elapsed_us") continue;
-            json value;
-            if (header[i] == "section_u" && expected[row].contains("section")) {
-                value = expected[row]["section"][0];
-            } else if (header[i] == "section_v" && expected[row].contains("section")) {
-                value = expected[row]["section"][1];
-            } else if (expected[row].contains(header[i])) {
-                value = expected[row][header[i]];
-            }
+            const json value = value_in(expected[row], header[i]);
             if (value.is_null()) {
                 EXPECT_EQ(cells[i], "") << header[i];
             } else if (value.is_string()) {

@@ -89,10 +89,9 @@ TEST_F(Completions, OfBashOfferAllOptionsThatTheHelpHas) {
 }
 
 TEST_F(Completions, OfBashOfferValues) {
-    EXPECT_EQ(bash_offers("dotpose locate --format \"\""),
-              (Words{"+o", "default", "jsonl", "csv"}));
+    EXPECT_EQ(bash_offers("dotpose locate --format \"\""), (Words{"+o", "default", "json", "csv"}));
     EXPECT_EQ(bash_offers("dotpose locate --format = c"), (Words{"+o", "default", "csv"}));
-    EXPECT_EQ(bash_offers("dotpose locate --format ="), (Words{"+o", "default", "jsonl", "csv"}));
+    EXPECT_EQ(bash_offers("dotpose locate --format ="), (Words{"+o", "default", "json", "csv"}));
     EXPECT_EQ(bash_offers("dotpose watch 0 --code micro"), (Words{"+o", "default", "microdots"}));
     EXPECT_EQ(bash_offers("dotpose simulate -o \"\""), (Words{"+o", "default", "-o", "dirnames"}));
     EXPECT_THAT(bash_offers("dotpose locate --sheets \"\""), IsEmpty()) << "files are the default";
@@ -112,7 +111,7 @@ TEST_F(Completions, OfFish) {
     EXPECT_EQ(offers("dotpose wat"), Words{"watch"});
     EXPECT_EQ(offers("dotpose help wat"), Words{"watch"});
     EXPECT_EQ(offers("dotpose locate --forma"), Words{"--format"});
-    EXPECT_EQ(offers("dotpose locate --format "), (Words{"jsonl", "csv"}));
+    EXPECT_EQ(offers("dotpose locate --format "), (Words{"json", "csv"}));
     EXPECT_THAT(offers("dotpose locate dotpose.f"), Contains("dotpose.fish"));
     fs::create_directory(directory_ / "frames");
     EXPECT_EQ(offers("dotpose simulate -o "), Words{"frames/"});
@@ -139,7 +138,7 @@ TEST_F(Completions, OfZsh) {
     expect_becomes("dotpose wat", "dotpose watch ");
     expect_becomes("dotpose help wat", "dotpose help watch ");
     expect_becomes("dotpose locate --forma", "dotpose locate --format=");
-    expect_becomes("dotpose locate --format js", "dotpose locate --format jsonl ");
+    expect_becomes("dotpose locate --format js", "dotpose locate --format json ");
     expect_becomes("dotpose locate dotpose.f", "dotpose locate dotpose.fish ");
 }
 

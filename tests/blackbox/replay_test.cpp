@@ -41,7 +41,7 @@ class Replay : public ToolCommand {
 
 TEST_F(Replay, CountsARun) {
     put(std::string(kHeader) + kRows);
-    ASSERT_EQ(run("replay run.csv --json"), 0);
+    ASSERT_EQ(run("replay run.csv --format json"), 0);
     const json figures = json::parse(output_);
     EXPECT_EQ(figures["frames"], 12);
     EXPECT_NEAR(figures["duration_s"], 1.1, 1e-9);
@@ -62,7 +62,7 @@ TEST_F(Replay, CountsARun) {
 
 TEST_F(Replay, PrintsAndDraws) {
     put(std::string(kHeader) + kRows);
-    ASSERT_EQ(run("replay run.csv -o run.svg"), 0);
+    ASSERT_EQ(run("replay run.csv --draw run.svg"), 0);
     EXPECT_THAT(output_, HasSubstr("frames with a fix           9 (75.00 %)\n"));
     EXPECT_THAT(output_, HasSubstr("gaps                        1, the longest 0.300 s\n"));
     const std::string picture = file("run.svg");
@@ -80,13 +80,13 @@ TEST_F(Replay, PrintsAndDraws) {
 TEST_F(Replay, LeavesOutALineThatWasCutOff) {
     const std::string rows = kRows;
     put(kHeader + rows.substr(0, rows.size() - 12));
-    ASSERT_EQ(run("replay run.csv --json"), 0);
+    ASSERT_EQ(run("replay run.csv --format json"), 0);
     EXPECT_EQ(json::parse(output_)["frames"], 11);
 }
 
 TEST_F(Replay, OfNoFramesIsNoError) {
     put(kHeader);
-    ASSERT_EQ(run("replay run.csv -o run.svg"), 0);
+    ASSERT_EQ(run("replay run.csv --draw run.svg"), 0);
     EXPECT_THAT(output_, HasSubstr("frames                      0\n"));
     EXPECT_THAT(file("run.svg"), HasSubstr("</svg>"));
 }

@@ -135,7 +135,7 @@ TEST_F(Sources, WatchGoesOnFromOneToTheNext) {
 
 TEST_F(Sources, EvaluateFindsThePosesOfImagesByNameAndOfFramesByNumber) {
     const auto score = [this](const std::string& arguments) {
-        EXPECT_EQ(run("evaluate --json " + arguments), 0) << errors_;
+        EXPECT_EQ(run("evaluate --format json " + arguments), 0) << errors_;
         json all = json::parse(output_);
         all.erase("elapsed_us");
         return all;
@@ -163,12 +163,12 @@ TEST_F(Sources, EvaluateSaysWhichPosesAreMissing) {
     // The video is shorter than the file of poses, or longer.
     const std::string truth = file("frames/truth.csv");
     std::ofstream(directory_ / "more.csv") << truth << truth.substr(truth.find('\n') + 1);
-    EXPECT_EQ(run("evaluate drive.mkv --json --poses more.csv"), 1);
+    EXPECT_EQ(run("evaluate drive.mkv --format json --poses more.csv"), 1);
     EXPECT_THAT(errors_, HasSubstr("there is no frame 6"));
     EXPECT_EQ(json::parse(output_)["located"], kFrames);
     std::ofstream(directory_ / "less.csv")
         << truth.substr(0, truth.rfind('\n', truth.size() - 2) + 1);
-    EXPECT_EQ(run("evaluate drive.mkv --json --poses less.csv"), 0);
+    EXPECT_EQ(run("evaluate drive.mkv --format json --poses less.csv"), 0);
     EXPECT_THAT(errors_, HasSubstr("there are more frames than the 5 poses"));
 }
 

@@ -48,7 +48,7 @@ TEST_F(WatchMemory, IsTheSameAfterATenthOfTheRunAndAtItsEnd) {
         "(for ((i = 0; i < {}; ++i)); do cat drive.raw; done; exec sleep 3600) > pipe & writer=$!\n"
         "trap 'kill $writer' EXIT\n"
         "\"$T\" watch - --size 188x120 --fps 200 --sheets sheets.json -o run.jsonl --log run.csv "
-        "--map run.svg < pipe & watch=$!\n"
+        "--draw run.svg < pipe & watch=$!\n"
         "peak {}; peak {}; kill -INT $watch; wait $watch\n",
         cycles, frames / 10, frames);
     std::ofstream(directory_ / "script") << script;

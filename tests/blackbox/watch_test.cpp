@@ -187,7 +187,7 @@ TEST_F(Watch, FollowsADrive) {
 
 TEST_F(Watch, WritesLogMapPacketsAndVideo) {
     put_video(61, "drive.avi");
-    ASSERT_EQ(run(std::string("watch drive.avi --frames 60 --log run.csv --map run.svg "
+    ASSERT_EQ(run(std::string("watch drive.avi --frames 60 --log run.csv --draw run.svg "
                               "--record run.mp4 --packets run.bin --format csv ") +
                   kTrack),
               0);
@@ -334,7 +334,7 @@ TEST_F(Watch, StopsCleanlyOnAnInterrupt) {
     shell(
         "mkfifo pipe && bash -c '(cat drive.raw; exec sleep 30) > pipe & writer=$!; "
         "\"" DOTPOSE_TOOL "\" watch - " +
-        std::string(kRaw) + " --map run.svg -o run.jsonl " + kTrack +
+        std::string(kRaw) + " --draw run.svg -o run.jsonl " + kTrack +
         " < pipe 2> errors & pid=$!; "
         "until [ \"$(cat run.jsonl 2>/dev/null | wc -l)\" = 60 ]; do sleep 0.05; done; "
         "kill -INT $pid; wait $pid; echo $? > status; kill $writer'");

@@ -70,7 +70,7 @@ class WatchedFleet {
         : directory_(directory), thread_([directory, arguments] {
               run_shell("cd '" + directory.string() +
                         "' && echo $$ > fleet.pid && exec '" DOTPOSE_TOOL
-                        "' fleet --map fleet.svg --every 0.2 " +
+                        "' fleet --draw fleet.svg --every 0.2 " +
                         arguments + " > table 2> news");
           }) {
         wait_until([this] { return fs::exists(directory_ / "fleet.svg"); });
@@ -98,7 +98,7 @@ TEST_F(Fleet, SeesAWatchedRobot) {
     save_drive_sheets(directory_ / "table.json");
     std::thread fleet([&] {
         shell("'" DOTPOSE_TOOL "' fleet --mqtt " + broker.url() +
-              " --sheets table.json --map fleet.svg --seconds 4 --every 0.2");
+              " --sheets table.json --draw fleet.svg --seconds 4 --every 0.2");
     });
     wait_until([&] { return fs::exists(directory_ / "fleet.svg"); });  // it has subscribed
     EXPECT_EQ(

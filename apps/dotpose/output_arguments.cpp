@@ -1,0 +1,93 @@
+#include "output_arguments.hpp"
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+#include "choices.hpp"
+#include "dotpose/files/error.hpp"
+#include "lines.hpp"
+
+namespace dotpose::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+void add_out_option(CLI::App& command, std::string& out, const std::string& help) {
+    command.add_option("-o,--out", out, help)->type_name("FILE|-");
+}
+
+}  // namespace
+
+void add_line_options(CLI::App& command, LineArguments& arguments) {
+    command
+        .add_option_function<std::string>(
+            "--format",
+            [&arguments](const std::string& name) {
+                arguments.format = name == "csv" ? RecordFormat::csv : RecordFormat::json;
+            },
+            "json (an object per line) or csv")
+        ->type_name("NAME")
+        ->default_str("json")
+        ->check(one_of({"json", "csv"}));
+    command
+        .add_option_function<std::string>(
+            "--units",
+            [&arguments](const std::string& name) {
+                arguments.units = name == "ros" ? Units::ros : Units::mm;
+            },
+            "Of poses: mm (and degrees, y down) or ros (metres and radians, y up: REP 103)")
+        ->type_name("NAME")
+        ->default_str("mm")
+        ->check(one_of({"mm", "ros"}));
+    add_out_option(command, arguments.out, "File to write instead of standard output");
+}
+
+void add_report_options(CLI::App& command, ReportArguments& arguments,
+                        const std::string& out_help) {
+    command
+        .add_option_function<std::string>(
+            "--format",
+            [&arguments](const std::string& name) { arguments.as_json = name == "json"; },
+            "Of the report: text or json (one object)")
+        ->type_name("NAME")
+        ->default_str("text")
+        ->check(one_of({"text", "json"}));
+    add_out_option(command, arguments.out, out_help);
+}
+
+CLI::Option* add_draw_option(CLI::App& command, std::string& path, const std::string& help) {
+    return command.add_option("--draw", path, help)->type_name("FILE");
+}
+
+DocumentOutput::DocumentOutput(std::string out, const std::string& ending) : path_(std::move(out)) {
+    if (path_ != kStandardOutput) return;
+    folder_ = (fs::temp_directory_path() / "dotpose-XXXXXX").string();
+    if (mkdtemp(folder_.data()) == nullptr) {
+        throw Error("cannot create a temporary folder: " + std::string(std::strerror(errno)));
+    }
+    path_ = folder_ + "/document" + ending;
+}
+
+DocumentOutput::~DocumentOutput() {
+    std::error_code failed;
+    if (!folder_.empty()) fs::remove_all(folder_, failed);
+}
+
+void DocumentOutput::finish() const {
+    if (folder_.empty()) return;
+    std::ifstream file(path_, std::ios::binary);
+    Lines standard_output(kStandardOutput);
+    std::string part(1 << 16, '\0');
+    while (file) {
+        file.read(part.data(), static_cast<std::streamsize>(part.size()));
+        standard_output.write(part.substr(0, static_cast<std::size_t>(file.gcount())));
+    }
+    if (!file.eof()) throw Error("cannot read " + path_);
+}
+
+}  // namespace dotpose::cli

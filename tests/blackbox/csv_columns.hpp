@@ -1,0 +1,24 @@
+/// The columns of CSV, in which the lines of JSON say the same.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace dotpose::test {
+
+/// What a JSON line says in the column of the same line in CSV: null if nothing.
+inline nlohmann::json value_in(const nlohmann::json& line, const std::string& column) {
+    if (line.contains(column)) return line[column];
+    if (column == "section_u" && line.contains("section")) return line["section"][0];
+    if (column == "section_v" && line.contains("section")) return line["section"][1];
+    // covariance_mm_deg_12 is row 1, column 2 of a matrix of 3 x 3.
+    const std::size_t at = column.rfind('_');
+    const std::string name = column.substr(0, at);
+    if (at == std::string::npos || column.size() != at + 3 || !line.contains(name)) return {};
+    const auto digit = [&](std::size_t i) { return static_cast<std::size_t>(column[i] - '0'); };
+    return line[name].at(3 * digit(at + 1) + digit(at + 2));
+}
+
+}  // namespace dotpose::test
