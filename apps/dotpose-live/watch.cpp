@@ -100,14 +100,24 @@ void save(FrameSaver& saver, GreyImage& image, const Fix& fix, bool is_inverted)
     if (is_inverted) invert(image);
 }
 
-/// Follows the robot over all frames. Returns the exit status. Throws BadArgument if frames cannot
-/// be located with the arguments.
-int follow(const WatchArguments& arguments, capture::FrameSource& source, Follower& follower,
-           std::optional<FrameSaver>& saver, WatchOutputs& outputs, FailureHint& hint) {
+/// Returns the number of frames that will be followed, or 0 if it is not known.
+std::int64_t length_of(const WatchArguments& arguments, const Sources& sources,
+                       const capture::FrameSource& source) {
+    if (arguments.frames > 0) return arguments.frames;
+    const std::int64_t images = sources.number_of_images();
+    return images > 0 ? images : source.length();
+}
+
+/// Follows the robot over all frames, of which there are `length`, or 0 if that is not known.
+/// Returns the exit status. Throws BadArgument if frames cannot be located with the arguments.
+int follow(const WatchArguments& arguments, capture::FrameSource& source, std::int64_t length,
+           Follower& follower, std::optional<FrameSaver>& saver, WatchOutputs& outputs,
+           FailureHint& hint) {
     try {
         capture::Frame frame;
         bool is_warned = false;
         bool goes_on = true;
+        ProgressLine progress("following", arguments.outputs.lines.out);
         while (goes_on && source.next(frame)) {
             if (arguments.follower.is_inverted) invert(frame.image);
             const Reading reading = read(frame, follower);
@@ -117,6 +127,7 @@ int follow(const WatchArguments& arguments, capture::FrameSource& source, Follow
                 save(*saver, frame.image, reading.record.fix, arguments.follower.is_inverted);
             }
             goes_on = outputs.take(frame, reading, source.dropped());
+            progress.update(outputs.tally().frames, length);
             if (arguments.frames > 0 && outputs.tally().frames >= arguments.frames) break;
         }
     } catch (const BadArgument&) {
@@ -180,7 +191,8 @@ int run(WatchArguments& arguments) {
     if (!arguments.save.folder.empty()) saver.emplace(arguments.save);
     WatchOutputs outputs(arguments.outputs, follower);
     FailureHint hint;
-    int exit_code = follow(arguments, *source, follower, saver, outputs, hint);
+    const std::int64_t length = length_of(arguments, sources, *source);
+    int exit_code = follow(arguments, *source, length, follower, saver, outputs, hint);
     try {
         outputs.finish();
     } catch (const Error& error) {

@@ -36,7 +36,8 @@ constexpr const char* kExamples =
     "Take 5 to 50 frames of any printed sheet, some centimetres and any angle apart; 12 of the "
     "robot\n"
     "turning on the spot; some of it driving straight ahead. Of a video or a camera, up to 50\n"
-    "frames that show new places are taken. Exit status 1 if frames do not tell what is asked.\n";
+    "frames that show new places are taken; Ctrl-C ends the reading. Exit status 1 if frames do "
+    "not tell what is asked.\n";
 
 struct CalibrateArguments {
     SourceArguments sources;
@@ -219,7 +220,11 @@ int run(const CalibrateArguments& arguments) {
     catch_interrupts();
     const std::string report =
         arguments.stitch ? stitch(arguments, *series.lens) : calibrate_camera(arguments, series);
-    std::fputs(report.c_str(), arguments.out == kStandardOutput ? stderr : stdout);
+    if (arguments.out == kStandardOutput) {
+        std::fputs(report.c_str(), stderr);
+    } else {
+        std::fputs(for_standard_output(report).c_str(), stdout);
+    }
     return 0;
 }
 

@@ -61,9 +61,10 @@ void CalibrationFrames::choose(const std::string& source, const capture::SourceO
     std::int64_t frames = 0;
     std::int64_t located = 0;
     capture::Frame frame;
+    ProgressLine line("reading " + source);
     while (!(is_camera && chosen.size() == kMostChosen) && list.next(frame)) {
         const Located found = follower.locate(frame.image);
-        ++frames;
+        line.update(++frames, list.length());
         located += found.fix.status == Status::ok;
         if (found.reduced_by > 1 || !places.take(found.fix, frame.image.view())) continue;
         chosen.push_back(std::move(frame.image));
@@ -71,7 +72,9 @@ void CalibrationFrames::choose(const std::string& source, const capture::SourceO
         remove_every_second(chosen);
         places.thin_out();
     }
-    if (is_camera) forget_interrupt();
+    if (take_ctrl_c()) {
+        tell("no more frames are read; Ctrl-C once more ends without a result");
+    }
     if (interrupted()) throw Error("interrupted");
     if (located == 0) {
         throw Error(fmt::format("{}: none of its {} frames shows a pattern that can be located",

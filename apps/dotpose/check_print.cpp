@@ -18,7 +18,6 @@
 #include "dotpose/tools/draw.hpp"
 #include "dotpose/tools/image_file.hpp"
 #include "exit_codes.hpp"
-#include "lines.hpp"
 #include "output_arguments.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"
@@ -188,9 +187,8 @@ int run(const CheckPrintArguments& arguments) {
         draw_distortion(arguments.picture, scan.view(), check);
     }
     const CheckedScan checked{arguments.scan, scan.width_px, scan.height_px, sheets};
-    Lines(arguments.report.out)
-        .write(arguments.report.as_json ? json_report(checked, check)
-                                        : text_report(checked, check));
+    write_report(arguments.report, arguments.report.as_json ? json_report(checked, check)
+                                                            : text_report(checked, check));
     if (arguments.fit) {
         require_scan(arguments.scan, check);
         std::fputs(fit_sheets(arguments.sheets, sheets, check).c_str(), stderr);

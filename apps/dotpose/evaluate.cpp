@@ -1,11 +1,14 @@
 #include "dotpose/tools/evaluate.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <fmt/core.h>
@@ -18,7 +21,6 @@
 #include "dotpose/tools/score.hpp"
 #include "dotpose/tools/sweep.hpp"
 #include "known_frames.hpp"
-#include "lines.hpp"
 #include "output_arguments.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"
@@ -125,8 +127,31 @@ int report(const std::vector<Outcome>& outcomes, const ReportArguments& argument
         tell(outcome.problem);
         exit_code = kExitFailed;
     }
-    Lines(arguments.out).write(report_of(score_of(outcomes), arguments.as_json));
+    write_report(arguments, report_of(score_of(outcomes), arguments.as_json));
     return exit_code;
+}
+
+/// Evaluates some frames after the other, so that after Ctrl-C those that are done are kept.
+std::vector<Outcome> evaluate_in_parts(const FrameRun& all, ProgressLine& line) {
+    const int part = 16 * static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    std::vector<Outcome> outcomes;
+    for (int done = 0; done < all.frames && !interrupted(); done += part) {
+        FrameRun run = all;
+        run.frames = std::min(part, all.frames - done);
+        run.frame_at = [&all, done](int index) { return all.frame_at(done + index); };
+        run.progress = [&](int done_now, int) {
+            line.update(done + done_now, all.frames);
+            return true;
+        };
+        std::ranges::move(evaluate(run).front(), std::back_inserter(outcomes));
+    }
+    if (interrupted()) {
+        // Frames of a video that were not read any more have a problem, and were not evaluated.
+        std::erase_if(outcomes, [](const Outcome& outcome) { return !outcome.problem.empty(); });
+        tell(fmt::format("interrupted; the report is about the first {} of {} frames",
+                         outcomes.size(), all.frames));
+    }
+    return outcomes;
 }
 
 int evaluate_run(const EvaluateArguments& arguments, const std::string& what, FrameRun& run) {
@@ -141,8 +166,9 @@ int evaluate_run(const EvaluateArguments& arguments, const std::string& what, Fr
         };
     }
     run.threads = arguments.threads;
-    run.progress = progress_on(line);
-    return report(evaluate(run).front(), arguments.report);
+    const std::vector<Outcome> outcomes = evaluate_in_parts(run, line);
+    const int exit_code = report(outcomes, arguments.report);
+    return outcomes.size() < static_cast<std::size_t>(run.frames) ? kExitFailed : exit_code;
 }
 
 /// Locates the frames as `locate --camera` does. Images whose size is not that of the camera file
@@ -223,9 +249,12 @@ int evaluate_sweep(const EvaluateArguments& arguments) {
     options.locate = arguments.options;
     options.threads = arguments.threads;
     options.progress = progress_on(line);
-    write_sweep(arguments.report.out, run_sweep(*arguments.sweep, options));
+    const Sweep sweep = run_sweep(*arguments.sweep, options);
+    write_sweep(arguments.report.out, sweep);
     fmt::print("{0}/sweep-{1}.csv, {0}/sweep-{1}.svg and .png\n", arguments.report.out, kind);
-    return 0;
+    if (!interrupted()) return 0;
+    tell(fmt::format("interrupted; the sweep has the first {} values", sweep.points.size()));
+    return kExitFailed;
 }
 
 int evaluate_protocol(const EvaluateArguments& arguments) {

@@ -16,6 +16,7 @@
 #include "output_arguments.hpp"
 #include "picture_advice.hpp"
 #include "picture_folder.hpp"
+#include "progress.hpp"
 #include "run_files.hpp"
 #include "source_arguments.hpp"
 #include "terminal_text.hpp"
@@ -140,7 +141,12 @@ class LocateRun {
           lines_(arguments.lines.out),
           format_(arguments.lines.format),
           units_(arguments.lines.units),
-          frames_(sources.open(options_of(arguments))) {}
+          frames_(sources.open(options_of(arguments))),
+          images_(sources.number_of_images()),
+          progress_("locating", arguments.lines.out) {
+        // While the tool waits for a name in a pipe, a signal must end it. The lines are written.
+        if (!sources.has_pipe()) catch_interrupts();
+    }
 
     /// Returns the exit status. Throws Error if the lines cannot be written.
     int operator()() {
@@ -148,7 +154,8 @@ class LocateRun {
             lines_.write(csv_header(locator_.has_sheets(), units_));
         }
         capture::Frame frame;
-        while (next(frame)) {
+        for (std::int64_t done = 0; next(frame); ++done) {
+            progress_.update(done, images_ > 0 ? images_ : frames_->length());
             const std::string name = frames_->name_of_frame();
             Record record;
             if (!attempt([&] { record = locator_(name, frame.image, frames_->bits_per_px()); })) {
@@ -157,6 +164,7 @@ class LocateRun {
             write(record);
             if (!frame.image.pixels.empty()) attempt([&] { locator_.draw(name); });
         }
+        if (interrupted()) fail(Error("interrupted; the lines so far are complete"));
         return exit_code_;
     }
 
@@ -166,6 +174,7 @@ class LocateRun {
         // Images that are too large are reduced, unless a camera file gives their size.
         if (!arguments.follower.camera.camera) options.max_pixels = kDefaultImagePixels;
         options.tell = tell;
+        options.stop = interrupted;
         options.before_reading = [this](const std::string& file) {
             files_.require_not_written(file);
         };
@@ -216,6 +225,8 @@ class LocateRun {
     RecordFormat format_;
     Units units_;
     std::unique_ptr<capture::SourceList> frames_;
+    std::int64_t images_;  ///< number of all frames; 0 if it is not known
+    ProgressLine progress_;
     int exit_code_ = 0;
 };
 

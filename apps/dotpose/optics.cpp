@@ -10,6 +10,7 @@
 
 #include "commands.hpp"
 #include "common.hpp"
+#include "terminal_text.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -66,7 +67,8 @@ int run(OpticsArguments& arguments) {
                r.near_mm, r.far_mm, r.depth_mm(), o.f_number);
     int exit_code = 0;
     for (const OpticsAdvice& advice : r.advice) {
-        fmt::print("{} {}\n", advice.is_fault ? "CHANGE:" : "note:", advice.text);
+        const char* const kind = advice.is_fault ? "CHANGE:" : "note:";
+        fmt::print("{}", for_standard_output(fmt::format("{} {}\n", kind, advice.text)));
         if (advice.is_fault) exit_code = kExitFailed;
     }
     if (arguments.is_paper) std::fputs(kRounding, stdout);

@@ -11,6 +11,7 @@
 #include "choices.hpp"
 #include "dotpose/files/error.hpp"
 #include "lines.hpp"
+#include "terminal_text.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -58,6 +59,12 @@ void add_report_options(CLI::App& command, ReportArguments& arguments,
         ->default_str("text")
         ->check(one_of({"text", "json"}));
     add_out_option(command, arguments.out, out_help);
+}
+
+void write_report(const ReportArguments& arguments, const std::string& report) {
+    const bool is_out = arguments.out.empty() || arguments.out == kStandardOutput;
+    const bool is_plain = arguments.as_json || !is_out;
+    Lines(arguments.out).write(is_plain ? report : for_standard_output(report));
 }
 
 CLI::Option* add_draw_option(CLI::App& command, std::string& path, const std::string& help) {

@@ -35,6 +35,10 @@ struct ReportArguments {
 void add_report_options(CLI::App& command, ReportArguments& arguments,
                         const std::string& out_help = "File to write instead of standard output");
 
+/// Writes the report to the file of -o or to standard output, there in colour if it is text and
+/// the terminal wants it. Throws Error.
+void write_report(const ReportArguments& arguments, const std::string& report);
+
 /// Adds --draw FILE, a picture to draw as well.
 CLI::Option* add_draw_option(CLI::App& command, std::string& path, const std::string& help);
 

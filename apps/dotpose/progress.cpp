@@ -1,11 +1,15 @@
 #include "progress.hpp"
 
+#include <atomic>
+#include <cmath>
 #include <csignal>
-#include <cstdint>
 #include <cstdio>
+#include <utility>
 
 #include <fmt/core.h>
 #include <unistd.h>
+
+#include "terminal_text.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -17,9 +21,14 @@ constexpr auto kBetween = 100ms;
 constexpr const char* kEraseLine = "\r\033[K";
 
 volatile std::sig_atomic_t signal_seen = 0;
+std::atomic<bool> is_line_visible = false;
 
-void on_signal(int) {
-    signal_seen = 1;
+void on_signal(int signal_number) {
+    signal_seen = signal_number;
+}
+
+bool is_terminal(int descriptor) {
+    return isatty(descriptor) == 1;
 }
 
 }  // namespace
@@ -43,28 +52,59 @@ bool interrupted() {
     return signal_seen != 0;
 }
 
-void forget_interrupt() {
+bool take_ctrl_c() {
+    if (signal_seen != SIGINT) return false;
     signal_seen = 0;
     catch_interrupts();
+    return true;
+}
+
+std::string duration_text(double seconds) {
+    const auto whole = static_cast<std::int64_t>(std::ceil(seconds));
+    if (whole < 60) return fmt::format("{} s", whole);
+    if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+    const std::int64_t minutes = (whole + 59) / 60;
+    return fmt::format("{} h {:02} min", minutes / 60, minutes % 60);
 }
 
 ProgressLine::ProgressLine(std::string what)
     : what_(std::move(what)),
-      on_terminal_(isatty(STDERR_FILENO) == 1),
-      next_(std::chrono::steady_clock::now() + kFirstShown) {}
+      on_terminal_(is_terminal(STDERR_FILENO)),
+      begin_(std::chrono::steady_clock::now()),
+      next_(begin_ + kFirstShown) {}
 
-ProgressLine::~ProgressLine() {
-    if (visible_) std::fputs(kEraseLine, stderr);
+ProgressLine::ProgressLine(std::string what, const std::string& out)
+    : ProgressLine(std::move(what)) {
+    const bool is_out = out.empty() || out == "-";
+    if (is_out && is_terminal(STDOUT_FILENO)) on_terminal_ = false;
 }
 
-void ProgressLine::update(int done, int total) {
-    if (!on_terminal_ || total <= 0) return;
+ProgressLine::~ProgressLine() {
+    hide_progress();
+}
+
+void ProgressLine::update(std::int64_t done, std::int64_t total) {
+    if (!on_terminal_) return;
     const auto now = std::chrono::steady_clock::now();
     if (now < next_) return;
     next_ = now + kBetween;
-    visible_ = true;
-    fmt::print(stderr, "{}{}: {} %", kEraseLine, what_, std::int64_t{100} * done / total);
+    const std::chrono::duration<double> elapsed = now - begin_;
+    std::string text = fmt::format("{}: {} done", printable(what_), done);
+    if (total > 0 && done <= total) {
+        text = fmt::format("{}: {} %", printable(what_), 100 * done / total);
+        if (done > 0) {
+            const double left_s =
+                elapsed.count() * static_cast<double>(total - done) / static_cast<double>(done);
+            text += fmt::format(", {} left", duration_text(left_s));
+        }
+    }
+    is_line_visible = true;
+    fmt::print(stderr, "{}{}", kEraseLine, text);
     std::fflush(stderr);
+}
+
+void hide_progress() {
+    if (is_line_visible.exchange(false)) std::fputs(kEraseLine, stderr);
 }
 
 }  // namespace dotpose::cli

@@ -8,7 +8,6 @@
 #include "commands.hpp"
 #include "dotpose/files/error.hpp"
 #include "files/output_file.hpp"
-#include "lines.hpp"
 #include "output_arguments.hpp"
 #include "run_files.hpp"
 #include "run_log.hpp"
@@ -90,8 +89,8 @@ void run(const ReplayArguments& arguments) {
     if (!arguments.picture.empty()) files::require_writable(arguments.picture);
     const auto rows = read_log(arguments.log);
     const RunStatistics statistics = statistics_of(rows);
-    Lines(arguments.report.out)
-        .write(arguments.report.as_json ? json_report(statistics) : text_report(statistics));
+    write_report(arguments.report,
+                 arguments.report.as_json ? json_report(statistics) : text_report(statistics));
     if (arguments.picture.empty()) return;
     files::OutputFile file(arguments.picture);
     file.write(draw_run(rows, std::filesystem::path(arguments.log).filename().string()));

@@ -92,6 +92,21 @@ void Sources::add_files(RunFiles& files) const {
     }
 }
 
+std::int64_t Sources::number_of_images() const {
+    if (names_.has_pipe()) return 0;
+    std::int64_t images = 0;
+    for (const std::string& name : names_.known()) {
+        const capture::SourceKind kind = capture::kind_of(name);
+        if (kind != capture::SourceKind::image && kind != capture::SourceKind::images) return 0;
+        try {
+            images += static_cast<std::int64_t>(capture::files_of(name).size());
+        } catch (const Error&) {
+            return 0;  // it is reported when the source is opened
+        }
+    }
+    return images;
+}
+
 std::vector<std::string> Sources::all_names() {
     std::vector<std::string> all;
     while (const auto name = names_.next())

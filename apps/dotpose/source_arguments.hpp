@@ -45,11 +45,17 @@ class Sources {
     /// Error if the list, a folder or a glob cannot be read.
     explicit Sources(const SourceArguments& arguments);
 
+    /// Whether names may follow that are not known yet.
+    bool has_pipe() const { return names_.has_pipe(); }
+
     /// Registers the list and all files that are known from the start.
     void add_files(RunFiles& files) const;
 
     /// Returns all names, those in a pipe too.
     std::vector<std::string> all_names();
+
+    /// Returns the number of all images, or 0 if there are other sources or names in a pipe.
+    std::int64_t number_of_images() const;
 
     /// Returns the frames of all sources. This object must outlive them.
     std::unique_ptr<capture::SourceList> open(capture::SourceOptions options);

@@ -68,9 +68,9 @@ int run(int argc, char** argv, const AddCommands& add) {
     } catch (const CLI::Success& request) {
         return app.exit(request);  // --help and --version
     } catch (const CLI::ParseError& error) {
-        tell(usage_error(app, error));
+        tell_failure(usage_error(app, error));
     } catch (const BadArgument& error) {
-        tell(error.what());
+        tell_failure(error.what());
     }
     fmt::print(stderr, "Try: {}\n", help_command(app));
     return kExitUsage;
@@ -101,7 +101,7 @@ int tool_main(int argc, char** argv, const AddCommands& add) noexcept {
         words.push_back(nullptr);
         return run(static_cast<int>(words.size()) - 1, words.data(), add);
     } catch (const std::exception& error) {
-        tell(error.what());
+        tell_failure(error.what());
         return kExitFailed;
     }
 }

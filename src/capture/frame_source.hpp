@@ -48,6 +48,9 @@ class FrameSource {
     /// Mean number of bits per pixel that lossy compression left of the frames so far; 0 if it is
     /// not known or not lossy.
     virtual double bits_per_px() const { return 0; }
+
+    /// Number of all frames as the source states it, or 0 if it is not known.
+    virtual std::int64_t length() const { return 0; }
 };
 
 struct SourceOptions {

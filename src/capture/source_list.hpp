@@ -29,6 +29,9 @@ class SourceList : public FrameSource {
     double rate() const override { return source_ ? source_->rate() : 0; }
     double bits_per_px() const override { return bits_per_px_; }
 
+    /// Of the source that is open.
+    std::int64_t length() const override { return source_ ? source_->length() : 0; }
+
     /// Returns the name of the frame that `next` gave last: the path of an image; of other
     /// sources SOURCE#N, where N is the number of the frame in the source, from 0.
     std::string name_of_frame() const;

@@ -117,27 +117,33 @@ Sweep run_sweep(SweepKind kind, const SweepOptions& options) {
     const std::span<const double> values = evaluate_detail::sweep_values(kind);
     const int per_value = options.frames_per_value;
     if (per_value < 1) throw BadArgument("a sweep needs at least one frame for each value");
+    Sweep sweep{kind, options.setup.preset, per_value, {}};
+    bool goes_on = true;
     FrameRun run;
-    run.frames = per_value * static_cast<int>(values.size());
-    run.frame_at = [&](int index) {
-        const double value = values[static_cast<std::size_t>(index / per_value)];
-        return evaluate_detail::sweep_frame(kind, value, options.setup,
-                                            static_cast<std::uint64_t>(index % per_value));
-    };
+    run.frames = per_value;
     run.options = {options.locate, options.locate};
     run.options[0].decoder = Decoder::window;
     run.options[1].decoder = Decoder::all;
     run.threads = options.threads;
-    run.progress = options.progress;
-    const auto outcomes = evaluate(run);
-
-    Sweep sweep{kind, options.setup.preset, per_value, {}};
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        const auto score = [&](std::size_t k) {
-            const auto count = static_cast<std::size_t>(per_value);
-            return score_of(std::span(outcomes[k]).subspan(i * count, count));
+    for (const double value : values) {
+        run.frame_at = [&](int index) {
+            return evaluate_detail::sweep_frame(kind, value, options.setup,
+                                                static_cast<std::uint64_t>(index));
         };
-        sweep.points.push_back({values[i], score(0), score(1)});
+        const int before = per_value * static_cast<int>(sweep.points.size());
+        run.progress = [&](int done, int) {
+            const int all = per_value * static_cast<int>(values.size());
+            goes_on = !options.progress || options.progress(before + done, all);
+            return goes_on;
+        };
+        try {
+            const auto outcomes = evaluate(run);
+            sweep.points.push_back({value, score_of(outcomes[0]), score_of(outcomes[1])});
+        } catch (const Error&) {
+            // After an interrupt, the values that are complete are kept.
+            if (goes_on || sweep.points.size() < 2) throw;
+            break;
+        }
     }
     return sweep;
 }

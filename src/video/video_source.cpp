@@ -112,6 +112,7 @@ class VideoFile : public capture::FrameSource {
         return false;
     }
     double rate() const override { return options_.fps.value_or(rate_); }
+    std::int64_t length() const override { return promised(); }
     double bits_per_px() const override {
         if (!is_lossy_ || packet_px_ == 0) return 0;
         return 8.0 * static_cast<double>(packet_bytes_) / static_cast<double>(packet_px_);

@@ -38,6 +38,7 @@ struct SweepOptions {
     int frames_per_value = 200;  ///< the same frames for each value
     Options locate;              ///< options of `locate`; `decoder` is ignored, as both are run
     int threads = 0;
+    /// If it returns false, the sweep ends with the values that are complete.
     Progress progress;
 };
 
@@ -56,7 +57,8 @@ struct Sweep {
     std::vector<SweepPoint> points;
 };
 
-/// Simulates and locates the frames of all values. Throws Error if `progress` returns false.
+/// Simulates and locates the frames of all values. Throws Error if `progress` returned false before
+/// two values were complete.
 Sweep run_sweep(SweepKind kind, const SweepOptions& options);
 /// Writes one line for each value and decoder.
 void write_sweep_csv(std::ostream& out, const Sweep& sweep);

@@ -123,6 +123,23 @@ TEST(SweepTest, CountsEveryFrameAndDraws) {
     EXPECT_EQ(test::XmlCheck(svg.str()).problem(), "");
 }
 
+TEST(SweepTest, KeepsTheValuesThatWereCompleteWhenItIsStopped) {
+    SweepOptions options;
+    options.frames_per_value = 1;
+    const Sweep whole = run_sweep(SweepKind::noise, options);
+    const auto stopped_after = [&options](int frames) {
+        options.progress = [frames](int done, int) { return done < frames; };
+        return run_sweep(SweepKind::noise, options);
+    };
+    const Sweep part = stopped_after(3);
+    ASSERT_EQ(part.points.size(), 2U);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(part.points[i].value, whole.points[i].value);
+        EXPECT_EQ(part.points[i].all.position_um.max, whole.points[i].all.position_um.max);
+    }
+    EXPECT_THROW(stopped_after(2), Error);  // one value makes no curve
+}
+
 TEST(PlotTest, TicksAreRoundNumbers) {
     EXPECT_DOUBLE_EQ(plot::tick_step(60, 5), 10);
     EXPECT_DOUBLE_EQ(plot::tick_step(1, 4), 0.25);

@@ -1,0 +1,116 @@
+// What the user of a terminal sees of long work: progress with the time left, colour, and that
+// Ctrl-C keeps what is done. `script` gives the tool a terminal.
+#include <cstdint>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "dotpose/tools/simulate.hpp"
+#include "locate_command.hpp"
+
+namespace dotpose::test {
+namespace {
+
+using testing::AllOf;
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr const char* kRed = "\033[31m";
+
+class Feedback : public ToolCommand {
+  protected:
+    /// Runs `dotpose ARGUMENTS` with its output and messages on a terminal, and keeps in `output_`
+    /// what appears there.
+    int on_terminal(const std::string& arguments, const std::string& environment) {
+        return shell("export T; env -u NO_COLOR " + environment + " script -qec '\"$T\" " +
+                     arguments + "' /dev/null </dev/null");
+    }
+
+    /// Runs shell commands that start the tool and write its process number to the file pid, waits
+    /// until `condition` holds, and presses Ctrl-C.
+    int interrupt(const std::string& commands, const std::string& condition) {
+        return shell("export T; { " + commands + "; } & job=$!; until [ -s pid ] && { " +
+                     condition +
+                     "; } || ! kill -0 $job; do sleep 0.01; done; kill -INT $(cat pid); " +
+                     "touch done; wait $job");
+    }
+
+    void put_raw(int frames) {
+        dotpose::Setup setup;
+        setup.seed = 3;
+        std::ofstream raw(directory_ / "frames.raw", std::ios::binary);
+        for (int i = 0; i < frames; ++i) {
+            const GreyImage image = render(draw_shot(setup, static_cast<std::uint64_t>(i)));
+            raw.write(reinterpret_cast<const char*>(image.pixels.data()),
+                      static_cast<std::streamsize>(image.pixels.size()));
+        }
+    }
+
+    /// A source of raw frames that does not end.
+    static constexpr const char* kEndless =
+        "{ cat frames.raw; touch fed; until [ -e done ]; do sleep 0.02; done; } | ";
+    /// The tool as a process whose number is known.
+    static constexpr const char* kTool = "sh -c 'echo $$ >pid; exec \"$T\" \"$@\"' sh ";
+};
+
+TEST_F(Feedback, LongWorkShowsProgressAndTheTimeLeft) {
+    interrupt(
+        "script -qefc 'echo $$ >pid; exec \"$T\" simulate -o frames --frames 1000000' seen "
+        "</dev/null >/dev/null",
+        "grep -q left seen");
+    EXPECT_THAT(file("seen"), ContainsRegex("simulating frames: [0-9]+ %, .*[0-9]+ min left"));
+    EXPECT_THAT(file("seen"), HasSubstr("interrupted; the frames in truth.csv are complete"));
+}
+
+TEST_F(Feedback, CtrlCKeepsTheLinesOfLocate) {
+    put_raw(4);
+    EXPECT_NE(interrupt(std::string(kEndless) + kTool + "locate - --size 188x120 -o lines",
+                        "[ \"$(grep -c . lines)\" = 4 ]"),
+              0);
+    const std::vector<std::string> lines = lines_of(file("lines"));
+    ASSERT_EQ(lines.size(), 4U);
+    EXPECT_EQ(json::parse(lines.back())["status"], "ok");
+    EXPECT_THAT(errors_, HasSubstr("interrupted; the lines so far are complete"));
+}
+
+TEST_F(Feedback, CtrlCKeepsTheFramesThatCalibrateHasRead) {
+    put_raw(12);
+    interrupt(std::string(kEndless) + kTool + "calibrate - --size 188x120 -o camera.yaml",
+              "[ -e fed ]");
+    EXPECT_THAT(errors_, HasSubstr("no more frames are read"));
+    EXPECT_THAT(output_, HasSubstr("verdict "));
+    EXPECT_THAT(file("camera.yaml"), HasSubstr("k_per_px2"));
+}
+
+TEST_F(Feedback, CtrlCKeepsTheFramesThatEvaluateHasSeen) {
+    EXPECT_EQ(interrupt(std::string("exec ") + kTool +
+                            "evaluate --preset nominal --frames 1000000 --format json",
+                        "[ \"$(cut -d ' ' -f 14 /proc/$(cat pid)/stat)\" -gt 30 ]"),
+              1);
+    EXPECT_THAT(errors_, ContainsRegex("the report is about the first [1-9][0-9]* of 1000000"));
+    const json report = json::parse(output_);
+    EXPECT_GT(report["frames"], 0);
+    EXPECT_LT(report["frames"], 1'000'000);
+    EXPECT_EQ(report["wrong"], 0);
+}
+
+TEST_F(Feedback, ColourIsForTerminalsThatWantIt) {
+    const std::string optics = "optics --size 188x120 --speed 5000";
+    ASSERT_EQ(on_terminal(optics, "TERM=xterm"), 1);
+    EXPECT_THAT(output_, HasSubstr(std::string(kRed) + "CHANGE:\033[0m "));
+    for (const char* refusal : {"TERM=xterm NO_COLOR=1", "TERM=dumb"}) {
+        ASSERT_EQ(on_terminal(optics, refusal), 1);
+        EXPECT_THAT(output_, AllOf(HasSubstr("CHANGE: "), Not(HasSubstr(kRed)))) << refusal;
+    }
+    ASSERT_EQ(run(optics), 1);
+    EXPECT_THAT(output_, AllOf(HasSubstr("CHANGE: "), Not(HasSubstr(kRed))));
+    EXPECT_EQ(on_terminal("locate", "TERM=xterm"), 2);
+    EXPECT_THAT(output_, HasSubstr(std::string(kRed) + "dotpose:\033[0m no source"));
+}
+
+}  // namespace
+}  // namespace dotpose::test
