@@ -6,6 +6,7 @@ void add_commands(CLI::App& app, int& exit_code) {
     add_locate(app, exit_code);
     add_print(app, exit_code);
     add_overlay(app, exit_code);
+    add_sheets(app, exit_code);
     add_simulate(app, exit_code);
     add_evaluate(app, exit_code);
     add_check_print(app, exit_code);

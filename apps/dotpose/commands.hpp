@@ -20,6 +20,7 @@ void add_calibrate(CLI::App& app, int& exit_code);
 void add_optics(CLI::App& app, int& exit_code);
 void add_listen(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);
+void add_sheets(CLI::App& app, int& exit_code);
 
 /// Registers all of these.
 void add_commands(CLI::App& app, int& exit_code);

@@ -193,6 +193,18 @@ void add_size_option(CLI::App& command, CameraModel& camera) {
         ->default_str(fmt::format("{}x{}", camera.width_px, camera.height_px));
 }
 
+std::string drawing_name(DotDrawing drawing) {
+    for (const auto& [name, value] : kDrawings) {
+        if (value == drawing) return name;
+    }
+    return {};
+}
+
+std::optional<DotDrawing> drawing_by_name(const std::string& name) {
+    const auto found = kDrawings.find(name);
+    return found == kDrawings.end() ? std::nullopt : std::optional(found->second);
+}
+
 void add_drawing_option(CLI::App& command, DotDrawing& drawing) {
     std::vector<std::string> names;
     for (const auto& [name, value] : kDrawings)
@@ -251,6 +263,7 @@ void refuse_non_finite_numbers(CLI::App& app) {
         for (CLI::Option* option : command->get_options()) {
             if (!texts.contains(option->get_type_name())) option->check(is_finite);
         }
+        refuse_non_finite_numbers(*command);
     }
 }
 
@@ -262,10 +275,16 @@ std::vector<std::string> given_arguments() {
     return {g_arguments.begin() + 1, g_arguments.end()};
 }
 
-std::string command_line() {
+std::string command_line(const std::set<std::string>& without) {
     std::string line = "dotpose";
-    for (std::size_t i = 1; i < g_arguments.size(); ++i)
-        line += " " + quoted_for_shell(g_arguments[i]);
+    for (std::size_t i = 1; i < g_arguments.size(); ++i) {
+        const std::string& word = g_arguments[i];
+        if (without.contains(word)) {
+            ++i;
+        } else if (!without.contains(word.substr(0, word.find('=')))) {
+            line += " " + quoted_for_shell(word);
+        }
+    }
     return line;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -99,6 +100,11 @@ class PatternArguments {
     std::optional<double> dot_mm_;
 };
 
+/// Returns the name of a way to draw dots, as --dots takes it, and the way by its name; none if
+/// there is none of this name.
+std::string drawing_name(DotDrawing drawing);
+std::optional<DotDrawing> drawing_by_name(const std::string& name);
+
 /// Adds --dots, the way in which a PDF draws dots.
 void add_drawing_option(CLI::App& command, DotDrawing& drawing);
 
@@ -125,8 +131,9 @@ void remember_command_line(int argc, char** argv);
 /// Returns the arguments of `main`, without the name of the program.
 std::vector<std::string> given_arguments();
 
-/// Returns the command line as the user could type it again, quoted where a shell needs it.
-std::string command_line();
+/// Returns the command line as the user could type it again, quoted where a shell needs it. Options
+/// `without` are left out, with their values.
+std::string command_line(const std::set<std::string>& without = {});
 
 /// Describes the page and its region of the code plane in words.
 std::string region_text(const Sheet& sheet);

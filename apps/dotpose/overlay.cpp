@@ -1,7 +1,9 @@
 #include "dotpose/tools/overlay.hpp"
 
+#include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 
 #include <fmt/core.h>
@@ -43,6 +45,22 @@ void require_apart(const OverlayArguments& arguments) {
     files.writes("-o", arguments.out, Content::own);
 }
 
+/// Returns how a page gets its dots, for its entry in the sheet file, which is no place for a
+/// password.
+SheetPrint print_of(const OverlayArguments& arguments, int page, int pages) {
+    std::set<std::string> left_out = SheetEntryArguments::options_of_entering();
+    left_out.insert("--password");
+    SheetPrint print;
+    print.title = std::filesystem::path(arguments.out).stem().string();
+    print.pages = pages;
+    print.dpi = arguments.options.dpi;
+    print.dots = drawing_name(arguments.options.drawing);
+    print.has_labels = false;
+    print.command = fmt::format("{} --pages {}", command_line(left_out), page);
+    print.document = arguments.in;
+    return print;
+}
+
 void run(OverlayArguments& arguments) {
     require_apart(arguments);
     OverlayOptions options = arguments.options;
@@ -54,7 +72,9 @@ void run(OverlayArguments& arguments) {
         options.place = [&](std::span<OverlaidPage> pages) {
             const auto enter_all = [&](SheetFile& file) {
                 for (auto& [number, sheet] : pages)
-                    sheet = arguments.entries.enter(file, sheet, {number, pages.size() == 1});
+                    sheet = arguments.entries.enter(
+                        file, sheet, {number, pages.size() == 1},
+                        print_of(arguments, number, static_cast<int>(pages.size())));
             };
             arguments.entries.reserve(enter_all, reservation);
         };

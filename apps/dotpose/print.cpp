@@ -81,11 +81,23 @@ double default_margin_mm(PrintFormat format, const Paper& paper) {
     return format == PrintFormat::pdf && !is_small ? kWithLabels_mm : SheetOptions{}.margin_mm;
 }
 
-/// Returns the name of the document.
-std::string name_of(const PrintArguments& arguments) {
+/// Returns what the document calls itself.
+std::string title_of(const PrintArguments& arguments) {
     if (arguments.entries.given()) return arguments.entries.name();
     if (arguments.out == kStandardOutput) return "sheet";
     return std::filesystem::path(arguments.out).stem().string();
+}
+
+/// Returns how a page of the document is printed, for its entry in the sheet file.
+SheetPrint print_of(const PrintArguments& arguments) {
+    SheetPrint print;
+    print.title = title_of(arguments);
+    print.pages = arguments.pages;
+    print.dpi = arguments.print.dpi;
+    print.dots = drawing_name(arguments.print.drawing);
+    print.has_labels = arguments.print.labels;
+    print.command = command_line(SheetEntryArguments::options_of_entering());
+    return print;
 }
 
 /// Runs `write`, shows its progress on the terminal and stops it after Ctrl-C.
@@ -94,7 +106,7 @@ void with_progress(const PrintArguments& arguments, const Write& write) {
     catch_interrupts();
     ProgressLine line("printing " + arguments.out);
     PrintOptions options = arguments.print;
-    options.name = name_of(arguments);
+    options.name = title_of(arguments);
     options.command = command_line();
     options.progress = [&line](int done, int total) {
         line.update(done, total);
@@ -139,18 +151,24 @@ void run(const PrintArguments& arguments) {
     const auto page = [&sheets](std::size_t i) {
         return SheetEntryArguments::Page{static_cast<int>(i + 1), sheets.size() == 1};
     };
+    const SheetPrint print = print_of(arguments);
     std::optional<SheetReservation> reservation;
     if (arguments.entries.given()) {
         if (arguments.out != kStandardOutput) files::require_writable(arguments.out);
         catch_interrupts();
         const auto enter_all = [&](SheetFile& file) {
             for (std::size_t i = 0; i < sheets.size(); ++i)
-                sheets[i] = arguments.entries.enter(file, sheets[i], page(i));
+                sheets[i] = arguments.entries.enter(file, sheets[i], page(i), print);
         };
         arguments.entries.reserve(enter_all, reservation);
     }
     const DocumentOutput output(arguments.out, arguments.ending);
-    with_progress(arguments, [&](const PrintOptions& print_options) {
+    with_progress(arguments, [&](PrintOptions print_options) {
+        if (reservation) {
+            for (const Sheet& sheet : sheets)
+                print_options.page_commands.push_back(
+                    SheetEntryArguments::with_origin(print.command, sheet.origin));
+        }
         write_sheets(sheets, output.path(), print_options);
     });
     output.finish();

@@ -1,5 +1,7 @@
 #include "sheet_entries.hpp"
 
+#include <utility>
+
 #include <fmt/core.h>
 
 #include "common.hpp"
@@ -40,14 +42,29 @@ void SheetEntryArguments::confirm(SheetReservation& reservation, const std::stri
     }
 }
 
-Sheet SheetEntryArguments::enter(SheetFile& file, const Sheet& sheet, Page page) const {
+Sheet SheetEntryArguments::enter(SheetFile& file, const Sheet& sheet, Page page,
+                                 SheetPrint print) const {
     SheetEntry entry;
     entry.name = page_name(page);
     entry.page = page.number;
     entry.sheet = sheet;
-    if (origin_->count() == 0) return file.allocate(entry).sheet;
-    file.add(entry);
-    return sheet;
+    if (origin_->count() == 0) {
+        entry = file.allocate(entry);
+    } else {
+        file.add(entry);
+    }
+    print.command = with_origin(print.command, entry.sheet.origin);
+    entry.print = std::move(print);
+    file.replace(entry);
+    return entry.sheet;
+}
+
+std::string SheetEntryArguments::with_origin(const std::string& command, Cell origin) {
+    return fmt::format("{} --origin {},{}", command, origin.x, origin.y);
+}
+
+std::set<std::string> SheetEntryArguments::options_of_entering() {
+    return {"--sheets", "--name", "--wait", "--pages", "--origin"};
 }
 
 std::string SheetEntryArguments::summary(Page page) const {

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -35,9 +36,16 @@ class SheetEntryArguments {
     void reserve(const std::function<void(SheetFile&)>& enter_all,
                  std::optional<SheetReservation>& reservation) const;
 
-    /// Adds a page to the file, in the next free region unless the user chose an origin. Returns
-    /// the sheet with its new origin.
-    Sheet enter(SheetFile& file, const Sheet& sheet, Page page) const;
+    /// Adds a page to the file, in the next free region unless the user chose an origin, and how it
+    /// was printed, where the command lacks --origin. Returns the sheet with its new origin.
+    Sheet enter(SheetFile& file, const Sheet& sheet, Page page, SheetPrint print) const;
+
+    /// Returns a command that makes the dots of one page, with the option --origin that it lacks.
+    static std::string with_origin(const std::string& command, Cell origin);
+
+    /// The options that such a command must not have: the page has its region by now, and the sheet
+    /// file would refuse the name a second time.
+    static std::set<std::string> options_of_entering();
 
     /// Marks the reserved pages as written, to `out`. Throws Error if the file cannot be changed.
     void confirm(SheetReservation& reservation, const std::string& out) const;

@@ -55,8 +55,12 @@ int run(int argc, char** argv, const AddCommands& add) {
     CommandLine line(add);
     CLI::App& app = line.app;
     for (CLI::App* command : app.get_subcommands({})) {
-        command->preparse_callback(
-            [command, argc, argv](std::size_t) { require_two_hyphens(*command, argc, argv); });
+        std::vector<CLI::App*> with_options = command->get_subcommands({});
+        with_options.push_back(command);
+        for (CLI::App* each : with_options) {
+            each->preparse_callback(
+                [each, argc, argv](std::size_t) { require_two_hyphens(*each, argc, argv); });
+        }
     }
     app.footer(fmt::format(
         "A first day:\n{}\ndotpose COMMAND --help has all options and more examples.\n{}",

@@ -56,14 +56,26 @@ std::string unknown_to(const CLI::App& command, const std::string& word) {
                        did_you_mean(option, long_options(command)));
 }
 
-/// Describes a word before the command, or in its place.
-std::string unknown_at_start(const CLI::App& app, const std::string& word) {
-    if (!is_option(word))
-        return fmt::format("unknown command '{}'{}", word, did_you_mean(word, command_names(app)));
-    if (app.get_subcommands().empty()) return unknown_to(app, word);
-    const std::string command = app.get_subcommands().front()->get_name();
-    return fmt::format("unknown option '{}'; options of a command follow it: dotpose {} {}",
-                       without_value(word), command, without_value(word));
+/// Returns the commands that were parsed, as words: "dotpose sheets list".
+std::string parsed_commands(const CLI::App& app) {
+    std::string words = "dotpose";
+    for (const CLI::App* command = &app; !command->get_subcommands().empty();) {
+        command = command->get_subcommands().front();
+        words += " " + command->get_name();
+    }
+    return words;
+}
+
+/// Describes a word before the command, or in its place; commands may have commands of their own.
+std::string unknown_before_command(const CLI::App& app, const CLI::App& parent,
+                                   const std::string& word) {
+    if (!is_option(word)) {
+        return fmt::format("unknown command '{}'{}", word,
+                           did_you_mean(word, command_names(parent)));
+    }
+    if (parent.get_subcommands().empty()) return unknown_to(parent, word);
+    return fmt::format("unknown option '{}'; options of a command follow it: {} {}",
+                       without_value(word), parsed_commands(app), without_value(word));
 }
 
 /// Returns the text between two others, or an empty string if they do not enclose `text`.
@@ -91,11 +103,14 @@ std::string in_plain_words(const CLI::ParseError& error) {
 }  // namespace
 
 std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
-    const std::vector<std::string> at_start = unknown_words(app);
-    if (!at_start.empty()) return unknown_at_start(app, at_start.front());
-    for (const CLI::App* command : app.get_subcommands()) {
+    for (const CLI::App* command = &app; command != nullptr;) {
         const std::vector<std::string> words = unknown_words(*command);
+        const bool has_commands = !command->get_subcommands({}).empty();
+        if (!words.empty() && has_commands)
+            return unknown_before_command(app, *command, words.front());
         if (!words.empty()) return unknown_to(*command, words.front());
+        const std::vector<CLI::App*> parsed = command->get_subcommands();
+        command = parsed.empty() ? nullptr : parsed.front();
     }
     return in_plain_words(error);
 }
@@ -119,7 +134,7 @@ void require_two_hyphens(const CLI::App& command, int argc, const char* const* a
 std::string help_command(const CLI::App& app) {
     const std::vector<CLI::App*> commands = app.get_subcommands();
     if (commands.empty() || commands.front()->get_name() == kHelpCommand) return "dotpose --help";
-    return fmt::format("dotpose {} --help", commands.front()->get_name());
+    return parsed_commands(app) + " --help";
 }
 
 }  // namespace dotpose::cli

@@ -59,6 +59,21 @@ CommandText text_of(CLI::App& command) {
     return text;
 }
 
+/// Describes what a command has instead of arguments, commands of its own, as an argument.
+OptionText text_of_commands(const std::vector<CLI::App*>& commands) {
+    OptionText text;
+    text.argument = "command";
+    text.type = "NAME";
+    text.kind = ValueKind::text;
+    text.is_required = true;
+    for (const CLI::App* command : commands) {
+        text.choices.push_back(command->get_name());
+        text.help += (text.help.empty() ? "" : "; ") + command->get_name() + ": " +
+                     command->get_description();
+    }
+    return text;
+}
+
 }  // namespace
 
 ToolText declarations() {
@@ -70,8 +85,11 @@ ToolText declarations() {
     text.version = cli::kVersion;
     text.first_day = cli::kFirstDay;
     text.top = text_of(line.app);
-    for (CLI::App* command : line.app.get_subcommands({}))
+    for (CLI::App* command : line.app.get_subcommands({})) {
         text.commands.push_back(text_of(*command));
+        const std::vector<CLI::App*> parts = command->get_subcommands({});
+        if (!parts.empty()) text.commands.back().options.push_back(text_of_commands(parts));
+    }
     return text;
 }
 

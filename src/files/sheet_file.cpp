@@ -152,6 +152,19 @@ void SheetFile::replace(const SheetEntry& entry) {
     *found = entry;
 }
 
+void SheetFile::rename(const std::string& name, const std::string& new_name) {
+    const auto found = std::ranges::find(sheets_, name, &SheetEntry::name);
+    if (found == sheets_.end()) {
+        throw BadArgument(fmt::format("{} has no sheet '{}'", path_.string(), name));
+    }
+    SheetEntry entry = *found;
+    entry.name = new_name;
+    files::check_beside(entry, sheets_, &*found);
+    *found = entry;
+    const auto before = names_in_text_.extract(name);
+    names_in_text_[new_name] = before.empty() ? name : before.mapped();
+}
+
 void SheetFile::remove(const std::string& name) {
     std::erase_if(sheets_, [&](const SheetEntry& entry) { return entry.name == name; });
 }
@@ -161,11 +174,12 @@ void SheetFile::save() {
         throw Error(fmt::format("{} was changed by somebody else meanwhile; nothing was written",
                                 path_.string()));
     }
-    std::string text = files::json_from_sheets(sheets_, text_);
+    std::string text = files::json_from_sheets(sheets_, text_, names_in_text_);
     files::OutputFile file(path_);
     file.write(text);
     file.commit();
     text_ = std::move(text);
+    names_in_text_.clear();
 }
 
 }  // namespace dotpose

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <limits>
-#include <map>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -136,6 +135,18 @@ Sheet sheet_of(const Node& node) {
     return sheet;
 }
 
+SheetPrint print_of(const Node& node) {
+    SheetPrint print;
+    print.title = node.text("title");
+    print.pages = static_cast<int>(node.whole("pages", 1, std::numeric_limits<int>::max()));
+    print.dpi = node.number("dpi");
+    print.dots = node.text("dots");
+    print.has_labels = node.flag("labels");
+    print.command = node.text("command");
+    if (node.has("document")) print.document = node.text("document");
+    return print;
+}
+
 SheetEntry entry_of(const Node& node) {
     SheetEntry entry;
     entry.name = node.text("name");
@@ -148,7 +159,22 @@ SheetEntry entry_of(const Node& node) {
         const Node world = node.object("world");
         entry.world = {world.number("x_m"), world.number("y_m"), world.number("yaw_rad")};
     }
+    if (node.has("print")) entry.print = print_of(node.object("print"));
     return entry;
+}
+
+void update(json& object, const SheetPrint& print) {
+    object["title"] = print.title;
+    object["pages"] = print.pages;
+    object["dpi"] = print.dpi;
+    object["dots"] = print.dots;
+    object["labels"] = print.has_labels;
+    object["command"] = print.command;
+    if (print.document.empty()) {
+        object.erase("document");
+    } else {
+        object["document"] = print.document;
+    }
 }
 
 void update(json& object, const SheetEntry& entry) {
@@ -185,6 +211,11 @@ void update(json& object, const SheetEntry& entry) {
     } else {
         object.erase("world");
     }
+    if (entry.print) {
+        update(object["print"], *entry.print);
+    } else {
+        object.erase("print");
+    }
 }
 
 }  // namespace
@@ -216,13 +247,21 @@ std::vector<SheetEntry> sheets_from_json(const std::string& text, const std::str
 }
 
 std::string json_from_sheets(const std::vector<SheetEntry>& sheets,
-                             const std::optional<std::string>& old_text) {
+                             const std::optional<std::string>& old_text,
+                             const std::map<std::string, std::string>& old_names) {
     json document = old_text ? parse_json(*old_text) : json::object();
     document["format"] = kFormat;
     document["version"] = kSheetFileVersion;
     std::map<std::string, json> objects;
     for (const json& object : document.value("sheets", json::array()))
         objects[object.at("name")] = object;
+    std::map<std::string, json> renamed;
+    for (const auto& [name, old_name] : old_names)
+        renamed[name] = objects[old_name];
+    for (const auto& [name, old_name] : old_names)
+        objects.erase(old_name);
+    for (const auto& [name, object] : renamed)
+        objects[name] = object;
     json array = json::array();
     for (const SheetEntry& entry : sheets) {
         json& object = objects[entry.name];
@@ -230,7 +269,8 @@ std::string json_from_sheets(const std::vector<SheetEntry>& sheets,
         array.push_back(object);
     }
     document["sheets"] = std::move(array);
-    return document.dump(2) + '\n';
+    // A command line may have bytes that are not UTF-8, as names of files do.
+    return document.dump(2, ' ', false, json::error_handler_t::replace) + '\n';
 }
 
 }  // namespace dotpose::files

@@ -1,6 +1,7 @@
 /// Reads and writes the text of a sheet file, whose format is in docs/sheet-files.md.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,8 +15,9 @@ namespace dotpose::files {
 std::vector<SheetEntry> sheets_from_json(const std::string& text, const std::string& file);
 
 /// Writes the text of a sheet file. Keys of `old_text`, a valid sheet file, that this version does
-/// not know are kept.
+/// not know are kept; `old_names` has the names in `old_text` of the sheets that were renamed.
 std::string json_from_sheets(const std::vector<SheetEntry>& sheets,
-                             const std::optional<std::string>& old_text);
+                             const std::optional<std::string>& old_text,
+                             const std::map<std::string, std::string>& old_names = {});
 
 }  // namespace dotpose::files

@@ -69,6 +69,19 @@ std::optional<std::uint32_t> free_column(const std::vector<SheetEntry>& sheets, 
     return static_cast<std::uint32_t>(x);
 }
 
+void validate(const SheetPrint& print) {
+    if (print.pages < 1) {
+        throw BadArgument(fmt::format("{} pages: a document has 1 or more", print.pages));
+    }
+    if (!(print.dpi > 0 && std::isfinite(print.dpi))) {
+        throw BadArgument(fmt::format("{:g} dpi: a resolution is above 0", print.dpi));
+    }
+    if (print.dots != "auto" && print.dots != "glyphs" && print.dots != "strokes") {
+        throw BadArgument(
+            fmt::format("dots drawn as '{}': it must be auto, glyphs or strokes", print.dots));
+    }
+}
+
 }  // namespace
 
 void validate(const SheetEntry& entry) {
@@ -86,6 +99,7 @@ void validate(const SheetEntry& entry) {
             if (!std::isfinite(value)) throw BadArgument("the world pose must be finite numbers");
         }
     }
+    if (entry.print) validate(*entry.print);
     validate(entry.sheet);
 }
 

@@ -55,14 +55,18 @@ void write_pdf(std::span<const Sheet> sheets, const PrintOptions& options,
         label_font = pdf.makeIndirectObject(QPDFObjectHandle::parse(
             "<< /Type /Font /Subtype /Type1 /BaseFont /Helvetica /Encoding /WinAnsiEncoding >>"));
     }
-    PageNumber number{0, static_cast<int>(sheets.size())};
-    for (const Sheet& sheet : sheets) {
-        ++number.number;
+    for (std::size_t i = 0; i < sheets.size(); ++i) {
+        const Sheet& sheet = sheets[i];
+        const PageNumber number{
+            options.first_page + static_cast<int>(i),
+            options.page_count > 0 ? options.page_count : static_cast<int>(sheets.size())};
         std::vector<QPDFObjectHandle> contents = dots.streams(sheet);
         QPDFObjectHandle resources = dots.resources(sheet);
         if (options.labels) {
+            PrintOptions of_page = options;
+            if (!options.page_commands.empty()) of_page.command = options.page_commands.at(i);
             contents.push_back(
-                QPDFObjectHandle::newStream(&pdf, label_content(sheet, number, options)));
+                QPDFObjectHandle::newStream(&pdf, label_content(sheet, number, of_page)));
             if (!resources.hasKey("/Font")) {
                 resources.replaceKey("/Font", QPDFObjectHandle::newDictionary());
             }

@@ -21,6 +21,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -48,6 +49,17 @@ struct WorldPose {
     double yaw_rad = 0;  ///< counter-clockwise from the world's x axis
 };
 
+/// How a page was printed: what is needed, besides the sheet, to print the very same page again.
+struct SheetPrint {
+    std::string title;          ///< what the page and its document call themselves
+    int pages = 1;              ///< pages of the document, or those of it that got dots
+    double dpi = 600;           ///< resolution of the printer
+    std::string dots = "auto";  ///< how a PDF draws dots: "auto", "glyphs" or "strokes"
+    bool has_labels = true;     ///< whether a PDF has text and rulers in the margins
+    std::string command;        ///< makes the same dots on the same page again
+    std::string document;       ///< PDF over which the dots were laid; empty if there was none
+};
+
 /// One page of a sheet file.
 struct SheetEntry {
     std::string name;  ///< unique in the file
@@ -61,14 +73,16 @@ struct SheetEntry {
     /// Where the top left corner of the page lies in the world, and the direction in which the
     /// page's upper edge runs from there. None: not known.
     std::optional<WorldPose> world;
+    /// None: entered by an earlier version, or not by printing.
+    std::optional<SheetPrint> print;
     /// Whether the region is taken although the page may not exist: it is being written, or the
     /// program that wrote it was stopped.
     bool is_reserved = false;
 };
 
 /// Checks one entry: a name that is not empty and is UTF-8 without characters that act on a
-/// terminal; page at least 1; scales in their range; world finite; and `validate(sheet)`. Throws
-/// BadArgument.
+/// terminal; page at least 1; scales in their range; world finite; of `print`, pages at least 1, a
+/// resolution above 0 and a known way to draw dots; and `validate(sheet)`. Throws BadArgument.
 void validate(const SheetEntry& entry);
 
 /// Whether some cell belongs to both sheets. Different sections never overlap. The profiles anoto
@@ -127,6 +141,10 @@ class SheetFile {
     /// no such sheet.
     void replace(const SheetEntry& entry);
 
+    /// Gives the sheet `name` another name; the keys that this version does not know stay with it.
+    /// Throws BadArgument: there is no such sheet, the new name is taken or not valid.
+    void rename(const std::string& name, const std::string& new_name);
+
     /// Removes the sheet of this name, if there is one.
     void remove(const std::string& name);
 
@@ -156,6 +174,8 @@ class SheetFile {
     std::optional<std::string> text_;  ///< the file as it was read or saved; none if it did not
                                        ///< exist
     std::vector<SheetEntry> sheets_;
+    std::map<std::string, std::string> names_in_text_;  ///< of renamed sheets: by the new name, the
+                                                        ///< one in `text_`
 };
 
 /// Sheets that are entered before their pages are written. They are marked as reserved, so that

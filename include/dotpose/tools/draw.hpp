@@ -83,6 +83,11 @@ void draw_spin(const std::filesystem::path& path, const SpinCalibration& calibra
 void draw_stitching(const std::filesystem::path& path, std::span<const SheetEntry> before,
                     const Stitching& stitching);
 
+/// Draws the sheets where they lie in the world, seen from above with x to the right and y up, and
+/// beside them those whose pose in the world is not known. Throws Error if the sheets lie farther
+/// apart than can be drawn.
+void draw_sheets(const std::filesystem::path& path, std::span<const SheetEntry> sheets);
+
 /// Draws the deviations of all fields of a printed page over the outline of its scan, enlarged.
 void draw_distortion(const std::filesystem::path& path, const ImageView& scan,
                      const PrintCheck& check);

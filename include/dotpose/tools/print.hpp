@@ -108,6 +108,11 @@ struct PrintOptions {
     bool labels = true;
     std::string name;     ///< PDF only: first of the labels, and the document's title
     std::string command;  ///< PDF only: label with the command that makes the sheet again
+    /// PDF only: this label of each page, where pages have commands of their own; `command` does
+    /// not matter then.
+    std::vector<std::string> page_commands;
+    int first_page = 1;  ///< PDF only: what the labels say is the number of the first sheet
+    int page_count = 0;  ///< PDF only: and the number of pages; 0: as many as are written
     /// Called often, so it must be quick. Default: none.
     Progress progress;
 };

@@ -1,0 +1,222 @@
+// Shows and changes a sheet file.
+#include <filesystem>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <string>
+
+#include <fmt/core.h>
+
+#include "commands.hpp"
+#include "common.hpp"
+#include "dotpose/files/sheet_file.hpp"
+#include "dotpose/tools/draw.hpp"
+#include "files/output_file.hpp"
+#include "progress.hpp"
+#include "run_files.hpp"
+#include "sheet_reprint.hpp"
+#include "sheet_text.hpp"
+#include "terminal_text.hpp"
+
+namespace dotpose::cli {
+namespace {
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  dotpose sheets list\n"
+    "  dotpose sheets show table --sheets lab.json\n"
+    "  dotpose sheets place table --x 1250 --y -500 --yaw 90\n"
+    "  dotpose sheets reprint table -o table.pdf\n"
+    "  dotpose sheets map -o map.svg\n\n"
+    "dotpose sheets COMMAND --help has the options of each.\n";
+
+constexpr const char* kFrames =
+    "The pose is that of the top left corner of the page, and --yaw the direction in which its\n"
+    "upper edge runs from there, counter-clockwise: a page that lies straight has yaw 0.\n\n"
+    "Example:\n"
+    "  dotpose sheets place table --x 1250 --y -500 --yaw 90\n";
+
+constexpr double kMmPerM = 1000;
+
+struct SheetsArguments {
+    std::string sheets = "sheets.json";
+    double wait_s = SheetFileWait{}.most_s;
+    std::string name;
+    std::string new_name;
+    std::string out;
+    std::optional<double> x_mm;
+    std::optional<double> y_mm;
+    std::optional<double> yaw_deg;
+    bool is_unknown = false;
+
+    SheetFileWait wait() const { return {wait_s, tell, interrupted}; }
+};
+
+/// Refuses a file that does not exist: to change it would make a new one.
+void require_there(const SheetsArguments& arguments) {
+    std::error_code error;
+    if (std::filesystem::exists(arguments.sheets, error)) return;
+    throw Error(
+        fmt::format("there is no sheet file {}: --sheets FILE names it, and 'dotpose print "
+                    "--sheets FILE --name NAME' makes one",
+                    arguments.sheets));
+}
+
+std::vector<SheetEntry> sheets_of(const SheetsArguments& arguments) {
+    require_there(arguments);
+    return read_sheets(arguments.sheets);
+}
+
+/// Calls `change` with the entry of the sheet that the user named, while nobody else can change the
+/// file, and saves the file.
+template <typename Change>
+void change_sheet(const SheetsArguments& arguments, const Change& change) {
+    require_there(arguments);
+    catch_interrupts();
+    SheetFile file(arguments.sheets, arguments.wait());
+    change(file, SheetEntry(named_sheet(file.sheets(), arguments.name, arguments.sheets)));
+    file.save();
+}
+
+void place(const SheetsArguments& arguments) {
+    const bool has_pose = arguments.x_mm && arguments.y_mm && arguments.yaw_deg;
+    if (!has_pose && !arguments.is_unknown) {
+        throw BadArgument("a place needs all of --x, --y and --yaw, or --unknown alone");
+    }
+    change_sheet(arguments, [&](SheetFile& file, SheetEntry entry) {
+        entry.world.reset();
+        if (has_pose) {
+            entry.world = {*arguments.x_mm / kMmPerM, *arguments.y_mm / kMmPerM,
+                           *arguments.yaw_deg * std::numbers::pi / 180};
+        }
+        file.replace(entry);
+        fmt::print("{}: {}\n", printable(entry.name), world_text(entry));
+    });
+}
+
+void rename(const SheetsArguments& arguments) {
+    change_sheet(arguments, [&](SheetFile& file, const SheetEntry& entry) {
+        file.rename(entry.name, arguments.new_name);
+        fmt::print("{} is now {}\n", printable(entry.name), printable(arguments.new_name));
+    });
+}
+
+void remove(const SheetsArguments& arguments) {
+    change_sheet(arguments, [&](SheetFile& file, const SheetEntry& entry) {
+        file.remove(entry.name);
+        fmt::print(
+            "{} is removed: its cells may be given to other pages, so do not use this one "
+            "any more\n",
+            printable(entry.name));
+    });
+}
+
+void reprint(const SheetsArguments& arguments) {
+    RunFiles files;
+    files.reads("--sheets", arguments.sheets);
+    files.writes("-o", arguments.out, Content::own);
+    const std::vector<SheetEntry> sheets = sheets_of(arguments);
+    const SheetEntry& entry = named_sheet(sheets, arguments.name, arguments.sheets);
+    reprint_sheet(entry, arguments.out);
+    if (entry.is_reserved) {
+        change_sheet(arguments, [](SheetFile& file, SheetEntry reserved) {
+            reserved.is_reserved = false;
+            file.replace(reserved);
+        });
+    }
+    fmt::print("{}: {}, sheet '{}' of {}\n", printable(arguments.out), region_text(entry.sheet),
+               printable(entry.name), printable(arguments.sheets));
+}
+
+void draw_map(const SheetsArguments& arguments) {
+    RunFiles files;
+    files.reads("--sheets", arguments.sheets);
+    files.writes("-o", arguments.out, Content::svg);
+    const std::vector<SheetEntry> sheets = sheets_of(arguments);
+    files::require_writable(arguments.out);
+    draw_sheets(arguments.out, sheets);
+}
+
+using Arguments = std::shared_ptr<SheetsArguments>;
+
+void add_out_option(CLI::App& command, const Arguments& arguments, const std::string& help) {
+    command.add_option("-o,--out", arguments->out, help)->type_name("FILE")->required();
+}
+
+/// Adds a subcommand with the options that all have.
+CLI::App& add_command(CLI::App& sheets, const Arguments& arguments, const char* name,
+                      const char* what, void (*run)(const SheetsArguments&)) {
+    CLI::App* command = sheets.add_subcommand(name, what);
+    add_sheets_option(*command, arguments->sheets, "Sheet file")->capture_default_str();
+    command->callback([arguments, run] { run(*arguments); });
+    return *command;
+}
+
+/// Adds a subcommand for one sheet, which the user names.
+CLI::App& add_command_of_one(CLI::App& sheets, const Arguments& arguments, const char* name,
+                             const char* what, void (*run)(const SheetsArguments&)) {
+    CLI::App& command = add_command(sheets, arguments, name, what, run);
+    command.add_option("name", arguments->name, "Name of the sheet")->type_name("NAME")->required();
+    return command;
+}
+
+void add_wait_option(CLI::App& command, const Arguments& arguments) {
+    command
+        .add_option("--wait", arguments->wait_s,
+                    "Longest to wait for others who change the sheet file")
+        ->type_name("SECONDS")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 86'400.0));
+}
+
+void add_place(CLI::App& sheets, const Arguments& arguments) {
+    CLI::App& command = add_command_of_one(
+        sheets, arguments, "place", "Enter where the page of a sheet lies in the world", place);
+    command.footer(kFrames);
+    add_wait_option(command, arguments);
+    CLI::Option* unknown = command.add_flag("--unknown", arguments->is_unknown,
+                                            "Where the page lies is not known any more");
+    const auto add = [&](const char* flag, std::optional<double>& value, const char* unit,
+                         const char* help) {
+        command.add_option(flag, value, help)->type_name(unit)->excludes(unknown);
+    };
+    add("--x", arguments->x_mm, "MM", "x of the page's top left corner in the world");
+    add("--y", arguments->y_mm, "MM", "y of this corner; y is up where x is to the right");
+    add("--yaw", arguments->yaw_deg, "DEG", "Direction of the page's upper edge");
+}
+
+}  // namespace
+
+void add_sheets(CLI::App& app, int& /*exit_code*/) {
+    const auto arguments = std::make_shared<SheetsArguments>();
+    CLI::App* command = app.add_subcommand("sheets", "Show and change a sheet file");
+    command->footer(kExamples);
+    command->require_subcommand(1);
+    add_command(*command, arguments, "list", "List all sheets", [](const SheetsArguments& given) {
+        fmt::print("{}", list_text(sheets_of(given)));
+    });
+    add_command_of_one(
+        *command, arguments, "show", "Show all that is known of a sheet",
+        [](const SheetsArguments& given) {
+            fmt::print("{}", sheet_text(named_sheet(sheets_of(given), given.name, given.sheets)));
+        });
+    add_place(*command, arguments);
+    CLI::App& renaming =
+        add_command_of_one(*command, arguments, "rename", "Give a sheet another name", rename);
+    renaming.add_option("new_name", arguments->new_name, "Name that it gets")
+        ->type_name("NAME")
+        ->required();
+    add_wait_option(renaming, arguments);
+    add_wait_option(
+        add_command_of_one(*command, arguments, "remove", "Remove a sheet from the file", remove),
+        arguments);
+    CLI::App& reprinting = add_command_of_one(*command, arguments, "reprint",
+                                              "Make the very same page of a sheet again", reprint);
+    add_out_option(reprinting, arguments, "File to write: .pdf, .svg, .png, .tif or .txt");
+    add_wait_option(reprinting, arguments);
+    add_out_option(
+        add_command(*command, arguments, "map", "Draw how the sheets lie in the world", draw_map),
+        arguments, "Picture to draw (SVG)");
+}
+
+}  // namespace dotpose::cli

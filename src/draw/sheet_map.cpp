@@ -1,0 +1,225 @@
+// Draws the sheets of a file: on the left where they lie in the world, and on the right, each as
+// large as there is room for, those whose pose in the world is not known.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <ostream>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dotpose/files/sheet_place.hpp"
+#include "dotpose/tools/draw.hpp"
+#include "draw/svg.hpp"
+
+namespace dotpose {
+namespace {
+
+using namespace dotpose::draw;
+
+constexpr double kSide = 900;
+constexpr double kMargin = 50;
+constexpr double kHead = 70;
+constexpr double kFoot = 60;
+constexpr double kBox = 190;  // the longest side of a sheet without a pose
+constexpr double kBoxPitch_x = 230;
+constexpr double kBoxPitch_y = 300;
+constexpr std::size_t kBoxRows = 3;
+/// Beyond it a page is smaller than the rounding of the numbers in the drawing.
+constexpr double kMostExtent_m = 1e7;
+constexpr const char* kCentred = R"(text-anchor="middle" fill="#17202a")";
+constexpr const char* kCentredQuiet = R"(text-anchor="middle" fill="#6b7885")";
+
+struct Bounds {
+    Point low{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
+    Point high{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::lowest()};
+
+    void add(Point p) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+    double extent() const { return std::max(high.x - low.x, high.y - low.y); }
+};
+
+/// The corners of a page with a pose, in metres of the world, from the top left one clockwise.
+std::array<Point, 4> corners_m(const SheetEntry& entry) {
+    const auto corner = [&entry](double x_mm, double y_mm) {
+        const WorldPlace place = world_place({&entry, x_mm, y_mm, 0, {}}).value();
+        return Point{place.x_m, place.y_m};
+    };
+    const Sheet& sheet = entry.sheet;
+    return {corner(0, 0), corner(sheet.width_mm, 0), corner(sheet.width_mm, sheet.height_mm),
+            corner(0, sheet.height_mm)};
+}
+
+/// The box that holds all pages with a pose and the world's origin, which is left out where the
+/// pages would get too small beside it.
+Bounds world_bounds(std::span<const SheetEntry> sheets) {
+    constexpr double kMostForOrigin = 3;
+    Bounds bounds;
+    for (const SheetEntry& entry : sheets) {
+        if (!entry.world) continue;
+        for (const Point corner : corners_m(entry))
+            bounds.add(corner);
+    }
+    Bounds with_origin = bounds;
+    with_origin.add({0, 0});
+    const bool is_near = with_origin.extent() <= kMostForOrigin * bounds.extent();
+    const Bounds shown = is_near ? with_origin : bounds;
+    if (bounds.low.x <= bounds.high.x && !(shown.extent() < kMostExtent_m)) {
+        throw Error(fmt::format("the sheets lie over {:g} km of the world: too far apart to draw",
+                                shown.extent() / 1000));
+    }
+    return shown;
+}
+
+/// The longest of 1, 2 and 5 times a power of ten metres that is at most `longest_m`.
+double round_length_m(double longest_m) {
+    const double power = std::pow(10, std::floor(std::log10(longest_m)));
+    for (const double digit : {5.0, 2.0}) {
+        if (digit * power <= longest_m) return digit * power;
+    }
+    return power;
+}
+
+class SheetMap {
+  public:
+    explicit SheetMap(std::span<const SheetEntry> sheets)
+        : sheets_(sheets),
+          placed_(static_cast<std::size_t>(
+              std::ranges::count_if(sheets, [](const SheetEntry& e) { return bool(e.world); }))),
+          bounds_(world_bounds(sheets)),
+          per_m_(placed_ > 0 ? kSide / bounds_.extent() : 1),
+          svg_(width(), kSide + 2 * kMargin + kHead + kFoot, "Sheets") {}
+
+    std::string draw() && {
+        svg_.text({kMargin, kMargin + 24}, 28, "Sheets in the world",
+                  R"(font-weight="bold" fill="#17202a")");
+        if (placed_ == 0) {
+            svg_.text({kMargin, kMargin + kHead + 30}, 20,
+                      "No sheet has a pose in the world: dotpose sheets place NAME ...",
+                      R"(fill="#6b7885")");
+        } else {
+            for (const SheetEntry& entry : sheets_) {
+                if (entry.world) draw_placed(entry);
+            }
+            draw_origin();
+            draw_scale();
+        }
+        draw_unplaced();
+        return std::move(svg_).finish();
+    }
+
+  private:
+    double width() const {
+        const std::size_t rest = sheets_.size() - placed_;
+        const std::size_t columns = (rest + kBoxRows - 1) / kBoxRows;
+        const double right = std::max(static_cast<double>(columns) * kBoxPitch_x, 330.0);
+        return kSide + 2 * kMargin + (rest > 0 ? kMargin + right : 0);
+    }
+
+    Point at(Point world_m) const {
+        return {kMargin + (world_m.x - bounds_.low.x) * per_m_,
+                kMargin + kHead + (bounds_.high.y - world_m.y) * per_m_};
+    }
+
+    void draw_outline(std::span<const Point> corners) {
+        std::string points;
+        for (const Point corner : corners)
+            points += fmt::format("{:.2f},{:.2f} ", corner.x, corner.y);
+        svg_.add(R"(<polygon class="sheet" points="{}" fill="{}" fill-opacity="0.07" )"
+                 R"(stroke="{}" stroke-width="1.2"/>)",
+                 points, colour::kEdge, colour::kInk);
+        // The pose is that of the top left corner and of the upper edge.
+        svg_.circle(corners[0], 5, fmt::format(R"(fill="{}")", colour::kBad));
+        svg_.arrow(corners[0], corners[0] + 0.4 * (corners[1] - corners[0]), 2, colour::kBad);
+    }
+
+    void draw_placed(const SheetEntry& entry) {
+        std::array<Point, 4> corners = corners_m(entry);
+        for (Point& corner : corners)
+            corner = at(corner);
+        draw_outline(corners);
+        const double widest =
+            std::max(length(corners[1] - corners[0]), length(corners[3] - corners[0]));
+        const double letters = static_cast<double>(std::max<std::size_t>(entry.name.size(), 6));
+        const double size = std::clamp(1.5 * widest / letters, 9.0, 24.0);
+        const Point middle = 0.5 * (corners[0] + corners[2]);
+        svg_.text(middle, size, entry.name, kCentred);
+        svg_.text(middle + Point{0, 1.2 * size}, 0.7 * size,
+                  fmt::format("{:.3f}, {:.3f} m", entry.world->x_m, entry.world->y_m),
+                  kCentredQuiet);
+    }
+
+    void draw_origin() {
+        const Point origin = at({0, 0});
+        const double reach = 70;
+        const bool is_shown = origin.x >= kMargin - 1 && origin.x <= kMargin + kSide + 1 &&
+                              origin.y >= kMargin + kHead - 1 &&
+                              origin.y <= kMargin + kHead + kSide + 1;
+        if (!is_shown) return;
+        svg_.arrow(origin, origin + Point{reach, 0}, 3, colour::kGood, R"(class="axis")");
+        svg_.arrow(origin, origin - Point{0, reach}, 3, colour::kGood, R"(class="axis")");
+        const std::string ink = fmt::format(R"(fill="{}" font-weight="bold")", colour::kGood);
+        svg_.text(origin + Point{reach + 6, 6}, 20, "x", ink);
+        svg_.text(origin + Point{-6, -reach - 8}, 20, "y", ink);
+    }
+
+    void draw_scale() {
+        const double length_m = round_length_m(0.4 * bounds_.extent());
+        const double y = kMargin + kHead + (bounds_.high.y - bounds_.low.y) * per_m_ + kFoot;
+        const Point end{kMargin + length_m * per_m_, y};
+        svg_.line({kMargin, y}, end, R"(class="scale" stroke="#17202a" stroke-width="3")");
+        svg_.text(end + Point{10, 6}, 18,
+                  length_m < 1 ? fmt::format("{:g} mm", 1000 * length_m)
+                               : fmt::format("{:g} m", length_m),
+                  R"(fill="#17202a")");
+    }
+
+    void draw_unplaced() {
+        if (placed_ == sheets_.size()) return;
+        const double left = kSide + 2 * kMargin;
+        svg_.text({left, kMargin + 24}, 28, "Without a pose",
+                  R"(font-weight="bold" fill="#17202a")");
+        svg_.text({left, kMargin + 50}, 17, "not to scale", R"(fill="#6b7885")");
+        std::size_t index = 0;
+        for (const SheetEntry& entry : sheets_) {
+            if (entry.world) continue;
+            const auto column = static_cast<double>(index / kBoxRows);
+            const auto row = static_cast<double>(index % kBoxRows);
+            draw_box(entry, {left + column * kBoxPitch_x, kMargin + kHead + row * kBoxPitch_y});
+            ++index;
+        }
+    }
+
+    void draw_box(const SheetEntry& entry, Point corner) {
+        const Sheet& sheet = entry.sheet;
+        const double per_mm = kBox / std::max(sheet.width_mm, sheet.height_mm);
+        const double right = corner.x + per_mm * sheet.width_mm;
+        const double below = corner.y + per_mm * sheet.height_mm;
+        draw_outline(
+            std::array<Point, 4>{{corner, {right, corner.y}, {right, below}, {corner.x, below}}});
+        const double letters = static_cast<double>(std::max<std::size_t>(entry.name.size(), 8));
+        svg_.text({corner.x, below + 26}, std::min(20.0, 1.7 * kBox / letters), entry.name,
+                  R"(fill="#17202a")");
+        svg_.text({corner.x, below + 48}, 15,
+                  fmt::format("{:g} x {:g} mm", sheet.width_mm, sheet.height_mm),
+                  R"(fill="#6b7885")");
+    }
+
+    std::span<const SheetEntry> sheets_;
+    std::size_t placed_;
+    Bounds bounds_;
+    double per_m_;
+    Svg svg_;
+};
+
+}  // namespace
+
+void draw_sheets(const std::filesystem::path& path, std::span<const SheetEntry> sheets) {
+    const std::string picture = SheetMap(sheets).draw();
+    write_file(path, [&picture](std::ostream& stream) { stream << picture; });
+}
+
+}  // namespace dotpose
