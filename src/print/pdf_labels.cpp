@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <vector>
 
 #include <fmt/core.h>
@@ -27,6 +28,11 @@ constexpr double kNumberHeight_mm = 0.718 * kNumber_pt / kPointsPerMm;  // a dig
 constexpr double kLongTick_mm = 1.8;
 constexpr double kNumberAway_mm = kGap_mm + kLongTick_mm + 0.3;
 constexpr double kRulerRoom_mm = kNumberAway_mm + kNumberHeight_mm + kEdge_mm;
+
+constexpr double kArrowGap_mm = 0.5;  // between the numbers of a ruler and the arrow beside it
+constexpr double kArrow_mm = 6;       // of an arrow beyond the other arrow
+constexpr double kArrowHead_mm = 1.3;
+constexpr double kNoteAway_mm = 3;  // from the x arrow
 
 // Adobe font metrics of Helvetica, in thousandths of the font size, from the space to '~'.
 constexpr std::array<int, 95> kHelveticaWidths = {
@@ -75,6 +81,50 @@ std::vector<std::string> wrap(const std::string& text, double widest_mm) {
     return lines;
 }
 
+/// The free paper above or beside the dots.
+enum class Side { top, left };
+double free_margin_mm(const Sheet& sheet, Side side) {
+    return (side == Side::top ? sheet.origin_y_mm : sheet.origin_x_mm) - reach_mm(sheet.pattern);
+}
+
+bool has_ruler(const Sheet& sheet, Side side) {
+    return free_margin_mm(sheet, side) >= kRulerRoom_mm;
+}
+
+/// Where the arrows that show x and y of the page lie, outside of both rulers.
+struct Arrows {
+    double x_of_y_arrow_mm = 0;
+    double y_of_x_arrow_mm = 0;
+    double x_end_mm() const { return x_of_y_arrow_mm + kArrow_mm; }
+    double y_end_mm() const { return y_of_x_arrow_mm + kArrow_mm; }
+};
+
+/// Returns none if there is no room.
+std::optional<Arrows> arrows_of(const Sheet& sheet) {
+    const double x_mm = free_margin_mm(sheet, Side::left) - kRulerRoom_mm - kArrowGap_mm;
+    const double y_mm = free_margin_mm(sheet, Side::top) - kRulerRoom_mm - kArrowGap_mm;
+    if (std::min(x_mm, y_mm) < kNumberHeight_mm / 2 + kEdge_mm) return std::nullopt;
+    return Arrows{x_mm, y_mm};
+}
+
+/// Returns the pattern coordinates of the corner from which those of the sheet count.
+std::string corner_text(const Sheet& sheet) {
+    const double spacing_mm = sheet.pattern.spacing_mm;
+    return fmt::format("x_mm {:.3f}, y_mm {:.3f}", sheet.origin.x * spacing_mm - sheet.origin_x_mm,
+                       sheet.origin.y * spacing_mm - sheet.origin_y_mm);
+}
+
+std::string corner_note(const Sheet& sheet) {
+    return "x_sheet_mm and y_sheet_mm count from this corner, in the pattern " + corner_text(sheet);
+}
+
+bool has_note_at_origin(const Sheet& sheet) {
+    const auto arrows = arrows_of(sheet);
+    return arrows && arrows->x_end_mm() + kNoteAway_mm + width_mm(corner_note(sheet), kNumber_pt) +
+                             kEdge_mm <=
+                         sheet.width_mm;
+}
+
 std::string description(const Sheet& sheet, PageNumber page, const PrintOptions& options) {
     const Pattern& pattern = sheet.pattern;
     std::string text = options.name.substr(0, kLongestName);
@@ -103,7 +153,11 @@ std::string text_content(const Sheet& sheet, PageNumber page, const PrintOptions
     const auto wrapped = [&](const std::string& utf8) {
         return wrap(QUtil::utf8_to_win_ansi(utf8), widest_mm);
     };
-    std::vector<std::string> lines = wrapped(description(sheet, page, options));
+    std::string text = description(sheet, page, options);
+    if (!has_note_at_origin(sheet)) {
+        text += ", top left corner at " + corner_text(sheet);
+    }
+    std::vector<std::string> lines = wrapped(text);
     const std::vector<std::string> command = wrapped(options.command);
     // The command is left out unless all of it fits: a part of it would print another sheet.
     if (!options.command.empty() && lines.size() + command.size() <= most_lines) {
@@ -123,46 +177,95 @@ std::string text_content(const Sheet& sheet, PageNumber page, const PrintOptions
     return content + "ET\n";
 }
 
-enum class Side { top, left };
+/// Returns a point of the page as operands of PDF.
+std::string point(const Sheet& sheet, double x_mm, double y_mm) {
+    return fmt::format("{:.3f} {:.3f}", x_mm * kPointsPerMm,
+                       (sheet.height_mm - y_mm) * kPointsPerMm);
+}
 
-/// Returns the PDF content of a ruler from the first intersection to the last, with a tick every
-/// millimetre and a number every ten.
+/// Returns the PDF content of a ruler that counts from the corner of the page to the last
+/// intersection, with a tick every millimetre and a number every ten. The edge of the paper is its
+/// zero. Where the other ruler crosses it there are no ticks.
 std::string ruler_content(const Sheet& sheet, Side side) {
-    const double reach = reach_mm(sheet.pattern);
+    if (!has_ruler(sheet, side)) return {};
     const bool is_top = side == Side::top;
-    const double room_mm = (is_top ? sheet.origin_y_mm : sheet.origin_x_mm) - reach;
-    if (room_mm < kRulerRoom_mm) return {};
-    // Converts a position along the ruler and a distance from the dots to a point of the page. The
-    // ruler on the left runs downwards.
-    const auto point = [&](double along_mm, double away_mm) {
-        const double x_mm = sheet.origin_x_mm + (is_top ? along_mm : -reach - away_mm);
-        const double y_mm = sheet.origin_y_mm + (is_top ? -reach - away_mm : along_mm);
-        return fmt::format("{:.3f} {:.3f}", x_mm * kPointsPerMm,
-                           (sheet.height_mm - y_mm) * kPointsPerMm);
+    const double away_from_mm = free_margin_mm(sheet, side);
+    // A position along the ruler and a distance from the dots. The ruler on the left runs down.
+    const auto at = [&](double along_mm, double away_mm) {
+        return is_top ? point(sheet, along_mm, away_from_mm - away_mm)
+                      : point(sheet, away_from_mm - away_mm, along_mm);
     };
-    const int count = is_top ? sheet.columns : sheet.rows;
-    const int length_mm = static_cast<int>((count - 1) * sheet.pattern.spacing_mm + 1e-6);
+    const Side other = is_top ? Side::left : Side::top;
+    const double crossing_end_mm = has_ruler(sheet, other) ? free_margin_mm(sheet, other) : 0;
+    const auto is_crossed = [&](double from_mm, double to_mm) {
+        return to_mm > crossing_end_mm - kRulerRoom_mm && from_mm < crossing_end_mm;
+    };
+    const double dots_mm =
+        ((is_top ? sheet.columns : sheet.rows) - 1) * sheet.pattern.spacing_mm + 1e-6;
+    const int last_mm =
+        static_cast<int>((is_top ? sheet.origin_x_mm : sheet.origin_y_mm) + dots_mm);
     std::string ticks = fmt::format("{:.3f} w\n", 0.1 * kPointsPerMm);
     std::string numbers = fmt::format("BT /Label {} Tf\n", kNumber_pt);
-    for (int mm = 0; mm <= length_mm; ++mm) {
+    for (int mm = 0; mm <= last_mm; ++mm) {
         const double tick_mm = mm % 10 == 0 ? kLongTick_mm : mm % 5 == 0 ? 1.2 : 0.8;
-        ticks += point(mm, kGap_mm) + " m " + point(mm, kGap_mm + tick_mm) + " l\n";
+        if (mm > 0 && !is_crossed(mm, mm)) {
+            ticks += at(mm, kGap_mm) + " m " + at(mm, kGap_mm + tick_mm) + " l\n";
+        }
         if (mm % 10 != 0) continue;
         const std::string number = mm == 0 ? "0 mm" : fmt::format("{}", mm);
-        const double half_mm = width_mm(number, kNumber_pt) / 2;
+        const double length_mm = width_mm(number, kNumber_pt);
+        const double from_mm = mm == 0 ? kEdge_mm : mm - length_mm / 2;
+        if (is_crossed(from_mm, from_mm + length_mm)) continue;
         // Beside the dots the text runs upwards, so that its top faces away from them.
         numbers +=
             fmt::format("{} {} Tm {} Tj\n", is_top ? "1 0 0 1" : "0 1 -1 0",
-                        point(is_top ? mm - half_mm : mm + half_mm, kNumberAway_mm), shown(number));
+                        at(is_top ? from_mm : from_mm + length_mm, kNumberAway_mm), shown(number));
     }
     return ticks + "S\n" + numbers + "ET\n";
+}
+
+/// Returns the PDF content of an arrow along x or y, from the edge of the page.
+std::string arrow_content(const Sheet& sheet, Side side, double away_mm, double end_mm) {
+    const auto at = [&](double along_mm, double aside_mm) {
+        return side == Side::top ? point(sheet, along_mm, away_mm + aside_mm)
+                                 : point(sheet, away_mm + aside_mm, along_mm);
+    };
+    const double neck_mm = end_mm - kArrowHead_mm;
+    return at(kEdge_mm, 0) + " m " + at(neck_mm, 0) + " l S\n" + at(end_mm, 0) + " m " +
+           at(neck_mm, 0.35 * kArrowHead_mm) + " l " + at(neck_mm, -0.35 * kArrowHead_mm) +
+           " l f\n";
+}
+
+std::string label_at(const Sheet& sheet, double x_mm, double baseline_mm, const std::string& text) {
+    return fmt::format("1 0 0 1 {} Tm {} Tj\n", point(sheet, x_mm, baseline_mm), shown(text));
+}
+
+/// Returns the PDF content of an x and a y arrow at the corner of the page, with the note if there
+/// is room beside it.
+std::string origin_content(const Sheet& sheet) {
+    const auto arrows = arrows_of(sheet);
+    if (!arrows) return {};
+    const double baseline_mm = arrows->y_of_x_arrow_mm + kNumberHeight_mm / 2;
+    std::string texts = fmt::format("BT /Label {} Tf\n", kNumber_pt);
+    texts += label_at(sheet, arrows->x_end_mm() + 0.4, baseline_mm, "x");
+    texts += label_at(sheet, arrows->x_of_y_arrow_mm - 0.4,
+                      arrows->y_end_mm() + 0.4 + kNumberHeight_mm, "y");
+    if (has_note_at_origin(sheet)) {
+        texts +=
+            label_at(sheet, arrows->x_end_mm() + kNoteAway_mm, baseline_mm, corner_note(sheet));
+    }
+    return fmt::format("{:.3f} w\n", 0.15 * kPointsPerMm) +
+           arrow_content(sheet, Side::top, arrows->y_of_x_arrow_mm, arrows->x_end_mm()) +
+           arrow_content(sheet, Side::left, arrows->x_of_y_arrow_mm, arrows->y_end_mm()) + texts +
+           "ET\n";
 }
 
 }  // namespace
 
 std::string label_content(const Sheet& sheet, PageNumber page, const PrintOptions& options) {
     return "q 0 0 0 1 k 0 0 0 1 K\n" + text_content(sheet, page, options) +
-           ruler_content(sheet, Side::top) + ruler_content(sheet, Side::left) + "Q\n";
+           ruler_content(sheet, Side::top) + ruler_content(sheet, Side::left) +
+           origin_content(sheet) + "Q\n";
 }
 
 }  // namespace dotpose::print

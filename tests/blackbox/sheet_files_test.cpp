@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <cstdint>
+#include <cstdio>
 #include <numbers>
 #include <random>
 #include <string>
@@ -104,6 +105,51 @@ TEST_F(SheetFiles, agree_with_a_ruler_on_the_printed_page) {
         EXPECT_NEAR(record["x_sheet_mm"], u * 25.4 / 1200, kTolerance_mm);
         EXPECT_NEAR(record["y_sheet_mm"], v * 25.4 / 1200, kTolerance_mm);
     }
+}
+
+/// The column in which a page has the most dark pixels between two rows, of those between two
+/// columns.
+int darkest_column(const GreyImage& page, int u_begin, int u_end, int v_begin, int v_end) {
+    int best = u_begin;
+    int most = 0;
+    for (int u = u_begin; u < u_end; ++u) {
+        int dark = 0;
+        for (int v = v_begin; v < v_end; ++v)
+            dark += page.pixels[static_cast<std::size_t>(v * page.width_px + u)] < 128;
+        if (dark > most) best = u;
+        most = std::max(most, dark);
+    }
+    return best;
+}
+
+TEST_F(SheetFiles, a_frame_under_the_ruler_s_50_mm_lies_at_50_mm) {
+    constexpr double kPxPerMm = 1200 / 25.4;
+    ASSERT_EQ(print("-o page.pdf --paper 80x60 --margin 10 --sheets sheets.json --name page"), 0);
+    ASSERT_EQ(shell("pdftoppm -r 1200 -gray -singlefile page.pdf page && "
+                    "pdftotext -bbox page.pdf - | grep '>50</word>'"),
+              0)
+        << errors_;
+    double left_pt = 0;
+    double top_pt = 0;
+    double right_pt = 0;
+    double bottom_pt = 0;
+    ASSERT_EQ(
+        std::sscanf(output_.c_str(), " <word xMin=\"%lf\" yMin=\"%lf\" xMax=\"%lf\" yMax=\"%lf",
+                    &left_pt, &top_pt, &right_pt, &bottom_pt),
+        4)
+        << output_;
+    const GreyImage page = read_image((directory_ / "page.pgm").string());
+    const auto px = [](double pt) { return static_cast<int>(pt * 1200 / 72); };
+    // The tick is 1.8 mm long, between the number and the dots.
+    const int v = px(bottom_pt);
+    const int u =
+        darkest_column(page, px(left_pt), px(right_pt), v, v + static_cast<int>(1.8 * kPxPerMm));
+    const json record =
+        locate_with_sheets(cut_out(page, u, static_cast<int>(30 * kPxPerMm), 280, 260));
+    ASSERT_EQ(record["status"], "ok") << record;
+    // The tick is 0.1 mm wide, and any of its columns may be the darkest.
+    EXPECT_NEAR(record["x_sheet_mm"], 50, 0.05 + kTolerance_mm);
+    EXPECT_NEAR(record["y_sheet_mm"], 30, kTolerance_mm + 0.03);
 }
 
 TEST_F(SheetFiles, may_mix_codes_and_spacings) {

@@ -1,7 +1,11 @@
+#include <array>
 #include <cstdio>
+#include <map>
 #include <sstream>
 #include <string>
+#include <vector>
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -45,9 +49,82 @@ TEST(labels, say_what_is_on_the_page) {
     EXPECT_THAT(content, HasSubstr("dotpose print -o door.pdf"));
     EXPECT_THAT(content, HasSubstr("0 0 0 1 k 0 0 0 1 K"));
     EXPECT_THAT(content, HasSubstr("(0 mm) Tj"));
-    // The dots span 79.756 mm, so that is where the ruler ends.
-    EXPECT_THAT(content, HasSubstr("(70) Tj"));
-    EXPECT_THAT(content, Not(HasSubstr("(80) Tj")));
+    // The ruler counts from the edge of the page; the dots begin at 10.2 mm and span 79.8 mm.
+    EXPECT_THAT(content, HasSubstr("(80) Tj"));
+    EXPECT_THAT(content, Not(HasSubstr("(90) Tj")));
+}
+
+/// The places of all ticks and numbers of a ruler, in mm from the corner of the page.
+struct Marks {
+    std::vector<double> ticks_x_mm;  ///< of the ruler above the dots
+    std::vector<double> ticks_y_mm;  ///< of the one beside them
+    std::map<std::string, std::array<double, 2>> texts_mm;
+};
+
+Marks marks_of(const std::string& content, double height_mm) {
+    const double mm_per_pt = 25.4 / 72;
+    Marks marks;
+    std::istringstream lines(content);
+    for (std::string line; std::getline(lines, line);) {
+        double x = 0;
+        double y = 0;
+        double x2 = 0;
+        double y2 = 0;
+        char text[100] = {};
+        char end = 0;
+        if (std::sscanf(line.c_str(), "%lf %lf m %lf %lf %c", &x, &y, &x2, &y2, &end) == 5 &&
+            end == 'l' && line.ends_with(" l")) {
+            if (x == x2) marks.ticks_x_mm.push_back(x * mm_per_pt);
+            if (y == y2) marks.ticks_y_mm.push_back(height_mm - y * mm_per_pt);
+        } else if (std::sscanf(line.c_str(), "%*d %*d %*d %*d %lf %lf Tm (%99[^)]) Tj", &x, &y,
+                               text) == 3) {
+            marks.texts_mm[text] = {x * mm_per_pt, height_mm - y * mm_per_pt};
+        }
+    }
+    return marks;
+}
+
+TEST(labels, rulers_count_from_the_corner_of_the_page) {
+    const Sheet sheet = make_sheet(small_page(10));
+    const Marks marks = marks_of(print::label_content(sheet, {1, 1}, named()), sheet.height_mm);
+    // Above the dots to 89, beside them to 49: the last whole millimetres before they end. Between
+    // 5 and 10 the rulers would cross.
+    std::vector<double> expected_x = {1, 2, 3, 4, 5};
+    std::vector<double> expected_y = expected_x;
+    for (int mm = 10; mm <= 89; ++mm) {
+        expected_x.push_back(mm);
+        if (mm <= 49) expected_y.push_back(mm);
+    }
+    const auto near = [](double distance_mm) { return testing::DoubleNear(distance_mm, 0.001); };
+    EXPECT_THAT(marks.ticks_x_mm, testing::Pointwise(testing::DoubleNear(0.001), expected_x));
+    EXPECT_THAT(marks.ticks_y_mm, testing::Pointwise(testing::DoubleNear(0.001), expected_y));
+    // A number is centred at its tick: two digits of 0.556 x 4.5 points are 1.765 mm wide.
+    ASSERT_TRUE(marks.texts_mm.contains("80"));
+    EXPECT_THAT(marks.texts_mm.at("80")[0] + 1.765 / 2, near(80));
+}
+
+TEST(labels, show_the_origin_and_its_pattern_coordinates) {
+    SheetOptions options;
+    options.paper = {148, 210};
+    options.margin_mm = 10;
+    options.origin = {1000, 3};
+    const Sheet sheet = make_sheet(options);
+    const std::string content = print::label_content(sheet, {1, 1}, named());
+    // The first intersection is at (1000, 3) spacings, and on the page as much right of the corner.
+    const std::string corner =
+        fmt::format("x_mm {:.3f}, y_mm {:.3f}", 508 - sheet.origin_x_mm, 1.524 - sheet.origin_y_mm);
+    EXPECT_THAT(content, HasSubstr("count from this corner, in the pattern " + corner));
+    const Marks marks = marks_of(content, sheet.height_mm);
+    ASSERT_TRUE(marks.texts_mm.contains("x") && marks.texts_mm.contains("y"));
+    // Each letter stands at the head of its arrow: x to the right, y below.
+    EXPECT_GT(marks.texts_mm.at("x")[0], marks.texts_mm.at("y")[0] + 3);
+    EXPECT_GT(marks.texts_mm.at("y")[1], marks.texts_mm.at("x")[1] + 3);
+    // On a narrow page the text below the dots says it.
+    options.paper = {80, 60};
+    const std::string narrow = print::label_content(make_sheet(options), {1, 1}, named());
+    EXPECT_THAT(narrow, Not(HasSubstr("count from this")));
+    EXPECT_THAT(narrow, HasSubstr("corner"));
+    EXPECT_THAT(narrow, HasSubstr(fmt::format("{:.3f}", 508 - sheet.origin_x_mm)));
 }
 
 /// Bottom edge and top edge of the page, without margins: every position that text or a tick has.
