@@ -186,6 +186,7 @@ int run(WatchArguments& arguments) {
     Follower follower(options_of(arguments));
     arguments.outputs.world_map = std::filesystem::path(arguments.follower.sheets).stem().string();
     if (source->rate() > 0) arguments.outputs.screen.fps = source->rate();
+    arguments.outputs.screen.tell = tell;
     arguments.outputs.screen.has_window = !arguments.has_no_window && video::has_display();
     std::optional<FrameSaver> saver;
     if (!arguments.save.folder.empty()) saver.emplace(arguments.save);
@@ -214,7 +215,7 @@ void add_output_options(CLI::App& command, WatchArguments& arguments) {
         command.add_option(flag, path, help)->type_name("FILE");
     };
     add_file("--log", outputs.log, "Also write all lines as CSV in mm, for dotpose replay");
-    add_file("--record", outputs.screen.record, "Video with the overlay (.mp4 or .avi)");
+    add_file("--record", outputs.screen.record, "Video with the overlay (.mp4: H.264, or .avi)");
     add_file("--packets", outputs.packets, "Send pose packets to a file or device");
     command
         .add_option("--save", arguments.save.folder,

@@ -7,9 +7,12 @@
 #include <fmt/core.h>
 
 #include "dotpose/files/profile_names.hpp"
+#include "draw/deviation.hpp"
 
 namespace dotpose::cli {
 namespace {
+
+using draw::plus_minus;
 
 template <typename... Values>
 void add(std::string& text, fmt::format_string<Values...> format, Values&&... values) {
@@ -36,19 +39,20 @@ double corner_displacement(const Camera& camera) {
 void add_view(std::string& text, const Camera& camera) {
     const auto sigma = [&camera](const char* key) { return camera.sigma.at(key); };
     if (const auto& paper = camera.paper) {
-        add(text, "scale       {:.6f} +- {:.6f} and {:.6f} +- {:.6f} mm per px, along x and y",
-            paper->mm_per_px_x, sigma("mm_per_px_x"), paper->mm_per_px_y, sigma("mm_per_px_y"));
-        add(text, "skew        {:.5f} +- {:.5f}", paper->skew, sigma("skew"));
+        add(text, "scale       {:.6f}{} and {:.6f}{} mm per px, along x and y", paper->mm_per_px_x,
+            plus_minus(sigma("mm_per_px_x"), 6), paper->mm_per_px_y,
+            plus_minus(sigma("mm_per_px_y"), 6));
+        add(text, "skew        {:.5f}{}", paper->skew, plus_minus(sigma("skew"), 5));
     } else {
         add(text, "scale       differs from frame to frame: the camera was not mounted");
     }
     if (camera.tilt) {
-        add(text, "tilt        {:.3f} +- {:.3f} and {:.3f} +- {:.3f} degrees about x and y",
-            degrees(camera.tilt->x_rad), degrees(sigma("tilt_x_rad")), degrees(camera.tilt->y_rad),
-            degrees(sigma("tilt_y_rad")));
+        add(text, "tilt        {:.3f}{} and {:.3f}{} degrees about x and y",
+            degrees(camera.tilt->x_rad), plus_minus(degrees(sigma("tilt_x_rad")), 3),
+            degrees(camera.tilt->y_rad), plus_minus(degrees(sigma("tilt_y_rad")), 3));
     }
     if (camera.focal_px) {
-        add(text, "focal       {:.2f} +- {:.2f} px", *camera.focal_px, sigma("focal_px"));
+        add(text, "focal       {:.2f}{} px", *camera.focal_px, plus_minus(sigma("focal_px"), 2));
     } else {
         add(text, "focal       cannot be told from these frames: the camera looks straight down");
     }
@@ -67,8 +71,9 @@ std::string lens_report(const LensCalibration& calibration) {
     add(text, "code        {}", name(calibration.code));
     add(text, "lens        k {:.4e} +- {:.1e} per px^2: {:+.2f} % in the corner", camera.k_per_px2,
         camera.sigma.at("k_per_px2"), corner_displacement(camera));
-    add(text, "centre      {:.3f} +- {:.3f}, {:.3f} +- {:.3f} px", camera.centre_px.u,
-        camera.sigma.at("centre_u_px"), camera.centre_px.v, camera.sigma.at("centre_v_px"));
+    add(text, "centre      {:.3f}{}, {:.3f}{} px", camera.centre_px.u,
+        plus_minus(camera.sigma.at("centre_u_px"), 3), camera.centre_px.v,
+        plus_minus(camera.sigma.at("centre_v_px"), 3));
     add_view(text, camera);
     add(text, "dots        {:.2f} px apart, {:.0f} % of that wide, on {:.0f} % of the image",
         calibration.px_per_spacing, 100 * calibration.dot_width, 100 * calibration.coverage);
@@ -83,9 +88,9 @@ std::string spin_report(const SpinCalibration& calibration) {
     std::string text;
     add(text, "spin        {} of {} frames located, over {:.0f} degrees", calibration.located,
         calibration.frames, degrees(calibration.turn_rad));
-    add(text, "reference   {:+.4f}, {:+.4f} +- {:.4f} mm from the image centre ({:.2f}, {:.2f} px)",
-        calibration.offset_mm.x_mm, calibration.offset_mm.y_mm, calibration.sigma_mm, reference.u,
-        reference.v);
+    add(text, "reference   {:+.4f}, {:+.4f}{} mm from the image centre ({:.2f}, {:.2f} px)",
+        calibration.offset_mm.x_mm, calibration.offset_mm.y_mm, plus_minus(calibration.sigma_mm, 4),
+        reference.u, reference.v);
     add(text, "residual    {:.4f} mm (rms per axis): so well the robot stayed on the spot",
         calibration.residual_mm);
     add(text, "verdict     {}: {}", name(calibration.verdict),
@@ -101,8 +106,9 @@ std::string drive_report(const DriveCalibration& calibration) {
     std::string text;
     add(text, "drive       {} of {} frames located, over {:.1f} mm", calibration.located,
         calibration.frames, calibration.length_mm);
-    add(text, "heading     image x axis {:+.3f} +- {:.3f} degrees",
-        degrees(calibration.camera.theta_offset_rad), degrees(calibration.sigma_rad));
+    add(text, "heading     image x axis {:+.3f}{} degrees",
+        degrees(calibration.camera.theta_offset_rad),
+        plus_minus(degrees(calibration.sigma_rad), 3));
     add(text, "residual    {:.4f} mm (rms): so straight was the drive", calibration.residual_mm);
     add(text, "verdict     good: straight ahead, in order");
     return text;
@@ -111,7 +117,8 @@ std::string drive_report(const DriveCalibration& calibration) {
 namespace {
 
 std::string print_scale_text(double scale, double sigma) {
-    return fmt::format("{:.6f} +- {:.6f}{}", scale, sigma, is_told(sigma) ? "" : " (NOT TOLD)");
+    return fmt::format("{:.6f}{}{}", scale, plus_minus(sigma, 6),
+                       is_told(sigma) ? "" : " (NOT TOLD)");
 }
 
 /// Appends the print scales of the sheets and the reference by which they were measured.
@@ -161,8 +168,8 @@ std::string stitching_report(const Stitching& stitching) {
         if (sheet.is_fixed) {
             add(text, "sheet       {}: stays where it is", sheet.name);
         } else {
-            add(text, "sheet       {}: +- {:.4f} mm, {:.4f} degrees", sheet.name, sheet.sigma_mm,
-                degrees(sheet.sigma_rad));
+            add(text, "sheet       {}:{} mm,{} degrees", sheet.name, plus_minus(sheet.sigma_mm, 4),
+                plus_minus(degrees(sheet.sigma_rad), 4));
         }
     }
     add_print_scales(text, stitching);

@@ -46,6 +46,13 @@ struct LocateArguments {
     FollowerArguments follower;
 };
 
+/// Returns the sheet and the place on it in words, or an empty text if the fix is on no sheet.
+std::string sheet_text(const Record& record) {
+    if (!record.place) return {};
+    return fmt::format("{}: x {:.3f} mm, y {:.3f} mm", record.place->entry->name,
+                       record.place->x_mm, record.place->y_mm);
+}
+
 /// Locates one image after the other.
 class ImageLocator {
   public:
@@ -75,6 +82,7 @@ class ImageLocator {
         record.elapsed_us = elapsed.count();
         record.advice = advice(record.fix.status, bits_per_px);
         spacing_mm_ = record.spacing_mm;
+        sheet_ = sheet_text(record);
         return record;
     }
 
@@ -92,7 +100,8 @@ class ImageLocator {
 
     /// Draws the image just located, if pictures are wanted. Throws Error.
     void draw(const std::string& name) {
-        if (pictures_) pictures_->add(name, follower_.image(), follower_.trace(), spacing_mm_);
+        if (!pictures_) return;
+        pictures_->add(name, follower_.image(), follower_.trace(), spacing_mm_, sheet_);
     }
 
   private:
@@ -122,6 +131,7 @@ class ImageLocator {
     std::unique_ptr<LargeMemory> scratch_;  ///< for a look at what could not be located
     std::optional<PictureFolder> pictures_;
     double spacing_mm_ = 0;
+    std::string sheet_;  ///< the place on a sheet, in words; empty if the fix is on none
 };
 
 RunFiles files_of(const LocateArguments& arguments, const Sources& sources) {

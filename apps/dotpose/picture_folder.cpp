@@ -35,14 +35,16 @@ PictureFolder::PictureFolder(fs::path folder, const RunFiles& files)
 }
 
 void PictureFolder::add(const std::string& image_name, ImageView image, const Trace& trace,
-                        double spacing_mm) {
+                        double spacing_mm, const std::string& sheet) {
     const std::string stem = stem_of(image_name);
     std::string file = stem + ".svg";
     for (int n = 2; !used_.insert(file).second; ++n)
         file = fmt::format("{}-{}.svg", stem, n);
     files_.require_free("--draw", (folder_ / file).string());
     draw_frame(folder_ / file, image, trace,
-               {.spacing_mm = spacing_mm, .title = fs::path(image_name).filename().string()});
+               {.spacing_mm = spacing_mm,
+                .title = fs::path(image_name).filename().string(),
+                .sheet = sheet});
 }
 
 }  // namespace dotpose::cli

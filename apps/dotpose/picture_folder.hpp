@@ -18,9 +18,10 @@ class PictureFolder {
     PictureFolder(std::filesystem::path folder, const RunFiles& files);
 
     /// Writes STEM.svg, where STEM is the name of the image without its ending, or drive-17 for the
-    /// frame drive.mp4#17; STEM-2.svg and so on if an earlier image had the same stem. Throws Error
-    /// if it cannot be written.
-    void add(const std::string& image_name, ImageView image, const Trace& trace, double spacing_mm);
+    /// frame drive.mp4#17; STEM-2.svg and so on if an earlier image had the same stem. Spacing and
+    /// sheet are those of DrawOptions. Throws Error if it cannot be written.
+    void add(const std::string& image_name, ImageView image, const Trace& trace, double spacing_mm,
+             const std::string& sheet);
 
   private:
     std::filesystem::path folder_;

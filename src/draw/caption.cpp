@@ -13,6 +13,7 @@ constexpr double kLabelSize = 27;
 constexpr double kBigSize = 60;
 constexpr double kSmallSize = 36;
 constexpr double kSecondRow_y = 190;
+constexpr double kSheetRow_y = 292;
 
 /// A value of the caption; its name is drawn above it.
 struct Entry {
@@ -88,6 +89,11 @@ void draw_pose(const Fix& fix, const DrawOptions& draw_options, double width, Sv
                   {"probability wrong", probability(fix)},
                   {"section", fmt::format("{}, {}", fix.section.u, fix.section.v)}},
                  kSecondRow_y, width / 6, kSmallSize, svg);
+    if (draw_options.sheet.empty()) return;
+    const std::string sheet = "on sheet " + draw_options.sheet;
+    svg.text({0, kSheetRow_y},
+             std::min(kSmallSize, kSmallSize * width / text_width(sheet, kSmallSize)), sheet,
+             R"(class="place" fill="#17202a")");
 }
 
 void draw_failure(const Fix& fix, const Options& options, Svg& svg) {

@@ -20,6 +20,11 @@ constexpr double kHeadHeight = 64;
 constexpr double kStripHeight = 360;
 constexpr double kWidth = 2 * kPanelWidth + 3 * kMargin;
 
+/// Estimates the width of a text, in the widest of the fonts that viewers may have.
+double text_width(std::string_view text, double size) {
+    return 0.64 * size * static_cast<double>(std::max<std::size_t>(text.size(), 1));
+}
+
 class Sketch {
   public:
     Sketch(ImageView image, const Trace& trace, const DrawOptions& draw_options)
@@ -71,8 +76,13 @@ class Sketch {
     }
 
     void begin_panel(double x, std::string_view head, std::string_view note, double opacity) {
-        svg_.text({x, kMargin + 38}, 38, head, R"(font-weight="bold" fill="#17202a")");
-        svg_.text({x + kPanelWidth, kMargin + 38}, 30, note, R"(text-anchor="end" fill="#6b7885")");
+        constexpr double kHeadSize = 38;
+        constexpr double kNoteSize = 30;
+        const double room = kPanelWidth - text_width(head, kHeadSize) - kMargin;
+        svg_.text({x, kMargin + 38}, kHeadSize, head, R"(font-weight="bold" fill="#17202a")");
+        svg_.text({x + kPanelWidth, kMargin + 38},
+                  std::min(kNoteSize, kNoteSize * room / text_width(note, kNoteSize)), note,
+                  R"(text-anchor="end" fill="#6b7885")");
         const double y = kMargin + kHeadHeight;
         svg_.add(R"svg(<g transform="translate({:.2f} {:.2f})">)svg",
                  x + (kPanelWidth - view_.width()) / 2, y);

@@ -7,6 +7,7 @@
 
 #include "dotpose/tools/calibrate.hpp"
 #include "dotpose/tools/draw.hpp"
+#include "draw/deviation.hpp"
 #include "draw/two_panels.hpp"
 
 namespace dotpose {
@@ -85,8 +86,8 @@ class SpinPicture {
             full_mm = std::max(full_mm, std::hypot(station.off_x_mm, station.off_y_mm));
         const double per_mm = 0.45 * kPanelSide / full_mm;
         draw_frame(1, "What stays put",
-                   fmt::format("{:.4f} mm rms; farthest {:.4f}; circle: +- {:.4f} mm",
-                               spin_.residual_mm, full_mm, spin_.sigma_mm));
+                   fmt::format("{:.4f} mm rms; farthest {:.4f}; circle:{} mm", spin_.residual_mm,
+                               full_mm, plus_minus(spin_.sigma_mm, 4)));
         for (const SpinStation& station : spin_.stations) {
             const Point off = per_mm * Point{station.off_x_mm, station.off_y_mm};
             svg_.circle(middle(1) + off, 4, fmt::format(R"(fill="{}")", colour::kGood));

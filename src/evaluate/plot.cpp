@@ -50,8 +50,10 @@ double Scale::at(double value) const {
 std::vector<double> Scale::ticks(int least) const {
     std::vector<double> result;
     if (!is_log) {
-        const double step = tick_step(last - first, least);
-        for (double i = std::ceil(first / step - 1e-9); i * step <= last + 1e-9 * step; ++i)
+        // An axis may run downwards, as y does on a page.
+        const auto [low, high] = std::minmax(first, last);
+        const double step = tick_step(high - low, least);
+        for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i)
             result.push_back(i * step + 0.0);  // the sum turns -0 into 0
         return result;
     }

@@ -33,7 +33,7 @@ double rounded_up(double value);
 /// One axis: it converts data values to drawing units.
 struct Scale {
     double first = 0;
-    double last = 1;
+    double last = 1;  ///< may be below `first`, unless `is_log`
     bool is_log = false;
     double at_first = 0;  ///< drawing coordinate of `first`
     double at_last = 1;

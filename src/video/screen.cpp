@@ -9,6 +9,7 @@
 #include <opencv2/highgui.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "video/h264_file.hpp"
 #include "video/overlay.hpp"
 
 namespace dotpose::video {
@@ -16,9 +17,14 @@ namespace {
 
 constexpr const char* kWindow = "dotpose";
 
+bool is_avi(const std::string& path) {
+    return path.ends_with(".avi");
+}
+
+/// Returns the codec of what OpenCV writes.
 int codec_of(const std::string& path) {
-    return path.ends_with(".avi") ? cv::VideoWriter::fourcc('M', 'J', 'P', 'G')
-                                  : cv::VideoWriter::fourcc('m', 'p', '4', 'v');
+    return is_avi(path) ? cv::VideoWriter::fourcc('M', 'J', 'P', 'G')
+                        : cv::VideoWriter::fourcc('m', 'p', '4', 'v');
 }
 
 }  // namespace
@@ -51,7 +57,9 @@ class Screen::Output {
     /// Closes the recording and counts its frames: OpenCV reports neither a full disk nor an
     /// incomplete file. Throws Error if frames are missing.
     void finish() {
-        if (!writer_.isOpened()) return;
+        if (frames_ == 0) return;
+        if (h264_) h264_->finish();
+        h264_.reset();
         writer_.release();
         const cv::VideoCapture recorded(options_.record);
         const auto frames = static_cast<std::int64_t>(recorded.get(cv::CAP_PROP_FRAME_COUNT));
@@ -71,12 +79,7 @@ class Screen::Output {
     }
 
     void record(const cv::Mat& picture) {
-        if (!writer_.isOpened()) {
-            size_ = picture.size();
-            if (!writer_.open(options_.record, codec_of(options_.record), options_.fps, size_)) {
-                throw Error("cannot record to " + options_.record + "; try a name with .mp4");
-            }
-        }
+        if (frames_ == 0) open_recording(picture.size());
         if (picture.size() != size_) {
             throw Error("cannot record frames of different sizes to " + options_.record);
         }
@@ -84,8 +87,27 @@ class Screen::Output {
         if (frames_ % kBetweenLooks == 0 && is_disk_full()) {
             throw Error("cannot record to " + options_.record + ": the disk is full");
         }
-        writer_.write(picture);
+        if (h264_) {
+            h264_->write(picture);
+        } else {
+            writer_.write(picture);
+        }
         ++frames_;
+    }
+
+    void open_recording(cv::Size size) {
+        size_ = size;
+        if (!is_avi(options_.record) && H264File::is_available()) {
+            h264_ = std::make_unique<H264File>(options_.record, options_.fps, size);
+            return;
+        }
+        if (!is_avi(options_.record)) {
+            options_.tell("FFmpeg has no encoder for H.264 here: " + options_.record +
+                          " will be MPEG-4 video, several times as large");
+        }
+        if (!writer_.open(options_.record, codec_of(options_.record), options_.fps, size)) {
+            throw Error("cannot record to " + options_.record + "; try a name with .mp4");
+        }
     }
 
     void display(const cv::Mat& picture) {
@@ -95,7 +117,8 @@ class Screen::Output {
     }
 
     ScreenOptions options_;
-    cv::VideoWriter writer_;
+    std::unique_ptr<H264File> h264_;
+    cv::VideoWriter writer_;  ///< open if the recording is not H.264
     cv::Size size_;
     std::int64_t frames_ = 0;  ///< number of frames that were written to the recording
     bool is_shown_ = false;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -37,6 +38,8 @@ struct ScreenOptions {
     bool has_window = false;
     std::string record;  ///< path of the video file; empty for none
     double fps = 30;     ///< frame rate of the video file
+    /// Called with a message if the recording will not be what its name says best.
+    std::function<void(const std::string&)> tell = [](const std::string&) {};
 };
 
 class Screen {

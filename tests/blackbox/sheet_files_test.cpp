@@ -334,6 +334,14 @@ TEST_F(SheetFiles, labels_beside_the_dots_contradict_nothing_where_the_sheet_is_
     EXPECT_NEAR(record["y_sheet_mm"], 20, kTolerance_mm);
 }
 
+TEST_F(SheetFiles, pictures_name_the_sheet) {
+    ASSERT_EQ(print("-o a.svg --paper 40x40 --sheets sheets.json --name a"), 0);
+    write_pgm(directory_ / "frame.pgm", frame_of(sheets().at(0), 20.25, 18.55, 0.7, 1).view());
+    run("--sheets sheets.json --draw pictures frame.pgm");
+    EXPECT_THAT(read_file(directory_ / "pictures/frame.svg"),
+                testing::ContainsRegex(">on sheet a: x 20.2[0-9]+ mm, y 18.5[0-9]+ mm</text>"));
+}
+
 TEST_F(SheetFiles, pictures_show_the_profile_that_was_found) {
     ASSERT_EQ(print("-o a.svg --paper 40x40 --sheets sheets.json --name a"), 0);
     ASSERT_EQ(print("-o b.svg --paper 40x40 --sheets sheets.json --name b --code microdots "

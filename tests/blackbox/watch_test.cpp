@@ -207,8 +207,19 @@ TEST_F(Watch, WritesLogMapPacketsAndVideo) {
     // The recording has the frame, 800 px wide, and a panel of 400.
     shell(
         "ffprobe -v error -count_frames -select_streams v -show_entries "
-        "stream=nb_read_frames,width -of csv=p=0 run.mp4 > probe");
-    EXPECT_EQ(file("probe"), "1200,60\n");
+        "stream=codec_name,nb_read_frames,width -of csv=p=0 run.mp4 > probe");
+    EXPECT_EQ(file("probe"), "h264,1200,60\n");
+}
+
+TEST_F(Watch, RecordsMotionJpegWhereTheNameAsksForIt) {
+    put_video(5, "drive.avi");
+    ASSERT_EQ(run(std::string("watch drive.avi --record run.avi ") + kTrack), 0) << errors_;
+    shell(
+        "ffprobe -v error -count_frames -select_streams v -show_entries "
+        "stream=codec_name,nb_read_frames -of csv=p=0 run.avi > probe");
+    EXPECT_EQ(file("probe"), "mjpeg,5\n");
+    EXPECT_EQ(run(std::string("watch drive.avi --record run.notes ") + kTrack), 1);
+    EXPECT_THAT(errors_, HasSubstr("cannot record to run.notes; try a name with .mp4"));
 }
 
 TEST_F(Watch, GoesThroughImages) {

@@ -36,7 +36,8 @@ struct DrawOptions {
     /// Spacing of the printed grid, for the pose in mm. Not a number: unknown, the pose is in
     /// spacings.
     double spacing_mm = kDefaultSpacing_mm;
-    std::string title;  ///< for example the name of the file; default: none
+    std::string title{};  ///< for example the name of the file; default: none
+    std::string sheet{};  ///< the sheet of the fix and the place on it; default: none
 };
 
 /// Draws the last frame of a Locator, whatever stage it reached; `image` must be the one it

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <regex>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -223,6 +224,33 @@ TEST(DrawFrame, says_the_pose) {
     std::snprintf(x_mm, sizeof x_mm, ">%.3f mm<", located.fix.x_grid() * 0.6);
     EXPECT_THAT(svg, HasSubstr(x_mm));
     EXPECT_THAT(svg, HasSubstr(">frame.png<"));
+}
+
+TEST(DrawFrame, names_the_sheet) {
+    const Located located(render(clean_shot()));
+    EXPECT_THAT(located.drawn({.sheet = "table: x 1 mm, y 2 mm"}),
+                HasSubstr(">on sheet table: x 1 mm, y 2 mm</text>"));
+    EXPECT_THAT(located.drawn(), Not(HasSubstr("on sheet")));
+}
+
+TEST(DrawFrame, head_and_note_of_a_panel_do_not_overlap) {
+    Shot shot = clean_shot();
+    shot.camera.width_px = shot.camera.height_px = 188;
+    const Located located(render(shot));
+    for (const std::size_t letters : {5U, 60U, 250U}) {
+        const std::string svg = located.drawn({.title = std::string(letters, 'n')});
+        const std::regex note(R"re(font-size="([0-9.]+)" text-anchor="end" [^>]*>([^<]*)<)re");
+        int notes = 0;
+        for (std::sregex_iterator found(svg.begin(), svg.end(), note), end; found != end; ++found) {
+            // In DejaVu Sans, the widest of the fonts, the longer head is 562 of the 1200 units
+            // wide, and a letter of a note 0.634 of the font's size at most.
+            const double size = std::stod((*found)[1]);
+            EXPECT_LT(562 + 0.634 * size * static_cast<double>((*found)[2].length()), 1200)
+                << (*found)[2];
+            ++notes;
+        }
+        EXPECT_EQ(notes, 2);
+    }
 }
 
 TEST(DrawFrame, escapes_the_title) {

@@ -1,0 +1,36 @@
+// Writes pictures to a video file as H.264, with FFmpeg's libraries.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <opencv2/core.hpp>
+
+#include "dotpose/files/error.hpp"
+
+namespace dotpose::video {
+
+class H264File {
+  public:
+    /// Whether this FFmpeg can encode H.264.
+    static bool is_available();
+
+    /// Creates the file, whose ending chooses the container. `size` must be even. Throws Error.
+    H264File(const std::string& path, double fps, cv::Size size);
+    /// Completes the file as far as possible.
+    ~H264File();
+    H264File(const H264File&) = delete;
+    H264File& operator=(const H264File&) = delete;
+
+    /// Appends a picture, which has blue, green and red. Throws Error, as on a full disk.
+    void write(const cv::Mat& picture);
+
+    /// Completes the file, after which nothing may be appended. Throws Error.
+    void finish();
+
+  private:
+    class Encoder;
+    std::unique_ptr<Encoder> encoder_;
+};
+
+}  // namespace dotpose::video
