@@ -17,6 +17,8 @@
 #include "common.hpp"
 #include "dotpose/files/camera_file.hpp"
 #include "dotpose/tools/draw.hpp"
+#include "files/output_file.hpp"
+#include "live_calibration.hpp"
 #include "old_spellings.hpp"
 #include "output_arguments.hpp"
 #include "progress.hpp"
@@ -29,6 +31,7 @@ namespace {
 
 constexpr const char* kExamples =
     "Examples:\n"
+    "  dotpose calibrate --live 0 -o camera.yaml\n"
     "  dotpose calibrate frames/*.png -o camera.yaml --draw camera.svg\n"
     "  dotpose calibrate video.mp4 -o camera.yaml\n"
     "  dotpose calibrate --camera camera.yaml -o camera.yaml --spin turn/*.png --drive line/*.png\n"
@@ -36,11 +39,16 @@ constexpr const char* kExamples =
     "Take 5 to 50 frames of any printed sheet, some centimetres and any angle apart; 12 of the "
     "robot\n"
     "turning on the spot; some of it driving straight ahead. Of a video or a camera, up to 50\n"
-    "frames that show new places are taken; Ctrl-C ends the reading. Exit status 1 if frames do "
-    "not tell what is asked.\n";
+    "frames that show new places are taken; Ctrl-C ends the reading. With --live, a window (or, "
+    "without a display, the\n"
+    "terminal) shows what is still missing while you move the camera; frames are taken until they\n"
+    "are enough, and q or Ctrl-C ends earlier. Exit status 1 if frames do not tell what is "
+    "asked.\n";
 
 struct CalibrateArguments {
     SourceArguments sources;
+    bool is_live = false;
+    LiveCalibrationOptions live;
     std::vector<std::string> spin;
     std::vector<std::string> drive;
     bool stitch = false;
@@ -122,7 +130,10 @@ std::string calibrate_camera(const CalibrateArguments& arguments, Series& series
     std::optional<Camera> camera = arguments.camera.camera;
     std::optional<LensCalibration> lens;
     if (series.lens) {
-        lens = with_progress(arguments, *series.lens, "calibrating the lens", calibrate_lens);
+        lens =
+            arguments.is_live
+                ? calibrate_live(arguments.sources, *series.lens, arguments.options, arguments.live)
+                : with_progress(arguments, *series.lens, "calibrating the lens", calibrate_lens);
         if (camera) {
             lens->camera.reference_px = reference_in(lens->camera, *camera);
             lens->camera.theta_offset_rad = camera->theta_offset_rad;
@@ -131,6 +142,7 @@ std::string calibrate_camera(const CalibrateArguments& arguments, Series& series
         }
         camera = lens->camera;
         report += lens_report(*lens);
+        if (arguments.is_live) report += corner_report(*camera);
     }
     const auto go_on = [&](std::optional<Sources>& sources, const char* what, auto calibrate,
                            auto report_of) {
@@ -217,6 +229,8 @@ int run(const CalibrateArguments& arguments) {
     if (arguments.stitch && has_mount) throw BadArgument("--stitch is a job of its own");
     Series series = series_of(arguments);
     require_apart(arguments, series);
+    // Nobody should move a camera for minutes in vain.
+    if (arguments.is_live && !arguments.out.empty()) files::require_writable(arguments.out);
     catch_interrupts();
     const std::string report =
         arguments.stitch ? stitch(arguments, *series.lens) : calibrate_camera(arguments, series);
@@ -226,6 +240,22 @@ int run(const CalibrateArguments& arguments) {
         std::fputs(for_standard_output(report).c_str(), stdout);
     }
     return 0;
+}
+
+void add_live_options(CLI::App& command, CalibrateArguments& arguments) {
+    CLI::Option* live = command.add_flag(
+        "--live", arguments.is_live,
+        "Take frames by itself while you move the camera, and show what is still missing");
+    for (const char* other : {"--spin", "--drive", "--stitch"})
+        live->excludes(command.get_option(other));
+    command
+        .add_flag("--no-window", arguments.live.has_no_window,
+                  "Show it in the terminal, even where there is a display")
+        ->needs(live);
+    command
+        .add_option("--save", arguments.live.save, "Also save the frames that are taken, as PNG")
+        ->type_name("DIR")
+        ->needs(live);
 }
 
 }  // namespace
@@ -278,6 +308,7 @@ void add_calibrate(CLI::App& app, int& exit_code) {
     stitch->needs(sheets);
     sheets->needs(stitch);
     stitch->excludes(command->get_option("--out"));
+    add_live_options(*command, *arguments);
     add_spacing_option(*command, arguments->options.pattern.spacing_mm);
     add_code_option(*command, arguments->code);
     command->callback([arguments, &exit_code] {

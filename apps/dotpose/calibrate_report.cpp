@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include "dotpose/files/profile_names.hpp"
+#include "dotpose/tools/calibration_coverage.hpp"
 #include "draw/deviation.hpp"
 
 namespace dotpose::cli {
@@ -27,9 +28,7 @@ double degrees(double rad) {
 /// Returns how far lens distortion moves the farthest corner, in percent of its distance from the
 /// distortion centre.
 double corner_displacement(const Camera& camera) {
-    const PixelPoint corner{
-        camera.centre_px.u < (camera.width_px - 1) / 2.0 ? camera.width_px - 1.0 : 0,
-        camera.centre_px.v < (camera.height_px - 1) / 2.0 ? camera.height_px - 1.0 : 0};
+    const PixelPoint corner = farthest_corner(camera);
     const PixelPoint straight = undistorted(camera, corner);
     const double r = std::hypot(corner.u - camera.centre_px.u, corner.v - camera.centre_px.v);
     return 100 *
@@ -80,6 +79,13 @@ std::string lens_report(const LensCalibration& calibration) {
     add(text, "residual    {:.4f} px before, {:.4f} px after (rms per axis)",
         calibration.residual_before_px, calibration.residual_px);
     add(text, "verdict     {}: {}", name(calibration.verdict), calibration.advice);
+    return text;
+}
+
+std::string corner_report(const Camera& camera) {
+    std::string text;
+    add(text, "corner      known to {:.3f} px, where {:g} are enough", corner_sigma_px(camera),
+        kWantedCornerSigma_px);
     return text;
 }
 

@@ -8,6 +8,8 @@
 namespace dotpose::cli {
 
 std::string lens_report(const LensCalibration& calibration);
+/// How well the corner of the image is known after a live calibration.
+std::string corner_report(const Camera& camera);
 std::string spin_report(const SpinCalibration& calibration);
 std::string drive_report(const DriveCalibration& calibration);
 std::string stitching_report(const Stitching& stitching);

@@ -13,6 +13,7 @@
 #include "commands.hpp"
 #include "common.hpp"
 #include "dotpose/files/error.hpp"
+#include "live_calibration.hpp"
 #include "live_sources.hpp"
 
 namespace dotpose::cli {
@@ -73,6 +74,11 @@ void hand_over_if_possible() {
 std::unique_ptr<capture::FrameSource> open_live(const std::string& name,
                                                 const capture::SourceOptions&) {
     throw_missing("cannot read " + name + ": " + kSourcesNeed, ENOENT);
+}
+
+LensCalibration calibrate_live(const SourceArguments&, Sources&, const CalibrateOptions&,
+                               const LiveCalibrationOptions&) {
+    throw_missing("calibrate --live needs", become_live());
 }
 
 void add_live(CLI::App& app) {

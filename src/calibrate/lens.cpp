@@ -10,10 +10,12 @@
 #include <fmt/core.h>
 
 #include "calibrate/all_dots.hpp"
+#include "calibrate/camera_lens.hpp"
 #include "calibrate/lens_fit.hpp"
 #include "calibrate/located_frame.hpp"
 #include "calibrate/paper_view.hpp"
 #include "dotpose/tools/calibrate.hpp"
+#include "dotpose/tools/calibration_coverage.hpp"
 #include "dotpose/tools/print.hpp"
 
 namespace dotpose {
@@ -21,13 +23,6 @@ namespace {
 
 using namespace dotpose::calibrate;
 
-/// Number of parts of the image, across and down, whose coverage by dots is reported.
-constexpr int kPartsAcross = 12;
-constexpr int kPartsDown = 8;
-constexpr double kLeastCoverage = 0.85;
-/// Dots wider than this, in spacings, are out of focus: at twice their printed width they begin to
-/// touch.
-constexpr double kWidestDot = 0.32;
 /// Frames whose places differ by less than this, in spacings, show the same dots.
 constexpr double kSamePlace = 1.5;
 
@@ -75,12 +70,6 @@ class Series {
     int done_ = 0;
     std::vector<std::uint64_t> hashes_;
 };
-
-Lens lens_of(const Camera& camera) {
-    Options options;
-    use_camera(camera, camera.width_px, camera.height_px, options);
-    return options.lens;
-}
 
 /// Returns the decrease of the residuals of one frame, in units of their variance, if this frame
 /// alone has its own scale, shear and perspective. By chance it is 5.
@@ -178,15 +167,10 @@ bool is_same_place(const std::vector<LocatedFrame>& located, const LensFit& fit,
 }
 
 void measure_coverage(LensCalibration& result) {
-    std::array<int, kPartsAcross * kPartsDown> counts{};
-    for (const CalibrationDot& dot : result.seen) {
-        const int i = static_cast<int>((dot.pixel.u + 0.5) / result.camera.width_px * kPartsAcross);
-        const int j = static_cast<int>((dot.pixel.v + 0.5) / result.camera.height_px * kPartsDown);
-        if (i < 0 || j < 0 || i >= kPartsAcross || j >= kPartsDown) continue;
-        ++counts[static_cast<std::size_t>(j * kPartsAcross + i)];
-    }
-    const auto covered = counts.size() - static_cast<std::size_t>(std::ranges::count(counts, 0));
-    result.coverage = static_cast<double>(covered) / static_cast<double>(counts.size());
+    ImageCoverage parts(result.camera.width_px, result.camera.height_px);
+    for (const CalibrationDot& dot : result.seen)
+        parts.add(dot.pixel);
+    result.coverage = parts.share();
 }
 
 void judge(bool is_same, LensCalibration& result) {

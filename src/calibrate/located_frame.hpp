@@ -48,6 +48,8 @@ class FrameReader {
     Profile profile() const { return reader_.code(); }
     /// Locates a frame; none if it cannot be located.
     std::optional<LocatedFrame> read(const ImageView& image);
+    /// Returns what the stages left of the newest frame, with its fix.
+    Trace trace() const { return locator_.trace(); }
 
   private:
     bool locate_with(const ImageView& image, const Lens& lens);

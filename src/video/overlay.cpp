@@ -8,6 +8,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "draw/frame_view.hpp"
+#include "video/calibration_overlay.hpp"
+#include "video/ink.hpp"
 
 namespace dotpose::video {
 namespace {
@@ -15,18 +17,6 @@ namespace {
 constexpr int kLongerSide = 800;  ///< longer side of the frame on the picture, px
 constexpr int kPanelWidth = 400;
 constexpr int kLineHeight = 24;
-
-// Colours are given as blue, green, red.
-const cv::Scalar kGood(73, 132, 30);
-const cv::Scalar kBad(43, 57, 192);
-const cv::Scalar kDot(0, 143, 255);
-const cv::Scalar kGrid(255, 121, 41);
-const cv::Scalar kInk(42, 32, 23);
-const cv::Scalar kPaper(251, 249, 247);
-
-cv::Point pixel(draw::Point at) {
-    return {static_cast<int>(std::lround(at.x)), static_cast<int>(std::lround(at.y))};
-}
 
 int even(double length) {
     return 2 * static_cast<int>(std::ceil(length / 2));
@@ -146,12 +136,18 @@ cv::Mat overlay(const Scene& scene) {
     const cv::Size size(static_cast<int>(view.width()), static_cast<int>(view.height()));
     cv::Mat frame = picture(cv::Rect({0, 0}, size));
     cv::resize(colour, frame, size, 0, 0, cv::INTER_LINEAR);
+    if (scene.calibration) draw_coverage(*scene.calibration, frame);
     if (view.reached().cells) draw_grid(view, frame);
     draw_dots(view, frame);
     if (view.reached().pose) draw_pose(view, frame);
     const int captions = kLineHeight * (static_cast<int>(scene.lines.size()) + 1);
     draw_captions(scene, picture(cv::Rect(width, 0, kPanelWidth, height)));
-    draw_plan(scene, picture(cv::Rect(width, captions, kPanelWidth, height - captions)));
+    const cv::Mat rest = picture(cv::Rect(width, captions, kPanelWidth, height - captions));
+    if (scene.calibration) {
+        draw_gauges(*scene.calibration, rest);
+    } else {
+        draw_plan(scene, rest);
+    }
     return picture;
 }
 

@@ -1,9 +1,11 @@
-// Shows the live picture of `dotpose watch` in a window, writes it to a video file, or both.
+// Shows the live picture of `dotpose watch` or `calibrate --live` in a window, writes it to a video
+// file, or both.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,6 +13,7 @@
 #include "dotpose/files/error.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/options.hpp"
+#include "dotpose/tools/calibration_coverage.hpp"
 #include "dotpose/trace.hpp"
 #include "draw/track_map.hpp"
 
@@ -23,6 +26,24 @@ struct PathMark {
     bool is_jump = false;
 };
 
+/// How far something that is wanted has been reached.
+struct Gauge {
+    std::string label;
+    std::string text;  ///< how much there is
+    double share = 0;  ///< of what is wanted, up to 1
+    bool is_reached = false;
+};
+
+/// What the picture shows while frames for a calibration are taken.
+struct CalibrationScene {
+    explicit CalibrationScene(const CalibrationCoverage& shown) : coverage(shown) {}
+
+    CalibrationCoverage coverage;
+    std::vector<Gauge> gauges;
+    std::optional<double> theta_rad;  ///< direction of the frame, if it is located
+    bool is_taken = false;            ///< whether this frame was taken
+};
+
 /// The contents of the picture of one frame.
 struct Scene {
     ImageView image;
@@ -32,6 +53,8 @@ struct Scene {
     std::span<const PathMark> path;          ///< the path up to this frame
     std::span<const draw::MapSheet> sheets;  ///< the sheets in the plane of the path
     bool y_up = false;                       ///< whether y points up in this plane
+    /// Shown instead of the plan of sheets and path.
+    std::optional<CalibrationScene> calibration;
 };
 
 struct ScreenOptions {

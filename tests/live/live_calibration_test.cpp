@@ -1,0 +1,72 @@
+// `dotpose calibrate --live` on a camera that the kernel is only made to have (tests/fake_camera),
+// and in a window.
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "../blackbox/tool_command.hpp"
+#include "dotpose/files/camera_file.hpp"
+
+namespace dotpose::test {
+namespace {
+
+using testing::HasSubstr;
+
+class LiveCalibration : public ToolCommand {
+  protected:
+    /// Puts the frames of a camera that rests at 30 places, three at each, into camera.raw.
+    void SetUp() override {
+        ToolCommand::SetUp();
+        ASSERT_EQ(run("simulate -o frames --seed 5 --k -8.7e-6 --frames 30"), 0) << errors_;
+        ASSERT_EQ(shell("ffmpeg -v error -framerate 30 -i frames/frame_%06d.pgm -vf fps=90 "
+                        "-f rawvideo -pix_fmt gray camera.raw"),
+                  0)
+            << errors_;
+    }
+};
+
+TEST_F(LiveCalibration, OfACameraEndsByItself) {
+#ifdef __SANITIZE_ADDRESS__
+    GTEST_SKIP() << "the sanitizer must be loaded first";
+#endif
+    // The camera goes through its frames again and again.
+    ASSERT_EQ(shell("export FAKE_CAMERA=$PWD/camera.raw FAKE_CAMERA_SIZE=188x120 "
+                    "FAKE_CAMERA_LOG=$PWD/log\n"
+                    "LD_PRELOAD='" DOTPOSE_FAKE_CAMERA
+                    "' \"$T\" calibrate --live 0 --size 188x120 --fps 30 --no-window "
+                    "-o camera.yaml"),
+              0)
+        << errors_;
+    EXPECT_THAT(output_, HasSubstr("verdict     good"));
+    EXPECT_THAT(errors_, HasSubstr("dotpose: 1 frame taken"));
+    const Camera camera = read_camera(directory_ / "camera.yaml");
+    EXPECT_NEAR(camera.k_per_px2, -8.7e-6, 4 * camera.sigma.at("k_per_px2"));
+}
+
+TEST_F(LiveCalibration, HasAWindowAndEndsWithAKey) {
+#ifdef __SANITIZE_ADDRESS__
+    GTEST_SKIP() << "the libraries of the window keep memory to the end";
+#endif
+    if (shell("command -v Xvfb && command -v xdotool") != 0) GTEST_SKIP() << "no Xvfb, no xdotool";
+    // Only 2 places are shown. Without the key it would not end.
+    ASSERT_EQ(
+        shell("mkfifo display frames.raw; Xvfb -displayfd 1 > display 2>/dev/null & server=$!\n"
+              "trap 'kill $server' EXIT; head -c $((188 * 120 * 6)) camera.raw > two.raw\n"
+              "read number < display; export DISPLAY=:$number QT_LOGGING_RULES='*=false'\n"
+              "(while cat two.raw; do sleep 0.1; done) > frames.raw 2>/dev/null &\n"
+              "\"$T\" calibrate --live - --size 188x120 -o camera.yaml < frames.raw 2>told & "
+              "tool=$!\n"
+              "window=$(xdotool search --sync --name dotpose)\n"
+              "xdotool getwindowgeometry $window; sleep 1; xdotool key --window $window q\n"
+              "wait $tool; status=$?; cat told >&2; (exit $status)"),
+        1)
+        << errors_;
+    EXPECT_THAT(output_, HasSubstr("Geometry: 1200x"));
+    EXPECT_THAT(errors_, HasSubstr("no file is written"));
+    EXPECT_THAT(errors_, HasSubstr("take more frames (2 of 5)"));
+    EXPECT_FALSE(fs::exists(directory_ / "camera.yaml"));
+}
+
+}  // namespace
+}  // namespace dotpose::test
