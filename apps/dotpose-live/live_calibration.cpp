@@ -285,7 +285,8 @@ bool LiveCalibration::is_enough() const {
 
 /// Waits for a calibration by all frames. Throws Error after an interrupt.
 void LiveCalibration::finish_job() {
-    forget_interrupt();  // it has ended the taking of frames
+    // A first Ctrl-C has only ended the taking of frames.
+    take_ctrl_c();
     ProgressLine line("calibrating the lens");
     while (job_.is_running() || job_.frames() < taken_.size()) {
         if (!job_.is_running()) job_.start(taken_);

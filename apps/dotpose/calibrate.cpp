@@ -39,11 +39,10 @@ constexpr const char* kExamples =
     "Take 5 to 50 frames of any printed sheet, some centimetres and any angle apart; 12 of the "
     "robot\n"
     "turning on the spot; some of it driving straight ahead. Of a video or a camera, up to 50\n"
-    "frames that show new places are taken; Ctrl-C ends the reading. With --live, a window (or, "
-    "without a display, the\n"
-    "terminal) shows what is still missing while you move the camera; frames are taken until they\n"
-    "are enough, and q or Ctrl-C ends earlier. Exit status 1 if frames do not tell what is "
-    "asked.\n";
+    "frames that show new places are taken; Ctrl-C ends the reading. With --live, a window (or,\n"
+    "without a display, the terminal) shows what is still missing while you move the camera;\n"
+    "frames are taken until they are enough, and q or Ctrl-C ends earlier. Exit status 1 if\n"
+    "frames do not tell what is asked.\n";
 
 struct CalibrateArguments {
     SourceArguments sources;
