@@ -224,7 +224,7 @@ bool LiveCalibration::look(capture::Frame& frame) {
     CalibrationStatus status(*coverage_);
     status.needs = needs();
     status.is_taken = why_not.empty();
-    status.now = status.is_taken ? "taken; go on to another place" : why_not;
+    status.now = status.is_taken ? "go on to another place" : why_not;
     if (located) status.theta_rad = reader_.trace().fix.theta_rad();
     if (const auto camera = lens()) status.corner_sigma_px = corner_sigma_px(*camera);
     if (job_.newest()) {
