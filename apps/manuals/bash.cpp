@@ -37,8 +37,9 @@ std::string offer(const OptionText& option) {
     }
 }
 
-/// Returns the branch of a command: its options, and what it offers after each of them.
-std::string branch(const CommandText& command) {
+/// Returns what is offered to a command after its name: values after an option that takes some,
+/// options after a hyphen, else arguments.
+std::string branch(const CommandText& command, const std::string& indent) {
     std::vector<std::string> options;
     std::map<std::string, std::vector<std::string>> options_of_offer;
     std::string arguments = "_dotpose_nothing";
@@ -49,13 +50,34 @@ std::string branch(const CommandText& command) {
             if (!option.type.empty()) options_of_offer[offer(option)].push_back(name);
         }
     }
-    std::string text = fmt::format("    {})\n        options='{}'\n        case $option in\n",
-                                   command.name, joined(options, " "));
+    std::string text =
+        fmt::format("{0}options='{1}'\n{0}case $option in\n", indent, joined(options, " "));
     for (const auto& [call, names] : options_of_offer)
-        text += fmt::format("        {}) {} ;;\n", joined(names, " | "), call);
-    return text +
-           fmt::format("        *) _dotpose_options \"$options\" || {} ;;\n        esac ;;\n",
-                       arguments);
+        text += fmt::format("{}{}) {} ;;\n", indent, joined(names, " | "), call);
+    return text + fmt::format("{0}*) _dotpose_options \"$options\" || {1} ;;\n{0}esac\n", indent,
+                              arguments);
+}
+
+/// Returns what is offered to a command that has commands, whose name is the word `level`.
+std::string cases(const CommandText& command, int level, const std::string& indent) {
+    std::vector<std::string> first;
+    for (const CommandText& own : command.commands)
+        first.push_back(own.name);
+    for (const OptionText& option : command.options) {
+        for (const std::string& name : names_of(option))
+            first.push_back(name);
+    }
+    std::string text = fmt::format(
+        "{0}if ((COMP_CWORD == {1})); then\n{0}    _dotpose_words '{2}'\n{0}    return\n{0}fi\n"
+        "{0}case ${{COMP_WORDS[{1}]}} in\n",
+        indent, level, joined(first, " "));
+    const std::string inner = indent + "    ";
+    for (const CommandText& own : command.commands) {
+        text += fmt::format("{}{})\n", indent, own.name);
+        text += own.commands.empty() ? branch(own, inner) : cases(own, level + 1, inner);
+        text += inner + ";;\n";
+    }
+    return text + indent + "esac\n";
 }
 
 // The words that follow `compgen -W` are names of the tool, which hold no character that a shell
@@ -98,21 +120,7 @@ _dotpose() {
 }  // namespace
 
 std::string bash_completions(const ToolText& tool) {
-    std::vector<std::string> first;
-    for (const CommandText& command : tool.commands)
-        first.push_back(command.name);
-    for (const OptionText& option : tool.top.options) {
-        for (const std::string& name : names_of(option))
-            first.push_back(name);
-    }
-    std::string text = kHead;
-    text += fmt::format(
-        "    if ((COMP_CWORD == 1)); then\n        _dotpose_words '{}'\n        return\n    fi\n"
-        "    case ${{COMP_WORDS[1]}} in\n",
-        joined(first, " "));
-    for (const CommandText& command : tool.commands)
-        text += branch(command);
-    return text + "    esac\n}\n\ncomplete -o default -F _dotpose dotpose\n";
+    return kHead + cases(tool.top, 1, "    ") + "}\n\ncomplete -o default -F _dotpose dotpose\n";
 }
 
 }  // namespace dotpose::manuals

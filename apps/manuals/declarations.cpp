@@ -56,20 +56,10 @@ CommandText text_of(CLI::App& command) {
         // Earlier spellings have no group, and no help shows them.
         if (!option->get_group().empty()) text.options.push_back(text_of(*option));
     }
-    return text;
-}
-
-/// Describes what a command has instead of arguments, commands of its own, as an argument.
-OptionText text_of_commands(const std::vector<CLI::App*>& commands) {
-    OptionText text;
-    text.argument = "command";
-    text.type = "NAME";
-    text.kind = ValueKind::text;
-    text.is_required = true;
-    for (const CLI::App* command : commands) {
-        text.choices.push_back(command->get_name());
-        text.help += (text.help.empty() ? "" : "; ") + command->get_name() + ": " +
-                     command->get_description();
+    for (CLI::App* own : command.get_subcommands({})) {
+        text.commands.push_back(text_of(*own));
+        // CLI11 hands the notes of a command down to commands that have none.
+        if (text.commands.back().notes == text.notes) text.commands.back().notes.clear();
     }
     return text;
 }
@@ -85,11 +75,6 @@ ToolText declarations() {
     text.version = cli::kVersion;
     text.first_day = cli::kFirstDay;
     text.top = text_of(line.app);
-    for (CLI::App* command : line.app.get_subcommands({})) {
-        text.commands.push_back(text_of(*command));
-        const std::vector<CLI::App*> parts = command->get_subcommands({});
-        if (!parts.empty()) text.commands.back().options.push_back(text_of_commands(parts));
-    }
     return text;
 }
 

@@ -26,16 +26,16 @@ struct OptionText {
 
 struct CommandText {
     std::string name;
-    std::string what;                 ///< what it does, in one line
-    std::string notes;                ///< examples and more, below the options in its help
-    std::vector<OptionText> options;  ///< arguments without an option among them
+    std::string what;                   ///< what it does, in one line
+    std::string notes;                  ///< examples and more, below the options in its help
+    std::vector<OptionText> options;    ///< arguments without an option among them
+    std::vector<CommandText> commands;  ///< commands of its own, such as `list` of `sheets`
 };
 
 struct ToolText {
     std::string version;    ///< "dotpose 1.2.3"
     std::string first_day;  ///< examples for a new user
-    CommandText top;        ///< the tool itself, with the options that precede a command
-    std::vector<CommandText> commands;
+    CommandText top;        ///< the tool itself, with all commands
 };
 
 /// Returns the declarations of all commands, of `dotpose` and of `dotpose-live`.

@@ -43,30 +43,39 @@ std::string line(const std::string& condition, const OptionText& option) {
            quoted(option.help) + "\n";
 }
 
+/// Returns what is offered to a command, and to the commands that it has; `words` are the words
+/// that precede it and its name.
+std::string lines(const CommandText& command, const std::string& words) {
+    std::string text;
+    const bool is_parent = !command.commands.empty();
+    const std::string condition = words + (is_parent ? " ''" : "");
+    for (const OptionText& option : command.options)
+        text += line(condition, option);
+    for (const CommandText& own : command.commands) {
+        text += fmt::format("complete -c dotpose -n {} -a {} -d {}\n", quoted(condition), own.name,
+                            quoted(own.what));
+    }
+    for (const CommandText& own : command.commands)
+        text += "\n" + lines(own, words + " " + own.name);
+    return text;
+}
+
 }  // namespace
 
 std::string fish_completions(const ToolText& tool) {
-    std::string text =
-        "# Completions of dotpose for fish. Written by dotpose_manuals from the options of the "
-        "tool.\n\n"
-        "# Whether the command is the one that is named, or none yet without a name.\n"
-        "function __dotpose_command\n"
-        "    set -l words (commandline -opc)\n"
-        "    test \"$words[2]\" = \"$argv[1]\"\n"
-        "end\n\n"
-        "complete -c dotpose -f\n";
-    for (const OptionText& option : tool.top.options)
-        text += line("__dotpose_command", option);
-    for (const CommandText& command : tool.commands) {
-        text += fmt::format("complete -c dotpose -n __dotpose_command -a {} -d {}\n", command.name,
-                            quoted(command.what));
-    }
-    for (const CommandText& command : tool.commands) {
-        text += "\n";
-        for (const OptionText& option : command.options)
-            text += line("__dotpose_command " + command.name, option);
-    }
-    return text;
+    return "# Completions of dotpose for fish. Written by dotpose_manuals from the options of the "
+           "tool.\n\n"
+           "# Whether the words before the one that is typed begin with these; an empty one stands "
+           "for none.\n"
+           "function __dotpose_command\n"
+           "    set -l words (commandline -opc)\n"
+           "    for i in (seq (count $argv))\n"
+           "        set -l next (math $i + 1)\n"
+           "        test \"$words[$next]\" = \"$argv[$i]\"; or return 1\n"
+           "    end\n"
+           "end\n\n"
+           "complete -c dotpose -f\n" +
+           lines(tool.top, "__dotpose_command");
 }
 
 }  // namespace dotpose::manuals

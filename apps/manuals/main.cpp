@@ -22,7 +22,7 @@ void write_all(const std::filesystem::path& folder) {
     using namespace dotpose::manuals;
     const ToolText tool = declarations();
     write(folder / "dotpose.1", tool_page(tool));
-    for (const CommandText& command : tool.commands)
+    for (const CommandText& command : tool.top.commands)
         write(folder / ("dotpose-" + command.name + ".1"), command_page(tool, command));
     // Each shell looks for its file under the name that it gives it.
     write(folder / "dotpose", bash_completions(tool));

@@ -85,8 +85,10 @@ std::string entry(const OptionText& option) {
     return text + "\n";
 }
 
-std::string synopsis(const CommandText& command) {
-    std::string text = section("SYNOPSIS") + bold("dotpose " + command.name);
+/// Returns how a command is written; `words` are those that precede its options.
+std::string synopsis(const std::string& words, const CommandText& command) {
+    std::string text = bold(words);
+    if (!command.commands.empty()) text += " " + italic("COMMAND");
     for (const OptionText& option : command.options) {
         if (option.is_required && !option.long_name.empty())
             text += " " + bold(option.long_name) + " " + values_of(option);
@@ -143,7 +145,7 @@ std::string tool_page(const ToolText& tool) {
             italic("OPTION") + "]...\n.br\n" + bold("dotpose help") + " [" + italic("COMMAND") +
             "]\n";
     text += section("COMMANDS");
-    for (const CommandText& command : tool.commands) {
+    for (const CommandText& command : tool.top.commands) {
         text += ".TP\n" + bold("dotpose-" + command.name) + "(1)\n" + escaped(command.what) + ".\n";
     }
     text += section("OPTIONS");
@@ -166,10 +168,19 @@ std::string tool_page(const ToolText& tool) {
 }
 
 std::string command_page(const ToolText& tool, const CommandText& command) {
+    const std::string words = "dotpose " + command.name;
     std::string text = header(tool, "dotpose-" + command.name, command.what);
-    text += synopsis(command) + section("OPTIONS");
+    text += section("SYNOPSIS") + synopsis(words, command) + section("OPTIONS");
     for (const OptionText& option : command.options)
         text += entry(option);
+    if (!command.commands.empty()) text += section("COMMANDS");
+    for (const CommandText& own : command.commands) {
+        text += ".SS " + escaped(own.name) + "\n" + synopsis(words + " " + own.name, own) +
+                ".PP\n" + escaped(own.what) + ".\n";
+        for (const OptionText& option : own.options)
+            text += entry(option);
+        text += notes(own.notes);
+    }
     text += notes(command.notes);
     return text + section("SEE ALSO") + bold("dotpose") + "(1)\n";
 }

@@ -42,9 +42,12 @@ std::string values(const OptionText& option) {
     return text;
 }
 
-std::string specification(const OptionText& option) {
-    if (!option.argument.empty())
-        return fmt::format("'{}{}'", option.is_repeated ? "*" : "1", values(option));
+/// `place` counts the arguments without an option from 1.
+std::string specification(const OptionText& option, int place) {
+    if (!option.argument.empty()) {
+        const std::string which = option.is_repeated ? "*" : std::to_string(place);
+        return fmt::format("'{}{}'", which, values(option));
+    }
     const std::string rest = fmt::format("'[{}]{}'", escaped(option.help), values(option));
     const char* equals = option.type.empty() ? "" : "=";
     if (option.short_name.empty()) return option.long_name + equals + rest;
@@ -52,36 +55,41 @@ std::string specification(const OptionText& option) {
                        rest);
 }
 
-std::string specifications(const CommandText& command, const char* indent) {
-    std::string text = "_arguments -S";
-    for (const OptionText& option : command.options)
-        text += fmt::format(" \\\n{}{}", indent, specification(option));
-    return text;
+/// Returns what is offered to a command, and to the commands that it has.
+std::string body(const CommandText& command, const std::string& indent) {
+    const std::string inner = indent + "    ";
+    std::string text = indent + "_arguments -S";
+    int place = 1;
+    for (const OptionText& option : command.options) {
+        text += fmt::format(" \\\n{}{}", inner, specification(option, place));
+        if (!option.argument.empty()) ++place;
+    }
+    if (command.commands.empty()) return text + "\n";
+    text += fmt::format(
+        " \\\n{0}    '1:command:->command' '*::argument:->argument' && return\n"
+        "{0}case $state in\n{0}command)\n{0}    local -a commands=(\n",
+        indent);
+    for (const CommandText& own : command.commands)
+        text += fmt::format("{}    '{}:{}'\n", inner, own.name, escaped(own.what));
+    text += fmt::format(
+        "{0}    )\n{0}    _describe command commands ;;\n{0}argument)\n{0}    case $words[1] in\n",
+        indent);
+    for (const CommandText& own : command.commands) {
+        text += fmt::format("{0}{1})\n{2}{0}    ;;\n", inner, own.name, body(own, inner + "    "));
+    }
+    return text + fmt::format("{0}    esac ;;\n{0}esac\n", indent);
 }
 
 }  // namespace
 
 std::string zsh_completions(const ToolText& tool) {
-    std::string text =
-        "#compdef dotpose\n"
-        "# Completions of dotpose for zsh. Written by dotpose_manuals from the options of the "
-        "tool.\n\n"
-        "_dotpose() {\n"
-        "    local curcontext=$curcontext state line\n"
-        "    typeset -A opt_args\n    ";
-    text += specifications(tool.top, "        ") +
-            " \\\n        '1:command:->command' '*::argument:->argument' && return\n"
-            "    case $state in\n    command)\n        local -a commands=(\n";
-    for (const CommandText& command : tool.commands)
-        text += fmt::format("            '{}:{}'\n", command.name, escaped(command.what));
-    text +=
-        "        )\n        _describe command commands ;;\n"
-        "    argument)\n        case $words[1] in\n";
-    for (const CommandText& command : tool.commands) {
-        text += fmt::format("        {})\n            {} ;;\n", command.name,
-                            specifications(command, "                "));
-    }
-    return text + "        esac ;;\n    esac\n}\n\n_dotpose \"$@\"\n";
+    return "#compdef dotpose\n"
+           "# Completions of dotpose for zsh. Written by dotpose_manuals from the options of the "
+           "tool.\n\n"
+           "_dotpose() {\n"
+           "    local curcontext=$curcontext state line\n"
+           "    typeset -A opt_args\n" +
+           body(tool.top, "    ") + "}\n\n_dotpose \"$@\"\n";
 }
 
 }  // namespace dotpose::manuals

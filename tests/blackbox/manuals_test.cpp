@@ -44,11 +44,12 @@ class Manuals : public ToolCommand {
         return words_of(output_);
     }
 
-    Words commands() {
-        Words words = bash_offers("dotpose \"\"");
-        std::erase_if(words, [](const std::string& word) { return !std::isalpha(word[0]); });
-        words.erase("default");
-        return words;
+    /// Returns the commands that bash offers after these words.
+    Words commands(const std::string& words = "dotpose") {
+        Words offers = bash_offers(words + " \"\"");
+        std::erase_if(offers, [](const std::string& word) { return !std::isalpha(word[0]); });
+        offers.erase("default");
+        return offers;
     }
 
     /// Returns the long options that the help of a command lists.
@@ -88,6 +89,16 @@ TEST_F(Completions, OfBashOfferAllOptionsThatTheHelpHas) {
     }
 }
 
+TEST_F(Completions, OfBashOfferCommandsOfACommand) {
+    const Words own = commands("dotpose sheets");
+    EXPECT_THAT(own, IsSupersetOf({"list", "place", "map"}));
+    for (const std::string& command : own) {
+        Words offers = bash_offers("dotpose sheets " + command + " --");
+        std::erase_if(offers, [](const std::string& word) { return !word.starts_with("--"); });
+        EXPECT_EQ(offers, options_in_help("sheets " + command)) << command;
+    }
+}
+
 TEST_F(Completions, OfBashOfferValues) {
     EXPECT_EQ(bash_offers("dotpose locate --format \"\""), (Words{"+o", "default", "json", "csv"}));
     EXPECT_EQ(bash_offers("dotpose locate --format = c"), (Words{"+o", "default", "csv"}));
@@ -110,6 +121,8 @@ TEST_F(Completions, OfFish) {
     };
     EXPECT_EQ(offers("dotpose wat"), Words{"watch"});
     EXPECT_EQ(offers("dotpose help wat"), Words{"watch"});
+    EXPECT_EQ(offers("dotpose sheets pl"), Words{"place"});
+    EXPECT_EQ(offers("dotpose sheets place --ya"), Words{"--yaw"});
     EXPECT_EQ(offers("dotpose locate --forma"), Words{"--format"});
     EXPECT_EQ(offers("dotpose locate --format "), (Words{"json", "csv"}));
     EXPECT_THAT(offers("dotpose locate dotpose.f"), Contains("dotpose.fish"));
@@ -137,6 +150,8 @@ TEST_F(Completions, OfZsh) {
     ASSERT_EQ(shell("zsh -f -n _dotpose"), 0) << errors_;
     expect_becomes("dotpose wat", "dotpose watch ");
     expect_becomes("dotpose help wat", "dotpose help watch ");
+    expect_becomes("dotpose sheets pl", "dotpose sheets place ");
+    expect_becomes("dotpose sheets place --ya", "dotpose sheets place --yaw=");
     expect_becomes("dotpose locate --forma", "dotpose locate --format=");
     expect_becomes("dotpose locate --format js", "dotpose locate --format json ");
     expect_becomes("dotpose locate dotpose.f", "dotpose locate dotpose.fish ");
@@ -153,6 +168,7 @@ TEST_F(Manuals, EveryCommandHasAPageWithAllItsOptions) {
         }
     }
     EXPECT_THAT(file("dotpose.1"), HasSubstr("dotpose\\-watch"));
+    EXPECT_THAT(file("dotpose-sheets.1"), HasSubstr("\\fB\\-\\-yaw\\fR"));
 }
 
 TEST_F(Manuals, PagesAreWithoutFaultForTroff) {
