@@ -219,7 +219,7 @@ TEST_F(Hostile, AFullDiskIsToldByTheRecording) {
     EXPECT_EQ(shell("trap '' XFSZ; ulimit -f 8; \"$T\" watch frames --fps 50 --record a.mp4 | cat"
                     " > /dev/null; \"$T\" watch frames --fps 50 --record a.mp4 > /dev/null"),
               1);
-    EXPECT_THAT(errors_, HasSubstr("a.mp4 is not complete"));
+    EXPECT_THAT(errors_, HasSubstr("cannot record to a.mp4: File too large"));
 }
 
 }  // namespace
