@@ -146,7 +146,7 @@ void add_out_option(CLI::App& command, const Arguments& arguments, const std::st
 /// Adds a subcommand with the options that all have.
 CLI::App& add_command(CLI::App& sheets, const Arguments& arguments, const char* name,
                       const char* what, void (*run)(const SheetsArguments&)) {
-    CLI::App* command = sheets.add_subcommand(name, what);
+    CLI::App* command = sheets.add_subcommand(name, what)->group("Commands");
     add_sheets_option(*command, arguments->sheets, "Sheet file")->capture_default_str();
     command->callback([arguments, run] { run(*arguments); });
     return *command;

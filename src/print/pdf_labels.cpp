@@ -29,7 +29,7 @@ constexpr double kLongTick_mm = 1.8;
 constexpr double kNumberAway_mm = kGap_mm + kLongTick_mm + 0.3;
 constexpr double kRulerRoom_mm = kNumberAway_mm + kNumberHeight_mm + kEdge_mm;
 
-constexpr double kArrowGap_mm = 0.5;  // between the numbers of a ruler and the arrow beside it
+constexpr double kArrowGap_mm = 0.9;  // between the numbers of a ruler and the arrow beside it
 constexpr double kArrow_mm = 6;       // of an arrow beyond the other arrow
 constexpr double kArrowHead_mm = 1.3;
 constexpr double kNoteAway_mm = 3;  // from the x arrow
@@ -185,7 +185,7 @@ std::string point(const Sheet& sheet, double x_mm, double y_mm) {
 
 /// Returns the PDF content of a ruler that counts from the corner of the page to the last
 /// intersection, with a tick every millimetre and a number every ten. The edge of the paper is its
-/// zero. Where the other ruler crosses it there are no ticks.
+/// zero. There are no ticks where the other ruler and its arrow cross it.
 std::string ruler_content(const Sheet& sheet, Side side) {
     if (!has_ruler(sheet, side)) return {};
     const bool is_top = side == Side::top;
@@ -196,9 +196,16 @@ std::string ruler_content(const Sheet& sheet, Side side) {
                       : point(sheet, away_from_mm - away_mm, along_mm);
     };
     const Side other = is_top ? Side::left : Side::top;
-    const double crossing_end_mm = has_ruler(sheet, other) ? free_margin_mm(sheet, other) : 0;
-    const auto is_crossed = [&](double from_mm, double to_mm) {
-        return to_mm > crossing_end_mm - kRulerRoom_mm && from_mm < crossing_end_mm;
+    const auto arrows = arrows_of(sheet);
+    double crossing_mm = has_ruler(sheet, other) ? free_margin_mm(sheet, other) - kRulerRoom_mm : 0;
+    if (arrows) {
+        crossing_mm =
+            (is_top ? arrows->x_of_y_arrow_mm : arrows->y_of_x_arrow_mm) - kArrowGap_mm / 2;
+    }
+    const double dots_begin_mm = has_ruler(sheet, other) ? free_margin_mm(sheet, other) : 0;
+    // The other ruler has ticks to `nearest_mm` from the dots, beside the numbers only numbers.
+    const auto is_crossed = [&](double from_mm, double to_mm, double nearest_mm) {
+        return to_mm > crossing_mm && from_mm < dots_begin_mm - nearest_mm;
     };
     const double dots_mm =
         ((is_top ? sheet.columns : sheet.rows) - 1) * sheet.pattern.spacing_mm + 1e-6;
@@ -208,14 +215,14 @@ std::string ruler_content(const Sheet& sheet, Side side) {
     std::string numbers = fmt::format("BT /Label {} Tf\n", kNumber_pt);
     for (int mm = 0; mm <= last_mm; ++mm) {
         const double tick_mm = mm % 10 == 0 ? kLongTick_mm : mm % 5 == 0 ? 1.2 : 0.8;
-        if (mm > 0 && !is_crossed(mm, mm)) {
+        if (mm > 0 && !is_crossed(mm, mm, kGap_mm)) {
             ticks += at(mm, kGap_mm) + " m " + at(mm, kGap_mm + tick_mm) + " l\n";
         }
         if (mm % 10 != 0) continue;
         const std::string number = mm == 0 ? "0 mm" : fmt::format("{}", mm);
         const double length_mm = width_mm(number, kNumber_pt);
         const double from_mm = mm == 0 ? kEdge_mm : mm - length_mm / 2;
-        if (is_crossed(from_mm, from_mm + length_mm)) continue;
+        if (is_crossed(from_mm, from_mm + length_mm, kNumberAway_mm)) continue;
         // Beside the dots the text runs upwards, so that its top faces away from them.
         numbers +=
             fmt::format("{} {} Tm {} Tj\n", is_top ? "1 0 0 1" : "0 1 -1 0",

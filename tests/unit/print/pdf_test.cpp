@@ -88,8 +88,8 @@ TEST(labels, rulers_count_from_the_corner_of_the_page) {
     const Sheet sheet = make_sheet(small_page(10));
     const Marks marks = marks_of(print::label_content(sheet, {1, 1}, named()), sheet.height_mm);
     // Above the dots to 89, beside them to 49: the last whole millimetres before they end. Between
-    // 5 and 10 the rulers would cross.
-    std::vector<double> expected_x = {1, 2, 3, 4, 5};
+    // 4 and 10 the rulers and arrows would cross.
+    std::vector<double> expected_x = {1, 2, 3, 4};
     std::vector<double> expected_y = expected_x;
     for (int mm = 10; mm <= 89; ++mm) {
         expected_x.push_back(mm);
