@@ -12,6 +12,7 @@
 #include "dotpose/files/sheet_file.hpp"
 #include "dotpose/tools/draw.hpp"
 #include "files/output_file.hpp"
+#include "output_arguments.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"
 #include "sheet_reprint.hpp"
@@ -133,8 +134,10 @@ void draw_map(const SheetsArguments& arguments) {
     files.reads("--sheets", arguments.sheets);
     files.writes("-o", arguments.out, Content::svg);
     const std::vector<SheetEntry> sheets = sheets_of(arguments);
-    files::require_writable(arguments.out);
-    draw_sheets(arguments.out, sheets);
+    const DocumentOutput output(arguments.out, ".svg");
+    files::require_writable(output.path());
+    draw_sheets(output.path(), sheets);
+    output.finish();
 }
 
 using Arguments = std::shared_ptr<SheetsArguments>;
@@ -216,7 +219,7 @@ void add_sheets(CLI::App& app, int& /*exit_code*/) {
     add_wait_option(reprinting, arguments);
     add_out_option(
         add_command(*command, arguments, "map", "Draw how the sheets lie in the world", draw_map),
-        arguments, "Picture to draw (SVG)");
+        arguments, "Picture to draw (SVG), or - for standard output");
 }
 
 }  // namespace dotpose::cli

@@ -61,6 +61,10 @@ TEST_F(Conventions, DocumentsGetIntoASheetFileThoughTheyGoToStandardOutput) {
     EXPECT_THAT(errors_, HasSubstr(", sheet 'a' of sheets.json"));
     EXPECT_THAT(file("sheets.json"), HasSubstr("\"name\": \"a\""));
     EXPECT_THAT(file("sheets.json"), Not(HasSubstr("reserved")));
+    ASSERT_EQ(run("sheets place a --x 0 --y 0 --yaw 0"), 0) << errors_;
+    ASSERT_EQ(run("sheets map -o map.svg"), 0) << errors_;
+    ASSERT_EQ(run("sheets map -o -"), 0) << errors_;
+    EXPECT_EQ(output_, file("map.svg"));
 }
 
 TEST_F(Conventions, FormatOfADocumentFitsItsName) {
