@@ -103,8 +103,7 @@ TEST_F(Usage, MistakesFoundAfterParsingNameTheHelpToo) {
     expect_refusal("replay run.csv extra",
                    "unexpected argument 'extra'; the file to write is named with -o",
                    "dotpose replay --help");
-    expect_refusal("replay run.csv -o a.svg extra", "unexpected argument 'extra'",
-                   "dotpose replay --help");
+    expect_refusal("print -o a.svg extra", "unexpected argument 'extra'", "dotpose print --help");
 }
 
 TEST_F(Usage, HelpOfACommandIsThatOfItsOption) {
