@@ -151,7 +151,7 @@ TEST_F(Completions, OfZsh) {
     expect_becomes("dotpose wat", "dotpose watch ");
     expect_becomes("dotpose help wat", "dotpose help watch ");
     expect_becomes("dotpose sheets pl", "dotpose sheets place ");
-    expect_becomes("dotpose sheets place --ya", "dotpose sheets place --yaw=");
+    expect_becomes("dotpose sheets map --ou", "dotpose sheets map --out=");
     expect_becomes("dotpose locate --forma", "dotpose locate --format=");
     expect_becomes("dotpose locate --format js", "dotpose locate --format json ");
     expect_becomes("dotpose locate dotpose.f", "dotpose locate dotpose.fish ");
