@@ -35,9 +35,21 @@ std::vector<Point> path_of(const std::vector<LogRow>& rows) {
     return path;
 }
 
+/// Returns what is subtracted from the coordinates of an axis: whole millimetres near its middle
+/// where its numbers would differ in their last digits only, as in the pattern, otherwise 0.
+double offset_mm(double middle_mm, double reach_mm) {
+    constexpr double kMostReaches = 1000;
+    return std::abs(middle_mm) > kMostReaches * reach_mm ? std::round(middle_mm) : 0;
+}
+
+std::string axis_label(const char* name, double offset_mm) {
+    if (offset_mm == 0) return fmt::format("{} [mm]", name);
+    return fmt::format("{} {} {:.0f} [mm]", name, offset_mm < 0 ? '+' : '-', std::abs(offset_mm));
+}
+
 /// Draws the path with axes of equal scale.
 void draw_path(Svg& svg, const std::vector<LogRow>& rows) {
-    const std::vector<Point> path = path_of(rows);
+    std::vector<Point> path = path_of(rows);
     Point low{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
     Point high{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::lowest()};
     for (const Point p : path) {
@@ -47,13 +59,17 @@ void draw_path(Svg& svg, const std::vector<LogRow>& rows) {
     }
     if (low.x > high.x) low = high = {0, 0};
     const double reach = 0.55 * std::max({high.x - low.x, high.y - low.y, 0.01});
-    const Point middle = 0.5 * (low + high);
+    Point middle = 0.5 * (low + high);
+    const Point offset{offset_mm(middle.x, reach), offset_mm(middle.y, reach)};
+    middle = middle - offset;
+    for (Point& p : path)
+        p = p - offset;
     const bool y_up = std::ranges::any_of(rows, [](const LogRow& r) { return r.plane == "world"; });
     const double down = y_up ? reach : -reach;
     const Axes axes(svg, {110, 120, 620, 620}, {middle.x - reach, middle.x + reach},
                     {middle.y - down, middle.y + down});
-    axes.draw_y("y [mm]");
-    axes.draw_x("x [mm]");
+    axes.draw_y(axis_label("y", offset.y));
+    axes.draw_x(axis_label("x", offset.x));
     axes.curve(path, {.colour = draw::colour::kWindow, .has_marks = false});
 }
 

@@ -77,6 +77,19 @@ TEST_F(Replay, PrintsAndDraws) {
     EXPECT_EQ(bands, 3U);
 }
 
+TEST_F(Replay, NumbersTheAxesOfAPathFarFromTheOrigin) {
+    // 20 mm along x and 10 mm along y, down as in the pattern, some 10 km from its origin.
+    put(std::string(kHeader) +
+        "0,0.0,,ok,150,1e-20,moving,fix,believed,pattern,59957068.5,9667944,0,0\n"
+        "1,0.1,,ok,150,1e-20,moving,,believed,pattern,59957088.5,9667954,0,0\n");
+    ASSERT_EQ(run("replay run.csv --draw run.svg"), 0);
+    const std::string picture = file("run.svg");
+    EXPECT_THAT(picture, HasSubstr(">y - 9667949 [mm]<"));
+    EXPECT_THAT(picture, HasSubstr(R"(text-anchor="end" fill="#6b7885">-10<)"));
+    EXPECT_THAT(picture, HasSubstr(R"(text-anchor="end" fill="#6b7885">10<)"));
+    EXPECT_THAT(picture, HasSubstr(R"(text-anchor="middle" fill="#6b7885">-10<)"));
+}
+
 TEST_F(Replay, LeavesOutALineThatWasCutOff) {
     const std::string rows = kRows;
     put(kHeader + rows.substr(0, rows.size() - 12));
