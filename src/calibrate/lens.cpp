@@ -178,7 +178,6 @@ void judge(bool is_same, LensCalibration& result) {
         result.verdict = verdict;
         result.advice = std::move(advice);
     };
-    const int used = result.located - result.duplicates;
     if (is_same) {
         say(CalibrationVerdict::same_place,
             "all frames show the same dots, so that printing errors look like errors of the lens: "
@@ -188,11 +187,11 @@ void judge(bool is_same, LensCalibration& result) {
             fmt::format("the dots are blurred to {:.0f} % of their spacing (sharp ones are 17 %): "
                         "focus the lens, then calibrate again, because focusing changes the scale",
                         100 * result.dot_width));
-    } else if (used < kWantedFrames) {
+    } else if (result.located < kWantedFrames) {
         say(CalibrationVerdict::too_few_frames,
             fmt::format("only {} different frames show the pattern: take {} to 50 at different "
                         "places and angles",
-                        used, kWantedFrames));
+                        result.located, kWantedFrames));
     } else if (result.coverage < kLeastCoverage) {
         say(CalibrationVerdict::corners_unseen,
             fmt::format("only {:.0f} % of the image ever shows dots, so that the lens is guessed "

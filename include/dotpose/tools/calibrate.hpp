@@ -79,10 +79,10 @@ struct LensCalibration {
     bool is_mounted = true;
     Profile code = Profile::anoto;  ///< profile that was given or found
     int frames = 0;                 ///< number of frames given
-    int located = 0;                ///< frames of these that have a fix
-    int duplicates = 0;  ///< frames of these that are the same image as an earlier one; left out
-    int dots = 0;        ///< number of dots used
-    int outliers = 0;    ///< number of dots left out
+    int located = 0;                ///< different frames of these that have a fix
+    int duplicates = 0;             ///< frames that are the same image as an earlier one; left out
+    int dots = 0;                   ///< number of dots used
+    int outliers = 0;               ///< number of dots left out
     double residual_before_px = 0;  ///< rms per axis, of a camera without distortion, skew and tilt
     double residual_px = 0;         ///< rms per axis
     double px_per_spacing = 0;      ///< mean over the frames, at the image centre

@@ -226,6 +226,13 @@ TEST(CalibrateLens, CountsFramesThatAreGivenTwiceOnce) {
     EXPECT_EQ(result.duplicates, 3);
     EXPECT_EQ(result.located, 4);
     EXPECT_EQ(result.verdict, CalibrationVerdict::too_few_frames);
+    EXPECT_THAT(result.advice, HasSubstr("only 4 different frames"));
+
+    const auto each_twice =
+        calibrate_lens(12, [](int i) { return nominal_frame(paper_camera(), 38, i / 2); }, {});
+    EXPECT_EQ(each_twice.duplicates, 6);
+    EXPECT_EQ(each_twice.located, 6);
+    EXPECT_NE(each_twice.verdict, CalibrationVerdict::too_few_frames);
 }
 
 TEST(CalibrateLens, CanBeStopped) {
