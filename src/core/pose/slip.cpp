@@ -23,9 +23,9 @@ constexpr float kBehind = tuned::kBehind;
 
 /// Sums over the dots of one part. Dots are together if a common displacement may explain them.
 struct PartSums {
-    Four counts{};   ///< dots, log odds of the plane as it is; dots together, squared residuals
-    Four places{};   ///< of dots together: x, y, residuals along x and y
-    Four squares{};  ///< of dots together: squared distances from the reference point, turning
+    Four counts;   ///< dots, log odds of the plane as it is; dots together, squared residuals
+    Four places;   ///< of dots together: x, y, residuals along x and y
+    Four squares;  ///< of dots together: squared distances from the reference point, turning
 
     PartSums& operator+=(const PartSums& o) {
         counts += o.counts;
@@ -80,7 +80,7 @@ class Search {
     void try_direction(FloatVec direction, Slip& best) const {
         std::array<PartSums, kLines> strips{};
         const float per_spacing = static_cast<float>(kLines) / (reach_ + kBehind);
-        PartSums all;
+        PartSums all{};
         for (std::size_t k = 0; k < count_; ++k) {
             const float t = places_[k].x * direction.x + places_[k].y * direction.y + kBehind;
             const auto strip = static_cast<std::int32_t>(std::max(t, 0.0F) * per_spacing);
@@ -88,7 +88,7 @@ class Search {
         }
         for (const PartSums& strip : strips)
             all += strip;
-        PartSums beyond;
+        PartSums beyond{};
         for (std::size_t line = kLines; --line > 0;) {
             beyond += strips[line];
             if (beyond.seen() < tuned::kFewestBeyond) continue;
