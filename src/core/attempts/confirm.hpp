@@ -2,6 +2,7 @@
 // measures the dots there, compares their bits with the code, and fits the pose.
 #pragma once
 
+#include "core/attempts/hypothesis.hpp"
 #include "core/kernels/select.hpp"
 #include "core/math/float_plane.hpp"
 #include "core/workspace.hpp"
@@ -10,41 +11,8 @@
 
 namespace dotpose::core {
 
-/// A hypothesis of where the pattern is in the image.
-struct Hypothesis {
-    FloatPlane pattern_from_image;  ///< upright, px counted from `from_centre`
-    FloatVec from_centre;           ///< px from the image centre
-    Place place;                    ///< place of the plane's cell (0, 0)
-    float displacement = 0;         ///< of a typical dot, spacings
-    bool is_certain = false;        ///< whether the place needs no confirmation
-    bool is_predicted = false;      ///< whether one look at each dot may be enough
-    /// Whether each dot is known to lie nearer to its predicted place than to another place of its
-    /// cell.
-    bool is_exact = false;
-    bool shows_part = false;  ///< whether the pattern may cover only a part of the image, around
-                              ///< `from_centre`
-    int depth_q8 = 0;  ///< darkness of a typical dot against paper in the smoothed patch, in 1/256
-    float typical_mass = 0;  ///< sum of a dot's darkness beyond the cut, relative to the paper's
-                             ///< level; 0: not known yet
-};
-
-/// Windows count the pixels that are darker than the paper by more than this share, in 1/256, of a
-/// typical dot's darkness.
-inline constexpr int kCutOfDepth_q8 = 160;
-
-FloatLens float_lens(const Lens& lens);
-
-/// Returns the input of `list_cells`: the cells in view within `reach_px` of the hypothesis's
-/// point, thinned to about `most_cells`. Fills the workspace's rolls.
-CellsInView cells_in_view(const ImageView& image, const Options& options,
-                          const Hypothesis& hypothesis, float reach_px, int most_cells,
-                          Workspace& w);
-
 /// Whether the grid may lie so in an image; the following steps rely on it.
 bool is_plausible(const ImageView& image, const FloatPlane& plane);
-
-/// Counts the cells of the hypothesis from the one nearest its point.
-void count_from_centre(Profile profile, Hypothesis& hypothesis);
 
 /// Result of `confirm`.
 enum class Confirmation : std::uint8_t {
