@@ -1,9 +1,7 @@
-// `dotpose watch` on a simulated drive: events, accuracy, sources, and what goes wrong.
+// `dotpose watch` on a simulated drive: events, accuracy and outputs.
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -14,60 +12,14 @@
 #include "../drive_errors.hpp"
 #include "dotpose/pose_packet.hpp"
 #include "dotpose/tools/image_file.hpp"
-#include "tool_command.hpp"
+#include "watch_command.hpp"
 
 namespace dotpose::test {
 namespace {
 
-using nlohmann::json;
 using testing::HasSubstr;
-using testing::Not;
 
-std::vector<json> parsed(const std::string& text) {
-    std::vector<json> lines;
-    std::istringstream stream(text);
-    for (std::string line; std::getline(stream, line);)
-        lines.push_back(json::parse(line));
-    return lines;
-}
-
-class Watch : public ToolCommand {
-  protected:
-    static constexpr int kWidth = 320;
-    static constexpr int kHeight = 240;
-    static constexpr const char* kRaw = "--size 320x240 --fps 200";
-    static constexpr const char* kTrack = "--sheets sheets.json --max-speed 400";
-
-    void SetUp() override {
-        ToolCommand::SetUp();
-        save_drive_sheets(directory_ / "sheets.json");
-    }
-
-    /// Renders frames of the drive, as drive.raw.
-    void put_raw(int frames, int first = 0) {
-        const DriveCamera camera(kWidth, kHeight);
-        std::ofstream raw(directory_ / "drive.raw", std::ios::binary);
-        for (int i = 0; i < frames; ++i) {
-            const GreyImage image = camera.frame(drive_, first + i);
-            raw.write(reinterpret_cast<const char*>(image.pixels.data()),
-                      static_cast<std::streamsize>(image.pixels.size()));
-        }
-    }
-    /// And as a video without loss.
-    void put_video(int frames, const std::string& name) {
-        put_raw(frames);
-        encode("-c:v ffv1", name);
-    }
-    void encode(const std::string& options, const std::string& name) {
-        shell("ffmpeg -v error -f rawvideo -pix_fmt gray -s 320x240 -r 200 -i drive.raw " +
-              options + " " + name);
-    }
-    void shell(const std::string& command) {
-        ASSERT_EQ(std::system(("cd '" + directory_.string() + "' && " + command).c_str()), 0);
-    }
-
-    const Drive drive_;
-};
+using Watch = WatchCommand;
 
 DriveReading reading_of(const json& line) {
     DriveReading reading;
@@ -292,98 +244,6 @@ TEST_F(Watch, BelievesWeakFramesThatThePriorSupports) {
               0);
     for (const json& line : parsed(output_))
         EXPECT_NE(line["verdict"], "with_prior");
-}
-
-/// How often a text occurs in another one.
-int count(const std::string& text, const std::string& part) {
-    int found = 0;
-    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
-        ++found;
-    return found;
-}
-
-TEST_F(Watch, SaysOnceWhyMostFramesFail) {
-    const DriveCamera camera(188, 120);
-    // Noise of a camera in the dark.
-    GreyImage dark{{}, 188, 120};
-    for (std::uint32_t i = 0; i < 188 * 120; ++i)
-        dark.pixels.push_back(static_cast<std::uint8_t>((i * 2654435761U >> 20) % 2 * 2));
-    const auto put = [&](int i, const GreyImage& image) {
-        write_pgm(directory_ / ("c" + std::to_string(100 + i) + ".pgm"), image.view());
-    };
-    for (int i = 0; i < 40; ++i)
-        put(i, i == 3 || i >= 25 ? camera.frame(drive_, i) : dark);
-    ASSERT_EQ(run("watch 'c*.pgm' --fps 10 --code anoto"), 0);
-    EXPECT_EQ(count(errors_, "most frames of the last second were not located"), 1) << errors_;
-}
-
-TEST_F(Watch, WarnsWhenAnotherCodeExplainsTheFrames) {
-    put_raw(10);
-    ASSERT_EQ(run(std::string("watch - --code microdots <drive.raw ") + kRaw), 0);
-    EXPECT_EQ(count(errors_, "code anoto explains the dots"), 1) << errors_;
-    EXPECT_THAT(parsed(output_).at(0)["warning"].dump(), HasSubstr("code anoto explains"));
-    ASSERT_EQ(run(std::string("watch - --code anoto <drive.raw ") + kRaw), 0);
-    EXPECT_THAT(errors_, Not(HasSubstr("explains the dots")));
-}
-
-TEST_F(Watch, LooksAtAPartOfTheFrame) {
-    put_video(2, "drive.avi");
-    ASSERT_EQ(run(std::string("watch drive.avi --frames 1 --roi 60,60,200x120 ") + kTrack), 0);
-    const json part = parsed(output_).at(0);
-    // The middle of the part is at (159.5, 119.5), that of the whole frame.
-    const DriveState truth = drive_.at(0);
-    EXPECT_NEAR(part["x_m"].get<double>() * 1000, truth.x_mm, 0.02);
-    EXPECT_LT(part["dots_seen"], 300);
-    EXPECT_EQ(run("watch drive.avi --roi 200,0,200x100"), 2);
-    EXPECT_THAT(errors_, HasSubstr("the region 200,0 200x100 leaves the frame of 320x240 px"));
-    EXPECT_EQ(run("watch drive.avi --roi 200"), 2);
-}
-
-TEST_F(Watch, StopsCleanlyOnAnInterrupt) {
-    put_raw(60);
-    // The pipe stays open, so that only the signal ends the run.
-    shell(
-        "mkfifo pipe && bash -c '(cat drive.raw; exec sleep 30) > pipe & writer=$!; "
-        "\"" DOTPOSE_TOOL "\" watch - " +
-        std::string(kRaw) + " --draw run.svg -o run.jsonl " + kTrack +
-        " < pipe 2> errors & pid=$!; "
-        "until [ \"$(cat run.jsonl 2>/dev/null | wc -l)\" = 60 ]; do sleep 0.05; done; "
-        "kill -INT $pid; wait $pid; echo $? > status; kill $writer'");
-    EXPECT_EQ(file("status"), "0\n");
-    EXPECT_EQ(parsed(file("run.jsonl")).size(), 60U);
-    EXPECT_THAT(file("run.svg"), HasSubstr("</svg>"));
-    EXPECT_THAT(file("errors"), HasSubstr("60 frames, 60 fixes"));
-}
-
-TEST_F(Watch, SaysWhatIsWrongWithTheSource) {
-    EXPECT_EQ(run("watch nowhere.mp4"), 1);
-    EXPECT_EQ(errors_, "dotpose: cannot read nowhere.mp4: no such file or camera\n");
-    EXPECT_EQ(run("watch 99"), 1);
-    EXPECT_THAT(errors_,
-                testing::StartsWith("dotpose: cannot open the camera 99: there is none; "));
-    std::ofstream(directory_ / "text.mp4") << "this is no video";
-    EXPECT_EQ(run("watch text.mp4"), 1);
-    EXPECT_EQ(errors_, "dotpose: text.mp4 is no video, or of a kind that is not known\n");
-    EXPECT_EQ(run("watch 'nothing*.png'"), 1);
-    EXPECT_EQ(errors_, "dotpose: no images at nothing*.png\n");
-    EXPECT_EQ(run("watch -"), 2);
-    EXPECT_EQ(errors_,
-              "dotpose: raw frames need their size: --size WxH\nTry: dotpose watch --help\n");
-    EXPECT_EQ(run("watch - --size 7"), 2);
-    EXPECT_EQ(run("watch"), 2);
-    EXPECT_EQ(run("watch --help"), 0);
-    EXPECT_THAT(output_, HasSubstr("Examples:"));
-}
-
-TEST_F(Watch, TellsWhereRawFramesEnd) {
-    put_raw(31);
-    // Cut inside the 31st frame.
-    std::ofstream(directory_ / "cut.raw", std::ios::binary)
-        << file("drive.raw").substr(0, 30 * kWidth * kHeight + 1000);
-    EXPECT_EQ(run("watch - " + std::string(kRaw) + " " + kTrack, (directory_ / "cut.raw").string()),
-              1);
-    EXPECT_EQ(parsed(output_).size(), 30U);
-    EXPECT_THAT(errors_, HasSubstr("standard input ended inside frame 30: 1000 of 76800 bytes"));
 }
 
 // At 250 mm/s, where a frame with the time of its neighbour is 1 mm off.
