@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <ostream>
 #include <span>
 #include <string>
@@ -11,6 +10,7 @@
 
 #include "dotpose/files/sheet_place.hpp"
 #include "dotpose/tools/draw.hpp"
+#include "draw/bounds.hpp"
 #include "draw/svg.hpp"
 
 namespace dotpose {
@@ -30,17 +30,6 @@ constexpr std::size_t kBoxRows = 3;
 constexpr double kMostExtent_m = 1e7;
 constexpr const char* kCentred = R"(text-anchor="middle" fill="#17202a")";
 constexpr const char* kCentredQuiet = R"(text-anchor="middle" fill="#6b7885")";
-
-struct Bounds {
-    Point low{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
-    Point high{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::lowest()};
-
-    void add(Point p) {
-        low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-    }
-    double extent() const { return std::max(high.x - low.x, high.y - low.y); }
-};
 
 /// The corners of a page with a pose, in metres of the world, from the top left one clockwise.
 std::array<Point, 4> corners_m(const SheetEntry& entry) {
@@ -67,7 +56,7 @@ Bounds world_bounds(std::span<const SheetEntry> sheets) {
     with_origin.add({0, 0});
     const bool is_near = with_origin.extent() <= kMostForOrigin * bounds.extent();
     const Bounds shown = is_near ? with_origin : bounds;
-    if (bounds.low.x <= bounds.high.x && !(shown.extent() < kMostExtent_m)) {
+    if (!bounds.is_empty() && !(shown.extent() < kMostExtent_m)) {
         throw Error(fmt::format("the sheets lie over {:g} km of the world: too far apart to draw",
                                 shown.extent() / 1000));
     }

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+
+#include "draw/bounds.hpp"
 
 namespace dotpose::draw {
 namespace {
@@ -15,18 +16,7 @@ constexpr double kHead = 60;
 constexpr std::array kColours = {"#1565c0", "#c62828", "#2e7d32", "#6a1b9a",
                                  "#ef6c00", "#00838f", "#4e342e", "#ad1457"};
 
-/// The bounding box of everything that is drawn.
-struct Bounds {
-    Point low{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
-    Point high{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::lowest()};
-
-    void add(Point p) {
-        low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-    }
-    bool is_empty() const { return low.x > high.x; }
-};
-
+/// Returns the bounds of everything that is drawn.
 Bounds bounds_of(const Map& map) {
     Bounds bounds;
     for (const MapSheet& sheet : map.sheets) {

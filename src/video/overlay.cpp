@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include <opencv2/imgproc.hpp>
 
+#include "draw/bounds.hpp"
 #include "draw/frame_view.hpp"
 #include "video/calibration_overlay.hpp"
 #include "video/ink.hpp"
@@ -69,13 +69,14 @@ class Plan {
   public:
     Plan(const Scene& scene, cv::Mat panel) : panel_(std::move(panel)), y_up_(scene.y_up) {
         for (const PathMark& mark : scene.path)
-            reach({mark.x, mark.y});
+            bounds_.add({mark.x, mark.y});
         for (const draw::MapSheet& sheet : scene.sheets) {
             for (const draw::Point& corner : sheet.corners_mm)
-                reach(corner);
+                bounds_.add(corner);
         }
-        scale_ = std::min((panel_.cols - 2 * kMargin) / std::max(most_.x - least_.x, 1e-3),
-                          (panel_.rows - 2 * kMargin) / std::max(most_.y - least_.y, 1e-3));
+        scale_ =
+            std::min((panel_.cols - 2 * kMargin) / std::max(bounds_.high.x - bounds_.low.x, 1e-3),
+                     (panel_.rows - 2 * kMargin) / std::max(bounds_.high.y - bounds_.low.y, 1e-3));
     }
 
     void line(draw::Point from, draw::Point to, const cv::Scalar& colour, int width) {
@@ -88,19 +89,14 @@ class Plan {
   private:
     static constexpr double kMargin = 16;
 
-    void reach(draw::Point point) {
-        least_ = {std::min(least_.x, point.x), std::min(least_.y, point.y)};
-        most_ = {std::max(most_.x, point.x), std::max(most_.y, point.y)};
-    }
     cv::Point at(draw::Point point) const {
-        const double y = (point.y - least_.y) * scale_ + kMargin;
-        return pixel({(point.x - least_.x) * scale_ + kMargin, y_up_ ? panel_.rows - y : y});
+        const double y = (point.y - bounds_.low.y) * scale_ + kMargin;
+        return pixel({(point.x - bounds_.low.x) * scale_ + kMargin, y_up_ ? panel_.rows - y : y});
     }
 
     cv::Mat panel_;
     bool y_up_;
-    draw::Point least_{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
-    draw::Point most_{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::lowest()};
+    draw::Bounds bounds_;
     double scale_ = 1;
 };
 
