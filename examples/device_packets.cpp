@@ -1,5 +1,5 @@
-// What the program of a microcontroller does, on a desktop: takes the image row by row, as a camera
-// delivers it, and sends each pose as a packet of 32 bytes.
+// Shows on a desktop how the program of a microcontroller works: it takes the image row by row, as
+// a camera delivers it, and sends each pose as a packet of 32 bytes.
 //
 //     dotpose_device_packets frames/*.pgm > packets.bin
 //     dotpose listen packets.bin

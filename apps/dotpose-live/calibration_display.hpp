@@ -1,5 +1,5 @@
-/// What `dotpose calibrate --live` shows while frames are taken: a window; without a display, the
-/// terminal; where standard error is no terminal, a line for each change.
+/// The display of `dotpose calibrate --live` while it takes frames: a window; the terminal if there
+/// is no display; and a line for each change if standard error is no terminal.
 #pragma once
 
 #include <atomic>

@@ -13,7 +13,7 @@ namespace dotpose::cli {
 /// that program is missing. In dotpose-live, does nothing.
 void hand_over();
 
-/// The same, but in `dotpose` goes on if dotpose-live is missing.
+/// Like `hand_over`, but returns if dotpose-live is missing.
 void hand_over_if_possible();
 
 /// Opens a camera or video. In `dotpose`, throws Error that says what is missing.

@@ -12,7 +12,7 @@
 
 namespace dotpose::cli {
 
-/// What -o takes for standard output.
+/// The value of -o that stands for standard output.
 inline constexpr const char* kStandardOutput = "-";
 
 /// The options of commands that write a line for each frame or packet.

@@ -15,7 +15,7 @@
 
 namespace dotpose::cli {
 
-/// What the sources of a command can be, for its help.
+/// The help text of the sources that a command takes.
 inline constexpr const char* kSourcesHelp =
     "Images, folders, globs ('*.png'), videos, cameras (0, /dev/video0, URL), or - for raw frames";
 

@@ -11,7 +11,7 @@ namespace dotpose::cli {
 
 inline constexpr const char* kVersion = "dotpose " DOTPOSE_VERSION;
 
-/// What a new user does first, as the help shows it.
+/// The commands that the help suggests to a new user.
 inline constexpr const char* kFirstDay =
     "  dotpose print -o sheet.pdf   a sheet of dots; print it at 100 %\n"
     "  dotpose locate photo.jpg     where on it a picture was taken\n"
@@ -19,7 +19,7 @@ inline constexpr const char* kFirstDay =
 
 using AddCommands = std::function<void(CLI::App& app, int& exit_code)>;
 
-/// What a program understands: the commands that `add` registers, and `help` and `version`.
+/// The command line of a program: the commands that `add` registers, and `help` and `version`.
 struct CommandLine {
     explicit CommandLine(const AddCommands& add);
 

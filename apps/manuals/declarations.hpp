@@ -1,4 +1,4 @@
-/// What the commands declare to CLI11, as plain text for manual pages and completions.
+/// The declarations that the commands make to CLI11, as text for manual pages and completions.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace dotpose::manuals {
 
-/// What a shell may offer as a value.
+/// The kind of value of an option, by which a shell knows what to offer.
 enum class ValueKind { none, file, folder, text };
 
 struct OptionText {

@@ -27,7 +27,7 @@ namespace dotpose {
 /// Version of the format that is written, and the only one that is read.
 inline constexpr int kPacketVersion = 1;
 
-/// What one frame told, as far as a packet carries it. Unless `status` is ok, only the members
+/// The result of one frame, as far as a packet carries it. Unless `status` is ok, only the members
 /// above `cell` are valid; the rest is sent as zero.
 struct PosePacket {
     std::uint16_t sequence = 0;  ///< counts frames; a gap shows lost packets

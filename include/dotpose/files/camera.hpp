@@ -41,7 +41,7 @@ struct Tilt {
     double y_rad = 0;  ///< about the image y axis; above 0, it comes closer towards the right
 };
 
-/// What a camera file holds: one camera and its place on a robot.
+/// The content of a camera file: one camera and its place on a robot.
 struct Camera {
     int width_px = 0;
     int height_px = 0;

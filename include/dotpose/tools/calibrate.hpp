@@ -32,7 +32,7 @@ namespace dotpose {
 /// Returns frame `index` of the series, from 0. May throw Error.
 using FrameAt = std::function<GreyImage(int index)>;
 
-/// What all calibrations need to know.
+/// The options that all calibrations share.
 struct CalibrateOptions {
     /// The pattern that was printed; only profile and spacing matter. Lengths are true if the
     /// spacing is.
