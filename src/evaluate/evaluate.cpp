@@ -88,7 +88,8 @@ std::vector<std::vector<Outcome>> evaluate(const FrameRun& run) {
                       std::vector<Outcome>(static_cast<std::size_t>(run.frames)));
     Crew crew(run, outcomes);
     const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-    const int threads = run.threads > 0 ? run.threads : cores;
+    // No more threads than frames, so that this one, which reports, has its share.
+    const int threads = std::min(run.threads > 0 ? run.threads : cores, run.frames);
     {
         std::vector<std::jthread> others;
         for (int i = 1; i < threads; ++i)
