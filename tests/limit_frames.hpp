@@ -165,6 +165,17 @@ inline void add_camera_faults(std::vector<Limit>& limits) {
                  shot.imperfections.motion_px = {length_px * along.x, length_px * along.y};
              }});
     }
+    for (const int percent : {10, 20, 30}) {
+        Limit limit{"rolling shutter, moved by " + std::to_string(percent) +
+                        " % of the image height while it reads the rows",
+                    [=](Shot& shot) {
+                        const double length_px = percent / 100.0 * shot.camera.height_px;
+                        const Vec2 along = direction_of(shot);
+                        shot.camera.readout_px = {length_px * along.x, length_px * along.y};
+                    }};
+        limit.is_held = percent <= 20;
+        limits.push_back(limit);
+    }
     const CameraModel device;
     const CameraModel larger = camera_of(640, 480, 20);
     for (const CameraModel& camera : {device, larger}) {

@@ -287,7 +287,7 @@ int run(EvaluateArguments& arguments) {
             "name one thing to evaluate: frames with their poses, --preset, --sweep or --protocol");
     }
     const ReportArguments& report = arguments.report;
-    if (writes && (report.out.empty() || report.out == kStandardOutput)) {
+    if (writes && is_standard_output(report.out)) {
         throw BadArgument("name a folder for the results: -o DIR");
     }
     if (writes && report.as_json) {

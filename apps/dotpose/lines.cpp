@@ -12,7 +12,7 @@ void throw_unwritable(const std::string& output, int error_number) {
 }
 
 Lines::Lines(const std::string& path) : path_(path) {
-    if (path.empty() || path == "-") return;
+    if (is_standard_output(path)) return;
     file_.reset(std::fopen(path.c_str(), "w"));
     if (!file_) throw Error("cannot create " + path + ": " + std::strerror(errno));
 }

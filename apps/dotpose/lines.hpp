@@ -9,6 +9,14 @@
 
 namespace dotpose::cli {
 
+/// The value of -o that stands for standard output.
+inline constexpr const char* kStandardOutput = "-";
+
+/// Whether `out`, given for -o, is standard output: "-", or empty for no -o at all.
+inline bool is_standard_output(const std::string& out) {
+    return out.empty() || out == kStandardOutput;
+}
+
 /// The reader of an output has closed it, as `head` does.
 struct ReaderLeft : Error {
     using Error::Error;

@@ -10,7 +10,6 @@
 
 #include "choices.hpp"
 #include "dotpose/files/error.hpp"
-#include "lines.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
@@ -62,7 +61,7 @@ void add_report_options(CLI::App& command, ReportArguments& arguments,
 }
 
 void write_report(const ReportArguments& arguments, const std::string& report) {
-    const bool is_out = arguments.out.empty() || arguments.out == kStandardOutput;
+    const bool is_out = is_standard_output(arguments.out);
     const bool is_plain = arguments.as_json || !is_out;
     Lines(arguments.out).write(is_plain ? report : for_standard_output(report));
 }

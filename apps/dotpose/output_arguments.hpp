@@ -8,12 +8,10 @@
 #include <CLI/CLI.hpp>
 
 #include "fields.hpp"
+#include "lines.hpp"
 #include "pose_fields.hpp"
 
 namespace dotpose::cli {
-
-/// The value of -o that stands for standard output.
-inline constexpr const char* kStandardOutput = "-";
 
 /// The options of commands that write a line for each frame or packet.
 struct LineArguments {

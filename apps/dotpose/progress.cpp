@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include "lines.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
@@ -75,8 +76,7 @@ ProgressLine::ProgressLine(std::string what)
 
 ProgressLine::ProgressLine(std::string what, const std::string& out)
     : ProgressLine(std::move(what)) {
-    const bool is_out = out.empty() || out == "-";
-    if (is_out && is_terminal(STDOUT_FILENO)) on_terminal_ = false;
+    if (is_standard_output(out) && is_terminal(STDOUT_FILENO)) on_terminal_ = false;
 }
 
 ProgressLine::~ProgressLine() {

@@ -78,6 +78,7 @@ struct SimulateArguments {
     std::optional<double> angle_deg;
     Pair at_grid;
     Pair motion_px;
+    Pair readout_px;
     Pair tilt_deg;
     Pair covered;
     int islands = 0;
@@ -101,6 +102,7 @@ Shot shot_of(const SimulateArguments& arguments, int index) {
     if (arguments.dirt_blobs) seen.dirt_blobs = *arguments.dirt_blobs;
     if (arguments.graphics) seen.graphics = *arguments.graphics;
     if (arguments.motion_px.given()) seen.motion_px = to_vec(arguments.motion_px);
+    if (arguments.readout_px.given()) shot.camera.readout_px = to_vec(arguments.readout_px);
 
     CameraPose& pose = shot.pose;
     if (arguments.angle_deg) {
@@ -270,6 +272,8 @@ void add_overrides(CLI::App& command, SimulateArguments& arguments) {
     add_pair(command, "--tilt", "X,Y", arguments.tilt_deg,
              "Degrees of tilt about the image x and y axes");
     add_pair(command, "--motion", "U,V", arguments.motion_px, "Motion during exposure, in px");
+    add_pair(command, "--readout", "U,V", arguments.readout_px,
+             "Motion while a rolling shutter reads the rows, in px");
     for (std::size_t i = 0; i < std::size(kNumberOptions); ++i) {
         const NumberOption& option = kNumberOptions[i];
         command.add_option(option.flag, arguments.numbers[i], option.help)->type_name(option.unit);

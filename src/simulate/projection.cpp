@@ -11,6 +11,8 @@ constexpr Vec2 kInvisible{1e9, 1e9};
 
 Projection::Projection(const CameraModel& camera, const CameraPose& pose)
     : centre_px_{(camera.width_px - 1) / 2.0, (camera.height_px - 1) / 2.0},
+      height_px_(camera.height_px),
+      readout_px_(camera.readout_px),
       k_(camera.k),
       focal_px_(camera.working_distance_mm / camera.mm_per_px),
       distance_mm_(camera.working_distance_mm) {
@@ -51,12 +53,17 @@ Vec2 Projection::pixel_from_offset(Vec2 offset_mm) const {
     const double discriminant = 1 - 4 * k_ * square;
     if (discriminant < 0) return kInvisible;
     const double scale = 2 / (1 + std::sqrt(discriminant));
-    return {centre_px_.x + scale * undistorted.x, centre_px_.y + scale * undistorted.y};
+    const Vec2 seen{scale * undistorted.x, scale * undistorted.y};
+    // Its row, seen.y + time * readout.y, is read at `time`, as a share of the readout.
+    const double time = seen.y / (height_px_ - readout_px_.y);
+    return {centre_px_.x + seen.x + time * readout_px_.x,
+            centre_px_.y + seen.y + time * readout_px_.y};
 }
 
 Vec2 Projection::offset_from_pixel(Vec2 pixel) const {
-    const double dx = pixel.x - centre_px_.x;
-    const double dy = pixel.y - centre_px_.y;
+    const double time = (pixel.y - centre_px_.y) / height_px_;
+    const double dx = pixel.x - centre_px_.x - time * readout_px_.x;
+    const double dy = pixel.y - centre_px_.y - time * readout_px_.y;
     const double scale = 1 / (focal_px_ * (1 + k_ * (dx * dx + dy * dy)));  // paper eq. 2
     // The viewing ray is (rx, ry, 1) * depth; on the paper depth = distance + z, so that
     // x_axis.xy * ox + y_axis.xy * oy = (rx, ry) * (distance + x_axis.z * ox + y_axis.z * oy).

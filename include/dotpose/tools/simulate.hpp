@@ -52,6 +52,9 @@ struct CameraModel {
     /// Distance of the projection centre from the pose point, which matters only with tilt. Above
     /// 0.
     double working_distance_mm = 16;
+    /// Motion of the scene in the image while a rolling shutter reads the rows, at most half the
+    /// image along each axis; the pose is that of the middle row. None: a global shutter.
+    Vec2 readout_px;
 };
 
 /// Where the camera looks: the pattern point under the image centre is cell + fraction.
@@ -167,6 +170,8 @@ class Projection {
 
   private:
     Vec2 centre_px_;
+    double height_px_;
+    Vec2 readout_px_;
     double k_;
     double focal_px_;
     double distance_mm_;

@@ -49,6 +49,23 @@ TEST(Projection, AtThirtySevenDegreesTheFormulaOfTheHeaderHolds) {
     expect_near(pixel({}, pose, offset), {kCentreU + 30, kCentreV - 12}, 1e-9);
 }
 
+TEST(Projection, ARollingShutterReadsEachRowAtItsOwnTime) {
+    CameraModel camera;
+    camera.k = -1e-5;
+    CameraPose pose;
+    pose.theta_rad = 0.4;
+    pose.tilt_x_rad = 0.05;
+    CameraModel rolling = camera;
+    rolling.readout_px = {24, -9};
+    for (const Vec2 offset_mm : {Vec2{0, 0}, Vec2{1.7, -2.1}, Vec2{-3, 1.2}}) {
+        const Vec2 still = pixel(camera, pose, offset_mm);
+        const Vec2 moved = pixel(rolling, pose, offset_mm);
+        const double time = (moved.y - kCentreV) / 120;
+        expect_near(moved, {still.x + 24 * time, still.y - 9 * time}, 1e-9);
+        expect_near(Projection(rolling, pose).offset_from_pixel(moved), offset_mm, 1e-9);
+    }
+}
+
 TEST(Projection, TiltAboutXMovesTheLowerPaperAway) {
     CameraPose pose;
     pose.tilt_x_rad = radians(3);
