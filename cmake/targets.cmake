@@ -1,11 +1,12 @@
-# dotpose_layer(NAME [PURE] [USES target...])
+# dotpose_layer(NAME [PURE] [SOURCES file...] [USES target...])
 #
 # One directory of src/ is one layer and one object library dotpose_NAME_layer. The layers are put together
-# into the installed libraries in src/CMakeLists.txt. A directory without sources gives no target.
+# into the installed libraries in src/CMakeLists.txt. A directory without sources gives no target. SOURCES:
+# these only, and not all of the directory.
 # PURE: may use no heap, exceptions, RTTI or dependency (scripts/check-core-symbols proves it).
 function(dotpose_layer name)
-    cmake_parse_arguments(PARSE_ARGV 1 arg "PURE" "" "USES")
-    file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "PURE" "" "SOURCES;USES")
+    dotpose_sources(sources)
     if(NOT sources)
         return()
     endif()

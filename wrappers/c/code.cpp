@@ -1,0 +1,70 @@
+// The position code: which way each dot of a sheet is displaced.
+#include "dotpose/code.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "convert.hpp"
+
+namespace {
+
+using namespace dotpose;
+
+constexpr std::int32_t kMostCells = 65535;
+
+/// Columns that are written together, so that their rolls are computed once and need little memory.
+constexpr std::uint32_t kBlock_columns = 64;
+
+bool are_sides(std::int32_t columns, std::int32_t rows) {
+    return columns >= 1 && columns <= kMostCells && rows >= 1 && rows <= kMostCells;
+}
+
+/// Writes the symbols of a block of columns; `width` is that of the whole rectangle.
+void write_block(Profile profile, const dotpose_place& first, std::uint32_t columns,
+                 std::uint32_t rows, std::uint8_t* symbols, std::size_t width) {
+    std::array<std::uint32_t, kBlock_columns> column_bits;
+    for (std::uint32_t i = 0; i < columns; ++i)
+        column_bits[i] = static_cast<std::uint32_t>(roll(profile, first.x + i)) + first.u + first.y;
+    for (std::uint32_t j = 0; j < rows; ++j, symbols += width) {
+        const std::uint32_t row_bits =
+            static_cast<std::uint32_t>(roll(profile, first.y + j)) + first.v + first.x;
+        for (std::uint32_t i = 0; i < columns; ++i) {
+            symbols[i] = static_cast<std::uint8_t>(
+                make_symbol(main_bit(column_bits[i] + j), main_bit(row_bits + i)));
+        }
+    }
+}
+
+}  // namespace
+
+extern "C" {
+
+dotpose_status dotpose_displacement(int32_t profile, const dotpose_place* place, int32_t* x,
+                                    int32_t* y) {
+    if (place == nullptr || x == nullptr || y == nullptr) return DOTPOSE_NULL_POINTER;
+    if (!c::is_profile(profile) || !c::is_place(*place)) return DOTPOSE_BAD_VALUE;
+    const Place at = c::to_core(*place);
+    const Symbol symbol = symbol_at(static_cast<Profile>(profile), at.cell, at.section);
+    *x = dx(symbol);
+    *y = dy(symbol);
+    return DOTPOSE_OK;
+}
+
+dotpose_status dotpose_symbols(int32_t profile, const dotpose_place* top_left, int32_t columns,
+                               int32_t rows, uint8_t* symbols, size_t bytes) {
+    if (top_left == nullptr || symbols == nullptr) return DOTPOSE_NULL_POINTER;
+    if (!c::is_profile(profile) || !c::is_place(*top_left) || !are_sides(columns, rows))
+        return DOTPOSE_BAD_VALUE;
+    const auto width = static_cast<std::uint32_t>(columns);
+    const auto height = static_cast<std::uint32_t>(rows);
+    // Both are below 2^16.
+    if (bytes < width * height) return DOTPOSE_TOO_LITTLE_MEMORY;
+    dotpose_place first = *top_left;
+    for (std::uint32_t i = 0; i < width; i += kBlock_columns) {
+        first.x = top_left->x + i;
+        write_block(static_cast<Profile>(profile), first, std::min(kBlock_columns, width - i),
+                    height, symbols + i, width);
+    }
+    return DOTPOSE_OK;
+}
+}

@@ -1,0 +1,310 @@
+/* dotpose for C: where a camera is, from one small frame of a sheet printed with dots. C99 or C++.
+ *
+ *     dotpose_locator* locator = NULL;
+ *     if (dotpose_locator_create(DOTPOSE_KIND_LARGE, NULL, &locator) != DOTPOSE_OK) return 1;
+ *     dotpose_fix fix;
+ *     if (dotpose_locate(locator, pixels, width, height, width, NULL, &fix) == DOTPOSE_OK)
+ *         printf("x %.3f mm, y %.3f mm, angle %.4f rad\n", fix.x_mm, fix.y_mm, fix.theta_rad);
+ *     else
+ *         puts(dotpose_status_message(fix.status));
+ *     dotpose_locator_destroy(locator);
+ *
+ * Link with -ldotpose_c -lm; no C++ library is needed. On a microcontroller give the memory
+ * (`dotpose_device_init`) and push the rows as the camera delivers them (`dotpose_begin`,
+ * `dotpose_push_row`, `dotpose_finish`).
+ *
+ * Every function that can fail returns a dotpose_status: 0 (DOTPOSE_OK), why a frame shows no pose,
+ * or how the function was misused. Nothing is thrown or printed, only dotpose_locator_create
+ * allocates, and there are no globals: different objects may be used at the same time.
+ *
+ * Frames: the pattern has x to the right and y DOWN, as the printed page is read. The centre of an
+ * image's first pixel is (0, 0), u to the right, v down. Fixed point: a suffix _qN marks a value in
+ * units of 2^-N; _bam a binary angle, of which 2^31 is half a turn.
+ *
+ * Layout: all fields have a fixed size and offset on every platform, without padding. Structs whose
+ * first member is `size` may grow at their end; the others change only together with the number of
+ * the shared library. */
+#ifndef DOTPOSE_H
+#define DOTPOSE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __GNUC__
+#pragma GCC visibility push(default)
+#endif
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Statuses ------------------------------------------------------------------------------- */
+
+/* Why a call gave a result or why it did not. Values keep their numbers. */
+typedef int32_t dotpose_status;
+enum {
+    DOTPOSE_OK = 0,
+    /* Faults of the image or of the options. */
+    DOTPOSE_BAD_ARGUMENT = 1,
+    DOTPOSE_IMAGE_TOO_SMALL = 2,
+    DOTPOSE_IMAGE_TOO_LARGE = 3,
+    /* What a frame lacks: normal results. */
+    DOTPOSE_NO_CONTRAST = 4,
+    DOTPOSE_TOO_FEW_DOTS = 5,
+    DOTPOSE_NO_GRID = 6,
+    DOTPOSE_NO_DISPLACEMENT = 7,
+    DOTPOSE_GRID_TOO_SMALL = 8,
+    DOTPOSE_NOT_RUN = 9,
+    DOTPOSE_MIRRORED = 10,
+    DOTPOSE_BAD_WINDOW = 11,
+    DOTPOSE_NOT_IN_CODE = 12,
+    DOTPOSE_AMBIGUOUS = 13,
+    DOTPOSE_NOT_CERTAIN = 14,
+    DOTPOSE_NOT_TRACKED = 15,
+    DOTPOSE_AMBIGUOUS_CODE = 16,
+    /* Misuse of the functions of this header. */
+    DOTPOSE_NULL_POINTER = 1000,
+    DOTPOSE_NOT_ALIGNED = 1001, /* memory does not begin at a multiple of 8 */
+    DOTPOSE_TOO_LITTLE_MEMORY = 1002,
+    DOTPOSE_OUT_OF_MEMORY = 1003,   /* the system gave none */
+    DOTPOSE_NOT_INITIALIZED = 1004, /* the object was not set up, or is destroyed */
+    DOTPOSE_BAD_SIZE = 1005,        /* the member `size` of options is not that of any version */
+    DOTPOSE_BAD_VALUE = 1006,       /* an argument is out of its range */
+    DOTPOSE_BAD_STRIDE = 1007,      /* rows overlap */
+    DOTPOSE_WRONG_KIND = 1008,      /* this kind of locator cannot do that */
+    DOTPOSE_NO_FRAME = 1009,        /* no frame was begun, or all its rows were pushed */
+    DOTPOSE_NO_FIX = 1010           /* the fix that is needed has another status than ok */
+};
+
+/* Returns the identifier, for example "too_few_dots"; never null. */
+const char* dotpose_status_name(dotpose_status status);
+/* Returns one plain sentence, without a full stop; never null. */
+const char* dotpose_status_message(dotpose_status status);
+
+/* Returns the version of the library, for example "0.1.0". */
+const char* dotpose_version(void);
+
+/* ---- The position code ---------------------------------------------------------------------- */
+
+/* Which table of the code a sheet is printed with. */
+enum {
+    DOTPOSE_PROFILE_ANOTO = 0,    /* for everything new */
+    DOTPOSE_PROFILE_LIBDOTS = 1,  /* as libdots and other open tools print it */
+    DOTPOSE_PROFILE_MICRODOTS = 2 /* as py-microdots prints it */
+};
+
+#define DOTPOSE_POSITIONS_PER_AXIS 410815348u
+#define DOTPOSE_SECTIONS 63u
+
+/* A place in the code: 16 bytes. */
+typedef struct dotpose_place {
+    uint32_t x; /*  0: column, below DOTPOSE_POSITIONS_PER_AXIS */
+    uint32_t y; /*  4: row, the same */
+    uint32_t u; /*  8: section along x, below DOTPOSE_SECTIONS */
+    uint32_t v; /* 12: section along y, the same */
+} dotpose_place;
+
+/* Direction in which a dot is displaced from its intersection. */
+enum {
+    DOTPOSE_SYMBOL_UP = 0,
+    DOTPOSE_SYMBOL_LEFT = 1,
+    DOTPOSE_SYMBOL_RIGHT = 2,
+    DOTPOSE_SYMBOL_DOWN = 3
+};
+
+/* Gives the displacement of the dot at a place, in units of the displacement length (a sixth of the
+ * spacing on usual sheets): of `dx` and `dy`, down, one is -1 or 1, the other 0. */
+dotpose_status dotpose_displacement(int32_t profile, const dotpose_place* place, int32_t* dx,
+                                    int32_t* dy);
+
+/* Gives columns x rows symbols, row by row, of which the first stands at `top_left`: what a sheet
+ * of this size is printed from. Past the end of an axis the pattern continues at its other end, as
+ * locators read it. 1 to 65535 columns and rows. */
+dotpose_status dotpose_symbols(int32_t profile, const dotpose_place* top_left, int32_t columns,
+                               int32_t rows, uint8_t* symbols, size_t bytes);
+
+/* ---- Results -------------------------------------------------------------------------------- */
+
+/* Maps image points to the plane of the paper, in spacings: 44 bytes. With (u, v) in px from
+ * `centre`, plane = at_centre + (du u + dv v) / (1 + perspective . (u, v) + lens (u^2 + v^2)). */
+typedef struct dotpose_plane {
+    int32_t centre_u_q8;       /*  0: px */
+    int32_t centre_v_q8;       /*  4 */
+    int32_t at_centre_x_q16;   /*  8: spacings */
+    int32_t at_centre_y_q16;   /* 12 */
+    int32_t du_x_q24;          /* 16: spacings per px to the right */
+    int32_t du_y_q24;          /* 20 */
+    int32_t dv_x_q24;          /* 24: spacings per px down */
+    int32_t dv_y_q24;          /* 28 */
+    int32_t perspective_u_q30; /* 32: per px */
+    int32_t perspective_v_q30; /* 36 */
+    int32_t lens_q40;          /* 40: per px^2 */
+} dotpose_plane;
+
+/* What made a fix: see `attempt`. */
+enum {
+    DOTPOSE_ATTEMPT_TRACKED = 0, /* dots were measured where a prediction expected them */
+    DOTPOSE_ATTEMPT_FIRST = 1,   /* without a prediction */
+    DOTPOSE_ATTEMPT_SECOND = 2,  /* on the filtered image, after the first attempt failed */
+    DOTPOSE_ATTEMPT_DEVICE = 3   /* in integers, as on a microcontroller */
+};
+
+/* Whether the paper in view is one plane: see `surface`. */
+enum {
+    DOTPOSE_SURFACE_EVEN = 0,
+    DOTPOSE_SURFACE_DIVIDED =
+        1,                     /* a part is displaced; the pose is that of the reference point's */
+    DOTPOSE_SURFACE_UNEVEN = 2 /* as on wrinkled paper; the covariance is widened */
+};
+
+/* The pose that one frame shows, with its evidence: 240 bytes.
+ *
+ * The pose is that of the pattern under the reference point of the image, by default its centre.
+ * Unless `status` is DOTPOSE_OK, x_mm, y_mm and theta_rad are not numbers, and only `status`,
+ * `dots_seen` and the counts of what the frame reached are valid. */
+typedef struct dotpose_fix {
+    dotpose_status status; /*   0 */
+    int32_t attempt;       /*   4: DOTPOSE_ATTEMPT_ */
+    int32_t surface;       /*   8: DOTPOSE_SURFACE_; devices: always even */
+    int32_t p_wrong_log2;  /*  12: the position is wrong with a probability of at most 2^this */
+    double x_mm;           /*  16: not a number if the spacing of the sheet is not known */
+    double y_mm;           /*  24: the same */
+    double theta_rad;      /*  32: angle of the image x axis from +x towards +y (clockwise) */
+    double p_wrong;        /*  40: 2^p_wrong_log2 */
+    float covariance[9];   /*  48: of x, y and theta, row by row, in mm and rad; devices: zeros */
+    float residual_px;  /*  84: root mean square distance of the dots from where they should be */
+    uint32_t section_u; /*  88: section in which the position was read */
+    uint32_t section_v; /*  92 */
+    int32_t dots_seen;  /*  96: blobs that have the size of a dot */
+    int32_t dots_used;  /* 100: dots that the pose was fitted to */
+    int32_t bit_errors; /* 104: bits, two for each dot, that contradict the position */
+    int32_t spacing_nm; /* 108: of the printed grid, from the options; 0: not known */
+    /* The same pose in exact integers, and what predictions, trackers and packets need. */
+    uint32_t cell_x;         /* 112: intersection to the upper left of the reference point */
+    uint32_t cell_y;         /* 116 */
+    uint32_t fraction_x_q16; /* 120: from there, in spacings */
+    uint32_t fraction_y_q16; /* 124 */
+    int32_t theta_bam;       /* 128 */
+    int32_t spacing_px_q16;  /* 132: grid spacing in the image */
+    dotpose_place place;     /* 136: where pattern_from_image counts from */
+    dotpose_plane pattern_from_image; /* 152 */
+    int32_t displacement_q16;         /* 196: typical distance of a dot from its intersection */
+    float covariance_grid[9];         /* 200: as `covariance`, in spacings and rad */
+    int32_t reserved;                 /* 236: zero */
+} dotpose_fix;
+
+/* Where the pattern is expected in the next frame: 72 bytes. */
+typedef struct dotpose_prediction {
+    dotpose_plane pattern_from_image; /*  0 */
+    dotpose_place place;              /* 44 */
+    int32_t displacement_q16;         /* 60 */
+    int32_t sigma_q16;                /* 64: standard deviation of x and of y, in spacings */
+    int32_t sigma_theta_bam;          /* 68: standard deviation of theta */
+} dotpose_prediction;
+
+/* Gives the prediction that the next frame looks like this one. A frame that a prediction helps is
+ * located in a fraction of the time; one that does not confirm it is located without it. */
+dotpose_status dotpose_prediction_like(const dotpose_fix* fix, dotpose_prediction* prediction);
+
+/* ---- Locators ------------------------------------------------------------------------------- */
+
+/* Kinds of locators, by the memory they take. */
+enum {
+    DOTPOSE_KIND_DEVICE = 0, /* microcontrollers: integers only, images up to 188 px wide, 13 KB */
+    DOTPOSE_KIND_SMALL = 1,  /* images up to 188 px wide, 250 KB */
+    DOTPOSE_KIND_LARGE = 2   /* images up to 4096 x 4096 px, 1.7 MB */
+};
+
+/* How many attempts a locator makes; a device makes only its own. */
+enum {
+    DOTPOSE_EFFORT_DEVICE = 0, /* one, in integers, as a device makes it */
+    DOTPOSE_EFFORT_ONCE = 1,   /* one */
+    DOTPOSE_EFFORT_TWICE = 2   /* a frame that could not be read is filtered and read again */
+};
+
+/* Which dots the position is read from. */
+enum {
+    DOTPOSE_DECODER_WINDOW = 0, /* the best 8 x 8, as in the paper */
+    DOTPOSE_DECODER_ALL = 1     /* all in view */
+};
+
+/* Options of a locator. include/dotpose/options.hpp says what each does and when to change it. */
+typedef struct dotpose_options {
+    uint32_t size;             /*  0: set by dotpose_options_init */
+    int32_t profile;           /*  4: DOTPOSE_PROFILE_ of the sheet; default anoto */
+    int32_t effort;            /*  8: DOTPOSE_EFFORT_; default twice */
+    int32_t decoder;           /* 12: DOTPOSE_DECODER_; default all */
+    int32_t spacing_nm;        /* 16: of the printed grid; default 508000, 0: not known */
+    int32_t reference_dx_q8;   /* 20: point whose pose is wanted, px from the image centre */
+    int32_t reference_dy_q8;   /* 24 */
+    int32_t lens_k_q40;        /* 28: radial distortion per px^2, negative for barrels */
+    int32_t lens_centre_dx_q8; /* 32: its centre, px from the image centre */
+    int32_t lens_centre_dy_q8; /* 36 */
+    int32_t max_p_wrong_log2;  /* 40: positions that may be wrong by more are refused; -30 */
+    int32_t max_bit_error_q8;  /* 44: greatest share of contradicting bits, 46 */
+    int32_t most_dots;         /* 48: that the pose is fitted to, 4096 */
+    int32_t threshold_low_q8;  /* 52: 120 */
+    int32_t threshold_high_q8; /* 56: 155 */
+    int32_t min_contrast;      /* 60: 8 grey levels */
+    int32_t min_area_px;       /* 64: 2 */
+    int32_t min_mass_q8;       /* 68: 64 */
+    int32_t max_area_ratio;    /* 72: 5 */
+    int32_t min_dots;          /* 76: 40 */
+    int32_t max_offset_q16;    /* 80: 24000 */
+    int32_t show_stages;       /* 84: 1 keeps all dots for dotpose_dots, which takes time; 0 */
+} dotpose_options;
+
+/* Sets the defaults; `bytes` is sizeof(dotpose_options) of the caller. */
+dotpose_status dotpose_options_init(dotpose_options* options, size_t bytes);
+
+/* A locator; its content is private. One thread at a time may use it. */
+typedef struct dotpose_locator dotpose_locator;
+
+/* At least what dotpose_locator_bytes(DOTPOSE_KIND_DEVICE) returns, for static memory:
+ *     static uint64_t memory[DOTPOSE_DEVICE_BYTES / 8]; */
+#define DOTPOSE_DEVICE_BYTES (sizeof(void*) == 4 ? 12800u : 13632u)
+
+/* Returns how much memory a locator of this kind takes; 0 if there is no such kind. */
+size_t dotpose_locator_bytes(int32_t kind);
+
+/* Makes a locator in memory that the caller gives, which begins at a multiple of 8, is left alone
+ * and never copied while the locator is in use, and may then be given up without a call. `options`
+ * may be null: the defaults. */
+dotpose_status dotpose_locator_init(void* memory, size_t bytes, int32_t kind,
+                                    const dotpose_options* options, dotpose_locator** locator);
+
+/* Does so for DOTPOSE_KIND_DEVICE. A program that calls only this function to make locators does
+ * not contain the others, if its linker drops unused sections. */
+dotpose_status dotpose_device_init(void* memory, size_t bytes, const dotpose_options* options,
+                                   dotpose_locator** locator);
+
+/* Makes a locator in memory that is allocated. */
+dotpose_status dotpose_locator_create(int32_t kind, const dotpose_options* options,
+                                      dotpose_locator** locator);
+/* Ends the use of a locator and frees what dotpose_locator_create allocated. Null: does nothing. */
+void dotpose_locator_destroy(dotpose_locator* locator);
+
+/* Changes the options. A frame that was begun and not finished is dropped. */
+dotpose_status dotpose_set_options(dotpose_locator* locator, const dotpose_options* options);
+
+/* Locates an 8-bit grey image, dark dots on light paper, whose row v begins at
+ * pixels + v * stride_bytes. `prediction` may be null. Returns and gives the same status. */
+dotpose_status dotpose_locate(dotpose_locator* locator, const uint8_t* pixels, int32_t width_px,
+                              int32_t height_px, ptrdiff_t stride_bytes,
+                              const dotpose_prediction* prediction, dotpose_fix* fix);
+
+/* Locates an image that comes row by row: dotpose_begin, then dotpose_push_row for each row from
+ * the top, then dotpose_finish. Rows need not stay valid. `prediction` may be null; a frame that
+ * does not confirm it gets the status not_tracked. */
+dotpose_status dotpose_begin(dotpose_locator* locator, int32_t width_px, int32_t height_px,
+                             const dotpose_prediction* prediction);
+dotpose_status dotpose_push_row(dotpose_locator* locator, const uint8_t* pixels);
+dotpose_status dotpose_finish(dotpose_locator* locator, dotpose_fix* fix);
+
+#ifdef __cplusplus
+}
+#endif
+#ifdef __GNUC__
+#pragma GCC visibility pop
+#endif
+
+#endif

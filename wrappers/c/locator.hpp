@@ -1,0 +1,102 @@
+// What stands behind a dotpose_locator: the core's memory and locator, for each kind in one object,
+// and the functions that this kind does in its own way.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <new>
+
+#include "convert.hpp"
+#include "dotpose/locate.hpp"
+
+namespace dotpose::c {
+
+/// What kinds of locators do differently. Pointers, so that a program contains only the kinds that
+/// it makes.
+struct Actions {
+    Fix (*locate)(RowLocator& locator, const ImageView& image, const Prediction* prediction);
+    Fix (*finish)(RowLocator& locator);
+};
+
+/// The actions of a Locator or a DeviceLocator.
+template <typename Kind>
+inline constexpr Actions kActionsOf{
+    .locate =
+        [](RowLocator& locator, const ImageView& image, const Prediction* prediction) {
+            auto& it = static_cast<Kind&>(locator);
+            return prediction == nullptr ? it.locate(image) : it.locate(image, *prediction);
+        },
+    .finish = [](RowLocator& locator) { return static_cast<Kind&>(locator).finish(); }};
+
+/// By which an object is recognized that was set up.
+inline constexpr std::uint32_t kLocatorMark = 0xD07C0001;
+
+}  // namespace dotpose::c
+
+/// What all kinds have, at the beginning of each.
+struct dotpose_locator {
+    std::uint32_t mark = 0;
+    std::int32_t rows_left = 0;  ///< rows that the frame that was begun still takes
+    bool has_begun = false;      ///< whether dotpose_finish has a frame to finish
+    const dotpose::c::Actions* actions = nullptr;
+    dotpose::RowLocator* locator = nullptr;
+    void* allocation = nullptr;  ///< what dotpose_locator_destroy frees, if anything
+};
+
+namespace dotpose::c {
+
+/// Callers' memory begins at a multiple of this.
+inline constexpr std::size_t kAlignment = 8;
+
+/// A locator of one kind, with its memory.
+template <typename Memory, typename Kind>
+struct LocatorOf : dotpose_locator {
+    explicit LocatorOf(const Options& options) : kind(memory, options) {
+        mark = kLocatorMark;
+        actions = &kActionsOf<Kind>;
+        locator = &kind;
+    }
+
+    Memory memory;
+    Kind kind;
+};
+
+/// Returns the bytes of memory that has room for a T wherever it begins.
+template <typename T>
+constexpr std::size_t bytes_of() {
+    return sizeof(T) + (alignof(T) > kAlignment ? alignof(T) - kAlignment : 0);
+}
+
+/// Checks memory that a caller gives for an object of this many bytes.
+inline dotpose_status check_memory(const void* memory, std::size_t bytes, std::size_t needed) {
+    if (memory == nullptr) return DOTPOSE_NULL_POINTER;
+    if (reinterpret_cast<std::uintptr_t>(memory) % kAlignment != 0) return DOTPOSE_NOT_ALIGNED;
+    return bytes < needed ? DOTPOSE_TOO_LITTLE_MEMORY : DOTPOSE_OK;
+}
+
+/// Whether no option is out of its range, which the core says when a frame begins.
+inline bool are_good_options(RowLocator& locator) {
+    const bool are_good = locator.begin(kMinFrameSide_px, kMinFrameSide_px) == Status::ok;
+    locator.set_options(Options{locator.options()});  // drops the frame
+    return are_good;
+}
+
+/// Makes a T, which is a LocatorOf, in memory that a caller gives.
+template <typename T>
+dotpose_status init(void* memory, std::size_t bytes, const dotpose_options* given,
+                    dotpose_locator** result) {
+    if (result == nullptr) return DOTPOSE_NULL_POINTER;
+    *result = nullptr;
+    dotpose_status status = check_memory(memory, bytes, bytes_of<T>());
+    if (status != DOTPOSE_OK) return status;
+    Options options;
+    status = to_core(given, options);
+    if (status != DOTPOSE_OK) return status;
+    const std::size_t skipped = (0 - reinterpret_cast<std::uintptr_t>(memory)) % alignof(T);
+    T* made = ::new (static_cast<void*>(static_cast<std::byte*>(memory) + skipped)) T(options);
+    if (!are_good_options(*made->locator)) return DOTPOSE_BAD_ARGUMENT;
+    *result = made;
+    return DOTPOSE_OK;
+}
+
+}  // namespace dotpose::c
