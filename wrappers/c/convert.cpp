@@ -25,10 +25,6 @@ dotpose_plane to_c(const PlaneFromImage& p) {
             p.perspective_q30.x, p.perspective_q30.y, p.lens_q40};
 }
 
-dotpose_place to_c(const Place& place) {
-    return {place.cell.x, place.cell.y, place.section.u, place.section.v};
-}
-
 /// Sets the covariance in mm and rad from that in spacings and rad.
 void set_covariance(const Fix& fix, dotpose_fix& result) {
     const std::array<double, 3> factors{fix.spacing_mm(), fix.spacing_mm(), 1};
@@ -42,6 +38,16 @@ void set_covariance(const Fix& fix, dotpose_fix& result) {
 }
 
 }  // namespace
+
+bool can_move(const Prediction& prediction) {
+    const auto are_below = [](Vec v, int bits) {
+        return is_within_range(v.x, bits) && is_within_range(v.y, bits);
+    };
+    const PlaneFromImage& plane = prediction.pattern_from_image;
+    return are_below(plane.centre_q8, 21) && are_below(plane.at_centre_q16, 28) &&
+           are_below(plane.du_q24, 22) && are_below(plane.dv_q24, 22) &&
+           are_below(plane.perspective_q30, 24);
+}
 
 bool is_place(const dotpose_place& place) {
     return place.x < kPositionsPerAxis && place.y < kPositionsPerAxis &&
@@ -101,6 +107,10 @@ dotpose_status to_core_ok(const dotpose_fix* given, Fix& fix) {
     return to_core(*given, fix);
 }
 
+void to_c(const Place& place, dotpose_place& result) {
+    result = {place.cell.x, place.cell.y, place.section.u, place.section.v};
+}
+
 void to_c(const Fix& fix, dotpose_fix& result) {
     const bool is_ok = fix.status == Status::ok;
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -126,7 +136,7 @@ void to_c(const Fix& fix, dotpose_fix& result) {
     result.fraction_y_q16 = fix.fraction_y_q16;
     result.theta_bam = fix.theta_bam;
     result.spacing_px_q16 = fix.spacing_px_q16;
-    result.place = to_c(fix.place);
+    to_c(fix.place, result.place);
     result.pattern_from_image = to_c(fix.pattern_from_image);
     result.displacement_q16 = fix.displacement_q16;
     result.reserved = 0;
@@ -134,7 +144,7 @@ void to_c(const Fix& fix, dotpose_fix& result) {
 
 void to_c(const Prediction& prediction, dotpose_prediction& result) {
     result.pattern_from_image = to_c(prediction.pattern_from_image);
-    result.place = to_c(prediction.place);
+    to_c(prediction.place, result.place);
     result.displacement_q16 = prediction.displacement_q16;
     result.sigma_q16 = prediction.sigma_q16;
     result.sigma_theta_bam = prediction.sigma_theta_bam;

@@ -44,6 +44,11 @@ dotpose_status write_sized(Options defaults, std::size_t first_bytes, Options* o
     return DOTPOSE_OK;
 }
 
+/// Whether a time or a place of a tracker is so small that no difference of two overflows.
+constexpr bool is_within_range(std::int64_t value, int bits) {
+    return value >= -(std::int64_t{1} << bits) && value <= std::int64_t{1} << bits;
+}
+
 bool is_place(const dotpose_place& place);
 Place to_core(const dotpose_place& place);
 
@@ -59,7 +64,11 @@ dotpose_status to_core(const dotpose_fix& given, Fix& fix);
 /// Reads a fix that must be ok, otherwise NO_FIX.
 dotpose_status to_core_ok(const dotpose_fix* given, Fix& fix);
 
+/// Whether a prediction can be moved without an overflow; those of fixes can.
+bool can_move(const Prediction& prediction);
+
 void to_c(const Fix& fix, dotpose_fix& result);
+void to_c(const Place& place, dotpose_place& result);
 void to_c(const Prediction& prediction, dotpose_prediction& result);
 
 /// Sets the result of a call that was misused, and returns its status.

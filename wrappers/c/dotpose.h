@@ -72,7 +72,8 @@ enum {
     DOTPOSE_BAD_STRIDE = 1007,      /* rows overlap */
     DOTPOSE_WRONG_KIND = 1008,      /* this kind of locator cannot do that */
     DOTPOSE_NO_FRAME = 1009,        /* no frame was begun, or all its rows were pushed */
-    DOTPOSE_NO_FIX = 1010           /* the fix that is needed has another status than ok */
+    DOTPOSE_NO_FIX = 1010,          /* the fix that is needed has another status than ok */
+    DOTPOSE_NO_PACKET = 1011        /* the byte completed no packet: no misuse, most bytes do not */
 };
 
 /* Returns the identifier, for example "too_few_dots"; never null. */
@@ -205,6 +206,12 @@ typedef struct dotpose_prediction {
  * located in a fraction of the time; one that does not confirm it is located without it. */
 dotpose_status dotpose_prediction_like(const dotpose_fix* fix, dotpose_prediction* prediction);
 
+/* Moves a prediction by `by_x_q16` and `by_y_q16` spacings in the pattern frame, and turns it by
+ * `turn_bam` about the image point `pivot_u_q8`, `pivot_v_q8`; by at most 4096 spacings. */
+dotpose_status dotpose_prediction_move(dotpose_prediction* prediction, int32_t profile,
+                                       int32_t by_x_q16, int32_t by_y_q16, int32_t turn_bam,
+                                       int32_t pivot_u_q8, int32_t pivot_v_q8);
+
 /* ---- Locators ------------------------------------------------------------------------------- */
 
 /* Kinds of locators, by the memory they take. */
@@ -299,6 +306,240 @@ dotpose_status dotpose_begin(dotpose_locator* locator, int32_t width_px, int32_t
                              const dotpose_prediction* prediction);
 dotpose_status dotpose_push_row(dotpose_locator* locator, const uint8_t* pixels);
 dotpose_status dotpose_finish(dotpose_locator* locator, dotpose_fix* fix);
+
+/* A dot that was found in an image: 16 bytes. */
+typedef struct dotpose_dot {
+    float u_px;      /*  0: as a camera without distortion would see it */
+    float v_px;      /*  4 */
+    int32_t mass;    /*  8: sum of the darkness of its pixels, grey levels */
+    int32_t area_px; /* 12 */
+} dotpose_dot;
+
+/* Gives the dots of the last frame, up to `capacity` of them, and how many there are. The option
+ * show_stages makes every attempt keep them. Not for devices: WRONG_KIND. */
+dotpose_status dotpose_dots(const dotpose_locator* locator, dotpose_dot* dots, int32_t capacity,
+                            int32_t* count);
+
+/* ---- Sheets whose profile is not known ------------------------------------------------------ */
+
+/* How likely each profile is for one sheet, by all its frames so far; zeros: no frame yet.
+ *     dotpose_code_evidence evidence = {{0}}; */
+typedef struct dotpose_code_evidence {
+    int32_t state[9];
+} dotpose_code_evidence;
+
+/* In which profile a frame was read, and what else it may be: 28 bytes. */
+typedef struct dotpose_code_reading {
+    int32_t code;       /*  0: DOTPOSE_PROFILE_ in which the fix was read */
+    int32_t has_other;  /*  4: 1 if a place in another profile explains the frame as well, else 0 */
+    int32_t other_code; /*  8: that profile */
+    dotpose_place other; /* 12: that place, of the fix's cell */
+} dotpose_code_reading;
+
+/* Locates an image whose profile is not known and adds it to the evidence. A frame that two
+ * profiles explain about equally well gets the status ambiguous_code. Afterwards the locator has
+ * the profile that was read, in which a prediction must have been made. `prediction`, `evidence`
+ * (one frame alone) and `reading` may be null. Not for devices: WRONG_KIND. */
+dotpose_status dotpose_locate_any_code(dotpose_locator* locator, const uint8_t* pixels,
+                                       int32_t width_px, int32_t height_px, ptrdiff_t stride_bytes,
+                                       const dotpose_prediction* prediction,
+                                       dotpose_code_evidence* evidence,
+                                       dotpose_code_reading* reading, dotpose_fix* fix);
+
+/* Locates an image in the profile of the options, as dotpose_locate does, and says whether another
+ * profile explains it as well. `reading` may be null. Not for devices: WRONG_KIND. */
+dotpose_status dotpose_locate_in_code(dotpose_locator* locator, const uint8_t* pixels,
+                                      int32_t width_px, int32_t height_px, ptrdiff_t stride_bytes,
+                                      dotpose_code_reading* reading, dotpose_fix* fix);
+
+/* Gives the likeliest profile, and a bound of the probability that it is another one. */
+dotpose_status dotpose_code_likeliest(const dotpose_code_evidence* evidence, int32_t* profile,
+                                      float* p_wrong);
+
+/* ---- Trackers ------------------------------------------------------------------------------- */
+
+/* Follows a robot from frame to frame; its content is private. It may be copied.
+ *
+ *     dotpose_tracker tracker;
+ *     dotpose_tracker_init(&tracker, NULL);
+ *     for (;;) {
+ *         int ok = dotpose_locate(locator, ..., has_prediction ? &prediction : NULL, &fix) == 0;
+ *         if (ok) dotpose_sighting_of(&fix, time_us, &sighting);
+ *         dotpose_tracker_update(&tracker, time_us, ok ? &sighting : NULL, &track);
+ *         has_prediction = ok && dotpose_tracker_predict(&tracker, next_us, &fix, &sighting,
+ *                                                        locator, &prediction) == DOTPOSE_OK;
+ *     }
+ *
+ * include/dotpose/track.hpp and docs/tracking.md explain what it does. */
+typedef struct dotpose_tracker {
+    uint64_t state[216];
+} dotpose_tracker;
+
+/* How the robot moves, and when sightings are believed: 80 bytes. */
+typedef struct dotpose_track_options {
+    uint32_t size;                         /*  0: set by dotpose_track_options_init */
+    float acceleration_mm_s2;              /*  4: standard deviation while it manoeuvres; 600 */
+    float angular_acceleration_rad_s2;     /*  8: 6 */
+    float max_acceleration_mm_s2;          /* 12: physically possible; 10000 */
+    float max_angular_acceleration_rad_s2; /* 16: 200 */
+    float max_speed_mm_s;                  /* 20: 1000 */
+    float max_turn_rad_s;                  /* 24: 20 */
+    float gate_sigmas;                     /* 28: 5 */
+    int32_t confirmations;                 /* 32: sightings before a jump is believed; 3 */
+    float still_mm;                        /* 36: within this, a robot is stationary; 0.1 */
+    float still_rad;                       /* 40: 0.02 */
+    float least_sigma_mm;                  /* 44: errors of printing; 0.0002 */
+    float least_sigma_rad;                 /* 48: 0.00002 */
+    int32_t max_p_wrong_log2;              /* 52: above this a sighting is weak; -30 */
+    int32_t max_weak_p_wrong_log2; /* 56: above this it is never believed; -10, at most -1 */
+    float spacing_mm;              /* 60: of the pattern; 0.508 */
+    int64_t lost_after_us;         /* 64: 70000 */
+    int64_t stationary_after_us;   /* 72: 500000 */
+} dotpose_track_options;
+
+/* Position and angle of the robot as seen in one frame, in any plane: 80 bytes. */
+typedef struct dotpose_sighting {
+    int64_t time_us;      /*  0: middle of the exposure, within 2^62 */
+    int64_t x_nm;         /*  8: within 2^60 */
+    int64_t y_nm;         /* 16 */
+    int32_t theta_bam;    /* 24 */
+    uint32_t plane;       /* 28: sightings of different planes are not related to each other */
+    float covariance[9];  /* 32: of x, y and theta, row by row, in mm and rad */
+    int32_t p_wrong_log2; /* 68 */
+    int32_t spacing_nm;   /* 72: of the pattern that was seen */
+    int32_t is_y_up;      /* 76: 1 if y points up the paper in this plane, else 0 */
+} dotpose_sighting;
+
+/* How the tracker judged a sighting. */
+enum {
+    DOTPOSE_VERDICT_NONE = 0, /* there was no sighting */
+    DOTPOSE_VERDICT_BELIEVED = 1,
+    DOTPOSE_VERDICT_WITH_PRIOR = 2, /* weak, but certain enough together with where it was */
+    DOTPOSE_VERDICT_GATED = 3,      /* physically impossible, and not confirmed yet */
+    DOTPOSE_VERDICT_TOO_WEAK = 4
+};
+
+/* Bits of `events`: what a frame brought. */
+enum {
+    DOTPOSE_EVENT_FIX = 1,        /* the robot was lost and is found */
+    DOTPOSE_EVENT_LOST = 2,       /* it was not seen for too long */
+    DOTPOSE_EVENT_KIDNAPPED = 4,  /* it is where it cannot have driven to */
+    DOTPOSE_EVENT_STATIONARY = 8, /* it came to rest */
+    DOTPOSE_EVENT_MOVING = 16     /* it moves again */
+};
+
+/* Where the robot is and how it moves, at the time of the newest frame: 232 bytes. While it is
+ * lost, the pose is not valid. */
+typedef struct dotpose_track {
+    int64_t time_us;       /*  0 */
+    double x_mm;           /*  8 */
+    double y_mm;           /* 16 */
+    double theta_rad;      /* 24 */
+    int64_t x_nm;          /* 32: the same in exact integers */
+    int64_t y_nm;          /* 40 */
+    int32_t theta_bam;     /* 48 */
+    uint32_t plane;        /* 52 */
+    float vx_mm_s;         /* 56 */
+    float vy_mm_s;         /* 60 */
+    float turn_rad_s;      /* 64 */
+    int32_t p_wrong_log2;  /* 68: bound that the pose is wrong, given where the robot was */
+    int32_t verdict;       /* 72: DOTPOSE_VERDICT_ */
+    int32_t is_lost;       /* 76: 1 or 0 */
+    int32_t is_stationary; /* 80: 1 or 0 */
+    uint32_t events;       /* 84: sum of DOTPOSE_EVENT_ */
+    float covariance[36];  /* 88: of x, y, theta and their velocities, row by row; mm, rad, s */
+} dotpose_track;
+
+/* Sets the defaults; `bytes` is sizeof(dotpose_track_options) of the caller. */
+dotpose_status dotpose_track_options_init(dotpose_track_options* options, size_t bytes);
+
+/* Sets up a tracker, which starts as lost. `options` may be null: the defaults. */
+dotpose_status dotpose_tracker_init(dotpose_tracker* tracker, const dotpose_track_options* options);
+
+/* Gives the sighting of a fix in the pattern frame. The spacing must be known, at most 20 mm. */
+dotpose_status dotpose_sighting_of(const dotpose_fix* fix, int64_t time_us,
+                                   dotpose_sighting* sighting);
+
+/* Takes the next frame by its time and its sighting (null: no fix) and gives the state after it.
+ * Frames that are not newer than the last one are ignored. */
+dotpose_status dotpose_tracker_update(dotpose_tracker* tracker, int64_t time_us,
+                                      const dotpose_sighting* sighting, dotpose_track* track);
+
+/* Predicts where the frame at `time_us` will show the pattern, from the newest fix and its
+ * sighting; `locator` is that which will locate it. */
+dotpose_status dotpose_tracker_predict(const dotpose_tracker* tracker, int64_t time_us,
+                                       const dotpose_fix* newest, const dotpose_sighting* seen,
+                                       const dotpose_locator* locator,
+                                       dotpose_prediction* prediction);
+
+/* ---- Pose packets: docs/pose-packet.md ------------------------------------------------------ */
+
+#define DOTPOSE_PACKET_BYTES 32
+
+/* The result of one frame, as far as a packet carries it: 52 bytes. Unless `status` is DOTPOSE_OK,
+ * only the members above `cell_x` are valid. */
+typedef struct dotpose_packet {
+    uint32_t sequence;       /*  0: counts frames, 16 bits; a gap shows lost packets */
+    uint32_t time_us;        /*  4: on the sender's clock */
+    dotpose_status status;   /*  8 */
+    int32_t profile;         /* 12: DOTPOSE_PROFILE_ */
+    uint32_t cell_x;         /* 16: x in spacings is cell_x + fraction_x_q16 / 65536.0 */
+    uint32_t cell_y;         /* 20 */
+    uint32_t fraction_x_q16; /* 24 */
+    uint32_t fraction_y_q16; /* 28 */
+    int32_t theta_bam16;     /* 32: 2^15 is half a turn */
+    uint32_t section_u;      /* 36 */
+    uint32_t section_v;      /* 40 */
+    uint32_t certainty;     /* 44: wrong with a probability of at most 2^-certainty; 255: or less */
+    uint32_t deviation_q12; /* 48: larger one of x and y, spacings; 255: or more, or not known */
+} dotpose_packet;
+
+/* Gives the packet of a fix, of any status. */
+dotpose_status dotpose_packet_of(const dotpose_fix* fix, int32_t profile, uint32_t sequence,
+                                 uint32_t time_us, dotpose_packet* packet);
+
+/* Gives the bytes of a packet, ready to be sent; `bytes` has room for DOTPOSE_PACKET_BYTES. */
+dotpose_status dotpose_packet_encode(const dotpose_packet* packet, uint8_t* bytes, size_t capacity);
+
+/* Finds packets in a stream of bytes, whatever else is in it; its content is private. */
+typedef struct dotpose_packet_reader {
+    uint64_t state[14];
+} dotpose_packet_reader;
+
+dotpose_status dotpose_packet_reader_init(dotpose_packet_reader* reader);
+/* Takes the next byte. OK: it completed the packet that is given; NO_PACKET: it did not. */
+dotpose_status dotpose_packet_reader_push(dotpose_packet_reader* reader, uint8_t byte,
+                                          dotpose_packet* packet);
+/* Gives the number of stretches that were no packet, because they were damaged. */
+dotpose_status dotpose_packet_reader_damaged(const dotpose_packet_reader* reader,
+                                             uint32_t* damaged);
+
+/* ---- Pacing of frames, to spare a battery --------------------------------------------------- */
+
+/* Says when the next frame is worth taking; its content is private. */
+typedef struct dotpose_pacer {
+    uint64_t state[40];
+} dotpose_pacer;
+
+/* When a device counts as moving, and how often it takes frames: 40 bytes. */
+typedef struct dotpose_pacer_options {
+    uint32_t size;                /*  0: set by dotpose_pacer_options_init */
+    int32_t moved_q16;            /*  4: spacings per axis that count as movement; 6554 */
+    int32_t turned_bam;           /*  8: turn that does; 11930465, one degree */
+    int32_t lost_is_moved;        /* 12: 1 if a resting device that sees nothing was moved; 1 */
+    int64_t stationary_after_us;  /* 16: 5000000 */
+    int64_t stationary_period_us; /* 24: from frame to frame while stationary; 1000000 */
+    int64_t moving_period_us;     /* 32: while moving; 0 */
+} dotpose_pacer_options;
+
+/* Sets the defaults; `bytes` is sizeof(dotpose_pacer_options) of the caller. */
+dotpose_status dotpose_pacer_options_init(dotpose_pacer_options* options, size_t bytes);
+/* Sets up a pacer. `options` may be null: the defaults. */
+dotpose_status dotpose_pacer_init(dotpose_pacer* pacer, const dotpose_pacer_options* options);
+/* Takes the result of a frame, of any status, and its time, and gives the time from which the next
+ * frame is wanted, and whether the device moves (1 or 0; may be null). */
+dotpose_status dotpose_pacer_next_frame(dotpose_pacer* pacer, const dotpose_fix* fix,
+                                        int64_t time_us, int64_t* next_us, int32_t* is_moving);
 
 #ifdef __cplusplus
 }

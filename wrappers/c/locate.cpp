@@ -3,57 +3,49 @@
 
 #include "locator.hpp"
 
-namespace {
-
-using namespace dotpose;
+namespace dotpose::c {
 
 dotpose_status check(const dotpose_locator* locator) {
     if (locator == nullptr) return DOTPOSE_NULL_POINTER;
     const auto address = reinterpret_cast<std::uintptr_t>(locator);
     if (address % alignof(dotpose_locator) != 0) return DOTPOSE_NOT_INITIALIZED;
-    return locator->mark == c::kLocatorMark ? DOTPOSE_OK : DOTPOSE_NOT_INITIALIZED;
+    return locator->mark == kLocatorMark ? DOTPOSE_OK : DOTPOSE_NOT_INITIALIZED;
 }
 
-/// The image and the prediction of a frame, as the core takes them.
-struct Frame {
-    ImageView image;
-    Prediction prediction;
-    const Prediction* expected = nullptr;  ///< the prediction, if there is one
-};
-
-dotpose_status read_prediction(const dotpose_prediction* given, Frame& frame) {
-    if (given == nullptr) return DOTPOSE_OK;
-    frame.expected = &frame.prediction;
-    return c::to_core(*given, frame.prediction);
-}
-
-dotpose_status read_image(const std::uint8_t* pixels, std::int32_t width_px, std::int32_t height_px,
-                          std::ptrdiff_t stride_bytes, ImageView& image) {
-    if (pixels == nullptr) return DOTPOSE_NULL_POINTER;
-    const bool is_too_narrow = stride_bytes > -width_px && stride_bytes < width_px;
-    if (is_too_narrow && height_px > 1) return DOTPOSE_BAD_STRIDE;
-    image = {pixels, width_px, height_px, stride_bytes};
-    return DOTPOSE_OK;
-}
-
-/// Forgets the frame whose rows are pushed.
 void drop_frame(dotpose_locator& locator) {
     locator.rows_left = 0;
     locator.has_begun = false;
 }
 
-}  // namespace
+dotpose_status read_image(const std::uint8_t* pixels, std::int32_t width_px, std::int32_t height_px,
+                          std::ptrdiff_t stride_bytes, Frame& frame) {
+    if (pixels == nullptr) return DOTPOSE_NULL_POINTER;
+    const bool is_too_narrow = stride_bytes > -width_px && stride_bytes < width_px;
+    if (is_too_narrow && height_px > 1) return DOTPOSE_BAD_STRIDE;
+    frame.image = {pixels, width_px, height_px, stride_bytes};
+    return DOTPOSE_OK;
+}
+
+dotpose_status read_prediction(const dotpose_prediction* given, Frame& frame) {
+    if (given == nullptr) return DOTPOSE_OK;
+    frame.expected = &frame.prediction;
+    return to_core(*given, frame.prediction);
+}
+
+}  // namespace dotpose::c
+
+using namespace dotpose;
 
 extern "C" {
 
 dotpose_status dotpose_set_options(dotpose_locator* locator, const dotpose_options* given) {
-    dotpose_status status = check(locator);
+    dotpose_status status = c::check(locator);
     if (status != DOTPOSE_OK) return status;
     Options options;
     status = c::to_core(given, options);
     if (status != DOTPOSE_OK) return status;
     const Options before = locator->locator->options();
-    drop_frame(*locator);
+    c::drop_frame(*locator);
     locator->locator->set_options(options);
     if (c::are_good_options(*locator->locator)) return DOTPOSE_OK;
     locator->locator->set_options(before);
@@ -64,12 +56,12 @@ dotpose_status dotpose_locate(dotpose_locator* locator, const uint8_t* pixels, i
                               int32_t height_px, ptrdiff_t stride_bytes,
                               const dotpose_prediction* prediction, dotpose_fix* fix) {
     if (fix == nullptr) return DOTPOSE_NULL_POINTER;
-    dotpose_status status = check(locator);
+    dotpose_status status = c::check(locator);
     if (status != DOTPOSE_OK) return c::refuse(status, *fix);
-    drop_frame(*locator);
-    Frame frame;
-    status = read_image(pixels, width_px, height_px, stride_bytes, frame.image);
-    if (status == DOTPOSE_OK) status = read_prediction(prediction, frame);
+    c::drop_frame(*locator);
+    c::Frame frame;
+    status = c::read_image(pixels, width_px, height_px, stride_bytes, frame);
+    if (status == DOTPOSE_OK) status = c::read_prediction(prediction, frame);
     if (status != DOTPOSE_OK) return c::refuse(status, *fix);
     c::to_c(locator->actions->locate(*locator->locator, frame.image, frame.expected), *fix);
     return fix->status;
@@ -77,11 +69,11 @@ dotpose_status dotpose_locate(dotpose_locator* locator, const uint8_t* pixels, i
 
 dotpose_status dotpose_begin(dotpose_locator* locator, int32_t width_px, int32_t height_px,
                              const dotpose_prediction* prediction) {
-    dotpose_status status = check(locator);
+    dotpose_status status = c::check(locator);
     if (status != DOTPOSE_OK) return status;
-    drop_frame(*locator);
-    Frame frame;
-    status = read_prediction(prediction, frame);
+    c::drop_frame(*locator);
+    c::Frame frame;
+    status = c::read_prediction(prediction, frame);
     if (status != DOTPOSE_OK) return status;
     RowLocator& rows = *locator->locator;
     const Status begun = frame.expected == nullptr
@@ -93,7 +85,7 @@ dotpose_status dotpose_begin(dotpose_locator* locator, int32_t width_px, int32_t
 }
 
 dotpose_status dotpose_push_row(dotpose_locator* locator, const uint8_t* pixels) {
-    const dotpose_status status = check(locator);
+    const dotpose_status status = c::check(locator);
     if (status != DOTPOSE_OK) return status;
     if (pixels == nullptr) return DOTPOSE_NULL_POINTER;
     if (locator->rows_left == 0) return DOTPOSE_NO_FRAME;
@@ -104,19 +96,11 @@ dotpose_status dotpose_push_row(dotpose_locator* locator, const uint8_t* pixels)
 
 dotpose_status dotpose_finish(dotpose_locator* locator, dotpose_fix* fix) {
     if (fix == nullptr) return DOTPOSE_NULL_POINTER;
-    const dotpose_status status = check(locator);
+    const dotpose_status status = c::check(locator);
     if (status != DOTPOSE_OK) return c::refuse(status, *fix);
     if (!locator->has_begun) return c::refuse(DOTPOSE_NO_FRAME, *fix);
-    drop_frame(*locator);
+    c::drop_frame(*locator);
     c::to_c(locator->actions->finish(*locator->locator), *fix);
     return fix->status;
-}
-
-dotpose_status dotpose_prediction_like(const dotpose_fix* fix, dotpose_prediction* prediction) {
-    if (prediction == nullptr) return DOTPOSE_NULL_POINTER;
-    Fix read;
-    const dotpose_status status = c::to_core_ok(fix, read);
-    if (status == DOTPOSE_OK) c::to_c(Prediction::like(read), *prediction);
-    return status;
 }
 }

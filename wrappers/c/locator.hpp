@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <new>
+#include <type_traits>
 
 #include "convert.hpp"
 #include "dotpose/locate.hpp"
@@ -12,21 +13,40 @@
 namespace dotpose::c {
 
 /// What kinds of locators do differently. Pointers, so that a program contains only the kinds that
-/// it makes.
+/// it makes. Devices do not have the last two.
 struct Actions {
     Fix (*locate)(RowLocator& locator, const ImageView& image, const Prediction* prediction);
     Fix (*finish)(RowLocator& locator);
+    CodeReading (*locate_in_any_code)(RowLocator& locator, const ImageView& image,
+                                      const Prediction* prediction, const CodeEvidence& evidence);
+    CodeReading (*locate_in_code)(RowLocator& locator, const ImageView& image);
 };
 
-/// The actions of a Locator or a DeviceLocator.
+/// Returns the actions of a Locator or a DeviceLocator.
 template <typename Kind>
-inline constexpr Actions kActionsOf{
-    .locate =
-        [](RowLocator& locator, const ImageView& image, const Prediction* prediction) {
+constexpr Actions actions_of() {
+    Actions actions{};
+    actions.locate = [](RowLocator& locator, const ImageView& image, const Prediction* prediction) {
+        auto& it = static_cast<Kind&>(locator);
+        return prediction == nullptr ? it.locate(image) : it.locate(image, *prediction);
+    };
+    actions.finish = [](RowLocator& locator) { return static_cast<Kind&>(locator).finish(); };
+    if constexpr (std::is_same_v<Kind, Locator>) {
+        actions.locate_in_any_code = [](RowLocator& locator, const ImageView& image,
+                                        const Prediction* prediction,
+                                        const CodeEvidence& evidence) {
             auto& it = static_cast<Kind&>(locator);
-            return prediction == nullptr ? it.locate(image) : it.locate(image, *prediction);
-        },
-    .finish = [](RowLocator& locator) { return static_cast<Kind&>(locator).finish(); }};
+            return prediction == nullptr ? it.locate_in_any_code(image, evidence)
+                                         : it.locate_in_any_code(image, *prediction, evidence);
+        };
+        actions.locate_in_code = [](RowLocator& locator, const ImageView& image) {
+            return static_cast<Kind&>(locator).locate_in_code(image);
+        };
+    }
+    return actions;
+}
+template <typename Kind>
+inline constexpr Actions kActionsOf = actions_of<Kind>();
 
 /// By which an object is recognized that was set up.
 inline constexpr std::uint32_t kLocatorMark = 0xD07C0001;
@@ -44,6 +64,23 @@ struct dotpose_locator {
 };
 
 namespace dotpose::c {
+
+/// Whether a locator can be used.
+dotpose_status check(const dotpose_locator* locator);
+/// Forgets the frame whose rows are pushed.
+void drop_frame(dotpose_locator& locator);
+
+/// An image and the prediction for it, as the core takes them.
+struct Frame {
+    ImageView image;
+    Prediction prediction;
+    const Prediction* expected = nullptr;  ///< the prediction, if there is one
+};
+
+dotpose_status read_image(const std::uint8_t* pixels, std::int32_t width_px, std::int32_t height_px,
+                          std::ptrdiff_t stride_bytes, Frame& frame);
+/// Reads a prediction, which may be null.
+dotpose_status read_prediction(const dotpose_prediction* given, Frame& frame);
 
 /// Callers' memory begins at a multiple of this.
 inline constexpr std::size_t kAlignment = 8;

@@ -11,10 +11,10 @@ struct Text {
     const char* message;
 };
 
-constexpr dotpose_status kFirstMisuse = DOTPOSE_NULL_POINTER;
+constexpr dotpose_status kFirst = DOTPOSE_NULL_POINTER;
 
-/// Indexed by the status, counted from the first misuse.
-constexpr std::array<Text, DOTPOSE_NO_FIX - kFirstMisuse + 1> kMisuses{{
+/// Statuses that only the functions for C have; indexed by the status, counted from the first.
+constexpr std::array<Text, DOTPOSE_NO_PACKET - kFirst + 1> kTexts{{
     {"null_pointer", "a pointer that must not be null is"},
     {"not_aligned", "the memory does not begin at a multiple of 8"},
     {"too_little_memory", "the memory is smaller than what is needed"},
@@ -26,10 +26,11 @@ constexpr std::array<Text, DOTPOSE_NO_FIX - kFirstMisuse + 1> kMisuses{{
     {"wrong_kind", "this kind of locator cannot do that"},
     {"no_frame", "no frame was begun, or all its rows were pushed"},
     {"no_fix", "the fix that is needed is not ok"},
+    {"no_packet", "no packet is complete yet"},
 }};
 
-constexpr bool is_misuse(dotpose_status status) {
-    return status >= kFirstMisuse && status <= DOTPOSE_NO_FIX;
+constexpr bool is_of_c(dotpose_status status) {
+    return status >= kFirst && status <= DOTPOSE_NO_PACKET;
 }
 
 /// Returns the status of the core; statuses that it does not have become one that has no text.
@@ -38,8 +39,8 @@ dotpose::Status of_core(dotpose_status status) {
                                                                                       : UINT8_MAX);
 }
 
-constexpr const Text& misuse(dotpose_status status) {
-    return kMisuses[static_cast<std::size_t>(status - kFirstMisuse)];
+constexpr const Text& of_c(dotpose_status status) {
+    return kTexts[static_cast<std::size_t>(status - kFirst)];
 }
 
 }  // namespace
@@ -47,11 +48,11 @@ constexpr const Text& misuse(dotpose_status status) {
 extern "C" {
 
 const char* dotpose_status_name(dotpose_status status) {
-    return is_misuse(status) ? misuse(status).name : name(of_core(status));
+    return is_of_c(status) ? of_c(status).name : name(of_core(status));
 }
 
 const char* dotpose_status_message(dotpose_status status) {
-    return is_misuse(status) ? misuse(status).message : message(of_core(status));
+    return is_of_c(status) ? of_c(status).message : message(of_core(status));
 }
 
 const char* dotpose_version(void) {

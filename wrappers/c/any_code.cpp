@@ -1,0 +1,125 @@
+// Sheets whose profile is not known, and the dots of the last frame: what devices do not have.
+#include <algorithm>
+#include <cstring>
+#include <type_traits>
+
+#include "dotpose/code_evidence.hpp"
+#include "locator.hpp"
+
+namespace {
+
+using namespace dotpose;
+
+/// The state of the evidence, as the core has it: log odds before and here, the cell, frames.
+struct State {
+    std::int32_t log2_q8[2 * kProfileCount];
+    std::uint32_t x;
+    std::uint32_t y;
+    std::uint32_t frames;
+};
+static_assert(sizeof(State) == sizeof(dotpose_code_evidence));
+static_assert(sizeof(State) == sizeof(CodeEvidence));
+static_assert(std::is_trivially_copyable_v<CodeEvidence>);
+
+/// Reads evidence, none from null. BAD_VALUE: it was neither zeroed nor written by this library.
+dotpose_status read_evidence(const dotpose_code_evidence* given, CodeEvidence& evidence) {
+    if (given == nullptr) return DOTPOSE_OK;
+    State state;
+    std::memcpy(&state, given, sizeof state);
+    constexpr std::int32_t kLeast_q8 = -256 * CodeEvidence::kMost_log2;
+    const bool is_sound =
+        std::all_of(std::begin(state.log2_q8), std::end(state.log2_q8),
+                    [](std::int32_t log2) { return log2 >= kLeast_q8 && log2 <= 0; });
+    if (!is_sound || state.x >= kPositionsPerAxis || state.y >= kPositionsPerAxis)
+        return DOTPOSE_BAD_VALUE;
+    std::memcpy(static_cast<void*>(&evidence), given, sizeof evidence);
+    return DOTPOSE_OK;
+}
+
+void give(const CodeReading& reading, dotpose_code_reading* result) {
+    if (result == nullptr) return;
+    result->code = static_cast<std::int32_t>(reading.code);
+    result->has_other = reading.has_other ? 1 : 0;
+    result->other_code = static_cast<std::int32_t>(reading.other_code);
+    c::to_c(Place{reading.other_cell, reading.other_section}, result->other);
+}
+
+/// Checks a locator that must be no device's.
+dotpose_status check_desktop(const dotpose_locator* locator) {
+    const dotpose_status status = c::check(locator);
+    if (status != DOTPOSE_OK) return status;
+    return locator->actions->locate_in_code == nullptr ? DOTPOSE_WRONG_KIND : DOTPOSE_OK;
+}
+
+}  // namespace
+
+extern "C" {
+
+dotpose_status dotpose_locate_any_code(dotpose_locator* locator, const uint8_t* pixels,
+                                       int32_t width_px, int32_t height_px, ptrdiff_t stride_bytes,
+                                       const dotpose_prediction* prediction,
+                                       dotpose_code_evidence* evidence,
+                                       dotpose_code_reading* reading, dotpose_fix* fix) {
+    if (fix == nullptr) return DOTPOSE_NULL_POINTER;
+    dotpose_status status = check_desktop(locator);
+    c::Frame frame;
+    CodeEvidence before;
+    if (status == DOTPOSE_OK)
+        status = c::read_image(pixels, width_px, height_px, stride_bytes, frame);
+    if (status == DOTPOSE_OK) status = c::read_prediction(prediction, frame);
+    if (status == DOTPOSE_OK) status = read_evidence(evidence, before);
+    if (status != DOTPOSE_OK) return c::refuse(status, *fix);
+    c::drop_frame(*locator);
+    const CodeReading read = locator->actions->locate_in_any_code(*locator->locator, frame.image,
+                                                                  frame.expected, before);
+    if (evidence != nullptr) std::memcpy(evidence, &read.evidence, sizeof *evidence);
+    give(read, reading);
+    c::to_c(read.fix, *fix);
+    return fix->status;
+}
+
+dotpose_status dotpose_locate_in_code(dotpose_locator* locator, const uint8_t* pixels,
+                                      int32_t width_px, int32_t height_px, ptrdiff_t stride_bytes,
+                                      dotpose_code_reading* reading, dotpose_fix* fix) {
+    if (fix == nullptr) return DOTPOSE_NULL_POINTER;
+    dotpose_status status = check_desktop(locator);
+    c::Frame frame;
+    if (status == DOTPOSE_OK)
+        status = c::read_image(pixels, width_px, height_px, stride_bytes, frame);
+    if (status != DOTPOSE_OK) return c::refuse(status, *fix);
+    c::drop_frame(*locator);
+    const CodeReading read = locator->actions->locate_in_code(*locator->locator, frame.image);
+    give(read, reading);
+    c::to_c(read.fix, *fix);
+    return fix->status;
+}
+
+dotpose_status dotpose_code_likeliest(const dotpose_code_evidence* evidence, int32_t* profile,
+                                      float* p_wrong) {
+    if (evidence == nullptr || profile == nullptr || p_wrong == nullptr)
+        return DOTPOSE_NULL_POINTER;
+    CodeEvidence read;
+    const dotpose_status status = read_evidence(evidence, read);
+    if (status != DOTPOSE_OK) return status;
+    *profile = static_cast<std::int32_t>(read.likeliest());
+    *p_wrong = read.p_wrong(read.likeliest());
+    return DOTPOSE_OK;
+}
+
+dotpose_status dotpose_dots(const dotpose_locator* locator, dotpose_dot* dots, int32_t capacity,
+                            int32_t* count) {
+    if (count == nullptr || (dots == nullptr && capacity != 0)) return DOTPOSE_NULL_POINTER;
+    *count = 0;
+    const dotpose_status status = check_desktop(locator);
+    if (status != DOTPOSE_OK) return status;
+    if (capacity < 0) return DOTPOSE_BAD_VALUE;
+    const std::span<const Dot> found = locator->locator->trace().dots;
+    *count = static_cast<std::int32_t>(found.size());
+    constexpr float kPx_per_q8 = 1.0F / 256;
+    for (const Dot& dot : found.first(static_cast<std::size_t>(std::min(*count, capacity)))) {
+        *dots++ = {static_cast<float>(dot.centre_q8.x) * kPx_per_q8,
+                   static_cast<float>(dot.centre_q8.y) * kPx_per_q8, dot.mass, dot.area_px};
+    }
+    return DOTPOSE_OK;
+}
+}

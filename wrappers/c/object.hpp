@@ -1,0 +1,49 @@
+// Small objects whose memory is a struct of dotpose.h: trackers, readers of packets, pacers.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <new>
+#include <type_traits>
+
+#include "dotpose.h"
+
+namespace dotpose::c {
+
+/// A T in a struct of dotpose.h, behind a mark by which it is recognized.
+template <typename T, std::uint32_t kMark>
+struct Object {
+    static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>,
+                  "dotpose.h allows to copy and to give up these structs");
+
+    std::uint32_t mark = kMark;
+    T value;
+
+    /// Makes the object in a struct, which is not null.
+    template <typename Struct, typename... Arguments>
+    static void make(Struct* place, const Arguments&... arguments) {
+        static_assert(sizeof(Object) <= sizeof(Struct), "the struct in dotpose.h is too small");
+        static_assert(alignof(Object) <= alignof(Struct));
+        ::new (static_cast<void*>(place)) Object{kMark, T(arguments...)};
+    }
+
+    /// Finds the object in a struct. NOT_INITIALIZED: there is none.
+    template <typename Struct>
+    static dotpose_status find(const Struct* place, const T*& found) {
+        if (place == nullptr) return DOTPOSE_NULL_POINTER;
+        std::uint32_t mark_found = 0;
+        std::memcpy(&mark_found, place, sizeof mark_found);
+        if (mark_found != kMark) return DOTPOSE_NOT_INITIALIZED;
+        found = &std::launder(reinterpret_cast<const Object*>(place))->value;
+        return DOTPOSE_OK;
+    }
+    template <typename Struct>
+    static dotpose_status find(Struct* place, T*& found) {
+        const T* constant = nullptr;
+        const dotpose_status status = find(place, constant);
+        found = const_cast<T*>(constant);
+        return status;
+    }
+};
+
+}  // namespace dotpose::c
