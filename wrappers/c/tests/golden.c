@@ -1,0 +1,143 @@
+/* Locates golden frames (wrappers/golden/README.md) through dotpose.h and prints the same lines as
+ * C++: golden FRAMES.frames [ROWS]. With ROWS, rows are pushed where whole images are not needed.
+ */
+#include <dotpose.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct image {
+    int width_px;
+    int height_px;
+    uint8_t* pixels;
+} image;
+
+static void fail(const char* what) {
+    fprintf(stderr, "golden: %s\n", what);
+    exit(2);
+}
+
+/* Reads the next image; 0 at the end of the file. */
+static int read_image(FILE* file, image* result) {
+    size_t bytes = 0;
+    if (fscanf(file, "P5 %4d %4d 255", &result->width_px, &result->height_px) != 2) return 0;
+    bytes = (size_t)result->width_px * (size_t)result->height_px;
+    result->pixels = realloc(result->pixels, bytes);
+    if (fgetc(file) == EOF || fread(result->pixels, 1, bytes, file) != bytes)
+        fail("the file ends within a frame");
+    return 1;
+}
+
+static void print_float(float value) {
+    uint32_t bits = 0;
+    memcpy(&bits, &value, sizeof bits);
+    printf(",%08" PRIx32, bits);
+}
+
+static void print_double(double value) {
+    uint64_t bits = 0;
+    memcpy(&bits, &value, sizeof bits);
+    printf(",%016" PRIx64, bits);
+}
+
+static void print_place(const dotpose_place* p) {
+    printf(",%" PRIu32 ",%" PRIu32 ",%" PRIu32 ",%" PRIu32, p->x, p->y, p->u, p->v);
+}
+
+static void print_plane(const dotpose_plane* p) {
+    const int32_t all[] = {p->centre_u_q8,       p->centre_v_q8, p->at_centre_x_q16,
+                           p->at_centre_y_q16,   p->du_x_q24,    p->du_y_q24,
+                           p->dv_x_q24,          p->dv_y_q24,    p->perspective_u_q30,
+                           p->perspective_v_q30, p->lens_q40};
+    size_t i = 0;
+    for (i = 0; i < sizeof all / sizeof all[0]; ++i)
+        printf(",%" PRId32, all[i]);
+}
+
+static void print_fix(int index, const char* way, const dotpose_fix* fix) {
+    const int32_t counts[] = {fix->attempt, fix->surface, fix->dots_used, fix->bit_errors,
+                              fix->p_wrong_log2};
+    const uint32_t place[] = {fix->section_u, fix->section_v,      fix->cell_x,
+                              fix->cell_y,    fix->fraction_x_q16, fix->fraction_y_q16};
+    const int32_t more[] = {fix->theta_bam, fix->spacing_px_q16, fix->spacing_nm,
+                            fix->displacement_q16};
+    size_t i = 0;
+    printf("%d,%s,%" PRId32 ",%" PRId32, index, way, fix->status, fix->dots_seen);
+    if (fix->status == DOTPOSE_OK) {
+        for (i = 0; i < sizeof counts / sizeof counts[0]; ++i)
+            printf(",%" PRId32, counts[i]);
+        for (i = 0; i < sizeof place / sizeof place[0]; ++i)
+            printf(",%" PRIu32, place[i]);
+        for (i = 0; i < sizeof more / sizeof more[0]; ++i)
+            printf(",%" PRId32, more[i]);
+        print_place(&fix->place);
+        print_plane(&fix->pattern_from_image);
+        print_double(fix->x_mm);
+        print_double(fix->y_mm);
+        print_double(fix->theta_rad);
+        print_float(fix->residual_px);
+        for (i = 0; i < 9; ++i)
+            print_float(fix->covariance_grid[i]);
+    }
+    printf("\n");
+}
+
+static void push_rows(dotpose_locator* locator, const image* frame, dotpose_fix* fix) {
+    int v = 0;
+    if (dotpose_begin(locator, frame->width_px, frame->height_px, NULL) != DOTPOSE_OK)
+        fail("a frame cannot be begun");
+    for (v = 0; v < frame->height_px; ++v) {
+        if (dotpose_push_row(locator, frame->pixels + v * frame->width_px) != DOTPOSE_OK)
+            fail("a row cannot be pushed");
+    }
+    dotpose_finish(locator, fix);
+}
+
+/* Prints the lines of a frame and of the frame after it. */
+static void locate(int index, const image* frame, const image* next, dotpose_locator* large,
+                   dotpose_locator* device, int by_rows) {
+    const int width_px = frame->width_px;
+    dotpose_options options;
+    dotpose_prediction prediction;
+    dotpose_fix fix;
+    /* Reading in any code leaves the code that was read. */
+    dotpose_options_init(&options, sizeof options);
+    dotpose_set_options(large, &options);
+    dotpose_locate(large, frame->pixels, width_px, frame->height_px, width_px, NULL, &fix);
+    print_fix(index, "locate", &fix);
+    if (dotpose_prediction_like(&fix, &prediction) == DOTPOSE_OK) {
+        dotpose_locate(large, next->pixels, width_px, next->height_px, width_px, &prediction, &fix);
+        print_fix(index, "tracked", &fix);
+    }
+    dotpose_locate_any_code(large, frame->pixels, width_px, frame->height_px, width_px, NULL, NULL,
+                            NULL, &fix);
+    print_fix(index, "any_code", &fix);
+    if (width_px > 188) return;
+    if (by_rows)
+        push_rows(device, frame, &fix);
+    else
+        dotpose_locate(device, frame->pixels, width_px, frame->height_px, width_px, NULL, &fix);
+    print_fix(index, "device", &fix);
+}
+
+int main(int argc, char** argv) {
+    static uint64_t device_memory[DOTPOSE_DEVICE_BYTES / 8];
+    dotpose_locator* large = NULL;
+    dotpose_locator* device = NULL;
+    image frame = {0, 0, NULL};
+    image next = {0, 0, NULL};
+    FILE* file = argc < 2 ? NULL : fopen(argv[1], "rb");
+    int index = 0;
+    if (file == NULL) fail("usage: golden FRAMES [ROWS]");
+    if (dotpose_locator_create(DOTPOSE_KIND_LARGE, NULL, &large) != DOTPOSE_OK ||
+        dotpose_device_init(device_memory, sizeof device_memory, NULL, &device) != DOTPOSE_OK)
+        fail("no locator");
+    for (index = 0; read_image(file, &frame) && read_image(file, &next); ++index)
+        locate(index, &frame, &next, large, device, argc > 2);
+    dotpose_locator_destroy(large);
+    free(frame.pixels);
+    free(next.pixels);
+    fclose(file);
+    return 0;
+}

@@ -1,0 +1,177 @@
+// Writes frames and what the core reads in them, to the bit, with which the wrappers are compared.
+//
+//   dotpose_golden_files DIRECTORY
+//
+// For each set, `nominal` (200 frames), `hard` (150) and `vga` (40), it writes
+//
+//   SET.frames  binary PGM images one after the other: each frame, and the frame after it
+//   SET.csv     a line for each frame and way in which it was located; wrappers/golden/README.md
+//               says what the columns are
+//
+// The frames are those of accuracy/golden.cpp.
+#include <bit>
+#include <cinttypes>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include "dotpose/code_evidence.hpp"
+#include "dotpose/locate.hpp"
+#include "dotpose/tools/simulate.hpp"
+
+namespace {
+
+using namespace dotpose;
+
+constexpr std::uint64_t kSeed = 2424;
+
+struct Set {
+    const char* name;
+    Preset preset;
+    std::uint64_t frames;
+    int width_px;
+    int height_px;
+};
+constexpr Set kSets[] = {{"nominal", Preset::nominal, 200, 188, 120},
+                         {"hard", Preset::hard, 150, 188, 120},
+                         {"vga", Preset::nominal, 40, 640, 480}};
+
+struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, CloseFile>;
+
+File create(const std::string& path) {
+    File file(std::fopen(path.c_str(), "wb"));
+    if (!file) {
+        std::perror(path.c_str());
+        std::exit(EXIT_FAILURE);
+    }
+    return file;
+}
+
+void write(const GreyImage& image, std::FILE* file) {
+    fmt::print(file, "P5\n{} {}\n255\n", image.width_px, image.height_px);
+    std::fwrite(image.pixels.data(), 1, image.pixels.size(), file);
+}
+
+/// Returns all numbers of an ok fix in the order of the columns, floating-point numbers as their
+/// bits.
+std::vector<std::string> numbers_of(const Fix& fix) {
+    std::vector<std::string> all;
+    const auto put = [&all](std::int64_t value) { all.push_back(fmt::format("{}", value)); };
+    const auto put_float = [&all](float value) {
+        all.push_back(fmt::format("{:08x}", std::bit_cast<std::uint32_t>(value)));
+    };
+    const auto put_double = [&all](double value) {
+        all.push_back(fmt::format("{:016x}", std::bit_cast<std::uint64_t>(value)));
+    };
+    put(static_cast<int>(fix.attempt));
+    put(static_cast<int>(fix.surface));
+    for (const int value : {fix.dots_used, fix.bit_errors, fix.p_wrong_log2})
+        put(value);
+    for (const std::uint32_t value :
+         {std::uint32_t{fix.section.u}, std::uint32_t{fix.section.v}, fix.cell.x, fix.cell.y,
+          std::uint32_t{fix.fraction_x_q16}, std::uint32_t{fix.fraction_y_q16}})
+        put(value);
+    for (const std::int32_t value :
+         {fix.theta_bam, fix.spacing_px_q16, fix.spacing_nm, fix.displacement_q16})
+        put(value);
+    for (const std::uint32_t value :
+         {fix.place.cell.x, fix.place.cell.y, std::uint32_t{fix.place.section.u},
+          std::uint32_t{fix.place.section.v}})
+        put(value);
+    const PlaneFromImage& plane = fix.pattern_from_image;
+    for (const Vec vec : {plane.centre_q8, plane.at_centre_q16, plane.du_q24, plane.dv_q24,
+                          plane.perspective_q30}) {
+        put(vec.x);
+        put(vec.y);
+    }
+    put(plane.lens_q40);
+    for (const double value : {fix.x_mm(), fix.y_mm(), fix.theta_rad()})
+        put_double(value);
+    put_float(fix.residual_px);
+    for (const auto& row : fix.covariance) {
+        for (const float value : row)
+            put_float(value);
+    }
+    return all;
+}
+
+/// Writes the lines of one frame.
+class Lines {
+  public:
+    Lines(std::FILE* file, std::uint64_t index) : file_(file), index_(index) {}
+
+    void add(const char* way, const Fix& fix) {
+        fmt::print(file_, "{},{},{},{}", index_, way, static_cast<int>(fix.status), fix.dots_seen);
+        if (fix.status == Status::ok) fmt::print(file_, ",{}", fmt::join(numbers_of(fix), ","));
+        fmt::print(file_, "\n");
+    }
+
+  private:
+    std::FILE* file_;
+    std::uint64_t index_;
+};
+
+/// Locates a frame in every way, and the frame after it with the prediction of the first.
+void locate(const GreyImage& image, const GreyImage& next, Lines lines) {
+    const auto memory = std::make_unique<LargeMemory>();
+    Locator locator(*memory);
+    const Fix fix = locator.locate(image.view());
+    lines.add("locate", fix);
+    if (fix.status == Status::ok)
+        lines.add("tracked", locator.locate(next.view(), Prediction::like(fix)));
+    lines.add("any_code", locator.locate_in_any_code(image.view(), {}).fix);
+    if (image.width_px > 188) return;
+    DeviceMemory device_memory;
+    lines.add("device", DeviceLocator(device_memory).locate(image.view()));
+}
+
+/// Returns the shot after the camera has moved by a quarter of a spacing and turned by 2 degrees.
+Shot moved(Shot shot) {
+    constexpr double kStep = 0.25;
+    constexpr double kTurn_rad = 0.035;
+    shot.pose.fraction_x += kStep;
+    shot.pose.fraction_y -= kStep;
+    shot.pose.theta_rad += kTurn_rad;
+    ++shot.seed;
+    return shot;
+}
+
+void write(const Set& set, const std::string& directory) {
+    const File frames = create(directory + "/" + set.name + ".frames");
+    const File csv = create(directory + "/" + set.name + ".csv");
+    Setup setup;
+    setup.preset = set.preset;
+    setup.seed = kSeed;
+    setup.camera.width_px = set.width_px;
+    setup.camera.height_px = set.height_px;
+    for (std::uint64_t index = 0; index < set.frames; ++index) {
+        const Shot shot = draw_shot(setup, index);
+        const GreyImage image = render(shot);
+        const GreyImage next = render(moved(shot));
+        write(image, frames.get());
+        write(next, frames.get());
+        locate(image, next, Lines(csv.get(), index));
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc != 2) {
+        std::fputs("usage: dotpose_golden_files DIRECTORY\n", stderr);
+        return 2;
+    }
+    std::filesystem::create_directories(argv[1]);
+    for (const Set& set : kSets)
+        write(set, argv[1]);
+}
