@@ -1,0 +1,384 @@
+// The functions of dotpose.h do what those of the core do, whose results are expected here.
+#include <array>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "convert.hpp"
+#include "dotpose.h"
+#include "dotpose/frame_pacer.hpp"
+#include "dotpose/locate.hpp"
+#include "dotpose/pose_packet.hpp"
+#include "dotpose/tools/random.hpp"
+#include "dotpose/tools/simulate.hpp"
+#include "dotpose/track.hpp"
+
+namespace dotpose {
+namespace {
+
+struct Destroy {
+    void operator()(dotpose_locator* locator) const { dotpose_locator_destroy(locator); }
+};
+using CLocator = std::unique_ptr<dotpose_locator, Destroy>;
+
+CLocator make_locator(const dotpose_options* options = nullptr) {
+    dotpose_locator* locator = nullptr;
+    EXPECT_EQ(dotpose_locator_create(DOTPOSE_KIND_LARGE, options, &locator), DOTPOSE_OK);
+    return CLocator(locator);
+}
+
+dotpose_fix locate(dotpose_locator* locator, const GreyImage& image,
+                   const dotpose_prediction* prediction = nullptr) {
+    dotpose_fix fix;
+    dotpose_locate(locator, image.pixels.data(), image.width_px, image.height_px, image.width_px,
+                   prediction, &fix);
+    return fix;
+}
+
+dotpose_fix as_c(const Fix& fix) {
+    dotpose_fix result;
+    c::to_c(fix, result);
+    return result;
+}
+
+/// Whether two structs without padding have the same bits.
+template <typename T>
+bool same(const T& a, const T& b) {
+    return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+/// Frames of a robot that drives and turns, with a blank one in between.
+std::vector<GreyImage> drive(int frames) {
+    Shot shot = draw_shot(Setup{}, 7);
+    std::vector<GreyImage> images;
+    for (int i = 0; i < frames; ++i) {
+        images.push_back(render(shot));
+        shot.pose.fraction_x += 0.3;
+        shot.pose.fraction_y -= 0.1;
+        shot.pose.theta_rad += 0.01;
+        ++shot.seed;
+    }
+    for (std::uint8_t& grey : images[images.size() / 2].pixels)
+        grey = 200;
+    return images;
+}
+
+/// Frames of places far apart on a sheet of another profile than the default.
+std::vector<GreyImage> libdots_frames(std::uint64_t frames) {
+    Setup setup;
+    setup.pattern.profile = Profile::libdots;
+    std::vector<GreyImage> images;
+    for (std::uint64_t i = 0; i < frames; ++i)
+        images.push_back(render(draw_shot(setup, i)));
+    return images;
+}
+
+TEST(C, GivesTheSymbolsOfTheCodePastTheEndsOfItsAxes) {
+    constexpr int kColumns = 150;
+    constexpr int kRows = 70;
+    Rng rng(3);
+    for (int n = 0; n < 30; ++n) {
+        const auto profile = static_cast<Profile>(n % kProfileCount);
+        const auto near_end = [&] { return kPositionsPerAxis - 1 - rng.below(200); };
+        const bool is_far = n % 2 == 0;
+        const Place place{
+            {is_far ? rng.below(kPositionsPerAxis) : near_end(),
+             is_far ? rng.below(kPositionsPerAxis) : near_end()},
+            {static_cast<std::uint8_t>(rng.below(63)), static_cast<std::uint8_t>(rng.below(63))}};
+        dotpose_place first;
+        c::to_c(place, first);
+        std::vector<std::uint8_t> symbols(kColumns * kRows);
+        ASSERT_EQ(dotpose_symbols(n % 3, &first, kColumns, kRows, symbols.data(), symbols.size()),
+                  DOTPOSE_OK);
+        for (int row = 0; row < kRows; ++row) {
+            for (int column = 0; column < kColumns; ++column) {
+                const Place at = moved(profile, place, column, row);
+                const Symbol symbol = symbol_at(profile, at.cell, at.section);
+                ASSERT_EQ(symbols[static_cast<std::size_t>(row * kColumns + column)],
+                          static_cast<std::uint8_t>(symbol))
+                    << column << ", " << row;
+                std::int32_t x = 9;
+                std::int32_t y = 9;
+                dotpose_place where;
+                c::to_c(at, where);
+                ASSERT_EQ(dotpose_displacement(n % 3, &where, &x, &y), DOTPOSE_OK);
+                ASSERT_EQ(x, dx(symbol));
+                ASSERT_EQ(y, dy(symbol));
+            }
+        }
+    }
+}
+
+TEST(C, PassesEveryOption) {
+    dotpose_options given;
+    dotpose_options_init(&given, sizeof given);
+    given = {given.size, 1,  0,  0,  600'000, 11, -12, 13, 14, -15, -16,
+             17,         18, 19, 20, 21,      22, 23,  24, 25, 26,  1};
+    Options read;
+    ASSERT_EQ(c::to_core(&given, read), DOTPOSE_OK);
+    EXPECT_EQ(read.profile, Profile::libdots);
+    EXPECT_EQ(read.effort, Effort::device);
+    EXPECT_EQ(read.decoder, Decoder::window);
+    EXPECT_EQ(read.spacing_nm, 600'000);
+    EXPECT_EQ(read.reference_dx_q8, 11);
+    EXPECT_EQ(read.reference_dy_q8, -12);
+    EXPECT_EQ(read.lens.k_q40, 13);
+    EXPECT_EQ(read.lens.centre_dx_q8, 14);
+    EXPECT_EQ(read.lens.centre_dy_q8, -15);
+    EXPECT_EQ(read.integrity.max_p_wrong_log2, -16);
+    EXPECT_EQ(read.integrity.max_bit_error_q8, 17);
+    EXPECT_EQ(read.most_dots, 18);
+    EXPECT_EQ(read.threshold.low_q8, 19);
+    EXPECT_EQ(read.threshold.high_q8, 20);
+    EXPECT_EQ(read.threshold.min_contrast, 21);
+    EXPECT_EQ(read.blobs.min_area_px, 22);
+    EXPECT_EQ(read.blobs.min_mass_q8, 23);
+    EXPECT_EQ(read.blobs.max_area_ratio, 24);
+    EXPECT_EQ(read.lattice.min_dots, 25);
+    EXPECT_EQ(read.lattice.max_offset_q16, 26);
+    EXPECT_TRUE(read.show_stages);
+}
+
+TEST(C, HasTheDefaultsOfTheCore) {
+    dotpose_options given;
+    dotpose_options_init(&given, sizeof given);
+    const Options core;
+    EXPECT_EQ(given.effort, static_cast<std::int32_t>(core.effort));
+    EXPECT_EQ(given.decoder, static_cast<std::int32_t>(core.decoder));
+    EXPECT_EQ(given.spacing_nm, core.spacing_nm);
+    EXPECT_EQ(given.max_p_wrong_log2, core.integrity.max_p_wrong_log2);
+    EXPECT_EQ(given.max_bit_error_q8, core.integrity.max_bit_error_q8);
+    EXPECT_EQ(given.most_dots, core.most_dots);
+    EXPECT_EQ(given.threshold_low_q8, core.threshold.low_q8);
+    EXPECT_EQ(given.threshold_high_q8, core.threshold.high_q8);
+    EXPECT_EQ(given.max_area_ratio, core.blobs.max_area_ratio);
+    EXPECT_EQ(given.max_offset_q16, core.lattice.max_offset_q16);
+    EXPECT_EQ(given.show_stages, 0);
+}
+
+TEST(C, TellsMillimetres) {
+    dotpose_options options;
+    dotpose_options_init(&options, sizeof options);
+    options.spacing_nm = 600'000;
+    const CLocator locator = make_locator(&options);
+    const GreyImage image = drive(3)[0];
+    const dotpose_fix fix = locate(locator.get(), image);
+    ASSERT_EQ(fix.status, DOTPOSE_OK);
+    EXPECT_NEAR(fix.x_mm, 0.6 * (fix.cell_x + fix.fraction_x_q16 / 65536.0), 1e-6);
+    EXPECT_NEAR(fix.y_mm, 0.6 * (fix.cell_y + fix.fraction_y_q16 / 65536.0), 1e-6);
+    EXPECT_NEAR(fix.theta_rad, fix.theta_bam / 2147483648.0 * 3.14159265358979, 1e-12);
+    EXPECT_FLOAT_EQ(fix.covariance[0], 0.36F * fix.covariance_grid[0]);
+    EXPECT_FLOAT_EQ(fix.covariance[5], 0.6F * fix.covariance_grid[5]);
+    EXPECT_FLOAT_EQ(fix.covariance[8], fix.covariance_grid[8]);
+    EXPECT_DOUBLE_EQ(fix.p_wrong, std::ldexp(1, fix.p_wrong_log2));
+    options.spacing_nm = 0;
+    dotpose_set_options(locator.get(), &options);
+    const dotpose_fix unknown = locate(locator.get(), image);
+    EXPECT_TRUE(std::isnan(unknown.x_mm) && std::isnan(unknown.covariance[0]));
+    EXPECT_EQ(unknown.covariance_grid[0], fix.covariance_grid[0]);
+}
+
+TEST(C, KeepsAFixWhole) {
+    const auto memory = std::make_unique<LargeMemory>();
+    for (const GreyImage& image : drive(4)) {
+        const dotpose_fix fix = as_c(Locator(*memory).locate(image.view()));
+        Fix back;
+        ASSERT_EQ(c::to_core(fix, back), DOTPOSE_OK);
+        EXPECT_TRUE(same(as_c(back), fix) || fix.status != DOTPOSE_OK);
+    }
+}
+
+TEST(C, FollowsARobotAsTheTrackerDoes) {
+    const auto memory = std::make_unique<LargeMemory>();
+    Locator core(*memory);
+    Tracker core_tracker;
+    const CLocator locator = make_locator();
+    dotpose_tracker tracker;
+    ASSERT_EQ(dotpose_tracker_init(&tracker, nullptr), DOTPOSE_OK);
+    std::optional<Prediction> expected;
+    dotpose_prediction prediction{};
+    std::int64_t time_us = 0;
+    int tracked = 0;
+    for (const GreyImage& image : drive(30)) {
+        const Fix core_fix =
+            expected ? core.locate(image.view(), *expected) : core.locate(image.view());
+        const dotpose_fix fix = locate(locator.get(), image, expected ? &prediction : nullptr);
+        const bool is_ok = fix.status == DOTPOSE_OK;
+        ASSERT_TRUE(same(fix, as_c(core_fix)) || !is_ok);
+        const Sighting core_seen = is_ok ? sighting_of(core_fix, time_us) : Sighting{};
+        dotpose_sighting seen;
+        if (is_ok) {
+            ASSERT_EQ(dotpose_sighting_of(&fix, time_us, &seen), DOTPOSE_OK);
+        }
+        const Track& core_track = core_tracker.update(time_us, is_ok ? &core_seen : nullptr);
+        dotpose_track track;
+        ASSERT_EQ(dotpose_tracker_update(&tracker, time_us, is_ok ? &seen : nullptr, &track),
+                  DOTPOSE_OK);
+        EXPECT_EQ(track.x_nm, core_track.pose.x_nm);
+        EXPECT_EQ(track.y_nm, core_track.pose.y_nm);
+        EXPECT_EQ(track.x_mm, core_track.pose.x_mm());
+        EXPECT_EQ(track.theta_bam, core_track.pose.theta_bam);
+        EXPECT_EQ(track.plane, core_track.pose.plane);
+        EXPECT_EQ(track.vx_mm_s, core_track.pose.vx_mm_s);
+        EXPECT_EQ(track.turn_rad_s, core_track.pose.turn_rad_s);
+        EXPECT_EQ(track.covariance[7], core_track.pose.covariance[1][1]);
+        EXPECT_EQ(track.covariance[2], core_track.pose.covariance[0][2]);
+        EXPECT_EQ(track.verdict, static_cast<std::int32_t>(core_track.verdict));
+        EXPECT_EQ(track.is_lost != 0, core_track.is_lost);
+        EXPECT_EQ((track.events & DOTPOSE_EVENT_FIX) != 0, core_track.events.fix);
+        EXPECT_EQ((track.events & DOTPOSE_EVENT_LOST) != 0, core_track.events.lost);
+        EXPECT_EQ((track.events & DOTPOSE_EVENT_STATIONARY) != 0, core_track.events.stationary);
+        time_us += 5000;
+        expected.reset();
+        if (!is_ok) continue;
+        expected = core_tracker.predict(time_us, core_fix, core_seen, core.options());
+        ASSERT_EQ(
+            dotpose_tracker_predict(&tracker, time_us, &fix, &seen, locator.get(), &prediction),
+            DOTPOSE_OK);
+        dotpose_prediction core_prediction;
+        c::to_c(*expected, core_prediction);
+        EXPECT_TRUE(same(prediction, core_prediction));
+        tracked += fix.attempt == DOTPOSE_ATTEMPT_TRACKED ? 1 : 0;
+    }
+    EXPECT_GT(tracked, 20);
+}
+
+TEST(C, MovesPredictions) {
+    const auto memory = std::make_unique<LargeMemory>();
+    const Fix fix = Locator(*memory).locate(drive(3)[0].view());
+    const Prediction expected = moved(Prediction::like(fix), Profile::libdots, {70'000, -90'000},
+                                      1 << 24, {24'000, 15'000});
+    const dotpose_fix given = as_c(fix);
+    dotpose_prediction prediction;
+    ASSERT_EQ(dotpose_prediction_like(&given, &prediction), DOTPOSE_OK);
+    ASSERT_EQ(dotpose_prediction_move(&prediction, DOTPOSE_PROFILE_LIBDOTS, 70'000, -90'000,
+                                      1 << 24, 24'000, 15'000),
+              DOTPOSE_OK);
+    dotpose_prediction core_prediction;
+    c::to_c(expected, core_prediction);
+    EXPECT_TRUE(same(prediction, core_prediction));
+}
+
+TEST(C, SendsAndReadsPackets) {
+    const auto memory = std::make_unique<LargeMemory>();
+    PacketReader core_reader;
+    dotpose_packet_reader reader;
+    ASSERT_EQ(dotpose_packet_reader_init(&reader), DOTPOSE_OK);
+    std::uint16_t sequence = 65534;
+    int completed = 0;
+    for (const GreyImage& image : drive(5)) {
+        const Fix fix = Locator(*memory).locate(image.view());
+        const PacketBytes expected = encode(make_packet(fix, Profile::microdots, ++sequence, 99));
+        const dotpose_fix given = as_c(fix);
+        dotpose_packet packet;
+        ASSERT_EQ(dotpose_packet_of(&given, DOTPOSE_PROFILE_MICRODOTS, sequence, 99, &packet),
+                  DOTPOSE_OK);
+        PacketBytes bytes;
+        ASSERT_EQ(dotpose_packet_encode(&packet, bytes.data(), bytes.size()), DOTPOSE_OK);
+        EXPECT_EQ(bytes, expected);
+        for (const std::uint8_t byte : bytes) {
+            dotpose_packet read{};
+            const bool is_complete = core_reader.push(byte);
+            ASSERT_EQ(dotpose_packet_reader_push(&reader, byte, &read),
+                      is_complete ? DOTPOSE_OK : DOTPOSE_NO_PACKET);
+            if (!is_complete) continue;
+            ++completed;
+            EXPECT_TRUE(same(read, packet));
+        }
+    }
+    EXPECT_EQ(completed, 5);
+}
+
+TEST(C, PacesFramesAsThePacerDoes) {
+    const auto memory = std::make_unique<LargeMemory>();
+    const GreyImage image = drive(3)[0];
+    const Fix fix = Locator(*memory).locate(image.view());
+    const dotpose_fix given = as_c(fix);
+    dotpose_pacer_options options;
+    dotpose_pacer_options_init(&options, sizeof options);
+    options.stationary_after_us = 3'000'000;
+    dotpose_pacer pacer;
+    ASSERT_EQ(dotpose_pacer_init(&pacer, &options), DOTPOSE_OK);
+    FramePacer core({.stationary_after_us = 3'000'000});
+    int rests = 0;
+    for (std::int64_t time_us = 0; time_us < 6'000'000; time_us += 500'000) {
+        std::int64_t next_us = 0;
+        std::int32_t is_moving = 7;
+        ASSERT_EQ(dotpose_pacer_next_frame(&pacer, &given, time_us, &next_us, &is_moving),
+                  DOTPOSE_OK);
+        EXPECT_EQ(next_us, core.next_frame_us(fix, time_us));
+        EXPECT_EQ(is_moving != 0, core.motion() == Motion::moving);
+        rests += is_moving == 0 ? 1 : 0;
+    }
+    EXPECT_EQ(rests, 6);
+}
+
+TEST(C, FindsTheCodeOfASheet) {
+    const auto memory = std::make_unique<LargeMemory>();
+    Locator core(*memory);
+    CodeEvidence core_evidence;
+    const CLocator locator = make_locator();
+    dotpose_code_evidence evidence = {{0}};
+    for (const GreyImage& image : libdots_frames(12)) {
+        const CodeReading expected = core.locate_in_any_code(image.view(), core_evidence);
+        core_evidence = expected.evidence;
+        dotpose_code_reading reading;
+        dotpose_fix fix;
+        const dotpose_status status = dotpose_locate_any_code(
+            locator.get(), image.pixels.data(), image.width_px, image.height_px, image.width_px,
+            nullptr, &evidence, &reading, &fix);
+        EXPECT_EQ(status, static_cast<dotpose_status>(expected.fix.status));
+        EXPECT_EQ(fix.cell_x, expected.fix.cell.x);
+        EXPECT_EQ(fix.p_wrong_log2, expected.fix.p_wrong_log2);
+        EXPECT_EQ(reading.code, static_cast<std::int32_t>(expected.code));
+        EXPECT_EQ(reading.has_other != 0, expected.has_other);
+        EXPECT_EQ(reading.other.x, expected.other_cell.x);
+        EXPECT_EQ(reading.other.v, expected.other_section.v);
+        std::int32_t profile = -1;
+        float p_wrong = -1;
+        ASSERT_EQ(dotpose_code_likeliest(&evidence, &profile, &p_wrong), DOTPOSE_OK);
+        EXPECT_EQ(profile, static_cast<std::int32_t>(core_evidence.likeliest()));
+        EXPECT_EQ(p_wrong, core_evidence.p_wrong(core_evidence.likeliest()));
+        const CodeReading in_code = core.locate_in_code(image.view());
+        dotpose_locate_in_code(locator.get(), image.pixels.data(), image.width_px, image.height_px,
+                               image.width_px, &reading, &fix);
+        EXPECT_EQ(fix.fraction_x_q16, in_code.fix.fraction_x_q16);
+        EXPECT_EQ(reading.has_other != 0, in_code.has_other);
+    }
+    EXPECT_EQ(core_evidence.likeliest(), Profile::libdots);
+}
+
+TEST(C, GivesTheDots) {
+    dotpose_options options;
+    dotpose_options_init(&options, sizeof options);
+    options.show_stages = 1;
+    const CLocator locator = make_locator(&options);
+    const GreyImage image = drive(3)[0];
+    locate(locator.get(), image);
+    Options core_options;
+    core_options.show_stages = true;
+    const auto memory = std::make_unique<LargeMemory>();
+    Locator core(*memory, core_options);
+    static_cast<void>(core.locate(image.view()));
+    const std::span<const Dot> expected = core.trace().dots;
+    std::array<dotpose_dot, 400> dots{};
+    std::int32_t count = 0;
+    ASSERT_EQ(dotpose_dots(locator.get(), dots.data(), 100, &count), DOTPOSE_OK);
+    EXPECT_EQ(count, static_cast<std::int32_t>(expected.size()));
+    ASSERT_GT(count, 110);
+    EXPECT_EQ(dots[100].mass, 0) << "no more than were asked for";
+    ASSERT_EQ(dotpose_dots(locator.get(), dots.data(), 400, &count), DOTPOSE_OK);
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        EXPECT_EQ(dots[i].u_px * 256, static_cast<float>(expected[i].centre_q8.x));
+        EXPECT_EQ(dots[i].v_px * 256, static_cast<float>(expected[i].centre_q8.y));
+        EXPECT_EQ(dots[i].mass, expected[i].mass);
+        EXPECT_EQ(dots[i].area_px, expected[i].area_px);
+    }
+}
+
+}  // namespace
+}  // namespace dotpose
