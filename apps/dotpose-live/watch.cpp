@@ -1,5 +1,6 @@
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -42,11 +43,40 @@ constexpr const char* kExamples =
     "One line per frame with the raw and the tracked pose (docs/live.md). Of a camera the newest\n"
     "frame is taken and those in between are counted; of all else every frame. Ctrl-C ends.\n";
 
+/// The last domain whose ports exist.
+constexpr int kLastDomain = 232;
+
+struct DdsArguments {
+    bool is_wanted = false;
+    bool is_reliable = false;
+    std::optional<int> domain;
+
+    /// Returns none if nothing is published. Throws BadArgument if the environment names no domain.
+    std::optional<dds::PublisherOptions> publisher() const {
+        if (!is_wanted) return std::nullopt;
+        return dds::PublisherOptions{domain ? *domain : domain_of_ros(), is_reliable};
+    }
+
+  private:
+    static int domain_of_ros() {
+        const char* given = std::getenv("ROS_DOMAIN_ID");
+        if (given == nullptr || *given == '\0') return 0;
+        int number = 0;
+        if (CLI::detail::lexical_cast(std::string(given), number) && number >= 0 &&
+            number <= kLastDomain) {
+            return number;
+        }
+        throw BadArgument(
+            fmt::format("ROS_DOMAIN_ID is '{}', not a number from 0 to {}", given, kLastDomain));
+    }
+};
+
 struct WatchArguments {
     SourceArguments sources;
     FollowerArguments follower;
     OutputOptions outputs;
     MqttArguments mqtt;
+    DdsArguments dds;
     SaveOptions save;
     bool lists_cameras = false;
     bool has_no_window = false;
@@ -72,6 +102,7 @@ RunFiles files_of(const WatchArguments& arguments, const Sources& sources) {
     files.writes("--draw", outputs.map, Content::svg);
     files.writes("--record", outputs.screen.record, Content::own);
     files.writes("--packets", outputs.packets, Content::packets);
+    files.writes("--mcap", outputs.messages.mcap, Content::mcap);
     return files;
 }
 
@@ -166,6 +197,9 @@ int run(WatchArguments& arguments) {
     if (arguments.save.every > 0 && arguments.save.folder.empty()) {
         throw BadArgument("--save-every needs a folder: --save DIR");
     }
+    if (arguments.outputs.messages.has_images && arguments.outputs.messages.mcap.empty()) {
+        throw BadArgument("--mcap-images needs a file: --mcap FILE");
+    }
     Sources sources(arguments.sources);
     const RunFiles files = files_of(arguments, sources);
     catch_interrupts();
@@ -187,6 +221,9 @@ int run(WatchArguments& arguments) {
     arguments.outputs.world_map = std::filesystem::path(arguments.follower.sheets).stem().string();
     if (source->rate() > 0) arguments.outputs.screen.fps = source->rate();
     arguments.outputs.screen.tell = tell;
+    arguments.outputs.messages.robot = arguments.outputs.robot;
+    arguments.outputs.messages.dds = arguments.dds.publisher();
+    arguments.outputs.messages.camera = arguments.follower.camera.camera;
     arguments.outputs.screen.has_window = !arguments.has_no_window && video::has_display();
     std::optional<FrameSaver> saver;
     if (!arguments.save.folder.empty()) saver.emplace(arguments.save);
@@ -217,6 +254,9 @@ void add_output_options(CLI::App& command, WatchArguments& arguments) {
     add_file("--log", outputs.log, "Also write all lines as CSV in mm, for dotpose replay");
     add_file("--record", outputs.screen.record, "Video with the overlay (.mp4: H.264, or .avi)");
     add_file("--packets", outputs.packets, "Send pose packets to a file or device");
+    add_file("--mcap", outputs.messages.mcap, "Record messages of ROS 2 for ros2 bag and Foxglove");
+    command.add_flag("--mcap-images", outputs.messages.has_images,
+                     "Record the frames in it too (PNG)");
     command
         .add_option("--save", arguments.save.folder,
                     "Save frames that show a new place, for dotpose calibrate (PNG)")
@@ -235,7 +275,9 @@ void add_output_options(CLI::App& command, WatchArguments& arguments) {
 
 void add_publish_options(CLI::App& command, OutputOptions& outputs, MqttArguments& mqtt) {
     mqtt.add_to(command);
-    command.add_option("--robot", outputs.robot, "Name of the robot on the broker")
+    command
+        .add_option("--robot", outputs.robot,
+                    "Name of the robot on the broker and in topics of ROS")
         ->type_name("NAME")
         ->capture_default_str()
         ->check([](const std::string& name) {
@@ -248,6 +290,16 @@ void add_publish_options(CLI::App& command, OutputOptions& outputs, MqttArgument
         ->type_name("HZ")
         ->default_str("all")
         ->check(CLI::Range(0.001, 1e6).description(""));
+}
+
+void add_dds_options(CLI::App& command, DdsArguments& dds) {
+    command.add_flag("--dds", dds.is_wanted, "Publish messages of ROS 2, over DDS");
+    command.add_flag("--dds-reliable", dds.is_reliable,
+                     "Send lost poses again: for subscribers that ask for it");
+    command.add_option("--dds-domain", dds.domain, "Domain of DDS")
+        ->type_name("N")
+        ->default_str("ROS_DOMAIN_ID, or 0")
+        ->check(CLI::Range(0, kLastDomain).description(""));
 }
 
 void add_track_options(CLI::App& command, TrackOptions& track) {
@@ -295,6 +347,7 @@ void add_watch(CLI::App& app, int& exit_code) {
     add_track_options(*command, arguments->follower.options.track);
     add_output_options(*command, *arguments);
     add_publish_options(*command, arguments->outputs, arguments->mqtt);
+    add_dds_options(*command, arguments->dds);
     command->callback([arguments, &exit_code] {
         arguments->outputs.mqtt = arguments->mqtt.options();
         exit_code = run(*arguments);

@@ -115,6 +115,7 @@ WatchOutputs::WatchOutputs(const OutputOptions& options, const Follower& followe
     }
     if (!options.packets.empty()) packets_.emplace(options.packets);
     if (options.mqtt) states_.emplace(options);
+    if (options.messages.is_wanted()) messages_.emplace(options.messages);
 }
 
 bool WatchOutputs::take(const capture::Frame& frame, const Reading& reading, std::int64_t dropped) {
@@ -125,6 +126,7 @@ bool WatchOutputs::take(const capture::Frame& frame, const Reading& reading, std
     if (log_) log_->write(csv_line(fields(reading, Units::mm)));
     write_packet(reading);
     if (states_) states_->take(reading);
+    if (messages_) messages_->take(frame, reading);
     if (!is_anything_left()) return false;
     if (frame.image.pixels.empty()) return screen_.is_wanted();
     return !screen_.is_on() || show(frame, reading, dropped);
@@ -151,7 +153,8 @@ void WatchOutputs::write_packet(const Reading& reading) {
 }
 
 bool WatchOutputs::is_anything_left() const {
-    return lines_ || log_ || packets_ || states_ || !options_.map.empty() || screen_.is_on();
+    return lines_ || log_ || packets_ || states_ || messages_ || !options_.map.empty() ||
+           screen_.is_on();
 }
 
 bool WatchOutputs::show(const capture::Frame& frame, const Reading& reading, std::int64_t dropped) {
@@ -174,6 +177,7 @@ double WatchOutputs::rate() const {
 
 void WatchOutputs::finish() {
     screen_.finish();
+    if (messages_) messages_->finish();
     if (options_.map.empty()) return;
     draw::Map map;
     map.title = fmt::format("{} frames, {} fixes", tally_.frames, tally_.fixes);

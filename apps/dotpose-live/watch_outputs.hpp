@@ -13,6 +13,7 @@
 #include "path_memory.hpp"
 #include "publish/mqtt.hpp"
 #include "reading.hpp"
+#include "robot_output.hpp"
 #include "video/screen.hpp"
 
 namespace dotpose::cli {
@@ -23,7 +24,8 @@ struct OutputOptions {
     std::string log;                           ///< CSV file of all frames
     std::string map;                           ///< SVG file of the path, written at the end
     std::string packets;                       ///< file or device for pose packets
-    std::string robot = "robot";               ///< name of the robot on the broker
+    std::string robot = "robot";               ///< name of the robot on the broker and in ROS
+    RobotOutputOptions messages;               ///< messages of ROS
     std::optional<publish::MqttOptions> mqtt;  ///< the broker; none if nothing is published
     double mqtt_rate_hz = 0;                   ///< most messages per second; 0 for one per frame
     std::string world_map;                     ///< name of the world of the sheets
@@ -106,6 +108,7 @@ class WatchOutputs {
     std::optional<Lines> log_;
     std::optional<PacketOutput> packets_;
     std::optional<StateOutput> states_;
+    std::optional<RobotOutput> messages_;
     video::Screen screen_;
     PathMemory path_;
     Track newest_;

@@ -8,7 +8,10 @@
 #include "commands.hpp"
 #include "dotpose/files/error.hpp"
 #include "files/output_file.hpp"
+#include "log_updates.hpp"
 #include "output_arguments.hpp"
+#include "print/lower_case.hpp"
+#include "robot_recording.hpp"
 #include "run_files.hpp"
 #include "run_log.hpp"
 #include "terminal_text.hpp"
@@ -20,14 +23,21 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  dotpose watch run.mp4 --log run.csv\n"
     "  dotpose replay run.csv --draw run.svg\n"
-    "  dotpose replay run.csv --format json -o run.json\n\n"
+    "  dotpose replay run.csv --format json -o run.json\n"
+    "  dotpose replay run.csv -o run.mcap       and then: ros2 bag play run.mcap, or Foxglove\n\n"
     "The picture shows the path, and speed, dots and certainty over time, with all gaps.\n";
 
 struct ReplayArguments {
     std::string log;
     std::string picture;
+    std::string robot = "robot";
     ReportArguments report;
 };
+
+/// Whether -o names a recording instead of a file for the report.
+bool is_recording(const std::string& out) {
+    return print::lower_case(std::filesystem::path(out).extension().string()) == ".mcap";
+}
 
 std::string list_of(const std::map<std::string, std::int64_t>& counts) {
     std::string text;
@@ -81,16 +91,31 @@ std::string json_report(const RunStatistics& run) {
            '\n';
 }
 
+/// Writes the messages that the robot would have sent.
+void record(const ReplayArguments& arguments) {
+    LogReader log(arguments.log);
+    RobotRecording recording(arguments.report.out, arguments.robot);
+    ros::RobotMessenger messenger(arguments.robot);
+    while (const auto update = log.next(update_of))
+        recording.take(messenger.messages(*update), update->time_ns);
+    recording.finish();
+}
+
 void run(const ReplayArguments& arguments) {
     RunFiles files;
     files.reads("", arguments.log);
-    files.writes("-o", arguments.report.out, content_of(arguments.report));
+    files.writes("-o", arguments.report.out,
+                 is_recording(arguments.report.out) ? Content::mcap : content_of(arguments.report));
     files.writes("--draw", arguments.picture, Content::svg);
     if (!arguments.picture.empty()) files::require_writable(arguments.picture);
     const auto rows = read_log(arguments.log);
     const RunStatistics statistics = statistics_of(rows);
-    write_report(arguments.report,
-                 arguments.report.as_json ? json_report(statistics) : text_report(statistics));
+    ReportArguments report = arguments.report;
+    if (is_recording(report.out)) {
+        record(arguments);
+        report.out = kStandardOutput;
+    }
+    write_report(report, report.as_json ? json_report(statistics) : text_report(statistics));
     if (arguments.picture.empty()) return;
     files::OutputFile file(arguments.picture);
     file.write(draw_run(rows, std::filesystem::path(arguments.log).filename().string()));
@@ -107,7 +132,8 @@ void add_replay(CLI::App& app, int&) {
     command->add_option("log", arguments->log, "CSV file of dotpose watch --log")
         ->type_name("FILE")
         ->required();
-    add_report_options(*command, arguments->report);
+    add_report_options(*command, arguments->report,
+                       "File to write instead of standard output; NAME.mcap: messages of ROS 2");
     add_draw_option(*command, arguments->picture, "Also draw the run (SVG)");
     command->callback([arguments] { run(*arguments); });
 }

@@ -34,6 +34,8 @@ const char* name(Content content) {
             return "an SVG picture";
         case Content::packets:
             return "pose packets";
+        case Content::mcap:
+            return "a recording (MCAP)";
         case Content::text:
             return "a report";
         case Content::own:

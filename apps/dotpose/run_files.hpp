@@ -20,7 +20,7 @@
 namespace dotpose::cli {
 
 /// The kind of data in an output file; `own` means that the ending of its name chooses the format.
-enum class Content { json, csv, yaml, svg, packets, text, own };
+enum class Content { json, csv, yaml, svg, packets, mcap, text, own };
 
 Content content_of(RecordFormat format);
 Content content_of(const ReportArguments& report);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <sstream>
 
@@ -18,36 +17,6 @@ namespace {
 
 using csv::cells_of;
 
-/// A row whose cells are looked up by the names in the header.
-class Row {
-  public:
-    Row(const std::map<std::string, std::size_t>& columns, std::vector<std::string> cells)
-        : columns_(columns), cells_(std::move(cells)) {}
-
-    const std::string& text(const char* column) const { return cells_[columns_.at(column)]; }
-
-    std::optional<double> number(const char* column) const {
-        const std::string& cell = text(column);
-        if (cell.empty()) return std::nullopt;
-        double value = 0;
-        const char* end = cell.data() + cell.size();
-        const auto [stop, error] = std::from_chars(cell.data(), end, value);
-        if (error != std::errc() || stop != end || !std::isfinite(value)) {
-            throw Error(fmt::format("'{}' is no number of {}", cell, column));
-        }
-        return value;
-    }
-    double required(const char* column) const {
-        const auto value = number(column);
-        if (!value) throw Error(fmt::format("{} is missing", column));
-        return *value;
-    }
-
-  private:
-    const std::map<std::string, std::size_t>& columns_;
-    std::vector<std::string> cells_;
-};
-
 /// Converts an integer below 2^53, which a double represents exactly. Throws Error otherwise.
 std::int64_t whole(double value, const char* column) {
     if (!(value >= 0 && value < 9007199254740992.0) || value != std::floor(value)) {
@@ -60,7 +29,7 @@ std::int64_t whole(double value, const char* column) {
 /// gigabyte of memory.
 constexpr std::size_t kMostLogRows = 5'000'000;
 
-LogRow log_row(const Row& row) {
+LogRow log_row(const LogCells& row) {
     LogRow result;
     result.frame = whole(row.required("frame"), "frame");
     result.t_s = row.required("t_s");
@@ -80,8 +49,8 @@ LogRow log_row(const Row& row) {
     return result;
 }
 
-std::map<std::string, std::size_t> columns_of(const std::string& header) {
-    std::map<std::string, std::size_t> columns;
+LogCells::Columns columns_of(const std::string& header) {
+    LogCells::Columns columns;
     const auto names = cells_of(header);
     for (std::size_t i = 0; i < names.size(); ++i)
         columns[names[i]] = i;
@@ -95,36 +64,75 @@ std::map<std::string, std::size_t> columns_of(const std::string& header) {
 
 }  // namespace
 
-std::vector<LogRow> read_log(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::string line;
-    if (std::filesystem::is_directory(path) || !file) {
+std::string_view LogCells::text(std::string_view column) const {
+    const auto found = columns_.find(column);
+    return found == columns_.end() ? std::string_view() : cells_[found->second];
+}
+
+std::optional<double> LogCells::number(std::string_view column) const {
+    const std::string_view cell = text(column);
+    if (cell.empty()) return std::nullopt;
+    double value = 0;
+    const char* end = cell.data() + cell.size();
+    const auto [stop, error] = std::from_chars(cell.data(), end, value);
+    if (error != std::errc() || stop != end || !std::isfinite(value)) {
+        throw Error(fmt::format("'{}' is no number of {}", cell, column));
+    }
+    return value;
+}
+
+double LogCells::required(std::string_view column) const {
+    const auto value = number(column);
+    if (!value) throw Error(fmt::format("{} is missing", column));
+    return *value;
+}
+
+LogReader::LogReader(const std::filesystem::path& path)
+    : path_(path), file_(path, std::ios::binary) {
+    if (std::filesystem::is_directory(path) || !file_) {
         throw Error("cannot read " + path.string() +
                     ": name a file that 'dotpose watch --log' wrote");
     }
-    int number = 1;
+    line_ = 1;
     try {
-        if (!files::next_line(file, line)) throw Error("it is empty");
-        const auto columns = columns_of(line);
-        const std::size_t width = cells_of(line).size();
-        std::vector<LogRow> rows;
-        while (files::next_line(file, line)) {
-            ++number;
-            if (rows.size() == kMostLogRows) {
-                throw Error(fmt::format("more than {} frames", kMostLogRows));
-            }
-            if (file.eof()) break;  // a last line without a line break was cut off
-            auto cells = cells_of(line);
-            if (cells.size() != width) {
-                throw Error(fmt::format("{} values instead of {}", cells.size(), width));
-            }
-            rows.push_back(log_row(Row(columns, std::move(cells))));
-        }
-        return rows;
+        std::string header;
+        if (!files::next_line(file_, header)) throw Error("it is empty");
+        columns_ = columns_of(header);
+        width_ = cells_of(header).size();
     } catch (const Error& error) {
-        throw Error(
-            fmt::format("{}:{}: no log of dotpose watch: {}", path.string(), number, error.what()));
+        refuse(error);
     }
+}
+
+std::optional<LogCells> LogReader::next_row() {
+    std::string line;
+    if (!files::next_line(file_, line)) return std::nullopt;
+    ++line_;
+    if (file_.eof()) return std::nullopt;  // a last line without a line break was cut off
+    auto cells = cells_of(line);
+    if (cells.size() != width_) {
+        throw Error(fmt::format("{} values instead of {}", cells.size(), width_));
+    }
+    return LogCells(columns_, std::move(cells));
+}
+
+void LogReader::refuse(const Error& error) const {
+    throw Error(
+        fmt::format("{}:{}: no log of dotpose watch: {}", path_.string(), line_, error.what()));
+}
+
+std::vector<LogRow> read_log(const std::filesystem::path& path) {
+    std::vector<LogRow> rows;
+    LogReader log(path);
+    const auto parse = [&rows](const LogCells& row) {
+        if (rows.size() == kMostLogRows) {
+            throw Error(fmt::format("more than {} frames", kMostLogRows));
+        }
+        return log_row(row);
+    };
+    while (auto row = log.next(parse))
+        rows.push_back(std::move(*row));
+    return rows;
 }
 
 RunStatistics statistics_of(const std::vector<LogRow>& rows) {

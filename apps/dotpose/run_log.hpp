@@ -3,12 +3,69 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include "dotpose/files/error.hpp"
+
 namespace dotpose::cli {
+
+/// A row whose cells are looked up by the names in the header.
+class LogCells {
+  public:
+    /// Maps names to places in a row.
+    using Columns = std::map<std::string, std::size_t, std::less<>>;
+
+    LogCells(const Columns& columns, std::vector<std::string> cells)
+        : columns_(columns), cells_(std::move(cells)) {}
+
+    /// Returns the text of a cell; empty if the log has no such column.
+    std::string_view text(std::string_view column) const;
+    /// Returns none if the cell is empty or the log has no such column. Throws Error if it holds
+    /// something else than a number.
+    std::optional<double> number(std::string_view column) const;
+    double required(std::string_view column) const;
+
+  private:
+    const Columns& columns_;
+    std::vector<std::string> cells_;
+};
+
+/// Reads a log row by row. Functions throw Error with the number of the line if the file is not a
+/// valid log. A last line that is incomplete, for example after a loss of power, is ignored.
+class LogReader {
+  public:
+    explicit LogReader(const std::filesystem::path& path);
+
+    /// Returns what `parse` makes of the next row, or none at the end of the file. Errors that
+    /// `parse` throws get the number of the line.
+    template <typename Parse>
+    auto next(Parse parse) -> std::optional<decltype(parse(std::declval<const LogCells&>()))> {
+        try {
+            const std::optional<LogCells> row = next_row();
+            if (!row) return std::nullopt;
+            return parse(*row);
+        } catch (const Error& error) {
+            refuse(error);
+        }
+    }
+
+  private:
+    std::optional<LogCells> next_row();
+    [[noreturn]] void refuse(const Error& error) const;
+
+    std::filesystem::path path_;
+    std::ifstream file_;
+    int line_ = 0;
+    std::size_t width_ = 0;
+    LogCells::Columns columns_;
+};
 
 struct LogRow {
     std::int64_t frame = 0;
@@ -28,8 +85,7 @@ struct LogRow {
     bool has_fix() const { return status == "ok"; }
 };
 
-/// Reads a log. Throws Error with the number of the line if the file is not a valid log. A last
-/// line that is incomplete, for example after a loss of power, is ignored.
+/// Reads a whole log. Throws Error like LogReader.
 std::vector<LogRow> read_log(const std::filesystem::path& path);
 
 /// Statistics of a run.

@@ -20,6 +20,7 @@ struct Frame {
     std::int64_t time_us = 0;  ///< time of the frame on the source's clock; increases
     std::int64_t index = 0;    ///< number of the frame from 0; dropped frames are counted too
     std::string file;          ///< path of an image; empty for frames of other sources
+    bool is_live = false;      ///< whether that clock is this computer's monotonic one
 };
 
 /// A rectangle of a frame, in px.

@@ -32,6 +32,7 @@ class RawSource : public FrameSource {
             options_.fps
                 ? time_of(frames_, *options_.fps)
                 : duration_cast<microseconds>(steady_clock::now().time_since_epoch()).count();
+        frame.is_live = !options_.fps;
         frame.index = frames_++;
         return true;
     }

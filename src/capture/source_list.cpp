@@ -69,6 +69,7 @@ bool SourceList::next(Frame& frame) {
     while (!options_.stop()) {
         if (!source_ && !open()) return false;
         frame.file.clear();
+        frame.is_live = false;
         bool has_frame = false;
         try {
             has_frame = source_->next(frame);
@@ -80,7 +81,7 @@ bool SourceList::next(Frame& frame) {
             close();
             continue;
         }
-        newest_ = {{}, frame.time_us, frame.index, frame.file};
+        newest_ = {{}, frame.time_us, frame.index, frame.file, frame.is_live};
         bits_per_px_ = source_->bits_per_px();
         put_in_order(frame);
         if (options_.region && !frame.image.pixels.empty()) {
@@ -100,6 +101,7 @@ void SourceList::put_in_order(Frame& frame) {
     constexpr double kUsualRate = 30;
     frame.index += first_index_;
     frame.time_us += offset_us_;
+    if (offset_us_ != 0) frame.is_live = false;  // its times go on from those of another source
     next_index_ = frame.index + 1;
     next_time_us_ = frame.time_us + time_of(1, rate() > 0 ? rate() : kUsualRate);
 }

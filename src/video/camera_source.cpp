@@ -158,6 +158,7 @@ class Camera : public capture::FrameSource {
 
     void put(Frame frame, std::int64_t time_us) {
         frame.time_us = time_us;
+        frame.is_live = true;
         frame.index = frames_++;
         latest_.put(std::move(frame));
     }

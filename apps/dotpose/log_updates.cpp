@@ -1,0 +1,133 @@
+#include "log_updates.hpp"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include <fmt/core.h>
+
+#include "dotpose/files/error.hpp"
+
+namespace dotpose::cli {
+namespace {
+
+constexpr double kRadians = std::numbers::pi / 180;
+
+/// Names of the columns of a pose, the units of its values in metres and radians (y down: below 0
+/// for y and the angle), and the name of its covariance.
+struct PoseColumns {
+    const char* x;
+    const char* y;
+    const char* angle;
+    const char* covariance;
+    std::array<double, 3> units;
+};
+
+constexpr PoseColumns kInWorld = {"x_m", "y_m", "yaw_rad", "covariance_m_rad", {1, 1, 1}};
+constexpr PoseColumns kInPattern = {
+    "x_mm", "y_mm", "theta_deg", "covariance_mm_deg", {1e-3, -1e-3, -kRadians}};
+
+PoseColumns track_columns(bool is_in_world) {
+    const double up = is_in_world ? 1 : -1;
+    return {"track_x_mm",
+            "track_y_mm",
+            "track_theta_deg",
+            "track_covariance_mm_deg",
+            {1e-3, up * 1e-3, up * kRadians}};
+}
+
+std::optional<ros::PlanarPose> pose_in(const LogCells& row, const PoseColumns& columns) {
+    const auto x = row.number(columns.x);
+    const auto y = row.number(columns.y);
+    const auto angle = row.number(columns.angle);
+    if (!x || !y || !angle) return std::nullopt;
+    return ros::PlanarPose{*x * columns.units[0], *y * columns.units[1], *angle * columns.units[2]};
+}
+
+std::optional<ros::PlanarCovariance> covariance_in(const LogCells& row,
+                                                   const PoseColumns& columns) {
+    ros::PlanarCovariance covariance{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) {
+            const auto value = row.number(fmt::format("{}_{}{}", columns.covariance, i, j));
+            if (!value) return std::nullopt;
+            covariance[i][j] = *value * columns.units[i] * columns.units[j];
+        }
+    }
+    return covariance;
+}
+
+/// Of the velocities the log has one standard deviation for both axes and one for the turn.
+ros::PlanarMotion motion_in(const LogCells& row, const ros::PlanarPose& pose,
+                            const PoseColumns& columns) {
+    const auto value = [&row](const char* column) { return row.number(column).value_or(0); };
+    ros::PlanarMotion motion;
+    motion.pose = pose;
+    motion.vx_m_s = value("vx_mm_s") * columns.units[0];
+    motion.vy_m_s = value("vy_mm_s") * columns.units[1];
+    motion.turn_rad_s = value("turn_deg_s") * columns.units[2];
+    const auto covariance = covariance_in(row, columns);
+    const auto square_or_unknown = [&row](const char* column, double unit) {
+        const auto sigma = row.number(column);
+        return sigma ? *sigma * unit * *sigma * unit : ros::kUnobserved;
+    };
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) {
+            const double unknown = i == j ? ros::kUnobserved : 0;
+            motion.covariance[i][j] = covariance ? (*covariance)[i][j] : unknown;
+        }
+        motion.covariance[3 + i][3 + i] = i < 2 ? square_or_unknown("sigma_v_mm_s", 1e-3)
+                                                : square_or_unknown("sigma_turn_deg_s", kRadians);
+    }
+    return motion;
+}
+
+std::int64_t time_ns_in(const LogCells& row) {
+    const double t_s = row.required("t_s");
+    if (!(t_s >= 0 && t_s <= double{std::numeric_limits<std::int32_t>::max()})) {
+        throw Error(fmt::format("t_s {} is no time of a message, which is 0 to 2^31 - 1", t_s));
+    }
+    // The log has whole microseconds, which the text gives back exactly.
+    return std::llround(t_s * 1e6) * 1000;
+}
+
+bool has_event(const LogCells& row, std::string_view event) {
+    return row.text("events").find(event) != std::string_view::npos;
+}
+
+}  // namespace
+
+ros::RobotUpdate update_of(const LogCells& row) {
+    const std::string_view plane = row.text("plane");
+    ros::RobotUpdate update;
+    update.time_ns = time_ns_in(row);
+    // While the robot is lost there is no plane; with a sheet file that has a world, fixes have
+    // x_m.
+    const bool is_in_world = plane == "world" || (plane.empty() && row.number("x_m"));
+    const PoseColumns& columns = is_in_world ? kInWorld : kInPattern;
+    if (row.text("status") == "ok") {
+        if (const auto pose = pose_in(row, columns)) {
+            update.fix = ros::PlanarFix{*pose, covariance_in(row, columns)};
+        }
+    } else {
+        update.problem = row.text("status");
+    }
+    update.state = row.text("state");
+    if (update.state != "lost") {
+        const PoseColumns track = track_columns(is_in_world);
+        if (const auto pose = pose_in(row, track)) update.motion = motion_in(row, *pose, track);
+    }
+    update.is_found_again = has_event(row, "fix") || has_event(row, "kidnapped");
+    for (const char* fact :
+         {"status", "events", "verdict", "dots_seen", "dots_used", "attempt", "p_wrong", "sheet"}) {
+        const std::string_view text = row.text(fact);
+        if (!text.empty() || std::string_view(fact) == "events") {
+            update.facts.push_back({fact, std::string(text)});
+        }
+    }
+    return update;
+}
+
+}  // namespace dotpose::cli

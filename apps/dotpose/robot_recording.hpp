@@ -1,0 +1,58 @@
+/// Records the messages of a robot in an MCAP file, under the topics of ROS.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "dotpose/tools/mcap_file.hpp"
+#include "dotpose/tools/robot_messages.hpp"
+
+namespace dotpose::cli {
+
+/// The topics of one robot.
+struct RobotTopics {
+    explicit RobotTopics(const std::string& robot);
+
+    std::string pose;
+    std::string odometry;
+    std::string status;
+    std::string image;
+    static constexpr const char* kTf = "/tf";
+    static constexpr const char* kTfStatic = "/tf_static";
+};
+
+/// Returns a robot's name as ROS allows it in topics: letters, digits and underscores, no digit
+/// first.
+std::string ros_name(const std::string& robot);
+
+class RobotRecording {
+  public:
+    /// Throws Error if the file cannot be created.
+    RobotRecording(const std::string& path, const std::string& robot);
+
+    /// Records the messages of a frame. Throws Error.
+    void take(const ros::RobotMessages& messages, std::int64_t time_ns);
+    /// Records where the camera sits, or an image.
+    void take_mount(const ros::TransformStamped& mount, std::int64_t time_ns);
+    void take_image(const ros::CompressedImage& image, std::int64_t time_ns);
+
+    /// Writes what is left. Throws Error.
+    void finish() { file_.finish(); }
+
+  private:
+    template <typename Message>
+    void write(std::optional<McapChannel>& channel, const std::string& topic,
+               const Message& message, std::int64_t time_ns);
+
+    McapFile file_;
+    RobotTopics topics_;
+    // Channels appear with their first message.
+    std::optional<McapChannel> poses_;
+    std::optional<McapChannel> odometry_;
+    std::optional<McapChannel> tf_;
+    std::optional<McapChannel> tf_static_;
+    std::optional<McapChannel> status_;
+    std::optional<McapChannel> images_;
+};
+
+}  // namespace dotpose::cli

@@ -1,0 +1,10 @@
+# Publishing over DDS is optional: without Eclipse Cyclone DDS and its IDL compiler the rest is built.
+find_package(CycloneDDS QUIET)
+find_program(DOTPOSE_IDLC idlc)
+set(DOTPOSE_HAS_DDS OFF)
+if(CycloneDDS_FOUND AND DOTPOSE_IDLC)
+    set(DOTPOSE_HAS_DDS ON)
+    enable_language(C)
+else()
+    message(STATUS "Left out: dotpose watch --dds (scripts/setup --robots installs what it needs)")
+endif()

@@ -1,0 +1,120 @@
+/// Robot messages: what a frame told about a robot, as messages of ROS 2.
+///
+///     Follower follower(options);
+///     RobotMessenger messenger("anna");
+///     const Followed now = follower.follow(image.view(), time_us);
+///     const RobotMessages messages =
+///         messenger.messages(update_of(now, follower.is_in_world(), time_us * 1000));
+///     if (messages.pose) publish(to_cdr(*messages.pose));
+///
+/// Frames (ROS REP 103: metres, x forward, y left, z up, counter-clockwise; REP 105): `map` is the
+/// world of the sheet file, or without one the pattern with y up, the origin where it is. `odom`
+/// begins where the robot is first seen. While the robot is followed, `map` to `odom` does not
+/// change; when it is found again after it was lost, or was put elsewhere, `map` to `odom` jumps,
+/// and `odom` to `base_link` goes on from where it was. `base_link` is the reference point of the
+/// camera file, which points in the robot's heading, on the paper; without a camera file the point
+/// under the image centre, x along the image x axis.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dotpose/files/camera.hpp"
+#include "dotpose/tools/follower.hpp"
+#include "dotpose/tools/ros_messages.hpp"
+
+#pragma GCC visibility push(default)
+
+namespace dotpose::ros {
+
+/// Variance, in m^2 or rad^2, of what a camera above a sheet does not observe: height, roll and
+/// pitch; also of a pose whose covariance is not known.
+inline constexpr double kUnobserved = 1e6;
+
+/// A pose in a plane, y up.
+struct PlanarPose {
+    double x_m = 0;
+    double y_m = 0;
+    double yaw_rad = 0;
+};
+
+using PlanarCovariance = std::array<std::array<double, 3>, 3>;
+
+/// The pose that one frame shows by itself.
+struct PlanarFix {
+    PlanarPose pose;
+    std::optional<PlanarCovariance> covariance;  ///< of (x, y, yaw)
+};
+
+/// Pose and velocities of a robot that is followed.
+struct PlanarMotion {
+    PlanarPose pose;
+    double vx_m_s = 0;  ///< along the x axis of the plane
+    double vy_m_s = 0;
+    double turn_rad_s = 0;
+    std::array<std::array<double, 6>, 6> covariance{};  ///< of all six, in their order
+};
+
+/// What a frame told about the robot, in the frame `map`.
+struct RobotUpdate {
+    std::int64_t time_ns = 0;            ///< middle of the exposure
+    std::optional<PlanarFix> fix;        ///< none without a fix, or if its place is not known
+    std::optional<PlanarMotion> motion;  ///< none while the robot is lost
+    std::uint32_t plane = 0;             ///< poses of different planes are not related
+    bool is_found_again = false;         ///< the motion does not go on from the one before
+    std::string state;                   ///< "lost", "moving" or "stationary"
+    std::string problem;                 ///< why there is no fix; empty if there is one
+    std::vector<KeyValue> facts;         ///< what else is known of the frame
+};
+
+/// Returns what a frame told. `is_in_world` is Follower::is_in_world.
+RobotUpdate update_of(const Followed& followed, bool is_in_world, std::int64_t time_ns);
+
+/// Names of the frames of reference.
+struct RobotFrames {
+    std::string map = "map";
+    std::string odom = "odom";
+    std::string base = "base_link";
+    std::string camera = "camera_optical";
+};
+
+/// The messages of one frame. `odometry` and `tf` are missing while the robot is lost.
+struct RobotMessages {
+    std::optional<PoseWithCovarianceStamped> pose;  ///< of the fix, in `map`
+    std::optional<Odometry> odometry;  ///< of the track: pose in `odom`, twist in `base_link`
+    std::optional<TFMessage> tf;       ///< `map` to `odom` and `odom` to `base_link`
+    DiagnosticArray status;
+};
+
+/// Makes the messages of one robot, frame after frame.
+class RobotMessenger {
+  public:
+    explicit RobotMessenger(std::string robot, RobotFrames frames = {});
+
+    RobotMessages messages(const RobotUpdate& update);
+
+    const RobotFrames& frames() const { return frames_; }
+
+  private:
+    void follow(const RobotUpdate& update);
+    Odometry odometry(const Header& header, const PlanarMotion& motion) const;
+    DiagnosticArray status(const Header& header, const RobotUpdate& update) const;
+
+    std::string robot_;
+    RobotFrames frames_;
+    PlanarPose map_from_odom_;
+    PlanarPose odom_from_base_;
+    std::optional<std::uint32_t> plane_;  ///< none before the robot is seen first
+};
+
+/// Returns where the camera sits: the optical frame (z towards the paper, x and y along the axes of
+/// the image) in `base_link`, above the point under the image centre. The height is 0 if the camera
+/// file does not tell the focal length. None if it does not tell the camera's view of the paper.
+std::optional<TransformStamped> camera_mount(const Camera& camera, const RobotFrames& frames = {});
+
+}  // namespace dotpose::ros
+
+#pragma GCC visibility pop

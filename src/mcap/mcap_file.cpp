@@ -1,0 +1,152 @@
+#include "dotpose/tools/mcap_file.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include "dotpose/files/error.hpp"
+#include "mcap/summary.hpp"
+
+namespace dotpose {
+
+using namespace mcap;
+
+class McapFile::Writer {
+  public:
+    Writer(const std::filesystem::path& path, const McapOptions& options)
+        : path_(path.string()),
+          options_(options),
+          descriptor_(open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+        if (descriptor_ < 0) throw Error("cannot create " + path_ + ": " + std::strerror(errno));
+        Bytes start;
+        append_magic(start);
+        append_record(start, Op::header, [](Members& header) {
+            header.put(std::string_view("ros2"));     // the profile
+            header.put(std::string_view("dotpose"));  // the library
+        });
+        write_at_end(std::move(start));
+    }
+    Writer(const Writer&) = delete;
+    Writer& operator=(const Writer&) = delete;
+    ~Writer() {
+        if (descriptor_ >= 0) close(descriptor_);
+    }
+
+    McapChannel add_channel(const std::string& topic, const ros::MessageType& type) {
+        const std::uint16_t schema = schema_of(type);
+        const auto id = static_cast<std::uint16_t>(contents_.messages.size() + 1);
+        contents_.messages[id] = 0;
+        Bytes record;
+        append_record(record, Op::channel, [&](Members& channel) {
+            channel.put(id);
+            channel.put(schema);
+            channel.put(std::string_view(topic));
+            channel.put(std::string_view("cdr"));
+            channel.put(std::map<std::uint16_t, std::uint8_t>());  // no metadata
+        });
+        Members(contents_.channels).put_raw(record);
+        Members(chunk_.records()).put_raw(record);
+        return McapChannel{id};
+    }
+
+    void write(McapChannel channel, std::uint64_t time_ns, std::span<const std::uint8_t> cdr) {
+        const auto id = static_cast<std::uint16_t>(channel);
+        const std::uint64_t number = contents_.messages.at(id)++;
+        chunk_.add_message(id, static_cast<std::uint32_t>(number), time_ns, cdr);
+        // A chunk is not smaller than the end of the file, which is written again with each.
+        const bool is_long =
+            chunk_.duration_ns() >= static_cast<std::uint64_t>(options_.chunk_ns) &&
+            chunk_.size() >= end_bytes_;
+        if (is_long || chunk_.size() >= options_.chunk_bytes) write_chunk();
+    }
+
+    void finish() {
+        if (descriptor_ < 0) return;
+        if (!chunk_.is_empty()) write_chunk();
+        const int closed = close(std::exchange(descriptor_, -1));
+        if (closed != 0) throw_unwritable();
+    }
+
+  private:
+    std::uint16_t schema_of(const ros::MessageType& type) {
+        const auto known = schemas_.find(type.name);
+        if (known != schemas_.end()) return known->second;
+        const std::uint16_t id = ++contents_.schema_count;
+        Bytes record;
+        append_record(record, Op::schema, [&](Members& schema) {
+            schema.put(id);
+            schema.put(std::string_view(type.name));
+            schema.put(std::string_view("ros2msg"));
+            schema.put(std::string_view(type.definition));
+        });
+        Members(contents_.schemas).put_raw(record);
+        Members(chunk_.records()).put_raw(record);
+        schemas_[type.name] = id;
+        return id;
+    }
+
+    void write_chunk() {
+        Bytes bytes;
+        contents_.chunks.push_back(chunk_.append_to(bytes, size_));
+        write_at_end(std::move(bytes));
+    }
+
+    /// Writes data over the end of the file, and a new end, in one go. The file never becomes
+    /// shorter, because the new end has all that the old one had.
+    void write_at_end(Bytes bytes) {
+        const std::size_t data_bytes = bytes.size();
+        data_.add(bytes);
+        append_end(bytes, size_ + data_bytes, contents_, data_);
+        std::size_t written = 0;
+        while (written < bytes.size()) {
+            const ssize_t count =
+                pwrite(descriptor_, bytes.data() + written, bytes.size() - written,
+                       static_cast<off_t>(size_ + written));
+            if (count < 0 && errno != EINTR) throw_unwritable();
+            if (count > 0) written += static_cast<std::size_t>(count);
+        }
+        size_ += data_bytes;
+        end_bytes_ = bytes.size() - data_bytes;
+    }
+
+    [[noreturn]] void throw_unwritable() const {
+        throw Error("cannot write " + path_ + ": " + std::strerror(errno));
+    }
+
+    std::string path_;
+    McapOptions options_;
+    int descriptor_;
+    Crc32 data_;
+    std::uint64_t size_ = 0;     ///< bytes of the file before its end
+    std::size_t end_bytes_ = 0;  ///< bytes of the end
+    Contents contents_;
+    std::map<std::string, std::uint16_t> schemas_;  ///< numbers by name
+    Chunk chunk_;
+};
+
+McapFile::McapFile(const std::filesystem::path& path, const McapOptions& options)
+    : writer_(std::make_unique<Writer>(path, options)) {}
+
+McapFile::~McapFile() {
+    try {
+        finish();
+    } catch (const Error&) {  // `finish` would have told
+    }
+}
+
+McapChannel McapFile::add_channel(const std::string& topic, const ros::MessageType& type) {
+    return writer_->add_channel(topic, type);
+}
+
+void McapFile::write(McapChannel channel, std::int64_t time_ns, std::span<const std::uint8_t> cdr) {
+    writer_->write(channel, static_cast<std::uint64_t>(std::max(time_ns, std::int64_t{0})), cdr);
+}
+
+void McapFile::finish() {
+    writer_->finish();
+}
+
+}  // namespace dotpose

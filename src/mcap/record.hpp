@@ -1,0 +1,75 @@
+// The records of an MCAP file: a byte that says which, the length of the rest, its members, little
+// endian and without gaps.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace dotpose::mcap {
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// The first byte of a record.
+enum class Op : std::uint8_t {
+    header = 0x01,
+    footer = 0x02,
+    schema = 0x03,
+    channel = 0x04,
+    message = 0x05,
+    chunk = 0x06,
+    message_index = 0x07,
+    chunk_index = 0x08,
+    statistics = 0x0B,
+    summary_offset = 0x0E,
+    data_end = 0x0F,
+};
+
+/// Appends members to bytes.
+class Members {
+  public:
+    explicit Members(Bytes& bytes) : bytes_(bytes) {}
+
+    void put(std::unsigned_integral auto value) {
+        for (std::size_t i = 0; i < sizeof value; ++i)
+            bytes_.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
+    }
+    void put(std::string_view text) {
+        put(static_cast<std::uint32_t>(text.size()));
+        bytes_.insert(bytes_.end(), text.begin(), text.end());
+    }
+    /// Bytes without their number.
+    void put_raw(std::span<const std::uint8_t> bytes) {
+        bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+    }
+    /// A map, after the number of its bytes.
+    template <typename Value>
+    void put(const std::map<std::uint16_t, Value>& map) {
+        put(static_cast<std::uint32_t>(map.size() * (sizeof(std::uint16_t) + sizeof(Value))));
+        for (const auto& [key, value] : map) {
+            put(key);
+            put(value);
+        }
+    }
+
+  private:
+    Bytes& bytes_;
+};
+
+/// Appends a record, whose members `fill` puts.
+template <typename Fill>
+void append_record(Bytes& bytes, Op op, Fill fill) {
+    Members members(bytes);
+    members.put(static_cast<std::uint8_t>(op));
+    const std::size_t length_at = bytes.size();
+    members.put(std::uint64_t{0});
+    fill(members);
+    const std::uint64_t length = bytes.size() - length_at - sizeof(std::uint64_t);
+    for (std::size_t i = 0; i < sizeof length; ++i)
+        bytes[length_at + i] = static_cast<std::uint8_t>(length >> (8 * i));
+}
+
+}  // namespace dotpose::mcap

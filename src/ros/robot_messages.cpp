@@ -1,0 +1,154 @@
+#include "dotpose/tools/robot_messages.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "ros/planar.hpp"
+
+namespace dotpose::ros {
+namespace {
+
+constexpr std::size_t kSize = 6;  ///< rows and columns of the covariances of messages
+
+/// The places of x, y and yaw among (x, y, z, roll, pitch, yaw).
+constexpr std::array<std::size_t, 3> kPlanar = {0, 1, 5};
+
+Quaternion rotation_about_z(double yaw_rad) {
+    return {0, 0, std::sin(yaw_rad / 2), std::cos(yaw_rad / 2)};
+}
+
+Covariance36 covariance_of(const std::optional<PlanarCovariance>& planar) {
+    Covariance36 result{};
+    for (std::size_t i = 0; i < kSize; ++i)
+        result[i * kSize + i] = kUnobserved;
+    if (!planar) return result;
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j)
+            result[kPlanar[i] * kSize + kPlanar[j]] = (*planar)[i][j];
+    }
+    return result;
+}
+
+Pose pose_of(const PlanarPose& planar) {
+    return {{planar.x_m, planar.y_m, 0}, rotation_about_z(planar.yaw_rad)};
+}
+
+TransformStamped transform_of(const Header& header, std::string child, const PlanarPose& planar) {
+    return {
+        header, std::move(child), {{planar.x_m, planar.y_m, 0}, rotation_about_z(planar.yaw_rad)}};
+}
+
+/// The derivatives of three values by (x, y, yaw, vx, vy, turn).
+using Jacobian = std::array<std::array<double, 6>, 3>;
+
+PlanarCovariance propagated(const Jacobian& by, const PlanarMotion& motion) {
+    PlanarCovariance result{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) {
+            for (std::size_t k = 0; k < 6; ++k) {
+                for (std::size_t l = 0; l < 6; ++l)
+                    result[i][j] += by[i][k] * motion.covariance[k][l] * by[j][l];
+            }
+        }
+    }
+    return result;
+}
+
+/// The pose of a motion in a frame that is turned by `yaw_rad` in its plane.
+PlanarCovariance turned_covariance(const PlanarMotion& motion, double yaw_rad) {
+    const double c = std::cos(yaw_rad);
+    const double s = std::sin(yaw_rad);
+    return propagated({{{c, s, 0, 0, 0, 0}, {-s, c, 0, 0, 0, 0}, {0, 0, 1, 0, 0, 0}}}, motion);
+}
+
+/// The velocities in the robot's own frame; their directions are as uncertain as the yaw.
+TwistWithCovariance twist_of(const PlanarMotion& motion) {
+    const double c = std::cos(motion.pose.yaw_rad);
+    const double s = std::sin(motion.pose.yaw_rad);
+    const double forward_m_s = c * motion.vx_m_s + s * motion.vy_m_s;
+    const double left_m_s = -s * motion.vx_m_s + c * motion.vy_m_s;
+    const Jacobian by = {{{0, 0, left_m_s, c, s, 0},  //
+                          {0, 0, -forward_m_s, -s, c, 0},
+                          {0, 0, 0, 0, 0, 1}}};
+    return {{{forward_m_s, left_m_s, 0}, {0, 0, motion.turn_rad_s}},
+            covariance_of(propagated(by, motion))};
+}
+
+}  // namespace
+
+RobotMessenger::RobotMessenger(std::string robot, RobotFrames frames)
+    : robot_(std::move(robot)), frames_(std::move(frames)) {}
+
+RobotMessages RobotMessenger::messages(const RobotUpdate& update) {
+    const Time stamp = ros_time(update.time_ns);
+    RobotMessages result;
+    if (update.fix) {
+        result.pose = {{stamp, frames_.map},
+                       {pose_of(update.fix->pose), covariance_of(update.fix->covariance)}};
+    }
+    if (update.motion) {
+        follow(update);
+        result.odometry = odometry({stamp, frames_.odom}, *update.motion);
+        result.tf = TFMessage{{transform_of({stamp, frames_.map}, frames_.odom, map_from_odom_),
+                               transform_of({stamp, frames_.odom}, frames_.base, odom_from_base_)}};
+    }
+    result.status = status({stamp, frames_.base}, update);
+    return result;
+}
+
+/// Moves `odom_from_base_`, or where the motion does not go on from the one before,
+/// `map_from_odom_`.
+void RobotMessenger::follow(const RobotUpdate& update) {
+    const PlanarPose& map_from_base = update.motion->pose;
+    if (update.is_found_again || plane_ != update.plane) {
+        map_from_odom_ = compose(map_from_base, inverse(odom_from_base_));
+    } else {
+        odom_from_base_ = compose(inverse(map_from_odom_), map_from_base);
+    }
+    plane_ = update.plane;
+}
+
+Odometry RobotMessenger::odometry(const Header& header, const PlanarMotion& motion) const {
+    return {header,
+            frames_.base,
+            {pose_of(odom_from_base_),
+             covariance_of(turned_covariance(motion, map_from_odom_.yaw_rad))},
+            twist_of(motion)};
+}
+
+DiagnosticArray RobotMessenger::status(const Header& header, const RobotUpdate& update) const {
+    constexpr std::uint8_t kOk = 0;
+    constexpr std::uint8_t kWarning = 1;
+    constexpr std::uint8_t kError = 2;
+    DiagnosticStatus status;
+    status.level = !update.motion ? kError : update.problem.empty() ? kOk : kWarning;
+    status.name = "dotpose: " + robot_;
+    status.message = update.state;
+    if (!update.problem.empty()) status.message += ": " + update.problem;
+    status.hardware_id = robot_;
+    status.values = update.facts;
+    status.values.insert(status.values.begin(), {"state", update.state});
+    return {header, {status}};
+}
+
+std::optional<TransformStamped> camera_mount(const Camera& camera, const RobotFrames& frames) {
+    if (!camera.paper) return std::nullopt;
+    const PixelPoint centre{(camera.width_px - 1) / 2.0, (camera.height_px - 1) / 2.0};
+    const CameraPoint reference = from_image_centre(camera, camera.reference_px.value_or(centre));
+    // The robot's place and heading as seen along the image's axes, y up.
+    const PlanarPose camera_from_base = {reference.x_mm / 1000, -reference.y_mm / 1000,
+                                         -camera.theta_offset_rad};
+    const PlanarPose base_from_camera = inverse(camera_from_base);
+    const double height_m = camera.focal_px.value_or(0) *
+                            std::sqrt(camera.paper->mm_per_px_x * camera.paper->mm_per_px_y) / 1000;
+    const double half_rad = base_from_camera.yaw_rad / 2;
+    // Turned about z by the yaw, then about the new x axis by half a turn: z looks down.
+    TransformStamped mount;
+    mount.header.frame_id = frames.base;
+    mount.child_frame_id = frames.camera;
+    mount.transform.translation = {base_from_camera.x_m, base_from_camera.y_m, height_m};
+    mount.transform.rotation = {std::cos(half_rad), std::sin(half_rad), 0, 0};
+    return mount;
+}
+
+}  // namespace dotpose::ros

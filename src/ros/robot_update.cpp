@@ -1,0 +1,123 @@
+// From the results of a frame, in mm with y down or in the world, to metres with y up.
+#include <cmath>
+#include <cstdio>
+
+#include "dotpose/tools/robot_messages.hpp"
+
+namespace dotpose::ros {
+namespace {
+
+/// Where y points down in the plane, y and all angles are reversed.
+struct Axes {
+    bool is_y_up = true;
+
+    double sign(std::size_t i) const { return is_y_up || i % 3 == 0 ? 1 : -1; }
+};
+
+std::optional<PlanarCovariance> covariance_in_m(const PoseCovariance& covariance, double unit_m,
+                                                Axes axes) {
+    if (!(covariance[0][0] > 0)) return std::nullopt;
+    const std::array factors = {unit_m, axes.sign(1) * unit_m, axes.sign(2)};
+    PlanarCovariance result{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j)
+            result[i][j] = factors[i] * factors[j] * double{covariance[i][j]};
+    }
+    return result;
+}
+
+std::optional<PlanarFix> fix_in_world(const Located& located) {
+    const auto world = located.place ? world_place(*located.place) : std::nullopt;
+    if (!world) return std::nullopt;
+    return PlanarFix{{world->x_m, world->y_m, world->yaw_rad},
+                     covariance_in_m(world->covariance, 1, {true})};
+}
+
+std::optional<PlanarFix> fix_in_pattern(const Located& located) {
+    const Fix& fix = located.fix;
+    if (!std::isfinite(located.spacing_mm)) return std::nullopt;
+    const double spacing_m = located.spacing_mm / 1000;
+    PoseCovariance covariance{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j)
+            covariance[i][j] = fix.covariance[i][j];
+    }
+    return PlanarFix{{fix.x_grid() * spacing_m, -fix.y_grid() * spacing_m, -fix.theta_rad()},
+                     covariance_in_m(covariance, spacing_m, {false})};
+}
+
+PlanarMotion motion_of(const TrackedPose& pose, Axes axes) {
+    const double up = axes.sign(1);
+    PlanarMotion motion;
+    motion.pose = {pose.x_mm() / 1000, up * pose.y_mm() / 1000, up * pose.theta_rad()};
+    motion.vx_m_s = double{pose.vx_mm_s} / 1000;
+    motion.vy_m_s = up * double{pose.vy_mm_s} / 1000;
+    motion.turn_rad_s = up * double{pose.turn_rad_s};
+    for (std::size_t i = 0; i < 6; ++i) {
+        for (std::size_t j = 0; j < 6; ++j) {
+            const double unit = (i % 3 == 2 ? 1 : 1e-3) * (j % 3 == 2 ? 1 : 1e-3);
+            motion.covariance[i][j] =
+                axes.sign(i) * axes.sign(j) * unit * double{pose.covariance[i][j]};
+        }
+    }
+    return motion;
+}
+
+std::string three_digits(double value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.3g", value);
+    return text.data();
+}
+
+std::string names_of(const TrackEvents& events) {
+    std::string names;
+    const auto add = [&names](bool happened, const char* name) {
+        if (!happened) return;
+        if (!names.empty()) names += ' ';
+        names += name;
+    };
+    add(events.fix, "fix");
+    add(events.lost, "lost");
+    add(events.kidnapped, "kidnapped");
+    add(events.stationary, "stationary");
+    add(events.moving, "moving");
+    return names;
+}
+
+std::vector<KeyValue> facts_of(const Followed& followed) {
+    const Fix& fix = followed.located.fix;
+    std::vector<KeyValue> facts = {{"status", name(fix.status)},
+                                   {"events", names_of(followed.track.events)},
+                                   {"verdict", name(followed.track.verdict)},
+                                   {"dots_seen", std::to_string(fix.dots_seen)}};
+    if (fix.status != Status::ok) return facts;
+    facts.push_back({"dots_used", std::to_string(fix.dots_used)});
+    facts.push_back({"attempt", name(fix.attempt)});
+    facts.push_back({"p_wrong", three_digits(fix.p_wrong())});
+    if (followed.located.place) facts.push_back({"sheet", followed.located.place->entry->name});
+    return facts;
+}
+
+}  // namespace
+
+RobotUpdate update_of(const Followed& followed, bool is_in_world, std::int64_t time_ns) {
+    const Located& located = followed.located;
+    const Track& track = followed.track;
+    const bool is_ok = located.fix.status == Status::ok;
+    RobotUpdate update;
+    update.time_ns = time_ns;
+    if (is_ok) update.fix = is_in_world ? fix_in_world(located) : fix_in_pattern(located);
+    if (!track.is_lost) {
+        update.motion = motion_of(track.pose, {is_in_world});
+        update.state = track.is_stationary ? "stationary" : "moving";
+        update.plane = track.pose.plane;
+    } else {
+        update.state = "lost";
+    }
+    update.is_found_again = track.events.fix || track.events.kidnapped;
+    if (!is_ok) update.problem = message(located.fix.status);
+    update.facts = facts_of(followed);
+    return update;
+}
+
+}  // namespace dotpose::ros

@@ -1,0 +1,96 @@
+// `dotpose watch --dds`, read by the DDS of another vendor in a network of its own, and decoded by
+// a reader that is not ours.
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "../blackbox/watch_command.hpp"
+#include "drive_messages.hpp"
+#include "npm_readers.hpp"
+
+namespace dotpose::test {
+namespace {
+
+using testing::HasSubstr;
+
+#ifdef DOTPOSE_DDS_READER
+constexpr const char* kReader = DOTPOSE_DDS_READER;
+#else
+constexpr const char* kReader = nullptr;
+#endif
+
+constexpr const char* kTopics =
+    "/anna/pose geometry_msgs/PoseWithCovarianceStamped /anna/odom nav_msgs/Odometry "
+    "/anna/status diagnostic_msgs/DiagnosticArray /tf tf2_msgs/TFMessage";
+
+/// A network with nothing but the loopback interface, which takes multicast as DDS needs it.
+constexpr const char* kNetwork =
+    "ip link set lo up multicast on; ip route add 239.0.0.0/8 dev lo; ";
+
+class Dds : public WatchCommand {
+  protected:
+    /// Whether networks of their own may be made here, as in most containers.
+    static bool has_networks() {
+        return run_shell(std::string("unshare -rn sh -c '") + kNetwork + "' 2>&1").exit_code == 0;
+    }
+
+    /// Runs `dotpose watch` with the frames of the drive at their pace, and a reader of its
+    /// messages, which is there first. Returns what the reader got.
+    std::vector<json> read_drive(const std::string& reliability, const std::string& options) {
+        const std::string watch = "'" DOTPOSE_TOOL "' watch - " + std::string(kRaw) + " " + kTrack +
+                                  " --units ros --dds --robot anna -o lines " + options;
+        // The frames come when reader and writer know of each other.
+        const std::string frames =
+            "sleep 1; ffmpeg -v error -re -f rawvideo -pix_fmt gray -s 320x240 -r 200 "
+            "-i drive.raw -f rawvideo -";
+        std::ofstream(directory_ / "run.sh")
+            << kNetwork << "'" << kReader << "' " << reliability << " ready " << kTopics
+            << " >samples 2>reader.txt & reader=$!\n"
+            << "for i in $(seq 100); do [ -e ready ] && break; sleep 0.1; done\n"
+            << "(" << frames << ") | " << watch << " 2>watch.txt\n"
+            << "wait $reader\n";
+        shell("unshare -rn sh run.sh 2>network.txt");
+        EXPECT_EQ(exit_code_, 0) << file("network.txt");
+        EXPECT_EQ(file("reader.txt"), "");
+        EXPECT_THAT(file("watch.txt"), HasSubstr("published over DDS, 0 dropped"));
+        const ShellOutcome decoded =
+            run_node("decode.mjs <'" + (directory_ / "samples").string() + "' 2>&1");
+        EXPECT_EQ(decoded.exit_code, 0) << decoded.output.substr(0, 2000);
+        return parsed(decoded.output);
+    }
+};
+
+/// Skips a test where something is missing that it needs.
+#define DOTPOSE_NEEDS_DDS()                                                                  \
+    DOTPOSE_NEEDS_NPM();                                                                     \
+    if (kReader == nullptr) GTEST_SKIP() << "built without Cyclone DDS or without Fast DDS"; \
+    if (!has_networks()) GTEST_SKIP() << "no network namespaces here"
+
+TEST_F(Dds, HasThePosesOfTheLines) {
+    DOTPOSE_NEEDS_DDS();
+    put_raw(drive_.frames());
+    const auto messages = read_drive("reliable", "--dds-reliable");
+    expect_messages_of(parsed(file("lines")), messages, "anna", kAsWatched);
+}
+
+TEST_F(Dds, SendsSensorDataAsRosDoes) {
+    DOTPOSE_NEEDS_DDS();
+    put_raw(200);
+    const auto messages = read_drive("best-effort", "");
+    // Nothing is lost on a quiet loopback interface, but nothing promises that.
+    EXPECT_GT(of_topic(messages, "/anna/pose").size(), 150U);
+    EXPECT_EQ(of_topic(messages, "/tf").size(), 200U);
+}
+
+TEST_F(Dds, RefusesDomainsThatDoNotExist) {
+    put_raw(1);
+    EXPECT_EQ(run("watch - --size 320x240 --dds --dds-domain 233", "drive.raw"), 2);
+    if (kReader == nullptr) return;
+    EXPECT_EQ(shell("ROS_DOMAIN_ID=many \"$T\" watch - --size 320x240 --dds <drive.raw"), 2);
+    EXPECT_THAT(errors_, HasSubstr("ROS_DOMAIN_ID is 'many'"));
+}
+
+}  // namespace
+}  // namespace dotpose::test

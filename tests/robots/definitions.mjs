@@ -1,0 +1,14 @@
+// The definitions of messages as ROS 2 has them, from a package that is not ours.
+import common from "@foxglove/rosmsg-msgs-common";
+
+const all = common.ros2jazzy;
+
+/** The definition of a type such as "nav_msgs/Odometry", then those of all types in it. */
+export function definitionsOf(type, found = new Map()) {
+  const definition = all[type] ?? all[type.replace("builtin_interfaces/", "")];
+  if (definition === undefined) throw new Error(`no definition of ${type}`);
+  found.set(type, { ...definition, name: type });
+  for (const member of definition.definitions)
+    if (member.isComplex && !found.has(member.type)) definitionsOf(member.type, found);
+  return [...found.values()];
+}

@@ -1,0 +1,53 @@
+/// Readers of messages that are not ours, from npm.
+#pragma once
+
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "../shell.hpp"
+
+namespace dotpose::test {
+
+/// Returns the folder with the readers, which is filled at the first call; empty if there is no npm
+/// or no network.
+inline std::string npm_folder() {
+    static const ShellOutcome installed =
+        run_shell("'" DOTPOSE_SOURCE_DIR "/tests/robots/npm_packages' '" DOTPOSE_NPM_FOLDER "'");
+    return installed.exit_code == 0 ? DOTPOSE_NPM_FOLDER : "";
+}
+
+/// Skips a test that needs the readers where they cannot be had.
+#define DOTPOSE_NEEDS_NPM() \
+    if (npm_folder().empty()) GTEST_SKIP() << "no npm, or no network to get its packages"
+
+/// Runs one of the programs beside this file, with node.
+inline ShellOutcome run_node(const std::string& command) {
+    return run_shell("node '" + npm_folder() + "'/" + command);
+}
+
+/// Reads all messages of an MCAP file, with both readers and all check sums.
+inline std::vector<nlohmann::json> read_mcap(const std::string& path,
+                                             const std::string& option = "") {
+    const ShellOutcome read = run_node("read_mcap.mjs '" + path + "' " + option + " 2>&1");
+    EXPECT_EQ(read.exit_code, 0) << read.output.substr(0, 2000);
+    std::vector<nlohmann::json> messages;
+    if (read.exit_code != 0) return messages;
+    std::istringstream stream(read.output);
+    for (std::string line; std::getline(stream, line);)
+        messages.push_back(nlohmann::json::parse(line));
+    return messages;
+}
+
+inline std::vector<nlohmann::json> of_topic(const std::vector<nlohmann::json>& messages,
+                                            const std::string& topic) {
+    std::vector<nlohmann::json> result;
+    for (const nlohmann::json& message : messages)
+        if (message["topic"] == topic) result.push_back(message);
+    return result;
+}
+
+}  // namespace dotpose::test

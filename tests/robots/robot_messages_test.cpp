@@ -1,0 +1,282 @@
+// From fixes and tracks to messages: frames, units and covariances, worked out by hand.
+#include "dotpose/tools/robot_messages.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace dotpose::test {
+namespace {
+
+using namespace ros;
+using testing::HasSubstr;
+
+constexpr double kRightAngle = std::numbers::pi / 2;
+
+double yaw(const Quaternion& rotation) {
+    return 2 * std::atan2(rotation.z, rotation.w);
+}
+
+/// A robot at 2 m, 1 m, 90 degrees, that drives 0.3 m/s along the y axis of the world and turns.
+PlanarMotion northwards() {
+    PlanarMotion motion;
+    motion.pose = {2, 1, kRightAngle};
+    motion.vy_m_s = 0.3;
+    motion.turn_rad_s = -0.5;
+    for (std::size_t i = 0; i < 6; ++i)
+        motion.covariance[i][i] = static_cast<double>(i + 1);
+    return motion;
+}
+
+RobotUpdate update(const PlanarMotion& motion, bool is_found_again = false) {
+    RobotUpdate result;
+    result.time_ns = 1'500'000'000;
+    result.motion = motion;
+    result.state = "moving";
+    result.is_found_again = is_found_again;
+    return result;
+}
+
+void expect_transform(const TransformStamped& transform, double x, double y, double angle) {
+    EXPECT_NEAR(transform.transform.translation.x, x, 1e-12);
+    EXPECT_NEAR(transform.transform.translation.y, y, 1e-12);
+    EXPECT_EQ(transform.transform.translation.z, 0);
+    EXPECT_NEAR(yaw(transform.transform.rotation), angle, 1e-12);
+}
+
+TEST(RobotMessages, PutsAFixIntoTheMap) {
+    RobotUpdate seen;
+    seen.time_ns = 1'500'000'000;
+    seen.fix = {{1, 2, kRightAngle}, PlanarCovariance{{{1, 2, 3}, {2, 4, 5}, {3, 5, 6}}}};
+    const RobotMessages messages = RobotMessenger("anna").messages(seen);
+    ASSERT_TRUE(messages.pose);
+    EXPECT_EQ(messages.pose->header.frame_id, "map");
+    EXPECT_EQ(messages.pose->header.stamp.sec, 1);
+    EXPECT_EQ(messages.pose->header.stamp.nanosec, 500'000'000U);
+    EXPECT_EQ(messages.pose->pose.pose.position.x, 1);
+    EXPECT_EQ(messages.pose->pose.pose.position.y, 2);
+    EXPECT_NEAR(yaw(messages.pose->pose.pose.orientation), kRightAngle, 1e-15);
+    const double u = kUnobserved;
+    const Covariance36 expected = {1, 2, 0, 0, 0, 3,  //
+                                   2, 4, 0, 0, 0, 5,  //
+                                   0, 0, u, 0, 0, 0,  //
+                                   0, 0, 0, u, 0, 0,  //
+                                   0, 0, 0, 0, u, 0,  //
+                                   3, 5, 0, 0, 0, 6};
+    EXPECT_EQ(messages.pose->pose.covariance, expected);
+    EXPECT_FALSE(messages.odometry);
+    EXPECT_FALSE(messages.tf);
+}
+
+TEST(RobotMessages, NeverSaysThatAnythingIsExact) {
+    RobotUpdate seen;
+    seen.fix = PlanarFix{};  // without a covariance
+    const RobotMessages messages = RobotMessenger("anna").messages(seen);
+    for (std::size_t i = 0; i < 6; ++i)
+        EXPECT_EQ(messages.pose->pose.covariance[7 * i], kUnobserved) << i;
+}
+
+TEST(RobotMessages, OdometryBeginsWhereTheRobotIsFirstSeen) {
+    RobotMessenger messenger("anna");
+    const PlanarMotion first = northwards();
+    const RobotMessages start = messenger.messages(update(first, true));
+    ASSERT_TRUE(start.tf);
+    ASSERT_EQ(start.tf->transforms.size(), 2U);
+    EXPECT_EQ(start.tf->transforms[0].header.frame_id, "map");
+    EXPECT_EQ(start.tf->transforms[0].child_frame_id, "odom");
+    EXPECT_EQ(start.tf->transforms[1].header.frame_id, "odom");
+    EXPECT_EQ(start.tf->transforms[1].child_frame_id, "base_link");
+    expect_transform(start.tf->transforms[0], 2, 1, kRightAngle);
+    expect_transform(start.tf->transforms[1], 0, 0, 0);
+
+    // 0.1 m north, which is forward, and 0.2 m west, which is left.
+    PlanarMotion next = first;
+    next.pose = {1.8, 1.1, kRightAngle + 0.25};
+    const RobotMessages then = messenger.messages(update(next));
+    expect_transform(then.tf->transforms[0], 2, 1, kRightAngle);
+    expect_transform(then.tf->transforms[1], 0.1, 0.2, 0.25);
+    EXPECT_EQ(then.odometry->header.frame_id, "odom");
+    EXPECT_EQ(then.odometry->child_frame_id, "base_link");
+    EXPECT_NEAR(then.odometry->pose.pose.position.x, 0.1, 1e-12);
+    EXPECT_NEAR(then.odometry->pose.pose.position.y, 0.2, 1e-12);
+    // The axes of odom are those of the world turned by 90 degrees: x and y change places.
+    EXPECT_NEAR(then.odometry->pose.covariance[0], 2, 1e-12);
+    EXPECT_NEAR(then.odometry->pose.covariance[7], 1, 1e-12);
+    EXPECT_NEAR(then.odometry->pose.covariance[35], 3, 1e-12);
+}
+
+TEST(RobotMessages, OdometryGoesOnWhenTheRobotIsPutElsewhere) {
+    RobotMessenger messenger("anna");
+    messenger.messages(update(northwards(), true));
+    PlanarMotion next = northwards();
+    next.pose.y_m += 0.5;
+    messenger.messages(update(next));
+    // Lifted, and put down 10 m away, turned around.
+    next.pose = {10, -3, 0};
+    const RobotMessages again = messenger.messages(update(next, true));
+    expect_transform(again.tf->transforms[1], 0.5, 0, 0);
+    // map to odom, then odom to base_link, is where the robot is.
+    expect_transform(again.tf->transforms[0], 9.5, -3, 0);
+    next.pose.x_m += 0.25;
+    const RobotMessages then = messenger.messages(update(next));
+    expect_transform(then.tf->transforms[0], 9.5, -3, 0);
+    expect_transform(then.tf->transforms[1], 0.75, 0, 0);
+}
+
+TEST(RobotMessages, AnotherPlaneIsAnotherPlace) {
+    RobotMessenger messenger("anna");
+    messenger.messages(update(northwards(), true));
+    RobotUpdate next = update(northwards());
+    next.plane = 7;
+    next.motion->pose = {500, 600, 0};
+    const RobotMessages messages = messenger.messages(next);
+    expect_transform(messages.tf->transforms[0], 500, 600, 0);
+    expect_transform(messages.tf->transforms[1], 0, 0, 0);
+}
+
+TEST(RobotMessages, VelocitiesAreThoseOfTheRobot) {
+    RobotMessenger messenger("anna");
+    const RobotMessages messages = messenger.messages(update(northwards(), true));
+    const TwistWithCovariance& twist = messages.odometry->twist;
+    EXPECT_NEAR(twist.twist.linear.x, 0.3, 1e-12);
+    EXPECT_NEAR(twist.twist.linear.y, 0, 1e-12);
+    EXPECT_EQ(twist.twist.angular.z, -0.5);
+    // Forward is y of the world. To the left, an angle off by 1 adds 0.3 m/s; its variance is 3.
+    EXPECT_NEAR(twist.covariance[0], 5, 1e-12);
+    EXPECT_NEAR(twist.covariance[7], 4 + 0.3 * 0.3 * 3, 1e-12);
+    EXPECT_NEAR(twist.covariance[35], 6, 1e-12);
+    EXPECT_EQ(twist.covariance[14], kUnobserved);
+}
+
+TEST(RobotMessages, StatusSaysWhatIsWrong) {
+    RobotMessenger messenger("anna");
+    const auto state = [&messenger](const RobotUpdate& seen) {
+        return messenger.messages(seen).status.status.at(0);
+    };
+    RobotUpdate seen = update(northwards());
+    EXPECT_EQ(state(seen).level, 0);
+    EXPECT_EQ(state(seen).name, "dotpose: anna");
+    EXPECT_EQ(state(seen).message, "moving");
+    seen.problem = "too dark";
+    EXPECT_EQ(state(seen).level, 1);
+    EXPECT_EQ(state(seen).message, "moving: too dark");
+    seen.motion.reset();
+    seen.state = "lost";
+    EXPECT_EQ(state(seen).level, 2);
+    EXPECT_EQ(state(seen).values.at(0).value, "lost");
+}
+
+/// A track in the pattern: y down, angles clockwise.
+Followed followed_in_pattern() {
+    Followed followed;
+    Fix& fix = followed.located.fix;
+    fix.status = Status::ok;
+    fix.cell = {1000, 2000};
+    fix.theta_bam = 1 << 30;  // 90 degrees
+    fix.covariance[0][0] = 4;
+    fix.covariance[0][1] = fix.covariance[1][0] = 1;
+    fix.covariance[1][1] = 9;
+    fix.covariance[1][2] = fix.covariance[2][1] = 0.5F;
+    fix.covariance[2][2] = 16;
+    followed.located.spacing_mm = 0.5;
+    Track& track = followed.track;
+    track.is_lost = false;
+    track.pose.x_nm = 500'000'000;
+    track.pose.y_nm = 1'000'000'000;
+    track.pose.theta_bam = 1 << 30;
+    track.pose.vx_mm_s = 100;
+    track.pose.vy_mm_s = 200;
+    track.pose.turn_rad_s = 3;
+    track.pose.covariance[0][1] = 1;
+    track.pose.covariance[3][4] = 2;
+    return followed;
+}
+
+TEST(RobotUpdates, ThePatternHasYUp) {
+    const RobotUpdate seen = ros::update_of(followed_in_pattern(), false, 5);
+    EXPECT_EQ(seen.time_ns, 5);
+    ASSERT_TRUE(seen.fix);
+    EXPECT_DOUBLE_EQ(seen.fix->pose.x_m, 0.5);
+    EXPECT_DOUBLE_EQ(seen.fix->pose.y_m, -1);
+    EXPECT_DOUBLE_EQ(seen.fix->pose.yaw_rad, -kRightAngle);
+    const PlanarCovariance& covariance = *seen.fix->covariance;
+    EXPECT_DOUBLE_EQ(covariance[0][0], 4 * 0.25e-6);
+    EXPECT_DOUBLE_EQ(covariance[0][1], -0.25e-6);
+    EXPECT_DOUBLE_EQ(covariance[1][2], 0.5 * 0.5e-3);  // both are reversed
+    EXPECT_DOUBLE_EQ(covariance[2][2], 16);
+    ASSERT_TRUE(seen.motion);
+    EXPECT_DOUBLE_EQ(seen.motion->pose.y_m, -1);
+    EXPECT_DOUBLE_EQ(seen.motion->pose.yaw_rad, -kRightAngle);
+    EXPECT_DOUBLE_EQ(seen.motion->vx_m_s, 0.1);
+    EXPECT_DOUBLE_EQ(seen.motion->vy_m_s, -0.2);
+    EXPECT_DOUBLE_EQ(seen.motion->turn_rad_s, -3);
+    EXPECT_DOUBLE_EQ(seen.motion->covariance[0][1], -1e-6);
+    EXPECT_DOUBLE_EQ(seen.motion->covariance[3][4], -2e-6);
+    EXPECT_EQ(seen.state, "moving");
+}
+
+TEST(RobotUpdates, TheWorldHasYUpAlready) {
+    Followed followed = followed_in_pattern();
+    SheetEntry entry;
+    entry.world = WorldPose{3, 4, 0};
+    followed.located.place = SheetPlace{&entry, 1000, 2000, kRightAngle, {}};
+    const RobotUpdate seen = ros::update_of(followed, true, 0);
+    EXPECT_DOUBLE_EQ(seen.fix->pose.x_m, 4);
+    EXPECT_DOUBLE_EQ(seen.fix->pose.y_m, 2);
+    EXPECT_NEAR(seen.fix->pose.yaw_rad, -kRightAngle, 1e-12);
+    EXPECT_FALSE(seen.fix->covariance);
+    EXPECT_DOUBLE_EQ(seen.motion->pose.y_m, 1);
+    EXPECT_DOUBLE_EQ(seen.motion->vy_m_s, 0.2);
+    entry.world.reset();
+    EXPECT_FALSE(ros::update_of(followed, true, 0).fix);
+}
+
+TEST(RobotUpdates, AFrameWithoutAFixSaysWhy) {
+    Followed followed;
+    followed.located.fix.status = Status::no_contrast;
+    const RobotUpdate seen = ros::update_of(followed, true, 0);
+    EXPECT_FALSE(seen.fix);
+    EXPECT_FALSE(seen.motion);
+    EXPECT_EQ(seen.state, "lost");
+    EXPECT_EQ(seen.problem, message(Status::no_contrast));
+}
+
+TEST(CameraMount, IsWhereTheImageCentreIsSeenFromTheRobot) {
+    Camera camera;
+    camera.width_px = 201;
+    camera.height_px = 101;
+    camera.centre_px = {100, 50};
+    camera.paper = PaperScale{.mm_per_px_x = 0.05, .mm_per_px_y = 0.05};
+    camera.focal_px = 400;
+    // The robot's centre: 10 mm behind the image centre, along the image x axis.
+    camera.reference_px = PixelPoint{-100, 50};
+    const auto ahead = camera_mount(camera);
+    ASSERT_TRUE(ahead);
+    EXPECT_EQ(ahead->header.frame_id, "base_link");
+    EXPECT_EQ(ahead->child_frame_id, "camera_optical");
+    EXPECT_NEAR(ahead->transform.translation.x, 0.01, 1e-12);
+    EXPECT_NEAR(ahead->transform.translation.y, 0, 1e-12);
+    EXPECT_NEAR(ahead->transform.translation.z, 0.02, 1e-12);
+    // Half a turn about x: the image's y axis points to the right, z down.
+    EXPECT_NEAR(ahead->transform.rotation.x, 1, 1e-12);
+
+    // The robot looks along the image's y axis, which points down in the image: what lies at the
+    // image's +x is at its left, as y is up, so the camera is 10 mm to its left.
+    camera.theta_offset_rad = kRightAngle;
+    const auto left = camera_mount(camera);
+    EXPECT_NEAR(left->transform.translation.x, 0, 1e-12);
+    EXPECT_NEAR(left->transform.translation.y, 0.01, 1e-12);
+    // The image x axis is the robot's y axis: the rotation maps (1, 0, 0) to (0, 1, 0).
+    const Quaternion& q = left->transform.rotation;
+    EXPECT_NEAR(1 - 2 * (q.y * q.y + q.z * q.z), 0, 1e-12);
+    EXPECT_NEAR(2 * (q.x * q.y + q.w * q.z), 1, 1e-12);
+    EXPECT_NEAR(1 - 2 * (q.x * q.x + q.y * q.y), -1, 1e-12);
+
+    camera.paper.reset();
+    EXPECT_FALSE(camera_mount(camera));
+}
+
+}  // namespace
+}  // namespace dotpose::test
