@@ -10,7 +10,7 @@ BUILD = env -u MAKEFLAGS cmake --build --preset
 RELEASE = build/release
 
 .DEFAULT_GOAL := release
-.PHONY: release setup demo test asan fuzz bench accuracy budget portable format check install clean
+.PHONY: release setup demo test asan fuzz bench accuracy budget portable wasm format check install clean
 
 release: setup $(RELEASE)/build.ninja
 	$(BUILD) release -j $(JOBS)
@@ -60,6 +60,12 @@ portable: SETUP += --firmware
 portable: setup
 	scripts/check-portable
 	tests/checks/portable_selftest scripts
+
+wasm: SETUP += --wasm
+wasm: setup $(RELEASE)/build.ninja
+	wrappers/wasm/build
+	$(BUILD) release -j $(JOBS) --target dotpose_cli dotpose_golden_files
+	ctest --preset release -L wasm
 
 format: setup
 	scripts/format

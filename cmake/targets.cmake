@@ -14,7 +14,7 @@ function(dotpose_layer name)
     add_library(${target} OBJECT ${sources})
     target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/include
                                                 ${PROJECT_SOURCE_DIR}/src)
-    if(NOT DOTPOSE_FIRMWARE)
+    if(NOT DOTPOSE_FIRMWARE AND NOT EMSCRIPTEN)
         # For shared libraries, and for modules that others link the static ones into. They show what
         # include/dotpose declares; calls within them are direct.
         set_target_properties(${target} PROPERTIES

@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
-#include <string_view>
+
+#include "files/byte_sink.hpp"
 
 // Visible outside of the library because the tools library calls them too.
 #pragma GCC visibility push(default)
@@ -18,25 +19,22 @@ std::filesystem::path without_links(std::filesystem::path path);
 
 /// Writes to a temporary file beside the target; `commit` renames it, the destructor of an
 /// uncommitted file removes it. Symbolic links are followed, the mode of an old file is kept.
-class OutputFile {
+class OutputFile : public ByteSink {
   public:
     /// Throws Error if the target is no regular file or nothing can be created beside it.
     explicit OutputFile(const std::filesystem::path& target);
-    ~OutputFile();
+    ~OutputFile() override;
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
 
-    /// Appends. Never throws, so that C libraries may call it: the first failure is kept for
-    /// `require_good`, and what comes after it is dropped.
-    void write(const void* data, std::size_t size_bytes) noexcept;
-    void write(std::string_view text) noexcept { write(text.data(), text.size()); }
+    void write(const void* data, std::size_t size_bytes) noexcept override;
+    using ByteSink::write;
 
     /// Moves the position of the next write, like fseeko; returns the new position in bytes from
     /// the start of the file.
     std::int64_t seek(std::int64_t offset, int whence) noexcept;
 
-    /// Throws Error with the system's reason if a write failed, for example a full disk.
-    void require_good() const;
+    void require_good() const override;
 
     /// Closes the temporary file and renames it to the target. Throws Error.
     void commit();

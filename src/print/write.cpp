@@ -64,8 +64,4 @@ void write_sheets(std::span<const Sheet> sheets, const std::filesystem::path& pa
     file.commit();
 }
 
-void print::report(const Progress& progress, int rows_done, int rows) {
-    if (progress && !progress(rows_done, rows)) throw Error("stopped; nothing was written");
-}
-
 }  // namespace dotpose

@@ -11,7 +11,7 @@
 namespace dotpose::print {
 
 void write_text(const Sheet& sheet, const Progress& progress, files::OutputFile& file);
-void write_svg(const Sheet& sheet, const Progress& progress, files::OutputFile& file);
+void write_svg(const Sheet& sheet, const Progress& progress, files::ByteSink& file);
 
 /// Calls a sink for all pixel rows of an image, from top to bottom.
 using RowSource = std::function<void(const RowSink&)>;
@@ -20,7 +20,7 @@ void write_tiff(RasterSize size, double dpi, const RowSource& rows, files::Outpu
 
 void write_pdf(std::span<const Sheet> sheets, const PrintOptions& options, files::OutputFile& file);
 void write_pdf_page(const PrintPage& page, const PrintOptions& options, files::OutputFile& file);
-void write_svg_page(const PrintPage& page, const Progress& progress, files::OutputFile& file);
+void write_svg_page(const PrintPage& page, const Progress& progress, files::ByteSink& file);
 
 /// Reports another finished row; throws Error if `progress` returns false.
 void report(const Progress& progress, int rows_done, int rows);

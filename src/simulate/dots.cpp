@@ -30,7 +30,7 @@ DotErrors errors_of(const Page& page, Cell cell) {
 
 bool is_in_areas(const Page& page, std::int64_t x, std::int64_t y) {
     if (page.areas.empty()) return true;
-    return std::ranges::any_of(page.areas, [&](const PageArea& area) {
+    return std::any_of(page.areas.begin(), page.areas.end(), [&](const PageArea& area) {
         return area.distance(static_cast<double>(x), static_cast<double>(y)) <= 0;
     });
 }

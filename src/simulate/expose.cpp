@@ -247,7 +247,8 @@ class ImageRows {
                 spots_[i].darkness[static_cast<std::size_t>(phase)] = darkness_at(offsets_mm_[i]);
         }
         std::erase_if(spots_, [](const Raster::Spot& spot) {
-            return std::ranges::all_of(spot.darkness, [](float dark) { return dark <= 0; });
+            return std::all_of(spot.darkness.begin(), spot.darkness.end(),
+                               [](float dark) { return dark <= 0; });
         });
         return spots_;
     }

@@ -119,7 +119,7 @@ DOTPOSE_NOINLINE void add_dot(Tracking& tracking, ReadSymbol read, TrackedRow& r
 
 bool begin_reading(Tracking& tracking) {
     if (!lay_dot_pixels(tracking)) return false;
-    std::ranges::fill(tracking.grid_rows, TrackedRow{});
+    std::fill(tracking.grid_rows.begin(), tracking.grid_rows.end(), TrackedRow{});
     tracking.view = view_of(tracking);
     lay_rows(tracking, kMiddleCell, -1);
     lay_rows(tracking, kMiddleCell + 1, 1);

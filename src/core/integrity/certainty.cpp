@@ -29,7 +29,7 @@ constexpr float kSingles = 741;
 
 /// Returns 2^n exactly, for -126 <= n < 128.
 constexpr float power_of_two_exactly(int n) {
-    return std::bit_cast<float>(static_cast<std::uint32_t>(n + 127) << 23);
+    return __builtin_bit_cast(float, static_cast<std::uint32_t>(n + 127) << 23);
 }
 
 /// Returns 2^(n / 256), rounded up by up to 2 %; for less than 2^-100 it returns that.

@@ -78,7 +78,9 @@ class LikelihoodRatios {
         const int log2_q8 = std::clamp(log2_odds_q8(lost), kNegligible_q8, -kNegligible_q8);
         const int whole = log2_q8 >> 8;
         // The exponent of a float is stored from bit 23 on, with 127 added.
-        const auto power = std::bit_cast<float>(static_cast<std::uint32_t>(whole - 16 + 127) << 23);
+        // std::bit_cast, which the standard library of emscripten lacks.
+        const auto power =
+            __builtin_bit_cast(float, static_cast<std::uint32_t>(whole - 16 + 127) << 23);
         return static_cast<float>(exp2_q16(log2_q8 - whole * 256)) * power;
     }
     /// Returns whether the odds of an alternative that has lost so much are negligible, whatever it

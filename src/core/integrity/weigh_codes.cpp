@@ -152,7 +152,8 @@ class OtherPlaces {
         const auto in_view = std::span(offsets).first(static_cast<std::size_t>(ratios_.count()));
         for (int shift = 0; shift < kSections; ++shift) {
             const int base = modulo(offsets[0] - shift);
-            if (shift == shift_left_out || std::ranges::find(in_view, base) != in_view.end())
+            if (shift == shift_left_out ||
+                std::find(in_view.begin(), in_view.end(), base) != in_view.end())
                 continue;
             int lost = 0;
             for (int line = 0; line < ratios_.count() && !ratios_.is_hopeless(lost); ++line)

@@ -1,0 +1,27 @@
+/// Takes the bytes of a file as they are made, on whatever medium.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+// Visible outside of the library because the tools library derives from it too.
+#pragma GCC visibility push(default)
+
+namespace dotpose::files {
+
+class ByteSink {
+  public:
+    virtual ~ByteSink() = default;
+
+    /// Appends. Never throws, so that C libraries may call it: the first failure is kept for
+    /// `require_good`, and what comes after it is dropped.
+    virtual void write(const void* data, std::size_t size_bytes) noexcept = 0;
+    void write(std::string_view text) noexcept { write(text.data(), text.size()); }
+
+    /// Throws Error with the system's reason if a write failed, for example a full disk.
+    virtual void require_good() const {}
+};
+
+}  // namespace dotpose::files
+
+#pragma GCC visibility pop

@@ -1,0 +1,87 @@
+// Prints how long the C++ library takes for the golden frames (wrappers/golden/README.md) without
+// AVX2: microseconds per frame, alone and tracked, a line for each file.
+//
+//   dotpose_wasm_time FILE.frames...
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "core/kernels/select.hpp"
+#include "dotpose/tools/grey_image.hpp"
+#include "dotpose/tools/heap_locator.hpp"
+
+namespace dotpose::core {
+
+// Takes the place of the library's own function, which would choose AVX2.
+const Kernels& kernels() {
+    return wide_kernels();
+}
+
+}  // namespace dotpose::core
+
+namespace {
+
+using namespace dotpose;
+
+std::vector<GreyImage> images_of(const char* path) {
+    std::ifstream file(path, std::ios::binary);
+    std::vector<GreyImage> images;
+    GreyImage image;
+    std::string magic;
+    int greatest = 0;
+    while (file >> magic >> image.width_px >> image.height_px >> greatest) {
+        file.get();
+        image.pixels.resize(static_cast<std::size_t>(image.width_px) *
+                            static_cast<std::size_t>(image.height_px));
+        file.read(reinterpret_cast<char*>(image.pixels.data()),
+                  static_cast<std::streamsize>(image.pixels.size()));
+        images.push_back(image);
+    }
+    return images;
+}
+
+/// Sums of the time of all frames.
+struct Times {
+    double alone_us = 0;
+    double tracked_us = 0;
+};
+
+template <typename Call>
+Fix timed(double& sum_us, const Call& call) {
+    const auto start = std::chrono::steady_clock::now();
+    const Fix fix = call();
+    sum_us +=
+        std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
+    return fix;
+}
+
+/// Locates each frame, and the frame after it with the prediction of the first.
+Times measure(Locator& locator, const std::vector<GreyImage>& images) {
+    Times times;
+    for (std::size_t i = 0; i + 1 < images.size(); i += 2) {
+        const ImageView image = images[i].view();
+        const ImageView next = images[i + 1].view();
+        const Fix fix = timed(times.alone_us, [&] { return locator.locate(image); });
+        if (fix.status != Status::ok) continue;
+        const Prediction prediction = Prediction::like(fix);
+        (void)timed(times.tracked_us, [&] { return locator.locate(next, prediction); });
+    }
+    return times;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    HeapLocator locator;
+    for (int i = 1; i < argc; ++i) {
+        const std::vector<GreyImage> images = images_of(argv[i]);
+        if (images.empty()) return 1;
+        (void)measure(locator, images);  // until caches are warm
+        const Times times = measure(locator, images);
+        const double frames = static_cast<double>(images.size()) / 2;
+        std::printf("%.2f %.2f\n", times.alone_us / frames, times.tracked_us / frames);
+    }
+}

@@ -1,0 +1,12 @@
+// The module of the core, in the form that the engine can run.
+import { compile, hasSimd, type WasmSource } from "./instance.js";
+
+/** Returns the module: that of the caller, otherwise the file beside this one. */
+export function coreModule(wasm?: WasmSource): Promise<WebAssembly.Module> {
+    if (wasm !== undefined) return compile(wasm);
+    return compile(
+        hasSimd()
+            ? new URL("./dotpose-simd.wasm", import.meta.url)
+            : new URL("./dotpose-scalar.wasm", import.meta.url),
+    );
+}

@@ -1,0 +1,103 @@
+// Compiles and starts the modules. They import nothing, so an instance is a memory and some functions.
+
+/** Where a module comes from: the URL of the `.wasm` file, its bytes, or the module itself. */
+export type WasmSource = string | URL | BufferSource | WebAssembly.Module;
+
+/** A module with one function, which makes a vector; engines without vectors refuse it. */
+const kSimdProbe = new Uint8Array([
+    ...[0x00, 0x61, 0x73, 0x6d, 0x01, 0x00, 0x00, 0x00], // "\0asm", version 1
+    ...[0x01, 0x05, 0x01, 0x60, 0x00, 0x01, 0x7b], // types: () -> v128
+    ...[0x03, 0x02, 0x01, 0x00], // functions: one of that type
+    ...[0x0a, 0x08, 0x01, 0x06, 0x00, 0x41, 0x00, 0xfd, 0x0f, 0x0b], // code: i8x16.splat of 0
+]);
+
+/** Whether this engine has the vector instructions that `dotpose-simd.wasm` needs. */
+export function hasSimd(): boolean {
+    return WebAssembly.validate(kSimdProbe);
+}
+
+/** Modules by URL: each is compiled once. */
+const compiled = new Map<string, Promise<WebAssembly.Module>>();
+
+/** Returns the module of a source. */
+export function compile(source: WasmSource): Promise<WebAssembly.Module> {
+    if (source instanceof WebAssembly.Module) return Promise.resolve(source);
+    if (typeof source !== "string" && !(source instanceof URL)) return WebAssembly.compile(source);
+    const url = String(source);
+    let module = compiled.get(url);
+    if (module === undefined) {
+        module = bytesOf(url).then((bytes) => WebAssembly.compile(bytes));
+        module.catch(() => compiled.delete(url)); // so that the next call tries again
+        compiled.set(url, module);
+    }
+    return module;
+}
+
+async function bytesOf(url: string): Promise<BufferSource> {
+    if (url.startsWith("file:")) {
+        // Node, whose fetch reads no files. The name is a variable so that bundlers leave it alone.
+        const name = "node:fs/promises";
+        const files = (await import(/* @vite-ignore */ /* webpackIgnore: true */ name)) as {
+            readFile(url: URL): Promise<Uint8Array<ArrayBuffer>>;
+        };
+        return files.readFile(new URL(url));
+    }
+    const response = await fetch(url);
+    if (!response.ok) throw new Error(`${url}: ${response.status} ${response.statusText}`);
+    return response.arrayBuffer();
+}
+
+/** A started module. */
+export class Instance {
+    readonly #functions: Record<string, (...args: number[]) => number>;
+    readonly #memory: WebAssembly.Memory;
+    #used_bytes: number;
+
+    private constructor(exported: WebAssembly.Exports) {
+        this.#functions = exported as Record<string, (...args: number[]) => number>;
+        this.#memory = exported["memory"] as WebAssembly.Memory;
+        this.#used_bytes = (exported["__heap_base"] as WebAssembly.Global | undefined)?.value ?? 0;
+        this.#functions["_initialize"]?.();
+    }
+
+    /** Starts a module; asynchronous, as browsers want it of large ones. */
+    static async start(module: WebAssembly.Module): Promise<Instance> {
+        return new Instance((await WebAssembly.instantiate(module, {})).exports);
+    }
+
+    /** Starts a module at once. */
+    static startNow(module: WebAssembly.Module): Instance {
+        return new Instance(new WebAssembly.Instance(module, {}).exports);
+    }
+
+    /** Calls a function of the module with numbers and addresses. */
+    call(name: string, ...args: number[]): number {
+        return this.#functions[name]!(...args);
+    }
+
+    /** Returns the address of memory that stays reserved; only in modules that do not allocate. */
+    reserve(bytes: number): number {
+        const kAlignment = 64;
+        const kPage = 65536;
+        const address = Math.ceil(this.#used_bytes / kAlignment) * kAlignment;
+        this.#used_bytes = address + bytes;
+        const missing = this.#used_bytes - this.#memory.buffer.byteLength;
+        if (missing > 0) this.#memory.grow(Math.ceil(missing / kPage));
+        return address;
+    }
+
+    /** A view of the memory; it is valid until the memory grows, so it is made anew for each use. */
+    bytes(address: number, length: number): Uint8Array<ArrayBuffer> {
+        return new Uint8Array(this.#memory.buffer as ArrayBuffer, address, length);
+    }
+    /** The same, for numbers. */
+    view(address: number, length: number): DataView<ArrayBuffer> {
+        return new DataView(this.#memory.buffer as ArrayBuffer, address, length);
+    }
+
+    /** Returns the C string at an address. */
+    text(address: number): string {
+        const rest = new Uint8Array(this.#memory.buffer, address);
+        return new TextDecoder().decode(rest.slice(0, rest.indexOf(0)));
+    }
+}

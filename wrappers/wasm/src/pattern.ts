@@ -1,0 +1,44 @@
+// The position code: which symbol stands where.
+import { coreModule } from "./core.js";
+import { Instance, type WasmSource } from "./instance.js";
+import { codeNumber, type Cell, type Code, type Section } from "./names.js";
+
+/** A rectangle of the code, of which `cell` is the upper left one. */
+export interface PatternPart {
+    /** Default: "anoto". */
+    code?: Code;
+    /** Default: 0, 0. */
+    section?: Section;
+    cell: Cell;
+    columns: number;
+    rows: number;
+}
+
+/** Displacements of a dot from its intersection by symbol, in units of the displacement length; y down. */
+export const kDisplacements: readonly { dx: number; dy: number }[] = [
+    { dx: 0, dy: -1 },
+    { dx: -1, dy: 0 },
+    { dx: 1, dy: 0 },
+    { dx: 0, dy: 1 },
+];
+
+/**
+ * Returns the symbols of a part of the code, row by row: 0 up, 1 left, 2 right, 3 down. Bit 0 of a symbol is
+ * the x bit, bit 1 the y bit.
+ */
+export async function patternBits(part: PatternPart, wasm?: WasmSource): Promise<Uint8Array> {
+    const kPlaceBytes = 16;
+    const { section = { u: 0, v: 0 }, cell, columns, rows } = part;
+    const core = await Instance.start(await coreModule(wasm));
+    const place = core.reserve(kPlaceBytes);
+    const bytes = Math.max(0, columns * rows);
+    const symbols = core.reserve(bytes);
+    const view = core.view(place, kPlaceBytes);
+    [cell.x, cell.y, section.u, section.v].forEach((value, i) => view.setUint32(4 * i, value, true));
+    const status = core.call(
+        "dotpose_symbols",
+        ...[codeNumber(part.code ?? "anoto"), place, columns, rows, symbols, bytes],
+    );
+    if (status !== 0) throw new RangeError(core.text(core.call("dotpose_status_message", status)));
+    return core.bytes(symbols, bytes).slice();
+}

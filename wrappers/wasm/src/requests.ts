@@ -1,0 +1,145 @@
+// What module/requests.hpp asks for, field by field in its order: every value is a double.
+import { codeNumber, type Cell, type Code, type Section } from "./names.js";
+
+/** A page with the pattern; the defaults are those of the tool: A4, margins of 5 mm, spacing 0.508 mm. */
+export interface SheetOptions {
+    /** Default: "anoto". */
+    code?: Code;
+    /** Default: 0, 0. */
+    section?: Section;
+    spacing_mm?: number;
+    /** Distance of a dot's centre from its intersection; default: a sixth of the spacing. */
+    displacement_mm?: number;
+    /** Diameter of a dot; default: a sixth of the spacing. */
+    dot_mm?: number;
+    /** Cell of the upper left dot; should differ from sheet to sheet. Default: 0, 0. */
+    origin?: Cell;
+    /** Default: A4 portrait. */
+    width_mm?: number;
+    height_mm?: number;
+    /** Margin without ink on all sides. */
+    margin_mm?: number;
+}
+
+/** Size and optics of the simulated camera; the defaults are those of the paper's device. */
+export interface Camera {
+    width_px?: number;
+    height_px?: number;
+    /** Size of a pixel at the image centre on the paper; default 0.046. */
+    mm_per_px?: number;
+    /** Radial distortion per px^2, negative for barrels. */
+    k?: number;
+    /** Distance of the projection centre from the paper, which matters with tilt; default 16. */
+    working_distance_mm?: number;
+}
+
+/** Where the simulated camera looks. */
+export interface CameraPose {
+    /** Pattern point under the image centre. */
+    x_mm: number;
+    y_mm: number;
+    /** Angle of the image's x axis in the pattern, clockwise as seen on the paper. */
+    theta_rad?: number;
+    /** Above 0, the paper recedes towards the bottom of the image. */
+    tilt_x_rad?: number;
+    /** Above 0, the paper comes closer towards the right. */
+    tilt_y_rad?: number;
+}
+
+/** Effects of printer, paper, light and sensor; by default there are none. */
+export interface Imperfections {
+    /** Grey level of bare paper at the image centre, 0 to 255; default 200. */
+    paper_level?: number;
+    /** Relative to paper; default 0.15. */
+    ink_reflectance?: number;
+    /** Standard deviation of a dot's reflectance. */
+    ink_variation?: number;
+    /** Contrast of the palest ink relative to the darkest; default 1. */
+    palest_ink?: number;
+    /** Loss of light in the corners, 0 to 1. */
+    vignetting?: number;
+    /** Change of light from one side to the other, 0 to 2. */
+    fall?: number;
+    fall_direction_rad?: number;
+    blur_sigma_px?: number;
+    /** Motion in the image during exposure. */
+    motion_x_px?: number;
+    motion_y_px?: number;
+    /** Grey levels. */
+    noise_sigma?: number;
+    /** Share of the pixels that are black or white. */
+    salt_and_pepper?: number;
+    /** Standard deviation of a printed dot's place, per axis. */
+    jitter_mm?: number;
+    /** Share of the dots that were not printed. */
+    missing?: number;
+    /** Dark specks in the frame. */
+    dirt_blobs?: number;
+    /** Thick strokes or words in the frame. */
+    graphics?: number;
+    /** Standard deviation of the paper's reflectance. */
+    texture?: number;
+}
+
+/** All inputs of a simulated frame. */
+export interface Scene {
+    /** The page on a table. */
+    sheet?: SheetOptions;
+    /** Dots everywhere, as if the page had no end; default: false. */
+    whole_plane?: boolean;
+    /** Determines the printing errors, which every frame of the page shows alike; default 1. */
+    page_seed?: number;
+    /** Reflectance of the table, relative to paper; default 0.2. */
+    table_reflectance?: number;
+    camera?: Camera;
+    pose: CameraPose;
+    imperfections?: Imperfections;
+    /** Determines noise and dirt; default 1. */
+    seed?: number;
+}
+
+const kSpacing_mm = 0.508;
+
+export function sheetFields(sheet: SheetOptions): number[] {
+    const spacing_mm = sheet.spacing_mm ?? kSpacing_mm;
+    const { section = { u: 0, v: 0 }, origin = { x: 0, y: 0 } } = sheet;
+    return [
+        codeNumber(sheet.code ?? "anoto"),
+        ...[section.u, section.v],
+        ...[spacing_mm, sheet.displacement_mm ?? spacing_mm / 6, sheet.dot_mm ?? spacing_mm / 6],
+        ...[origin.x, origin.y],
+        ...[sheet.width_mm ?? 210, sheet.height_mm ?? 297, sheet.margin_mm ?? 5],
+    ];
+}
+
+function cameraFields(camera: Camera, pose: CameraPose, spacing_mm: number): number[] {
+    const x = pose.x_mm / spacing_mm;
+    const y = pose.y_mm / spacing_mm;
+    return [
+        ...[camera.width_px ?? 188, camera.height_px ?? 120, camera.mm_per_px ?? 0.046],
+        ...[camera.k ?? 0, camera.working_distance_mm ?? 16],
+        ...[Math.floor(x), Math.floor(y), x - Math.floor(x), y - Math.floor(y)],
+        ...[pose.theta_rad ?? 0, pose.tilt_x_rad ?? 0, pose.tilt_y_rad ?? 0],
+    ];
+}
+
+function imperfectionFields(seen: Imperfections): number[] {
+    return [
+        ...[seen.paper_level ?? 200, seen.ink_reflectance ?? 0.15, seen.ink_variation ?? 0],
+        ...[seen.palest_ink ?? 1, seen.vignetting ?? 0, seen.fall ?? 0, seen.fall_direction_rad ?? 0],
+        ...[seen.blur_sigma_px ?? 0, seen.motion_x_px ?? 0, seen.motion_y_px ?? 0],
+        ...[seen.noise_sigma ?? 0, seen.salt_and_pepper ?? 0, seen.jitter_mm ?? 0, seen.missing ?? 0],
+        ...[seen.dirt_blobs ?? 0, seen.graphics ?? 0, seen.texture ?? 0],
+    ];
+}
+
+export function sceneFields(scene: Scene): number[] {
+    const sheet = scene.sheet ?? {};
+    return [
+        ...sheetFields(sheet),
+        ...[scene.whole_plane ? 1 : 0, scene.page_seed ?? 1, scene.table_reflectance ?? 0.2],
+        ...cameraFields(scene.camera ?? {}, scene.pose, sheet.spacing_mm ?? kSpacing_mm),
+        ...imperfectionFields(scene.imperfections ?? {}),
+        scene.seed ?? 1,
+    ];
+}

@@ -1,0 +1,87 @@
+// WorkerLocator: a Locator that works beside the page.
+import type { Fix } from "./fix.js";
+import { compile } from "./instance.js";
+import type { FrameOptions, Image, LocatorOptions } from "./locator.js";
+
+/** The answer to one frame. */
+export interface Located {
+    fix: Fix;
+    /** The image that was sent, so that its buffer can be filled again. */
+    image: Image;
+}
+
+interface Answer {
+    id: number;
+    result?: Located;
+    error?: unknown;
+}
+
+/**
+ * Locates images in a worker of its own, so that the page stays quick; in browsers.
+ *
+ *     const locator = await WorkerLocator.create();
+ *     const { fix, image } = await locator.locate({ data, width, height });
+ *
+ * Images are moved to the worker, not copied: `data` is empty until its answer brings it back. Calls are
+ * answered in their order.
+ */
+export class WorkerLocator {
+    readonly #worker: Worker;
+    readonly #waiting = new Map<number, { resolve(result?: Located): void; reject(error: unknown): void }>();
+    #last_id = 0;
+    #is_closed = false;
+
+    private constructor() {
+        this.#worker = new Worker(new URL("./worker.js", import.meta.url), { type: "module" });
+        this.#worker.onmessage = ({ data }: MessageEvent<Answer>) => this.#settle(data);
+        this.#worker.onerror = (event) => this.#fail(new Error(event.message || "the worker did not start"));
+    }
+
+    /** Starts a worker with a locator; the options are those of Locator.create. */
+    static async create(options: LocatorOptions = {}): Promise<WorkerLocator> {
+        const locator = new WorkerLocator();
+        try {
+            const { wasm } = options;
+            // A module can be sent to a worker; a relative URL would mean another place there.
+            const sent = wasm === undefined ? options : { ...options, wasm: await compile(wasm) };
+            await locator.#ask({ kind: "create", options: sent }, []);
+        } catch (error) {
+            locator.close();
+            throw error;
+        }
+        return locator;
+    }
+
+    /** Returns the pose that an image shows, and the image; its buffer is moved. */
+    async locate(image: Image, options: FrameOptions = {}): Promise<Located> {
+        return (await this.#ask({ kind: "locate", image, options }, [image.data.buffer]))!;
+    }
+
+    /** Ends the worker; what was not answered is rejected. */
+    close(): void {
+        this.#is_closed = true;
+        this.#worker.terminate();
+        this.#fail(new Error("the locator was closed"));
+    }
+
+    #ask(request: object, transfer: Transferable[]): Promise<Located | undefined> {
+        if (this.#is_closed) return Promise.reject(new Error("the locator was closed"));
+        const id = ++this.#last_id;
+        return new Promise((resolve, reject) => {
+            this.#waiting.set(id, { resolve, reject });
+            this.#worker.postMessage({ id, ...request }, transfer);
+        });
+    }
+
+    #settle({ id, result, error }: Answer): void {
+        const asked = this.#waiting.get(id);
+        this.#waiting.delete(id);
+        if (error === undefined) asked?.resolve(result);
+        else asked?.reject(error);
+    }
+
+    #fail(error: Error): void {
+        for (const asked of this.#waiting.values()) asked.reject(error);
+        this.#waiting.clear();
+    }
+}

@@ -1,0 +1,20 @@
+// Compiled against the installed package, to show that its types say what they should.
+import { Locator, patternBits, WorkerLocator, type Fix } from "dotpose";
+import { Tools, type Scene } from "dotpose/tools";
+
+const scene: Scene = { pose: { x_mm: 1, y_mm: 2 }, imperfections: { noise_sigma: 2 } };
+const tools = await Tools.create();
+const image = tools.render(scene);
+const locator = await Locator.create({ code: "auto", spacing_mm: 0.508 });
+const fix: Fix = locator.locate(image);
+const next: Fix = locator.locate(image, { prediction: fix });
+export const position: [number, number] = [next.x_mm, next.covariance[0]!];
+export const back: ArrayBufferLike = (await (await WorkerLocator.create()).locate(image)).image.data.buffer;
+export const bits: Uint8Array = await patternBits({ cell: { x: 1, y: 2 }, columns: 8, rows: 8 });
+
+// @ts-expect-error: there is no such code
+await Locator.create({ code: "morse" });
+// @ts-expect-error: an image has a height
+locator.locate({ data: new Uint8Array(9), width: 3 });
+// @ts-expect-error: 16-bit images are not grey images of 8 bits
+locator.locate({ data: new Uint16Array(9), width: 3, height: 3 });
