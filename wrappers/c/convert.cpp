@@ -31,8 +31,8 @@ void set_covariance(const Fix& fix, dotpose_fix& result) {
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 3; ++j) {
             result.covariance_grid[3 * i + j] = fix.covariance[i][j];
-            result.covariance[3 * i + j] =
-                static_cast<float>(factors[i] * factors[j] * double{fix.covariance[i][j]});
+            result.covariance[3 * i + j] = static_cast<float>(
+                factors[i] * factors[j] * static_cast<double>(fix.covariance[i][j]));
         }
     }
 }
