@@ -51,10 +51,12 @@ accuracy: setup $(RELEASE)/build.ninja
 budget: SETUP += --firmware
 budget: setup $(RELEASE)/build.ninja build/cortex-m0plus/build.ninja build/mips32r2/build.ninja
 	$(BUILD) release -j $(JOBS) \
-	    --target dotpose_cli dotpose_frames dotpose_count dotpose_budget
+	    --target dotpose_cli dotpose_frames dotpose_count dotpose_budget dotpose_golden_files
 	$(BUILD) cortex-m0plus -j $(JOBS)
 	$(BUILD) mips32r2 -j $(JOBS)
 	firmware/budget $(ARGS)
+	$(RELEASE)/bin/dotpose_golden_files build/budget/golden
+	wrappers/c/device/run build/cortex-m0plus/wrappers/c/libdotpose_c.a build/budget/golden
 
 portable: SETUP += --firmware
 portable: setup

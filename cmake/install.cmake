@@ -24,8 +24,12 @@ foreach(library IN ITEMS files tools)
 endforeach()
 install(DIRECTORY include/dotpose TYPE INCLUDE FILES_MATCHING PATTERN "*.hpp" ${without})
 
+if(TARGET dotpose_c)
+    install(FILES wrappers/c/dotpose.h TYPE INCLUDE)
+endif()
+
 # An export set each: who only wants the core must not need yaml-cpp, nor libpng, to be found.
-foreach(target IN ITEMS dotpose dotpose_files dotpose_tools)
+foreach(target IN ITEMS dotpose dotpose_c dotpose_files dotpose_tools)
     if(TARGET ${target})
         install(TARGETS ${target} EXPORT ${target}
                 ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
@@ -51,6 +55,8 @@ endif()
 install(FILES README.md CONTRIBUTING.md LICENSE TYPE DOC)
 install(DIRECTORY docs TYPE DOC)
 install(DIRECTORY examples TYPE DOC FILES_MATCHING PATTERN "*.cpp")
+install(FILES wrappers/c/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/wrappers/c)
+install(DIRECTORY wrappers/c/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}/wrappers/c)
 
 configure_package_config_file(cmake/dotposeConfig.cmake.in dotposeConfig.cmake
                               INSTALL_DESTINATION ${config_dir})

@@ -268,7 +268,7 @@ typedef struct dotpose_locator dotpose_locator;
 
 /* At least what dotpose_locator_bytes(DOTPOSE_KIND_DEVICE) returns, for static memory:
  *     static uint64_t memory[DOTPOSE_DEVICE_BYTES / 8]; */
-#define DOTPOSE_DEVICE_BYTES (sizeof(void*) == 4 ? 12800u : 13632u)
+#define DOTPOSE_DEVICE_BYTES (sizeof(void*) == 4 ? 12736u : 13504u)
 
 /* Returns how much memory a locator of this kind takes; 0 if there is no such kind. */
 size_t dotpose_locator_bytes(int32_t kind);

@@ -45,7 +45,8 @@ dotpose_status dotpose_locator_init(void* memory, size_t bytes, int32_t kind,
     if (locator == nullptr) return DOTPOSE_NULL_POINTER;
     *locator = nullptr;
     const Kind* found = find_kind(kind);
-    return found == nullptr ? DOTPOSE_BAD_VALUE : found->init(memory, bytes, options, locator);
+    if (found == nullptr) return DOTPOSE_BAD_VALUE;
+    return found->init(memory, bytes, options, locator);
 }
 
 dotpose_status dotpose_locator_create(int32_t kind, const dotpose_options* options,

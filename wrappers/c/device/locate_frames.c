@@ -1,0 +1,134 @@
+/* Locates frames as a microcontroller does, with fixed memory: each row is pushed as it is read.
+ * The frames are golden ones (wrappers/golden/README.md); of each pair the first is located, and
+ * the line that C++ has for the way `device` is printed. */
+#include <dotpose.h>
+#include <stdint.h>
+#include <string.h>
+
+#include "host.h"
+
+enum { MAX_WIDTH_PX = 188 };
+
+static uint64_t memory[DOTPOSE_DEVICE_BYTES / 8];
+static uint8_t row[MAX_WIDTH_PX];
+static dotpose_fix fix;
+
+static void print_unsigned(uint32_t value) {
+    char text[11];
+    char* digit = text + sizeof text - 1;
+    *digit = 0;
+    do {
+        *--digit = (char)('0' + value % 10);
+        value /= 10;
+    } while (value != 0);
+    host_print(digit);
+}
+
+static void print_signed(int32_t value) {
+    if (value < 0) host_print("-");
+    print_unsigned(value < 0 ? 0u - (uint32_t)value : (uint32_t)value);
+}
+
+/* Prints the bits of a number of 4 or 8 bytes, the highest first. */
+static void print_bits(const void* number, size_t size) {
+    uint8_t bytes[8];
+    char text[17];
+    char* digit = text;
+    memcpy(bytes, number, size);
+    while (size-- > 0) {
+        *digit++ = "0123456789abcdef"[bytes[size] >> 4];
+        *digit++ = "0123456789abcdef"[bytes[size] & 15];
+    }
+    *digit = 0;
+    host_print(",");
+    host_print(text);
+}
+
+static void print_all(const int32_t* values, size_t count) {
+    for (; count > 0; --count) {
+        host_print(",");
+        print_signed(*values++);
+    }
+}
+
+static void print_all_unsigned(const uint32_t* values, size_t count) {
+    for (; count > 0; --count) {
+        host_print(",");
+        print_unsigned(*values++);
+    }
+}
+
+static void print_fix(uint32_t index) {
+    size_t i = 0;
+    print_unsigned(index);
+    host_print(",device");
+    print_all(&fix.status, 1);
+    print_all(&fix.dots_seen, 1);
+    if (fix.status == DOTPOSE_OK) {
+        const int32_t counts[] = {fix.attempt, fix.surface, fix.dots_used, fix.bit_errors,
+                                  fix.p_wrong_log2};
+        const uint32_t place[] = {fix.section_u, fix.section_v,      fix.cell_x,
+                                  fix.cell_y,    fix.fraction_x_q16, fix.fraction_y_q16};
+        const int32_t more[] = {fix.theta_bam, fix.spacing_px_q16, fix.spacing_nm,
+                                fix.displacement_q16};
+        print_all(counts, sizeof counts / sizeof counts[0]);
+        print_all_unsigned(place, sizeof place / sizeof place[0]);
+        print_all(more, sizeof more / sizeof more[0]);
+        print_all_unsigned(&fix.place.x, sizeof fix.place / 4);
+        print_all(&fix.pattern_from_image.centre_u_q8, sizeof fix.pattern_from_image / 4);
+        print_bits(&fix.x_mm, sizeof fix.x_mm);
+        print_bits(&fix.y_mm, sizeof fix.y_mm);
+        print_bits(&fix.theta_rad, sizeof fix.theta_rad);
+        print_bits(&fix.residual_px, sizeof fix.residual_px);
+        for (i = 0; i < 9; ++i)
+            print_bits(&fix.covariance_grid[i], sizeof fix.covariance_grid[i]);
+    }
+    host_print("\n");
+}
+
+/* Reads a number and the byte after it; -1 if there is none. */
+static int32_t read_number(void) {
+    int32_t number = 0;
+    char byte = 0;
+    if (!host_read(&byte, 1)) return -1;
+    while (byte >= '0' && byte <= '9' && number < 10000) {
+        number = 10 * number + (byte - '0');
+        if (!host_read(&byte, 1)) return -1;
+    }
+    return number;
+}
+
+/* Reads a frame row by row, and locates it if it is given a locator. Returns 0 at the end. */
+static int read_frame(dotpose_locator* locator) {
+    char magic[3];
+    int32_t width_px = 0;
+    int32_t height_px = 0;
+    int32_t v = 0;
+    if (!host_read(magic, sizeof magic)) return 0;
+    width_px = read_number();
+    height_px = read_number();
+    if (read_number() != 255 || width_px < 1 || width_px > MAX_WIDTH_PX) return 0;
+    if (locator != NULL) dotpose_begin(locator, width_px, height_px, NULL);
+    for (v = 0; v < height_px; ++v) {
+        if (!host_read(row, (size_t)width_px)) return 0;
+        if (locator != NULL) dotpose_push_row(locator, row);
+    }
+    if (locator != NULL) dotpose_finish(locator, &fix);
+    return 1;
+}
+
+int locate_frames(const char* path) {
+    dotpose_locator* locator = NULL;
+    const dotpose_status status = dotpose_device_init(memory, sizeof memory, NULL, &locator);
+    uint32_t index = 0;
+    if (status != DOTPOSE_OK || !host_open(path)) {
+        host_print(status != DOTPOSE_OK ? dotpose_status_message(status) : "no file of frames");
+        host_print("\n");
+        return 1;
+    }
+    for (index = 0; read_frame(locator); ++index) {
+        print_fix(index);
+        if (!read_frame(NULL)) return 1;
+    }
+    return 0;
+}
