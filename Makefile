@@ -10,7 +10,7 @@ BUILD = env -u MAKEFLAGS cmake --build --preset
 RELEASE = build/release
 
 .DEFAULT_GOAL := release
-.PHONY: release setup demo test asan fuzz bench accuracy budget portable wasm format check install clean
+.PHONY: release setup demo test asan fuzz bench accuracy budget portable python wasm format check install clean
 
 release: setup $(RELEASE)/build.ninja
 	$(BUILD) release -j $(JOBS)
@@ -68,6 +68,21 @@ wasm: setup $(RELEASE)/build.ninja
 	wrappers/wasm/build
 	$(BUILD) release -j $(JOBS) --target dotpose_cli dotpose_golden_files
 	ctest --preset release -L wasm
+
+# A wheel in build/python, and an environment with it, whose example is run. Configures again, as
+# the packages may have been missing before.
+PYTHON = /usr/bin/python3
+python: SETUP += --python
+python: setup
+	cmake --preset release
+	$(BUILD) release -j $(JOBS) --target dotpose_python
+	rm -rf build/python
+	DOTPOSE_BUILD=$(CURDIR)/$(RELEASE) $(PYTHON) -m build --wheel --no-isolation \
+	    -o build/python wrappers/python
+	$(PYTHON) -m venv --system-site-packages build/python/venv
+	build/python/venv/bin/pip install --no-index build/python/*.whl
+	build/python/venv/bin/python wrappers/python/examples/first.py
+	@echo 'Begin: . build/python/venv/bin/activate'
 
 format: setup
 	scripts/format

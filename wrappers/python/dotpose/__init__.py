@@ -1,0 +1,74 @@
+"""Where a camera is on a sheet printed with tiny dots, to microns.
+
+    import dotpose
+
+    fix = dotpose.Locator().locate(image)  # a numpy array of uint8, height x width
+    if fix:
+        print(fix.x_mm, fix.y_mm, fix.theta_rad)
+    else:
+        print(fix.message)
+
+Locator and Fix are all that most programs need. Tracker follows a robot from frame to frame,
+Follower does so over printed sheets; print_sheet, overlay, check_print and calibrate do what the
+commands of the tool do; simulate makes frames whose pose is known.
+
+Names carry units: _mm, _rad, _px, _us. The pattern frame has x to the right and y DOWN, as the page
+is read; angles are clockwise as seen on the paper. The centre of the first pixel is (0, 0).
+"""
+
+from dotpose._dotpose import (
+    BadArgument,
+    Camera,
+    DriveCalibration,
+    Error,
+    Finding,
+    Fix,
+    Follower,
+    ImageTooLarge,
+    LensCalibration,
+    Located,
+    Locator,
+    Options,
+    OverlayReport,
+    PaperScale,
+    Picture,
+    Prediction,
+    PrintCheck,
+    PrintField,
+    PrintScale,
+    Protocol,
+    ProtocolResult,
+    Sheet,
+    SheetEntry,
+    SheetFile,
+    SheetPlace,
+    Shot,
+    SimulatedFrame,
+    SpinCalibration,
+    Station,
+    Stitching,
+    Tilt,
+    Track,
+    Tracker,
+    WorldPlace,
+    WorldPose,
+    __version__,
+    calibrate,
+    calibrate_drive,
+    calibrate_spin,
+    check_print,
+    draw_shots,
+    make_sheet,
+    make_sheets,
+    overlay,
+    print_sheet,
+    print_sheets,
+    read_image,
+    read_sheets,
+    run_protocol,
+    simulate,
+    stitch_sheets,
+    write_image,
+)
+
+__all__ = [name for name in dir() if not name.startswith("_")] + ["__version__"]

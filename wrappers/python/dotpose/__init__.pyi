@@ -1,0 +1,727 @@
+"""Types of the package dotpose; its docstrings are in the compiled module."""
+
+import os
+from collections.abc import Iterable, Sequence
+from types import TracebackType
+from typing import Any, Literal, Optional, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+__version__: str
+
+Code = Literal["anoto", "libdots", "microdots"]
+CodeOrAuto = Literal["auto", "anoto", "libdots", "microdots"]
+Status = Literal[
+    "ok",
+    "bad_argument",
+    "image_too_small",
+    "image_too_large",
+    "no_contrast",
+    "too_few_dots",
+    "no_grid",
+    "no_displacement",
+    "grid_too_small",
+    "not_run",
+    "mirrored",
+    "bad_window",
+    "not_in_code",
+    "ambiguous",
+    "not_certain",
+    "not_tracked",
+    "ambiguous_code",
+]
+Preset = Literal["clean", "nominal", "hard"]
+Dots = Literal["auto", "glyphs", "strokes"]
+Image = NDArray[np.uint8]
+Floats = NDArray[np.float64]
+Path = Union[str, os.PathLike[str]]
+Pixel = tuple[float, float]
+
+class Error(RuntimeError): ...
+class BadArgument(Error, ValueError): ...
+
+class ImageTooLarge(Error):
+    width_px: int
+    height_px: int
+
+class Picture:
+    @property
+    def svg(self) -> str: ...
+    def save(self, path: Path) -> None: ...
+    def _repr_svg_(self) -> str: ...
+
+class Options:
+    def __init__(
+        self,
+        *,
+        effort: Literal["device", "once", "twice"] = ...,
+        decoder: Literal["window", "all"] = ...,
+        threshold_low_q8: int = ...,
+        threshold_high_q8: int = ...,
+        min_contrast: int = ...,
+        min_area_px: int = ...,
+        min_mass_q8: int = ...,
+        max_area_ratio: int = ...,
+        min_dots: int = ...,
+        max_offset_q16: int = ...,
+        max_p_wrong_log2: int = ...,
+        max_bit_error_q8: int = ...,
+        most_dots: int = ...,
+        lens_k_per_px2: float = ...,
+        lens_centre_offset_px: Pixel = ...,
+    ) -> None: ...
+    effort: Literal["device", "once", "twice"]
+    decoder: Literal["window", "all"]
+    threshold_low_q8: int
+    threshold_high_q8: int
+    min_contrast: int
+    min_area_px: int
+    min_mass_q8: int
+    max_area_ratio: int
+    min_dots: int
+    max_offset_q16: int
+    max_p_wrong_log2: int
+    max_bit_error_q8: int
+    most_dots: int
+    lens_k_per_px2: float
+    lens_centre_offset_px: Pixel
+
+class Fix:
+    @property
+    def ok(self) -> bool: ...
+    def __bool__(self) -> bool: ...
+    @property
+    def status(self) -> Status: ...
+    @property
+    def message(self) -> str: ...
+    @property
+    def x_mm(self) -> float: ...
+    @property
+    def y_mm(self) -> float: ...
+    @property
+    def theta_rad(self) -> float: ...
+    @property
+    def covariance(self) -> Floats: ...
+    @property
+    def p_wrong(self) -> float: ...
+    @property
+    def section(self) -> Optional[tuple[int, int]]: ...
+    @property
+    def cell(self) -> Optional[tuple[int, int]]: ...
+    @property
+    def x_grid(self) -> float: ...
+    @property
+    def y_grid(self) -> float: ...
+    @property
+    def code(self) -> Code: ...
+    @property
+    def other(self) -> Optional[tuple[Code, tuple[int, int], tuple[int, int]]]: ...
+    @property
+    def attempt(self) -> Literal["tracked", "first", "second", "device"]: ...
+    @property
+    def surface(self) -> Literal["even", "divided", "uneven"]: ...
+    @property
+    def spacing_mm(self) -> float: ...
+    @property
+    def spacing_px(self) -> float: ...
+    @property
+    def residual_px(self) -> float: ...
+    @property
+    def dots_seen(self) -> int: ...
+    @property
+    def dots_used(self) -> int: ...
+    @property
+    def bit_errors(self) -> int: ...
+    @property
+    def _bits(self) -> list[Any]: ...
+    @property
+    def dots(self) -> Floats: ...
+    def draw(self, path: Optional[Path] = None, title: str = "") -> Picture: ...
+
+class Prediction:
+    @staticmethod
+    def like(fix: Fix) -> Prediction: ...
+    def moved(self, x_mm: float, y_mm: float, turn_rad: float = 0.0) -> Prediction: ...
+    sigma_mm: float
+    sigma_theta_rad: float
+
+class PaperScale:
+    mm_per_px_x: float
+    mm_per_px_y: float
+    skew: float
+    perspective_u: float
+    perspective_v: float
+
+class Tilt:
+    x_rad: float
+    y_rad: float
+
+class Camera:
+    def __init__(
+        self,
+        width_px: int,
+        height_px: int,
+        k_per_px2: float = 0.0,
+        centre_px: Optional[Pixel] = None,
+    ) -> None: ...
+    @staticmethod
+    def read(path: Path) -> Camera: ...
+    def write(self, path: Path) -> None: ...
+    width_px: int
+    height_px: int
+    k_per_px2: float
+    centre_px: Pixel
+    paper: Optional[PaperScale]
+    focal_px: Optional[float]
+    tilt: Optional[Tilt]
+    reference_px: Optional[Pixel]
+    theta_offset_rad: float
+    exposure_us: Optional[float]
+    gain: Optional[float]
+    sigma: dict[str, float]
+    def undistorted(self, points: Floats) -> Floats: ...
+    def distorted(self, points: Floats) -> Floats: ...
+
+class Locator:
+    def __init__(
+        self,
+        code: CodeOrAuto = "auto",
+        spacing_mm: float = 0.508,
+        *,
+        camera: Optional[Camera] = None,
+        reference_px: Optional[Pixel] = None,
+        options: Options = ...,
+        keep_stages: bool = False,
+    ) -> None: ...
+    def locate(self, image: Image, prediction: Optional[Prediction] = None) -> Fix: ...
+    def _cpp_us(self, image: Image, repeats: int) -> float: ...
+    @property
+    def code(self) -> Code: ...
+
+class Track:
+    @property
+    def is_lost(self) -> bool: ...
+    @property
+    def is_stationary(self) -> bool: ...
+    @property
+    def verdict(self) -> Literal["none", "believed", "with_prior", "gated", "too_weak"]: ...
+    @property
+    def p_wrong(self) -> float: ...
+    @property
+    def events(self) -> set[str]: ...
+    @property
+    def time_us(self) -> int: ...
+    @property
+    def x_mm(self) -> float: ...
+    @property
+    def y_mm(self) -> float: ...
+    @property
+    def theta_rad(self) -> float: ...
+    @property
+    def vx_mm_s(self) -> float: ...
+    @property
+    def vy_mm_s(self) -> float: ...
+    @property
+    def turn_rad_s(self) -> float: ...
+    @property
+    def covariance(self) -> Floats: ...
+
+class Tracker:
+    def __init__(
+        self,
+        *,
+        acceleration_mm_s2: float = 600,
+        angular_acceleration_rad_s2: float = 6,
+        max_acceleration_mm_s2: float = 10_000,
+        max_angular_acceleration_rad_s2: float = 200,
+        max_speed_mm_s: float = 1000,
+        max_turn_rad_s: float = 20,
+        gate_sigmas: float = 5,
+        confirmations: int = 3,
+        lost_after_us: int = 70_000,
+        still_mm: float = 0.1,
+        still_rad: float = 0.02,
+        stationary_after_us: int = 500_000,
+        least_sigma_mm: float = 0.0002,
+        least_sigma_rad: float = 0.00002,
+        max_p_wrong_log2: int = -30,
+        max_weak_p_wrong_log2: int = -10,
+        spacing_mm: float = 0.508,
+    ) -> None: ...
+    def update(self, time_us: int, fix: Optional[Fix] = None) -> Track: ...
+    def predict(self, time_us: int) -> Optional[Prediction]: ...
+    @property
+    def track(self) -> Track: ...
+
+class Sheet:
+    @property
+    def code(self) -> Code: ...
+    @property
+    def section(self) -> tuple[int, int]: ...
+    @property
+    def spacing_mm(self) -> float: ...
+    @property
+    def displacement_mm(self) -> float: ...
+    @property
+    def dot_mm(self) -> float: ...
+    @property
+    def origin(self) -> tuple[int, int]: ...
+    @property
+    def columns(self) -> int: ...
+    @property
+    def rows(self) -> int: ...
+    @property
+    def width_mm(self) -> float: ...
+    @property
+    def height_mm(self) -> float: ...
+    @property
+    def origin_x_mm(self) -> float: ...
+    @property
+    def origin_y_mm(self) -> float: ...
+
+class WorldPose:
+    def __init__(self, x_m: float, y_m: float, yaw_rad: float = 0.0) -> None: ...
+    x_m: float
+    y_m: float
+    yaw_rad: float
+
+class SheetEntry:
+    def __init__(self, name: str, sheet: Sheet) -> None: ...
+    name: str
+    page: int
+    sheet: Sheet
+    print_scale_x: float
+    print_scale_y: float
+    world: Optional[WorldPose]
+    @property
+    def is_reserved(self) -> bool: ...
+
+class SheetFile:
+    def __init__(self, path: Path, wait_s: float = 60.0) -> None: ...
+    def __enter__(self) -> SheetFile: ...
+    def __exit__(
+        self,
+        kind: Optional[type[BaseException]],
+        error: Optional[BaseException],
+        trace: Optional[TracebackType],
+    ) -> None: ...
+    @property
+    def sheets(self) -> list[SheetEntry]: ...
+    def allocate(self, name: str, sheet: Sheet, count: int = 1) -> list[SheetEntry]: ...
+    def add(self, entry: SheetEntry) -> None: ...
+    def replace(self, entry: SheetEntry) -> None: ...
+    def rename(self, name: str, new_name: str) -> None: ...
+    def remove(self, name: str) -> None: ...
+    def save(self) -> None: ...
+
+class WorldPlace:
+    @property
+    def x_m(self) -> float: ...
+    @property
+    def y_m(self) -> float: ...
+    @property
+    def yaw_rad(self) -> float: ...
+    @property
+    def covariance(self) -> Floats: ...
+
+class SheetPlace:
+    @property
+    def entry(self) -> SheetEntry: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def x_mm(self) -> float: ...
+    @property
+    def y_mm(self) -> float: ...
+    @property
+    def theta_rad(self) -> float: ...
+    @property
+    def covariance(self) -> Floats: ...
+    @property
+    def world(self) -> Optional[WorldPlace]: ...
+
+class Located:
+    @property
+    def fix(self) -> Fix: ...
+    @property
+    def place(self) -> Optional[SheetPlace]: ...
+    @property
+    def track(self) -> Optional[Track]: ...
+    @property
+    def reduced_by(self) -> int: ...
+    def __bool__(self) -> bool: ...
+
+class Follower:
+    def __init__(
+        self,
+        sheets: Sequence[SheetEntry] = ...,
+        code: CodeOrAuto = "auto",
+        spacing_mm: float = 0.508,
+        *,
+        camera: Optional[Camera] = None,
+        reference_px: Optional[Pixel] = None,
+        options: Options = ...,
+        keep_stages: bool = False,
+        **track: float,
+    ) -> None: ...
+    def locate(self, image: Image) -> Located: ...
+    def follow(self, image: Image, time_us: int) -> Located: ...
+    @property
+    def is_in_world(self) -> bool: ...
+    @property
+    def sheets(self) -> list[SheetEntry]: ...
+
+class OverlayReport:
+    @property
+    def pages(self) -> list[tuple[int, Sheet]]: ...
+    @property
+    def warnings(self) -> list[str]: ...
+
+class PrintScale:
+    @property
+    def scale_x(self) -> float: ...
+    @property
+    def scale_y(self) -> float: ...
+    @property
+    def rotation_rad(self) -> float: ...
+    @property
+    def skew_rad(self) -> float: ...
+
+class Finding:
+    @property
+    def kind(self) -> str: ...
+    @property
+    def is_fault(self) -> bool: ...
+    @property
+    def field(self) -> Optional[int]: ...
+    @property
+    def text(self) -> str: ...
+
+class PrintField:
+    @property
+    def code(self) -> Code: ...
+    @property
+    def section(self) -> tuple[int, int]: ...
+    @property
+    def origin(self) -> tuple[int, int]: ...
+    @property
+    def columns(self) -> int: ...
+    @property
+    def rows(self) -> int: ...
+    @property
+    def is_patch(self) -> bool: ...
+    @property
+    def sheet(self) -> Optional[int]: ...
+    @property
+    def scale(self) -> Optional[PrintScale]: ...
+    @property
+    def spacing_px(self) -> float: ...
+    @property
+    def residual_mm(self) -> float: ...
+    @property
+    def scatter_mm(self) -> float: ...
+    @property
+    def largest_distortion_mm(self) -> float: ...
+    @property
+    def cells(self) -> int: ...
+    @property
+    def missing(self) -> int: ...
+    @property
+    def merged(self) -> int: ...
+    @property
+    def covered(self) -> int: ...
+    @property
+    def dots(self) -> int: ...
+    @property
+    def bits_wrong(self) -> int: ...
+    @property
+    def dot_mm(self) -> float: ...
+    @property
+    def contrast(self) -> float: ...
+    @property
+    def gain(self) -> float: ...
+
+class PrintCheck:
+    @property
+    def fields(self) -> list[PrintField]: ...
+    @property
+    def findings(self) -> list[Finding]: ...
+    @property
+    def is_good(self) -> bool: ...
+    @property
+    def code(self) -> Code: ...
+    @property
+    def is_test_page(self) -> bool: ...
+    @property
+    def best(self) -> Optional[int]: ...
+    def draw(self, path: Path) -> None: ...
+
+class LensCalibration:
+    @property
+    def camera(self) -> Camera: ...
+    @property
+    def verdict(self) -> str: ...
+    @property
+    def advice(self) -> str: ...
+    @property
+    def code(self) -> Code: ...
+    @property
+    def is_mounted(self) -> bool: ...
+    @property
+    def frames(self) -> int: ...
+    @property
+    def located(self) -> int: ...
+    @property
+    def dots(self) -> int: ...
+    @property
+    def outliers(self) -> int: ...
+    @property
+    def residual_before_px(self) -> float: ...
+    @property
+    def residual_px(self) -> float: ...
+    @property
+    def px_per_spacing(self) -> float: ...
+    @property
+    def coverage(self) -> float: ...
+    def draw(self, path: Path) -> None: ...
+
+class SpinCalibration:
+    @property
+    def camera(self) -> Camera: ...
+    @property
+    def verdict(self) -> str: ...
+    @property
+    def offset_mm(self) -> tuple[float, float]: ...
+    @property
+    def located(self) -> int: ...
+    @property
+    def sigma_mm(self) -> float: ...
+    @property
+    def residual_mm(self) -> float: ...
+    @property
+    def turn_rad(self) -> float: ...
+    def draw(self, path: Path) -> None: ...
+
+class DriveCalibration:
+    @property
+    def camera(self) -> Camera: ...
+    @property
+    def located(self) -> int: ...
+    @property
+    def sigma_rad(self) -> float: ...
+    @property
+    def residual_mm(self) -> float: ...
+    @property
+    def length_mm(self) -> float: ...
+
+class Stitching:
+    @property
+    def sheets(self) -> list[SheetEntry]: ...
+    @property
+    def unconnected(self) -> list[str]: ...
+    @property
+    def frames(self) -> int: ...
+    @property
+    def used(self) -> int: ...
+
+class Shot:
+    x_mm: float
+    y_mm: float
+    theta_rad: float
+    tilt_x_rad: float
+    tilt_y_rad: float
+    paper_level: float
+    ink_reflectance: float
+    ink_variation: float
+    palest_ink: float
+    vignetting: float
+    fall: float
+    blur_sigma_px: float
+    noise_sigma: float
+    salt_and_pepper: float
+    jitter_mm: float
+    missing: float
+    texture: float
+    seed: int
+    @property
+    def section(self) -> tuple[int, int]: ...
+    @property
+    def code(self) -> Code: ...
+    def move(self, x_grid: float, y_grid: float) -> None: ...
+    def render(self) -> Image: ...
+    def __copy__(self) -> Shot: ...
+
+class SimulatedFrame:
+    @property
+    def image(self) -> Image: ...
+    @property
+    def shot(self) -> Shot: ...
+
+class Station:
+    @property
+    def place_mm(self) -> tuple[float, float]: ...
+    @property
+    def theta_deg(self) -> float: ...
+    @property
+    def x_mm(self) -> tuple[float, float]: ...
+    @property
+    def y_mm(self) -> tuple[float, float]: ...
+    @property
+    def theta_error_deg(self) -> tuple[float, float]: ...
+    @property
+    def samples(self) -> int: ...
+    @property
+    def located(self) -> int: ...
+    @property
+    def wrong(self) -> int: ...
+
+class ProtocolResult:
+    @property
+    def positions(self) -> list[Station]: ...
+    @property
+    def angles(self) -> list[Station]: ...
+
+class Protocol:
+    @property
+    def perfect(self) -> ProtocolResult: ...
+    @property
+    def printed(self) -> ProtocolResult: ...
+
+def read_image(path: Path) -> Image: ...
+def write_image(path: Path, image: Image) -> None: ...
+def read_sheets(path: Path) -> list[SheetEntry]: ...
+def make_sheet(
+    paper: str = "A4",
+    *,
+    landscape: bool = False,
+    margin_mm: float = 5.0,
+    origin: tuple[int, int] = (0, 0),
+    section: tuple[int, int] = (0, 0),
+    code: Code = "anoto",
+    spacing_mm: float = 0.508,
+    dot_mm: Optional[float] = None,
+    displacement_mm: Optional[float] = None,
+) -> Sheet: ...
+def make_sheets(
+    pages: int,
+    paper: str = "A4",
+    *,
+    landscape: bool = False,
+    margin_mm: float = 5.0,
+    origin: tuple[int, int] = (0, 0),
+    section: tuple[int, int] = (0, 0),
+    code: Code = "anoto",
+    spacing_mm: float = 0.508,
+    dot_mm: Optional[float] = None,
+    displacement_mm: Optional[float] = None,
+) -> list[Sheet]: ...
+def print_sheet(
+    path: Path,
+    sheet: Optional[Sheet] = None,
+    *,
+    dpi: float = 600.0,
+    dots: Dots = "auto",
+    labels: bool = True,
+    title: Optional[str] = None,
+    sheet_file: Optional[Path] = None,
+    name: Optional[str] = None,
+) -> Sheet: ...
+def print_sheets(
+    path: Path,
+    sheets: Sequence[Sheet],
+    *,
+    dpi: float = 600.0,
+    dots: Dots = "auto",
+    labels: bool = True,
+    title: Optional[str] = None,
+    sheet_file: Optional[Path] = None,
+    name: Optional[str] = None,
+) -> list[Sheet]: ...
+def overlay(
+    document: Path,
+    path: Path,
+    *,
+    pages: str = "",
+    origin: tuple[int, int] = (0, 0),
+    section: tuple[int, int] = (0, 0),
+    code: Code = "anoto",
+    spacing_mm: float = 0.508,
+    dot_mm: Optional[float] = None,
+    displacement_mm: Optional[float] = None,
+    margin_mm: float = 5.0,
+    dpi: float = 600.0,
+    dots: Dots = "auto",
+    under: bool = False,
+    cmy_black: bool = False,
+    lighten: float = 0.0,
+    password: str = "",
+    sheet_file: Optional[Path] = None,
+    name: Optional[str] = None,
+) -> OverlayReport: ...
+def check_print(
+    scan: Union[Image, Path],
+    *,
+    code: CodeOrAuto = "auto",
+    spacing_mm: float = 0.508,
+    dot_mm: Optional[float] = None,
+    displacement_mm: Optional[float] = None,
+    sheets: Optional[Sequence[SheetEntry]] = None,
+    is_photo: bool = False,
+    dpi: Optional[float] = None,
+    ink_reflectance: float = 0.15,
+) -> PrintCheck: ...
+def calibrate(
+    images: Iterable[Union[Image, Path]],
+    *,
+    code: CodeOrAuto = "auto",
+    spacing_mm: float = 0.508,
+) -> LensCalibration: ...
+def calibrate_spin(
+    images: Iterable[Union[Image, Path]],
+    camera: Optional[Camera] = None,
+    *,
+    code: CodeOrAuto = "auto",
+    spacing_mm: float = 0.508,
+) -> SpinCalibration: ...
+def calibrate_drive(
+    images: Iterable[Union[Image, Path]],
+    camera: Optional[Camera] = None,
+    *,
+    code: CodeOrAuto = "auto",
+    spacing_mm: float = 0.508,
+) -> DriveCalibration: ...
+def stitch_sheets(
+    images: Iterable[Union[Image, Path]],
+    sheets: Sequence[SheetEntry],
+    camera: Optional[Camera] = None,
+) -> Stitching: ...
+def draw_shots(
+    frames: int,
+    preset: Preset = "nominal",
+    *,
+    seed: int = 1,
+    code: Code = "anoto",
+    spacing_mm: float = 0.508,
+    section: Optional[tuple[int, int]] = None,
+    width_px: int = 188,
+    height_px: int = 120,
+    mm_per_px: float = 0.046,
+    k_per_px2: float = 0.0,
+    first: int = 0,
+) -> list[Shot]: ...
+def simulate(
+    frames: int,
+    preset: Preset = "nominal",
+    *,
+    seed: int = 1,
+    code: Code = "anoto",
+    spacing_mm: float = 0.508,
+    section: Optional[tuple[int, int]] = None,
+    width_px: int = 188,
+    height_px: int = 120,
+    mm_per_px: float = 0.046,
+    k_per_px2: float = 0.0,
+    first: int = 0,
+) -> list[SimulatedFrame]: ...
+def run_protocol(samples: int = 20, *, seed: int = 1, threads: int = 0) -> Protocol: ...

@@ -1,0 +1,41 @@
+/// What the binding files share: the name `py`, the functions that define one subject each, and
+/// names of option values.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "dotpose/code.hpp"
+
+namespace dotpose::python {
+
+namespace py = pybind11;
+using namespace py::literals;
+
+/// Each defines the classes and functions of one subject in the module, in this order.
+void define_errors(py::module_& module);
+void define_options(py::module_& module);
+void define_fix(py::module_& module);
+void define_camera(py::module_& module);
+void define_locator(py::module_& module);
+void define_tracker(py::module_& module);
+void define_sheets(py::module_& module);
+void define_follower(py::module_& module);
+void define_files(py::module_& module);
+void define_print(py::module_& module);
+void define_check(py::module_& module);
+void define_calibrate(py::module_& module);
+void define_simulate(py::module_& module);
+void define_protocol(py::module_& module);
+
+/// Returns the profile of a name, none for "auto". Throws BadArgument for any other text.
+std::optional<Profile> code_or_auto(const std::string& name);
+/// Returns the profile of a name. Throws BadArgument for any other text.
+Profile code_named(const std::string& name);
+
+}  // namespace dotpose::python

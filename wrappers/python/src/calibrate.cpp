@@ -1,0 +1,160 @@
+// Calibration: lens, view and mount of a camera, and sheets beside each other.
+#include "dotpose/tools/calibrate.hpp"
+
+#include <fmt/core.h>
+
+#include "dotpose/files/profile_names.hpp"
+#include "dotpose/tools/draw.hpp"
+#include "frames.hpp"
+#include "progress.hpp"
+#include "sheets.hpp"
+
+namespace dotpose::python {
+namespace {
+
+CalibrateOptions options_of(const std::string& code, double spacing_mm) {
+    CalibrateOptions options;
+    const auto profile = code_or_auto(code);
+    options.any_code = !profile;
+    options.pattern.profile = profile.value_or(Profile::anoto);
+    options.pattern.spacing_mm = spacing_mm;
+    options.progress = [](int, int) { return !was_interrupted(); };
+    return options;
+}
+
+/// Runs `work(frames, frame_at)` over images, without the interpreter's lock.
+template <typename Work>
+auto over(const py::iterable& images, const Work& work) {
+    const std::vector<Frame> frames = frames_of(images);
+    const FrameAt frame_at = [&frames](int index) {
+        return pixels_of(frames[static_cast<std::size_t>(index)]);
+    };
+    return without_lock([&] { return work(static_cast<int>(frames.size()), frame_at); });
+}
+
+void define_lens(py::module_& module) {
+    py::class_<LensCalibration>(module, "LensCalibration",
+                                "The calibrated camera, with the evidence for it.")
+        .def_readonly("camera", &LensCalibration::camera, "The Camera.")
+        .def_property_readonly(
+            "verdict", [](const LensCalibration& c) { return name(c.verdict); },
+            "\"good\", or why not to trust it: \"too_few_frames\", \"same_place\", "
+            "\"out_of_focus\", \"corners_unseen\".")
+        .def_readonly("advice", &LensCalibration::advice, "One or two sentences for the user.")
+        .def_property_readonly(
+            "code", [](const LensCalibration& c) { return name(c.code); }, "Code of the sheet.")
+        .def_readonly("is_mounted", &LensCalibration::is_mounted,
+                      "Whether all frames share height and tilt.")
+        .def_readonly("frames", &LensCalibration::frames, "Frames given.")
+        .def_readonly("located", &LensCalibration::located, "Different frames with a fix.")
+        .def_readonly("dots", &LensCalibration::dots, "Dots used.")
+        .def_readonly("outliers", &LensCalibration::outliers, "Dots left out.")
+        .def_readonly("residual_before_px", &LensCalibration::residual_before_px,
+                      "Rms per axis without distortion, skew and tilt, in px.")
+        .def_readonly("residual_px", &LensCalibration::residual_px, "Rms per axis, in px.")
+        .def_readonly("px_per_spacing", &LensCalibration::px_per_spacing, "Mean over the frames.")
+        .def_readonly("coverage", &LensCalibration::coverage,
+                      "Share of the parts of the image that show dots.")
+        .def(
+            "draw",
+            [](const LensCalibration& c, const std::filesystem::path& path) {
+                draw_calibration(path, c);
+            },
+            "path"_a, "Write a picture (SVG) of the residuals before and after.");
+    module.def(
+        "calibrate",
+        [](const py::iterable& images, const std::string& code, double spacing_mm) {
+            return over(images, [options = options_of(code, spacing_mm)](int frames,
+                                                                         const FrameAt& frame_at) {
+                return calibrate_lens(frames, frame_at, options);
+            });
+        },
+        "images"_a, py::kw_only(), "code"_a = "auto", "spacing_mm"_a = kDefaultSpacing_mm,
+        "Return the LensCalibration of a camera from images of any sheet, at least 5: arrays or "
+        "names of files.\n\nLengths are true if the spacing, in mm, is.");
+}
+
+void define_mount(py::module_& module) {
+    py::class_<SpinCalibration>(module, "SpinCalibration",
+                                "Where a camera sits, from a robot that turned on the spot.")
+        .def_readonly("camera", &SpinCalibration::camera, "The Camera with its reference point.")
+        .def_property_readonly(
+            "verdict", [](const SpinCalibration& c) { return name(c.verdict); },
+            "\"good\", or \"drifted\" if the robot moved on while it turned.")
+        .def_property_readonly(
+            "offset_mm",
+            [](const SpinCalibration& c) {
+                return py::make_tuple(c.offset_mm.x_mm, c.offset_mm.y_mm);
+            },
+            "Centre of rotation from the point under the image centre, along the image axes.")
+        .def_readonly("located", &SpinCalibration::located, "Frames with a fix.")
+        .def_readonly("sigma_mm", &SpinCalibration::sigma_mm, "Its deviation per axis, in mm.")
+        .def_readonly("residual_mm", &SpinCalibration::residual_mm, "Rms per axis, in mm.")
+        .def_readonly("turn_rad", &SpinCalibration::turn_rad, "Arc of all angles, in rad.")
+        .def(
+            "draw",
+            [](const SpinCalibration& c, const std::filesystem::path& path) { draw_spin(path, c); },
+            "path"_a, "Write a picture (SVG) of the turn.");
+    py::class_<DriveCalibration>(module, "DriveCalibration",
+                                 "The direction of a camera, from a straight drive forwards.")
+        .def_readonly("camera", &DriveCalibration::camera, "The Camera with its direction.")
+        .def_readonly("located", &DriveCalibration::located, "Frames with a fix.")
+        .def_readonly("sigma_rad", &DriveCalibration::sigma_rad, "Its deviation, in rad.")
+        .def_readonly("residual_mm", &DriveCalibration::residual_mm,
+                      "Rms distance from a straight line, in mm.")
+        .def_readonly("length_mm", &DriveCalibration::length_mm, "Length of the drive, in mm.");
+    module.def(
+        "calibrate_spin",
+        [](const py::iterable& images, const std::optional<Camera>& camera, const std::string& code,
+           double spacing_mm) {
+            const CalibrateOptions options = options_of(code, spacing_mm);
+            return over(images, [&](int frames, const FrameAt& frame_at) {
+                return calibrate_spin(frames, frame_at, camera, options);
+            });
+        },
+        "images"_a, "camera"_a = py::none(), py::kw_only(), "code"_a = "auto",
+        "spacing_mm"_a = kDefaultSpacing_mm,
+        "Return where the camera sits, from at least 3 frames of a robot that turns on the spot.");
+    module.def(
+        "calibrate_drive",
+        [](const py::iterable& images, const std::optional<Camera>& camera, const std::string& code,
+           double spacing_mm) {
+            const CalibrateOptions options = options_of(code, spacing_mm);
+            return over(images, [&](int frames, const FrameAt& frame_at) {
+                return calibrate_drive(frames, frame_at, camera, options);
+            });
+        },
+        "images"_a, "camera"_a = py::none(), py::kw_only(), "code"_a = "auto",
+        "spacing_mm"_a = kDefaultSpacing_mm,
+        "Return the direction in which the camera looks, from frames of a straight drive forwards, "
+        "in order.");
+}
+
+void define_stitching(py::module_& module) {
+    py::class_<Stitching>(module, "Stitching", "Sheets laid out in the world.")
+        .def_readonly("sheets", &Stitching::sheets, "The entries, with world poses and scales.")
+        .def_readonly("unconnected", &Stitching::unconnected, "Names of sheets seen alone.")
+        .def_readonly("frames", &Stitching::frames, "Frames given.")
+        .def_readonly("used", &Stitching::used, "Frames that show two sheets.");
+    module.def(
+        "stitch_sheets",
+        [](const py::iterable& images, const std::vector<SheetEntry>& sheets,
+           const std::optional<Camera>& camera) {
+            const CalibrateOptions options = options_of("auto", kDefaultSpacing_mm);
+            return over(images, [&](int frames, const FrameAt& frame_at) {
+                return stitch_sheets(frames, frame_at, sheets, camera, options);
+            });
+        },
+        "images"_a, "sheets"_a, "camera"_a = py::none(),
+        "Return how sheets lie, from images that show parts of two.");
+}
+
+}  // namespace
+
+void define_calibrate(py::module_& module) {
+    define_lens(module);
+    define_mount(module);
+    define_stitching(module);
+}
+
+}  // namespace dotpose::python

@@ -1,0 +1,73 @@
+// The exceptions of the tools as Python exceptions.
+#include <exception>
+
+#include "binding.hpp"
+#include "dotpose/files/error.hpp"
+#include "dotpose/files/profile_names.hpp"
+#include "dotpose/tools/image_file.hpp"
+
+namespace dotpose::python {
+namespace {
+
+/// Throws the error as an instance of the Python class that has its name.
+void translate(std::exception_ptr error) {
+    const auto raise = [](const char* name, const std::exception& what) {
+        const py::object type = py::module_::import("dotpose._dotpose").attr(name);
+        PyErr_SetString(type.ptr(), what.what());
+    };
+    try {
+        std::rethrow_exception(error);
+    } catch (const ImageTooLarge& large) {
+        const py::object type = py::module_::import("dotpose._dotpose").attr("ImageTooLarge");
+        py::object raised = type(large.what());
+        raised.attr("width_px") = large.width_px;
+        raised.attr("height_px") = large.height_px;
+        PyErr_SetObject(type.ptr(), raised.ptr());
+    } catch (const BadArgument& bad) {
+        raise("BadArgument", bad);
+    } catch (const Error& other) {
+        raise("Error", other);
+    }
+}
+
+py::object new_exception(py::module_& module, const char* name, const py::tuple& bases,
+                         const char* doc) {
+    const std::string full_name = std::string("dotpose.") + name;
+    auto type = py::reinterpret_steal<py::object>(
+        PyErr_NewExceptionWithDoc(full_name.c_str(), doc, bases.ptr(), nullptr));
+    if (!type) throw py::error_already_set();
+    module.attr(name) = type;
+    return type;
+}
+
+}  // namespace
+
+void define_errors(py::module_& module) {
+    const py::object runtime_error = py::reinterpret_borrow<py::object>(PyExc_RuntimeError);
+    const py::object value_error = py::reinterpret_borrow<py::object>(PyExc_ValueError);
+    const py::object error =
+        new_exception(module, "Error", py::make_tuple(runtime_error),
+                      "Something could not be done; the text names the file or value concerned.\n\n"
+                      "A frame without a fix is no error: see Fix.ok.");
+    new_exception(module, "BadArgument", py::make_tuple(error, value_error),
+                  "The request itself cannot be met; the text says which value is wrong.");
+    const py::object large =
+        new_exception(module, "ImageTooLarge", py::make_tuple(error),
+                      "An image file has more pixels than are read: width_px x height_px.");
+    large.attr("width_px") = 0;
+    large.attr("height_px") = 0;
+    py::register_exception_translator(translate);
+}
+
+Profile code_named(const std::string& name) {
+    if (const auto profile = profile_by_name(name)) return *profile;
+    throw BadArgument("code: '" + name + "' is none of anoto, libdots, microdots");
+}
+
+std::optional<Profile> code_or_auto(const std::string& name) {
+    if (name == "auto") return std::nullopt;
+    if (const auto profile = profile_by_name(name)) return profile;
+    throw BadArgument("code: '" + name + "' is none of auto, anoto, libdots, microdots");
+}
+
+}  // namespace dotpose::python

@@ -1,0 +1,279 @@
+// Fix, Prediction and Picture.
+#include "fix.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <fmt/core.h>
+
+#include "dotpose/files/error.hpp"
+#include "dotpose/files/profile_names.hpp"
+#include "picture.hpp"
+#include "rounded.hpp"
+
+namespace dotpose::python {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kBam_per_rad = 2147483648.0 / std::numbers::pi;
+
+/// Returns a function that gives a number of an ok fix, otherwise not a number.
+template <typename Get>
+auto if_ok(Get get) {
+    return [get](const SeenFix& self) { return self.is_ok() ? double{get(self.fix)} : kNaN; };
+}
+
+py::object pair_if_ok(const SeenFix& self, std::uint32_t first, std::uint32_t second) {
+    if (!self.is_ok()) return py::none();
+    return py::make_tuple(first, second);
+}
+
+py::array_t<double> dots(SeenFix& self) {
+    const std::vector<PixelPoint> pixels = self.seen_stages().dots_px();
+    py::array_t<double> array({static_cast<py::ssize_t>(pixels.size()), py::ssize_t{2}});
+    auto at = array.mutable_unchecked<2>();
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        at(static_cast<py::ssize_t>(i), 0) = pixels[i].u;
+        at(static_cast<py::ssize_t>(i), 1) = pixels[i].v;
+    }
+    return array;
+}
+
+Picture draw(SeenFix& self, const std::optional<std::filesystem::path>& path,
+             const std::string& title) {
+    Picture picture{self.seen_stages().drawn(title)};
+    if (path) picture.save(*path);
+    return picture;
+}
+
+py::object other(const SeenFix& self) {
+    if (!self.other) return py::none();
+    return py::make_tuple(name(self.other->code),
+                          py::make_tuple(self.other->cell.x, self.other->cell.y),
+                          py::make_tuple(self.other->section.u, self.other->section.v));
+}
+
+std::string text(const SeenFix& self) {
+    const Fix& fix = self.fix;
+    if (!self.is_ok()) return fmt::format("<Fix {}: {}>", name(fix.status), message(fix.status));
+    return fmt::format("<Fix ok: x {:.4f} mm, y {:.4f} mm, theta {:.5f} rad, p_wrong {:.2g}>",
+                       fix.x_mm(), fix.y_mm(), fix.theta_rad(), fix.p_wrong());
+}
+
+/// Returns the numbers of a fix as the core computed them, in the order of wrappers/golden, for
+/// tests that compare bits.
+py::list bits(const SeenFix& self) {
+    const Fix& fix = self.fix;
+    py::list all;
+    for (const std::int64_t value :
+         {std::int64_t{static_cast<int>(fix.attempt)}, std::int64_t{static_cast<int>(fix.surface)},
+          std::int64_t{fix.dots_used}, std::int64_t{fix.bit_errors}, std::int64_t{fix.p_wrong_log2},
+          std::int64_t{fix.section.u}, std::int64_t{fix.section.v}, std::int64_t{fix.cell.x},
+          std::int64_t{fix.cell.y}, std::int64_t{fix.fraction_x_q16},
+          std::int64_t{fix.fraction_y_q16}, std::int64_t{fix.theta_bam},
+          std::int64_t{fix.spacing_px_q16}, std::int64_t{fix.spacing_nm},
+          std::int64_t{fix.displacement_q16}, std::int64_t{fix.place.cell.x},
+          std::int64_t{fix.place.cell.y}, std::int64_t{fix.place.section.u},
+          std::int64_t{fix.place.section.v}})
+        all.append(value);
+    const PlaneFromImage& plane = fix.pattern_from_image;
+    for (const Vec vec : {plane.centre_q8, plane.at_centre_q16, plane.du_q24, plane.dv_q24,
+                          plane.perspective_q30}) {
+        all.append(vec.x);
+        all.append(vec.y);
+    }
+    all.append(plane.lens_q40);
+    all.append(double{fix.residual_px});
+    for (const auto& row : fix.covariance)
+        for (const float value : row)
+            all.append(double{value});
+    return all;
+}
+
+void define_pose(py::class_<SeenFix>& fix) {
+    fix.def_property_readonly(
+           "ok", &SeenFix::is_ok,
+           "Whether there is a pose. If not, status and message say why, and numbers of the pose "
+           "are nan or None.")
+        .def("__bool__", &SeenFix::is_ok, "Whether there is a pose, as ok.")
+        .def_property_readonly(
+            "status", [](const SeenFix& self) { return name(self.fix.status); },
+            "Identifier of the result: \"ok\", \"too_few_dots\", ...")
+        .def_property_readonly(
+            "message", [](const SeenFix& self) { return message(self.fix.status); },
+            "The status in one sentence, without a full stop.")
+        .def_property_readonly("x_mm", if_ok([](const Fix& f) { return f.x_mm(); }),
+                               "Pattern point under the reference point, to the right, in mm.")
+        .def_property_readonly("y_mm", if_ok([](const Fix& f) { return f.y_mm(); }),
+                               "Pattern point under the reference point, DOWN the page, in mm.")
+        .def_property_readonly(
+            "theta_rad", if_ok([](const Fix& f) { return f.theta_rad(); }),
+            "Angle of the image x axis in the pattern, clockwise as seen on the paper, in rad, "
+            "in [-pi, pi).")
+        .def_property_readonly(
+            "covariance",
+            [](const SeenFix& self) {
+                return covariance_array(self.fix.covariance, self.fix.spacing_mm(),
+                                        self.is_ok() && self.fix.has_covariance());
+            },
+            "Covariance of (x_mm, y_mm, theta_rad): 3 x 3, in mm^2, mm rad and rad^2.")
+        .def_property_readonly(
+            "p_wrong", [](const SeenFix& self) { return self.is_ok() ? self.fix.p_wrong() : 1.0; },
+            "Bound of the probability that the position is wrong; 1 if there "
+            "is none.")
+        .def_property_readonly(
+            "section",
+            [](const SeenFix& self) {
+                return pair_if_ok(self, self.fix.section.u, self.fix.section.v);
+            },
+            "Section (u, v) in which the position was read, each 0 to 62; None without a fix.")
+        .def_property_readonly(
+            "cell",
+            [](const SeenFix& self) { return pair_if_ok(self, self.fix.cell.x, self.fix.cell.y); },
+            "Intersection (x, y) of the grid to the upper left of the reference point; None "
+            "without a fix.")
+        .def_property_readonly("x_grid", if_ok([](const Fix& f) { return f.x_grid(); }),
+                               "As x_mm, in spacings of the grid.")
+        .def_property_readonly("y_grid", if_ok([](const Fix& f) { return f.y_grid(); }),
+                               "As y_mm, in spacings of the grid.");
+}
+
+void define_evidence(py::class_<SeenFix>& fix) {
+    fix.def_property_readonly(
+           "code", [](const SeenFix& self) { return name(self.code); },
+           "Code that the position was read in: \"anoto\", \"libdots\" or \"microdots\".")
+        .def_property_readonly(
+            "other", &other,
+            "Another place that explains the frame as well, as (code, cell, section); else None.")
+        .def_property_readonly(
+            "attempt", [](const SeenFix& self) { return name(self.fix.attempt); },
+            "What made the fix: \"first\", \"second\", \"tracked\" (by a prediction) or "
+            "\"device\".")
+        .def_property_readonly(
+            "surface", [](const SeenFix& self) { return name(self.fix.surface); },
+            "\"even\" if the paper is one plane as far as the dots show it, \"divided\" or "
+            "\"uneven\" if not.")
+        .def_property_readonly("spacing_mm", if_ok([](const Fix& f) { return f.spacing_mm(); }),
+                               "Spacing of the printed grid, in mm; nan if it is not known.")
+        .def_property_readonly("spacing_px", if_ok([](const Fix& f) { return f.spacing_px(); }),
+                               "Spacing of the grid in the image, in px.")
+        .def_property_readonly("residual_px",
+                               if_ok([](const Fix& f) { return double{f.residual_px}; }),
+                               "Root mean square distance of the dots from their fitted places, "
+                               "per axis, in px.")
+        .def_property_readonly(
+            "dots_seen", [](const SeenFix& self) { return self.fix.dots_seen; },
+            "Number of dark blobs that have the size of a dot.")
+        .def_property_readonly(
+            "dots_used", [](const SeenFix& self) { return self.is_ok() ? self.fix.dots_used : 0; },
+            "Number of dots that the pose was fitted to.")
+        .def_property_readonly(
+            "bit_errors",
+            [](const SeenFix& self) { return self.is_ok() ? self.fix.bit_errors : 0; },
+            "Number of bits, two for each dot, that contradict the position.")
+        .def_property_readonly("_bits", &bits);
+}
+
+void define_prediction(py::module_& module) {
+    py::class_<SeenPrediction>(
+        module, "Prediction",
+        "Where the pattern is expected in the next frame: with one, locate is faster, and as "
+        "certain.")
+        .def_static("like", &SeenPrediction::like, "fix"_a,
+                    "Return the prediction that the next frame looks like that of an ok fix.")
+        .def(
+            "moved",
+            [](const SeenPrediction& self, double x_mm, double y_mm, double turn_rad) {
+                const auto q16 = [&](double mm) { return rounded(mm / self.spacing_mm * 65536); };
+                const std::int32_t turn_bam =
+                    rounded(std::remainder(turn_rad, 2 * std::numbers::pi) * kBam_per_rad);
+                SeenPrediction result = self;
+                result.prediction = dotpose::moved(self.prediction, self.code,
+                                                   {q16(x_mm), q16(y_mm)}, turn_bam, self.pivot_q8);
+                return result;
+            },
+            "x_mm"_a, "y_mm"_a, "turn_rad"_a = 0.0,
+            "Return the prediction for a camera that has moved by so much in the pattern, in mm, "
+            "and turned about its reference point, in rad.")
+        .def_property(
+            "sigma_mm",
+            [](const SeenPrediction& self) {
+                return self.prediction.sigma_q16 / 65536.0 * self.spacing_mm;
+            },
+            [](SeenPrediction& self, double mm) {
+                self.prediction.sigma_q16 = rounded(mm / self.spacing_mm * 65536);
+            },
+            "Standard deviation of the expected x and y, in mm.")
+        .def_property(
+            "sigma_theta_rad",
+            [](const SeenPrediction& self) {
+                return self.prediction.sigma_theta_bam / kBam_per_rad;
+            },
+            [](SeenPrediction& self, double rad) {
+                self.prediction.sigma_theta_bam = rounded(rad * kBam_per_rad);
+            },
+            "Standard deviation of the expected angle, in rad.");
+}
+
+}  // namespace
+
+const Stages& SeenFix::seen_stages() {
+    if (!stages) {
+        if (!source) throw Error("this fix has no frame");
+        stages = source->stages_of(number);
+    }
+    return *stages;
+}
+
+SeenFix seen_fix(const CodeReading& reading) {
+    SeenFix seen;
+    seen.fix = reading.fix;
+    seen.code = reading.code;
+    if (reading.has_other)
+        seen.other = {reading.other_code, reading.other_cell, reading.other_section};
+    return seen;
+}
+
+SeenPrediction SeenPrediction::like(const SeenFix& seen) {
+    if (!seen.is_ok()) throw BadArgument("a prediction needs a fix that is ok");
+    const Vec centre_q8 = seen.fix.pattern_from_image.centre_q8;
+    return {Prediction::like(seen.fix),
+            seen.code,
+            seen.fix.spacing_mm(),
+            {centre_q8.x + seen.reference_q8.x, centre_q8.y + seen.reference_q8.y}};
+}
+
+py::array_t<double> covariance_array(const float (&covariance)[3][3], double spacing_mm,
+                                     bool is_known) {
+    py::array_t<double> array({3, 3});
+    auto at = array.mutable_unchecked<2>();
+    const double units[3] = {spacing_mm, spacing_mm, 1};
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            at(i, j) = is_known ? double{covariance[i][j]} * units[i] * units[j] : kNaN;
+    return array;
+}
+
+void define_fix(py::module_& module) {
+    define_picture(module);
+    py::class_<SeenFix> fix(
+        module, "Fix",
+        "The pose that one frame shows, with its evidence; true if there is one.\n\n"
+        "The pattern frame has x to the right and y DOWN, as the page is read. The pose is the\n"
+        "pattern point under the reference point (by default the image centre).");
+    define_pose(fix);
+    define_evidence(fix);
+    fix.def_property_readonly(
+           "dots", &dots,
+           "Pixels (u, v) where dots were found, n x 2; the centre of the first pixel is (0, 0). "
+           "Only of a locator's newest fix, unless it keeps stages.")
+        .def("draw", &draw, "path"_a = py::none(), "title"_a = "",
+             "Return a picture (SVG) of what was seen in the frame: dots, grid, bits and pose, or "
+             "how far it came; also write it to path. Only of a locator's newest fix, unless it "
+             "keeps stages.")
+        .def("__repr__", &text);
+    define_prediction(module);
+}
+
+}  // namespace dotpose::python

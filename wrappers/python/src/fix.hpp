@@ -1,0 +1,56 @@
+/// What Python calls a Fix and a Prediction: those of C++ with what belongs to them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "binding.hpp"
+#include "dotpose/code_evidence.hpp"
+#include "dotpose/fix.hpp"
+#include "dotpose/prediction.hpp"
+#include "stages.hpp"
+
+namespace dotpose::python {
+
+/// Another place that explains a frame as well as its fix does.
+struct OtherPlace {
+    Profile code = Profile::anoto;
+    Cell cell;
+    Section section;
+};
+
+/// A fix, the profile it was read in, and the way to the stages of its frame.
+struct SeenFix {
+    Fix fix;
+    Profile code = Profile::anoto;
+    std::optional<OtherPlace> other;
+    /// The reference point, which the pose belongs to, in 2^-8 px from the image centre.
+    Vec reference_q8;
+    std::shared_ptr<StageSource> source;   ///< who located the frame
+    std::uint64_t number = 0;              ///< of the frame, among those of `source`
+    std::shared_ptr<const Stages> stages;  ///< null: not asked for yet
+
+    bool is_ok() const { return fix.status == Status::ok; }
+    const Stages& seen_stages();
+};
+
+/// Returns a fix as read, without a way to its stages.
+SeenFix seen_fix(const CodeReading& reading);
+
+/// A prediction and what it was made for.
+struct SeenPrediction {
+    Prediction prediction;
+    Profile code = Profile::anoto;
+    double spacing_mm = 0;
+    Vec pivot_q8;  ///< the reference point in the image
+
+    static SeenPrediction like(const SeenFix& fix);
+};
+
+/// Returns the covariance in mm and rad of one in spacings and rad; not a number if `is_known` is
+/// false.
+py::array_t<double> covariance_array(const float (&covariance)[3][3], double spacing_mm,
+                                     bool is_known);
+
+}  // namespace dotpose::python

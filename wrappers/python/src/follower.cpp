@@ -1,0 +1,137 @@
+// Follower: frames located on the sheets of a sheet file, and a robot followed over them.
+#include "dotpose/tools/follower.hpp"
+
+#include <mutex>
+
+#include <fmt/core.h>
+
+#include "dotpose/files/error.hpp"
+#include "fix.hpp"
+#include "image.hpp"
+#include "rounded.hpp"
+#include "sheets.hpp"
+#include "tracker.hpp"
+
+namespace dotpose::python {
+namespace {
+
+/// The result of an image: Located or Followed, in terms of Python.
+struct SeenLocated {
+    SeenFix fix;
+    std::optional<SeenPlace> place;
+    int reduced_by = 1;
+    std::optional<Track> track;
+};
+
+class FollowerOfPython {
+  public:
+    FollowerOfPython(const FollowerOptions& options, bool keep_stages)
+        : follower_(options), keep_stages_(keep_stages) {}
+
+    SeenLocated locate(const py::object& image) {
+        const ImageView view = view_of(image);
+        const py::gil_scoped_release others_may_run;
+        const std::scoped_lock lock(mutex_);
+        return seen(follower_.locate(copy_of(view)));
+    }
+
+    SeenLocated follow(const py::object& image, std::int64_t time_us) {
+        const ImageView view = view_of(image);
+        const py::gil_scoped_release others_may_run;
+        const std::scoped_lock lock(mutex_);
+        const Followed followed = follower_.follow(view, time_us);
+        SeenLocated result = seen(followed.located);
+        result.track = followed.track;
+        return result;
+    }
+
+    const Follower& follower() const { return follower_; }
+
+  private:
+    SeenLocated seen(const Located& located) {
+        SeenLocated result;
+        result.fix = seen_fix(located.reading);
+        result.fix.fix = located.fix;
+        result.place = seen_place(located.place);
+        result.reduced_by = located.reduced_by;
+        const Options& used = follower_.used_options();
+        result.fix.reference_q8 = {used.reference_dx_q8, used.reference_dy_q8};
+        if (keep_stages_) {
+            result.fix.stages = std::make_shared<Stages>(follower_.image(), follower_.trace());
+        }
+        return result;
+    }
+
+    std::mutex mutex_;
+    Follower follower_;
+    bool keep_stages_;
+};
+
+std::unique_ptr<FollowerOfPython> new_follower(
+    const std::vector<SheetEntry>& sheets, const std::string& code, double spacing_mm,
+    const std::optional<Camera>& camera, const std::optional<std::array<double, 2>>& reference,
+    const Options& options, bool keep_stages, const py::kwargs& track) {
+    FollowerOptions all;
+    all.locate = options;
+    all.locate.show_stages |= keep_stages;
+    all.locate.spacing_nm = rounded(spacing_mm * 1e6);
+    all.sheets = sheets;
+    all.code = code_or_auto(code);
+    all.spacing_mm = spacing_mm;
+    all.camera = camera;
+    if (reference) all.reference_px = PixelPoint{(*reference)[0], (*reference)[1]};
+    all.track = track_options_of(track);
+    return std::make_unique<FollowerOfPython>(all, keep_stages);
+}
+
+std::string text(const SeenLocated& self) {
+    std::string words = self.fix.is_ok() ? "ok" : name(self.fix.fix.status);
+    if (self.place) words += " on '" + self.place->entry.name + "'";
+    return "<Located " + words + ">";
+}
+
+}  // namespace
+
+void define_follower(py::module_& module) {
+    py::class_<SeenLocated>(module, "Located",
+                            "What an image shows: its fix, the place on a sheet, and the track.")
+        .def_property_readonly(
+            "fix", [](SeenLocated& self) { return &self.fix; },
+            py::return_value_policy::reference_internal, "The Fix, which may not be ok.")
+        .def_readonly("place", &SeenLocated::place, "SheetPlace of the fix; None: on no sheet.")
+        .def_readonly("track", &SeenLocated::track,
+                      "Track after the image; None from Follower.locate.")
+        .def_readonly("reduced_by", &SeenLocated::reduced_by,
+                      "Factor by which a too large image was reduced.")
+        .def("__bool__", [](const SeenLocated& self) { return self.fix.is_ok(); })
+        .def("__repr__", &text);
+    py::class_<FollowerOfPython>(
+        module, "Follower",
+        "Locates images on the sheets of a sheet file and follows a robot over them.\n\n"
+        "    follower = dotpose.Follower(dotpose.read_sheets(\"sheets.json\"))\n"
+        "    now = follower.follow(image, time_us)\n"
+        "    if now.place:\n"
+        "        print(now.place.name, now.place.x_mm, now.place.y_mm)")
+        .def(py::init(&new_follower), "sheets"_a = py::list(), "code"_a = "auto",
+             "spacing_mm"_a = kDefaultSpacing_mm, py::kw_only(), "camera"_a = py::none(),
+             "reference_px"_a = py::none(), py::arg_v("options", Options{}, "Options()"),
+             "keep_stages"_a = false,
+             "Make a follower.\n\n"
+             "sheets: entries of the pages that may be seen; without, poses are those of the "
+             "pattern.\ncode, spacing_mm: of the pattern where there are no sheets.\n"
+             "camera, reference_px, options, keep_stages: as in Locator.\n"
+             "Options of the tracker are given by name, as in Tracker.")
+        .def("locate", &FollowerOfPython::locate, "image"_a,
+             "Return what an image shows by itself. One that is too large is reduced.")
+        .def("follow", &FollowerOfPython::follow, "image"_a, "time_us"_a,
+             "Return what the next image of a sequence shows, given those before; time in us.")
+        .def_property_readonly(
+            "is_in_world",
+            [](const FollowerOfPython& self) { return self.follower().is_in_world(); },
+            "Whether tracks are in the world of the sheet file (y up), not in the pattern.")
+        .def_property_readonly(
+            "sheets", [](const FollowerOfPython& self) { return self.follower().sheets(); },
+            "The entries that were given.");
+}
+
+}  // namespace dotpose::python

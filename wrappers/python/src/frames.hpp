@@ -1,0 +1,24 @@
+/// Images that Python gives: arrays or names of files.
+#pragma once
+
+#include <filesystem>
+#include <variant>
+#include <vector>
+
+#include "binding.hpp"
+#include "dotpose/tools/grey_image.hpp"
+
+namespace dotpose::python {
+
+/// One image: pixels that were copied from an array, or the name of a file that is read when it is
+/// needed.
+using Frame = std::variant<GreyImage, std::filesystem::path>;
+
+/// Returns the image of an array or a path. Throws TypeError for anything else.
+Frame frame_of(const py::handle& image);
+/// Returns those of a sequence.
+std::vector<Frame> frames_of(const py::iterable& images);
+/// Returns the pixels. Throws Error if the file cannot be read.
+GreyImage pixels_of(const Frame& frame);
+
+}  // namespace dotpose::python

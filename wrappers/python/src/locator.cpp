@@ -1,0 +1,204 @@
+#include "locator.hpp"
+
+#include <chrono>
+
+#include "dotpose/files/error.hpp"
+#include "dotpose/files/profile_names.hpp"
+#include "dotpose/files/sheet.hpp"
+#include "dotpose/tools/mounted_pose.hpp"
+#include "image.hpp"
+#include "rounded.hpp"
+
+namespace dotpose::python {
+namespace {
+
+/// Whether two fixes say the same of a frame.
+bool are_alike(const Fix& a, const Fix& b) {
+    return a.status == b.status && a.dots_seen == b.dots_seen &&
+           (a.status != Status::ok ||
+            (a.cell == b.cell && a.theta_bam == b.theta_bam &&
+             a.fraction_x_q16 == b.fraction_x_q16 && a.fraction_y_q16 == b.fraction_y_q16));
+}
+
+std::int32_t offset_q8(double px, int side_px) {
+    return rounded((px - (side_px - 1) / 2.0) * 256);
+}
+
+}  // namespace
+
+LocatorOfPython::LocatorOfPython(const LocatorSetup& setup)
+    : setup_(setup), locator_(setup.options), options_(setup.options) {
+    if (setup.code) options_.profile = *setup.code;
+}
+
+void LocatorOfPython::use_options_for(int width_px, int height_px) {
+    if (width_px == width_px_ && height_px == height_px_) return;
+    Options options = setup_.options;
+    options.profile = options_.profile;
+    if (setup_.camera) use_camera(*setup_.camera, width_px, height_px, options);
+    if (setup_.reference_px) {
+        options.reference_dx_q8 = offset_q8(setup_.reference_px->u, width_px);
+        options.reference_dy_q8 = offset_q8(setup_.reference_px->v, height_px);
+    }
+    options.show_stages |= setup_.keep_stages;
+    options_ = options;
+    width_px_ = width_px;
+    height_px_ = height_px;
+    locator_.set_options(options_);
+}
+
+void LocatorOfPython::set_options(Profile code, bool show_stages) {
+    Options options = options_;
+    options.profile = code;
+    options.show_stages |= show_stages;
+    locator_.set_options(options);
+}
+
+CodeReading LocatorOfPython::read(const ImageView& image, const Request& request) {
+    CodeReading reading;
+    if (setup_.code) {
+        reading.code = *setup_.code;
+        reading.fix = request.expected ? locator_.locate(image, request.expected->prediction)
+                                       : locator_.locate(image);
+    } else if (request.expected) {
+        reading =
+            locator_.locate_in_any_code(image, request.expected->prediction, request.evidence);
+    } else {
+        reading = locator_.locate_in_any_code(image, request.evidence);
+    }
+    return reading;
+}
+
+SeenFix LocatorOfPython::locate_locked(const ImageView& image,
+                                       const std::optional<SeenPrediction>& expected) {
+    use_options_for(image.width_px, image.height_px);
+    ++newest_.number;
+    newest_.evidence = evidence_;
+    newest_.code = locator_.options().profile;
+    newest_.expected = expected;
+    if (expected && !setup_.code && expected->code != newest_.code) {
+        newest_.code = expected->code;
+        set_options(newest_.code, false);
+    }
+    const CodeReading reading = read(image, newest_);
+    newest_.fix = reading.fix;
+    if (!setup_.code) evidence_ = reading.evidence;
+    SeenFix seen = seen_fix(reading);
+    if (setup_.camera) seen.fix = with_camera(seen.fix, *setup_.camera, locator_.trace());
+    seen.reference_q8 = {options_.reference_dx_q8, options_.reference_dy_q8};
+    seen.number = newest_.number;
+    if (setup_.keep_stages) seen.stages = std::make_shared<Stages>(image, locator_.trace());
+    return seen;
+}
+
+SeenFix LocatorOfPython::locate(const py::object& image,
+                                const std::optional<SeenPrediction>& expected) {
+    const ImageView view = view_of(image);
+    SeenFix seen;
+    {
+        const py::gil_scoped_release others_may_run;
+        const std::scoped_lock lock(mutex_);
+        seen = locate_locked(view, expected);
+    }
+    seen.source = shared_from_this();
+    if (seen.number > image_number_) {
+        image_ = image;
+        image_number_ = seen.number;
+    }
+    return seen;
+}
+
+std::shared_ptr<const Stages> LocatorOfPython::stages_of(std::uint64_t number) {
+    const py::object image = image_;
+    const bool is_newest = image_number_ == number;
+    const ImageView view = is_newest ? view_of(image) : ImageView{};
+    const py::gil_scoped_release others_may_run;
+    const std::scoped_lock lock(mutex_);
+    if (!is_newest || newest_.number != number) {
+        throw Error(
+            "the locator has located another frame since, so dots and picture of this one "
+            "are gone; Locator(keep_stages=True) keeps them with each fix");
+    }
+    const Profile code = locator_.options().profile;
+    set_options(newest_.code, true);
+    const CodeReading again = read(view, newest_);
+    std::shared_ptr<const Stages> stages;
+    if (are_alike(again.fix, newest_.fix))
+        stages = std::make_shared<Stages>(view, locator_.trace());
+    set_options(code, false);
+    if (!stages) throw Error("the image has been changed since it was located");
+    return stages;
+}
+
+double LocatorOfPython::cpp_us(const py::object& image, int repeats) {
+    const ImageView view = view_of(image);
+    const py::gil_scoped_release others_may_run;
+    const std::scoped_lock lock(mutex_);
+    use_options_for(view.width_px, view.height_px);
+    const auto start = std::chrono::steady_clock::now();
+    for (int i = 0; i < repeats; ++i)
+        read(view, {0, evidence_, locator_.options().profile, std::nullopt, {}});
+    const std::chrono::duration<double, std::micro> elapsed =
+        std::chrono::steady_clock::now() - start;
+    return elapsed.count() / repeats;
+}
+
+Profile LocatorOfPython::code() {
+    const py::gil_scoped_release others_may_run;
+    const std::scoped_lock lock(mutex_);
+    return setup_.code.value_or(evidence_.likeliest());
+}
+
+namespace {
+
+std::shared_ptr<LocatorOfPython> new_locator(const std::string& code, double spacing_mm,
+                                             const std::optional<Camera>& camera,
+                                             const std::optional<std::array<double, 2>>& reference,
+                                             const Options& options, bool keep_stages) {
+    LocatorSetup setup;
+    setup.code = code_or_auto(code);
+    setup.camera = camera;
+    if (camera) validate(*camera);
+    if (reference) setup.reference_px = PixelPoint{(*reference)[0], (*reference)[1]};
+    setup.options = options;
+    if (!(spacing_mm > 0 && spacing_mm < 2000)) {
+        throw BadArgument("spacing_mm: must be above 0 and below 2000");
+    }
+    setup.options.spacing_nm = rounded(spacing_mm * 1e6);
+    setup.keep_stages = keep_stages;
+    return std::make_shared<LocatorOfPython>(setup);
+}
+
+}  // namespace
+
+void define_locator(py::module_& module) {
+    py::class_<LocatorOfPython, std::shared_ptr<LocatorOfPython>>(
+        module, "Locator",
+        "Finds where the pattern is seen in an image.\n\n"
+        "Threads run side by side if each has a locator of its own; threads that share one wait\n"
+        "for each other.")
+        .def(py::init(&new_locator), "code"_a = "auto", "spacing_mm"_a = kDefaultSpacing_mm,
+             py::kw_only(), "camera"_a = py::none(), "reference_px"_a = py::none(),
+             py::arg_v("options", Options{}, "Options()"), "keep_stages"_a = false,
+             "Make a locator.\n\n"
+             "code: of the sheet: \"anoto\", \"libdots\", \"microdots\", or \"auto\" to find it "
+             "from all frames.\n"
+             "spacing_mm: spacing of the printed grid, in mm.\n"
+             "camera: a Camera with its lens and view; images must then have its size.\n"
+             "reference_px: pixel (u, v) whose pose is wanted; default: that of the camera, or "
+             "the image centre.\n"
+             "options: thresholds and limits.\n"
+             "keep_stages: whether each fix keeps its image, dots and grid, for dots and draw "
+             "at any later time; costs time and memory.")
+        .def("locate", &LocatorOfPython::locate, "image"_a, "prediction"_a = py::none(),
+             "Return the Fix of an image: a numpy array of uint8 with the shape (height, width), "
+             "0 black, dots dark on light paper. It is not copied; rows may lie apart.\n\n"
+             "With a prediction, the pattern is first looked for where it is expected; a frame "
+             "that does not confirm it is located without.")
+        .def("_cpp_us", &LocatorOfPython::cpp_us, "image"_a, "repeats"_a)
+        .def_property_readonly(
+            "code", [](LocatorOfPython& self) { return name(self.code()); },
+            "Code that was given, otherwise the likeliest by the frames so far.");
+}
+
+}  // namespace dotpose::python

@@ -1,0 +1,26 @@
+// The module dotpose._dotpose. The package dotpose shows what it defines.
+#include "binding.hpp"
+
+PYBIND11_MODULE(_dotpose, module) {
+    using namespace dotpose::python;
+    module.doc() = "The compiled part of dotpose; use the package dotpose.";
+    // Classes say that they belong to the package, where users find them.
+    const py::object own_name = module.attr("__name__");
+    module.attr("__name__") = "dotpose";
+    module.attr("__version__") = DOTPOSE_VERSION;
+    define_errors(module);
+    define_options(module);
+    define_fix(module);
+    define_camera(module);
+    define_locator(module);
+    define_tracker(module);
+    define_sheets(module);
+    define_follower(module);
+    define_files(module);
+    define_print(module);
+    define_check(module);
+    define_calibrate(module);
+    define_simulate(module);
+    define_protocol(module);
+    module.attr("__name__") = own_name;
+}

@@ -1,0 +1,20 @@
+/// Picture: a drawing as SVG, which notebooks show.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "binding.hpp"
+
+namespace dotpose::python {
+
+struct Picture {
+    std::string svg;
+
+    /// Writes the file. Throws Error.
+    void save(const std::filesystem::path& path) const;
+};
+
+void define_picture(py::module_& module);
+
+}  // namespace dotpose::python

@@ -1,0 +1,37 @@
+/// Sheets and their entries, which many functions of Python take and give.
+#pragma once
+
+#include <array>
+
+#include "binding.hpp"
+#include "dotpose/files/sheet_file.hpp"
+#include "dotpose/files/sheet_place.hpp"
+#include "dotpose/tools/print.hpp"
+
+namespace dotpose::python {
+
+using Whole = std::array<std::int64_t, 2>;
+
+/// Returns the cell or section of two integers. Throws BadArgument for others than there are.
+Cell cell_of(const Whole& pair);
+Section section_of_pair(const Whole& pair);
+
+/// Returns a pattern; displacement and dot are by default a sixth of the spacing.
+Pattern pattern_of(const std::string& code, double spacing_mm, const std::optional<double>& dot_mm,
+                   const std::optional<double>& displacement_mm, const Whole& section);
+
+/// Returns the way to draw dots: "auto", "glyphs" or "strokes". Throws BadArgument for others.
+DotDrawing drawing_named(const std::string& name);
+
+/// A place on a sheet with a copy of its entry.
+struct SeenPlace {
+    SheetPlace place;
+    SheetEntry entry;
+};
+/// Returns the place with a copy of its entry, none for none.
+std::optional<SeenPlace> seen_place(const std::optional<SheetPlace>& place);
+
+/// Returns a 3 x 3 array.
+py::array_t<double> array_of(const PoseCovariance& covariance);
+
+}  // namespace dotpose::python

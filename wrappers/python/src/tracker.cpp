@@ -1,0 +1,218 @@
+// Tracker and Track: a robot followed through the fixes of its frames.
+#include "tracker.hpp"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <fmt/core.h>
+
+#include "dotpose/files/error.hpp"
+#include "fix.hpp"
+
+namespace dotpose::python {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// A member of TrackOptions that is given by its name.
+struct FloatOption {
+    const char* name;
+    float TrackOptions::*member;
+};
+constexpr std::array kFloatOptions = {
+    FloatOption{"acceleration_mm_s2", &TrackOptions::acceleration_mm_s2},
+    FloatOption{"angular_acceleration_rad_s2", &TrackOptions::angular_acceleration_rad_s2},
+    FloatOption{"max_acceleration_mm_s2", &TrackOptions::max_acceleration_mm_s2},
+    FloatOption{"max_angular_acceleration_rad_s2", &TrackOptions::max_angular_acceleration_rad_s2},
+    FloatOption{"max_speed_mm_s", &TrackOptions::max_speed_mm_s},
+    FloatOption{"max_turn_rad_s", &TrackOptions::max_turn_rad_s},
+    FloatOption{"gate_sigmas", &TrackOptions::gate_sigmas},
+    FloatOption{"still_mm", &TrackOptions::still_mm},
+    FloatOption{"still_rad", &TrackOptions::still_rad},
+    FloatOption{"least_sigma_mm", &TrackOptions::least_sigma_mm},
+    FloatOption{"least_sigma_rad", &TrackOptions::least_sigma_rad},
+    FloatOption{"spacing_mm", &TrackOptions::spacing_mm},
+};
+struct IntOption {
+    const char* name;
+    int TrackOptions::*member;
+};
+constexpr std::array kIntOptions = {
+    IntOption{"confirmations", &TrackOptions::confirmations},
+    IntOption{"max_p_wrong_log2", &TrackOptions::max_p_wrong_log2},
+    IntOption{"max_weak_p_wrong_log2", &TrackOptions::max_weak_p_wrong_log2},
+};
+struct TimeOption {
+    const char* name;
+    std::int64_t TrackOptions::*member;
+};
+constexpr std::array kTimeOptions = {
+    TimeOption{"lost_after_us", &TrackOptions::lost_after_us},
+    TimeOption{"stationary_after_us", &TrackOptions::stationary_after_us},
+};
+
+template <typename Value, typename Named>
+bool set_if_named(const Named& named, const std::string& key, const py::handle& value,
+                  TrackOptions& options) {
+    for (const auto& option : named) {
+        if (key != option.name) continue;
+        try {
+            options.*option.member = value.cast<Value>();
+        } catch (const py::cast_error&) {
+            throw py::type_error(key + " is a number");
+        }
+        return true;
+    }
+    return false;
+}
+
+/// A Tracker that remembers its newest fix, which predictions begin with.
+class TrackerOfPython {
+  public:
+    explicit TrackerOfPython(const TrackOptions& options) : tracker_(options) {}
+
+    Track update(std::int64_t time_us, const std::optional<SeenFix>& fix) {
+        const bool is_ok = fix && fix->is_ok();
+        if (is_ok && !(fix->fix.spacing_mm() <= 20)) {
+            throw BadArgument("the spacing of the pattern must be known and at most 20 mm");
+        }
+        if (is_ok) {
+            newest_ = fix;
+            sighting_ = sighting_of(fix->fix, time_us);
+        }
+        return tracker_.update(time_us, is_ok ? &sighting_ : nullptr);
+    }
+
+    std::optional<SeenPrediction> predict(std::int64_t time_us) const {
+        if (!newest_ || !tracker_.has_prior()) return std::nullopt;
+        Options options;
+        options.profile = newest_->code;
+        options.reference_dx_q8 = newest_->reference_q8.x;
+        options.reference_dy_q8 = newest_->reference_q8.y;
+        SeenPrediction result = SeenPrediction::like(*newest_);
+        result.prediction = tracker_.predict(time_us, newest_->fix, sighting_, options);
+        return result;
+    }
+
+    const Track& track() const { return tracker_.track(); }
+
+  private:
+    Tracker tracker_;
+    std::optional<SeenFix> newest_;
+    Sighting sighting_;
+};
+
+py::set events(const Track& track) {
+    const TrackEvents& happened = track.events;
+    py::set names;
+    if (happened.fix) names.add("fix");
+    if (happened.lost) names.add("lost");
+    if (happened.kidnapped) names.add("kidnapped");
+    if (happened.stationary) names.add("stationary");
+    if (happened.moving) names.add("moving");
+    return names;
+}
+
+py::array_t<double> covariance(const Track& track) {
+    py::array_t<double> array({6, 6});
+    auto at = array.mutable_unchecked<2>();
+    for (int i = 0; i < 6; ++i)
+        for (int j = 0; j < 6; ++j)
+            at(i, j) = track.is_lost ? kNaN
+                                     : double{track.pose.covariance[static_cast<std::size_t>(i)]
+                                                                   [static_cast<std::size_t>(j)]};
+    return array;
+}
+
+/// Returns a function that gives a number of the pose, not a number while the robot is lost.
+template <typename Get>
+auto if_seen(Get get) {
+    return [get](const Track& self) { return self.is_lost ? kNaN : double{get(self.pose)}; };
+}
+
+std::string text(const Track& track) {
+    if (track.is_lost) return "<Track lost>";
+    return fmt::format("<Track x {:.3f} mm, y {:.3f} mm, theta {:.4f} rad, {:.1f} and {:.1f} mm/s>",
+                       track.pose.x_mm(), track.pose.y_mm(), track.pose.theta_rad(),
+                       double{track.pose.vx_mm_s}, double{track.pose.vy_mm_s});
+}
+
+void define_track(py::module_& module) {
+    py::class_<Track>(module, "Track",
+                      "The state of a robot after a frame. Its plane is the pattern (mm, y DOWN), "
+                      "or the world of a sheet file (mm, y up).")
+        .def_readonly("is_lost", &Track::is_lost,
+                      "Whether the robot was not seen for too long; the pose is nan then.")
+        .def_readonly("is_stationary", &Track::is_stationary, "Whether the robot is at rest.")
+        .def_property_readonly(
+            "verdict", [](const Track& self) { return name(self.verdict); },
+            "How the fix was judged: \"none\", \"believed\", \"with_prior\", \"gated\" or "
+            "\"too_weak\".")
+        .def_property_readonly(
+            "p_wrong", [](const Track& self) { return std::ldexp(1.0, self.p_wrong_log2); },
+            "Bound of the probability that the pose is wrong, given the frames before.")
+        .def_property_readonly("events", &events,
+                               "What this frame changed: a set of \"fix\", \"lost\", "
+                               "\"kidnapped\", \"stationary\", \"moving\".")
+        .def_property_readonly(
+            "time_us", [](const Track& self) { return self.pose.time_us; },
+            "Time of the pose, in us.")
+        .def_property_readonly("x_mm", if_seen([](const TrackedPose& p) { return p.x_mm(); }),
+                               "Position, in mm.")
+        .def_property_readonly("y_mm", if_seen([](const TrackedPose& p) { return p.y_mm(); }),
+                               "Position, in mm.")
+        .def_property_readonly("theta_rad",
+                               if_seen([](const TrackedPose& p) { return p.theta_rad(); }),
+                               "Angle, in rad, in [-pi, pi).")
+        .def_property_readonly("vx_mm_s", if_seen([](const TrackedPose& p) { return p.vx_mm_s; }),
+                               "Velocity along x, in mm/s.")
+        .def_property_readonly("vy_mm_s", if_seen([](const TrackedPose& p) { return p.vy_mm_s; }),
+                               "Velocity along y, in mm/s.")
+        .def_property_readonly("turn_rad_s",
+                               if_seen([](const TrackedPose& p) { return p.turn_rad_s; }),
+                               "Turn rate, in rad/s.")
+        .def_property_readonly("covariance", &covariance,
+                               "Covariance of (x, y, theta, their velocities): 6 x 6, in mm, rad "
+                               "and s.")
+        .def("__repr__", &text);
+}
+
+}  // namespace
+
+TrackOptions track_options_of(const py::dict& given) {
+    TrackOptions options;
+    for (const auto& [key, value] : given) {
+        const std::string name = py::str(key);
+        if (!set_if_named<float>(kFloatOptions, name, value, options) &&
+            !set_if_named<int>(kIntOptions, name, value, options) &&
+            !set_if_named<std::int64_t>(kTimeOptions, name, value, options)) {
+            throw py::type_error("a tracker has no option '" + name + "'");
+        }
+    }
+    return options;
+}
+
+void define_tracker(py::module_& module) {
+    define_track(module);
+    py::class_<TrackerOfPython>(module, "Tracker",
+                                "Follows one robot through the fixes of its frames.\n\n"
+                                "    fix = locator.locate(image, tracker.predict(time_us))\n"
+                                "    track = tracker.update(time_us, fix)")
+        .def(py::init([](const py::kwargs& options) {
+                 return TrackerOfPython(track_options_of(options));
+             }),
+             "Make a tracker, which starts as lost. How the robot moves is given by name, such as\n"
+             "acceleration_mm_s2=600, max_speed_mm_s=1000, lost_after_us=70000; docs/tracking.md\n"
+             "has all.")
+        .def("update", &TrackerOfPython::update, "time_us"_a, "fix"_a = py::none(),
+             "Take the next frame: its time in us on any clock, and its Fix, which may not be ok. "
+             "Return the Track after it.")
+        .def("predict", &TrackerOfPython::predict, "time_us"_a,
+             "Return the Prediction for a frame at this time, None while the robot is lost.")
+        .def_property_readonly(
+            "track", [](const TrackerOfPython& self) { return Track(self.track()); },
+            "The Track after the newest frame.");
+}
+
+}  // namespace dotpose::python

@@ -1,0 +1,107 @@
+"""Threads: side by side with a locator each, one after the other with a shared one."""
+
+import os
+import threading
+import time
+
+import pytest
+
+import dotpose
+
+FRAMES = 60
+
+
+def locate_all(locator, images, results):
+    results.append([locator.locate(image)._bits for image in images])
+
+
+def run(locators, images):
+    """Locates the images with each locator in a thread of its own; returns results and seconds."""
+    results = []
+    threads = [
+        threading.Thread(target=locate_all, args=(locator, images, results))
+        for locator in locators
+    ]
+    start = time.perf_counter()
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    return results, time.perf_counter() - start
+
+
+@pytest.fixture(scope="module")
+def images():
+    frames = dotpose.simulate(20, seed=8, width_px=640, height_px=480)
+    return [frame.image for frame in frames] * (FRAMES // 20)
+
+
+def test_threads_with_a_locator_each_get_the_same_bits(images):
+    (expected,), _ = run([dotpose.Locator("anoto")], images)
+    results, _ = run([dotpose.Locator("anoto") for _ in range(4)], images)
+    assert results == [expected] * 4
+
+
+def test_threads_may_share_a_locator(images):
+    (expected,), _ = run([dotpose.Locator("anoto")], images)
+    shared = dotpose.Locator("anoto")
+    results, _ = run([shared] * 4, images)
+    assert results == [expected] * 4
+
+
+def test_the_interpreter_goes_on_while_a_thread_locates():
+    """Another thread notes the time again and again, also in the midst of locating."""
+    image = dotpose.simulate(1, seed=8, width_px=4096, height_px=4096)[0].image
+    locator = dotpose.Locator("anoto")
+    noted = []
+    stop = threading.Event()
+
+    def note():
+        while not stop.wait(0.0002):
+            noted.append(time.perf_counter())
+
+    noter = threading.Thread(target=note)
+    noter.start()
+    shares = []
+    for _ in range(20):
+        start = time.perf_counter()
+        assert locator.locate(image).dots_seen
+        end = time.perf_counter()
+        shares += [(moment - start) / (end - start) for moment in noted if start < moment < end]
+        noted.clear()
+    stop.set()
+    noter.join()
+    # If locate held the lock, moments would be noted at its very ends only.
+    assert sum(0.2 < share < 0.8 for share in shares) >= 5
+
+
+def cores_of_processes(images):
+    """How many cores two processes use that do the same."""
+    start = time.perf_counter()
+    children = []
+    for _ in range(2):
+        child = os.fork()
+        if child == 0:
+            locate_all(dotpose.Locator("anoto"), images, [])
+            os._exit(0)
+        children.append(child)
+    usages = [os.wait4(child, 0)[2] for child in children]
+    seconds = time.perf_counter() - start
+    return sum(usage.ru_utime + usage.ru_stime for usage in usages) / seconds
+
+
+@pytest.mark.skipif(len(os.sched_getaffinity(0)) < 2, reason="needs two cores")
+def test_two_threads_use_two_cores(images):
+    """Processor time grows faster than the clock. On a busy machine a moment without others is
+    awaited; threads that hold the lock never show one."""
+    by_processes = 0.0
+    for _ in range(20):
+        cpu = time.process_time()
+        _, seconds = run([dotpose.Locator("anoto"), dotpose.Locator("anoto")], images)
+        by_threads = (time.process_time() - cpu) / seconds
+        if by_threads > 1.3:
+            return
+        by_processes = max(by_processes, cores_of_processes(images))
+    if by_processes < 1.3:
+        pytest.skip(f"the machine is busy: two processes used {by_processes:.2f} cores")
+    pytest.fail(f"two threads used {by_threads:.2f} cores, two processes {by_processes:.2f}")
