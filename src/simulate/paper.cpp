@@ -3,7 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
-namespace dotpose::simulate {
+namespace dotpose {
+
+double PageArea::distance(double x, double y) const {
+    const double dx = x - x_grid;
+    const double dy = y - y_grid;
+    const double c = std::cos(angle_rad);
+    const double s = std::sin(angle_rad);
+    return std::max(std::abs(c * dx + s * dy) - half_width,
+                    std::abs(c * dy - s * dx) - half_height);
+}
+
+namespace simulate {
 namespace {
 
 // Rounds down without std::floor, which is a function call unless the compiler may assume a newer
@@ -51,7 +62,8 @@ class Texture {
     double node(std::int64_t i, std::int64_t j) const {
         const auto column = static_cast<std::uint64_t>(i - first_i_);
         const auto row = static_cast<std::uint64_t>(j - first_j_);
-        return column < columns_ && row < rows_ ? nodes_[row * columns_ + column] : drawn(i, j);
+        if (column >= columns_ || row >= rows_) return drawn(i, j);
+        return nodes_[static_cast<std::size_t>(row * columns_ + column)];
     }
 
     // Computes the values of the nodes in view in advance: each is used by about 36 pixels. Under a
@@ -65,7 +77,7 @@ class Texture {
         first_j_ = floor_of(origin_.y + box.low_mm.y * nodes_per_mm_);
         columns_ = static_cast<std::uint64_t>(width);
         rows_ = static_cast<std::uint64_t>(height);
-        nodes_.reserve(columns_ * rows_);
+        nodes_.reserve(static_cast<std::size_t>(columns_ * rows_));
         for (std::uint64_t row = 0; row < rows_; ++row) {
             for (std::uint64_t column = 0; column < columns_; ++column)
                 nodes_.push_back(drawn(first_i_ + static_cast<std::int64_t>(column),
@@ -146,4 +158,5 @@ std::vector<float> bare_paper(const View& view, const Page& page,
     return paper;
 }
 
-}  // namespace dotpose::simulate
+}  // namespace simulate
+}  // namespace dotpose

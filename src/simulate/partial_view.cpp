@@ -124,15 +124,6 @@ bool draw_islands(const Shot& shot, int count, Rng& rng, std::vector<PageArea>& 
 
 }  // namespace
 
-double PageArea::distance(double x, double y) const {
-    const double dx = x - x_grid;
-    const double dy = y - y_grid;
-    const double c = std::cos(angle_rad);
-    const double s = std::sin(angle_rad);
-    return std::max(std::abs(c * dx + s * dy) - half_width,
-                    std::abs(c * dy - s * dx) - half_height);
-}
-
 void cover_partly(Shot& shot, const PartialView& view) {
     if (!(view.least_share > 0 && view.least_share <= view.most_share && view.most_share <= 1))
         throw BadArgument("the share that is covered must be above 0 and at most 1");

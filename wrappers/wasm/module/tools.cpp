@@ -133,6 +133,11 @@ void* __cxa_allocate_exception(std::size_t size_bytes) noexcept {
     __builtin_trap();
 }
 
+// Called by abort; a module of its own has no process to end.
+void __wasi_proc_exit(std::uint32_t) {
+    __builtin_trap();
+}
+
 // Called when the memory has grown. The loader makes its views anew after each call; this is here
 // only so that the module need not import it.
 void emscripten_notify_memory_growth(std::size_t) {}

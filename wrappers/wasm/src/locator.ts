@@ -59,7 +59,6 @@ const kEvidenceBytes = 36;
 const kReadingBytes = 28;
 const kDotBytes = 16;
 const kMostDots = 16384;
-const kLargeKind = 2;
 const kPointerBytes = 4;
 
 /** Least and greatest width and height of an image. */
@@ -136,10 +135,10 @@ export class Locator {
             set("lens_k_q40", Math.trunc(options.lens_k_per_px2 * 2 ** 40));
         if (options.max_p_wrong !== undefined)
             set("max_p_wrong_log2", Math.floor(Math.log2(options.max_p_wrong)));
-        const bytes = core.call("dotpose_locator_bytes", kLargeKind);
+        const bytes = core.call("dotpose_large_bytes");
         const memory = core.reserve(bytes);
         const pointer = core.reserve(kPointerBytes);
-        this.#require(core.call("dotpose_locator_init", memory, bytes, kLargeKind, given, pointer));
+        this.#require(core.call("dotpose_large_init", memory, bytes, given, pointer));
         return core.view(pointer, kPointerBytes).getUint32(0, true);
     }
 
