@@ -1,0 +1,66 @@
+// A canvas that is drawn in CSS pixels, sharp on every screen.
+
+/** Colours over camera frames: apart from each other for all kinds of colour vision. */
+export const kInk = {
+    up: "#0072b2",
+    left: "#d55e00",
+    right: "#009e73",
+    down: "#cc79a7",
+    found: "#ffb000",
+    grid: "rgba(120, 190, 255, 0.55)",
+    x: "#e4572e",
+    y: "#1f9d6b",
+    halo: "rgba(0, 0, 0, 0.65)",
+};
+
+/** By symbol: 0 up, 1 left, 2 right, 3 down. */
+export const kSymbolInk = [kInk.up, kInk.left, kInk.right, kInk.down] as const;
+export const kSymbolStep = [
+    [0, -1],
+    [-1, 0],
+    [1, 0],
+    [0, 1],
+] as const;
+
+export interface Surface {
+    context: CanvasRenderingContext2D;
+    width: number;
+    height: number;
+}
+
+/** Gives the canvas as many pixels as it has on the screen; `aspect` also sets its height. */
+export function surfaceOf(canvas: HTMLCanvasElement, aspect?: number): Surface {
+    if (aspect !== undefined) canvas.style.aspectRatio = String(aspect);
+    const scale = window.devicePixelRatio || 1;
+    const width = canvas.clientWidth;
+    const height = canvas.clientHeight;
+    const [columns, rows] = [Math.round(width * scale), Math.round(height * scale)];
+    if (canvas.width !== columns || canvas.height !== rows) Object.assign(canvas, { width: columns, height: rows });
+    const context = canvas.getContext("2d")!;
+    context.setTransform(scale, 0, 0, scale, 0, 0);
+    context.clearRect(0, 0, width, height);
+    return { context, width, height };
+}
+
+/** Returns a colour of the style sheet, which differs in the light and in the dark. */
+export function themed(name: string): string {
+    return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+}
+
+/** Draws an arrow. */
+export function arrow(
+    context: CanvasRenderingContext2D,
+    from: readonly [number, number],
+    to: readonly [number, number],
+    head: number,
+): void {
+    const angle = Math.atan2(to[1] - from[1], to[0] - from[0]);
+    context.beginPath();
+    context.moveTo(...from);
+    context.lineTo(...to);
+    for (const side of [-1, 1]) {
+        context.moveTo(...to);
+        context.lineTo(to[0] - head * Math.cos(angle + side * 0.5), to[1] - head * Math.sin(angle + side * 0.5));
+    }
+    context.stroke();
+}

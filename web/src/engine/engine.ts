@@ -1,0 +1,107 @@
+// The page's side of the worker: a function for each thing that it does.
+import type { Code } from "dotpose";
+import type {
+    Answer,
+    LumaPath,
+    Reading,
+    Request,
+    SheetChoice,
+    SheetLayout,
+    SimulatedView,
+} from "./messages.js";
+
+/** What a stream of camera frames tells. */
+export interface StreamEvents {
+    onFrame(reading: Reading, path: LumaPath): void;
+    onEnd(message: string): void;
+}
+
+interface Waiting {
+    resolve(value: unknown): void;
+    reject(error: Error): void;
+}
+
+type WithoutId<T> = T extends { id: number } ? Omit<T, "id"> : never;
+
+export class Engine {
+    readonly #worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module" });
+    readonly #waiting = new Map<number, Waiting>();
+    #last_id = 0;
+    #events: StreamEvents | undefined;
+    /** Whether the worker itself can take a camera's track. */
+    takesTracks = false;
+
+    constructor() {
+        this.#worker.onmessage = ({ data }: MessageEvent<Answer>) => this.#hear(data);
+        this.#worker.onerror = (event) => {
+            for (const { reject } of this.#waiting.values()) reject(new Error(event.message));
+            this.#waiting.clear();
+        };
+    }
+
+    layout(sheet: SheetChoice): Promise<SheetLayout> {
+        return this.#ask({ kind: "layout", sheet });
+    }
+    symbols(sheet: SheetLayout): Promise<Uint8Array> {
+        return this.#ask({ kind: "symbols", sheet });
+    }
+    simulate(sheet: SheetChoice, view: SimulatedView): Promise<Reading> {
+        return this.#ask({ kind: "simulate", sheet, view });
+    }
+    /** Reads a picture, which is given away and comes back in the reading. */
+    read(picture: ImageBitmap, code: Code | "auto", time_s: number): Promise<Reading> {
+        return this.#ask({ kind: "picture", picture, code, time_s }, [picture]);
+    }
+
+    /** Starts to read frames from a stream, or from a track if the worker takes tracks. */
+    follow(source: ReadableStream<VideoFrame> | MediaStreamTrack, code: Code | "auto", events: StreamEvents): void {
+        this.#events = events;
+        if (source instanceof ReadableStream) {
+            this.#tell({ kind: "stream", frames: source, code }, [source]);
+        } else {
+            this.#tell({ kind: "track", track: source, code }, [source as unknown as Transferable]);
+        }
+    }
+    /** Asks for the next frame of the stream. */
+    next(): void {
+        this.#tell({ kind: "next" });
+    }
+    stop(): void {
+        this.#events = undefined;
+        this.#tell({ kind: "stop" });
+    }
+
+    #tell(request: Request, transfer: Transferable[] = []): void {
+        this.#worker.postMessage(request, transfer);
+    }
+
+    #ask<T>(request: WithoutId<Request>, transfer: Transferable[] = []): Promise<T> {
+        const id = ++this.#last_id;
+        return new Promise<T>((resolve, reject) => {
+            this.#waiting.set(id, { resolve: (value) => resolve(value as T), reject });
+            this.#tell({ ...request, id } as Request, transfer);
+        });
+    }
+
+    #hear(answer: Answer): void {
+        switch (answer.kind) {
+            case "ready":
+                this.takesTracks = answer.processor;
+                return;
+            case "frame":
+                if (this.#events) this.#events.onFrame(answer.reading, answer.path);
+                else answer.reading.picture.close();
+                return;
+            case "ended":
+                this.#events?.onEnd(answer.message);
+                return;
+            case "result":
+                this.#waiting.get(answer.id)?.resolve(answer.value);
+                break;
+            case "failed":
+                this.#waiting.get(answer.id)?.reject(new Error(answer.message));
+                break;
+        }
+        this.#waiting.delete(answer.id);
+    }
+}

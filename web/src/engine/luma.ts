@@ -1,0 +1,46 @@
+// The grey levels of a frame: copied out of a camera's frame where the browser allows it, otherwise drawn
+// on a canvas and read back.
+import type { Image } from "dotpose";
+import type { LumaPath } from "./messages.js";
+
+/** Formats whose first plane is the luma, one byte per pixel. */
+const kLumaFirst = new Set(["I420", "I420A", "I422", "I444", "NV12"]);
+
+let canvas: OffscreenCanvas | undefined;
+let plane = new Uint8Array(0);
+
+/** Draws a picture and returns its luma, by the weights of BT.601 that cameras use. */
+export function lumaByCanvas(picture: CanvasImageSource, width: number, height: number): Image {
+    canvas ??= new OffscreenCanvas(width, height);
+    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+    const context = canvas.getContext("2d", { willReadFrequently: true })!;
+    context.drawImage(picture, 0, 0, width, height);
+    const { data } = context.getImageData(0, 0, width, height);
+    const luma = new Uint8Array(width * height);
+    for (let i = 0, j = 0; i < luma.length; ++i, j += 4)
+        luma[i] = (77 * data[j]! + 150 * data[j + 1]! + 29 * data[j + 2]! + 128) >> 8;
+    return { data: luma, width, height };
+}
+
+/** Whether the frame's own luma can be used: its pixels lie as they are shown. */
+function isPlain(frame: VideoFrame): boolean {
+    const { rotation = 0, flip = false } = frame as { rotation?: number; flip?: boolean };
+    return frame.format !== null && kLumaFirst.has(frame.format) && rotation === 0 && !flip;
+}
+
+/** Returns the luma of a camera's frame, and how it was had. */
+export async function lumaOfFrame(frame: VideoFrame): Promise<{ image: Image; path: LumaPath }> {
+    if (!isPlain(frame)) {
+        const image = lumaByCanvas(frame, frame.displayWidth, frame.displayHeight);
+        return { image, path: "canvas" };
+    }
+    const bytes = frame.allocationSize();
+    if (plane.length < bytes) plane = new Uint8Array(bytes);
+    const layout = await frame.copyTo(plane);
+    const { width, height } = frame.visibleRect!;
+    const { offset, stride } = layout[0]!;
+    return {
+        image: { data: plane.subarray(offset, offset + (height - 1) * stride + width), width, height, stride },
+        path: "processor",
+    };
+}

@@ -1,0 +1,40 @@
+// How bright, contrasty and sharp an image is, from a sample of its rows.
+import type { Image } from "dotpose";
+import type { ImageQuality } from "./messages.js";
+
+const kRows = 24;
+
+/** Returns the grey level that a share of the counted pixels lies below. */
+function quantile(histogram: Uint32Array, count: number, share: number): number {
+    let below = 0;
+    for (let level = 0; level < 256; ++level) {
+        below += histogram[level]!;
+        if (below > share * count) return level;
+    }
+    return 255;
+}
+
+/** Measures an image; takes well under a millisecond at any size. */
+export function measureQuality({ data, width, height, stride = width }: Image): ImageQuality {
+    const levels = new Uint32Array(256);
+    const steps = new Uint32Array(256);
+    const rows = Math.min(kRows, height);
+    for (let i = 0; i < rows; ++i) {
+        const start = Math.floor(((i + 0.5) * height) / rows) * stride;
+        for (let u = 0; u < width; ++u) {
+            const level = data[start + u]!;
+            levels[level]! += 1;
+            if (u > 0) steps[Math.abs(level - data[start + u - 1]!)]! += 1;
+        }
+    }
+    const count = rows * width;
+    const contrast = quantile(levels, count, 0.95) - quantile(levels, count, 0.05);
+    let sum = 0;
+    levels.forEach((n, level) => (sum += n * level));
+    const kSteepest = 0.98;
+    return {
+        brightness: sum / count,
+        contrast,
+        sharpness: contrast === 0 ? 0 : quantile(steps, count, kSteepest) / contrast,
+    };
+}

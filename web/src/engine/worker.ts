@@ -1,0 +1,162 @@
+// The worker: the locator, the simulated camera and the loop over a camera's frames. It keeps the page
+// free to be drawn and touched.
+import { Locator, patternBits, type Code, type Fix, type Image } from "dotpose";
+import { cellsInView } from "./cells.js";
+import { lumaByCanvas, lumaOfFrame } from "./luma.js";
+import { measureQuality } from "./quality.js";
+import { layoutOf, render } from "./simulator.js";
+import type { Answer, LumaPath, Reading, Request, SheetLayout } from "./messages.js";
+
+const port = self as unknown as {
+    postMessage(message: Answer, transfer?: Transferable[]): void;
+    onmessage: ((event: MessageEvent<Request>) => void) | null;
+};
+
+/** Locators by code: each holds the tables of one. */
+const locators = new Map<string, Promise<Locator>>();
+let previous: Fix | null = null;
+
+function locatorOf(code: Code | "auto"): Promise<Locator> {
+    let locator = locators.get(code);
+    if (locator === undefined) {
+        locator = Locator.create({ code, dots: true });
+        locators.set(code, locator);
+    }
+    return locator;
+}
+
+async function read(
+    image: Image,
+    picture: ImageBitmap,
+    code: Code | "auto",
+    time_s: number,
+): Promise<Reading> {
+    const locator = await locatorOf(code);
+    const begin = performance.now();
+    const fix = locator.locate(image, { prediction: previous });
+    const locate_ms = performance.now() - begin;
+    previous = fix.ok ? fix : null;
+    const { width, height } = image;
+    const [quality, cells] = [measureQuality(image), await cellsInView(fix, width, height)];
+    return { fix, picture, width_px: width, height_px: height, quality, cells, locate_ms, time_s };
+}
+
+function greyPicture({ data, width, height }: Image): Promise<ImageBitmap> {
+    const rgba = new Uint8ClampedArray(4 * width * height).fill(255);
+    for (let i = 0; i < width * height; ++i) rgba.fill(data[i]!, 4 * i, 4 * i + 3);
+    return createImageBitmap(new ImageData(rgba, width, height));
+}
+
+/** The camera's frames, one at a time: the next is taken once the page has drawn the last. */
+class Stream {
+    #reader: ReadableStreamDefaultReader<VideoFrame>;
+    #wanted: () => void = () => {};
+    #stopped = false;
+
+    constructor(
+        frames: ReadableStream<VideoFrame>,
+        private readonly code: Code | "auto",
+    ) {
+        this.#reader = frames.getReader();
+    }
+
+    next(): void {
+        this.#wanted();
+    }
+    stop(): void {
+        this.#stopped = true;
+        void this.#reader.cancel();
+        this.#wanted();
+    }
+
+    async run(): Promise<void> {
+        while (!this.#stopped) {
+            const { value: frame, done } = await this.#reader.read();
+            if (done || frame === undefined) break;
+            const asked = new Promise<void>((resolve) => (this.#wanted = resolve));
+            const { reading, path } = await this.#readAndClose(frame);
+            port.postMessage({ kind: "frame", reading, path }, [reading.picture]);
+            await asked;
+        }
+        if (!this.#stopped) port.postMessage({ kind: "ended", message: "The camera stopped." });
+    }
+
+    async #readAndClose(frame: VideoFrame): Promise<{ reading: Reading; path: LumaPath }> {
+        try {
+            const { image, path } = await lumaOfFrame(frame);
+            const picture = await createImageBitmap(frame);
+            return { reading: await read(image, picture, this.code, frame.timestamp / 1e6), path };
+        } finally {
+            frame.close();
+        }
+    }
+}
+
+let stream: Stream | undefined;
+
+function startStream(frames: ReadableStream<VideoFrame>, code: Code | "auto"): void {
+    stream?.stop();
+    previous = null;
+    stream = new Stream(frames, code);
+    stream.run().catch((error: unknown) => port.postMessage({ kind: "ended", message: String(error) }));
+}
+
+function symbolsOf(sheet: SheetLayout): Promise<Uint8Array> {
+    const { code, section, origin: cell, columns, rows } = sheet;
+    return patternBits({ code, section, cell, columns, rows });
+}
+
+type Asked = Extract<Request, { id: number }>;
+
+async function answer(request: Asked): Promise<[value: unknown, transfer: Transferable[]]> {
+    switch (request.kind) {
+        case "layout":
+            return [await layoutOf(request.sheet), []];
+        case "symbols": {
+            const symbols = await symbolsOf(request.sheet);
+            return [symbols, [symbols.buffer]];
+        }
+        case "simulate": {
+            const image = await render(request.sheet, request.view);
+            const reading = await read(image, await greyPicture(image), request.sheet.code, 0);
+            return [reading, [reading.picture]];
+        }
+        case "picture": {
+            const { picture, code, time_s } = request;
+            const image = lumaByCanvas(picture, picture.width, picture.height);
+            const reading = await read(image, picture, code, time_s);
+            return [reading, [picture]];
+        }
+    }
+}
+
+async function reply(request: Asked): Promise<void> {
+    try {
+        const [value, transfer] = await answer(request);
+        port.postMessage({ kind: "result", id: request.id, value }, transfer);
+    } catch (error) {
+        const message = error instanceof Error ? error.message : String(error);
+        port.postMessage({ kind: "failed", id: request.id, message });
+    }
+}
+
+type Processor = new (init: { track: MediaStreamTrack }) => { readable: ReadableStream<VideoFrame> };
+const { MediaStreamTrackProcessor: Processor } = self as { MediaStreamTrackProcessor?: Processor };
+
+port.onmessage = ({ data: request }) => {
+    switch (request.kind) {
+        case "stream":
+            return startStream(request.frames, request.code);
+        case "track":
+            return startStream(new Processor!({ track: request.track }).readable, request.code);
+        case "next":
+            return stream?.next();
+        case "stop":
+            stream?.stop();
+            stream = undefined;
+            return;
+        default:
+            void reply(request);
+    }
+};
+port.postMessage({ kind: "ready", processor: Processor !== undefined });

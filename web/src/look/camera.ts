@@ -1,0 +1,103 @@
+// The camera of the phone or computer, and its frames on their way to the worker.
+import type { Code } from "dotpose";
+import type { Engine, StreamEvents } from "../engine/engine.js";
+
+type Processor = new (init: { track: MediaStreamTrack }) => { readable: ReadableStream<VideoFrame> };
+
+/** Which way frames are taken; `?luma=canvas` in the address forces the one that every browser has. */
+const kForced = new URLSearchParams(location.search).get("luma");
+
+/** Starts a camera; the one of the back, which sees the sheet, if none is asked for. */
+export async function openCamera(device: string): Promise<MediaStream> {
+    const which = device === "" ? { facingMode: { ideal: "environment" } } : { deviceId: { exact: device } };
+    const video = { ...which, width: { ideal: 1280 }, height: { ideal: 720 } };
+    return navigator.mediaDevices.getUserMedia({ video, audio: false });
+}
+
+/** Returns the cameras by name; browsers tell the names once a camera was allowed. */
+export async function listCameras(): Promise<{ id: string; name: string }[]> {
+    const devices = await navigator.mediaDevices.enumerateDevices();
+    return devices
+        .filter(({ kind }) => kind === "videoinput")
+        .map(({ deviceId, label }, i) => ({ id: deviceId, name: label || `Camera ${i + 1}` }));
+}
+
+/** Has the frames of a video element drawn and read, where there is no processor of tracks. */
+class VideoLoop {
+    #is_stopped = false;
+    #resume: (() => void) | undefined;
+
+    constructor(
+        private readonly engine: Engine,
+        private readonly video: HTMLVideoElement,
+        private readonly code: Code | "auto",
+        private readonly events: StreamEvents,
+    ) {}
+
+    next(): void {
+        this.#resume?.();
+    }
+    stop(): void {
+        this.#is_stopped = true;
+        this.#resume?.();
+    }
+
+    async run(): Promise<void> {
+        await this.video.play();
+        while (!this.#is_stopped) {
+            const time_s = await this.#nextFrame();
+            if (this.#is_stopped) return;
+            const picture = await createImageBitmap(this.video);
+            const reading = await this.engine.read(picture, this.code, time_s);
+            const drawn = new Promise<void>((resolve) => (this.#resume = resolve));
+            this.events.onFrame(reading, "canvas");
+            await drawn;
+        }
+    }
+
+    #nextFrame(): Promise<number> {
+        return new Promise((resolve) => {
+            this.#resume = () => resolve(0);
+            if ("requestVideoFrameCallback" in this.video)
+                this.video.requestVideoFrameCallback((_now, { mediaTime }) => resolve(mediaTime));
+            else requestAnimationFrame(() => resolve((this.video as HTMLVideoElement).currentTime));
+        });
+    }
+}
+
+/** A running camera. */
+export class CameraFrames {
+    #loop: VideoLoop | undefined;
+
+    constructor(
+        private readonly engine: Engine,
+        private readonly stream: MediaStream,
+    ) {}
+
+    start(video: HTMLVideoElement, code: Code | "auto", events: StreamEvents): void {
+        const track = this.stream.getVideoTracks()[0]!;
+        track.addEventListener("ended", () => events.onEnd("The camera stopped."));
+        const { MediaStreamTrackProcessor: Processor } = self as { MediaStreamTrackProcessor?: Processor };
+        if (kForced !== "canvas" && Processor !== undefined) {
+            this.engine.follow(new Processor({ track }).readable, code, events);
+        } else if (kForced !== "canvas" && this.engine.takesTracks) {
+            this.engine.follow(track.clone(), code, events);
+        } else {
+            video.srcObject = this.stream;
+            this.#loop = new VideoLoop(this.engine, video, code, events);
+            this.#loop.run().catch((error: unknown) => events.onEnd(String(error)));
+        }
+    }
+
+    /** The last frame is drawn. */
+    next(): void {
+        if (this.#loop) this.#loop.next();
+        else this.engine.next();
+    }
+
+    stop(): void {
+        this.#loop?.stop();
+        this.engine.stop();
+        for (const track of this.stream.getTracks()) track.stop();
+    }
+}

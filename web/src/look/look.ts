@@ -1,0 +1,207 @@
+// Look: the camera of this device, live, with what is read in its frames.
+import type { Code } from "dotpose";
+import { drawFrame } from "../draw/frame.js";
+import { cornersOf, drawMap, onPage } from "../draw/map.js";
+import type { Engine } from "../engine/engine.js";
+import type { LumaPath, Reading, SheetLayout } from "../engine/messages.js";
+import { announcer, download, element, make, show } from "../page/dom.js";
+import { hintOf } from "../page/hints.js";
+import { isOnSheet, type Point_mm } from "../page/sheet_frame.js";
+import type { View } from "../page/view.js";
+import { knownSheets, type KnownSheet } from "../print/known_sheets.js";
+import { CameraFrames, listCameras, openCamera } from "./camera.js";
+import { explain, listenToExplain } from "./explain.js";
+import { Log } from "./log.js";
+import { Rate } from "./rate.js";
+import { showReading } from "./readout.js";
+
+const kLongestPath = 3000;
+
+export class LookView implements View {
+    readonly #engine: Engine;
+    readonly #frame = element("look-frame", HTMLCanvasElement);
+    readonly #map = element("look-map", HTMLCanvasElement);
+    readonly #start = element("look-start", HTMLButtonElement);
+    readonly #freeze = element("look-freeze", HTMLButtonElement);
+    readonly #announce = announcer("look-live");
+    readonly #log = new Log();
+    readonly #rate = new Rate();
+    #camera: CameraFrames | undefined;
+    #is_opening = false;
+    #is_frozen = false;
+    #last: Reading | undefined;
+    #path: Point_mm[] = [];
+    #sheets: KnownSheet[] = [];
+    #sheet: KnownSheet | null = null;
+
+    constructor(engine: Engine) {
+        this.#engine = engine;
+        this.#start.addEventListener("click", () => (this.#camera ? this.#stop() : void this.#open("")));
+        this.#freeze.addEventListener("click", () => this.#explain());
+        listenToExplain(() => this.#thaw());
+        element("look-camera", HTMLSelectElement).addEventListener("change", (event) => {
+            this.#stop();
+            void this.#open((event.target as HTMLSelectElement).value);
+        });
+        element("look-code", HTMLSelectElement).addEventListener("change", () => {
+            if (!this.#camera) return;
+            this.#stop();
+            void this.#open(element("look-camera", HTMLSelectElement).value);
+        });
+        element("look-file", HTMLInputElement).addEventListener("change", (event) => {
+            const input = event.target as HTMLInputElement;
+            void this.#readFile(input.files?.[0]);
+            input.value = "";
+        });
+        element("look-log", HTMLButtonElement).addEventListener("click", () =>
+            download("dotpose-log.csv", "text/csv", this.#log.text()),
+        );
+        element("look-clear", HTMLButtonElement).addEventListener("click", () => this.#clear());
+    }
+
+    shown(): void {
+        this.#sheets = knownSheets();
+        this.redraw();
+    }
+    hidden(): void {
+        this.#stop();
+    }
+    redraw(): void {
+        if (!this.#last) return;
+        drawFrame(this.#frame, this.#last, { found: true, grid: true, pose: true });
+        this.#drawMap(this.#last);
+    }
+
+    get #code(): Code | "auto" {
+        return element("look-code", HTMLSelectElement).value as Code | "auto";
+    }
+
+    async #open(device: string): Promise<void> {
+        if (this.#is_opening) return;
+        this.#is_opening = true;
+        try {
+            if (!navigator.mediaDevices) throw new Error("cameras need https or localhost");
+            const stream = await openCamera(device);
+            this.#camera = new CameraFrames(this.#engine, stream);
+            this.#rate.restart();
+            this.#camera.start(element("look-video", HTMLVideoElement), this.#code, {
+                onFrame: (reading, path) => this.#take(reading, path),
+                onEnd: (message) => {
+                    this.#stop();
+                    this.#say(message);
+                },
+            });
+            this.#start.textContent = "Stop the camera";
+            await this.#showCameras(stream.getVideoTracks()[0]!.getSettings().deviceId ?? "");
+        } catch (error) {
+            this.#say(`No camera: ${error instanceof Error ? error.message : String(error)}.`);
+        } finally {
+            this.#is_opening = false;
+        }
+    }
+
+    async #showCameras(used: string): Promise<void> {
+        const cameras = await listCameras();
+        element("look-cameras", HTMLElement).hidden = cameras.length < 2;
+        element("look-camera", HTMLSelectElement).replaceChildren(
+            ...cameras.map(({ id, name }) => make("option", { value: id, selected: id === used }, name)),
+        );
+    }
+
+    #stop(): void {
+        this.#camera?.stop();
+        this.#camera = undefined;
+        this.#is_frozen = false;
+        this.#start.textContent = "Start the camera";
+        show({ "look-rate": "" });
+    }
+
+    async #readFile(file: File | undefined): Promise<void> {
+        if (!file) return;
+        this.#stop();
+        try {
+            const picture = await createImageBitmap(file);
+            this.#take(await this.#engine.read(picture, this.#code, performance.now() / 1000), null);
+        } catch {
+            this.#say(`'${file.name}' is no picture that this browser can read.`);
+        }
+    }
+
+    #say(text: string): void {
+        const box = element("look-hint", HTMLElement);
+        box.hidden = text === "";
+        box.classList.remove("good");
+        show({ "look-hint": text });
+        if (text !== "") this.#announce(text);
+    }
+
+    /** Shows a frame; `path` is null for a single picture. */
+    #take(reading: Reading, path: LumaPath | null): void {
+        if (this.#last && this.#last.picture !== reading.picture) this.#last.picture.close();
+        this.#last = reading;
+        this.#freeze.disabled = false;
+        this.#log.add(reading);
+        this.#follow(reading);
+        this.redraw();
+        showReading(reading, this.#sheet);
+        this.#showHint(reading);
+        this.#showCounts(path);
+        if (path !== null && !this.#is_frozen) requestAnimationFrame(() => this.#camera?.next());
+    }
+
+    #showCounts(path: LumaPath | null): void {
+        if (path !== null) {
+            const way = path === "processor" ? "straight from the camera" : "by canvas";
+            show({ "look-rate": `${this.#rate.count()} frames per second, ${way}` });
+        }
+        element("look-log", HTMLButtonElement).disabled = false;
+        element("look-clear", HTMLButtonElement).disabled = false;
+        show({ "look-logged": `${this.#log.length} ${this.#log.length === 1 ? "frame" : "frames"} logged` });
+    }
+
+    /** Adds the place to the path; a place on another sheet begins a new one. */
+    #follow({ fix }: Reading): void {
+        if (!fix.ok) return;
+        const sheet = this.#sheets.find((known) => isOnSheet(known.layout, fix)) ?? null;
+        if (sheet?.name !== this.#sheet?.name) this.#path = [];
+        this.#sheet = sheet;
+        this.#path.push({ x_mm: fix.x_mm, y_mm: fix.y_mm });
+        if (this.#path.length > kLongestPath) this.#path.shift();
+    }
+
+    #showHint(reading: Reading): void {
+        const hint = hintOf(reading);
+        const box = element("look-hint", HTMLElement);
+        box.hidden = hint === null;
+        box.classList.toggle("good", hint?.good ?? false);
+        show({ "look-hint": hint?.text ?? "" });
+        this.#announce(hint?.text ?? "The sheet is read.");
+    }
+
+    #drawMap({ fix, width_px, height_px }: Reading): void {
+        const sheet: SheetLayout | null = this.#sheet?.layout ?? null;
+        const path = onPage(sheet, this.#path);
+        const view = fix.ok ? onPage(sheet, cornersOf(fix, width_px, height_px)) : [];
+        drawMap(this.#map, { sheet, path, now: fix.ok ? path.at(-1)! : null, view });
+        show({ "look-map-name": this.#sheet ? `On the sheet “${this.#sheet.name}”` : "The path" });
+    }
+
+    #explain(): void {
+        if (!this.#last) return;
+        this.#is_frozen = true;
+        explain(this.#last);
+    }
+    #thaw(): void {
+        if (!this.#is_frozen) return;
+        this.#is_frozen = false;
+        this.#rate.restart();
+        this.#camera?.next();
+    }
+
+    #clear(): void {
+        this.#log.clear();
+        this.#path = [];
+        this.#showCounts(null);
+        this.redraw();
+    }
+}

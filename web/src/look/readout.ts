@@ -1,0 +1,30 @@
+// The numbers beside the camera's frame.
+import type { Reading } from "../engine/messages.js";
+import { element, show } from "../page/dom.js";
+import { degrees, length, milliseconds, mm, oneIn } from "../page/format.js";
+import { pageFromPattern } from "../page/sheet_frame.js";
+import type { KnownSheet } from "../print/known_sheets.js";
+
+const kNames = ["x", "y", "angle", "sigma", "wrong", "spacing"];
+
+/** Shows a reading; places count from the corner of the sheet if it is known. */
+export function showReading({ fix, locate_ms }: Reading, sheet: KnownSheet | null): void {
+    element("look-readout", HTMLElement).classList.toggle("lost", !fix.ok);
+    show({ "look-time": milliseconds(locate_ms), "look-dots": String(fix.ok ? fix.dots_used : fix.dots_seen) });
+    if (!fix.ok) {
+        for (const name of kNames) show({ [`look-${name}`]: "–" });
+        return;
+    }
+    const place = sheet ? pageFromPattern(sheet.layout, fix) : fix;
+    const where = sheet ? "on the page" : "in the pattern";
+    show({
+        "look-x-name": `x ${where}`,
+        "look-y-name": `y ${where}`,
+        "look-x": mm(place.x_mm),
+        "look-y": mm(place.y_mm),
+        "look-angle": degrees(fix.theta_rad),
+        "look-sigma": length(Math.sqrt(Math.max(fix.covariance[0]!, fix.covariance[4]!))),
+        "look-wrong": oneIn(fix.p_wrong),
+        "look-spacing": `${fix.spacing_px.toFixed(1)} px`,
+    });
+}

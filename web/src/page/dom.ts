@@ -1,0 +1,47 @@
+// Small helpers for the elements of index.html.
+
+/** Returns the element with this id; it must be of this type. */
+export function element<T extends HTMLElement>(id: string, type: new () => T): T {
+    const found = document.getElementById(id);
+    if (!(found instanceof type)) throw new Error(`index.html has no ${type.name} #${id}`);
+    return found;
+}
+
+/** Writes texts into elements by id. */
+export function show(texts: Record<string, string>): void {
+    for (const [id, text] of Object.entries(texts)) {
+        const target = document.getElementById(id)!;
+        if (target.textContent !== text) target.textContent = text;
+    }
+}
+
+/** Returns an element with texts and elements in it. */
+export function make<K extends keyof HTMLElementTagNameMap>(
+    tag: K,
+    properties: Partial<HTMLElementTagNameMap[K]> = {},
+    ...children: (Node | string)[]
+): HTMLElementTagNameMap[K] {
+    const made = Object.assign(document.createElement(tag), properties);
+    made.append(...children);
+    return made;
+}
+
+/** Returns a function that writes into a live region, at most every three seconds and only what is new. */
+export function announcer(id: string): (text: string) => void {
+    const kPause_ms = 3000;
+    let last_ms = -kPause_ms;
+    return (text) => {
+        const now_ms = performance.now();
+        if (now_ms - last_ms < kPause_ms) return;
+        last_ms = now_ms;
+        show({ [id]: text });
+    };
+}
+
+/** Has the browser save a file. */
+export function download(name: string, type: string, content: BlobPart): void {
+    const url = URL.createObjectURL(new Blob([content], { type }));
+    const link = make("a", { href: url, download: name });
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(url), 10_000);
+}

@@ -1,0 +1,33 @@
+// Numbers as people read them.
+
+export function mm(value: number, digits = 3): string {
+    return `${value.toFixed(digits)} mm`;
+}
+
+/** A length in the unit that suits it. */
+export function length(value_mm: number): string {
+    const um = Math.abs(value_mm) * 1000;
+    if (um >= 1000) return `${(um / 1000).toFixed(2)} mm`;
+    return `${um.toFixed(um < 10 ? 1 : 0)} µm`;
+}
+
+export function degrees(rad: number, digits = 2): string {
+    return `${((rad * 180) / Math.PI).toFixed(digits)}°`;
+}
+
+/** A bound of a probability, as "1 in" a round power of ten. */
+export function oneIn(probability: number): string {
+    const power = Math.floor(-Math.log10(probability));
+    const names = ["", "thousand", "million", "billion"];
+    if (power > 11) return "below 1 in 10¹²";
+    return `1 in ${10 ** (power % 3)} ${names[Math.floor(power / 3)]}`.trim();
+}
+
+export function milliseconds(value_ms: number): string {
+    return `${value_ms.toFixed(value_ms < 10 ? 2 : 0)} ms`;
+}
+
+/** Returns the angle in (-pi, pi]. */
+export function wrapped(rad: number): number {
+    return Math.atan2(Math.sin(rad), Math.cos(rad));
+}

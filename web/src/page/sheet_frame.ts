@@ -1,0 +1,36 @@
+// Points of a page, in mm from its upper left corner, and of the pattern printed on it.
+import type { SheetLayout } from "../engine/messages.js";
+
+/** Spacing of the sheets that this page prints and simulates. */
+export const kSpacing_mm = 0.508;
+
+export interface Point_mm {
+    x_mm: number;
+    y_mm: number;
+}
+
+/** Returns the point of the pattern that is printed at a point of the page. */
+export function patternFromPage(sheet: SheetLayout, { x_mm, y_mm }: Point_mm): Point_mm {
+    return {
+        x_mm: sheet.origin.x * kSpacing_mm + x_mm - sheet.first_x_mm,
+        y_mm: sheet.origin.y * kSpacing_mm + y_mm - sheet.first_y_mm,
+    };
+}
+
+/** Returns the point of the page at which a point of the pattern is printed. */
+export function pageFromPattern(sheet: SheetLayout, { x_mm, y_mm }: Point_mm): Point_mm {
+    return {
+        x_mm: x_mm - sheet.origin.x * kSpacing_mm + sheet.first_x_mm,
+        y_mm: y_mm - sheet.origin.y * kSpacing_mm + sheet.first_y_mm,
+    };
+}
+
+/** Whether a point of the pattern, in this code and section, is on the sheet. */
+export function isOnSheet(
+    sheet: SheetLayout,
+    at: Point_mm & { code: string; section: { u: number; v: number } },
+): boolean {
+    const { x_mm, y_mm } = pageFromPattern(sheet, at);
+    const isThis = sheet.code === at.code && sheet.section.u === at.section.u && sheet.section.v === at.section.v;
+    return isThis && x_mm >= 0 && y_mm >= 0 && x_mm <= sheet.width_mm && y_mm <= sheet.height_mm;
+}

@@ -1,0 +1,48 @@
+// The sheets that were printed here, which this browser keeps.
+import type { SheetLayout } from "../engine/messages.js";
+
+export interface KnownSheet {
+    name: string;
+    layout: SheetLayout;
+}
+
+const kKey = "dotpose-sheets";
+
+function isSheet(value: unknown): value is KnownSheet {
+    const { name, layout } = (value ?? {}) as Partial<KnownSheet>;
+    const numbers = [layout?.origin?.x, layout?.origin?.y, layout?.width_mm, layout?.first_x_mm, layout?.columns];
+    return typeof name === "string" && numbers.every((number) => Number.isFinite(number));
+}
+
+/** Returns them; what somebody else wrote into the storage is left out. */
+export function knownSheets(): KnownSheet[] {
+    try {
+        const kept: unknown = JSON.parse(localStorage.getItem(kKey) ?? "[]");
+        return Array.isArray(kept) ? kept.filter(isSheet) : [];
+    } catch {
+        return [];
+    }
+}
+
+function keep(sheets: KnownSheet[]): void {
+    try {
+        localStorage.setItem(kKey, JSON.stringify(sheets));
+    } catch {
+        // No storage is allowed: the sheet is printed all the same.
+    }
+}
+
+/** Keeps a sheet; one of the same name is replaced. */
+export function remember(sheet: KnownSheet): void {
+    keep([...knownSheets().filter(({ name }) => name !== sheet.name), sheet]);
+}
+
+export function forget(forgotten: string): void {
+    keep(knownSheets().filter(({ name }) => name !== forgotten));
+}
+
+/** Returns where a region begins that no known sheet of this section has. */
+export function freshOrigin(): { x: number; y: number } {
+    const right = knownSheets().map(({ layout }) => layout.origin.x + layout.columns);
+    return { x: Math.max(1000, ...right), y: 2000 };
+}

@@ -1,0 +1,96 @@
+// The simulated camera: where it is, how it is moved, what disturbs it.
+import type { SheetLayout, SimulatedView } from "../engine/messages.js";
+
+/** The sliders, with what they change. */
+export interface Slider {
+    name: "mm_per_px" | "tilt_deg" | "turn_deg" | "blur_px" | "noise" | "paper_level" | "vignetting";
+    label: string;
+    min: number;
+    max: number;
+    step: number;
+    shown(value: number): string;
+}
+
+const percent = (value: number) => `${Math.round(100 * value)} %`;
+
+export const kSliders: readonly Slider[] = [
+    { name: "mm_per_px", label: "Height", min: 0.012, max: 0.085, step: 0.001, shown: (v) => `${(0.508 / v).toFixed(1)} px per dot` },
+    { name: "turn_deg", label: "Turn", min: -180, max: 180, step: 1, shown: (v) => `${Math.round(v)}°` },
+    { name: "tilt_deg", label: "Tilt", min: 0, max: 35, step: 0.5, shown: (v) => `${v}°` },
+    { name: "blur_px", label: "Blur", min: 0, max: 3.5, step: 0.1, shown: (v) => `${v.toFixed(1)} px` },
+    { name: "noise", label: "Noise", min: 0, max: 40, step: 1, shown: (v) => `${v} grey levels` },
+    { name: "paper_level", label: "Light", min: 15, max: 250, step: 1, shown: (v) => percent(v / 250) },
+    { name: "vignetting", label: "Dark corners", min: 0, max: 0.9, step: 0.05, shown: percent },
+];
+
+export type Conditions = Record<Slider["name"], number>;
+
+export const kPresets: Record<string, Partial<Conditions>> = {
+    clean: { tilt_deg: 0, blur_px: 0, noise: 0, paper_level: 200, vignetting: 0 },
+    usual: { tilt_deg: 0, blur_px: 0.5, noise: 3, paper_level: 185, vignetting: 0.15 },
+    hard: { tilt_deg: 4, blur_px: 1, noise: 9, paper_level: 90, vignetting: 0.5 },
+};
+
+/** Size of a pixel of the 188 px wide camera; others see the same field with more pixels. */
+const kReferenceWidth_px = 188;
+
+export class SimulatedCamera {
+    x_mm = 105;
+    y_mm = 148;
+    width_px = 188;
+    height_px = 120;
+    readonly conditions: Conditions = {
+        ...{ mm_per_px: 0.046, turn_deg: 20, tilt_deg: 0, blur_px: 0.5 },
+        ...{ noise: 3, paper_level: 185, vignetting: 0.15 },
+    };
+    #seed = 1;
+
+    get mm_per_px(): number {
+        return (this.conditions.mm_per_px * kReferenceWidth_px) / this.width_px;
+    }
+    get theta_rad(): number {
+        return (this.conditions.turn_deg * Math.PI) / 180;
+    }
+
+    /** Moves the camera over the page, which keeps it. */
+    moveTo(x_mm: number, y_mm: number, sheet: SheetLayout): void {
+        this.x_mm = Math.min(Math.max(x_mm, 0), sheet.width_mm);
+        this.y_mm = Math.min(Math.max(y_mm, 0), sheet.height_mm);
+    }
+
+    /** Moves by pixels of the image, so that what is in it follows the finger. */
+    dragBy(du_px: number, dv_px: number, sheet: SheetLayout): void {
+        const [cos, sin] = [Math.cos(this.theta_rad), Math.sin(this.theta_rad)];
+        const scale = this.mm_per_px;
+        this.moveTo(
+            this.x_mm - scale * (du_px * cos - dv_px * sin),
+            this.y_mm - scale * (du_px * sin + dv_px * cos),
+            sheet,
+        );
+    }
+
+    turnBy(degrees: number): void {
+        const turned = this.conditions.turn_deg + degrees;
+        this.conditions.turn_deg = ((((turned + 180) % 360) + 360) % 360) - 180;
+    }
+
+    rise(factor: number): void {
+        const { min, max } = kSliders[0]!;
+        this.conditions.mm_per_px = Math.min(Math.max(this.conditions.mm_per_px * factor, min), max);
+    }
+
+    /** Returns what is simulated next; every frame has noise of its own. */
+    view(): SimulatedView {
+        const { tilt_deg, blur_px, noise, paper_level, vignetting } = this.conditions;
+        const { x_mm, y_mm, width_px, height_px, mm_per_px, theta_rad } = this;
+        return {
+            ...{ x_mm, y_mm, width_px, height_px, mm_per_px, theta_rad },
+            tilt_x_rad: (tilt_deg * Math.PI) / 180,
+            tilt_y_rad: 0,
+            // A camera with more pixels has the same lens.
+            blur_px: (blur_px * width_px) / kReferenceWidth_px,
+            ...{ noise, paper_level, vignetting },
+            seed: ++this.#seed,
+        };
+    }
+}

@@ -1,0 +1,89 @@
+// Mouse, fingers and keys on the simulated camera's picture.
+
+export interface Gestures {
+    /** Of the picture, in its pixels on the screen. */
+    drag(dx: number, dy: number): void;
+    turn(degrees: number): void;
+    /** Above 1: the camera rises. */
+    rise(factor: number): void;
+    /** Any of them began. */
+    begin(): void;
+}
+
+interface Finger {
+    x: number;
+    y: number;
+}
+
+function listenToPointers(canvas: HTMLCanvasElement, gestures: Gestures): void {
+    const fingers = new Map<number, Finger>();
+    const span = () => {
+        const [a, b] = [...fingers.values()] as [Finger, Finger];
+        return { length: Math.hypot(b.x - a.x, b.y - a.y), angle: Math.atan2(b.y - a.y, b.x - a.x) };
+    };
+    canvas.addEventListener("pointerdown", (event) => {
+        canvas.setPointerCapture(event.pointerId);
+        fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
+        gestures.begin();
+    });
+    canvas.addEventListener("pointermove", (event) => {
+        const finger = fingers.get(event.pointerId);
+        if (finger === undefined) return;
+        const before = fingers.size === 2 ? span() : null;
+        const [dx, dy] = [event.clientX - finger.x, event.clientY - finger.y];
+        Object.assign(finger, { x: event.clientX, y: event.clientY });
+        gestures.drag(dx / fingers.size, dy / fingers.size);
+        if (before === null) return;
+        const after = span();
+        gestures.turn(((before.angle - after.angle) * 180) / Math.PI);
+        if (after.length > 0) gestures.rise(before.length / after.length);
+    });
+    for (const type of ["pointerup", "pointercancel"] as const)
+        canvas.addEventListener(type, (event) => fingers.delete(event.pointerId));
+}
+
+/** Steps of the keys, in px on the screen and degrees. */
+const kStep = 12;
+const kFarStep = 120;
+const kTurn = 5;
+const kRise = 1.06;
+
+function listenToKeys(canvas: HTMLCanvasElement, gestures: Gestures): void {
+    canvas.addEventListener("keydown", (event) => {
+        if (event.ctrlKey || event.metaKey || event.altKey) return;
+        const step = event.shiftKey ? kFarStep : kStep;
+        const actions: Record<string, () => void> = {
+            ArrowLeft: () => gestures.drag(step, 0),
+            ArrowRight: () => gestures.drag(-step, 0),
+            ArrowUp: () => gestures.drag(0, step),
+            ArrowDown: () => gestures.drag(0, -step),
+            q: () => gestures.turn(-kTurn),
+            e: () => gestures.turn(kTurn),
+            "+": () => gestures.rise(kRise),
+            "=": () => gestures.rise(kRise),
+            "-": () => gestures.rise(1 / kRise),
+        };
+        const action = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+        if (action === undefined) return;
+        event.preventDefault();
+        gestures.begin();
+        action();
+    });
+}
+
+/** Lets people move the camera by its picture. */
+export function listen(canvas: HTMLCanvasElement, gestures: Gestures): void {
+    listenToPointers(canvas, gestures);
+    listenToKeys(canvas, gestures);
+    canvas.addEventListener(
+        "wheel",
+        (event) => {
+            // Only with the focus, so that the page can be scrolled past the picture.
+            if (document.activeElement !== canvas) return;
+            event.preventDefault();
+            gestures.begin();
+            gestures.rise(event.deltaY > 0 ? kRise : 1 / kRise);
+        },
+        { passive: false },
+    );
+}

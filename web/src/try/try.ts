@@ -1,0 +1,179 @@
+// Try: a simulated camera over a simulated sheet, and what is read in its frames.
+import { drawFrame } from "../draw/frame.js";
+import { cornersOf, drawMap, onPage, type MapFrame } from "../draw/map.js";
+import type { Engine } from "../engine/engine.js";
+import type { Reading, SheetChoice, SheetLayout, SimulatedView } from "../engine/messages.js";
+import { announcer, element, show } from "../page/dom.js";
+import { degrees, length, milliseconds, mm, oneIn, wrapped } from "../page/format.js";
+import { hintOf } from "../page/hints.js";
+import { pageFromPattern, type Point_mm } from "../page/sheet_frame.js";
+import type { View } from "../page/view.js";
+import { SimulatedCamera } from "./camera.js";
+import { Drive } from "./drive.js";
+import { listen } from "./gestures.js";
+import { buildSliders } from "./sliders.js";
+
+const kSheet: SheetChoice = {
+    ...{ code: "anoto", section: { u: 0, v: 0 }, origin: { x: 1000, y: 2000 } },
+    ...{ width_mm: 210, height_mm: 297, margin_mm: 5 },
+};
+const kLongestPath = 600;
+
+export class TryView implements View {
+    readonly #engine: Engine;
+    readonly #camera = new SimulatedCamera();
+    readonly #picture = element("try-camera", HTMLCanvasElement);
+    readonly #map = element("try-map", HTMLCanvasElement);
+    readonly #announce = announcer("try-live");
+    readonly #drive: Drive;
+    readonly #showSliders: () => void;
+    #sheet: SheetLayout | undefined;
+    #map_frame: MapFrame | null = null;
+    #path: Point_mm[] = [];
+    #is_shown = false;
+    #is_busy = false;
+    #is_stale = false;
+    /** The last frame, to be drawn anew when the window changes. */
+    #last: { reading: Reading; view: SimulatedView } | undefined;
+
+    constructor(engine: Engine) {
+        this.#engine = engine;
+        this.#drive = new Drive(this.#camera, () => this.#changed());
+        this.#showSliders = buildSliders(this.#camera, () => this.#changed());
+        listen(this.#picture, {
+            drag: (dx, dy) => this.#drag(dx, dy),
+            turn: (by) => this.#camera.turnBy(by),
+            rise: (factor) => this.#camera.rise(factor),
+            begin: () => this.#takeOver(),
+        });
+        this.#listenToMap();
+        element("try-size", HTMLSelectElement).addEventListener("change", (event) => {
+            const [width, height] = (event.target as HTMLSelectElement).value.split("x").map(Number);
+            Object.assign(this.#camera, { width_px: width, height_px: height });
+            this.#changed();
+        });
+    }
+
+    async shown(): Promise<void> {
+        this.#is_shown = true;
+        this.#sheet ??= await this.#engine.layout(kSheet);
+        this.#drive.sheet = this.#sheet;
+        this.#drive.resume();
+        this.#changed();
+    }
+    hidden(): void {
+        this.#is_shown = false;
+        this.#drive.pause();
+    }
+    redraw(): void {
+        if (this.#last) this.#draw(this.#last.reading, this.#last.view);
+    }
+
+    #drag(dx: number, dy: number): void {
+        const scale = this.#camera.width_px / Math.max(1, this.#picture.clientWidth);
+        if (this.#sheet) this.#camera.dragBy(dx * scale, dy * scale, this.#sheet);
+        this.#changed();
+    }
+
+    #takeOver(): void {
+        this.#drive.stop();
+        this.#changed();
+    }
+
+    #listenToMap(): void {
+        const move = (event: PointerEvent) => {
+            if (event.buttons === 0 || !this.#map_frame || !this.#sheet) return;
+            const box = this.#map.getBoundingClientRect();
+            const { scale, left_mm, top_mm } = this.#map_frame;
+            this.#drive.stop();
+            const x_mm = left_mm + (event.clientX - box.left) / scale;
+            this.#camera.moveTo(x_mm, top_mm + (event.clientY - box.top) / scale, this.#sheet);
+            this.#changed();
+        };
+        this.#map.addEventListener("pointerdown", (event) => {
+            this.#map.setPointerCapture(event.pointerId);
+            move(event);
+        });
+        this.#map.addEventListener("pointermove", move);
+    }
+
+    /** Has the next frame simulated; while one is, changes wait for it. */
+    #changed(): void {
+        this.#is_stale = true;
+        if (!this.#is_busy) void this.#run();
+    }
+
+    async #run(): Promise<void> {
+        this.#is_busy = true;
+        try {
+            while (this.#is_stale && this.#is_shown && this.#sheet) {
+                this.#is_stale = false;
+                const view = this.#camera.view();
+                const reading = await this.#engine.simulate(kSheet, view);
+                this.#last?.reading.picture.close();
+                this.#last = { reading, view };
+                this.#draw(reading, view);
+            }
+        } catch (error) {
+            const text = error instanceof Error ? error.message : String(error);
+            element("try-hint", HTMLElement).hidden = false;
+            show({ "try-hint": text });
+        } finally {
+            this.#is_busy = false;
+        }
+    }
+
+    #draw(reading: Reading, view: SimulatedView): void {
+        drawFrame(this.#picture, reading, {});
+        drawFrame(element("try-reading", HTMLCanvasElement), reading, {
+            frame: 0.22,
+            ...{ found: !reading.fix.ok, grid: true, symbols: true, pose: true },
+        });
+        this.#showSliders();
+        this.#showHint(reading);
+        this.#showReadout(reading, view);
+        this.#drawMap(reading, view);
+    }
+
+    #drawMap(reading: Reading, view: SimulatedView): void {
+        const sheet = this.#sheet!;
+        const { fix, width_px, height_px } = reading;
+        if (fix.ok) this.#path.push(pageFromPattern(sheet, fix));
+        this.#path = this.#path.slice(-kLongestPath);
+        this.#map_frame = drawMap(this.#map, {
+            sheet,
+            path: this.#path,
+            now: { x_mm: view.x_mm, y_mm: view.y_mm },
+            view: fix.ok ? onPage(sheet, cornersOf(fix, width_px, height_px)) : [],
+        });
+    }
+
+    #showHint(reading: Reading): void {
+        const hint = hintOf(reading);
+        const box = element("try-hint", HTMLElement);
+        box.hidden = hint === null;
+        box.classList.toggle("good", hint?.good ?? false);
+        show({ "try-hint": hint?.text ?? "" });
+    }
+
+    #showReadout({ fix, locate_ms }: Reading, view: SimulatedView): void {
+        element("try-readout", HTMLElement).classList.toggle("lost", !fix.ok);
+        show({ "try-dots": String(fix.ok ? fix.dots_used : fix.dots_seen), "try-time": milliseconds(locate_ms) });
+        if (!fix.ok) {
+            for (const name of ["x", "y", "angle", "error", "angle-error", "wrong"]) show({ [`try-${name}`]: "–" });
+            this.#announce(`Not read: ${fix.message}`);
+            return;
+        }
+        const read = pageFromPattern(this.#sheet!, fix);
+        const off_mm = Math.hypot(read.x_mm - view.x_mm, read.y_mm - view.y_mm);
+        show({
+            "try-x": mm(read.x_mm),
+            "try-y": mm(read.y_mm),
+            "try-angle": degrees(fix.theta_rad),
+            "try-error": length(off_mm),
+            "try-angle-error": degrees(Math.abs(wrapped(fix.theta_rad - view.theta_rad)), 3),
+            "try-wrong": oneIn(fix.p_wrong),
+        });
+        this.#announce(`Read: x ${mm(read.x_mm, 2)}, y ${mm(read.y_mm, 2)}, ${length(off_mm)} off the truth`);
+    }
+}

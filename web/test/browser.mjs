@@ -1,0 +1,101 @@
+// The built page in Chromium, for the tests: a server for dist/, a browser with a fake camera.
+import { execFileSync } from "node:child_process";
+import { createServer } from "node:http";
+import { existsSync, mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { extname, join, normalize } from "node:path";
+import { fileURLToPath } from "node:url";
+import { chromium } from "playwright-core";
+
+export const kRoot = fileURLToPath(new URL("../..", import.meta.url));
+export const kDist = fileURLToPath(new URL("../dist", import.meta.url));
+const kChromium = process.env.CHROMIUM ?? "/usr/bin/chromium";
+/** The tool of the same checkout, which makes frames and judges prints. */
+export const kTool = process.env.DOTPOSE_TOOL ?? join(kRoot, "build/release/bin/dotpose");
+
+const kTypes = {
+    ".html": "text/html",
+    ".js": "text/javascript",
+    ".css": "text/css",
+    ".wasm": "application/wasm",
+    ".svg": "image/svg+xml",
+    ".png": "image/png",
+    ".webmanifest": "application/manifest+json",
+};
+
+/** Serves dist/ below /page/, since the page must not need to be at the root of a server. */
+export async function serve() {
+    const server = createServer((request, response) => {
+        const path = normalize(decodeURIComponent(new URL(request.url, "http://localhost").pathname));
+        let file = join(kDist, path.replace(/^\/page\//, ""));
+        if (!path.startsWith("/page/") || path.includes("..")) file = "";
+        if (file !== "" && existsSync(file) && statSync(file).isDirectory()) file = join(file, "index.html");
+        if (file === "" || !existsSync(file)) {
+            response.writeHead(404).end();
+            return;
+        }
+        response.writeHead(200, { "content-type": kTypes[extname(file)] ?? "application/octet-stream" });
+        response.end(readFileSync(file));
+    });
+    await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
+    return {
+        url: `http://localhost:${server.address().port}/page/`,
+        close: () =>
+            new Promise((resolve) => {
+                server.close(resolve);
+                server.closeAllConnections();
+            }),
+    };
+}
+
+/** Starts Chromium; `clip` is the y4m file that its camera shows. */
+export async function launch({ clip, ...options } = {}) {
+    const profile = mkdtempSync(join(tmpdir(), "dotpose-page-"));
+    const quiet = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"];
+    const offline = ["--disable-background-networking", "--disable-component-update", "--disable-sync"];
+    const camera = ["--use-fake-ui-for-media-stream", "--use-fake-device-for-media-stream"];
+    const context = await chromium.launchPersistentContext(profile, {
+        executablePath: kChromium,
+        headless: true,
+        acceptDownloads: true,
+        args: [...quiet, ...offline, ...camera, ...(clip ? [`--use-file-for-fake-video-capture=${clip}`] : [])],
+        ...options,
+    });
+    return {
+        context,
+        close: async () => {
+            await context.close();
+            rmSync(profile, { recursive: true, force: true });
+        },
+    };
+}
+
+/** Opens a page; what it complains about, and what it asks of other servers, is collected. */
+export async function open(context, url) {
+    const page = await context.newPage();
+    const complaints = [];
+    page.on("pageerror", (error) => complaints.push(String(error)));
+    page.on("console", (message) => {
+        if (["error", "warning"].includes(message.type())) complaints.push(message.text());
+    });
+    const { host } = new URL(url);
+    page.on("request", (request) => {
+        const asked = new URL(request.url());
+        if (asked.protocol.startsWith("http") && asked.host !== host) complaints.push(`asks ${request.url()}`);
+    });
+    await page.goto(url);
+    return { page, complaints };
+}
+
+/** Runs the tool; returns what it prints. */
+export function dotpose(...args) {
+    return execFileSync(kTool, args, { encoding: "utf8", maxBuffer: 1 << 28 });
+}
+
+/** Whether what the tests need is there; returns what is missing, or false. */
+export function missing() {
+    if (!existsSync(kChromium)) return `${kChromium} is missing (scripts/setup --web)`;
+    if (!existsSync(join(kDist, "index.html"))) return "web/dist is missing (make web)";
+    if (!existsSync(kTool)) return `${kTool} is missing (make)`;
+    return false;
+}
