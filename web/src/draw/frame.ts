@@ -51,9 +51,9 @@ function drawFound(view: FrameView): void {
     const { dots, ok, spacing_px } = view.reading.fix;
     if (dots === null) return;
     const { context } = view.surface;
-    const radius = Math.max(2, (ok ? 0.2 * spacing_px : 2.5) * view.scale);
+    const radius = Math.max(2, (ok ? 0.26 * spacing_px : 2.5) * view.scale);
     context.strokeStyle = kInk.found;
-    context.lineWidth = Math.max(1, 0.16 * radius);
+    context.lineWidth = Math.max(1, 0.12 * radius);
     context.beginPath();
     for (let i = 0; i + 1 < dots.length; i += 2) {
         const [x, y] = view.at(dots[i]!, dots[i + 1]!);

@@ -19,7 +19,7 @@ export function degrees(rad: number, digits = 2): string {
 export function oneIn(probability: number): string {
     const power = Math.floor(-Math.log10(probability));
     const names = ["", "thousand", "million", "billion"];
-    if (power > 11) return "below 1 in 10¹²";
+    if (power > 11) return "< 1 in 10¹²";
     return `1 in ${10 ** (power % 3)} ${names[Math.floor(power / 3)]}`.trim();
 }
 

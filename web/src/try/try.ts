@@ -127,7 +127,7 @@ export class TryView implements View {
         drawFrame(this.#picture, reading, {});
         drawFrame(element("try-reading", HTMLCanvasElement), reading, {
             frame: 0.22,
-            ...{ found: !reading.fix.ok, grid: true, symbols: true, pose: true },
+            ...{ found: true, grid: true, symbols: true, pose: true },
         });
         this.#showSliders();
         this.#showHint(reading);

@@ -1,0 +1,123 @@
+// Look, with a camera that shows a clip of known poses, by both ways to the luma.
+import assert from "node:assert/strict";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { dotpose, launch, missing, open, serve } from "./browser.mjs";
+import { makeClip, readCsv } from "./clip.mjs";
+
+const skip = missing();
+let folder;
+let server;
+let browser;
+let truth;
+
+before(async () => {
+    if (skip) return;
+    folder = mkdtempSync(join(tmpdir(), "dotpose-clip-"));
+    truth = makeClip(folder, { frames: 8, size: "640x480" });
+    server = await serve();
+    browser = await launch({ clip: join(folder, "clip.y4m"), viewport: { width: 1200, height: 900 } });
+});
+after(async () => {
+    await browser?.close();
+    await server?.close();
+    if (folder) rmSync(folder, { recursive: true, force: true });
+});
+
+/** Lets the camera run until so many frames are logged; returns the log and what the page complained of. */
+async function runCamera(address, frames) {
+    const { page, complaints } = await open(browser.context, server.url + address);
+    await page.click("#look-start");
+    await page.waitForFunction((n) => parseInt(document.getElementById("look-logged").textContent) >= n, frames, {
+        timeout: 60_000,
+    });
+    const rate = await page.textContent("#look-rate");
+    const [file] = await Promise.all([page.waitForEvent("download"), page.click("#look-log")]);
+    const log = readFileSync(await file.path(), "utf8");
+    return { page, complaints, rate, log };
+}
+
+/** Returns the truth of the frame that a line of the log is of: they lie meters apart. */
+function truthOf(line) {
+    const near = (at) => Math.hypot(at.x_mm - line.x_mm, at.y_mm - line.y_mm);
+    return truth.reduce((best, at) => (near(at) < near(best) ? at : best));
+}
+
+function requireTruth(lines) {
+    const seen = new Set();
+    for (const line of lines) {
+        assert.equal(line.status, "ok", JSON.stringify(line));
+        const at = truthOf(line);
+        seen.add(at.file);
+        const off_mm = Math.hypot(at.x_mm - line.x_mm, at.y_mm - line.y_mm);
+        assert.ok(off_mm < 0.005, `${off_mm} mm off the truth in ${at.file}`);
+        const turn_deg = ((line.theta_deg - at.theta_deg + 540) % 360) - 180;
+        assert.ok(Math.abs(turn_deg) < 0.1, `${turn_deg} degrees off the truth in ${at.file}`);
+    }
+    assert.ok(seen.size >= 4, `only ${seen.size} of ${truth.length} frames of the clip were seen`);
+}
+
+test("the luma straight from the camera gives the poses of the clip, to the bit those of the tool", { skip }, async () => {
+    const { page, complaints, rate, log } = await runCamera("#look", 25);
+    assert.match(rate, /^\d+ frames per second, straight from the camera$/);
+    const lines = readCsv(log);
+    requireTruth(lines);
+    // Frames that were not predicted are read as the tool reads them.
+    const first = lines.filter((line) => line.attempt === "first");
+    assert.ok(first.length >= 4, `${first.length} frames were read without prediction`);
+    for (const line of first) {
+        const { tool } = truthOf(line);
+        for (const [key, digits] of [["x_mm", 6], ["y_mm", 6], ["theta_deg", 6]])
+            assert.equal(Number(line[key]).toFixed(digits), tool[key].toFixed(digits), key);
+    }
+    assert.deepEqual(complaints, []);
+    await page.close();
+});
+
+test("the luma by canvas gives the poses of the clip", { skip }, async () => {
+    const { page, complaints, rate, log } = await runCamera("?luma=canvas#look", 15);
+    assert.match(rate, /^\d+ frames per second, by canvas$/);
+    requireTruth(readCsv(log));
+    assert.deepEqual(complaints, []);
+    await page.close();
+});
+
+test("a log is read by `dotpose replay`", { skip }, async () => {
+    const { page, log } = await runCamera("#look", 10);
+    const path = join(folder, "log.csv");
+    writeFileSync(path, log);
+    assert.match(dotpose("replay", path), /\b100(\.0)? ?%/);
+    await page.close();
+});
+
+test("a frozen frame is explained step by step, and the camera goes on", { skip }, async () => {
+    const { page } = await runCamera("#look", 3);
+    await page.click("#look-freeze");
+    const titles = await page.locator("#explain h3").allTextContents();
+    assert.deepEqual(titles, ["The frame", "The dots", "The grid", "The symbols", "The place", "The pose"]);
+    const frozen = await page.textContent("#look-logged");
+    await page.waitForTimeout(500);
+    const rest = parseInt(await page.textContent("#look-logged")) - parseInt(frozen);
+    assert.ok(rest <= 1, `${rest} frames were read while frozen`);
+    await page.keyboard.press("Escape");
+    await page.waitForFunction(
+        (n) => parseInt(document.getElementById("look-logged").textContent) > n + 3,
+        parseInt(frozen),
+    );
+    await page.close();
+});
+
+test("a picture is read, and one of something else gets a hint", { skip }, async () => {
+    const { page } = await open(browser.context, `${server.url}#look`);
+    await page.setInputFiles("#look-file", { name: "s.png", mimeType: "image/png", buffer: truth[0].png });
+    await page.waitForFunction(() => document.getElementById("look-x").textContent !== "–");
+    const x_mm = parseFloat(await page.textContent("#look-x"));
+    assert.ok(Math.abs(x_mm - truth[0].x_mm) < 0.005, `${x_mm}, not ${truth[0].x_mm}`);
+    const buffer = await page.screenshot({ clip: { x: 0, y: 600, width: 640, height: 300 } });
+    await page.setInputFiles("#look-file", { name: "other.png", mimeType: "image/png", buffer });
+    await page.waitForFunction(() => document.getElementById("look-x").textContent === "–");
+    assert.notEqual(await page.textContent("#look-hint"), "");
+    await page.close();
+});

@@ -1,0 +1,100 @@
+// The page as such: accessible, offline, installable, without outside requests.
+import assert from "node:assert/strict";
+import { createRequire } from "node:module";
+import { after, before, test } from "node:test";
+import { launch, missing, open, serve } from "./browser.mjs";
+
+const skip = missing();
+const kAxe = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
+let server;
+let browser;
+
+before(async () => {
+    if (skip) return;
+    server = await serve();
+    browser = await launch({ viewport: { width: 1200, height: 1000 }, bypassCSP: true });
+});
+after(async () => {
+    await browser?.close();
+    await server?.close();
+});
+
+async function complaintsOfAxe(page) {
+    await page.addScriptTag({ path: kAxe });
+    const { violations } = await page.evaluate(() => globalThis.axe.run());
+    return violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html.slice(0, 120)).join(" | ")}`);
+}
+
+for (const view of ["try", "look", "print"]) {
+    for (const colorScheme of ["light", "dark"]) {
+        test(`axe finds nothing in ${view}, ${colorScheme}`, { skip }, async () => {
+            const { page } = await open(browser.context, `${server.url}#${view}`);
+            await page.emulateMedia({ colorScheme, reducedMotion: "reduce" });
+            await page.waitForTimeout(500);
+            assert.deepEqual(await complaintsOfAxe(page), []);
+            await page.close();
+        });
+    }
+}
+
+test("on a phone nothing is wider than the screen", { skip }, async () => {
+    const page = await browser.context.newPage();
+    await page.setViewportSize({ width: 340, height: 700 });
+    for (const view of ["try", "look", "print"]) {
+        await page.goto(`${server.url}#${view}`);
+        await page.waitForTimeout(300);
+        assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 340, view);
+    }
+    await page.close();
+});
+
+test("all can be reached by the keyboard alone", { skip }, async () => {
+    const { page } = await open(browser.context, server.url);
+    await page.keyboard.press("Tab");
+    assert.equal(await page.evaluate(() => document.activeElement.className), "skip");
+    const reached = new Set();
+    for (let i = 0; i < 30; ++i) {
+        await page.keyboard.press("Tab");
+        reached.add(await page.evaluate(() => document.activeElement.id || document.activeElement.dataset.view));
+    }
+    for (const wanted of ["look", "print", "try-camera", "try-drive", "try-blur_px", "try-size"])
+        assert.ok(reached.has(wanted), `${wanted} is not reached by Tab`);
+    await page.close();
+});
+
+test("it works offline after a visit, printing too", { skip }, async () => {
+    const { page } = await open(browser.context, server.url);
+    await page.waitForFunction(() => document.getElementById("offline-state").textContent !== "");
+    await browser.context.setOffline(true);
+    try {
+        await server.close();
+        await page.reload();
+        await page.waitForFunction(() => document.getElementById("try-x").textContent !== "–");
+        await page.click("nav [data-view=print]");
+        const [file] = await Promise.all([page.waitForEvent("download"), page.click("#print-form [type=submit]")]);
+        assert.match(file.suggestedFilename(), /\.pdf$/);
+    } finally {
+        await browser.context.setOffline(false);
+        await page.close();
+        server = await serve();
+    }
+});
+
+test("browsers offer to install it", { skip }, async () => {
+    const { page } = await open(browser.context, server.url);
+    await page.waitForFunction(() => document.getElementById("offline-state").textContent !== "");
+    const session = await browser.context.newCDPSession(page);
+    const { installabilityErrors } = await session.send("Page.getInstallabilityErrors");
+    assert.deepEqual(installabilityErrors.map(({ errorId }) => errorId).filter((id) => id !== "in-incognito"), []);
+    const manifest = await page.evaluate(() => fetch("./manifest.webmanifest").then((response) => response.json()));
+    for (const { src, sizes, type } of manifest.icons) {
+        const size = await page.evaluate(async (url) => {
+            const image = new Image();
+            image.src = url;
+            await image.decode();
+            return [image.naturalWidth, image.naturalHeight];
+        }, src);
+        if (type === "image/png") assert.equal(size.join("x"), sizes, src);
+    }
+    await page.close();
+});

@@ -1,0 +1,124 @@
+// Try: the simulated camera, moved and spoilt, is read where it is.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { launch, missing, open, serve } from "./browser.mjs";
+
+const skip = missing();
+let server;
+let browser;
+
+before(async () => {
+    if (skip) return;
+    server = await serve();
+    // With reduced motion the camera waits to be moved.
+    browser = await launch({ viewport: { width: 1200, height: 1000 }, reducedMotion: "reduce" });
+});
+after(async () => {
+    await browser?.close();
+    await server?.close();
+});
+
+async function openTry() {
+    const opened = await open(browser.context, server.url);
+    await opened.page.waitForFunction(() => document.getElementById("try-x").textContent !== "–");
+    return opened;
+}
+
+/** What the page shows, in mm. */
+async function shown(page) {
+    const [x, y, error] = await Promise.all(["#try-x", "#try-y", "#try-error"].map((id) => page.textContent(id)));
+    const unit_mm = { µm: 0.001, mm: 1 }[error.split(" ")[1]];
+    return { x_mm: parseFloat(x), y_mm: parseFloat(y), error_mm: parseFloat(error) * unit_mm };
+}
+
+/** Waits for a frame after a change. */
+async function settled(page, change) {
+    const before = await page.textContent("#try-time");
+    await change();
+    await page.waitForFunction((time) => document.getElementById("try-time").textContent !== time, before);
+    await page.waitForTimeout(150);
+}
+
+test("the first frame is read at the middle of the sheet, without a word of complaint", { skip }, async () => {
+    const { page, complaints } = await openTry();
+    const { x_mm, y_mm, error_mm } = await shown(page);
+    assert.ok(Math.hypot(x_mm - 105, y_mm - 148) < 0.004, `${x_mm}, ${y_mm}`);
+    assert.ok(error_mm < 0.004, `${error_mm} mm off`);
+    assert.match(await page.textContent("#try-wrong"), /1 in/);
+    assert.deepEqual(complaints, []);
+    await page.close();
+});
+
+test("what is dragged follows the mouse", { skip }, async () => {
+    const { page } = await openTry();
+    await page.fill("#try-sliders [type=range] >> nth=1", "0");
+    const box = await page.locator("#try-camera").boundingBox();
+    const start = await shown(page);
+    await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+    await page.mouse.down();
+    await settled(page, () => page.mouse.move(box.x + box.width / 4, box.y + box.height / 2, { steps: 4 }));
+    await page.mouse.up();
+    const { x_mm, y_mm, error_mm } = await shown(page);
+    // The picture is 188 x 0.046 mm wide.
+    assert.ok(Math.abs(x_mm - start.x_mm - (188 * 0.046) / 4) < 0.05, `${start.x_mm} to ${x_mm}`);
+    assert.ok(Math.abs(y_mm - start.y_mm) < 0.01);
+    assert.ok(error_mm < 0.004);
+    await page.close();
+});
+
+test("keys move and turn it", { skip }, async () => {
+    const { page } = await openTry();
+    await page.focus("#try-camera");
+    await settled(page, () => page.keyboard.press("Shift+ArrowRight"));
+    const moved = await shown(page);
+    assert.ok(Math.hypot(moved.x_mm - 105, moved.y_mm - 148) > 1);
+    await settled(page, () => page.keyboard.press("e"));
+    assert.equal(await page.textContent("#try-angle").then((text) => Math.round(parseFloat(text))), 25);
+    await page.close();
+});
+
+test("a place on the map is gone to", { skip }, async () => {
+    const { page } = await openTry();
+    const box = await page.locator("#try-map").boundingBox();
+    await settled(page, () => page.mouse.click(box.x + box.width / 2, box.y + box.height / 4));
+    const { x_mm, y_mm, error_mm } = await shown(page);
+    assert.ok(Math.abs(x_mm - 105) < 1 && y_mm > 55 && y_mm < 90, `${x_mm}, ${y_mm}`);
+    assert.ok(error_mm < 0.004);
+    await page.close();
+});
+
+test("off the sheet there is no answer, but a hint", { skip }, async () => {
+    const { page } = await openTry();
+    await page.fill("#try-sliders [type=range] >> nth=5", "15");
+    await page.waitForFunction(() => document.getElementById("try-hint").textContent.startsWith("Brighter"));
+    await page.click("[data-preset=usual]");
+    await page.waitForFunction(() => document.getElementById("try-x").textContent !== "–");
+    await page.fill("#try-sliders [type=range] >> nth=3", "3.5");
+    await page.waitForFunction(() => document.getElementById("try-hint").textContent !== "");
+    assert.equal(await page.textContent("#try-error"), "–");
+    await page.close();
+});
+
+test("the presets are read; hard ones less exactly than clean ones", { skip }, async () => {
+    const { page } = await openTry();
+    for (const [preset, most_mm] of [["clean", 0.003], ["usual", 0.004], ["hard", 0.02]]) {
+        await settled(page, () => page.click(`[data-preset=${preset}]`));
+        const { error_mm } = await shown(page);
+        assert.ok(error_mm < most_mm, `${preset}: ${error_mm} mm off`);
+    }
+    await page.selectOption("#try-size", "640x480");
+    await page.waitForFunction(() => parseInt(document.getElementById("try-dots").textContent) > 200);
+    assert.ok((await shown(page)).error_mm < 0.01);
+    await page.close();
+});
+
+test("it drives by itself until somebody takes over", { skip }, async () => {
+    const { page } = await openTry();
+    await page.click("#try-drive");
+    await page.waitForFunction(() => Math.abs(parseFloat(document.getElementById("try-x").textContent) - 105) > 0.5);
+    assert.equal(await page.getAttribute("#try-drive", "aria-pressed"), "true");
+    await page.focus("#try-camera");
+    await page.keyboard.press("ArrowUp");
+    assert.equal(await page.getAttribute("#try-drive", "aria-pressed"), "false");
+    await page.close();
+});
