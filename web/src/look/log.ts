@@ -1,5 +1,4 @@
-// The log of readings, in the columns of `dotpose watch --log` that a page can fill, which
-// `dotpose replay` reads.
+// The log of readings: those columns of the tool's CSV files that one frame has (docs/output.md).
 import type { Reading } from "../engine/messages.js";
 
 const kDegrees = 180 / Math.PI;

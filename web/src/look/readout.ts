@@ -1,7 +1,7 @@
 // The numbers beside the camera's frame.
 import type { Reading } from "../engine/messages.js";
 import { element, show } from "../page/dom.js";
-import { degrees, length, milliseconds, mm, oneIn } from "../page/format.js";
+import { degrees, grouped, length, milliseconds, oneIn } from "../page/format.js";
 import { pageFromPattern } from "../page/sheet_frame.js";
 import type { KnownSheet } from "../print/known_sheets.js";
 
@@ -18,10 +18,10 @@ export function showReading({ fix, locate_ms }: Reading, sheet: KnownSheet | nul
     const place = sheet ? pageFromPattern(sheet.layout, fix) : fix;
     const where = sheet ? "on the page" : "in the pattern";
     show({
-        "look-x-name": `x ${where}`,
-        "look-y-name": `y ${where}`,
-        "look-x": mm(place.x_mm),
-        "look-y": mm(place.y_mm),
+        "look-x-name": `x ${where}, mm`,
+        "look-y-name": `y ${where}, mm`,
+        "look-x": grouped(place.x_mm),
+        "look-y": grouped(place.y_mm),
         "look-angle": degrees(fix.theta_rad),
         "look-sigma": length(Math.sqrt(Math.max(fix.covariance[0]!, fix.covariance[4]!))),
         "look-wrong": oneIn(fix.p_wrong),

@@ -4,6 +4,11 @@ export function mm(value: number, digits = 3): string {
     return `${value.toFixed(digits)} mm`;
 }
 
+/** Millimetres with thin spaces between groups of three digits: places in the pattern have up to nine. */
+export function grouped(value_mm: number): string {
+    return value_mm.toLocaleString("en", { minimumFractionDigits: 3, maximumFractionDigits: 3 }).replaceAll(",", "\u202f");
+}
+
 /** A length in the unit that suits it. */
 export function length(value_mm: number): string {
     const um = Math.abs(value_mm) * 1000;
