@@ -10,7 +10,7 @@ BUILD = env -u MAKEFLAGS cmake --build --preset
 RELEASE = build/release
 
 .DEFAULT_GOAL := release
-.PHONY: release setup demo test asan fuzz bench accuracy budget portable python wasm format check install clean
+.PHONY: release setup demo test asan fuzz bench accuracy budget portable python wasm web format check install clean
 
 release: setup $(RELEASE)/build.ninja
 	$(BUILD) release -j $(JOBS)
@@ -68,6 +68,13 @@ wasm: setup $(RELEASE)/build.ninja
 	wrappers/wasm/build
 	$(BUILD) release -j $(JOBS) --target dotpose_cli dotpose_golden_files
 	ctest --preset release -L wasm
+
+web: SETUP += --wasm
+web: setup $(RELEASE)/build.ninja
+	wrappers/wasm/build
+	web/build
+	$(BUILD) release -j $(JOBS) --target dotpose_cli
+	ctest --preset release -L web
 
 # A wheel in build/python, and an environment with it, whose example is run. Configures again, as
 # the packages may have been missing before.

@@ -7,11 +7,11 @@ import { extname, join, normalize } from "node:path";
 import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
 
-export const kRoot = fileURLToPath(new URL("../..", import.meta.url));
-export const kDist = fileURLToPath(new URL("../dist", import.meta.url));
+const kRoot = fileURLToPath(new URL("../..", import.meta.url));
+const kDist = fileURLToPath(new URL("../dist", import.meta.url));
 const kChromium = process.env.CHROMIUM ?? "/usr/bin/chromium";
 /** The tool of the same checkout, which makes frames and judges prints. */
-export const kTool = process.env.DOTPOSE_TOOL ?? join(kRoot, "build/release/bin/dotpose");
+const kTool = process.env.DOTPOSE_TOOL ?? join(kRoot, "build/release/bin/dotpose");
 
 const kTypes = {
     ".html": "text/html",
@@ -90,12 +90,4 @@ export async function open(context, url) {
 /** Runs the tool; returns what it prints. */
 export function dotpose(...args) {
     return execFileSync(kTool, args, { encoding: "utf8", maxBuffer: 1 << 28 });
-}
-
-/** Whether what the tests need is there; returns what is missing, or false. */
-export function missing() {
-    if (!existsSync(kChromium)) return `${kChromium} is missing (scripts/setup --web)`;
-    if (!existsSync(join(kDist, "index.html"))) return "web/dist is missing (make web)";
-    if (!existsSync(kTool)) return `${kTool} is missing (make)`;
-    return false;
 }

@@ -2,15 +2,13 @@
 import assert from "node:assert/strict";
 import { createRequire } from "node:module";
 import { after, before, test } from "node:test";
-import { launch, missing, open, serve } from "./browser.mjs";
+import { launch, open, serve } from "./browser.mjs";
 
-const skip = missing();
 const kAxe = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
 let server;
 let browser;
 
 before(async () => {
-    if (skip) return;
     server = await serve();
     browser = await launch({ viewport: { width: 1200, height: 1000 }, bypassCSP: true });
 });
@@ -27,7 +25,7 @@ async function complaintsOfAxe(page) {
 
 for (const view of ["try", "look", "print"]) {
     for (const colorScheme of ["light", "dark"]) {
-        test(`axe finds nothing in ${view}, ${colorScheme}`, { skip }, async () => {
+        test(`axe finds nothing in ${view}, ${colorScheme}`, async () => {
             const { page } = await open(browser.context, `${server.url}#${view}`);
             await page.emulateMedia({ colorScheme, reducedMotion: "reduce" });
             await page.waitForTimeout(500);
@@ -37,7 +35,7 @@ for (const view of ["try", "look", "print"]) {
     }
 }
 
-test("on a phone nothing is wider than the screen", { skip }, async () => {
+test("on a phone nothing is wider than the screen", async () => {
     const page = await browser.context.newPage();
     await page.setViewportSize({ width: 320, height: 640 });
     for (const view of ["try", "look", "print"]) {
@@ -48,7 +46,7 @@ test("on a phone nothing is wider than the screen", { skip }, async () => {
     await page.close();
 });
 
-test("all can be reached by the keyboard alone", { skip }, async () => {
+test("all can be reached by the keyboard alone", async () => {
     const { page } = await open(browser.context, server.url);
     await page.keyboard.press("Tab");
     assert.equal(await page.evaluate(() => document.activeElement.className), "skip");
@@ -62,7 +60,7 @@ test("all can be reached by the keyboard alone", { skip }, async () => {
     await page.close();
 });
 
-test("it works offline after a visit, printing too", { skip }, async () => {
+test("it works offline after a visit, printing too", async () => {
     const { page } = await open(browser.context, server.url);
     await page.waitForFunction(() => document.getElementById("offline-state").textContent !== "");
     await browser.context.setOffline(true);
@@ -80,7 +78,7 @@ test("it works offline after a visit, printing too", { skip }, async () => {
     }
 });
 
-test("browsers offer to install it", { skip }, async () => {
+test("browsers offer to install it", async () => {
     const { page } = await open(browser.context, server.url);
     await page.waitForFunction(() => document.getElementById("offline-state").textContent !== "");
     const session = await browser.context.newCDPSession(page);
