@@ -49,7 +49,8 @@ function dotFont(context: PDFContext): PDFRef {
     return context.register(
         context.obj({
             ...{ Type: "Font", Subtype: "Type3", FontMatrix: [0.001, 0, 0, 0.001, 0, 0] },
-            ...{ FontBBox: [-kUnitsPerEm, -kUnitsPerEm, kUnitsPerEm, kUnitsPerEm] },
+            // Renderers keep small glyphs as pixels, and judge by this box whether they are small.
+            FontBBox: [-kUnitsPerEm / 2, -kUnitsPerEm / 2, kUnitsPerEm / 2, kUnitsPerEm / 2],
             ...{ FirstChar: first, LastChar: last, Widths: Array(last - first + 1).fill(kUnitsPerEm) },
             Encoding: {
                 Type: "Encoding",
@@ -102,6 +103,11 @@ function dotContent(sheet: SheetLayout, symbols: Uint8Array): string {
     return `/Span <</ActualText ()>> BDC BT 0 0 0 1 k /Dots ${size_pt} Tf\n${rows.join("")}ET EMC\n`;
 }
 
+/** A length of the page, rounded as the tool rounds it: renderers of both then draw the same pixels. */
+function points(length_mm: number): number {
+    return Math.round(length_mm * kPointsPerMm * 1e4) / 1e4;
+}
+
 /** Returns the bytes of the PDF. */
 export async function sheetPdf(
     sheet: SheetLayout,
@@ -115,7 +121,7 @@ export async function sheetPdf(
     pdf.catalog.set(PDFName.of("ViewerPreferences"), pdf.context.obj({ PrintScaling: PDFName.of("None") }));
     const { context } = pdf;
     const label = context.obj({ Type: "Font", Subtype: "Type1", BaseFont: "Helvetica", Encoding: "WinAnsiEncoding" });
-    const page = pdf.addPage([sheet.width_mm * kPointsPerMm, sheet.height_mm * kPointsPerMm]);
+    const page = pdf.addPage([points(sheet.width_mm), points(sheet.height_mm)]);
     const contents = [dotContent(sheet, symbols), labelContent(sheet, name)];
     page.node.set(PDFName.of("Contents"), context.obj(contents.map((text) => context.register(context.flateStream(text)))));
     page.node.set(PDFName.of("Resources"), context.obj({ Font: { Dots: dotFont(context), Label: context.register(label) } }));
