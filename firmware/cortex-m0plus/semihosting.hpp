@@ -15,9 +15,10 @@ enum class Call : std::uint32_t {
 };
 
 /// File modes with the meaning of those of fopen. The file ":tt" is the console; if it is opened
-/// for writing, it is standard output.
+/// for writing, it is standard output, if for appending, standard error.
 inline constexpr std::uint32_t kRead = 1;
 inline constexpr std::uint32_t kWrite = 4;
+inline constexpr std::uint32_t kAppend = 8;
 
 /// Makes a call. `arguments` is an array of words whose meaning depends on the call.
 inline std::int32_t call(Call number, const void* arguments) {

@@ -1,6 +1,11 @@
 // Locating a frame with memory and options that are given: the body of Locator and DeviceLocator.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <new>
+#include <type_traits>
+
 #include "core/workspace.hpp"
 #include "dotpose/code_evidence.hpp"
 #include "dotpose/image.hpp"
@@ -8,6 +13,18 @@
 #include "dotpose/prediction.hpp"
 
 namespace dotpose::core {
+
+/// Makes the workspace in the bytes of a Memory.
+template <typename Space, std::size_t Bytes>
+Workspace* make_workspace(std::array<std::byte, Bytes>& bytes) {
+    static_assert(sizeof(Space) <= Bytes, "Memory::kBytes is too small");
+    static_assert(std::is_trivially_destructible_v<Space>, "nothing destroys it");
+    return ::new (static_cast<void*>(bytes.data())) Space;
+}
+
+/// Returns ok if a frame can be begun, or an image located, otherwise the reason.
+Status check(int width_px, int height_px, const Options& options, const Workspace& w);
+Status check(const ImageView& image, const Options& options, const Workspace& w);
 
 /// See Locator::locate.
 Fix locate(const ImageView& image, const Options& options, Workspace& w);

@@ -4,6 +4,10 @@
 
 #include "dotpose.h"
 
+#ifndef DOTPOSE_VERSION
+#include "c/version.hpp"  // scripts/export-device writes it, for builds that define nothing
+#endif
+
 namespace {
 
 struct Text {

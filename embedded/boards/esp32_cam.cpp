@@ -1,0 +1,107 @@
+// Only read, neither compiled nor run: the port for the ESP32-CAM of AI-Thinker (OV2640) with
+// ESP-IDF 5.1 or later and the component espressif/esp32-camera 2.
+//
+// The driver delivers whole frames by DMA, into two buffers; of each, the 188 x 120 px in the
+// middle are read. The lens must be turned to about 19 mm (docs/hardware.md). Packets leave on the
+// pin of the programmer, at 115200 baud, so nothing else may be logged there:
+// CONFIG_LOG_DEFAULT_LEVEL_NONE. The stack of the main task: CONFIG_ESP_MAIN_TASK_STACK_SIZE=8192.
+#include <driver/uart.h>
+#include <esp_camera.h>
+#include <esp_timer.h>
+#include <freertos/FreeRTOS.h>
+#include <freertos/task.h>
+
+#include "board.hpp"
+#include "pose_sender.hpp"
+
+namespace {
+
+constexpr int kWidth_px = 188;
+constexpr int kHeight_px = 120;
+
+camera_fb_t* frame = nullptr;
+const std::uint8_t* row = nullptr;
+
+camera_config_t wiring() {
+    camera_config_t config{};
+    config.pin_pwdn = 32;
+    config.pin_reset = -1;
+    config.pin_xclk = 0;
+    config.pin_sccb_sda = 26;
+    config.pin_sccb_scl = 27;
+    config.pin_d7 = 35;
+    config.pin_d6 = 34;
+    config.pin_d5 = 39;
+    config.pin_d4 = 36;
+    config.pin_d3 = 21;
+    config.pin_d2 = 19;
+    config.pin_d1 = 18;
+    config.pin_d0 = 5;
+    config.pin_vsync = 25;
+    config.pin_href = 23;
+    config.pin_pclk = 22;
+    return config;
+}
+
+void set_up() {
+    uart_driver_install(UART_NUM_0, 256, 1024, 0, nullptr, 0);
+    uart_set_baudrate(UART_NUM_0, 115200);
+    camera_config_t config = wiring();
+    config.xclk_freq_hz = 20'000'000;
+    config.ledc_timer = LEDC_TIMER_0;
+    config.ledc_channel = LEDC_CHANNEL_0;
+    config.pixel_format = PIXFORMAT_GRAYSCALE;
+    config.frame_size = FRAMESIZE_QVGA;
+    config.fb_count = 2;
+    // QVGA fits into the inner memory, which is faster than the PSRAM beside the chip.
+    config.fb_location = CAMERA_FB_IN_DRAM;
+    // After a rest, the newest frame is wanted, not the one that has been waiting.
+    config.grab_mode = CAMERA_GRAB_LATEST;
+    while (esp_camera_init(&config) != ESP_OK)
+        vTaskDelay(pdMS_TO_TICKS(500));
+    sensor_t* sensor = esp_camera_sensor_get();
+    // Short, fixed exposure: motion must not blur the dots. In rows of the sensor; try 20 to 200.
+    sensor->set_exposure_ctrl(sensor, 0);
+    sensor->set_aec_value(sensor, 60);
+}
+
+}  // namespace
+
+namespace board {
+
+Frame start_frame(std::int64_t not_before_us) {
+    static bool is_set_up = false;
+    if (!is_set_up) set_up();
+    is_set_up = true;
+    std::int64_t time_us = 0;
+    do {
+        if (frame != nullptr) esp_camera_fb_return(frame);
+        const std::int64_t left_us = not_before_us - esp_timer_get_time();
+        if (left_us > 0) vTaskDelay(pdMS_TO_TICKS(left_us / 1000));
+        frame = esp_camera_fb_get();
+        // The driver's stamp, of the clock of esp_timer, is that of the frame's beginning.
+        if (frame != nullptr)
+            time_us = frame->timestamp.tv_sec * std::int64_t{1'000'000} + frame->timestamp.tv_usec;
+    } while (frame == nullptr || time_us < not_before_us);
+    const int left = (static_cast<int>(frame->width) - kWidth_px) / 2 / 4 * 4;
+    const int top = (static_cast<int>(frame->height) - kHeight_px) / 2;
+    row = frame->buf + (top - 1) * static_cast<int>(frame->width) + left;
+    return {kWidth_px, kHeight_px, time_us};
+}
+
+const std::uint8_t* next_row() {
+    return row += frame->width;
+}
+
+void send(const std::uint8_t* bytes, std::size_t count) {
+    uart_write_bytes(UART_NUM_0, bytes, count);
+}
+
+}  // namespace board
+
+// ESP-IDF calls this instead of main: leave main.cpp out.
+extern "C" void app_main() {
+    static PoseSender sender;
+    for (;;)
+        sender.send_next();
+}

@@ -1,0 +1,116 @@
+// Run in an emulator: the board of qemu-system-arm -M microbit (nRF51822), whose serial line is
+// emulated, and whose camera is a file of frames that the emulator opens for the program.
+//
+// The file has binary PGM images, one after the other (P5, 8 bits, no comments). The camera
+// delivers one every 20 ms, whether it is taken or not, as cameras do.
+#include "board.hpp"
+
+#include <array>
+
+#include "emulated_uart.hpp"
+#include "program.hpp"
+#include "semihosting.hpp"
+#include "stack.hpp"
+
+int run_device();  // main.cpp
+
+namespace {
+
+constexpr std::int64_t kFrameTime_us = 20'000;
+constexpr int kMaxWidth_px = 188;
+
+std::int32_t camera = -1;
+std::int64_t frames_taken = 0;
+int width_px = 0;
+
+// Two rows, as for DMA: one is read while the other comes in.
+alignas(4) std::array<std::array<std::uint8_t, kMaxWidth_px>, 2> rows;
+int filled = 0;
+
+void print(const char* text) {
+    static const std::int32_t errors = semihosting::open(":tt", 3, semihosting::kAppend);
+    std::size_t length = 0;
+    while (text[length] != '\0')
+        ++length;
+    semihosting::transfer(semihosting::Call::write, errors, text, length);
+}
+
+void print(std::uint32_t number) {
+    std::array<char, 11> text{};
+    char* digit = &text.back();
+    do {
+        *--digit = static_cast<char>('0' + number % 10);
+        number /= 10;
+    } while (number != 0);
+    print(digit);
+}
+
+[[noreturn]] void end(const char* problem) {
+    if (problem != nullptr) print(problem);
+    print("stack ");
+    print(static_cast<std::uint32_t>(stack::high_water_bytes()));
+    print(stack::has_overflown() ? " bytes, overflown\n" : " bytes\n");
+    semihosting::exit(problem != nullptr || stack::has_overflown() ? 1 : 0);
+}
+
+bool read(void* bytes, std::size_t count) {
+    return semihosting::transfer(semihosting::Call::read, camera, bytes, count) == 0;
+}
+
+/// Reads a number of a header and the byte after it.
+int read_number() {
+    int number = 0;
+    for (char byte = '0'; byte >= '0' && byte <= '9';) {
+        number = 10 * number + (byte - '0');
+        if (!read(&byte, 1)) end("the file ends within a header\n");
+    }
+    return number;
+}
+
+/// Waits for the camera's next frame. The program ends where the file does.
+board::Frame next_frame() {
+    std::array<char, 3> magic;
+    if (!read(magic.data(), 1)) end(nullptr);
+    if (!read(&magic[1], 2) || magic[0] != 'P' || magic[1] != '5') end("no binary PGM\n");
+    width_px = read_number();
+    const int height_px = read_number();
+    if (read_number() != 255 || width_px > kMaxWidth_px) end("no frame of 8 bits and 188 px\n");
+    return {width_px, height_px, kFrameTime_us * frames_taken++};
+}
+
+}  // namespace
+
+namespace board {
+
+Frame start_frame(std::int64_t not_before_us) {
+    for (;;) {
+        const Frame frame = next_frame();
+        if (frame.time_us >= not_before_us) return frame;
+        for (int row = 0; row < frame.height_px; ++row)
+            next_row();
+    }
+}
+
+const std::uint8_t* next_row() {
+    filled = 1 - filled;
+    auto& row = rows[static_cast<std::size_t>(filled)];
+    if (!read(row.data(), static_cast<std::size_t>(width_px)))
+        end("the file ends within a frame\n");
+    return row.data();
+}
+
+void send(const std::uint8_t* bytes, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i)
+        emulated_uart::put(bytes[i]);
+}
+
+}  // namespace board
+
+int run_program(const char* path) {
+    std::size_t length = 0;
+    while (path[length] != '\0')
+        ++length;
+    camera = semihosting::open(path, length, semihosting::kRead);
+    if (camera < 0) end("cannot open the file of frames\n");
+    return run_device();
+}

@@ -1,0 +1,46 @@
+// The board of the example: replace it by the port of yours (docs/porting.md in the repository has
+// some for ESP32-CAM, RP2040 and STM32). This one has no camera: its frames are white, so that
+// every packet says `no_contrast`, which shows that all but the camera works.
+#include "board.hpp"
+
+#include <Arduino.h>
+
+namespace board {
+namespace {
+
+constexpr int kWidth_px = 188;
+constexpr int kHeight_px = 120;
+std::uint8_t row[kWidth_px];
+
+// micros() begins again after 71 minutes; this clock does not.
+std::int64_t now_us() {
+    static std::uint32_t last = 0;
+    static std::int64_t total_us = 0;
+    const std::uint32_t now = micros();
+    total_us += static_cast<std::uint32_t>(now - last);
+    last = now;
+    return total_us;
+}
+
+}  // namespace
+
+Frame start_frame(std::int64_t not_before_us) {
+    static bool is_set_up = false;
+    if (!is_set_up) Serial.begin(115200);
+    is_set_up = true;
+    while (now_us() < not_before_us) {
+    }
+    return {kWidth_px, kHeight_px, now_us()};
+}
+
+const std::uint8_t* next_row() {
+    for (std::uint8_t& grey : row)
+        grey = 200;
+    return row;
+}
+
+void send(const std::uint8_t* bytes, std::size_t count) {
+    Serial.write(bytes, count);
+}
+
+}  // namespace board

@@ -1,0 +1,52 @@
+#include "pose_sender.hpp"
+
+#include <dotpose/pose_packet.hpp>
+
+using namespace dotpose;
+
+/// The tracker must know how exact poses are, and those of devices come without a covariance:
+/// docs/firmware.md has the errors that were measured.
+TrackOptions PoseSender::device_tracking() {
+    TrackOptions options;
+    options.least_sigma_mm = 0.0012F;
+    options.least_sigma_rad = 0.0004F;
+    return options;
+}
+
+/// Begins a frame where the tracker expects it. Without a frame buffer, rows of a frame that does
+/// not confirm the prediction are gone, so the frame after one without a pose is begun without.
+Status PoseSender::begin(const board::Frame& frame) {
+    if (seen_.status != Status::ok) return locator_.begin(frame.width_px, frame.height_px);
+    const Prediction expected =
+        tracker_.predict(frame.time_us, seen_, sighting_, locator_.options());
+    return locator_.begin(frame.width_px, frame.height_px, expected);
+}
+
+Fix PoseSender::locate(const board::Frame& frame) {
+    Status begun = begin(frame);
+    // A prediction that cannot be used, for example as the robot was lifted, costs no frame.
+    if (begun == Status::not_tracked) begun = locator_.begin(frame.width_px, frame.height_px);
+    // All rows are taken, also of a frame that is refused, so that the camera stays in step.
+    for (int row = 0; row < frame.height_px; ++row) {
+        const std::uint8_t* pixels = board::next_row();
+        if (begun == Status::ok) locator_.push_row(pixels);
+    }
+    return locator_.finish();
+}
+
+void PoseSender::follow(const Fix& fix, std::int64_t time_us) {
+    const bool ok = fix.status == Status::ok;
+    seen_ = fix;
+    if (ok) sighting_ = sighting_of(fix, time_us);
+    tracker_.update(time_us, ok ? &sighting_ : nullptr);
+}
+
+void PoseSender::send_next() {
+    const board::Frame frame = board::start_frame(next_us_);
+    const Fix fix = locate(frame);
+    const PacketBytes bytes = encode(make_packet(fix, locator_.options().profile, sequence_++,
+                                                 static_cast<std::uint32_t>(frame.time_us)));
+    board::send(bytes.data(), bytes.size());
+    follow(fix, frame.time_us);
+    next_us_ = pacer_.next_frame_us(fix, frame.time_us);
+}

@@ -1,0 +1,214 @@
+// The device of embedded/ in an emulator, from a drive's frames to the lines of `dotpose listen`:
+// the same packets as on the desktop to the bit, the poses of the desktop's device attempt, all
+// frames in time, none lost.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "board.hpp"
+#include "dotpose/locate.hpp"
+#include "dotpose/pose_packet.hpp"
+#include "dotpose/tools/simulate.hpp"
+#include "pose_sender.hpp"
+#include "shell.hpp"
+#include "temporary_directory.hpp"
+
+namespace {
+
+using namespace dotpose;
+using nlohmann::json;
+
+constexpr std::int64_t kFrameTime_us = 20'000;
+constexpr double kFps = 50;
+constexpr double kSpacing_mm = 0.508;
+
+/// A robot that rests, drives half a circle at up to 120 mm/s, and rests for so long that frames
+/// are taken once a second.
+constexpr double kStart_s = 0.2;
+constexpr double kStop_s = 2.2;
+constexpr double kEnd_s = 10;
+constexpr double kRadius_mm = 60;
+
+/// The angle on the circle, which begins and ends smoothly.
+double angle_at(double t_s) {
+    const double u = std::clamp((t_s - kStart_s) / (kStop_s - kStart_s), 0.0, 1.0);
+    return 3.0 * u * u * u * (10 - 15 * u + 6 * u * u);
+}
+
+CameraPose pose_at(double t_s) {
+    const double angle = angle_at(t_s);
+    const double x = 1'000'000 + kRadius_mm / kSpacing_mm * std::cos(angle);
+    const double y = 2'000'000 + kRadius_mm / kSpacing_mm * std::sin(angle);
+    CameraPose pose;
+    pose.cell = {static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)};
+    pose.fraction_x = x - std::floor(x);
+    pose.fraction_y = y - std::floor(y);
+    pose.theta_rad = angle - 2;
+    return pose;
+}
+
+/// The frames of the drive; those of the rest after it are all alike.
+std::vector<GreyImage> drive() {
+    Setup setup;
+    setup.seed = 27;
+    Shot shot = draw_shot(setup, 0);
+    std::vector<GreyImage> frames;
+    for (int i = 0; i < kEnd_s * kFps; ++i) {
+        const double t_s = i / kFps;
+        if (t_s > kStop_s + 0.1) {
+            frames.push_back(frames.back());
+            continue;
+        }
+        shot.pose = pose_at(t_s);
+        shot.seed = static_cast<std::uint64_t>(i);
+        frames.push_back(render(shot));
+    }
+    return frames;
+}
+
+// The board of the desktop: a camera that delivers the frames, and a line that keeps all bytes.
+struct EndOfFrames {};
+std::vector<GreyImage> camera;
+std::string line;
+std::size_t frame = 0;
+int row = 0;
+
+}  // namespace
+
+namespace board {
+
+Frame start_frame(std::int64_t not_before_us) {
+    while (static_cast<std::int64_t>(frame) * kFrameTime_us < not_before_us)
+        ++frame;
+    if (frame >= camera.size()) throw EndOfFrames{};
+    row = 0;
+    const GreyImage& image = camera[frame++];
+    return {image.width_px, image.height_px, static_cast<std::int64_t>(frame - 1) * kFrameTime_us};
+}
+
+const std::uint8_t* next_row() {
+    return camera[frame - 1].view().row(row++);
+}
+
+void send(const std::uint8_t* bytes, std::size_t count) {
+    line.append(bytes, bytes + count);
+}
+
+}  // namespace board
+
+namespace {
+
+class EmulatedDevice : public testing::Test {
+  protected:
+    static void SetUpTestSuite() {
+        camera = drive();
+        run_on_desktop();
+    }
+
+    static void run_on_desktop() {
+        frame = 0;
+        line.clear();
+        PoseSender sender;
+        try {
+            for (;;)
+                sender.send_next();
+        } catch (const EndOfFrames&) {
+        }
+    }
+
+    std::string text_of(const char* name) const {
+        std::ifstream in(directory_.path() / name, std::ios::binary);
+        return {std::istreambuf_iterator<char>(in), {}};
+    }
+
+    /// Runs the emulator, whose serial line `dotpose listen` reads. Returns the exit code of the
+    /// emulator.
+    int emulate() const {
+        std::ofstream out(directory_.path() / "drive.frames", std::ios::binary);
+        for (const GreyImage& image : camera) {
+            out << "P5\n" << image.width_px << ' ' << image.height_px << "\n255\n";
+            out.write(reinterpret_cast<const char*>(image.pixels.data()),
+                      static_cast<std::streamsize>(image.pixels.size()));
+        }
+        out.close();
+        const std::string commands = "cd " + directory_.path().string() +
+                                     " && { " DOTPOSE_EMULATE
+                                     " drive.frames 2>said; echo $? >code; } | tee packets |"
+                                     " " DOTPOSE_TOOL " listen - -o lines 2>losses";
+        EXPECT_EQ(test::run_shell(commands).exit_code, 0);
+        return std::stoi(text_of("code"));
+    }
+
+    test::TemporaryDirectory directory_;
+};
+
+/// The sending loop on the desktop, which the emulated one is compared with, against the truth.
+TEST_F(EmulatedDevice, FollowsTheDriveAndSlowsDownAtRest) {
+    PacketReader reader;
+    DeviceMemory memory;
+    DeviceLocator alone(memory);
+    std::vector<std::int64_t> times_us;
+    for (const char byte : line) {
+        if (!reader.push(static_cast<std::uint8_t>(byte))) continue;
+        const PosePacket& packet = reader.packet();
+        ASSERT_EQ(packet.status, Status::ok) << "frame at " << packet.time_us;
+        ASSERT_EQ(packet.sequence, times_us.size());
+        times_us.push_back(packet.time_us);
+        const CameraPose truth = pose_at(packet.time_us / 1e6);
+        EXPECT_NEAR(packet.x_grid(), x_grid(truth), 0.012) << packet.time_us;
+        EXPECT_NEAR(packet.y_grid(), y_grid(truth), 0.012) << packet.time_us;
+        // The desktop's device attempt, without a prediction.
+        const Fix fix =
+            alone.locate(camera[static_cast<std::size_t>(packet.time_us / kFrameTime_us)].view());
+        ASSERT_EQ(fix.status, Status::ok);
+        EXPECT_NEAR(packet.x_grid(), fix.x_grid(), 0.012) << packet.time_us;
+        EXPECT_NEAR(packet.y_grid(), fix.y_grid(), 0.012) << packet.time_us;
+    }
+    EXPECT_EQ(reader.damaged(), 0U);
+    ASSERT_GT(times_us.size(), 250U);
+    // Every frame while it drives and 5 s after it stopped, then one a second.
+    for (std::size_t i = 0; i < 300; ++i)
+        ASSERT_EQ(times_us[i], static_cast<std::int64_t>(i) * kFrameTime_us);
+    EXPECT_EQ(times_us.back() - times_us[times_us.size() - 2], 1'000'000);
+}
+
+TEST_F(EmulatedDevice, SendsTheSameToTheBitAndNothingIsLost) {
+    const int code = emulate();
+    if (code == 77) GTEST_SKIP() << text_of("said");
+    ASSERT_EQ(code, 0) << text_of("said");
+    EXPECT_TRUE(text_of("packets") == line);
+    EXPECT_EQ(text_of("losses"), "");
+    EXPECT_THAT(text_of("said"), testing::MatchesRegex("stack [0-9]+ bytes\n"));
+
+    std::istringstream lines(text_of("lines"));
+    std::size_t count = 0;
+    std::string text;
+    PacketReader sent;
+    for (const char byte : line) {
+        if (!sent.push(static_cast<std::uint8_t>(byte))) continue;
+        ASSERT_TRUE(std::getline(lines, text)) << count;
+        const json got = json::parse(text);
+        EXPECT_EQ(got.at("sequence"), count++);
+        EXPECT_EQ(got.at("time_us"), sent.packet().time_us);
+        EXPECT_EQ(got.at("status"), "ok");
+        const CameraPose truth = pose_at(sent.packet().time_us / 1e6);
+        EXPECT_NEAR(got.at("x_mm"), x_grid(truth) * kSpacing_mm, 0.006);
+        EXPECT_NEAR(got.at("y_mm"), y_grid(truth) * kSpacing_mm, 0.006);
+        EXPECT_NEAR(
+            std::remainder(
+                got.at("theta_deg").get<double>() - truth.theta_rad * 180 / 3.14159265358979, 360),
+            0, 0.2);
+    }
+    EXPECT_FALSE(std::getline(lines, text)) << "more lines than packets";
+}
+
+}  // namespace
