@@ -1,6 +1,9 @@
 """Calibration of simulated cameras, camera files, and the paper's experiment."""
 
 import math
+import os
+import signal
+import threading
 
 import numpy as np
 import pytest
@@ -110,3 +113,9 @@ def test_the_experiment_of_the_paper():
     # Table III: the printer's errors are far larger than those of locating.
     worst = max(abs(s.y_mm[0]) for s in protocol.printed.positions)
     assert 0.1 < worst < 0.5 and max(abs(s.y_mm[0]) for s in protocol.perfect.positions) < 0.01
+
+
+def test_ctrl_c_ends_long_work():
+    threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt):
+        dotpose.run_protocol(100_000)

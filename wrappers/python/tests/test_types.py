@@ -45,9 +45,9 @@ def test_programs_are_checked_by_the_stubs(tmp_path):
     (tmp_path / "program.py").write_text(PROGRAM)
     result = mypy("mypy", *options, path=tmp_path)
     assert result.returncode == 0, result.stdout + result.stderr
-    for wrong in ('dotpose.Locator("nota")', "fix.x_inch", "locator.locate([1])"):
-        (tmp_path / "program.py").write_text(PROGRAM + wrong + "\n")
-        assert mypy("mypy", *options, path=tmp_path).returncode == 1, wrong
+    wrong = ['dotpose.Locator("nota")', "fix.x_inch", "locator.locate([1])"]
+    (tmp_path / "program.py").write_text(PROGRAM + "\n".join(wrong) + "\n")
+    assert "Found 3 errors" in mypy("mypy", *options, path=tmp_path).stdout
 
 
 def test_the_stubs_say_what_there_is(tmp_path):
