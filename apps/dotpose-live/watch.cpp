@@ -21,7 +21,7 @@
 #include "mqtt_arguments.hpp"
 #include "progress.hpp"
 #include "reading.hpp"
-#include "robot_state.hpp"
+#include "robot_name.hpp"
 #include "run_files.hpp"
 #include "source_arguments.hpp"
 #include "terminal_text.hpp"
@@ -275,17 +275,8 @@ void add_output_options(CLI::App& command, WatchArguments& arguments) {
 
 void add_publish_options(CLI::App& command, OutputOptions& outputs, MqttArguments& mqtt) {
     mqtt.add_to(command);
-    command
-        .add_option("--robot", outputs.robot,
-                    "Name of the robot on the broker and in topics of ROS")
-        ->type_name("NAME")
-        ->capture_default_str()
-        ->check([](const std::string& name) {
-            const bool is_bad = name.empty() || name.find_first_of("/+#") != std::string::npos ||
-                                name.size() > kMostNameBytes || printable(name) != name;
-            return is_bad ? "a robot's name is not empty, holds none of / + #, and can be printed"
-                          : std::string();
-        });
+    add_robot_option(command, outputs.robot,
+                     "Name of the robot on the broker and in topics of ROS");
     command.add_option("--mqtt-rate", outputs.mqtt_rate_hz, "Most states a second; events always")
         ->type_name("HZ")
         ->default_str("all")

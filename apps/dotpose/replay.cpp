@@ -11,6 +11,7 @@
 #include "log_updates.hpp"
 #include "output_arguments.hpp"
 #include "print/lower_case.hpp"
+#include "robot_name.hpp"
 #include "robot_recording.hpp"
 #include "run_files.hpp"
 #include "run_log.hpp"
@@ -135,6 +136,7 @@ void add_replay(CLI::App& app, int&) {
     add_report_options(*command, arguments->report,
                        "File to write instead of standard output; NAME.mcap: messages of ROS 2");
     add_draw_option(*command, arguments->picture, "Also draw the run (SVG)");
+    add_robot_option(*command, arguments->robot, "Name of the robot in topics of ROS");
     command->callback([arguments] { run(*arguments); });
 }
 

@@ -4,7 +4,7 @@
 //   dotpose_dds_reader best-effort|reliable NAME TOPIC TYPE [TOPIC TYPE]...
 //
 // TOPIC is a topic of ROS, TYPE a type such as nav_msgs/Odometry. The file NAME appears once all
-// readers exist. It ends when the writers of all topics have come and gone, or after a minute.
+// topics have writers. It ends when these have gone, or after five minutes.
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -87,6 +87,7 @@ class Printer : public DataReaderListener {
         std::fprintf(stderr, "%s: incompatible quality of service %u\n", topic_.c_str(),
                      status.last_policy_id);
     }
+    bool has_come() const { return came_; }
     bool has_gone() const { return has_gone_; }
 
   private:
@@ -129,14 +130,18 @@ int main(int argc, char** argv) {
             return 1;
         }
     }
+    const auto wait_until_all = [&printers](bool (Printer::*have)() const) {
+        for (int tenths = 0; tenths < 1500; ++tenths) {
+            bool have_all = true;
+            for (const auto& printer : printers)
+                have_all = have_all && (printer.get()->*have)();
+            if (have_all) return;
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        }
+    };
+    wait_until_all(&Printer::has_come);
     std::ofstream(argv[2]) << "ready\n";
-    for (int tenths = 0; tenths < 600; ++tenths) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(100));
-        bool have_all_gone = true;
-        for (const auto& printer : printers)
-            have_all_gone = have_all_gone && printer->has_gone();
-        if (have_all_gone) break;
-    }
+    wait_until_all(&Printer::has_gone);
     participant->delete_contained_entities();
     DomainParticipantFactory::get_instance()->delete_participant(participant);
 }

@@ -1,0 +1,24 @@
+#include "robot_name.hpp"
+
+#include <cstddef>
+
+#include <CLI/CLI.hpp>
+
+#include "terminal_text.hpp"
+
+namespace dotpose::cli {
+
+void add_robot_option(CLI::App& command, std::string& robot, const std::string& help) {
+    command.add_option("--robot", robot, help)
+        ->type_name("NAME")
+        ->capture_default_str()
+        ->check([](const std::string& name) {
+            constexpr std::size_t kLongest_bytes = 128;  // `fleet` ignores longer ones
+            const bool is_bad = name.empty() || name.find_first_of("/+#") != std::string::npos ||
+                                name.size() > kLongest_bytes || printable(name) != name;
+            return is_bad ? "a robot's name is not empty, holds none of / + #, and can be printed"
+                          : std::string();
+        });
+}
+
+}  // namespace dotpose::cli

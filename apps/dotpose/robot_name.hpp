@@ -1,0 +1,15 @@
+/// Names of robots, which brokers and ROS have in their topics.
+#pragma once
+
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace dotpose::cli {
+
+/// Adds --robot NAME, and refuses names that no topic can have.
+void add_robot_option(CLI::App& command, std::string& robot, const std::string& help);
+
+}  // namespace dotpose::cli
