@@ -19,7 +19,7 @@ export const kSliders: readonly Slider[] = [
     { name: "tilt_deg", label: "Tilt", min: 0, max: 35, step: 0.5, shown: (v) => `${v}°` },
     { name: "blur_px", label: "Blur", min: 0, max: 3.5, step: 0.1, shown: (v) => `${v.toFixed(1)} px` },
     { name: "noise", label: "Noise", min: 0, max: 40, step: 1, shown: (v) => `${v} grey levels` },
-    { name: "paper_level", label: "Light", min: 15, max: 250, step: 1, shown: (v) => percent(v / 250) },
+    { name: "paper_level", label: "Light", min: 5, max: 250, step: 1, shown: (v) => percent(v / 250) },
     { name: "vignetting", label: "Dark corners", min: 0, max: 0.9, step: 0.05, shown: percent },
 ];
 

@@ -42,9 +42,15 @@ export class TryView implements View {
         this.#showSliders = buildSliders(this.#camera, () => this.#changed());
         listen(this.#picture, {
             drag: (dx, dy) => this.#drag(dx, dy),
-            turn: (by) => this.#camera.turnBy(by),
-            rise: (factor) => this.#camera.rise(factor),
-            begin: () => this.#takeOver(),
+            turn: (by) => {
+                this.#camera.turnBy(by);
+                this.#changed();
+            },
+            rise: (factor) => {
+                this.#camera.rise(factor);
+                this.#changed();
+            },
+            begin: () => this.#drive.stop(),
         });
         this.#listenToMap();
         element("try-size", HTMLSelectElement).addEventListener("change", (event) => {
@@ -75,11 +81,6 @@ export class TryView implements View {
         this.#changed();
     }
 
-    #takeOver(): void {
-        this.#drive.stop();
-        this.#changed();
-    }
-
     #listenToMap(): void {
         const move = (event: PointerEvent) => {
             if (event.buttons === 0 || !this.#map_frame || !this.#sheet) return;
@@ -100,6 +101,8 @@ export class TryView implements View {
     /** Has the next frame simulated; while one is, changes wait for it. */
     #changed(): void {
         this.#is_stale = true;
+        // Tests wait for the last change to be drawn.
+        this.#picture.dataset["busy"] = "true";
         if (!this.#is_busy) void this.#run();
     }
 
@@ -120,6 +123,7 @@ export class TryView implements View {
             show({ "try-hint": text });
         } finally {
             this.#is_busy = false;
+            this.#picture.dataset["busy"] = "false";
         }
     }
 
