@@ -1,5 +1,6 @@
 // Prints how long the C++ library takes for the golden frames (wrappers/golden/README.md) without
-// AVX2: microseconds per frame, alone and tracked, a line for each file.
+// AVX2: a line for each frame, with the microseconds it takes alone, and the frame after it,
+// tracked.
 //
 //   dotpose_wasm_time FILE.frames...
 #include <chrono>
@@ -43,33 +44,29 @@ std::vector<GreyImage> images_of(const char* path) {
     return images;
 }
 
-/// Sums of the time of all frames.
-struct Times {
-    double alone_us = 0;
-    double tracked_us = 0;
-};
-
 template <typename Call>
-Fix timed(double& sum_us, const Call& call) {
+Fix timed(double& took_us, const Call& call) {
     const auto start = std::chrono::steady_clock::now();
     const Fix fix = call();
-    sum_us +=
+    took_us =
         std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
     return fix;
 }
 
 /// Locates each frame, and the frame after it with the prediction of the first.
-Times measure(Locator& locator, const std::vector<GreyImage>& images) {
-    Times times;
+void measure(Locator& locator, const std::vector<GreyImage>& images, bool prints) {
     for (std::size_t i = 0; i + 1 < images.size(); i += 2) {
         const ImageView image = images[i].view();
         const ImageView next = images[i + 1].view();
-        const Fix fix = timed(times.alone_us, [&] { return locator.locate(image); });
-        if (fix.status != Status::ok) continue;
-        const Prediction prediction = Prediction::like(fix);
-        (void)timed(times.tracked_us, [&] { return locator.locate(next, prediction); });
+        double alone_us = 0;
+        double tracked_us = 0;
+        const Fix fix = timed(alone_us, [&] { return locator.locate(image); });
+        if (fix.status == Status::ok) {
+            const Prediction prediction = Prediction::like(fix);
+            (void)timed(tracked_us, [&] { return locator.locate(next, prediction); });
+        }
+        if (prints) std::printf("%.2f %.2f\n", alone_us, tracked_us);
     }
-    return times;
 }
 
 }  // namespace
@@ -79,9 +76,7 @@ int main(int argc, char** argv) {
     for (int i = 1; i < argc; ++i) {
         const std::vector<GreyImage> images = images_of(argv[i]);
         if (images.empty()) return 1;
-        (void)measure(locator, images);  // until caches are warm
-        const Times times = measure(locator, images);
-        const double frames = static_cast<double>(images.size()) / 2;
-        std::printf("%.2f %.2f\n", times.alone_us / frames, times.tracked_us / frames);
+        measure(locator, images, false);  // until caches are warm
+        measure(locator, images, true);
     }
 }

@@ -1,10 +1,10 @@
 // Compares the time of the modules with that of the C++ library without AVX2, in turns.
 //
-//   node wrappers/wasm/bench/time.mjs [ROUNDS]
+//   node wrappers/wasm/bench/time.mjs [ROUNDS [GOLDEN]]
 //
 // needs the built package, and of the release preset the targets dotpose_golden_files and dotpose_wasm_time.
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { brotliCompressSync, gzipSync } from "node:zlib";
@@ -13,40 +13,49 @@ import { imagesOf, kSets } from "../test/golden.mjs";
 
 const kBin = new URL("../../../build/release/bin/", import.meta.url).pathname;
 const kDist = new URL("../dist/", import.meta.url).pathname;
-const kVariants = ["simd", "scalar"];
+const kNative = join(kBin, "dotpose_wasm_time");
+const kVariants = ["simd", "scalar"].filter((name) => existsSync(join(kDist, `dotpose-${name}.wasm`)));
 const rounds = Number(process.argv[2] ?? 5);
 
-/** Returns microseconds per frame, alone and tracked, as the native program measures them. */
+/** Returns the microseconds of each frame, alone and tracked in turns, as the native program does. */
 function measure(locator, images) {
-    const sums_us = [0, 0];
-    const timed = (i, call) => {
+    const times_us = [];
+    const timed = (call) => {
         const start = performance.now();
         const fix = call();
-        sums_us[i] += 1000 * (performance.now() - start);
+        times_us.push(1000 * (performance.now() - start));
         return fix;
     };
     for (let i = 0; i < images.length; i += 2) {
-        const prediction = timed(0, () => locator.locate(images[i]));
-        if (prediction.ok) timed(1, () => locator.locate(images[i + 1], { prediction }));
+        const prediction = timed(() => locator.locate(images[i]));
+        if (prediction.ok) timed(() => locator.locate(images[i + 1], { prediction }));
+        else times_us.push(0);
     }
-    return sums_us.map((sum) => sum / (images.length / 2));
+    return times_us;
 }
 
-/** Adds the times of a round to the least of each: by set and way, C++ first, then the variants. */
-function keepLeast(least, column, times) {
-    times.flat().forEach((us, row) => {
-        least[row] ??= [];
-        least[row][column] = Math.min(least[row][column] ?? Infinity, us);
-    });
+function measureNative(path) {
+    const lines = execFileSync(kNative, [path], { encoding: "utf8" });
+    return lines.trim().split(/\s+/).map(Number);
 }
 
-function printTimes(least) {
-    console.log(`microseconds per frame, least of ${rounds} rounds; in brackets: as a multiple of C++\n`);
-    console.log("frames".padEnd(20), "C++".padStart(8), ...kVariants.map((name) => name.padStart(14)));
-    least.forEach(([native, ...others], row) => {
-        const name = `${kSets[row >> 1]}, ${["alone", "tracked"][row & 1]}`;
-        const cells = others.map((us) => `${us.toFixed(0)} (${(us / native).toFixed(2)})`.padStart(14));
-        console.log(name.padEnd(20), native.toFixed(0).padStart(8), ...cells);
+/** Keeps the least time of each frame, so that other programs on the machine do not count. */
+function keepLeast(least, times_us) {
+    return times_us.map((us, i) => Math.min(us, least?.[i] ?? Infinity));
+}
+
+/** Returns the mean over the frames, alone (0) or tracked (1). */
+function mean(times_us, way) {
+    const chosen = times_us.filter((_, i) => i % 2 === way);
+    return chosen.reduce((sum, us) => sum + us) / chosen.length;
+}
+
+function printTimes(set, [native, ...others]) {
+    ["alone", "tracked"].forEach((name, way) => {
+        const native_us = mean(native, way);
+        const cells = others.map((times) => mean(times, way)).map((us) => `${us.toFixed(0)} (${(us / native_us).toFixed(2)})`);
+        const columns = [native_us.toFixed(0).padStart(8), ...cells.map((cell) => cell.padStart(14))];
+        console.log(`${set}, ${name}`.padEnd(20), ...columns);
     });
 }
 
@@ -61,22 +70,24 @@ function printSizes() {
 
 const folder = mkdtempSync(join(tmpdir(), "dotpose-"));
 try {
-    execFileSync(join(kBin, "dotpose_golden_files"), [folder]);
-    const paths = kSets.map((set) => join(folder, `${set}.frames`));
-    const sets = paths.map((path) => [...imagesOf(readFileSync(path))]);
-    const locators = [];
-    for (const variant of kVariants) {
-        const wasm = readFileSync(join(kDist, `dotpose-${variant}.wasm`));
-        locators.push(await Locator.create({ code: "anoto", wasm }));
-        sets.forEach((images) => measure(locators.at(-1), images)); // until the engine has optimized
+    const golden = process.argv[3] ?? folder;
+    if (golden === folder) execFileSync(join(kBin, "dotpose_golden_files"), [folder]);
+    const wasm = (variant) => readFileSync(join(kDist, `dotpose-${variant}.wasm`));
+    const create = (variant) => Locator.create({ code: "anoto", wasm: wasm(variant) });
+    const locators = await Promise.all(kVariants.map(create));
+    console.log(`microseconds per frame, the least of ${rounds} rounds; in brackets: as a multiple of C++\n`);
+    console.log("frames".padEnd(20), "C++".padStart(8), ...kVariants.map((name) => name.padStart(14)));
+    for (const set of kSets) {
+        const path = join(golden, `${set}.frames`);
+        const images = [...imagesOf(readFileSync(path))];
+        for (const locator of locators) measure(locator, images); // until the engine has optimized
+        const least = [];
+        for (let round = 0; round < rounds; ++round) {
+            least[0] = keepLeast(least[0], measureNative(path));
+            locators.forEach((locator, i) => (least[1 + i] = keepLeast(least[1 + i], measure(locator, images))));
+        }
+        printTimes(set, least);
     }
-    const least = [];
-    for (let round = 0; round < rounds; ++round) {
-        const native = execFileSync(join(kBin, "dotpose_wasm_time"), paths, { encoding: "utf8" });
-        keepLeast(least, 0, native.trim().split(/\s+/).map(Number));
-        locators.forEach((locator, i) => keepLeast(least, 1 + i, sets.map((images) => measure(locator, images))));
-    }
-    printTimes(least);
 } finally {
     rmSync(folder, { recursive: true });
 }
