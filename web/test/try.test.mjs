@@ -102,9 +102,11 @@ test("the presets are read; hard ones less exactly than clean ones", async () =>
         const { error_mm } = await shown(page);
         assert.ok(error_mm < most_mm, `${preset}: ${error_mm} mm off`);
     }
-    await page.selectOption("#try-size", "640x480");
-    await page.waitForFunction(() => parseInt(document.getElementById("try-dots").textContent) > 200);
-    assert.ok((await shown(page)).error_mm < 0.01);
+    await page.click("[data-preset=usual]");
+    await settled(page, () => page.selectOption("#try-size", "640x480"));
+    assert.ok((await shown(page)).error_mm < 0.004);
+    const { width, height } = await page.locator("#try-camera").boundingBox();
+    assert.ok(Math.abs(width / height - 640 / 480) < 0.01, `${width} x ${height}`);
     await page.close();
 });
 
