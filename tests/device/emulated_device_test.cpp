@@ -157,12 +157,22 @@ TEST_F(EmulatedDevice, FollowsTheDriveAndSlowsDownAtRest) {
     DeviceMemory memory;
     DeviceLocator alone(memory);
     std::vector<std::int64_t> times_us;
+    bool is_missed = false;
+    int missed = 0;
     for (const char byte : line) {
         if (!reader.push(static_cast<std::uint8_t>(byte))) continue;
         const PosePacket& packet = reader.packet();
-        ASSERT_EQ(packet.status, Status::ok) << "frame at " << packet.time_us;
         ASSERT_EQ(packet.sequence, times_us.size());
         times_us.push_back(packet.time_us);
+        const bool was_missed = is_missed;
+        is_missed = packet.status != Status::ok;
+        if (is_missed) {
+            // Its rows are gone; the next one is located without a prediction.
+            EXPECT_EQ(packet.status, Status::not_tracked);
+            EXPECT_FALSE(was_missed) << packet.time_us;
+            ++missed;
+            continue;
+        }
         const CameraPose truth = pose_at(packet.time_us / 1e6);
         EXPECT_NEAR(packet.x_grid(), x_grid(truth), 0.012) << packet.time_us;
         EXPECT_NEAR(packet.y_grid(), y_grid(truth), 0.012) << packet.time_us;
@@ -174,7 +184,9 @@ TEST_F(EmulatedDevice, FollowsTheDriveAndSlowsDownAtRest) {
         EXPECT_NEAR(packet.y_grid(), fix.y_grid(), 0.012) << packet.time_us;
     }
     EXPECT_EQ(reader.damaged(), 0U);
-    ASSERT_GT(times_us.size(), 250U);
+    // docs/firmware.md: 99.6 % of frames are tracked.
+    EXPECT_LE(missed, 3);
+    ASSERT_GT(times_us.size(), 300U);
     // Every frame while it drives and 5 s after it stopped, then one a second.
     for (std::size_t i = 0; i < 300; ++i)
         ASSERT_EQ(times_us[i], static_cast<std::int64_t>(i) * kFrameTime_us);
@@ -199,7 +211,8 @@ TEST_F(EmulatedDevice, SendsTheSameToTheBitAndNothingIsLost) {
         const json got = json::parse(text);
         EXPECT_EQ(got.at("sequence"), count++);
         EXPECT_EQ(got.at("time_us"), sent.packet().time_us);
-        EXPECT_EQ(got.at("status"), "ok");
+        EXPECT_EQ(got.at("status"), name(sent.packet().status));
+        if (sent.packet().status != Status::ok) continue;
         const CameraPose truth = pose_at(sent.packet().time_us / 1e6);
         EXPECT_NEAR(got.at("x_mm"), x_grid(truth) * kSpacing_mm, 0.006);
         EXPECT_NEAR(got.at("y_mm"), y_grid(truth) * kSpacing_mm, 0.006);
