@@ -20,6 +20,8 @@ PACKED = HERE / "source"
 ROOT = PACKED if PACKED.exists() else HERE.parents[1]
 NEEDED = ["CMakeLists.txt", "LICENSE", "README.md", "CONTRIBUTING.md"]
 NEEDED += ["apps", "cmake", "docs", "examples", "include", "src", "wrappers"]
+# What is made there, the tree of the source distribution itself too.
+UNWANTED = ["build", "dist", "dotpose-[0-9]*", "node_modules", "*.egg-info", "__pycache__"]
 
 
 class BuildWithCMake(build_ext):
@@ -44,7 +46,7 @@ class BuildWithCMake(build_ext):
 class PackSources(sdist):
     def make_release_tree(self, base_dir, files):
         super().make_release_tree(base_dir, files)
-        unwanted = shutil.ignore_patterns("build", "dist", "node_modules", "*.egg-info", "__pycache__")
+        unwanted = shutil.ignore_patterns(*UNWANTED)
         for name in NEEDED:
             source, target = ROOT / name, Path(base_dir, "source", name)
             if source.is_dir():

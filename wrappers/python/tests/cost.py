@@ -2,8 +2,8 @@
 
     python3 cost.py
 
-Both locate the same image with a locator of the same options, in batches that alternate; of each,
-the fastest batch counts, since others are slowed down by other programs.
+Both locate the same image with a locator of the same options, in short batches that alternate; of
+each, the fastest batch counts, since others are slowed down by other programs.
 """
 
 import time
@@ -11,7 +11,7 @@ import time
 import dotpose
 
 
-def cost_us(image, locator, batches=200, frames=20):
+def cost_us(image, locator, batches=2000, frames=4):
     """Returns the time of a frame in C++, in Python, and in Python with the pose read, in us."""
     cpp, python, read = [], [], []
     for _ in range(batches):

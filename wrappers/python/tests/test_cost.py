@@ -10,6 +10,6 @@ def test_python_adds_at_most_2_us():
     # What Python adds does not depend on the frame; beside one that takes no time it shows best.
     blank = np.full((64, 64), 200, np.uint8)
     for code in ("anoto", "auto"):
-        cpp, python, _ = cost_us(blank, dotpose.Locator(code), batches=400)
+        cpp, python, _ = cost_us(blank, dotpose.Locator(code))
         print(f"{code}: {cpp:.2f} us in C++, {python:.2f} us in Python")
         assert python - cpp < 2.0
