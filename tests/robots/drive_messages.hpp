@@ -19,10 +19,11 @@ struct MessageTolerance {
     double length_m = 0.6e-9;
     double angle_rad = 1e-8;
     double speed_m_s = 0.6e-6;  ///< the lines have micrometres per second
+    double turn_rad_s = 0.6e-6;
 };
 inline constexpr MessageTolerance kAsWatched;
-/// The log has degrees with six decimals.
-inline constexpr MessageTolerance kAsLogged = {2e-9, 2e-8, 2e-6};
+/// The log has degrees with six decimals, and velocities in mm and degrees with three.
+inline constexpr MessageTolerance kAsLogged = {2e-9, 2e-8, 2e-6, 1e-5};
 
 inline double yaw_of(const nlohmann::json& rotation) {
     return 2 * std::atan2(rotation["z"].get<double>(), rotation["w"].get<double>());
@@ -97,7 +98,7 @@ inline void expect_messages_of(const std::vector<nlohmann::json>& lines,
         EXPECT_NEAR(std::hypot(linear["x"].get<double>(), linear["y"].get<double>()), speed,
                     2 * tolerance.speed_m_s);
         EXPECT_NEAR(odom["twist"]["twist"]["angular"]["z"], line["turn_rad_s"].get<double>(),
-                    1e-6 + 2 * tolerance.angle_rad);
+                    tolerance.turn_rad_s);
     }
     EXPECT_EQ(next, odometry.size());
 }
