@@ -154,9 +154,10 @@ export class Locator {
         const needed = height === 0 ? 0 : (height - 1) * stride + width;
         if (data.length < needed)
             throw new RangeError(`the image needs ${needed} bytes, its data has ${data.length}`);
-        // Sizes that the core refuses are not copied: it looks at no pixel.
-        if (Math.max(width, height) > kMaxFrameSide_px) return stride;
-        const pixels = this.#room(width * height);
+        // Sizes that the core refuses are not copied: it looks at no pixel, only for an address.
+        const is_refused = Math.max(width, height) > kMaxFrameSide_px;
+        const pixels = this.#room(is_refused ? 1 : width * height);
+        if (is_refused) return stride;
         if (stride === width) pixels.set(data.subarray(0, needed));
         else
             for (let v = 0; v < height; ++v)
