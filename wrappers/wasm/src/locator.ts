@@ -86,6 +86,7 @@ export class Locator {
     readonly #dots: number;
     /** Number of the code that is given, or was read last. */
     #code: number;
+    readonly #texts = new Map<number, { status: string; message: string }>();
     #pixels = 0;
     #pixels_bytes = 0;
 
@@ -187,11 +188,21 @@ export class Locator {
         const bytes = core.bytes(this.#fix, kFixBytes).slice();
         const status = core.view(this.#fix, kFixBytes).getInt32(0, true);
         return fixOf(bytes, {
-            status: core.text(core.call("dotpose_status_name", status)),
-            message: core.text(core.call("dotpose_status_message", status)),
+            ...this.#textsOf(status),
             code: this.#code,
             dots: this.#dots === 0 ? null : this.#readDots(),
         });
+    }
+
+    /** Returns the name and the sentence of a status; read once, since each frame has one. */
+    #textsOf(status: number): { status: string; message: string } {
+        const text = (name: string) => this.#core.text(this.#core.call(name, status));
+        let texts = this.#texts.get(status);
+        if (texts === undefined) {
+            texts = { status: text("dotpose_status_name"), message: text("dotpose_status_message") };
+            this.#texts.set(status, texts);
+        }
+        return texts;
     }
 
     #readDots(): Float32Array {
