@@ -31,7 +31,7 @@ constexpr std::int64_t kFrameTime_us = 20'000;
 constexpr double kFps = 50;
 constexpr double kSpacing_mm = 0.508;
 
-/// A robot that rests, drives half a circle at up to 120 mm/s, and rests for so long that frames
+/// A robot that rests, drives half a circle at up to 170 mm/s, and rests for so long that frames
 /// are taken once a second.
 constexpr double kStart_s = 0.2;
 constexpr double kStop_s = 2.2;

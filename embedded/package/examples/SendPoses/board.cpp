@@ -1,5 +1,5 @@
-// The board of the example: replace it by the port of yours (docs/porting.md in the repository has
-// some for ESP32-CAM, RP2040 and STM32). This one has no camera: its frames are white, so that
+// The board of the example: replace it by the port of yours; extras/boards has some for ESP32-CAM,
+// RP2040 and STM32. This one has no camera: its frames are white, so that
 // every packet says `no_contrast`, which shows that all but the camera works.
 #include "board.hpp"
 
