@@ -3,9 +3,9 @@
 //
 // DCMI crops the frame to its middle and writes it by DMA to two rows in turn. In CubeMX: DCMI of 8
 // bits with its interrupt; its DMA circular, words to words; TIM2 counts microseconds with 32 bits,
-// and runs; USART2 at 115200 baud. Call run_device() where main.c has its loop, and compile
-// main.cpp with -Dmain=run_device. Chips with a data cache (F7, H7) need `rows` in memory that is
-// not cached.
+// and runs; USART2 at 115200 baud. Call run_device() where the program of CubeMX has its loop, and
+// compile main.cpp with -Dmain=run_device. Chips with a data cache (F7, H7) need `rows` in memory
+// that is not cached.
 #include "board.hpp"
 
 extern "C" {
