@@ -31,7 +31,7 @@ describe("golden frames: the same bits as the C++ library", () => {
                 const counts = await compareSet(dotpose, frames, csv.toString(), wasm);
                 assert.deepEqual(counts.different, []);
                 assert.ok(counts.lines >= 3 * 40 && counts.ok > 0.9 * counts.lines, JSON.stringify(counts));
-                assert.ok(counts.tracked > 0.25 * counts.lines, JSON.stringify(counts));
+                assert.ok(counts.tracked > 0.2 * counts.lines, JSON.stringify(counts));
             });
         }
     }
