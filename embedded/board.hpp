@@ -1,4 +1,4 @@
-/// What a board must do for main.cpp: three functions, which each port in ports/ fills in.
+/// What a board must do for main.cpp: three functions, which each port in boards/ fills in.
 /// docs/porting.md walks through one.
 #pragma once
 

@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include "dotpose/tools/track_names.hpp"
 #include "reading_fields.hpp"
 #include "terminal_text.hpp"
 

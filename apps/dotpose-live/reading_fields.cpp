@@ -8,6 +8,8 @@
 
 #include <fmt/core.h>
 
+#include "dotpose/tools/track_names.hpp"
+
 namespace dotpose::cli {
 namespace {
 
@@ -83,26 +85,6 @@ std::vector<Field> track_fields(const Track& track, Plane plane, Units units) {
 }
 
 }  // namespace
-
-std::string state_name(const Track& track) {
-    if (track.is_lost) return "lost";
-    return track.is_stationary ? "stationary" : "moving";
-}
-
-std::string event_names(const TrackEvents& events) {
-    std::string names;
-    const auto add = [&names](bool happened, const char* name) {
-        if (!happened) return;
-        if (!names.empty()) names += ' ';
-        names += name;
-    };
-    add(events.fix, "fix");
-    add(events.lost, "lost");
-    add(events.kidnapped, "kidnapped");
-    add(events.stationary, "stationary");
-    add(events.moving, "moving");
-    return names;
-}
 
 std::vector<Field> fields(const Reading& reading, Units units) {
     std::vector<Field> all = fields(reading.record, units);

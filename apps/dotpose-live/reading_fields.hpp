@@ -10,13 +10,6 @@
 
 namespace dotpose::cli {
 
-/// Returns "lost", "moving" or "stationary".
-std::string state_name(const Track& track);
-
-/// Returns the names of events separated by blanks, for example "fix kidnapped"; empty if there is
-/// none.
-std::string event_names(const TrackEvents& events);
-
 std::vector<Field> fields(const Reading& reading, Units units);
 
 /// Returns the header line of a run with or without sheets.

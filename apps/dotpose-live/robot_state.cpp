@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "dotpose/files/error.hpp"
+#include "dotpose/tools/track_names.hpp"
 #include "files/input_file.hpp"
 #include "reading_fields.hpp"
 

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "dotpose/tools/robot_messages.hpp"
+#include "dotpose/tools/track_names.hpp"
 
 namespace dotpose::ros {
 namespace {
@@ -69,25 +70,10 @@ std::string three_digits(double value) {
     return text.data();
 }
 
-std::string names_of(const TrackEvents& events) {
-    std::string names;
-    const auto add = [&names](bool happened, const char* name) {
-        if (!happened) return;
-        if (!names.empty()) names += ' ';
-        names += name;
-    };
-    add(events.fix, "fix");
-    add(events.lost, "lost");
-    add(events.kidnapped, "kidnapped");
-    add(events.stationary, "stationary");
-    add(events.moving, "moving");
-    return names;
-}
-
 std::vector<KeyValue> facts_of(const Followed& followed) {
     const Fix& fix = followed.located.fix;
     std::vector<KeyValue> facts = {{"status", name(fix.status)},
-                                   {"events", names_of(followed.track.events)},
+                                   {"events", event_names(followed.track.events)},
                                    {"verdict", name(followed.track.verdict)},
                                    {"dots_seen", std::to_string(fix.dots_seen)}};
     if (fix.status != Status::ok) return facts;
@@ -109,11 +95,9 @@ RobotUpdate update_of(const Followed& followed, bool is_in_world, std::int64_t t
     if (is_ok) update.fix = is_in_world ? fix_in_world(located) : fix_in_pattern(located);
     if (!track.is_lost) {
         update.motion = motion_of(track.pose, {is_in_world});
-        update.state = track.is_stationary ? "stationary" : "moving";
         update.plane = track.pose.plane;
-    } else {
-        update.state = "lost";
     }
+    update.state = state_name(track);
     update.is_found_again = track.events.fix || track.events.kidnapped;
     if (!is_ok) update.problem = message(located.fix.status);
     update.facts = facts_of(followed);
