@@ -13,6 +13,7 @@
 #include "../tests/temporary_directory.hpp"
 #include "counting.hpp"
 #include "dotpose/tools/follower.hpp"
+#include "dotpose/tools/track_names.hpp"
 #include "evaluate/plot.hpp"
 #include "reading_fields.hpp"
 
@@ -65,7 +66,7 @@ DriveReading reading_of(const Followed& now) {
     const Track& track = now.track;
     const TrackedPose& pose = track.pose;
     told.is_believed = track.verdict == Verdict::believed;
-    told.events = cli::event_names(track.events);
+    told.events = event_names(track.events);
     told.filtered = {pose.x_mm(), pose.y_mm(), pose.theta_rad()};
     told.vx_mm_s = static_cast<double>(pose.vx_mm_s);
     told.vy_mm_s = static_cast<double>(pose.vy_mm_s);
