@@ -1,6 +1,7 @@
 // Windows and centres of dots compared with plain computations of the same.
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/kernels/kernels.hpp"
@@ -163,6 +164,92 @@ TEST(KernelsWindows, PredictedCentresAreFoundHoweverFarDotsAreOff) {
             EXPECT_NEAR(dots.y[k], v, 0.02) << off[k];
         }
         EXPECT_EQ(dots.x[5], kNoDot_px);
+    });
+}
+
+/// Sixteen Gaussian dots in a square on paper whose level is level(x, y), each believed to be a
+/// tenth of a pixel off.
+struct LitDots {
+    static constexpr int kSide_px = 80;
+    static constexpr std::size_t kDots = 16;
+    std::vector<std::uint8_t> pixels;
+    std::vector<double> us, vs;
+    ImageView view{nullptr, kSide_px, kSide_px, kSide_px};
+    CellsInView cells;
+    DotTable table{kDots};
+
+    template <typename Level>
+    LitDots(Rng& rng, Level level) {
+        MeasuredDots& dots = table.dots;
+        dots.count = static_cast<int>(kDots);
+        for (std::size_t k = 0; k < kDots; ++k) {
+            us.push_back(16 * static_cast<double>(k % 4) + rng.uniform(14, 18));
+            vs.push_back(16 * static_cast<double>(k / 4) + rng.uniform(14, 18));
+            const double off_u = us[k] + rng.uniform(-0.1, 0.1);
+            const double off_v = vs[k] + rng.uniform(-0.1, 0.1);
+            dots.window_u[k] = static_cast<int>(us[k]);
+            dots.window_v[k] = static_cast<int>(vs[k]);
+            dots.mass[k] = 10000;
+            dots.sum_u[k] = static_cast<int>(std::lround(10000 * (off_u - dots.window_u[k])));
+            dots.sum_v[k] = static_cast<int>(std::lround(10000 * (off_v - dots.window_v[k])));
+            dots.paper[k] = static_cast<int>(std::lround(level(us[k], vs[k])));
+            dots.x[k] = static_cast<float>(off_u);
+            dots.y[k] = static_cast<float>(off_v);
+        }
+        for (int y = 0; y < kSide_px; ++y) {
+            for (int x = 0; x < kSide_px; ++x) {
+                double dark = 0;
+                for (std::size_t k = 0; k < kDots; ++k)
+                    dark +=
+                        0.6 * level(us[k], vs[k]) * std::exp(-(sq(x - us[k]) + sq(y - vs[k])) / 2);
+                pixels.push_back(static_cast<std::uint8_t>(std::lround(level(x, y) - dark)));
+            }
+        }
+        view.pixels = pixels.data();
+    }
+    static double sq(double value) { return value * value; }
+    /// Returns how far the dots are off on the whole, px.
+    std::pair<double, double> mean_error() const {
+        double x = 0;
+        double y = 0;
+        for (std::size_t k = 0; k < kDots; ++k) {
+            x += (static_cast<double>(table.dots.x[k]) - us[k]) / kDots;
+            y += (static_cast<double>(table.dots.y[k]) - vs[k]) / kDots;
+        }
+        return {x, y};
+    }
+};
+
+template <typename Level>
+void expect_no_common_error(const Kernels& kernels, Rng& rng, float reach_px, Level level) {
+    LitDots again(rng, level);
+    kernels.refine_centres(again.view, again.cells, reach_px, again.table.dots);
+    LitDots predicted(rng, level);
+    kernels.find_centres(predicted.view, predicted.cells, std::min(reach_px, 4.0F), 1,
+                         predicted.table.dots);
+    for (const auto& [x, y] : {again.mean_error(), predicted.mean_error()}) {
+        EXPECT_NEAR(x, 0, 0.006) << reach_px;
+        EXPECT_NEAR(y, 0, 0.006) << reach_px;
+    }
+}
+
+TEST(KernelsWindows, LightThatFallsOffMovesNoCentres) {
+    repeat_with_each_form(60, [](const Kernels& kernels, Rng& rng) {
+        const double per_u = rng.uniform(-1.2, 1.2);
+        const double per_v = rng.uniform(-1.2, 1.2);
+        expect_no_common_error(kernels, rng, static_cast<float>(rng.uniform(3.3, 6)),
+                               [&](double u, double v) {
+                                   return 150 + per_u * (u - LitDots::kSide_px / 2) +
+                                          per_v * (v - LitDots::kSide_px / 2);
+                               });
+    });
+}
+
+TEST(KernelsWindows, AShadowThatEndsMovesNoCentresBesideItsEdge) {
+    repeat_with_each_form(20, [](const Kernels& kernels, Rng& rng) {
+        // Between the second and the third column of dots, out of reach of all bells.
+        expect_no_common_error(kernels, rng, 3.3F,
+                               [&](double u, double /*v*/) { return u < 40 ? 90 : 200; });
     });
 }
 
