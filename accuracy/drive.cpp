@@ -15,7 +15,6 @@
 #include "dotpose/tools/follower.hpp"
 #include "dotpose/tools/track_names.hpp"
 #include "evaluate/plot.hpp"
-#include "reading_fields.hpp"
 
 namespace dotpose {
 namespace {
