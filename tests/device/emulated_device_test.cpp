@@ -2,17 +2,22 @@
 // the same packets as on the desktop to the bit, the poses of the desktop's device attempt, all
 // frames in time, none lost.
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <cmath>
 #include <cstdint>
 #include <fstream>
 #include <iterator>
 #include <sstream>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <pty.h>
+#include <unistd.h>
 
 #include "board.hpp"
 #include "dotpose/locate.hpp"
@@ -130,8 +135,8 @@ class EmulatedDevice : public testing::Test {
         return {std::istreambuf_iterator<char>(in), {}};
     }
 
-    /// Runs the emulator, whose serial line `dotpose listen` reads. Returns the exit code of the
-    /// emulator.
+    /// Runs the emulator, whose serial line is a terminal that `dotpose listen` reads. Returns the
+    /// exit code of the emulator.
     int emulate() const {
         std::ofstream out(directory_.path() / "drive.frames", std::ios::binary);
         for (const GreyImage& image : camera) {
@@ -140,12 +145,56 @@ class EmulatedDevice : public testing::Test {
                       static_cast<std::streamsize>(image.pixels.size()));
         }
         out.close();
-        const std::string commands = "cd " + directory_.path().string() +
-                                     " && { " DOTPOSE_EMULATE
-                                     " drive.frames 2>said; echo $? >code; } | tee packets |"
-                                     " " DOTPOSE_TOOL " listen - -o lines 2>losses";
+        const SerialLine serial;
+        // Bytes that arrive before the line is set up would be changed, and those that are on the
+        // way when listening ends are lost.
+        const std::string commands =
+            "cd " + directory_.path().string() + "; " DOTPOSE_TOOL " listen " + serial.name() +
+            " -o lines 2>losses & listener=$!;"
+            " wait_for() { n=0; until eval \"$1\" || [ $((n+=1)) -gt 300 ]; do sleep 0.1; done; };"
+            " wait_for 'stty -F " +
+            serial.name() +
+            " -a | grep -q -- -icanon';"
+            " { " DOTPOSE_EMULATE " drive.frames 2>said; echo $? >code; } | tee packets >&" +
+            std::to_string(SerialLine::kDescriptor) +
+            "; wait_for '[ $(cat code) != 0 ] || [ $(wc -l <lines) -ge " +
+            std::to_string(packets_sent()) + " ]'; kill -INT $listener; wait $listener";
         EXPECT_EQ(test::run_shell(commands).exit_code, 0);
         return std::stoi(text_of("code"));
+    }
+
+  private:
+    /// A pseudo-terminal: what shells write to kDescriptor can be read from the terminal `name`.
+    class SerialLine {
+      public:
+        static constexpr int kDescriptor = 9;  ///< of one digit, as shells know no others
+        SerialLine() {
+            int master = -1;
+            std::array<char, 256> name{};
+            if (openpty(&master, &terminal_, name.data(), nullptr, nullptr) != 0 ||
+                dup2(master, kDescriptor) < 0) {
+                throw std::system_error(errno, std::generic_category(), "no pseudo-terminal");
+            }
+            close(master);
+            name_ = name.data();
+        }
+        ~SerialLine() {
+            close(kDescriptor);
+            close(terminal_);
+        }
+        SerialLine(const SerialLine&) = delete;
+        SerialLine& operator=(const SerialLine&) = delete;
+        const std::string& name() const { return name_; }
+
+      private:
+        int terminal_ = -1;
+        std::string name_;
+    };
+
+    static int packets_sent() {
+        PacketReader reader;
+        return static_cast<int>(std::ranges::count_if(
+            line, [&reader](char byte) { return reader.push(static_cast<std::uint8_t>(byte)); }));
     }
 
     test::TemporaryDirectory directory_;
