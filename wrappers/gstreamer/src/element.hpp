@@ -1,0 +1,10 @@
+/// The element `dotposelocate`.
+#pragma once
+
+#include <gst/gst.h>
+
+namespace dotpose::gstreamer {
+
+gboolean register_element(GstPlugin* plugin);
+
+}  // namespace dotpose::gstreamer

@@ -1,0 +1,23 @@
+/// Draws on the luma of a frame what was seen in it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "dotpose/trace.hpp"
+
+namespace dotpose::gstreamer {
+
+/// Pixels that may be changed.
+struct Luma {
+    std::uint8_t* pixels = nullptr;
+    int width_px = 0;
+    int height_px = 0;
+    std::ptrdiff_t stride_bytes = 0;
+};
+
+/// Draws a ring around each dot and, if there is a fix, an arrow from the point whose pose it is
+/// along the pattern's x axis. The trace must be that of these pixels, with all stages.
+void draw_overlay(const Luma& luma, const Trace& trace);
+
+}  // namespace dotpose::gstreamer

@@ -1,0 +1,147 @@
+#include "pose_structure.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <string>
+
+#include "dotpose/files/profile_names.hpp"
+#include "dotpose/tools/track_names.hpp"
+
+namespace dotpose::gstreamer {
+namespace {
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+/// The fields of a structure, by their types.
+class Fields {
+  public:
+    explicit Fields(GstStructure* structure) : structure_(structure) {}
+
+    void text(const char* name, const std::string& value) const {
+        if (!value.empty()) {
+            gst_structure_set(structure_, name, G_TYPE_STRING, value.c_str(), nullptr);
+        }
+    }
+    void count(const char* name, int value) const {
+        gst_structure_set(structure_, name, G_TYPE_INT, value, nullptr);
+    }
+    void number(const char* name, double value) const {
+        if (std::isfinite(value)) {
+            gst_structure_set(structure_, name, G_TYPE_DOUBLE, value, nullptr);
+        }
+    }
+    /// An angle in degrees, in (-180, 180].
+    void angle(const char* name, double value_rad) const {
+        const double value_deg = value_rad * kDegrees;
+        number(name, value_deg <= -180 ? value_deg + 360 : value_deg);
+    }
+    /// Nine numbers, row by row, after each row and column was multiplied by its factor; none if
+    /// the covariance is not known.
+    template <typename Matrix>
+    void covariance(const char* name, const Matrix& matrix,
+                    const std::array<double, 3>& factors) const {
+        if (!(matrix[0][0] > 0)) return;
+        GValue array = G_VALUE_INIT;
+        gst_value_array_init(&array, 9);
+        for (std::size_t i = 0; i < 3; ++i) {
+            for (std::size_t j = 0; j < 3; ++j) {
+                GValue element = G_VALUE_INIT;
+                g_value_init(&element, G_TYPE_DOUBLE);
+                g_value_set_double(&element,
+                                   factors[i] * factors[j] * static_cast<double>(matrix[i][j]));
+                gst_value_array_append_and_take_value(&array, &element);
+            }
+        }
+        gst_structure_take_value(structure_, name, &array);
+    }
+
+  private:
+    GstStructure* structure_;
+};
+
+void put_pattern_pose(const Fields& fields, const Located& located) {
+    const Fix& fix = located.fix;
+    const double spacing_mm = located.spacing_mm;
+    fields.number("x_mm", fix.x_grid() * spacing_mm);
+    fields.number("y_mm", fix.y_grid() * spacing_mm);
+    fields.angle("theta_deg", fix.theta_rad());
+    if (std::isfinite(spacing_mm)) {
+        fields.covariance("covariance_mm_deg", fix.covariance, {spacing_mm, spacing_mm, kDegrees});
+    }
+}
+
+void put_evidence(const Fields& fields, const Located& located) {
+    const Fix& fix = located.fix;
+    // Smaller probabilities are not told: the model of paper, ink and camera does not justify them.
+    constexpr double kLeast_p_wrong = 1e-30;
+    fields.text("code", name(located.reading.code));
+    fields.count("dots_used", fix.dots_used);
+    fields.text("attempt", name(fix.attempt));
+    fields.count("bit_errors", fix.bit_errors);
+    fields.number("p_wrong", std::max(fix.p_wrong(), kLeast_p_wrong));
+    fields.number("spacing_px", fix.spacing_px());
+    if (!fix.has_covariance()) return;
+    fields.text("surface", name(fix.surface));
+    fields.number("residual_px", static_cast<double>(fix.residual_px));
+}
+
+void put_place(const Fields& fields, const SheetPlace& place) {
+    fields.text("sheet", place.entry->name);
+    fields.number("x_sheet_mm", place.x_mm);
+    fields.number("y_sheet_mm", place.y_mm);
+    fields.angle("theta_sheet_deg", place.theta_rad);
+    fields.covariance("covariance_sheet_mm_deg", place.covariance, {1, 1, kDegrees});
+    const auto world = world_place(place);
+    if (!world) return;
+    fields.number("x_m", world->x_m);
+    fields.number("y_m", world->y_m);
+    fields.number("yaw_rad", world->yaw_rad);
+    fields.covariance("covariance_m_rad", world->covariance, {1, 1, 1});
+}
+
+void put_motion(const Fields& fields, const TrackedPose& pose) {
+    const auto sigma = [&pose](std::size_t i) {
+        return std::sqrt(static_cast<double>(pose.covariance[i][i]));
+    };
+    fields.number("track_x_mm", pose.x_mm());
+    fields.number("track_y_mm", pose.y_mm());
+    fields.angle("track_theta_deg", pose.theta_rad());
+    fields.covariance("track_covariance_mm_deg", pose.covariance, {1, 1, kDegrees});
+    fields.number("vx_mm_s", static_cast<double>(pose.vx_mm_s));
+    fields.number("vy_mm_s", static_cast<double>(pose.vy_mm_s));
+    fields.number("turn_deg_s", static_cast<double>(pose.turn_rad_s) * kDegrees);
+    fields.number("sigma_v_mm_s", std::max(sigma(3), sigma(4)));
+    fields.number("sigma_turn_deg_s", sigma(5) * kDegrees);
+}
+
+void put_track(const Fields& fields, const Track& track, bool is_in_world) {
+    fields.text("state", state_name(track));
+    fields.text("events", event_names(track.events));
+    fields.text("verdict", name(track.verdict));
+    if (track.is_lost) return;
+    fields.text("plane", is_in_world ? "world" : "pattern");
+    put_motion(fields, track.pose);
+}
+
+}  // namespace
+
+void put_reading(GstStructure* structure, const Reading& reading) {
+    const Fields fields(structure);
+    const Located& located = reading.located;
+    gst_structure_set(structure, "frame", G_TYPE_UINT64, guint64{reading.frame}, nullptr);
+    fields.text("status", name(located.fix.status));
+    fields.count("dots_seen", located.fix.dots_seen);
+    if (located.fix.status == Status::ok) {
+        put_pattern_pose(fields, located);
+        put_evidence(fields, located);
+    } else {
+        fields.text("message", message(located.fix.status));
+    }
+    if (located.place) put_place(fields, *located.place);
+    if (reading.track) put_track(fields, *reading.track, reading.is_in_world);
+}
+
+}  // namespace dotpose::gstreamer

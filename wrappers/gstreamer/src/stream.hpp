@@ -1,0 +1,50 @@
+/// A stream of frames, located one after the other.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "dotpose/tools/follower.hpp"
+#include "dotpose/tools/grey_image.hpp"
+#include "settings.hpp"
+
+namespace dotpose::gstreamer {
+
+/// What is known of a frame.
+struct Reading {
+    std::uint64_t frame = 0;  ///< number, from 0
+    Located located;
+    std::optional<Track> track;  ///< none if each frame is located by itself
+    bool is_in_world = false;    ///< whether the track is in the world of the sheet file
+};
+
+class Stream {
+  public:
+    /// Reads the files. Throws Error if one cannot be read.
+    explicit Stream(const Settings& settings);
+
+    /// Throws BadArgument if the camera file is for frames of another size.
+    void require_size(int width_px, int height_px) const;
+
+    /// Locates the next frame. After a jump back in time the robot is followed anew. The image must
+    /// stay valid as long as `follower` is asked for it.
+    Reading read(ImageView image, bool is_inverted, std::int64_t time_us);
+
+    bool has_overlay() const { return options_.locate.show_stages; }
+    /// Number of frames that were read.
+    std::uint64_t frames() const { return frames_; }
+    /// Has the trace of the newest frame.
+    const Follower& follower() const { return *follower_; }
+
+  private:
+    void copy(ImageView image, bool is_inverted);
+
+    FollowerOptions options_;
+    bool is_tracked_;
+    std::optional<Follower> follower_;
+    GreyImage copy_;
+    std::uint64_t frames_ = 0;
+    std::int64_t newest_us_ = INT64_MIN;
+};
+
+}  // namespace dotpose::gstreamer
