@@ -62,12 +62,33 @@ class Fields {
     GstStructure* structure_;
 };
 
+void put_section(GstStructure* structure, Section section) {
+    GValue array = G_VALUE_INIT;
+    gst_value_array_init(&array, 2);
+    for (const int part : {int{section.u}, int{section.v}}) {
+        GValue element = G_VALUE_INIT;
+        g_value_init(&element, G_TYPE_INT);
+        g_value_set_int(&element, part);
+        gst_value_array_append_and_take_value(&array, &element);
+    }
+    gst_structure_take_value(structure, "section", &array);
+}
+
+template <typename Matrix>
+double sigma(const Matrix& covariance, std::size_t i) {
+    return std::sqrt(static_cast<double>(covariance[i][i]));
+}
+
 void put_pattern_pose(const Fields& fields, const Located& located) {
     const Fix& fix = located.fix;
     const double spacing_mm = located.spacing_mm;
     fields.number("x_mm", fix.x_grid() * spacing_mm);
     fields.number("y_mm", fix.y_grid() * spacing_mm);
     fields.angle("theta_deg", fix.theta_rad());
+    if (!fix.has_covariance()) return;
+    fields.number("sigma_x_mm", sigma(fix.covariance, 0) * spacing_mm);
+    fields.number("sigma_y_mm", sigma(fix.covariance, 1) * spacing_mm);
+    fields.number("sigma_theta_deg", sigma(fix.covariance, 2) * kDegrees);
     if (std::isfinite(spacing_mm)) {
         fields.covariance("covariance_mm_deg", fix.covariance, {spacing_mm, spacing_mm, kDegrees});
     }
@@ -77,7 +98,6 @@ void put_evidence(const Fields& fields, const Located& located) {
     const Fix& fix = located.fix;
     // Smaller probabilities are not told: the model of paper, ink and camera does not justify them.
     constexpr double kLeast_p_wrong = 1e-30;
-    fields.text("code", name(located.reading.code));
     fields.count("dots_used", fix.dots_used);
     fields.text("attempt", name(fix.attempt));
     fields.count("bit_errors", fix.bit_errors);
@@ -86,6 +106,20 @@ void put_evidence(const Fields& fields, const Located& located) {
     if (!fix.has_covariance()) return;
     fields.text("surface", name(fix.surface));
     fields.number("residual_px", static_cast<double>(fix.residual_px));
+}
+
+/// Whose code the sheet has, and which other one explains the frame too.
+void put_code(const Fields& fields, const Located& located) {
+    const CodeReading& reading = located.reading;
+    const bool is_ok = located.fix.status == Status::ok;
+    const bool is_read = is_ok || located.fix.status == Status::ambiguous_code;
+    if (is_read) fields.text("code", name(reading.code));
+    if (is_ok && !located.code_is_given) {
+        fields.number("code_p_wrong", static_cast<double>(reading.evidence.p_wrong(reading.code)));
+    }
+    if (reading.has_other && (is_read || located.code_is_given)) {
+        fields.text("other_code", name(reading.other_code));
+    }
 }
 
 void put_place(const Fields& fields, const SheetPlace& place) {
@@ -103,18 +137,18 @@ void put_place(const Fields& fields, const SheetPlace& place) {
 }
 
 void put_motion(const Fields& fields, const TrackedPose& pose) {
-    const auto sigma = [&pose](std::size_t i) {
-        return std::sqrt(static_cast<double>(pose.covariance[i][i]));
-    };
+    const Covariance6& covariance = pose.covariance;
     fields.number("track_x_mm", pose.x_mm());
     fields.number("track_y_mm", pose.y_mm());
     fields.angle("track_theta_deg", pose.theta_rad());
-    fields.covariance("track_covariance_mm_deg", pose.covariance, {1, 1, kDegrees});
+    fields.covariance("track_covariance_mm_deg", covariance, {1, 1, kDegrees});
     fields.number("vx_mm_s", static_cast<double>(pose.vx_mm_s));
     fields.number("vy_mm_s", static_cast<double>(pose.vy_mm_s));
     fields.number("turn_deg_s", static_cast<double>(pose.turn_rad_s) * kDegrees);
-    fields.number("sigma_v_mm_s", std::max(sigma(3), sigma(4)));
-    fields.number("sigma_turn_deg_s", sigma(5) * kDegrees);
+    fields.number("track_sigma_mm", std::max(sigma(covariance, 0), sigma(covariance, 1)));
+    fields.number("track_sigma_deg", sigma(covariance, 2) * kDegrees);
+    fields.number("sigma_v_mm_s", std::max(sigma(covariance, 3), sigma(covariance, 4)));
+    fields.number("sigma_turn_deg_s", sigma(covariance, 5) * kDegrees);
 }
 
 void put_track(const Fields& fields, const Track& track, bool is_in_world) {
@@ -136,10 +170,12 @@ void put_reading(GstStructure* structure, const Reading& reading) {
     fields.count("dots_seen", located.fix.dots_seen);
     if (located.fix.status == Status::ok) {
         put_pattern_pose(fields, located);
+        put_section(structure, located.fix.section);
         put_evidence(fields, located);
     } else {
         fields.text("message", message(located.fix.status));
     }
+    put_code(fields, located);
     if (located.place) put_place(fields, *located.place);
     if (reading.track) put_track(fields, *reading.track, reading.is_in_world);
 }
