@@ -11,13 +11,18 @@ gi.require_version("Gst", "1.0")
 from gi.repository import Gst  # noqa: E402
 
 
+def say(line):
+    """Writes all of a line at once: frames and messages come in different threads."""
+    sys.stdout.write(line + "\n")
+
+
 def print_frame(pad, info):
     """Prints what the frame that passes the pad carries with it."""
     frame = info.get_buffer()
     meta = frame.get_custom_meta("dotpose")
     if meta:
         pose = meta.get_structure()
-        print("frame", frame.pts, pose.get_string("status"), pose.get_value("frame"))
+        say(f"frame {frame.pts} {pose.get_string('status')} {pose.get_value('frame')}")
     return Gst.PadProbeReturn.OK
 
 
@@ -26,10 +31,10 @@ def print_message(message):
     if pose.get_name() != "dotpose":
         return
     if pose.get_string("status") != "ok":
-        print("message", pose.get_string("message"))
+        say("message " + pose.get_string("message"))
         return
     names = ["x_mm", "y_mm", "theta_deg", "sigma_x_mm"]
-    print(
+    say(
         "message x %.3f mm, y %.3f mm, angle %.4f degrees, sigma of x %.6f mm"
         % tuple(pose.get_value(name) for name in names)
     )
