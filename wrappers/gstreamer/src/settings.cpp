@@ -87,10 +87,10 @@ void add_track_numbers(GObjectClass* element_class) {
     constexpr double kLeast = 1e-3;
     constexpr double kMost = 1e7;
     add_number(element_class, kMaxSpeed, "max-speed-mm-s", "Of the robot, while it is not seen",
-               kLeast, kMost, double{track.max_speed_mm_s});
+               kLeast, kMost, static_cast<double>(track.max_speed_mm_s));
     add_number(element_class, kAcceleration, "acceleration-mm-s2",
                "Usual acceleration of the robot: larger follows faster, smooths less", kLeast,
-               kMost, double{track.acceleration_mm_s2});
+               kMost, static_cast<double>(track.acceleration_mm_s2));
     add_number(element_class, kLostAfter, "lost-after-ms",
                "Time without a believed fix after which the robot is lost", 0, 1e9,
                static_cast<double>(track.lost_after_us) / 1000);
@@ -206,10 +206,10 @@ bool get_property(const Settings& settings, guint id, GValue* value) {
             put_switch(settings.is_tracked);
             break;
         case kMaxSpeed:
-            g_value_set_double(value, double{track.max_speed_mm_s});
+            g_value_set_double(value, static_cast<double>(track.max_speed_mm_s));
             break;
         case kAcceleration:
-            g_value_set_double(value, double{track.acceleration_mm_s2});
+            g_value_set_double(value, static_cast<double>(track.acceleration_mm_s2));
             break;
         case kLostAfter:
             g_value_set_double(value, static_cast<double>(track.lost_after_us) / 1000);
