@@ -48,12 +48,20 @@ accuracy: setup $(RELEASE)/build.ninja
 	$(BUILD) release -j $(JOBS) --target dotpose_accuracy
 	$(RELEASE)/bin/dotpose_accuracy $(ARGS)
 
+# With ARGS=--all: all sizes of frames and cores.
+ifneq ($(findstring --all,$(ARGS)),)
+more_frames = dotpose_frames_160x120 dotpose_frames_320x240
+more_cores = cortex-m4f cortex-m33 rv32imc
+endif
 budget: SETUP += --firmware
-budget: setup $(RELEASE)/build.ninja build/cortex-m0plus/build.ninja build/mips32r2/build.ninja
-	$(BUILD) release -j $(JOBS) \
-	    --target dotpose_cli dotpose_frames dotpose_count dotpose_budget dotpose_golden_files
+budget: setup $(RELEASE)/build.ninja \
+    $(patsubst %,build/%/build.ninja,cortex-m0plus mips32r2 $(more_cores))
+	$(BUILD) release -j $(JOBS) --target dotpose_cli dotpose_frames dotpose_count dotpose_budget \
+	    dotpose_golden_files $(more_frames)
 	$(BUILD) cortex-m0plus -j $(JOBS)
 	$(BUILD) mips32r2 -j $(JOBS)
+	$(if $(more_cores),set -e; for core in cortex-m0plus mips32r2 $(more_cores); do \
+	    $(BUILD) $$core -j $(JOBS) --target dotpose_firmware_of_all_sizes; done)
 	firmware/budget $(ARGS)
 	$(RELEASE)/bin/dotpose_golden_files build/budget/golden
 	wrappers/c/device/run build/cortex-m0plus/wrappers/c/libdotpose_c.a build/budget/golden

@@ -5,11 +5,21 @@
 #include <cstddef>
 #include <cstdint>
 
+// The size of frames that there is memory for: 160 x 120, 188 x 120 or 320 x 240. Change it here,
+// or by options of the compiler.
+#ifndef DOTPOSE_FRAME_WIDTH_PX
+#define DOTPOSE_FRAME_WIDTH_PX 188
+#define DOTPOSE_FRAME_HEIGHT_PX 120
+#endif
+
 namespace board {
+
+inline constexpr int kMostWidth_px = DOTPOSE_FRAME_WIDTH_PX;
+inline constexpr int kMostHeight_px = DOTPOSE_FRAME_HEIGHT_PX;
 
 /// A frame whose exposure has been started.
 struct Frame {
-    int width_px = 0;          ///< at most 188
+    int width_px = 0;          ///< at most kMostWidth_px
     int height_px = 0;         ///< rows that `next_row` will give
     std::int64_t time_us = 0;  ///< middle of the exposure, on a clock that never runs backwards
 };

@@ -9,14 +9,22 @@
 #include "markers.hpp"
 #include "number.hpp"
 
+// The size of frames that there is memory for.
+#ifndef DOTPOSE_FRAME_WIDTH_PX
+#define DOTPOSE_FRAME_WIDTH_PX 188
+#define DOTPOSE_FRAME_HEIGHT_PX 120
+#endif
+#define DOTPOSE_TEXT_OF(number) #number
+#define DOTPOSE_TEXT(number) DOTPOSE_TEXT_OF(number)
+
 namespace {
 
 using namespace dotpose;
 
-constexpr int kMaxWidth_px = 188;
+constexpr int kMaxWidth_px = DOTPOSE_FRAME_WIDTH_PX;
 constexpr int kMaxHeight_px = 9999;
 
-DeviceMemory memory;
+DeviceMemoryFor<DOTPOSE_FRAME_WIDTH_PX, DOTPOSE_FRAME_HEIGHT_PX> memory;
 DeviceLocator locator(memory);
 // Cameras write rows to word boundaries, and rows so aligned are copied by words.
 alignas(4) std::array<std::uint8_t, kMaxWidth_px> row;
@@ -30,25 +38,25 @@ struct FrameHeader {
 
 /// Reads the next number of a header and the byte after it. Returns false if there is no number or
 /// it does not fit into 32 bits.
-bool read_number(std::int64_t& number) {
+bool read_number(std::int32_t& number) {
     char byte = 0;
     do {
         if (!host::read(&byte, 1)) return false;
     } while (byte == ' ' || byte == '\n');
     const bool is_negative = byte == '-';
     if (is_negative && !host::read(&byte, 1)) return false;
-    number = 0;
-    while (byte >= '0' && byte <= '9' && number <= INT32_MAX) {
-        number = 10 * number + (byte - '0');
+    std::uint32_t magnitude = 0;
+    while (byte >= '0' && byte <= '9' && magnitude <= INT32_MAX / 10) {
+        magnitude = 10 * magnitude + static_cast<std::uint32_t>(byte - '0');
         if (!host::read(&byte, 1)) return false;
     }
-    if (is_negative) number = -number;
-    return byte == ' ' || byte == '\n';
+    number = static_cast<std::int32_t>(is_negative ? 0 - magnitude : magnitude);
+    return magnitude <= INT32_MAX && (byte == ' ' || byte == '\n');
 }
 
 template <typename Int>
 bool read_into(Int& value) {
-    std::int64_t number = 0;
+    std::int32_t number = 0;
     if (!read_number(number)) return false;
     value = static_cast<Int>(number);
     return true;
@@ -112,13 +120,13 @@ bool locate_frame(const FrameHeader& frame, Fix& fix) {
 
 void print_fix(const Fix& fix) {
     host::print(name(fix.status));
-    for (const std::int64_t number :
-         {std::int64_t{fix.cell.x}, std::int64_t{fix.cell.y}, std::int64_t{fix.fraction_x_q16},
-          std::int64_t{fix.fraction_y_q16}, std::int64_t{fix.theta_bam},
-          std::int64_t{fix.section.u}, std::int64_t{fix.section.v},
-          std::int64_t{fix.spacing_px_q16}, std::int64_t{fix.dots_seen},
-          std::int64_t{fix.dots_used}, std::int64_t{fix.bit_errors},
-          std::int64_t{fix.p_wrong_log2}}) {
+    print_number(fix.cell.x);
+    print_number(fix.cell.y);
+    for (const std::int32_t number :
+         {std::int32_t{fix.fraction_x_q16}, std::int32_t{fix.fraction_y_q16}, fix.theta_bam,
+          std::int32_t{fix.section.u}, std::int32_t{fix.section.v}, fix.spacing_px_q16,
+          std::int32_t{fix.dots_seen}, std::int32_t{fix.dots_used}, std::int32_t{fix.bit_errors},
+          std::int32_t{fix.p_wrong_log2}}) {
         print_number(number);
     }
     host::print("\n");
@@ -141,6 +149,9 @@ int locate_frames(const char* path) {
         }
         print_fix(fix);
     }
-    if (header == Header::bad) host::print("not a binary PGM of 8 bits, at most 188 px wide\n");
+    if (header == Header::bad) {
+        host::print("not a binary PGM of 8 bits, at most " DOTPOSE_TEXT(
+            DOTPOSE_FRAME_WIDTH_PX) " px wide\n");
+    }
     return header == Header::end ? 0 : 1;
 }

@@ -27,6 +27,18 @@ inline void end_frame() {
     asm volatile("sltiu $0, $0, 0x1b3" ::: "memory");
 }
 
+#elif defined(__riscv)
+
+inline void resume() {
+    asm volatile("slti x0, x0, 0x1b1" ::: "memory");
+}
+inline void pause() {
+    asm volatile("slti x0, x0, 0x1b2" ::: "memory");
+}
+inline void end_frame() {
+    asm volatile("slti x0, x0, 0x1b3" ::: "memory");
+}
+
 #else
 
 inline void resume() {}

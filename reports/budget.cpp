@@ -1,18 +1,16 @@
 // Reports the budget of the firmware from the files that firmware/budget has written to FOLDER.
 //
-//   dotpose_budget [--update] DOCUMENT FOLDER
+//   dotpose_budget [--update] [--all] DOCUMENT FOLDER
 //
 // Prints a line `TARGET PRESET median=N worst=N ram=N code=N` for each run, and tables; `median`
-// and `worst` are instructions per frame, `ram` and `code` bytes. With --update, the tables replace
-// the generated parts of the document. Without it, the exit status is 1 if any figure is more than
-// 3 % above that of the document.
+// and `worst` are instructions per frame, `ram` and `code` bytes. With --all, also the table of all
+// sizes and cores. With --update, the tables replace the generated parts of the document. Without
+// it, the exit status is 1 if any figure is more than 3 % above that of the document.
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <span>
 #include <sstream>
 #include <string>
@@ -23,121 +21,24 @@
 
 #include <dotpose/files/error.hpp>
 
+#include "budget_run.hpp"
+#include "budget_sizes.hpp"
 #include "document.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
 using dotpose::Error;
-using Count = std::uint64_t;
 
-struct Target {
-    const char* name;
-    /// Assumption for the table of frame rates, which docs/firmware.md explains.
-    double instructions_per_cycle;
-};
 constexpr std::array kTargets = {Target{"cortex-m0plus", 0.7}, Target{"mips32r2", 0.8}};
 /// The sets of frames: two presets, and frames of the first preset with predictions.
 constexpr std::array kPresets = {"nominal", "hard", "tracked"};
-
-/// Statistics of the instructions per frame.
-struct Cost {
-    Count median = 0;
-    Count worst = 0;
-};
-
-Cost cost_of(std::vector<Count> counts) {
-    std::ranges::sort(counts);
-    const std::size_t half = counts.size() / 2;
-    const Count below = counts[counts.size() % 2 == 0 ? half - 1 : half];
-    return {(below + counts[half]) / 2, counts.back()};
-}
-
-struct StageCost {
-    std::string name;
-    Cost cost;
-};
-
-struct Figure {
-    const char* name;
-    Count value;
-};
-
-/// The results of one target with one set of frames.
-struct Run {
-    Target target;
-    std::string preset;
-    std::vector<StageCost> stages;
-    Cost cost;
-    Count ram_bytes = 0;
-    Count code_bytes = 0;
-
-    std::string name() const { return fmt::format("{} {}", target.name, preset); }
-    /// The figures that must not grow.
-    std::array<Figure, 4> figures() const {
-        return {{{"median", cost.median},
-                 {"worst", cost.worst},
-                 {"ram", ram_bytes},
-                 {"code", code_bytes}}};
-    }
-};
 
 std::string line_of(const Run& run) {
     std::string line = run.name();
     for (const Figure& figure : run.figures())
         line += fmt::format(" {}={}", figure.name, figure.value);
     return line;
-}
-
-/// Reads the counts that the plugin reports/count.cpp has written.
-void read_counts(const fs::path& path, Run& run) {
-    std::istringstream lines(read_document(path));
-    std::string line;
-    std::getline(lines, line);
-    std::istringstream names(line);
-    std::vector<std::vector<Count>> counts_of;  // the counts of each stage, by frame
-    for (std::string stage; names >> stage; counts_of.emplace_back())
-        run.stages.push_back({stage, {}});
-    std::vector<Count> totals;
-    while (std::getline(lines, line)) {
-        std::istringstream numbers(line);
-        Count total = 0;
-        for (std::vector<Count>& counts : counts_of) {
-            Count count = 0;
-            if (!(numbers >> count)) throw Error("bad line in " + path.string() + ": " + line);
-            counts.push_back(count);
-            total += count;
-        }
-        totals.push_back(total);
-    }
-    if (totals.empty()) throw Error("no frame was counted in " + path.string());
-    run.cost = cost_of(totals);
-    for (std::size_t i = 0; i < counts_of.size(); ++i)
-        run.stages[i].cost = cost_of(counts_of[i]);
-}
-
-/// Returns the number after `name` at the start of a line, or 0 if there is no such line.
-Count number_after(const fs::path& path, std::string_view name) {
-    std::istringstream lines(read_document(path));
-    for (std::string line; std::getline(lines, line);) {
-        std::istringstream words(line);
-        std::string word;
-        Count number = 0;
-        if (words >> word && word == name && words >> number) return number;
-    }
-    return 0;
-}
-
-Run read_run(const fs::path& folder, const Target& target, const char* preset) {
-    Run run{target, preset, {}, {}};
-    const fs::path file = folder / fmt::format("{}-{}", target.name, preset);
-    read_counts(file.string() + ".counts", run);
-    const fs::path sizes = folder / fmt::format("{}.size", target.name);
-    const Count data_bytes = number_after(sizes, ".data");
-    run.ram_bytes =
-        data_bytes + number_after(sizes, ".bss") + number_after(file.string() + ".txt", "stack");
-    run.code_bytes = number_after(sizes, ".text") + data_bytes;
-    return run;
 }
 
 /// Returns how many of the frames were located, as text. It is the same on all targets.
@@ -159,14 +60,6 @@ std::string summary(const std::vector<Run>& runs) {
     for (const Run& run : runs)
         text += line_of(run) + '\n';
     return text + "```\n";
-}
-
-/// Formats a number with groups of three digits, such as "1,234,567".
-std::string grouped(Count number) {
-    std::string digits = std::to_string(number);
-    for (std::size_t at = digits.size(); at > 3;)
-        digits.insert(at -= 3, 1, ',');
-    return digits;
 }
 
 /// Returns the table of the stages. All `runs` must be those of one target.
@@ -255,8 +148,13 @@ bool keeps_budget(const fs::path& path, const std::vector<Run>& runs) {
     return is_kept;
 }
 
+struct Wanted {
+    bool is_update = false;
+    bool has_all_sizes = false;
+};
+
 /// Prints the report or updates the document. Returns whether the budget is kept.
-bool report(bool is_update, const fs::path& document, const fs::path& folder) {
+bool report(const Wanted& wanted, const fs::path& document, const fs::path& folder) {
     std::vector<Run> runs;
     for (const Target& target : kTargets) {
         for (const char* preset : kPresets)
@@ -264,29 +162,38 @@ bool report(bool is_update, const fs::path& document, const fs::path& folder) {
     }
     for (const Run& run : runs)
         fmt::print("{}\n", line_of(run));
-    const Blocks blocks = {{"budget", summary(runs)},
-                           {"located", located(folder)},
-                           {"stages", stage_tables(runs)},
-                           {"rates", rate_table(runs)}};
+    Blocks blocks = {{"budget", summary(runs)},
+                     {"located", located(folder)},
+                     {"stages", stage_tables(runs)},
+                     {"rates", rate_table(runs)}};
     fmt::print("\nLocated, on each target:\n\n{}\n{}\n{}", blocks[1].text, blocks[2].text,
                blocks[3].text);
-    if (!is_update) return keeps_budget(document, runs);
-    update_document(document, blocks);
-    return true;
+    std::vector<SizeRow> sizes;
+    if (wanted.has_all_sizes) {
+        sizes = read_sizes(folder);
+        blocks.push_back({"sizes", size_table(sizes)});
+        fmt::print("\n{}", blocks.back().text);
+    }
+    if (wanted.is_update) {
+        update_document(document, blocks);
+        return true;
+    }
+    const bool is_kept = keeps_budget(document, runs);
+    return keeps_sizes(read_document(document), sizes) && is_kept;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    const std::vector<std::string> arguments(argv + 1, argv + argc);
-    const bool is_update = !arguments.empty() && arguments.front() == "--update";
-    const std::size_t first = is_update ? 1 : 0;
-    if (arguments.size() != first + 2 || arguments[first].starts_with('-')) {
-        fmt::print(stderr, "usage: dotpose_budget [--update] DOCUMENT FOLDER\n");
+    std::vector<std::string> arguments(argv + 1, argv + argc);
+    const auto take = [&](const char* option) { return std::erase(arguments, option) > 0; };
+    const Wanted wanted{take("--update"), take("--all")};
+    if (arguments.size() != 2 || arguments[0].starts_with('-')) {
+        fmt::print(stderr, "usage: dotpose_budget [--update] [--all] DOCUMENT FOLDER\n");
         return 2;
     }
     try {
-        return report(is_update, arguments[first], arguments[first + 1]) ? 0 : 1;
+        return report(wanted, arguments[0], arguments[1]) ? 0 : 1;
     } catch (const std::exception& error) {
         fmt::print(stderr, "dotpose_budget: {}\n", error.what());
         return 1;

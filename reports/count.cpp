@@ -124,6 +124,9 @@ constexpr Markers kThumbMarkers = {
 // The instructions are sltiu $0, $0, 0x1b1 to 0x1b3 in microMIPS.
 constexpr Markers kMipsMarkers = {
     {{0x01B1B000, 4, on_resume}, {0x01B2B000, 4, on_pause}, {0x01B3B000, 4, on_end_frame}}};
+// The instructions are slti x0, x0, 0x1b1 to 0x1b3.
+constexpr Markers kRiscVMarkers = {
+    {{0x1B102013, 4, on_resume}, {0x1B202013, 4, on_pause}, {0x1B302013, 4, on_end_frame}}};
 const Markers* markers = &kThumbMarkers;
 
 const Marker* marker_at(const qemu_plugin_insn* instruction) {
@@ -177,7 +180,9 @@ bool take_argument(std::string_view argument) {
 }  // namespace
 
 int qemu_plugin_install(qemu_plugin_id_t id, const qemu_info_t* info, int argc, char** argv) {
-    if (std::string_view(info->target_name).starts_with("mips")) markers = &kMipsMarkers;
+    const std::string_view target = info->target_name;
+    if (target.starts_with("mips")) markers = &kMipsMarkers;
+    if (target.starts_with("riscv")) markers = &kRiscVMarkers;
     for (int i = 0; i < argc; ++i) {
         if (take_argument(argv[i])) continue;
         std::fprintf(stderr, "dotpose_count: cannot use '%s'\n", argv[i]);

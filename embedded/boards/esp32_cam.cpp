@@ -2,9 +2,10 @@
 // ESP-IDF 5.1 or later and the component espressif/esp32-camera 2.
 //
 // The driver delivers whole frames by DMA, into two buffers; of each, the 188 x 120 px in the
-// middle are read. The lens must be turned to about 19 mm (docs/hardware.md). Packets leave on the
-// pin of the programmer, at 115200 baud, so nothing else may be logged there:
-// CONFIG_LOG_DEFAULT_LEVEL_NONE. The stack of the main task: CONFIG_ESP_MAIN_TASK_STACK_SIZE=8192.
+// middle are read (or what board.hpp says). The lens must be turned to about 19 mm
+// (docs/hardware.md). Packets leave on the pin of the programmer, at 115200 baud, so nothing else
+// may be logged there: CONFIG_LOG_DEFAULT_LEVEL_NONE. The stack of the main task:
+// CONFIG_ESP_MAIN_TASK_STACK_SIZE=8192.
 #include <driver/uart.h>
 #include <esp_camera.h>
 #include <esp_timer.h>
@@ -16,8 +17,8 @@
 
 namespace {
 
-constexpr int kWidth_px = 188;
-constexpr int kHeight_px = 120;
+constexpr int kWidth_px = board::kMostWidth_px;
+constexpr int kHeight_px = board::kMostHeight_px;
 
 camera_fb_t* frame = nullptr;
 const std::uint8_t* row = nullptr;

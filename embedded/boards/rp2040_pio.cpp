@@ -29,8 +29,8 @@ constexpr uint kTx = 0;
 
 constexpr int kCameraWidth_px = 320;
 constexpr int kCameraHeight_px = 240;
-constexpr int kWidth_px = 188;
-constexpr int kHeight_px = 120;
+constexpr int kWidth_px = board::kMostWidth_px;
+constexpr int kHeight_px = board::kMostHeight_px;
 constexpr int kLeft = 64;  // a multiple of 4: rows that begin at words are copied by words
 constexpr int kTop = (kCameraHeight_px - kHeight_px) / 2;
 

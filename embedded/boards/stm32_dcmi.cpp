@@ -20,8 +20,8 @@ namespace {
 
 constexpr std::uint32_t kCameraWidth_px = 376;
 constexpr std::uint32_t kCameraHeight_px = 240;
-constexpr std::uint32_t kWidth_px = 188;
-constexpr std::uint32_t kHeight_px = 120;
+constexpr std::uint32_t kWidth_px = board::kMostWidth_px;
+constexpr std::uint32_t kHeight_px = board::kMostHeight_px;
 /// From the end of VSYNC to the middle of the exposure: negative for global shutters, which are
 /// read after it.
 constexpr std::int64_t kMiddleOfExposure_us = -500;

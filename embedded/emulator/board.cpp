@@ -17,14 +17,13 @@ int run_device();  // main.cpp
 namespace {
 
 constexpr std::int64_t kFrameTime_us = 20'000;
-constexpr int kMaxWidth_px = 188;
 
 std::int32_t camera = -1;
 std::int64_t frames_taken = 0;
 int width_px = 0;
 
 // Two rows, as for DMA: one is read while the other comes in.
-alignas(4) std::array<std::array<std::uint8_t, kMaxWidth_px>, 2> rows;
+alignas(4) std::array<std::array<std::uint8_t, board::kMostWidth_px>, 2> rows;
 int filled = 0;
 
 void print(const char* text) {
@@ -74,7 +73,8 @@ board::Frame next_frame() {
     if (!read(&magic[1], 2) || magic[0] != 'P' || magic[1] != '5') end("no binary PGM\n");
     width_px = read_number();
     const int height_px = read_number();
-    if (read_number() != 255 || width_px > kMaxWidth_px) end("no frame of 8 bits and 188 px\n");
+    if (read_number() != 255 || width_px > board::kMostWidth_px)
+        end("no frame of 8 bits that there is memory for\n");
     return {width_px, height_px, kFrameTime_us * frames_taken++};
 }
 

@@ -4,6 +4,9 @@
 ///     static dotpose::DeviceMemory memory;
 ///     static dotpose::DeviceLocator locator(memory);
 ///
+/// `DeviceMemory` is for frames of 188 x 120 px; there are also DeviceMemoryFor<160, 120> and
+/// DeviceMemoryFor<320, 240>.
+///
 /// Arduino finds this library by this header: include it before any other of dotpose.
 #pragma once
 

@@ -68,7 +68,7 @@ class Predictor {
 
   private:
     dotpose::Rng rng_;
-    dotpose::DeviceMemory memory_;
+    dotpose::DeviceMemoryFor<DOTPOSE_FRAME_WIDTH_PX, DOTPOSE_FRAME_HEIGHT_PX> memory_;
 };
 
 /// Writes the frames of a file that are located to standard output, each after a prediction.

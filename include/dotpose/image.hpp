@@ -10,6 +10,10 @@
 
 namespace dotpose {
 
+/// Least and greatest width and height, in pixels, of an image that can be located.
+inline constexpr int kMinFrameSide_px = 64;
+inline constexpr int kMaxFrameSide_px = 4096;
+
 /// Row `v` starts at `pixels + v * stride_bytes`; dark dots on light paper, 0 is black.
 struct ImageView {
     const std::uint8_t* pixels = nullptr;

@@ -24,10 +24,6 @@
 
 namespace dotpose {
 
-/// Least and greatest width and height, in pixels, of an image that can be located.
-inline constexpr int kMinFrameSide_px = 64;
-inline constexpr int kMaxFrameSide_px = 4096;
-
 /// Base of Locator and DeviceLocator: it holds options and memory, and takes images row by row.
 class RowLocator {
   public:
@@ -126,7 +122,7 @@ class Locator : public RowLocator {
 class DeviceLocator : public RowLocator {
   public:
     /// Constructs as Locator does, with the same rules for memory and options.
-    explicit DeviceLocator(DeviceMemory& memory, const Options& options = {});
+    explicit DeviceLocator(AnyDeviceMemory& memory, const Options& options = {});
 
     /// Locates as the functions of Locator with the same names do.
     Fix locate(const ImageView& image);

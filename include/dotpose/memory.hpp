@@ -16,17 +16,42 @@ namespace core {
 struct Workspace;
 }
 
-/// Memory of a DeviceLocator on a small microcontroller with a 188 x 120 px sensor: about 12 KB.
-class DeviceMemory {
+/// Memory of a DeviceLocator, for frames of any size.
+class AnyDeviceMemory {
   public:
-    DeviceMemory();
-    DeviceMemory(const DeviceMemory&) = delete;
-    DeviceMemory& operator=(const DeviceMemory&) = delete;
+    AnyDeviceMemory(const AnyDeviceMemory&) = delete;
+    AnyDeviceMemory& operator=(const AnyDeviceMemory&) = delete;
+
+  protected:
+    AnyDeviceMemory() = default;
+    ~AnyDeviceMemory() = default;
+
+    /// Returns the size of a workspace; 0 if there is none for frames of this size.
+    static constexpr std::size_t bytes_for(int width_px, int height_px) {
+        const bool has_32_bits = sizeof(void*) == 4;
+        if (width_px == 160 && height_px == 120) return has_32_bits ? 10'640 : 11'808;
+        if (width_px == 188 && height_px == 120) return has_32_bits ? 12'608 : 13'312;
+        if (width_px == 320 && height_px == 240) return has_32_bits ? 23'104 : 25'040;
+        return 0;
+    }
+
+    core::Workspace* workspace_ = nullptr;
 
   private:
     friend class DeviceLocator;
-    static constexpr std::size_t kBytes = sizeof(void*) == 4 ? 12'608 : 13'312;
-    core::Workspace* workspace_;
+};
+
+/// Memory of a DeviceLocator on a small microcontroller, with a sensor of Width x Height px; the
+/// sizes are those at the end of this header. Frames may be smaller, and those of up to 188 px
+/// width also higher.
+template <int Width, int Height>
+class DeviceMemoryFor : public AnyDeviceMemory {
+  public:
+    DeviceMemoryFor();
+
+  private:
+    static constexpr std::size_t kBytes = bytes_for(Width, Height);
+    static_assert(kBytes > 0, "there is memory for 160 x 120, 188 x 120 and 320 x 240 px");
     alignas(8) std::array<std::byte, kBytes> bytes_;
 };
 
@@ -57,6 +82,12 @@ class LargeMemory {
     core::Workspace* workspace_;
     alignas(64) std::array<std::byte, kBytes> bytes_;
 };
+
+extern template class DeviceMemoryFor<160, 120>;  ///< 10 KB
+extern template class DeviceMemoryFor<188, 120>;  ///< 12 KB
+extern template class DeviceMemoryFor<320, 240>;  ///< 23 KB
+/// That of the paper's sensor.
+using DeviceMemory = DeviceMemoryFor<188, 120>;
 
 }  // namespace dotpose
 

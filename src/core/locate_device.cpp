@@ -6,6 +6,7 @@
 #include "core/attempts/device.hpp"
 #include "core/attempts/device_tracked.hpp"
 #include "core/attempts/steps.hpp"
+#include "core/device_workspace.hpp"
 #include "core/locate.hpp"
 #include "dotpose/locate.hpp"
 
@@ -47,7 +48,7 @@ Status check(int width_px, int height_px, const Options& options, const Workspac
     if (width_px < kMinFrameSide_px || height_px < kMinFrameSide_px) {
         return Status::image_too_small;
     }
-    if (width_px > w.max_width_px || height_px > kMaxFrameSide_px) return Status::image_too_large;
+    if (width_px > w.max_width_px || height_px > w.max_height_px) return Status::image_too_large;
     return Status::ok;
 }
 
@@ -136,7 +137,13 @@ Trace trace_of(const core::Workspace& w, const Options& options) {
 
 }  // namespace
 
-DeviceMemory::DeviceMemory() : workspace_(core::make_workspace<core::DeviceWorkspace>(bytes_)) {}
+template <int Width, int Height>
+DeviceMemoryFor<Width, Height>::DeviceMemoryFor() {
+    workspace_ = core::make_workspace<core::DeviceWorkspaceFor<Width, Height>>(bytes_);
+}
+template class DeviceMemoryFor<160, 120>;
+template class DeviceMemoryFor<188, 120>;
+template class DeviceMemoryFor<320, 240>;
 
 void RowLocator::set_options(const Options& options) {
     options_ = options;
@@ -179,7 +186,7 @@ Fix RowLocator::shown() {
     return workspace_->fix;
 }
 
-DeviceLocator::DeviceLocator(DeviceMemory& memory, const Options& options)
+DeviceLocator::DeviceLocator(AnyDeviceMemory& memory, const Options& options)
     : RowLocator(memory.workspace_, options) {}
 
 Fix DeviceLocator::locate(const ImageView& image) {

@@ -210,14 +210,15 @@ struct TrackedView {
     }
 };
 
-/// A frame whose dots are measured where a prediction expects them, as its rows come in.
+/// A frame whose dots are measured where a prediction expects them, as its rows come in. Of a frame
+/// that shows too many cells the middle is tracked, which then counts as the image.
 struct Tracking {
     bool is_on = false;  ///< whether the frame that was begun is tracked
     Status status = Status::not_tracked;
     // Small processors reach the first members soonest, so those needed for every dot come first.
     int width_px = 0;
     int height_px = 0;
-    int rows_taken = 0;
+    int rows_taken = 0;  ///< negative while rows above the part that is tracked come in
     int first_kept = 0;  ///< row of the image that is the first in memory
     int stride_px = 0;
     std::span<std::uint8_t> rows;  ///< the newest rows of the image
@@ -232,6 +233,8 @@ struct Tracking {
     /// By the quarter of its pixel in which an intersection lies, and by Symbol: offset of the
     /// first of the four pixels about a dot, in bytes from the intersection's pixel.
     std::array<std::array<std::int16_t, 4>, 4> dot_pixels{};
+    std::int16_t left_out_px = 0;  ///< columns to the left of the part that is tracked
+    std::int16_t rows_above = 0;   ///< rows above it
     CellMap cells;
     /// Pattern steps per image step, in 2^-20 spacings per px.
     Vec du_q20;

@@ -13,12 +13,14 @@
 #include "core/patch_memory.hpp"
 #include "core/stages.hpp"
 #include "dotpose/fix.hpp"
+#include "dotpose/image.hpp"
 
 namespace dotpose::core {
 
 /// The memory and results of all stages, as spans. Use one of the aliases below.
 struct Workspace {
-    int max_width_px = 0;
+    std::int16_t max_width_px = 0;
+    std::int16_t max_height_px = kMaxFrameSide_px;
     // Attempts of desktops only; devices have no room for these.
     Patch* patch = nullptr;
     MeasuredDots measured;
@@ -156,99 +158,6 @@ class WorkspaceOf : public Workspace {
     std::array<TrackedLine, 2 * kMostTracked> tracked_lines_{};
     std::array<TrackedRow, kMostTracked> grid_rows_{};
 };
-
-/// Workspace of a DeviceLocator on a small microcontroller with a 188 x 120 px sensor: about 12 KB.
-/// Stages use the same memory one after the other, so afterwards only what the last stage left can
-/// be shown.
-class DeviceWorkspace : public Workspace {
-  public:
-    DeviceWorkspace() {
-        max_width_px = kWidth_px;
-        dots = memory_of<FreshDots>(dot_memory_).dots;
-        auto& pixels = memory_of<PixelStages>(memory_);
-        light.rows = pixels.rows;
-        light.tiles = pixels.tiles;
-        light.half_low_levels = pixels.half_low_levels;
-        light.high_levels = pixels.high_levels;
-        open.blobs = pixels.blobs;
-        open.runs = pixels.runs;
-        auto& lattices = memory_of<LatticeStages>(memory_);
-        seeds = lattices.seeds;
-        buckets = lattices.buckets;
-        neighbours = lattices.neighbours;
-        edges = lattices.edges;
-        edge_values = lattices.edge_values;
-        auto& decoders = memory_of<DecodeStages>(memory_);
-        grid.storage = decoders.cells;
-        line_scores = decoders.line_scores;
-        grid.side = kGridSide;
-        auto& tracked = memory_of<TrackedStages>(memory_);
-        tracking.rows = tracked.rows;
-        tracking.lines = tracked.lines;
-        tracking.grid_rows = memory_of<TrackedDots>(dot_memory_).grid_rows;
-        open.most_runs = kMostRuns;
-    }
-    DeviceWorkspace(const DeviceWorkspace&) = delete;
-    DeviceWorkspace& operator=(const DeviceWorkspace&) = delete;
-
-  private:
-    static constexpr int kWidth_px = 188;
-    static constexpr int kTiles = kWidth_px / kTileWidth_px + 1;
-    static constexpr int kLevels = kTiles * kTileWidth_px + kReadAhead_px;
-    static constexpr int kDots = 256;
-    static constexpr int kSeeds = 64;
-    static constexpr int kGridSide = 24;
-    // Runs and blobs of one row: many more than there are dots; those beyond are noise or graphics.
-    static constexpr int kRuns = 64;
-    static constexpr int kBlobs = 56;
-    // Runs of a whole frame, limited to bound the time: dots have 500, and noisy frames that were
-    // located up to 1,900.
-    static constexpr int kMostRuns = 2000;
-
-    struct PixelStages {
-        alignas(8)
-            std::array<std::uint8_t, 2 * kLowTile_px * kTiles * kTileWidth_px + kReadAhead_px> rows;
-        std::array<OpenBlob, kBlobs> blobs;
-        std::array<Run, 2 * kRuns> runs;
-        alignas(8) std::array<std::uint8_t, kLevels> half_low_levels;
-        alignas(8) std::array<std::uint8_t, kLevels> high_levels;
-        std::array<Tile, 4 * kTiles> tiles;
-    };
-    struct LatticeStages {
-        std::array<Edge, 2 * kSeeds> edges;
-        std::array<std::int32_t, 4 * kSeeds> edge_values;
-        std::array<BucketedSeed, kSeeds + 1> buckets;
-        std::array<std::array<std::int16_t, 4>, kSeeds> neighbours;
-        std::array<std::uint16_t, kSeeds> seeds;
-    };
-    struct DecodeStages {
-        std::array<GridCell, kGridSide * kGridSide> cells;
-        std::array<ScoredLine, 2 * kGridSide> line_scores;
-    };
-    struct TrackedStages {
-        std::array<std::uint8_t, 36 * kWidth_px> rows;
-        std::array<TrackedLine, 2 * kMostTracked> lines;
-    };
-    struct FreshDots {
-        std::array<Dot, kDots> dots;
-    };
-    struct TrackedDots {
-        std::array<TrackedRow, kMostTracked> grid_rows;
-    };
-
-    template <typename Stages, std::size_t Size>
-    static Stages& memory_of(std::array<std::byte, Size>& memory) {
-        static_assert(sizeof(Stages) <= Size);
-        return *static_cast<Stages*>(static_cast<void*>(memory.data()));
-    }
-
-    alignas(8) std::array<std::byte, sizeof(FreshDots)> dot_memory_{};
-    alignas(
-        8) std::array<std::byte, std::max({sizeof(PixelStages), sizeof(LatticeStages),
-                                           sizeof(DecodeStages), sizeof(TrackedStages)})> memory_{};
-};
-
-static_assert(sizeof(void*) > 4 || sizeof(DeviceWorkspace) < 12 * 1024 + 512);
 
 /// Workspace for the paper's 188 x 120 px sensor.
 using SmallWorkspace = WorkspaceOf<188, 384, 32>;

@@ -5,16 +5,29 @@
 
 #include <dotpose_device.hpp>
 
-int main() {
-    using namespace dotpose;
-    static DeviceMemory memory;
+namespace {
+
+using namespace dotpose;
+
+/// Locates a white frame of the size that the memory is for.
+template <int Width, int Height>
+Fix locate_white() {
+    static DeviceMemoryFor<Width, Height> memory;
     static DeviceLocator locator(memory);
-    static const std::uint8_t row[188] = {};
-    if (locator.begin(188, 120) != Status::ok) return 1;
-    for (int v = 0; v < 120; ++v)
+    static const std::uint8_t row[Width] = {};
+    if (locator.begin(Width, Height) != Status::ok) return {};
+    for (int v = 0; v < Height; ++v)
         locator.push_row(row);
-    const Fix fix = locator.finish();
-    if (fix.status != Status::no_contrast) return 2;
+    return locator.finish();
+}
+
+}  // namespace
+
+int main() {
+    const Fix fix = locate_white<188, 120>();
+    if (fix.status != Status::no_contrast) return 1;
+    if (locate_white<160, 120>().status != Status::no_contrast) return 2;
+    if (locate_white<320, 240>().status != Status::no_contrast) return 6;
 
     Tracker tracker;
     if (!tracker.update(20'000, nullptr).is_lost) return 3;

@@ -218,7 +218,9 @@ dotpose_status dotpose_prediction_move(dotpose_prediction* prediction, int32_t p
 enum {
     DOTPOSE_KIND_DEVICE = 0, /* microcontrollers: integers only, images up to 188 px wide, 13 KB */
     DOTPOSE_KIND_SMALL = 1,  /* images up to 188 px wide, 250 KB */
-    DOTPOSE_KIND_LARGE = 2   /* images up to 4096 x 4096 px, 1.7 MB */
+    DOTPOSE_KIND_LARGE = 2,  /* images up to 4096 x 4096 px, 1.7 MB */
+    DOTPOSE_KIND_DEVICE_160X120 = 3, /* as a device, images up to 160 px wide, 11 KB */
+    DOTPOSE_KIND_DEVICE_320X240 = 4  /* as a device, images up to 320 x 240 px, 23 KB */
 };
 
 /* How many attempts a locator makes; a device makes only its own. */
@@ -269,6 +271,8 @@ typedef struct dotpose_locator dotpose_locator;
 /* At least what dotpose_locator_bytes(DOTPOSE_KIND_DEVICE) returns, for static memory:
  *     static uint64_t memory[DOTPOSE_DEVICE_BYTES / 8]; */
 #define DOTPOSE_DEVICE_BYTES (sizeof(void*) == 4 ? 12736u : 13504u)
+#define DOTPOSE_DEVICE_160X120_BYTES (sizeof(void*) == 4 ? 10768u : 12000u)
+#define DOTPOSE_DEVICE_320X240_BYTES (sizeof(void*) == 4 ? 23232u : 25232u)
 
 /* Returns how much memory a locator of this kind takes; 0 if there is no such kind. */
 size_t dotpose_locator_bytes(int32_t kind);
@@ -283,6 +287,13 @@ dotpose_status dotpose_locator_init(void* memory, size_t bytes, int32_t kind,
  * not contain the others, if its linker drops unused sections. */
 dotpose_status dotpose_device_init(void* memory, size_t bytes, const dotpose_options* options,
                                    dotpose_locator** locator);
+/* The same for DOTPOSE_KIND_DEVICE_160X120 and DOTPOSE_KIND_DEVICE_320X240. */
+dotpose_status dotpose_device_160x120_init(void* memory, size_t bytes,
+                                           const dotpose_options* options,
+                                           dotpose_locator** locator);
+dotpose_status dotpose_device_320x240_init(void* memory, size_t bytes,
+                                           const dotpose_options* options,
+                                           dotpose_locator** locator);
 
 /* Makes a locator in memory that is allocated. */
 dotpose_status dotpose_locator_create(int32_t kind, const dotpose_options* options,

@@ -20,15 +20,17 @@ constexpr Kind kind_of() {
 }
 
 /// Indexed by DOTPOSE_KIND_.
-constexpr std::array<Kind, DOTPOSE_KIND_LARGE + 1> kKinds{
+constexpr std::array<Kind, DOTPOSE_KIND_DEVICE_320X240 + 1> kKinds{
     kind_of<DeviceMemory, DeviceLocator>(),
     kind_of<SmallMemory, Locator>(),
     kind_of<LargeMemory, Locator>(),
+    kind_of<DeviceMemoryFor<160, 120>, DeviceLocator>(),
+    kind_of<DeviceMemoryFor<320, 240>, DeviceLocator>(),
 };
 
 const Kind* find_kind(std::int32_t kind) {
-    return c::is_one_of(kind, DOTPOSE_KIND_LARGE) ? &kKinds[static_cast<std::size_t>(kind)]
-                                                  : nullptr;
+    return c::is_one_of(kind, DOTPOSE_KIND_DEVICE_320X240) ? &kKinds[static_cast<std::size_t>(kind)]
+                                                           : nullptr;
 }
 
 }  // namespace

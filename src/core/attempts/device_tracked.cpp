@@ -63,6 +63,7 @@ Status confirm(const Options& options, Workspace& w) {
     if (status != Status::ok) return Status::not_tracked;
     w.fix.dots_used = fit_tracked_pose(t, w.pattern_from_image, w.fix.displacement_q16);
     if (w.fix.dots_used == 0) return Status::not_tracked;
+    w.pattern_from_image.centre_q8.y += t.rows_above * 256;
     write_affine_pose(w.pattern_from_image, reference_q8(w.pattern_from_image.centre_q8, options),
                       options.profile, t.corner, w.fix);
     return Status::ok;
@@ -78,19 +79,28 @@ Status begin_device_tracked(int width_px, int height_px, const Options& options,
     t.is_on = true;
     t.width_px = width_px;
     t.height_px = height_px;
-    t.rows_taken = t.first_kept = 0;
+    t.first_kept = 0;
     t.dots_measured = 0;
     t.off_q8 = {};
     // Frames of a bent lens are not tracked, but located without a prediction.
     t.status = options.lens.k_q40 == 0 ? lay_predicted_cells(prediction, options.profile, t)
                                        : Status::not_tracked;
+    // Where there is time for a fresh fix of the whole frame, that is more exact than its middle.
+    if (w.keeps_every_stage && t.left_out_px > 0) t.status = Status::not_tracked;
+    t.rows_taken = -t.rows_above;
     if (t.status == Status::ok) lay_tracked_lines(options.profile, t);
     return w.fix.status = t.status;
 }
 
 Status push_tracked_row(const std::uint8_t* pixels, Workspace& w) {
     Tracking& t = w.tracking;
-    if (t.status != Status::ok || t.rows_taken == t.height_px) return t.status;
+    const bool is_tracked =
+        static_cast<unsigned>(t.rows_taken) < static_cast<unsigned>(t.height_px);
+    if (t.status != Status::ok || !is_tracked) {
+        // A row above the part that is tracked, or below.
+        if (t.rows_taken < 0) ++t.rows_taken;
+        return t.status;
+    }
     keep_row(pixels, t);
     return t.status = read_rows(w);
 }

@@ -34,7 +34,9 @@ TrackedView view_of(const Tracking& tracking) {
                                                             (side_px - 1) * 65536 - of_dot_q16);
         return static_cast<std::uint32_t>(end_q16 - least_q16);
     };
-    return {{least_q16, least_q16}, extent_q16(tracking.width_px), extent_q16(tracking.height_px)};
+    return {{least_q16 + tracking.left_out_px * 65536, least_q16},
+            extent_q16(tracking.width_px - 2 * tracking.left_out_px),
+            extent_q16(tracking.height_px)};
 }
 
 /// Finds where each row of cells, from `j` on in steps of `j_step`, comes into view, until a row

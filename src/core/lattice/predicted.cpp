@@ -3,6 +3,7 @@
 #include "core/detect/near_dot.hpp"
 #include "core/detect/newest_rows.hpp"
 #include "core/math/plane.hpp"
+#include "dotpose/image.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -59,13 +60,32 @@ bool invert(const PlaneFromImage& plane, Vec at_q16, CellMap& cells) {
     return true;
 }
 
+/// Leaves out the edges of a frame that shows more cells than there is room for. Returns the
+/// greatest distance of a cell in the rest from its middle.
+int leave_out_edges(std::int32_t spacing_q8, Tracking& tracking) {
+    int width_px = tracking.width_px;
+    int height_px = tracking.height_px;
+    for (;;) {
+        const auto squared_px =
+            static_cast<std::uint32_t>(width_px * width_px + height_px * height_px);
+        const int cells = static_cast<int>(square_root(squared_px)) * 128 / spacing_q8 + 3;
+        if (cells <= kMostTracked / 2) {
+            // The same on both sides, so that the centre stays where it is.
+            tracking.left_out_px = static_cast<std::int16_t>((tracking.width_px - width_px) >> 1);
+            tracking.rows_above = static_cast<std::int16_t>((tracking.height_px - height_px) >> 1);
+            tracking.height_px = height_px;
+            return cells;
+        }
+        width_px -= width_px >> 4 << 1;
+        height_px -= height_px >> 4 << 1;
+    }
+}
+
 /// Sets what depends on the spacing. Returns false if the memory is too small for it.
 bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
-    // Only whole frames are tracked: a part of one would give a poorer pose than a fresh fix.
-    const int diagonal_px = static_cast<int>(square_root(static_cast<std::uint32_t>(
-        tracking.width_px * tracking.width_px + tracking.height_px * tracking.height_px)));
-    const int cells = diagonal_px * 128 / spacing_q8 + 3;
-    if (cells > kMostTracked / 2) return false;
+    const int cells = leave_out_edges(spacing_q8, tracking);
+    const int width_px = tracking.width_px - 2 * tracking.left_out_px;
+    if (std::min(width_px, tracking.height_px) < kMinFrameSide_px) return false;
     tracking.first_cell = kMostTracked / 2 - cells;
     tracking.last_cell = kMostTracked / 2 + cells - 1;
     tracking.stride_px = stride_of(tracking.width_px);
@@ -126,6 +146,7 @@ Status lay_predicted_cells(const Prediction& prediction, Profile profile, Tracki
     const auto spacing_q8 =
         static_cast<std::int32_t>(square_root(static_cast<std::uint64_t>(squared(along))) >> 8);
     if (!lay_out_memory(spacing_q8, tracking)) return Status::not_tracked;
+    tracking.cells.origin_q16.y -= tracking.rows_above * 65536;
     tracking.du_q20 = {plane.du_q24.x >> 4, plane.du_q24.y >> 4};
     tracking.dv_q20 = {plane.dv_q24.x >> 4, plane.dv_q24.y >> 4};
     tracking.spacing_q8 = spacing_q8;

@@ -77,6 +77,36 @@ std::vector<GreyImage> libdots_frames(std::uint64_t frames) {
     return images;
 }
 
+/// Expects a locator in static memory to locate a frame of its size as the core's does.
+template <int Width, int Height>
+void expect_same_device(int kind, dotpose_status (*init)(void*, std::size_t, const dotpose_options*,
+                                                         dotpose_locator**)) {
+    Setup setup;
+    setup.camera.width_px = Width;
+    setup.camera.height_px = Height;
+    const GreyImage image = render(draw_shot(setup, 4));
+    DeviceMemoryFor<Width, Height> device_memory;
+    const Fix expected = DeviceLocator(device_memory).locate(image.view());
+    ASSERT_EQ(expected.status, Status::ok);
+    std::vector<std::uint64_t> memory(dotpose_locator_bytes(kind) / 8 + 1);
+    dotpose_locator* locator = nullptr;
+    ASSERT_EQ(init(memory.data(), 8 * memory.size(), nullptr, &locator), DOTPOSE_OK);
+    EXPECT_TRUE(same(locate(locator, image), as_c(expected)));
+    dotpose_fix fix;
+    EXPECT_EQ(dotpose_locate(locator, image.pixels.data(), Width + 1, 64, Width + 1, nullptr, &fix),
+              DOTPOSE_IMAGE_TOO_LARGE);
+    dotpose_locator_destroy(locator);
+    ASSERT_EQ(dotpose_locator_create(kind, nullptr, &locator), DOTPOSE_OK);
+    EXPECT_TRUE(same(locate(locator, image), as_c(expected)));
+    dotpose_locator_destroy(locator);
+}
+
+TEST(C, DevicesOfEverySizeLocateAsThoseOfCpp) {
+    expect_same_device<160, 120>(DOTPOSE_KIND_DEVICE_160X120, dotpose_device_160x120_init);
+    expect_same_device<188, 120>(DOTPOSE_KIND_DEVICE, dotpose_device_init);
+    expect_same_device<320, 240>(DOTPOSE_KIND_DEVICE_320X240, dotpose_device_320x240_init);
+}
+
 TEST(C, GivesTheSymbolsOfTheCodePastTheEndsOfItsAxes) {
     constexpr int kColumns = 150;
     constexpr int kRows = 70;

@@ -8,8 +8,8 @@
 namespace board {
 namespace {
 
-constexpr int kWidth_px = 188;
-constexpr int kHeight_px = 120;
+constexpr int kWidth_px = board::kMostWidth_px;
+constexpr int kHeight_px = board::kMostHeight_px;
 std::uint8_t row[kWidth_px];
 
 // micros() begins again after 71 minutes; this clock does not.

@@ -1,4 +1,5 @@
-/// Calls of the debugger or emulator, as defined in Arm's "Semihosting for AArch32 and AArch64".
+/// Calls of the debugger or emulator, as defined in Arm's "Semihosting for AArch32 and AArch64",
+/// which the "RISC-V Semihosting" specification takes over.
 #pragma once
 
 #include <cstddef>
@@ -21,12 +22,27 @@ inline constexpr std::uint32_t kWrite = 4;
 inline constexpr std::uint32_t kAppend = 8;
 
 /// Makes a call. `arguments` is an array of words whose meaning depends on the call.
+#ifdef __riscv
+inline std::int32_t call(Call number, const void* arguments) {
+    register auto a0 asm("a0") = static_cast<std::int32_t>(number);
+    register const void* a1 asm("a1") = arguments;
+    // The instructions around the breakpoint tell that it is a call. All three are in one page.
+    asm volatile(
+        ".balign 16\n .option push\n .option norvc\n"
+        "slli x0, x0, 0x1f\n ebreak\n srai x0, x0, 7\n .option pop"
+        : "+r"(a0)
+        : "r"(a1)
+        : "memory");
+    return a0;
+}
+#else
 inline std::int32_t call(Call number, const void* arguments) {
     register auto r0 asm("r0") = static_cast<std::int32_t>(number);
     register const void* r1 asm("r1") = arguments;
     asm volatile("bkpt 0xab" : "+r"(r0) : "r"(r1) : "memory");
     return r0;
 }
+#endif
 
 inline std::uint32_t word(const void* pointer) {
     return reinterpret_cast<std::uint32_t>(pointer);
