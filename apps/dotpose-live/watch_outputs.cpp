@@ -61,7 +61,9 @@ RobotState lost_state(const std::string& robot) {
 publish::MqttOptions with_will(const OutputOptions& options) {
     publish::MqttOptions mqtt = *options.mqtt;
     mqtt.will_topic = state_topic(options.robot);
-    mqtt.will = json_of(lost_state(options.robot));
+    RobotState will = lost_state(options.robot);
+    will.is_will = true;
+    mqtt.will = json_of(will);
     return mqtt;
 }
 

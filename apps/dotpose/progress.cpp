@@ -4,6 +4,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <ctime>
 #include <utility>
 
 #include <fmt/core.h>
@@ -22,10 +23,27 @@ constexpr auto kBetween = 100ms;
 constexpr const char* kEraseLine = "\r\033[K";
 
 volatile std::sig_atomic_t signal_seen = 0;
+std::atomic<std::int64_t> signal_ns = 0;  ///< when the first signal came
 std::atomic<bool> is_line_visible = false;
 
+/// Time on the monotonic clock; may be called by a signal handler.
+std::int64_t now_ns() {
+    timespec time{};
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
+}
+
+/// `timeout` sends its signal twice, to the program and to its group, so a second signal is only a
+/// wish of its own if it does not come at once.
 void on_signal(int signal_number) {
-    signal_seen = signal_number;
+    constexpr std::int64_t kSameWish_ns = 500'000'000;
+    if (signal_seen == 0) {
+        signal_ns = now_ns();
+        signal_seen = signal_number;
+    } else if (now_ns() - signal_ns > kSameWish_ns) {
+        std::signal(signal_number, SIG_DFL);
+        std::raise(signal_number);
+    }
 }
 
 bool is_terminal(int descriptor) {
@@ -37,7 +55,7 @@ bool is_terminal(int descriptor) {
 void catch_interrupts() {
     struct sigaction action {};
     action.sa_handler = on_signal;
-    action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
+    action.sa_flags = SA_RESTART;
     for (const int signal_number : {SIGINT, SIGTERM, SIGHUP}) {
         sigaction(signal_number, &action, nullptr);
     }
@@ -56,7 +74,6 @@ bool interrupted() {
 bool take_ctrl_c() {
     if (signal_seen != SIGINT) return false;
     signal_seen = 0;
-    catch_interrupts();
     return true;
 }
 

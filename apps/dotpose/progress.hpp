@@ -11,12 +11,12 @@ namespace dotpose::cli {
 void ignore_broken_pipes();
 
 /// Makes SIGINT, SIGTERM and SIGHUP set `interrupted` instead of ending the program, so that it can
-/// remove its temporary files. A second signal ends the program.
+/// remove its temporary files. A second signal ends it, if it comes more than half a second later.
 void catch_interrupts();
 bool interrupted();
 
 /// Whether Ctrl-C was pressed (SIGINT, no other signal). If so, it is forgotten: `interrupted` is
-/// false again, and the next signal is caught as the first was.
+/// false again, and the next signal counts as the first.
 bool take_ctrl_c();
 
 /// Returns a duration in words of two units at most, such as "12 s", "3 min 05 s" or "2 h 10 min",

@@ -6,7 +6,10 @@
 
 #include <fmt/core.h>
 #include <mosquitto.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <poll.h>
+#include <sys/socket.h>
 
 namespace dotpose::publish {
 namespace {
@@ -19,6 +22,8 @@ constexpr auto kPatience = 3s;
 constexpr auto kBetweenAttempts = 500ms;
 /// Most messages that libmosquitto has at a time; it sends them in their order.
 constexpr std::size_t kMostUnderWay = 20;
+/// Longest wait for something to send or to receive.
+constexpr int kWait_ms = 100;
 
 /// Sets up libmosquitto, which must be done once in a program.
 struct Library {
@@ -92,9 +97,8 @@ struct MqttClient::Callbacks {
     }
     static void on_publish(mosquitto*, void* object, int id) { client(object).on_published(id); }
     static void on_message(mosquitto*, void* object, const mosquitto_message* message) {
-        client(object).on_message(message->topic,
-                                  std::string(static_cast<const char*>(message->payload),
-                                              static_cast<std::size_t>(message->payloadlen)));
+        client(object).on_message(message->topic, {static_cast<const char*>(message->payload),
+                                                   static_cast<std::size_t>(message->payloadlen)});
     }
 };
 
@@ -186,14 +190,16 @@ void MqttClient::stop() {
     thread_.join();
 }
 
+int MqttClient::work() {
+    return mosquitto_loop(mosquitto_, kWait_ms, 1);
+}
+
 // The thread that libmosquitto offers ends if it cannot reach the broker at first, so this one is
 // used instead.
 void MqttClient::run() {
-    constexpr int kWait_ms = 100;
-    constexpr int kPackets = 1;
     for (;;) {
-        int code = mosquitto_loop(mosquitto_, kWait_ms, kPackets);
-        std::string reason = reason_of(code);
+        int code = is_connected() ? work() : mosquitto_loop(mosquitto_, kWait_ms, 1);
+        std::string reason = code == MOSQ_ERR_SUCCESS ? std::string() : reason_of(code);
         std::unique_lock lock(mutex_);
         if (code == MOSQ_ERR_SUCCESS && !is_connected_ &&
             is_hung_up(mosquitto_socket(mosquitto_))) {
@@ -334,8 +340,42 @@ void MqttSubscriber::on_connected() {
     mosquitto_subscribe(handle(), nullptr, topic_.c_str(), options_.qos);
 }
 
-void MqttSubscriber::on_message(const std::string& topic, const std::string& payload) {
+void MqttSubscriber::on_message(std::string_view topic, std::string_view payload) {
+    ++received_;
     handle_(topic, payload);
+}
+
+// mosquitto_loop takes one message at a time, with eight calls of the operating system for each.
+// Taking all messages that are there saves some of them, and answers go to the network together.
+int MqttSubscriber::work() {
+    const int socket = mosquitto_socket(handle());
+    const bool has_answers = mosquitto_want_write(handle());
+    pollfd state{socket, static_cast<short>(has_answers ? POLLIN | POLLOUT : POLLIN), 0};
+    if (socket >= 0) poll(&state, 1, kWait_ms);
+    int code = receive_all();
+    if (code == MOSQ_ERR_SUCCESS) code = send_all(socket);
+    return code == MOSQ_ERR_SUCCESS ? mosquitto_loop_misc(handle()) : code;
+}
+
+int MqttSubscriber::receive_all() {
+    constexpr int kMost = 256;  // then the answers are due
+    for (int i = 0; i < kMost; ++i) {
+        const std::int64_t before = received_;
+        const int code = mosquitto_loop_read(handle(), 1);
+        if (code != MOSQ_ERR_SUCCESS || received_ == before) return code;
+    }
+    return MOSQ_ERR_SUCCESS;
+}
+
+int MqttSubscriber::send_all(int socket) {
+    if (!mosquitto_want_write(handle())) return MOSQ_ERR_SUCCESS;
+    const auto hold_back = [socket](int yes) {
+        setsockopt(socket, IPPROTO_TCP, TCP_CORK, &yes, sizeof yes);
+    };
+    hold_back(1);
+    const int code = mosquitto_loop_write(handle(), 1);
+    hold_back(0);
+    return code;
 }
 
 }  // namespace dotpose::publish

@@ -11,6 +11,7 @@
 #include <mutex>
 #include <set>
 #include <string>
+#include <string_view>
 #include <thread>
 
 #include "dotpose/files/error.hpp"
@@ -64,7 +65,10 @@ class MqttClient {
     virtual void on_connected() {}
     virtual void on_disconnected() {}
     virtual void on_published(int) {}
-    virtual void on_message(const std::string&, const std::string&) {}
+    virtual void on_message(std::string_view, std::string_view) {}
+    /// Sends and receives once, while there is a connection; waits a short time for something to
+    /// do. Returns an error of libmosquitto.
+    virtual int work();
 
     mosquitto* handle() const { return mosquitto_; }
     std::string place() const;
@@ -128,7 +132,7 @@ class MqttPublisher : public MqttClient {
 
 class MqttSubscriber : public MqttClient {
   public:
-    using Handler = std::function<void(const std::string& topic, const std::string& payload)>;
+    using Handler = std::function<void(std::string_view topic, std::string_view payload)>;
 
     /// Subscribes to a topic; `handle` is called by another thread. Throws Error like
     /// MqttClient::start.
@@ -137,10 +141,14 @@ class MqttSubscriber : public MqttClient {
 
   private:
     void on_connected() override;
-    void on_message(const std::string& topic, const std::string& payload) override;
+    void on_message(std::string_view topic, std::string_view payload) override;
+    int work() override;
+    int receive_all();
+    int send_all(int socket);
 
     std::string topic_;
     Handler handle_;
+    std::int64_t received_ = 0;  ///< number of messages
 };
 
 }  // namespace dotpose::publish

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <string>
 
+#include "fleet_report.hpp"
 #include "fleet_state.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -19,9 +20,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const std::string topic = tab == 0 ? cli::state_topic("anna") : line.substr(0, tab);
         fleet.take(topic, line.substr(std::min(tab + 1, line.size())), kNow_us + taken);
     }
-    if (fleet.messages() + fleet.bad() != taken) std::abort();
+    if (fleet.counts().messages + fleet.bad() != taken) std::abort();
     fleet.latency();
-    for (const char c : cli::table_of(fleet, kNow_us)) {
+    for (const char c : cli::table_of(fleet, cli::Gets::all, kNow_us)) {
         if (static_cast<unsigned char>(c) < ' ' && c != '\n') std::abort();
     }
     for (const auto& [name, robot] : fleet.robots())

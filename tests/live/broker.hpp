@@ -36,9 +36,10 @@ inline int free_port() {
 class Broker {
   public:
     /// `users`: a file of mosquitto_passwd; empty: everybody may come in. With TLS the broker has a
-    /// certificate of its own making, cert.pem in the directory.
+    /// certificate of its own making, cert.pem in the directory. `more`: lines for its
+    /// configuration.
     explicit Broker(const std::filesystem::path& directory, const std::string& users = {},
-                    bool has_tls = false)
+                    bool has_tls = false, const std::string& more = {})
         : port_(free_port()), directory_(directory), has_tls_(has_tls) {
         if (has_tls) make_certificate();
         std::ofstream configuration(directory / "mosquitto.conf");
@@ -54,6 +55,7 @@ class Broker {
             configuration << "certfile " << certificate() << "\nkeyfile "
                           << (directory / "key.pem").string() << "\n";
         }
+        configuration << more;
         configuration.close();
         start();
     }

@@ -1,6 +1,5 @@
 // `dotpose fleet`: what it makes of the states that robots publish to a real broker.
 #include <chrono>
-#include <csignal>
 #include <ctime>
 #include <filesystem>
 #include <memory>
@@ -16,6 +15,7 @@
 #include "../drive.hpp"
 #include "dotpose/tools/image_file.hpp"
 #include "mqtt_fixture.hpp"
+#include "watched_fleet.hpp"
 
 namespace dotpose::test {
 namespace {
@@ -62,30 +62,6 @@ std::string time_now() {
     std::snprintf(text + size, sizeof text - size, ".%06dZ", static_cast<int>(us % 1'000'000));
     return text;
 }
-
-/// `dotpose fleet` in the background, until its subscription is there.
-class WatchedFleet {
-  public:
-    WatchedFleet(const fs::path& directory, const std::string& arguments)
-        : directory_(directory), thread_([directory, arguments] {
-              run_shell("cd '" + directory.string() +
-                        "' && echo $$ > fleet.pid && exec '" DOTPOSE_TOOL
-                        "' fleet --draw fleet.svg --every 0.2 " +
-                        arguments + " > table 2> news");
-          }) {
-        wait_until([this] { return fs::exists(directory_ / "fleet.svg"); });
-    }
-    /// The last table.
-    std::string table() {
-        kill(std::stoi(read_file(directory_ / "fleet.pid")), SIGINT);
-        thread_.join();
-        return read_file(directory_ / "table");
-    }
-
-  private:
-    fs::path directory_;
-    std::thread thread_;
-};
 
 TEST_F(Fleet, SeesAWatchedRobot) {
     const Broker broker(directory_);
@@ -143,7 +119,10 @@ TEST_F(Fleet, TwoHundredRobots) {
     };
     wait_until(are_all_lost, 60s);
     const std::string table = fleet.table();
-    EXPECT_THAT(table, HasSubstr("200 robots, 10000 states, 0 bad, latency median "));
+    EXPECT_THAT(
+        table,
+        HasSubstr(
+            "200 robots, 10000 states, 0 bad, 0 missed, 0 late, 0 repeated, latency median "));
     EXPECT_THAT(table, testing::Not(testing::ContainsRegex(" 50 +[1-9][0-9]*\n")));
     std::printf("%s", table.substr(table.rfind("200 robots")).c_str());
 }

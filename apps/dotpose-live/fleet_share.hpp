@@ -1,0 +1,36 @@
+/// How several fleets share the robots of a broker.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include <CLI/CLI.hpp>
+
+namespace dotpose::cli {
+
+/// One of several parts of all robots, which are divided by a hash of their names: the same on all
+/// computers, so that fleets need not know of each other.
+struct Shard {
+    std::uint64_t index = 1;  ///< from 1 to `count`
+    std::uint64_t count = 1;
+
+    bool has(std::string_view robot) const;
+};
+
+class ShareArguments {
+  public:
+    /// Adds --share and --shard.
+    void add_to(CLI::App& command);
+
+    /// Returns the topic to subscribe to for the states of the robots.
+    std::string topic() const;
+    bool is_shared() const { return !group_.empty(); }
+    const Shard& shard() const { return shard_; }
+
+  private:
+    std::string group_;
+    Shard shard_;
+};
+
+}  // namespace dotpose::cli

@@ -1,0 +1,54 @@
+#include "state_numbers.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace dotpose::cli {
+
+StateCounts& StateCounts::operator+=(const StateCounts& more) {
+    messages += more.messages;
+    missed += more.missed;
+    late += more.late;
+    repeated += more.repeated;
+    return *this;
+}
+
+StateNumbers::Arrival StateNumbers::take(const RobotState& state, StateCounts& counts) {
+    const Sent sent{state.header_id, state.sent_us};
+    const bool is_first = std::exchange(is_first_, false);
+    const bool was_seen = std::exchange(seen_[sent.number % kRemembered], sent) == sent;
+    ++counts.messages;
+    if (was_seen && !is_first) {
+        ++counts.repeated;
+        return Arrival::repeated;
+    }
+    if (!is_first && is_late(sent)) {
+        ++counts.late;
+        counts.missed = std::max<std::int64_t>(counts.missed - 1, 0);
+        return Arrival::late;
+    }
+    // A lower number means that the robot has started again, which is no gap.
+    if (!is_first && sent.number > newest_.number) {
+        constexpr std::uint64_t kMost = 1'000'000'000;
+        counts.missed +=
+            static_cast<std::int64_t>(std::min(sent.number - newest_.number - 1, kMost));
+    }
+    newest_ = sent;
+    return Arrival::news;
+}
+
+bool StateNumbers::is_late(const Sent& sent) {
+    constexpr int kDoubts = 5;
+    if (sent.time_us >= newest_.time_us || sent.number > newest_.number) {
+        doubts_ = 0;
+        return false;
+    }
+    // After an interruption, a queue is sent with the newest message first, so its times descend.
+    doubts_ = sent.time_us > doubted_us_ || doubts_ == 0 ? doubts_ + 1 : 1;
+    doubted_us_ = sent.time_us;
+    if (doubts_ < kDoubts) return true;
+    doubts_ = 0;
+    return false;
+}
+
+}  // namespace dotpose::cli

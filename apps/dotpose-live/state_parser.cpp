@@ -1,0 +1,142 @@
+// Reads state messages. simdjson is ten times as fast here as the library that reads other JSON:
+// `fleet` takes tens of thousands of messages per second.
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <new>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <simdjson.h>
+
+#include "files/input_file.hpp"
+#include "state_message.hpp"
+
+namespace dotpose::cli {
+namespace {
+
+using simdjson::dom::object;
+
+/// Longest message that is read.
+constexpr std::size_t kMostBytes = 1 << 16;
+
+/// Parses `count` digits of a text that is long enough; returns -1 if they are not digits.
+int digits(std::string_view text, std::size_t first, std::size_t count) {
+    int value = -1;
+    const char* const begin = text.data() + first;
+    const auto [stop, error] = std::from_chars(begin, begin + count, value);
+    return error == std::errc() && stop == begin + count ? value : -1;
+}
+
+/// Parses the decimals of a second, such as ".123456", or none; returns none for any other text.
+std::optional<std::int64_t> parse_decimals_us(std::string_view text) {
+    if (text.empty()) return 0;
+    double fraction_s = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, fraction_s);
+    const bool is_fraction = text.find_first_not_of(".0123456789") == std::string_view::npos;
+    if (error != std::errc() || stop != end || !is_fraction || text.front() != '.') {
+        return std::nullopt;
+    }
+    return std::llround(fraction_s * 1e6);
+}
+
+/// Parses a time such as "2026-11-24T16:20:00.123456Z", with any number of decimals or none.
+/// Returns none for any other text.
+std::optional<std::int64_t> parse_timestamp(std::string_view text) {
+    using namespace std::chrono;
+    constexpr std::string_view kSeconds = "2026-11-24T16:20:00";
+    if (text.size() <= kSeconds.size() || !text.ends_with('Z')) return std::nullopt;
+    for (const std::size_t i : {4U, 7U, 10U, 13U, 16U}) {
+        if (text[i] != kSeconds[i]) return std::nullopt;
+    }
+    const int in_year = digits(text, 0, 4);
+    const int in_month = digits(text, 5, 2);
+    const int in_day = digits(text, 8, 2);
+    const int hour = digits(text, 11, 2);
+    const int minute = digits(text, 14, 2);
+    const int second = digits(text, 17, 2);
+    if (in_year < 1970 || in_month < 1 || in_month > 12 || in_day < 1 || in_day > 31 || hour < 0 ||
+        hour > 23 || minute < 0 || minute > 59 || second < 0 || second > 60) {
+        return std::nullopt;
+    }
+    std::string_view decimals = text.substr(kSeconds.size());
+    decimals.remove_suffix(1);
+    const auto fraction_us = parse_decimals_us(decimals);
+    if (!fraction_us) return std::nullopt;
+    const sys_days date =
+        year(in_year) / month(static_cast<unsigned>(in_month)) / day(static_cast<unsigned>(in_day));
+    const auto time = date + hours(hour) + minutes(minute) + seconds(second);
+    return microseconds(time.time_since_epoch()).count() + *fraction_us;
+}
+
+/// A value of a message that cannot be right.
+struct Absurd {};
+
+/// Returns a number of a message. Throws simdjson_error if there is none, and Absurd if its
+/// absolute value is above `most`.
+double bounded(const object& values, std::string_view key, double most) {
+    const double value = values[key].get_double();
+    if (!(std::abs(value) <= most)) throw Absurd();
+    return value;
+}
+
+std::string name_in(const object& values, std::string_view key) {
+    const std::string_view name = values[key].get_string();
+    if (name.size() > kMostNameBytes) throw Absurd();
+    return std::string(name);
+}
+
+RobotState state_in(const object& message) {
+    constexpr double kMost_m = 1e6;
+    constexpr double kMost_m_s = 1e4;
+    constexpr double kMost_rad = 1e4;
+    RobotState state;
+    const auto sent_us = parse_timestamp(message["timestamp"].get_string());
+    if (!sent_us) throw Absurd();
+    state.header_id = message["headerId"].get_uint64();
+    state.sent_us = *sent_us;
+    state.state = name_in(message, "state");
+    const object position = message["agvPosition"].get_object();
+    state.is_localized = position["localized"].get_bool();
+    state.map_id = name_in(position, "mapId");
+    std::string_view connection;
+    const bool tells_connection = message["connectionState"].get(connection) == simdjson::SUCCESS;
+    state.is_will = tells_connection && connection == kBroken;
+    if (!state.is_localized) return state;
+    state.x_m = bounded(position, "x", kMost_m);
+    state.y_m = bounded(position, "y", kMost_m);
+    state.theta_rad = bounded(position, "theta", kMost_rad);
+    state.deviation_m = bounded(position, "deviationRange", kMost_m);
+    const object velocity = message["velocity"].get_object();
+    state.vx_m_s = bounded(velocity, "vx", kMost_m_s);
+    state.vy_m_s = bounded(velocity, "vy", kMost_m_s);
+    state.omega_rad_s = bounded(velocity, "omega", kMost_rad);
+    return state;
+}
+
+/// Returns a parser whose memory is kept from message to message.
+simdjson::dom::parser make_parser() {
+    simdjson::dom::parser parser(kMostBytes);
+    if (parser.allocate(kMostBytes, files::kMostJsonDepth) != simdjson::SUCCESS) {
+        throw std::bad_alloc();
+    }
+    return parser;
+}
+
+}  // namespace
+
+std::optional<RobotState> parse_state(std::string_view json) {
+    thread_local simdjson::dom::parser parser = make_parser();
+    try {
+        return state_in(parser.parse(json.data(), json.size()).get_object());
+    } catch (const simdjson::simdjson_error&) {
+        return std::nullopt;
+    } catch (const Absurd&) {
+        return std::nullopt;
+    }
+}
+
+}  // namespace dotpose::cli

@@ -1,0 +1,39 @@
+/// `dotpose fleet` as a program that runs while a test publishes states.
+#pragma once
+
+#include <csignal>
+#include <string>
+#include <thread>
+
+#include "mqtt_fixture.hpp"
+
+namespace dotpose::test {
+
+/// `dotpose fleet` in the background, in a directory of its own; it is waited for until its
+/// subscription is there.
+class WatchedFleet {
+  public:
+    WatchedFleet(const fs::path& directory, const std::string& arguments)
+        : directory_(directory), thread_([directory, arguments] {
+              run_shell("cd '" + directory.string() +
+                        "' && echo $$ > fleet.pid && exec '" DOTPOSE_TOOL
+                        "' fleet --draw fleet.svg --every 0.2 " +
+                        arguments + " > table 2> news");
+          }) {
+        wait_until([this] { return fs::exists(directory_ / "fleet.svg"); });
+    }
+    /// Ends it, and returns the last table.
+    std::string table() {
+        signal(SIGINT);
+        thread_.join();
+        return read_file(directory_ / "table");
+    }
+
+    void signal(int number) const { kill(std::stoi(read_file(directory_ / "fleet.pid")), number); }
+
+  private:
+    fs::path directory_;
+    std::thread thread_;
+};
+
+}  // namespace dotpose::test
