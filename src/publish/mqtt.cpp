@@ -352,9 +352,14 @@ int MqttSubscriber::work() {
     const bool has_answers = mosquitto_want_write(handle());
     pollfd state{socket, static_cast<short>(has_answers ? POLLIN | POLLOUT : POLLIN), 0};
     if (socket >= 0) poll(&state, 1, kWait_ms);
+    const std::int64_t before = received_;
     int code = receive_all();
-    if (code == MOSQ_ERR_SUCCESS) code = send_all(socket);
-    return code == MOSQ_ERR_SUCCESS ? mosquitto_loop_misc(handle()) : code;
+    const std::int64_t taken = received_ - before;
+    if (code == MOSQ_ERR_SUCCESS) code = send_all(taken > 1 ? socket : -1);
+    if (code == MOSQ_ERR_SUCCESS) code = mosquitto_loop_misc(handle());
+    // To wake for each message would take more time than the message, so some may gather.
+    if (code == MOSQ_ERR_SUCCESS && taken > 0) std::this_thread::sleep_for(1ms);
+    return code;
 }
 
 int MqttSubscriber::receive_all() {
@@ -367,10 +372,11 @@ int MqttSubscriber::receive_all() {
     return MOSQ_ERR_SUCCESS;
 }
 
+// With a socket, several answers make few packets of the network; it is -1 if there is only one.
 int MqttSubscriber::send_all(int socket) {
     if (!mosquitto_want_write(handle())) return MOSQ_ERR_SUCCESS;
     const auto hold_back = [socket](int yes) {
-        setsockopt(socket, IPPROTO_TCP, TCP_CORK, &yes, sizeof yes);
+        if (socket >= 0) setsockopt(socket, IPPROTO_TCP, TCP_CORK, &yes, sizeof yes);
     };
     hold_back(1);
     const int code = mosquitto_loop_write(handle(), 1);

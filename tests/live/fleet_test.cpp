@@ -72,16 +72,12 @@ TEST_F(Fleet, SeesAWatchedRobot) {
                   camera.frame(drive, 240 + i).view());
     }
     save_drive_sheets(directory_ / "table.json");
-    std::thread fleet([&] {
-        shell("'" DOTPOSE_TOOL "' fleet --mqtt " + broker.url() +
-              " --sheets table.json --draw fleet.svg --seconds 4 --every 0.2");
-    });
-    wait_until([&] { return fs::exists(directory_ / "fleet.svg"); });  // it has subscribed
+    WatchedFleet fleet(directory_, "--sheets table.json --mqtt " + broker.url());
     EXPECT_EQ(
         run("watch 'f*.pgm' --fps 200 --sheets table.json --robot anna --mqtt " + broker.url()), 0);
     EXPECT_THAT(errors_, HasSubstr("21 states published, 0 dropped"));
-    fleet.join();
-    const std::string table = file("out");
+    std::this_thread::sleep_for(500ms);
+    const std::string table = fleet.table();
     EXPECT_THAT(table, HasSubstr("\nanna             lost  "));
     EXPECT_THAT(table, testing::ContainsRegex(" 21 +0\n"));
     EXPECT_THAT(table, HasSubstr("1 robots, 21 states, 0 bad"));
