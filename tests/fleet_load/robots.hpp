@@ -7,7 +7,7 @@
 
 namespace dotpose::test {
 
-/// A number of robots that drive in circles, `robot0` and so on. Texts are made beforehand, so that
+/// A number of robots that drive in circles, named robot0 and so on. Texts are made beforehand, so that
 /// a state costs little when it is sent.
 class Robots {
   public:
