@@ -7,8 +7,8 @@
 
 namespace dotpose::test {
 
-/// A number of robots that drive in circles, named robot0 and so on. Texts are made beforehand, so that
-/// a state costs little when it is sent.
+/// A number of robots that drive in circles, named robot0 and so on. Texts are made beforehand, so
+/// that a state costs little when it is sent.
 class Robots {
   public:
     Robots(int first, int count);

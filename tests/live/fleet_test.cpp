@@ -168,11 +168,34 @@ TEST_F(Fleet, ASenderWhoseClockWasSetBackIsFollowed) {
     // One message that came late is none of the newest.
     send("carl", 9, "2026-11-24T16:00:01Z");
     send("carl", 8, "2026-11-24T16:00:00Z");
+    // One that is missing, and one that came twice.
+    for (const int number : {1, 2, 2, 4})
+        send("dora", number, fmt::format("2026-11-24T16:00:0{}Z", number).c_str());
     std::this_thread::sleep_for(500ms);
     const std::string table = fleet.table();
+    EXPECT_THAT(table, HasSubstr("4 robots, 15 states, 0 bad, 1 missed, 5 late, 1 repeated"));
+    EXPECT_THAT(table, testing::ContainsRegex("\ndora .* 4 +1\n"));
     EXPECT_THAT(table, testing::ContainsRegex("\nanna +moving +800.000 "));
     EXPECT_THAT(table, testing::ContainsRegex("\nbert +moving +500.000 "));
     EXPECT_THAT(table, testing::ContainsRegex("\ncarl +moving +900.000 "));
+}
+
+TEST_F(Fleet, SubscribesWithTls) {
+    constexpr int kStates = 200;
+    const Broker broker(directory_, {}, true);
+    WatchedFleet fleet(directory_,
+                       "--qos 1 --mqtt-ca " + broker.certificate() + " --mqtt " + broker.url());
+    MqttOptions mqtt = options(broker);
+    mqtt.ca_file = broker.certificate();
+    mqtt.qos = 1;
+    mqtt.queue = kStates;
+    MqttPublisher sender(mqtt);
+    for (int i = 0; i < kStates; ++i)
+        sender.publish(topic_of("anna"), Message{"anna", i, time_now()}.json());
+    EXPECT_TRUE(sender.flush(20s));
+    std::this_thread::sleep_for(500ms);
+    // Some are late: of those that wait, the newest are sent first.
+    EXPECT_THAT(fleet.table(), HasSubstr("1 robots, 200 states, 0 bad, 0 missed, "));
 }
 
 TEST_F(Fleet, InventedNamesFillNoMemory) {
