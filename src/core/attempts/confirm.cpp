@@ -229,10 +229,9 @@ Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
         const bool decides = reach.decides();
         if (!is_plausible(image, plane)) return Confirmation::implausible;
         count_from_centre(options.profile, hypothesis);
-        const CellsInView view = cells_in_view(image, options, hypothesis, reach.now,
-                                               decides ? dots.capacity() : most_dots, w);
-        if (hypothesis.is_exact && hypothesis.typical_mass == 0)
-            reader.sample_some(view, hypothesis);
+        CellsInView view = cells_in_view(image, options, hypothesis, reach.now,
+                                         decides ? dots.capacity() : most_dots, w);
+        if (hypothesis.is_exact) view.windows = Windows::none;
         kernels.list_cells(view, dots);
         const bool is_last = reach.now >= reach.full;
         BitBlock block;
@@ -247,8 +246,8 @@ Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
                 return Confirmation::implausible;
             if (decides) bits = reader.read_again(hypothesis, block);
         }
-        reader.find_centres(view, hypothesis, is_last, bits);
         const FloatPlane before = plane;
+        reader.find_centres(view, hypothesis, is_last, bits);
         if (!fit_to_dots(kernels, dots, bits, image, hypothesis, fit))
             return Confirmation::implausible;
         if (hypothesis.is_exact && is_far_from(before, plane, image)) {

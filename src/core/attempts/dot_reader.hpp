@@ -17,15 +17,13 @@ class DotReader {
     DotReader(const Kernels& kernels, const ImageView& image, float spacing_px, MeasuredDots& dots)
         : kernels_(kernels), image_(image), spacing_px_(spacing_px), dots_(dots) {}
 
-    /// Sets the hypothesis's typical mass from a few dots all over the view.
-    void sample_some(CellsInView view, Hypothesis& hypothesis);
     /// Reads the bits of the dots listed, and adds them to an empty block unless it is null.
     BitsRead read(const CellsInView& view, Hypothesis& hypothesis, BitBlock* block);
     /// Reads the bits of the measured dots again, through the hypothesis's new plane.
     BitsRead read_again(const Hypothesis& hypothesis, BitBlock& block) const;
-    /// Improves the centres of the dots. For an exact hypothesis, also updates the displacement and
-    /// residuals in `bits`.
-    void find_centres(const CellsInView& view, const Hypothesis& hypothesis, bool is_last,
+    /// Improves the centres of the dots. An exact hypothesis is moved to these, and the
+    /// displacement and residuals in `bits` updated.
+    void find_centres(const CellsInView& view, Hypothesis& hypothesis, bool is_last,
                       BitsRead& bits) const;
 
   private:

@@ -58,7 +58,7 @@ bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Optio
     const float spacing = spacing_px(plane);
     const float reach = tuned::kNear * spacing;
     CellsInView view = cells_in_view(image, options, hypothesis, reach, dots.capacity(), w);
-    view.window_on_dot = true;
+    view.windows = Windows::on_dots;
     kernels.list_cells(view, dots);
     // The search makes thirteen shifts along either axis.
     const int step_px = std::max((most_px + 3) / 6, 1);
@@ -70,8 +70,8 @@ bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Optio
         dots.window_v[i] += shift.y;
     }
     plane = recentred(plane, {static_cast<float>(-shift.x), static_cast<float>(-shift.y)});
-    hypothesis.typical_mass = kernels.measure_windows(
-        image, view, {spacing, 0.3F, hypothesis.depth_q8 * kCutOfDepth_q8 >> 8}, dots);
+    kernels.measure_windows(image, view, {spacing, 0.3F, hypothesis.depth_q8 * kCutOfDepth_q8 >> 8},
+                            dots);
     return fit_similarity(kernels, dots, reach, hypothesis.displacement, tuned::kFirstOff, plane) &&
            fit_similarity(kernels, dots, reach, hypothesis.displacement, tuned::kSecondOff, plane);
 }

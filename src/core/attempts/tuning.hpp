@@ -85,8 +85,8 @@ inline constexpr float kLeastBell_px = 3.3F;
 /// Steps of the grid that differ from whole pixels by less than this make all dots fall on the
 /// pixels alike; with more, the dots of a view drift through all of a pixel.
 inline constexpr float kDrift_px = 0.05F;
-/// Number of dots from which the size of a typical one is estimated.
-inline constexpr float kSomeDots = 30;
+/// Fewest predicted dots that are enough to go on.
+inline constexpr int kFewestFound = 8;
 /// Greatest distance of a predicted dot from its place, in px.
 inline constexpr float kMostOff_px = 1;
 /// Greatest sum of the dots' scatter, relative to their displacement, and the share of

@@ -55,63 +55,70 @@ PlaneNormalFloat::PlaneNormalFloat(const PlaneSumsFloat& sum)
     const Four& t = sum.tilt_tilt_;
     const Four& ca = sum.bend_further_;
     const Four& ra = sum.off_further_;
-    m_ = {{{one},
-           {0, one},
-           {u, v, z[0]},
-           {-v, u, -z[1], z[0]},
-           {a[0], a[1], az[0], az[1], t[0]},
-           {a[2], a[3], bz[0], bz[1], t[1], t[2]},
-           {u, -v, z[2], -z[3], az[2], bz[2], z[0]},
-           {v, u, z[3], z[2], az[3], bz[3], z[1], z[0]},
-           {c[0], c[1], cz[0], cz[1], ca[0], ca[1], cz[2], cz[3], ca[2]}}};
+    set_rows({{{one},
+               {0, one},
+               {u, v, z[0]},
+               {-v, u, -z[1], z[0]},
+               {a[0], a[1], az[0], az[1], t[0]},
+               {a[2], a[3], bz[0], bz[1], t[1], t[2]},
+               {u, -v, z[2], -z[3], az[2], bz[2], z[0]},
+               {v, u, z[3], z[2], az[3], bz[3], z[1], z[0]},
+               {c[0], c[1], cz[0], cz[1], ca[0], ca[1], cz[2], cz[3], ca[2]}}});
     right_ = {c[2], c[3], rz[0], rz[1], ra[0], ra[1], rz[2], rz[3], ra[2]};
 }
 
 PlaneNormalFloat::PlaneNormalFloat(const FitSums& sums)
-    : m_(sums.matrix),
-      right_(sums.right),
+    : right_(sums.right),
       squared_residuals_(sums.squared_residuals),
-      points_(static_cast<int>(sums.points)) {}
+      points_(static_cast<int>(sums.points)) {
+    set_rows(sums.matrix);
+}
+
+void PlaneNormalFloat::set_rows(const std::array<Parameters, kPoseParameters>& lower) {
+    for (std::size_t row = 0; row < kPoseParameters; ++row) {
+        for (std::size_t column = 0; column <= row; ++column)
+            m_[column].set(row, lower[row][column]);
+    }
+}
+
+void PlaneNormalFloat::leave_out(std::size_t parameter) {
+    for (std::size_t i = 0; i < parameter; ++i)
+        m_[i].set(parameter, 0);
+    m_[parameter] = {};
+}
 
 bool PlaneNormalFloat::decompose() {
     // The part of a diagonal element that must be left after elimination of the parameters before
     // it, for its parameter to count as determined.
     constexpr float kDetermined = 1e-4F;
+    Parameters least;
+    for (std::size_t i = 0; i < kPoseParameters; ++i)
+        least[i] = kDetermined * m_[i].at(i);
     for (std::size_t i = 0; i < kPoseParameters; ++i) {
-        if (i >= 4 && m_[i][i] <= 0) {  // The caller did not ask for this parameter.
-            m_[i].fill(0);
+        Column& column = m_[i];
+        // This also leaves out parameters that the caller did not ask for, whose element is 0.
+        if (!(column.at(i) > least[i])) {
+            if (i < 4) return false;
+            leave_out(i);
             continue;
         }
-        const float least = kDetermined * m_[i][i];
-        for (std::size_t j = 0; j <= i; ++j) {
-            float sum = m_[i][j];
-            for (std::size_t k = 0; k < j; ++k)
-                sum -= m_[i][k] * m_[j][k];
-            if (i != j) {
-                m_[i][j] = determines(j) ? sum / m_[j][j] : 0;
-            } else if (sum > least) {
-                m_[i][i] = std::sqrt(sum);
-            } else if (i < 4) {
-                return false;
-            } else {
-                m_[i].fill(0);
-            }
-        }
+        const float root = std::sqrt(column.at(i));
+        column.divide(root);
+        column.set(i, root);
+        for (std::size_t k = i + 1; k < kPoseParameters; ++k)
+            m_[k].subtract(column, column.at(k));
     }
     return true;
 }
 
-Parameters PlaneNormalFloat::whitened(Parameters column) const {
+Parameters PlaneNormalFloat::whitened(const Parameters& of) const {
+    Column rest(of);
+    Parameters result;
     for (std::size_t i = 0; i < kPoseParameters; ++i) {
-        if (!determines(i)) {
-            column[i] = 0;
-            continue;
-        }
-        for (std::size_t k = 0; k < i; ++k)
-            column[i] -= m_[i][k] * column[k];
-        column[i] /= m_[i][i];
+        result[i] = determines(i) ? rest.at(i) / m_[i].at(i) : 0;
+        rest.subtract(m_[i], result[i]);
     }
-    return column;
+    return result;
 }
 
 Parameters PlaneNormalFloat::unwhitened(Parameters column) const {
@@ -121,8 +128,8 @@ Parameters PlaneNormalFloat::unwhitened(Parameters column) const {
             continue;
         }
         for (std::size_t k = i + 1; k < kPoseParameters; ++k)
-            column[i] -= m_[k][i] * column[k];
-        column[i] /= m_[i][i];
+            column[i] -= m_[i].at(k) * column[k];
+        column[i] /= m_[i].at(i);
     }
     return column;
 }
@@ -131,7 +138,7 @@ Parameters PlaneNormalFloat::times_transposed(const Parameters& column) const {
     Parameters result{};
     for (std::size_t i = 0; i < kPoseParameters; ++i) {
         for (std::size_t k = i; k < kPoseParameters; ++k)
-            result[i] += m_[k][i] * column[k];
+            result[i] += m_[i].at(k) * column[k];
     }
     return result;
 }

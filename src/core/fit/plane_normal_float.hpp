@@ -53,23 +53,49 @@ class PlaneNormalFloat {
     bool decompose();
 
     /// Returns L^-1 column. The inner product of two such columns a and b is a . M^-1 . b.
-    Parameters whitened(Parameters column) const;
+    Parameters whitened(const Parameters& column) const;
     /// Returns L^-T column.
     Parameters unwhitened(Parameters column) const;
     /// Returns L^T column.
     Parameters times_transposed(const Parameters& column) const;
 
     /// Returns an element of L.
-    float factor(std::size_t row, std::size_t column) const { return m_[row][column]; }
+    float factor(std::size_t row, std::size_t column) const { return m_[column].at(row); }
 
     const Parameters& right() const { return right_; }
     float squared_residuals() const { return squared_residuals_; }
     int points() const { return points_; }
     /// Returns whether the points determine the parameter; call `decompose` first.
-    bool determines(std::size_t parameter) const { return m_[parameter][parameter] > 0; }
+    bool determines(std::size_t parameter) const { return m_[parameter].at(parameter) > 0; }
 
   private:
-    std::array<Parameters, kPoseParameters> m_{};  ///< lower triangle of M, later L
+    /// A column of M or L, in whole vectors.
+    class Column {
+      public:
+        Column() = default;
+        explicit Column(const Parameters& numbers) {
+            for (std::size_t i = 0; i < numbers.size(); ++i)
+                set(i, numbers[i]);
+        }
+        float at(std::size_t row) const { return parts_[row / 4][row % 4]; }
+        void set(std::size_t row, float number) { parts_[row / 4][row % 4] = number; }
+        void divide(float by) {
+            for (Four& part : parts_)
+                part /= by;
+        }
+        void subtract(const Column& column, float times) {
+            for (std::size_t i = 0; i < parts_.size(); ++i)
+                parts_[i] -= column.parts_[i] * times;
+        }
+
+      private:
+        std::array<Four, 3> parts_{};
+    };
+
+    void leave_out(std::size_t parameter);
+    void set_rows(const std::array<Parameters, kPoseParameters>& lower);
+
+    std::array<Column, kPoseParameters> m_{};  ///< of M on and below the diagonal, later of L
     Parameters right_{};
     float squared_residuals_ = 0;
     int points_ = 0;

@@ -14,7 +14,6 @@
 #include "core/integrity/unshared_lines.hpp"
 #include "core/integrity/weigh_codes.hpp"
 #include "core/math/fixed.hpp"
-#include "core/math/vectors.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -47,67 +46,30 @@ float odds_of(const LikelihoodRatios& ratios, int lost) {
            power_of_two_exactly(whole - 16);
 }
 
-/// Sums are kept above this negligible value, as processors are slow at still smaller numbers.
-constexpr float kNothing = 1e-30F;
-
-/// One number for each set of alternatives, in whole vectors.
-struct OfSets {
-    std::array<Four, 2> part;
-
-    static OfSets of(float value) { return {{Four{} + value, Four{} + value}}; }
-};
-
-/// One number for each set of alternatives, in an array.
-using NumbersOfSets = std::array<float, 8>;
-template <typename Number>
-constexpr NumbersOfSets of_each_set(Number number) {
-    NumbersOfSets numbers{};
-    for (std::size_t i = 0; i < kAlternativeSets.size(); ++i)
-        numbers[i] = number(kAlternativeSets[i]);
-    return numbers;
-}
-constexpr NumbersOfSets kEqual = of_each_set(
-    [](const AlternativeSet& set) { return power_of_two(set.equal_q8 + kUnevenness_q8); });
-constexpr NumbersOfSets kAlternatives =
-    of_each_set([](const AlternativeSet& set) { return power_of_two(set.alternatives_q8); });
+constexpr FarAlternatives kFarAlternatives = [] {
+    FarAlternatives sets;
+    for (std::size_t i = 0; i < kAlternativeSets.size(); ++i) {
+        sets.equal[i] = power_of_two(kAlternativeSets[i].equal_q8 + kUnevenness_q8);
+        sets.number[i] = power_of_two(kAlternativeSets[i].alternatives_q8);
+    }
+    return sets;
+}();
 
 /// Returns the expectation that quick_alternatives.cpp computes in integers, in floating point and
-/// for all sets at once. Alternatives that do not share the newest line are lumped together; those
-/// that do are told apart by how many lines in a row they share up to it.
-float far_alternatives(const LikelihoodRatios& ratios) {
-    constexpr float kUnevenness = 1.03F;
-    const int most = ratios.most_shared();
-    // Odds, by line, of the alternatives that do not share it. Before the first line nobody is
-    // counted, except a number by which those that share the first line come out as 1.
-    std::array<OfSets, kMostShared + kMaxLines> storage;
-    std::fill_n(storage.begin(), kMostShared, OfSets::of(0));
-    OfSets* apart = &storage[kMostShared];
-    OfSets sum;
-    const float first = kShifts * odds_of(ratios, ratios.least_loss(0));
-    for (std::size_t i = 0; i < 2; ++i) {
-        apart[-1].part[i] = 1 / four_at(&kEqual[4 * i]);
-        apart->part[i] = Four{} + first;
-        sum.part[i] = Four{} + (first + 1);
+/// for all sets at once.
+float far_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios) {
+    std::array<float, kMaxLines> odds;
+    const auto count = static_cast<std::size_t>(ratios.count());
+    int last_loss = ratios.least_loss(0);
+    float last_odds = odds_of(ratios, last_loss);
+    for (std::size_t line = 0; line < count; ++line) {
+        const int loss = ratios.least_loss(static_cast<int>(line));
+        if (loss != last_loss) last_odds = odds_of(ratios, loss);
+        last_loss = loss;
+        odds[line] = last_odds;
     }
-    for (int line = 1; line < ratios.count(); ++line) {
-        const float best = odds_of(ratios, ratios.least_loss(line));
-        ++apart;
-        for (std::size_t i = 0; i < 2; ++i) {
-            const Four equally = four_at(&kEqual[4 * i]);
-            const Four by_one = (Four{} + best) * kUnevenness;
-            const Four by_all = kShifts * best * equally;
-            const Four now = sum.part[i] * (by_one < by_all ? by_one : by_all);
-            apart->part[i] = now > kNothing ? now : Four{} + kNothing;
-            Four shared = (apart - most)->part[i];
-            for (int n = most - 1; n > 0; --n)
-                shared = shared * equally + (apart - n)->part[i];
-            sum.part[i] = apart->part[i] + shared * equally;
-        }
-    }
-    float all = 0;
-    for (std::size_t i = 0; i < kAlternativeSets.size(); ++i)
-        all += sum.part[i / 4][i % 4] * kAlternatives[i];
-    return all;
+    return kernels.sum_far_alternatives(std::span(odds).first(count), ratios.most_shared(),
+                                        kFarAlternatives);
 }
 
 /// Returns the odds of the alternatives that share no line: the same position in other sections,
@@ -121,8 +83,29 @@ float sharing_none(const LikelihoodRatios& ratios) {
 
 /// Score of a lost bit. All bits count alike here, so losses are whole bits.
 constexpr int kBit = 2 * 127;
+/// Sets the lines of hard bits by their least losses, the largest first.
+std::size_t sort_bits(const LikelihoodRatios& ratios, std::span<LineLoss> losses) {
+    // After counting, each number is where the lines with so many bits begin.
+    std::array<std::uint8_t, LikelihoodRatios::kMostLeastBits + 2> begin{};
+    const int count = ratios.count();
+    for (int line = 0; line < count; ++line)
+        ++begin[static_cast<std::size_t>(ratios.least_bits(line))];
+    int lines = 0;
+    for (std::size_t bits = begin.size(); bits-- > 0;) {
+        const int here = begin[bits];
+        begin[bits] = static_cast<std::uint8_t>(lines);
+        lines += here;
+    }
+    for (int line = 0; line < count; ++line) {
+        const int bits = ratios.least_bits(line);
+        losses[begin[static_cast<std::size_t>(bits)]++] = {static_cast<std::uint8_t>(line),
+                                                           static_cast<std::uint8_t>(bits)};
+    }
+    return static_cast<std::size_t>(count);
+}
 /// Sets the least loss, in bits, of not sharing each line, the largest first.
 std::size_t sort_losses(const LikelihoodRatios& ratios, std::span<LineLoss> losses) {
+    if (ratios.is_of_bits()) return sort_bits(ratios, losses);
     const auto count = static_cast<std::size_t>(ratios.count());
     for (std::size_t line = 0; line < count; ++line) {
         const int bits = std::max(ratios.least_loss(static_cast<int>(line)), 0) / kBit;
@@ -140,7 +123,8 @@ int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t 
     const std::uint8_t* alternative = ratios.basis[sequence].rolls + place;
     const int base = alternative[shared] - own[shared];
     int lost = 0;
-    for (int line = 0; line < ratios.count(); ++line) {
+    const int hopeless = ratios.loss_for(kPassedOver_q8) + ratios.most_regained();
+    for (int line = 0; line < ratios.count() && lost <= hopeless; ++line) {
         int shift = alternative[line] - own[line] - base;
         shift += shift < 0 ? kSections : 0;
         shift -= shift >= kSections ? kSections : 0;
@@ -203,7 +187,7 @@ float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios
 
 /// Returns the odds of all alternatives except those with a seam.
 float alternatives(const Kernels& kernels, const LikelihoodRatios& ratios, float limit) {
-    return far_alternatives(ratios) + sharing_none(ratios) +
+    return far_alternatives(kernels, ratios) + sharing_none(ratios) +
            single_alternatives(kernels, ratios, limit);
 }
 
@@ -268,7 +252,8 @@ float axis_wrong(const Kernels& kernels, const AxisBits& axis, const Asked& aske
     const float limit = std::ldexp(1.0F, asked.limit_log2);
     const float chance = chance_of(axis.confidence, asked);
     if (chance > limit || axis.lines.size() <= kMostShared) return 1;
-    const LikelihoodRatios ratios(asked.profile, axis.lines, axis.reading, asked.odds_per_bit_q8);
+    const LikelihoodRatios ratios(asked.profile, axis.lines, axis.reading, asked.odds_per_bit_q8,
+                                  axis.rolls);
     const float sum = chance + codes_in_question(asked) * alternatives(kernels, ratios, limit);
     if (sum > limit) return 1;
     weigh_others(kernels, ratios, asked);

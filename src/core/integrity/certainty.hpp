@@ -18,8 +18,9 @@ namespace dotpose::core {
 /// The bits of one axis near the middle, by line, from the first to the last line that has any.
 struct AxisBits {
     std::span<const TrackedLine> lines;
-    AxisReading reading;    ///< of the first line, at the first bit of the words
-    Confidence confidence;  ///< of all bits read, compared with the code
+    AxisReading reading;                  ///< of the first line, at the first bit of the words
+    Confidence confidence;                ///< of all bits read, compared with the code
+    std::span<const std::uint8_t> rolls;  ///< of the lines, if they are known
 };
 
 /// Returns whether hard bits alone, without the scores of lines, make the position certain. That

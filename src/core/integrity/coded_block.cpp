@@ -50,11 +50,12 @@ CodedBlock::Half CodedBlock::half(const BitLines& lines, const std::uint8_t* rol
         const std::uint32_t wrong = (bits ^ code) & seen;
         // Bits beyond a gap are dropped, though they would speak against alternatives, too: tables
         // know only stretches without gaps.
+        half.rolls[i] = static_cast<std::uint8_t>(roll);
         half.lines[i] = {code, wrong == 0 ? longest_stretch(seen) : seen, wrong};
         if (seen == 0) continue;
         if (half.end == 0) {
             half.first = i;
-            half.reading.roll = static_cast<std::uint8_t>(roll);
+            half.reading.roll = half.rolls[i];
         }
         half.end = i + 1;
     }
@@ -73,8 +74,9 @@ CodedBlock::CodedBlock(Profile profile, const Place& place, const CellsInView& v
 
 AxisBits CodedBlock::axis(Axis axis, const Confidence& confidence) const {
     const Half& half = axis == Axis::x ? x_ : y_;
-    return {std::span(half.lines).subspan(half.first, half.end - half.first), half.reading,
-            confidence};
+    const std::size_t count = half.end - half.first;
+    return {std::span(half.lines).subspan(half.first, count), half.reading, confidence,
+            std::span(half.rolls).subspan(half.first, count)};
 }
 
 }  // namespace dotpose::core

@@ -19,6 +19,7 @@ class CodedBlock {
   private:
     struct Half {
         std::array<TrackedLine, kMostTracked> lines;
+        std::array<std::uint8_t, kMostTracked> rolls;
         std::size_t first = 0;  ///< the first line that has bits
         std::size_t end = 0;
         AxisReading reading;  ///< of the first line that has bits

@@ -48,6 +48,9 @@ struct CellSums {
 /// Most columns, and most rows, of cells that an image may show, turned by any angle.
 inline constexpr int kMostLinesInView = 1024;
 
+/// What the windows of listed cells are around.
+enum class Windows : std::uint8_t { none, on_intersections, on_dots };
+
 /// Which cells are asked for: those whose dot is in view.
 struct CellsInView {
     FloatPlane plane;  ///< the upright pattern; image points are counted from `centre`
@@ -56,11 +59,11 @@ struct CellsInView {
     float centre_y = 0;
     float width_px = 0;
     float height_px = 0;
-    float margin_px = 0;         ///< a dot nearer to the border is not in view
-    float reach_px = 0;          ///< nor is one farther from the centre, along either axis
-    float displacement = 0;      ///< of dots from their intersections, spacings
-    bool window_on_dot = false;  ///< windows are around the dot instead of the intersection
-    int step = 1;                ///< of each row of cells, every so many-th is listed
+    float margin_px = 0;     ///< a dot nearer to the border is not in view
+    float reach_px = 0;      ///< nor is one farther from the centre, along either axis
+    float displacement = 0;  ///< of dots from their intersections, spacings
+    Windows windows = Windows::on_intersections;
+    int step = 1;  ///< of each row of cells, every so many-th is listed
     /// Index in the main sequence of row `first_row` of each column, and of column `first_column`
     /// of each row.
     const std::uint8_t* column_rolls = nullptr;
@@ -81,6 +84,9 @@ struct WindowOptions {
 inline constexpr int kMostHalfWindow_px = 24;
 inline constexpr float kMostBellReach_px = 24;
 inline constexpr float kQuickBellReach_px = 4;  ///< takes a tenth of a wider bell's time
+/// Reach of the bells of predicted dots: small, against noise, but as far as the edge of a dot is
+/// seen where dots are 8 to 13 px apart.
+inline constexpr float kPredictedBellReach_px = 3.65F;
 
 /// Sums for the fit of nine parameters; see PlaneNormalFloat.
 struct FitSums {
@@ -89,6 +95,22 @@ struct FitSums {
     float projected = 0;  ///< sum over dots of offset . direction of displacement
     std::array<std::array<float, 9>, 9> matrix{};  ///< the lower triangle
     std::array<float, 9> right{};
+};
+
+/// Sums over predicted dots: where they are, in px from the image's centre, and what they are off.
+struct DotOffsets {
+    int points = 0;
+    float u = 0;  ///< sum of places
+    float v = 0;
+    float squares = 0;  ///< of the distances from the centre
+    float squared = 0;  ///< squared offsets
+    float off_u = 0;    ///< sum of offsets
+    float off_v = 0;
+    float along = 0;  ///< of offsets times places: along these, and across
+    float across = 0;
+    /// Sums of offsets times the direction of the dot's displacement along x, and along y.
+    std::array<float, 2> of_x{};
+    std::array<float, 2> of_y{};
 };
 
 /// Counts and residuals of the dots that lie where a plane has them. Four dots that are listed one
@@ -155,6 +177,13 @@ struct StepLosses {
     std::array<std::uint8_t, 64> parts;  ///< of each step; at most kEnough
 };
 
+/// Alternatives by the set of sequences in which they differ: their number, and the probability
+/// that all their digits in a step equal the reading's.
+struct FarAlternatives {
+    std::array<float, 8> equal{1, 1, 1, 1, 1, 1, 1, 1};
+    std::array<float, 8> number{};
+};
+
 /// Bits of 64 lines of 64 cells, a word for each line; `valid` says which bits were read.
 struct BitLines {
     std::array<std::uint64_t, 64> bits{};
@@ -203,10 +232,11 @@ struct Kernels {
     /// bit are dropped.
     BitsRead (*read_levels)(const ImageView& image, const CellsInView& view, int depth_q8,
                             MeasuredDots& dots, BitLines* columns, BitLines* rows);
-    /// Sets the centres of predicted dots as `refine_centres` does, by bells of at most
-    /// kQuickBellReach_px; drops dots that are farther off than `most_off_px`.
-    void (*find_centres)(const ImageView& image, const CellsInView& view, float reach_px,
-                         float most_off_px, MeasuredDots& dots);
+    /// Sets the centres of predicted dots as `refine_centres` does, by bells of
+    /// kPredictedBellReach_px; drops dots that are farther off than `most_off_px`. Returns the sums
+    /// over the others.
+    DotOffsets (*find_centres)(const ImageView& image, const CellsInView& view, float most_off_px,
+                               MeasuredDots& dots);
     /// Reads the bits of measured dots and compares them with those that the code has there. Adds
     /// them to `columns` and `rows`, unless these are null; cell (-32, -32) is the first. Lines
     /// must be empty before, and no cell may have two dots.
@@ -229,6 +259,10 @@ struct Kernels {
     /// enough.
     PlaceBits (*find_similar_places)(const code::Secondary& sequence, std::uint32_t own,
                                      const StepLosses& steps);
+    /// Returns the expected odds of alternatives that differ in several sequences. `best` has, for
+    /// each line, the odds of the best other roll; at most `most_shared` lines in a row are shared.
+    float (*sum_far_alternatives)(std::span<const float> best, int most_shared,
+                                  const FarAlternatives& sets);
     /// Lists the other places, in the sequences whose bit is set, that may lose less than `enough`
     /// over these lines, which begin with the largest loss. Returns false if there are too many, or
     /// if places that share none of the first lines may lose less, too.

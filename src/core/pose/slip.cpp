@@ -92,6 +92,7 @@ class Search {
         for (std::size_t line = kLines; --line > 0;) {
             beyond += strips[line];
             if (beyond.seen() < tuned::kFewestBeyond) continue;
+            if (most_gain_of(beyond, all.less(beyond)) <= best.gain) continue;
             const float gain = gain_of(beyond, all.less(beyond));
             if (gain <= best.gain) continue;
             best = {direction, static_cast<float>(line) / per_spacing - kBehind, gain};
@@ -112,6 +113,15 @@ class Search {
     float on_own_plane(const PartSums& part) const {
         return kOnPlane * part.dots() - part.left() / (2 * variance_) +
                kOffPlane * (part.seen() - part.dots());
+    }
+
+    /// Returns what `gain_of` is at most, for the least residuals that are conceivable.
+    float most_gain_of(const PartSums& beyond, const PartSums& here) const {
+        const auto most_of = [](const PartSums& part) {
+            return kOnPlane * part.dots() + kOffPlane * (part.seen() - part.dots());
+        };
+        return weight_ * (std::max(most_of(beyond), 0.0F) - beyond.on_plane() +
+                          std::max(most_of(here) - here.on_plane(), 0.0F));
     }
 
     /// Returns by how much two parts explain the dots better than the plane as it is, as a log

@@ -167,7 +167,7 @@ struct RandomView {
         view.margin_px = 1.7F;
         view.reach_px = number(rng, 20, 400);
         view.displacement = 0.167F;
-        view.window_on_dot = rng.below(2) == 0;
+        view.windows = rng.below(2) == 0 ? Windows::on_dots : Windows::on_intersections;
         view.step = rng.below(3) == 0 ? whole(rng, 2, 80) : 1;
         if (rng.below(3) == 0)
             view.lens = {number(rng, -2e-6, 2e-6), number(rng, -5, 5), number(rng, -5, 5)};
@@ -182,8 +182,9 @@ struct RandomView {
 
 TEST_F(KernelsTest, ListedCellsAreTheSame) {
     repeat(200, [](Rng& rng) {
-        const RandomView random(whole(rng, 64, 700), whole(rng, 64, 500), rng.uniform(5, 40),
-                                rng.below(2) * 0.02, rng);
+        RandomView random(whole(rng, 64, 700), whole(rng, 64, 500), rng.uniform(5, 40),
+                          rng.below(2) * 0.02, rng);
+        if (rng.below(3) == 0) random.view.windows = Windows::none;
         const int capacity = rng.below(2) == 0 ? 4096 : whole(rng, 8, 100);
         expect_same([&](const Kernels& kernels, Record& record) {
             DotTable table(capacity);
@@ -250,7 +251,6 @@ TEST_F(KernelsTest, LevelsAndCentresOfPredictedDotsAreTheSame) {
                           rng.below(2) * 0.03, rng);
         random.view.first_column = random.view.first_row = -60;
         const int depth_q8 = whole(rng, 0, 256);
-        const float reach_px = number(rng, 3.3, kQuickBellReach_px);
         DotTable listed(4096);
         portable_kernels().list_cells(random.view, listed.dots);
         expect_same([&](const Kernels& kernels, Record& all) {
@@ -261,7 +261,7 @@ TEST_F(KernelsTest, LevelsAndCentresOfPredictedDotsAreTheSame) {
                                         &rows));
             record(columns, all);
             record(rows, all);
-            kernels.find_centres(picture.view, random.view, reach_px, 1, table.dots);
+            all.add(kernels.find_centres(picture.view, random.view, 1, table.dots));
             table.record_measures(all);
         });
     });
@@ -333,6 +333,23 @@ TEST_F(KernelsTest, SimilarPlacesAreTheSame) {
             SimilarPlaceList list;
             record.add(kernels.list_similar_places(basis, own, sequences, lines, enough, list));
             record.add(std::span(list.places), list.count);
+        });
+    });
+}
+
+TEST_F(KernelsTest, FarAlternativesAreTheSame) {
+    repeat(100, [](Rng& rng) {
+        FarAlternatives sets;
+        for (std::size_t i = 0; i < 5; ++i) {
+            sets.equal[i] = number(rng, 0.01, 0.2);
+            sets.number[i] = number(rng, 1e4, 1e9);
+        }
+        std::vector<float> best(static_cast<std::size_t>(whole(rng, 8, 64)));
+        for (float& odds : best)
+            odds = std::ldexp(1.0F, -whole(rng, 0, 60));
+        const int most_shared = whole(rng, 5, 7);
+        expect_same([&](const Kernels& kernels, Record& record) {
+            record.add(kernels.sum_far_alternatives(best, most_shared, sets));
         });
     });
 }

@@ -157,13 +157,24 @@ TEST(KernelsWindows, PredictedCentresAreFoundHoweverFarDotsAreOff) {
             dots.y[k] = static_cast<float>(v - off[k]);
         }
         dots.x[5] = kNoDot_px;
-        kernels.find_centres(dot.view, dot.cells, static_cast<float>(rng.uniform(3.3, 4)), 1, dots);
+        const DotOffsets found = kernels.find_centres(dot.view, dot.cells, 1, dots);
+        double sum = 0;
+        double squares = 0;
+        double along = 0;
         for (std::size_t k = 0; k < 8; ++k) {
             if (k == 5) continue;
+            sum += off[k];
+            squares += 2 * off[k] * off[k];
+            along += off[k] * (v - off[k]) - off[k] * (u + off[k]);
             EXPECT_NEAR(dots.x[k], u, 0.02) << off[k];
             EXPECT_NEAR(dots.y[k], v, 0.02) << off[k];
         }
         EXPECT_EQ(dots.x[5], kNoDot_px);
+        EXPECT_EQ(found.points, 7);
+        EXPECT_NEAR(found.off_u, -sum, 0.1);
+        EXPECT_NEAR(found.off_v, sum, 0.1);
+        EXPECT_NEAR(found.squared, squares, 0.1);
+        EXPECT_NEAR(found.along, along, 8);
     });
 }
 
@@ -225,8 +236,7 @@ void expect_no_common_error(const Kernels& kernels, Rng& rng, float reach_px, Le
     LitDots again(rng, level);
     kernels.refine_centres(again.view, again.cells, reach_px, again.table.dots);
     LitDots predicted(rng, level);
-    kernels.find_centres(predicted.view, predicted.cells, std::min(reach_px, 4.0F), 1,
-                         predicted.table.dots);
+    kernels.find_centres(predicted.view, predicted.cells, 1, predicted.table.dots);
     for (const auto& [x, y] : {again.mean_error(), predicted.mean_error()}) {
         EXPECT_NEAR(x, 0, 0.006) << reach_px;
         EXPECT_NEAR(y, 0, 0.006) << reach_px;
