@@ -83,37 +83,27 @@ float sharing_none(const LikelihoodRatios& ratios) {
 
 /// Score of a lost bit. All bits count alike here, so losses are whole bits.
 constexpr int kBit = 2 * 127;
-/// Sets the lines of hard bits by their least losses, the largest first.
-std::size_t sort_bits(const LikelihoodRatios& ratios, std::span<LineLoss> losses) {
-    // After counting, each number is where the lines with so many bits begin.
-    std::array<std::uint8_t, LikelihoodRatios::kMostLeastBits + 2> begin{};
-    const int count = ratios.count();
-    for (int line = 0; line < count; ++line)
-        ++begin[static_cast<std::size_t>(ratios.least_bits(line))];
-    int lines = 0;
-    for (std::size_t bits = begin.size(); bits-- > 0;) {
-        const int here = begin[bits];
-        begin[bits] = static_cast<std::uint8_t>(lines);
-        lines += here;
-    }
-    for (int line = 0; line < count; ++line) {
-        const int bits = ratios.least_bits(line);
-        losses[begin[static_cast<std::size_t>(bits)]++] = {static_cast<std::uint8_t>(line),
-                                                           static_cast<std::uint8_t>(bits)};
-    }
-    return static_cast<std::size_t>(count);
-}
-/// Sets the least loss, in bits, of not sharing each line, the largest first.
+/// Sets the least loss, in bits, of not sharing each line, the largest first. Losses of more than
+/// kMostBits count as that.
 std::size_t sort_losses(const LikelihoodRatios& ratios, std::span<LineLoss> losses) {
-    if (ratios.is_of_bits()) return sort_bits(ratios, losses);
+    constexpr int kMostBits = 31;
     const auto count = static_cast<std::size_t>(ratios.count());
+    std::array<std::uint8_t, kMaxLines> bits;
+    // Once lines are counted, each number is where those with so many bits begin.
+    std::array<std::uint8_t, kMostBits + 1> begin{};
     for (std::size_t line = 0; line < count; ++line) {
-        const int bits = std::max(ratios.least_loss(static_cast<int>(line)), 0) / kBit;
-        std::size_t i = line;
-        for (; i > 0 && losses[i - 1].loss < bits; --i)
-            losses[i] = losses[i - 1];
-        losses[i] = {static_cast<std::uint8_t>(line), static_cast<std::uint8_t>(bits)};
+        const int loss = ratios.least_loss(static_cast<int>(line)) / kBit;
+        bits[line] = static_cast<std::uint8_t>(std::clamp(loss, 0, kMostBits));
+        ++begin[bits[line]];
     }
+    std::uint8_t before = 0;
+    for (std::size_t n = begin.size(); n-- > 0;) {
+        const std::uint8_t here = begin[n];
+        begin[n] = before;
+        before = static_cast<std::uint8_t>(before + here);
+    }
+    for (std::size_t line = 0; line < count; ++line)
+        losses[begin[bits[line]]++] = {static_cast<std::uint8_t>(line), bits[line]};
     return count;
 }
 

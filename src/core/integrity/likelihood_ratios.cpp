@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "code/rolls.hpp"
+#include "code/tables.hpp"
 
 namespace dotpose::core {
 
@@ -81,6 +82,17 @@ LikelihoodRatios::LikelihoodRatios(Profile profile, const Lines& lines_, const A
 }
 
 LikelihoodRatios::LikelihoodRatios(Profile profile, std::span<const TrackedLine> lines_,
+                                   const AxisReading& reading, int odds_q8)
+    : basis(code::basis(profile)),
+      position(reading.position),
+      bits_(lines_),
+      count_(static_cast<int>(lines_.size())),
+      odds_per_bit_q8_(odds_q8) {
+    follow_rolls(profile, reading);
+    set_least_losses_of_bits();
+}
+
+LikelihoodRatios::LikelihoodRatios(Profile profile, std::span<const TrackedLine> lines_,
                                    const AxisReading& reading, int odds_q8,
                                    std::span<const std::uint8_t> rolls)
     : basis(code::basis(profile)),
@@ -88,21 +100,19 @@ LikelihoodRatios::LikelihoodRatios(Profile profile, std::span<const TrackedLine>
       bits_(lines_),
       count_(static_cast<int>(lines_.size())),
       odds_per_bit_q8_(odds_q8) {
-    if (rolls.empty()) {
-        follow_rolls(profile, reading);
-    } else {
-        find_places();
-        std::ranges::copy(rolls, rolls_.begin());
-    }
+    find_places();
+    std::ranges::copy(rolls, rolls_.begin());
+    set_least_losses_of_bits();
+}
+
+void LikelihoodRatios::set_least_losses_of_bits() {
     for (int i = 0; i < count_; ++i) {
         const auto line = static_cast<std::size_t>(i);
         const Nearest others = bits_[line].seen != 0 ? nearest(i) : Nearest{0, kOtherRolls_q8};
         set_least_loss(i, kScoreOfBit * others.lost_bits);
-        least_bits_[line] =
-            static_cast<std::uint8_t>(std::clamp(others.lost_bits, 0, kMostLeastBits));
         log2_of_nearest_q8_[line] = static_cast<std::int16_t>(others.log2_count_q8);
     }
-    hopeless_score_ = most_regained_ + -kNegligible_q8 * 2 * 127 / odds_q8;
+    hopeless_score_ = most_regained_ + -kNegligible_q8 * 2 * 127 / odds_per_bit_q8_;
 }
 
 int LikelihoodRatios::log2_of_nearest_q8(int line) const {
@@ -147,6 +157,13 @@ LikelihoodRatios::Nearest LikelihoodRatios::nearest(int line) const {
         if (roll != own) nearest.add(loss_of_bits(line, roll));
     }
     return {nearest.distance, log2_at_most_q8(static_cast<std::uint32_t>(nearest.count))};
+}
+
+int LikelihoodRatios::loss_of_bits(int line, int roll) const {
+    const TrackedLine& bits = bits_[static_cast<std::size_t>(line)];
+    const std::uint32_t differ =
+        (bits.code ^ code::kMainWords[static_cast<std::size_t>(roll)]) & bits.seen;
+    return bits_in(differ) - 2 * bits_in(differ & bits.wrong);
 }
 
 std::optional<int> loss_of_offsets(const LikelihoodRatios& ratios, const RollOffsets& offsets,

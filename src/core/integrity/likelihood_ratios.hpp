@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "code/basis.hpp"
-#include "code/tables.hpp"
 #include "core/decode/lines.hpp"
 #include "core/math/fixed.hpp"
 
@@ -30,10 +29,13 @@ class LikelihoodRatios {
     LikelihoodRatios(Profile profile, const Lines& lines_, const AxisReading& reading,
                      int odds_per_bit_q8);
     /// Takes hard bits, which are either not read or all equally sure, like bits of the weight 127.
-    /// `rolls` are those of the lines, if they are known.
+    LikelihoodRatios(Profile profile, std::span<const TrackedLine> lines_,
+                     const AxisReading& reading, int odds_per_bit_q8);
+
+    /// The same, with the rolls of the lines, which are known.
     LikelihoodRatios(Profile profile, std::span<const TrackedLine> lines_,
                      const AxisReading& reading, int odds_per_bit_q8,
-                     std::span<const std::uint8_t> rolls = {});
+                     std::span<const std::uint8_t> rolls);
 
     int count() const { return count_; }
     /// Returns whether the ratios are of hard bits: there are no scores then, and `lines` is empty.
@@ -54,11 +56,6 @@ class LikelihoodRatios {
     /// Returns the least that an alternative loses in a line which it does not share; may be
     /// negative.
     int least_loss(int line) const { return least_losses_[static_cast<std::size_t>(line)]; }
-    /// Score that a full bit loses: its weight, and as much on the other side.
-    static constexpr int kScoreOfBit = 2 * 127;
-    static constexpr int kMostLeastBits = 15;
-    /// Returns `least_loss` in whole bits, 0 to kMostLeastBits. For hard bits only.
-    int least_bits(int line) const { return least_bits_[static_cast<std::size_t>(line)]; }
     /// Returns the least that an alternative loses if its digit differs in the step from a line to
     /// the next, as it does not share one of the two. Not negative.
     int least_loss_of_step(int line) const {
@@ -102,17 +99,15 @@ class LikelihoodRatios {
     std::array<std::uint32_t, 4> places;
 
   private:
+    /// Score that a full bit loses: its weight, and as much on the other side.
+    static constexpr int kScoreOfBit = 2 * 127;
+
     void find_places();
     void follow_rolls(Profile profile, const AxisReading& reading);
+    void set_least_losses_of_bits();
     void set_least_loss(int line, int least_loss);
     /// Returns how many bits more contradict a line at another roll.
-    int loss_of_bits(int line, int roll) const {
-        const TrackedLine& bits = bits_[static_cast<std::size_t>(line)];
-        const std::uint32_t differ =
-            (bits.code ^ code::kMainWords[static_cast<std::size_t>(roll)]) & bits.seen;
-        const int lost = bits_in(differ);
-        return bits.wrong == 0 ? lost : lost - 2 * bits_in(differ & bits.wrong);
-    }
+    int loss_of_bits(int line, int roll) const;
     /// The other rolls of a line that lose least.
     struct Nearest {
         int lost_bits = 0;      ///< bits that these lose
@@ -128,7 +123,6 @@ class LikelihoodRatios {
     std::array<std::uint8_t, kMaxLines> rolls_{};
     std::array<std::int16_t, kMaxLines> least_losses_{};
     std::array<std::int16_t, kMostTracked> log2_of_nearest_q8_;  ///< of hard bits only
-    std::array<std::uint8_t, kMostTracked> least_bits_;
 };
 
 /// By how much the rolls of an alternative exceed those of the reading, by line, modulo 63; a shift

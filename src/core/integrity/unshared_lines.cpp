@@ -18,10 +18,6 @@ UnsharedLines::UnsharedLines(const LikelihoodRatios& ratios, int most_lines) : r
     const int lines = numbers[row_];
     const int first = (ratios.count() - lines) / 2;
     first_line_ = static_cast<std::uint32_t>(first);
-    if (ratios.is_of_bits()) {
-        add_up_bits(first, lines);
-        return;
-    }
     // Lines are sorted as they come, the smallest loss first.
     for (int n = 0; n < lines; ++n) {
         const std::int32_t loss = std::max(ratios.least_loss(first + n), 0);
@@ -32,19 +28,6 @@ UnsharedLines::UnsharedLines(const LikelihoodRatios& ratios, int most_lines) : r
     }
     for (std::size_t n = 1; n < least_.size(); ++n)
         least_[n] += least_[n - 1];
-}
-
-void UnsharedLines::add_up_bits(int first_line, int count) {
-    std::array<std::uint8_t, LikelihoodRatios::kMostLeastBits + 1> lines_with{};
-    for (int n = 0; n < count; ++n)
-        ++lines_with[static_cast<std::size_t>(ratios_.least_bits(first_line + n))];
-    std::size_t i = 0;
-    for (std::size_t bits = 0; bits < lines_with.size(); ++bits) {
-        for (int n = lines_with[bits]; n > 0; --n, ++i) {
-            least_[i + 1] =
-                least_[i] + LikelihoodRatios::kScoreOfBit * static_cast<std::int32_t>(bits);
-        }
-    }
 }
 
 int UnsharedLines::least_loss(std::size_t sequence, Sharing sharing) const {

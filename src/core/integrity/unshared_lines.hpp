@@ -35,9 +35,6 @@ class UnsharedLines {
     int least_loss(const std::array<std::string_view, 3>& unshared_in_other) const;
 
   private:
-    /// Does what the constructor does, for hard bits: lines are sorted by counting.
-    void add_up_bits(int first_line, int count);
-
     const LikelihoodRatios& ratios_;
     std::size_t row_ = SIZE_MAX;  ///< of the table; SIZE_MAX if there are too few lines for one
     std::uint32_t first_line_ = 0;

@@ -76,8 +76,6 @@ TEST(LikelihoodRatiosOfBits, LosesAsWeightsDo) {
         ASSERT_EQ(bits.count(), weights.count());
         for (int line = 0; line < kLines; ++line) {
             ASSERT_EQ(bits.own_roll(line), weights.own_roll(line));
-            const int least_bits = std::clamp(weights.least_loss(line) / 254, 0, 15);
-            ASSERT_EQ(bits.least_bits(line), least_bits) << line;
             double sum = 0;
             for (int shift = 1 - kSections; shift < kSections; ++shift) {
                 ASSERT_EQ(bits.loss(line, shift), weights.loss(line, shift)) << line;
