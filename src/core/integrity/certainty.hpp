@@ -20,7 +20,7 @@ struct AxisBits {
     std::span<const TrackedLine> lines;
     AxisReading reading;                  ///< of the first line, at the first bit of the words
     Confidence confidence;                ///< of all bits read, compared with the code
-    std::span<const std::uint8_t> rolls;  ///< of the lines, if they are known
+    std::span<const std::uint8_t> rolls;  ///< of the lines
 };
 
 /// Returns whether hard bits alone, without the scores of lines, make the position certain. That
