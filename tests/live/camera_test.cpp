@@ -115,6 +115,7 @@ TEST_F(Cameras, AtThisComputer) {
     }
 }
 
+/// The camera listens (0A) until somebody has connected (01), which may be at once.
 TEST_F(Cameras, InTheNetwork) {
     ASSERT_EQ(
         shell(fmt::format("port={}\n", free_port()) + kWaiting +
@@ -123,7 +124,8 @@ TEST_F(Cameras, InTheNetwork) {
               "        -i camera.raw -c:v mjpeg -q:v 2 -pix_fmt yuvj420p -f mpjpeg -listen 1 "
               "        -content_type 'multipart/x-mixed-replace;boundary=ffmpeg' "
               "        http://127.0.0.1:$port/ & camera=$!\n"
-              "    until grep -q \":$(printf %04X $port) 00000000:0000 0A\" /proc/net/tcp; do "
+              "    until grep -q \": [0-9A-F]*:$(printf %04X $port) [0-9A-F:]* 0[1A]\" "
+              "/proc/net/tcp; do "
               "        kill -0 $camera; sleep 0.05; done; }\n"
               "unplug() { kill -KILL $camera; wait $camera || true; }\n"
               "plug_in; \"$T\" watch http://127.0.0.1:$port/stream --no-window "
