@@ -9,7 +9,7 @@
 
 #include "budget_run.hpp"
 
-/// What one core needs for frames of one size.
+/// Memory and instructions that one core needs for frames of one size.
 struct SizeRow {
     std::string size;
     std::string core;

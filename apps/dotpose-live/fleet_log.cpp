@@ -1,15 +1,13 @@
 #include "fleet_log.hpp"
 
 #include <cerrno>
-#include <cstring>
+#include <cstdio>
 #include <iterator>
 #include <numbers>
 
 #include <fmt/core.h>
 
-#include "dotpose/files/error.hpp"
 #include "fields.hpp"
-#include "lines.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -22,9 +20,8 @@ constexpr double kDegrees = 180 / std::numbers::pi;
 
 }  // namespace
 
-FleetLog::FleetLog(const std::string& path) : path_(path), file_(std::fopen(path.c_str(), "w")) {
+FleetLog::FleetLog(const std::string& path) : path_(path), file_(create_file(path)) {
     constexpr std::size_t kBuffer_bytes = 1 << 18;
-    if (!file_) throw Error("cannot create " + path + ": " + std::strerror(errno));
     std::setvbuf(file_.get(), nullptr, _IOFBF, kBuffer_bytes);
     std::fputs(kHeader, file_.get());
 }

@@ -2,11 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdio>
-#include <memory>
 #include <string>
 #include <string_view>
 
+#include "lines.hpp"
 #include "state_message.hpp"
 
 namespace dotpose::cli {
@@ -23,11 +22,8 @@ class FleetLog {
     void flush();
 
   private:
-    struct Closer {
-        void operator()(std::FILE* file) const { std::fclose(file); }
-    };
     std::string path_;
-    std::unique_ptr<std::FILE, Closer> file_;
+    File file_;
 };
 
 }  // namespace dotpose::cli

@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cstdio>
 #include <cstring>
-#include <memory>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -16,6 +15,7 @@
 
 #include "capture/image_codec.hpp"
 #include "dotpose/files/error.hpp"
+#include "lines.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -37,10 +37,6 @@ std::int64_t number_after(const fs::path& folder) {
     return next;
 }
 
-struct Closer {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-};
-
 [[noreturn]] void throw_unwritten(const fs::path& path, int error_number) {
     throw Error("cannot write " + path.string() + ": " + std::strerror(error_number));
 }
@@ -50,7 +46,7 @@ bool write_new(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
     const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor < 0 && errno == EEXIST) return false;
     if (descriptor < 0) throw_unwritten(path, errno);
-    std::unique_ptr<std::FILE, Closer> file(fdopen(descriptor, "wb"));
+    File file(fdopen(descriptor, "wb"));
     errno = 0;
     const bool is_written =
         file && std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();

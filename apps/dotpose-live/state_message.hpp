@@ -12,7 +12,8 @@ namespace dotpose::cli {
 /// Prefix of the topics of all robots, which are kTopicRoot/ROBOT/state.
 inline constexpr const char* kTopicRoot = "uagv/v2/dotpose";
 
-/// What a last will has as `connectionState`, as in the messages of connections of VDA 5050.
+/// Value of `connectionState` in the message that a broker sends for a robot whose connection
+/// broke, as VDA 5050 has it.
 inline constexpr const char* kBroken = "CONNECTIONBROKEN";
 
 /// Longest name of a robot; topics with longer names are ignored.

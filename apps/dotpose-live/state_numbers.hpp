@@ -37,7 +37,7 @@ class StateNumbers {
     };
     bool is_late(const Sent& sent);
 
-    /// As many states are recognized when they come again.
+    /// Number of newest states that are recognized if they are repeated.
     static constexpr std::size_t kRemembered = 64;
 
     bool is_first_ = true;

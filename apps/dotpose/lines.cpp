@@ -11,10 +11,14 @@ void throw_unwritable(const std::string& output, int error_number) {
     throw Error(what);
 }
 
+File create_file(const std::string& path) {
+    File file(std::fopen(path.c_str(), "w"));
+    if (!file) throw Error("cannot create " + path + ": " + std::strerror(errno));
+    return file;
+}
+
 Lines::Lines(const std::string& path) : path_(path) {
-    if (is_standard_output(path)) return;
-    file_.reset(std::fopen(path.c_str(), "w"));
-    if (!file_) throw Error("cannot create " + path + ": " + std::strerror(errno));
+    if (!is_standard_output(path)) file_ = create_file(path);
 }
 
 void Lines::write(const std::string& line) {

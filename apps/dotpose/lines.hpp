@@ -26,6 +26,15 @@ struct ReaderLeft : Error {
 /// errno; ReaderLeft if the reader has closed the output.
 [[noreturn]] void throw_unwritable(const std::string& output, int error_number);
 
+struct FileCloser {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+};
+/// A file of the C library, which is closed at the end.
+using File = std::unique_ptr<std::FILE, FileCloser>;
+
+/// Creates a file, or empties it. Throws Error if that is not possible.
+File create_file(const std::string& path);
+
 /// Standard output or a file. Every line is flushed, so that none is lost if the tool is stopped.
 class Lines {
   public:
@@ -37,11 +46,8 @@ class Lines {
     void write(const std::string& line);
 
   private:
-    struct Closer {
-        void operator()(std::FILE* file) const { std::fclose(file); }
-    };
     std::string path_;
-    std::unique_ptr<std::FILE, Closer> file_;
+    File file_;  ///< none for standard output
 };
 
 }  // namespace dotpose::cli

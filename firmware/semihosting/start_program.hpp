@@ -1,4 +1,4 @@
-/// What start-up code does as soon as there is a stack.
+/// Start of the program, which start-up code calls as soon as there is a stack.
 #pragma once
 
 #include <array>

@@ -86,7 +86,7 @@ class LargeMemory {
 extern template class DeviceMemoryFor<160, 120>;  ///< 10 KB
 extern template class DeviceMemoryFor<188, 120>;  ///< 12 KB
 extern template class DeviceMemoryFor<320, 240>;  ///< 23 KB
-/// That of the paper's sensor.
+/// Memory for frames of the paper's sensor, 188 x 120 px.
 using DeviceMemory = DeviceMemoryFor<188, 120>;
 
 }  // namespace dotpose

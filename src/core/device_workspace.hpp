@@ -12,7 +12,7 @@
 
 namespace dotpose::core {
 
-/// What a device's workspace has room for.
+/// Capacities of the workspace of a device: frames, dots and what is kept of them.
 struct DeviceCapacity {
     int width_px = 0;
     int height_px = kMaxFrameSide_px;  ///< frames that are wider than low tiles reach must be lower

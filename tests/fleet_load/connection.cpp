@@ -165,7 +165,8 @@ void Connection::receive_some() {
     if (size == 0) throw std::runtime_error("disconnected");
     if (size < 0 && errno != EAGAIN) fail("cannot receive");
     if (size > 0) incoming_.append(block.data(), static_cast<std::size_t>(size));
-    // What comes here is short: the second byte is the length.
+    // Packets that a broker sends to a publisher are so short that their length is one byte, the
+    // second.
     std::size_t at = 0;
     while (incoming_.size() >= at + 2) {
         const std::size_t length = static_cast<std::uint8_t>(incoming_[at + 1]);

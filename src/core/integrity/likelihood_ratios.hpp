@@ -32,7 +32,7 @@ class LikelihoodRatios {
     LikelihoodRatios(Profile profile, std::span<const TrackedLine> lines_,
                      const AxisReading& reading, int odds_per_bit_q8);
 
-    /// The same, with the rolls of the lines, which are known.
+    /// Ratios of hard bits, as above, for lines whose rolls are known already.
     LikelihoodRatios(Profile profile, std::span<const TrackedLine> lines_,
                      const AxisReading& reading, int odds_per_bit_q8,
                      std::span<const std::uint8_t> rolls);

@@ -48,7 +48,7 @@ struct CellSums {
 /// Most columns, and most rows, of cells that an image may show, turned by any angle.
 inline constexpr int kMostLinesInView = 1024;
 
-/// What the windows of listed cells are around.
+/// Where the windows of listed cells are put: nowhere, around intersections, or around dots.
 enum class Windows : std::uint8_t { none, on_intersections, on_dots };
 
 /// Which cells are asked for: those whose dot is in view.
