@@ -33,10 +33,11 @@ asan: setup build/asan/build.ninja
 	$(BUILD) asan -j $(JOBS)
 	ctest --preset asan -j $(JOBS)
 
+# And the unit tests of what is fuzzed, under the same sanitizers.
 fuzz: SETUP += --fuzz
 fuzz: setup build/fuzz/build.ninja
 	cmake --preset fuzz -DDOTPOSE_FUZZ_SECONDS=$(FUZZ_SECONDS)
-	$(BUILD) fuzz -j $(JOBS) --target dotpose_fuzz
+	$(BUILD) fuzz -j $(JOBS) --target dotpose_fuzz dotpose_unit_tests
 	ctest --preset fuzz -j $(JOBS)
 
 bench: setup $(RELEASE)/build.ninja

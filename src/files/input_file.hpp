@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 // Visible outside of the library because the tools library calls them too.
 #pragma GCC visibility push(default)
