@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include "dotpose/files/error.hpp"
 #include "files/system_error.hpp"

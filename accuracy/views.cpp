@@ -1,0 +1,258 @@
+// Counts what is read of sheets that others made: views anywhere on images of pages, at any angle,
+// with the code given and not. Prints the rows of a table of docs/integrity.md in Markdown.
+//
+//   dotpose_views PAGE... --code NAME [--dpi D] [--views N] [--seed S]
+//
+// PAGE is an image of a page at D dots per inch, or a text of symbols, one of u d l r for each dot,
+// row by row. The truth of a view is read in the page itself, with the code given, from many more
+// dots than the view has. There are N views of each size, in turns of the pages. The exit status is
+// 1 if any fix is wrong.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <fstream>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "counting.hpp"
+#include "dotpose/files/error.hpp"
+#include "dotpose/files/profile_names.hpp"
+#include "dotpose/tools/heap_locator.hpp"
+#include "dotpose/tools/image_file.hpp"
+#include "dotpose/tools/outcome.hpp"
+#include "dotpose/tools/random.hpp"
+#include "dotpose/tools/simulate.hpp"
+
+namespace {
+
+using namespace dotpose;
+
+constexpr double kMmPerInch = 25.4;
+/// Side of the part of a page in which the truth of a view is read: of 1500 dots.
+constexpr double kSurroundings_grid = 40;
+/// Frames of one call after which its evidence of the code is expected to be complete.
+constexpr int kFirstViews = 50;
+
+struct Arguments {
+    std::vector<std::string> pages;
+    std::string code = "libdots";
+    double dpi = 1200;
+    std::uint64_t views = 300;
+    std::uint64_t seed = 1;
+};
+
+struct Page {
+    GreyImage image;
+    double mm_per_px = 0;
+};
+
+/// Draws the dots of a text of symbols as solid discs.
+GreyImage drawn(const std::vector<std::string>& rows, double dpi) {
+    constexpr double kDisplacement_grid = 1.0 / 6;
+    constexpr double kRadius_grid = 1.0 / 6;
+    const double spacing_px = kDefaultSpacing_mm / kMmPerInch * dpi;
+    GreyImage image;
+    image.width_px = static_cast<int>(spacing_px * static_cast<double>(rows.front().size()));
+    image.height_px = static_cast<int>(spacing_px * static_cast<double>(rows.size()));
+    const auto is_ink = [&](double x_grid, double y_grid) {
+        const auto i = static_cast<std::size_t>(x_grid);
+        const auto j = static_cast<std::size_t>(y_grid);
+        if (j >= rows.size() || i >= rows[j].size()) return false;
+        const char symbol = rows[j][i];
+        const double x =
+            static_cast<double>(i) + 0.5 + kDisplacement_grid * ((symbol == 'r') - (symbol == 'l'));
+        const double y =
+            static_cast<double>(j) + 0.5 + kDisplacement_grid * ((symbol == 'd') - (symbol == 'u'));
+        return std::hypot(x_grid - x, y_grid - y) <= kRadius_grid;
+    };
+    constexpr int kSamples = 3;
+    for (int v = 0; v < image.height_px; ++v) {
+        for (int u = 0; u < image.width_px; ++u) {
+            int ink = 0;
+            for (int k = 0; k < kSamples * kSamples; ++k) {
+                ink += is_ink((u + (k % kSamples + 0.5) / kSamples) / spacing_px,
+                              (v + (k / kSamples + 0.5) / kSamples) / spacing_px);
+            }
+            image.pixels.push_back(
+                static_cast<std::uint8_t>(255 - 255 * ink / (kSamples * kSamples)));
+        }
+    }
+    return image;
+}
+
+Page read_page(const std::string& path, double dpi) {
+    if (!path.ends_with(".txt")) return {read_image(path), kMmPerInch / dpi};
+    std::ifstream file(path);
+    std::vector<std::string> rows;
+    for (std::string row; std::getline(file, row);) {
+        const bool is_row = row.find_first_not_of("udlr") == std::string::npos;
+        if (row.empty() || !is_row || row.size() != (rows.empty() ? row : rows.front()).size())
+            throw Error(fmt::format("{}, line {}: not symbols u d l r", path, rows.size() + 1));
+        rows.push_back(row);
+    }
+    if (rows.empty()) throw Error(fmt::format("{}: no symbols", path));
+    return {drawn(rows, dpi), kMmPerInch / dpi};
+}
+
+/// A view of a page: the frame and the true pose.
+struct View {
+    GreyImage frame;
+    Truth truth;
+};
+
+/// Returns what the page says at a point, none where its surroundings cannot be read.
+std::optional<Fix> pose_on_page(const Page& page, double x_px, double y_px, Locator& locator) {
+    const int side_px =
+        static_cast<int>(kSurroundings_grid * kDefaultSpacing_mm / page.mm_per_px) / 2 * 2;
+    const auto begin = [&](double centre_px) {
+        return static_cast<int>(std::lround(centre_px)) - side_px / 2;
+    };
+    const int u = begin(x_px);
+    const int v = begin(y_px);
+    const ImageView whole = page.image.view();
+    if (u < 0 || v < 0 || u + side_px > whole.width_px || v + side_px > whole.height_px)
+        return std::nullopt;
+    const Fix fix = locator.locate({whole.row(v) + u, side_px, side_px, whole.stride_bytes});
+    return fix.status == Status::ok ? std::optional(fix) : std::nullopt;
+}
+
+std::optional<View> draw_view(const Page& page, int width_px, int height_px, Rng& rng,
+                              Locator& locator) {
+    const double x_px = std::round(rng.uniform(0, page.image.width_px));
+    const double y_px = std::round(rng.uniform(0, page.image.height_px));
+    CameraModel camera;
+    camera.width_px = width_px;
+    camera.height_px = height_px;
+    camera.mm_per_px = kDefaultSpacing_mm / rng.uniform(8, 16);
+    CameraPose pose;
+    pose.theta_rad = rng.uniform(0, 2 * std::numbers::pi);
+    Imperfections seen;
+    seen.blur_sigma_px = 0.7;
+    seen.noise_sigma = 4;
+    const std::uint64_t seed = rng.bits();
+
+    const std::optional<Fix> on_page = pose_on_page(page, x_px, y_px, locator);
+    if (!on_page) return std::nullopt;
+    View view;
+    view.frame =
+        render({page.image.view(), page.mm_per_px, {x_px * page.mm_per_px, y_px * page.mm_per_px}},
+               camera, pose, seen, seed);
+    view.truth.x_grid = on_page->x_grid();
+    view.truth.y_grid = on_page->y_grid();
+    view.truth.theta_rad = on_page->theta_rad() + pose.theta_rad;
+    view.truth.section = on_page->section;
+    return view;
+}
+
+/// Counts of the views of one size.
+struct Row {
+    int views = 0;
+    int given = 0;      ///< located with the code given
+    int alone = 0;      ///< of these, located by itself without
+    int ambiguous = 0;  ///< of these, with the status ambiguous_code by itself
+    int later_given = 0;
+    int later = 0;  ///< of these, after the first views of a call, located by the call
+    int wrong = 0;
+};
+
+class Reader {
+  public:
+    explicit Reader(Profile profile) : given_(options_of(profile)) {}
+
+    void read(const View& view, Row& row) {
+        const ImageView image = view.frame.view();
+        const auto is_located = [&](const Fix& fix) {
+            Outcome outcome;
+            outcome.fix = fix;
+            outcome.truth = view.truth;
+            row.wrong += outcome.is_wrong();
+            return outcome.is_fix();
+        };
+        const bool given = is_located(given_.locate(image));
+        const Fix alone = any_.locate_in_any_code(image, {}).fix;
+        const bool is_alone = is_located(alone);
+        const CodeReading reading = stream_.locate_in_any_code(image, evidence_);
+        evidence_ = reading.evidence;
+        const bool in_stream = is_located(reading.fix);
+
+        const bool is_later = row.views++ >= kFirstViews;
+        if (!given) return;
+        ++row.given;
+        row.alone += is_alone;
+        row.ambiguous += alone.status == Status::ambiguous_code;
+        row.later_given += is_later;
+        row.later += is_later && in_stream;
+    }
+
+    Locator& given() { return given_; }
+
+  private:
+    static Options options_of(Profile profile) {
+        Options options;
+        options.profile = profile;
+        return options;
+    }
+
+    HeapLocator given_;
+    HeapLocator any_;
+    HeapLocator stream_;
+    CodeEvidence evidence_;
+};
+
+int run(const Arguments& arguments) {
+    const std::optional<Profile> profile = profile_by_name(arguments.code);
+    if (!profile) throw Error(fmt::format("--code {}: no such code", arguments.code));
+    std::vector<Page> pages;
+    for (const std::string& path : arguments.pages)
+        pages.push_back(read_page(path, arguments.dpi));
+
+    fmt::print("| sheet | view | views | by itself | ambiguous | after {} views | wrong |\n",
+               kFirstViews);
+    fmt::print("|---|---|---:|---:|---:|---:|---:|\n");
+    const auto percent = [](int part, int whole) { return 100.0 * part / std::max(whole, 1); };
+    int wrong = 0;
+    for (const auto& [width_px, height_px] :
+         {std::array{188, 120}, std::array{320, 240}, std::array{640, 480}}) {
+        Row row;
+        Reader reader(*profile);
+        cli::ProgressLine progress("views");
+        for (std::uint64_t i = 0; row.views < static_cast<int>(arguments.views); ++i) {
+            if (cli::interrupted()) return EXIT_FAILURE;
+            if (i == 100 * (arguments.views + 1))
+                throw Error("the pages can hardly be read anywhere");
+            Rng rng(arguments.seed, i);
+            const Page& page = pages[i % pages.size()];
+            if (const auto view = draw_view(page, width_px, height_px, rng, reader.given()))
+                reader.read(*view, row);
+            progress.update(row.views, static_cast<int>(arguments.views));
+        }
+        fmt::print("| {} | {} x {} | {} | {:.1f} % | {:.1f} % | {:.1f} % | {} |\n", arguments.code,
+                   width_px, height_px, row.views, percent(row.alone, row.given),
+                   percent(row.ambiguous, row.given), percent(row.later, row.later_given),
+                   row.wrong);
+        wrong += row.wrong;
+    }
+    return wrong == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Arguments arguments;
+    CLI::App app("What is read of sheets that others made? Status 1 if any fix is wrong.",
+                 "dotpose_views");
+    app.add_option("page", arguments.pages, "Images of pages, or texts of symbols")->required();
+    app.add_option("--code", arguments.code, "Of the pages: anoto, libdots, microdots")
+        ->capture_default_str();
+    app.add_option("--dpi", arguments.dpi, "Of the images")->capture_default_str();
+    app.add_option("--seed", arguments.seed, "Of places, angles and noise")->capture_default_str();
+    add_count(app, "--views", arguments.views, "How many of each size");
+    return run_program(app, argc, argv, [&] { return run(arguments); });
+}
