@@ -12,6 +12,17 @@ int roll_from(Profile profile, std::uint32_t position, int section, std::uint32_
     return static_cast<int>(modulo_sections(sum + modulo_sections(cross)));
 }
 
+int roll_further(Profile read, Profile other, std::uint32_t position, std::uint32_t place) {
+    // As in `roll`. Both sums are less than kTurns, a multiple of 63.
+    constexpr std::uint32_t kTurns = 512 * kSections;
+    const std::uint32_t lines = modulo_sections(position) + 4 * kSections;
+    const auto by_a4 = [&](Profile profile) {
+        const Secondary& a4 = basis(profile)[3];
+        return (lines - place) * a4.turn_roll + a4.rolls[place];
+    };
+    return static_cast<int>(modulo_sections(by_a4(other) + kTurns - by_a4(read)));
+}
+
 void follow_rolls(Profile profile, std::uint32_t position, int first_roll,
                   std::span<std::uint8_t> rolls) {
     const Basis& sequences = basis(profile);

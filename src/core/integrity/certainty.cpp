@@ -135,13 +135,12 @@ float alternatives_by_table(const LikelihoodRatios& ratios, const UnsharedLines&
 }
 
 /// Returns the odds of the alternatives that differ in one sequence and share a line, each sequence
-/// by the table with the most lines that gives at most `enough`. Sequences for which no table does
-/// are not counted, and stay in `sequences`.
-float alternatives_by_tables(const LikelihoodRatios& ratios, float enough, unsigned& sequences) {
+/// by the table with the most lines that gives at most `enough`; `widest` is of the table with the
+/// most. Sequences for which no table does are not counted, and stay in `sequences`.
+float alternatives_by_tables(const LikelihoodRatios& ratios, const UnsharedLines& widest,
+                             float enough, unsigned& sequences) {
     float sum = 0;
-    for (std::size_t table = code::kUnsharedOf.size(); table-- > 0 && sequences != 0;) {
-        if (code::kUnsharedOf[table] > ratios.count()) continue;
-        const UnsharedLines unshared(ratios, code::kUnsharedOf[table]);
+    const auto add_by = [&](const UnsharedLines& unshared) {
         for (unsigned rest = sequences; rest != 0; rest &= rest - 1) {
             const int sequence = std::countr_zero(rest);
             const float odds =
@@ -150,15 +149,20 @@ float alternatives_by_tables(const LikelihoodRatios& ratios, float enough, unsig
             sum += odds;
             sequences ^= 1U << sequence;
         }
-    }
+    };
+    if (widest.tables() == 0) return 0;
+    add_by(widest);
+    for (std::size_t table = widest.tables() - 1; table-- > 0 && sequences != 0;)
+        add_by(UnsharedLines(ratios, code::kUnsharedOf[table]));
     return sum;
 }
 
 /// Returns the odds of the alternatives that differ in one sequence. Where tables do not settle it,
 /// all that lose little enough to matter are counted one by one. Returns 1 if there are too many.
-float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios, float limit) {
+float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
+                          const UnsharedLines& unshared, float limit) {
     unsigned sequences = 15;
-    float sum = alternatives_by_tables(ratios, limit / 12, sequences);
+    float sum = alternatives_by_tables(ratios, unshared, limit / 12, sequences);
     if (sequences == 0) return sum;
     std::array<LineLoss, kMaxLines> storage;
     const std::size_t lines = sort_losses(ratios, storage);
@@ -176,28 +180,23 @@ float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios
 }
 
 /// Returns the odds of all alternatives except those with a seam.
-float alternatives(const Kernels& kernels, const LikelihoodRatios& ratios, float limit) {
+float alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
+                   const UnsharedLines& unshared, float limit) {
     return far_alternatives(kernels, ratios) + sharing_none(ratios) +
-           single_alternatives(kernels, ratios, limit);
+           single_alternatives(kernels, ratios, unshared, limit);
 }
 
 float seam_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios) {
     return power_of_two(std::max(seam_alternatives_log2_q8(kernels, ratios), -100 * 256));
 }
 
-/// The question that is asked of an axis.
+/// The question that is asked of both axes.
 struct Asked {
     Profile profile;
-    Axis axis;
     int odds_per_bit_q8;
     int limit_log2;
     OtherCodes* others;  ///< null if other profiles are not asked for
 };
-
-void weigh_others(const Kernels& kernels, const LikelihoodRatios& ratios, const Asked& asked) {
-    if (asked.others == nullptr) return;
-    weigh_other_codes(kernels, ratios, asked.profile, asked.axis, *asked.others);
-}
 
 bool is_code_in_question(const Asked& asked) {
     return asked.others != nullptr && asked.others->log2_in_question_q8 >= 0;
@@ -216,38 +215,48 @@ float codes_in_question(const Asked& asked) {
     return !is_code_in_question(asked) ? 1 : power_of_two(asked.others->log2_in_question_q8);
 }
 
-/// Returns the probability that one axis is wrong, or 1 if it is above the limit.
-float axis_wrong(const Kernels& kernels, const Confidence& bits, const Lines& lines,
-                 const AxisReading& reading, const Asked& asked) {
+/// Returns the probability that one axis is wrong, or 1 if it is above the limit. By bits alone,
+/// without scores of lines, it is never less than by scores.
+float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedLines& unshared,
+                 const Asked& asked) {
+    const LikelihoodRatios& ratios = unshared.ratios();
     const int limit_log2 = asked.limit_log2;
     const float limit = std::ldexp(1.0F, limit_log2);
     const float chance = chance_of(bits, asked);
-    if (chance > limit || lines.count() <= kMostShared) return 1;
-    const LikelihoodRatios ratios(asked.profile, lines, reading, asked.odds_per_bit_q8);
+    if (chance > limit) return 1;
     const float codes = codes_in_question(asked);
     const auto with = [&](float alternatives) { return chance + codes * alternatives; };
-    float sum = with(alternatives(kernels, ratios, limit));
-    if (sum > limit) sum = with(power_of_two(quick_alternatives_log2_q8(ratios, 256 * limit_log2)));
-    if (sum > limit) {
-        sum = with(std::ldexp(1.0F, alternatives_log2(asked.profile, ratios, limit_log2)));
+    float sum = with(alternatives(kernels, ratios, unshared, limit));
+    if (sum > limit && !ratios.is_of_bits()) {
+        sum = with(power_of_two(quick_alternatives_log2_q8(ratios, 256 * limit_log2)));
+        if (sum > limit) {
+            sum = with(std::ldexp(1.0F, alternatives_log2(asked.profile, ratios, limit_log2)));
+        }
     }
     if (sum > limit) return 1;
-    weigh_others(kernels, ratios, asked);
     return sum + seam_alternatives(kernels, ratios);
 }
 
-/// Returns the probability that one axis is wrong from bits alone, without scores of lines, or 1 if
-/// it is above the limit. It is never less than by scores.
-float axis_wrong(const Kernels& kernels, const AxisBits& axis, const Asked& asked) {
-    const float limit = std::ldexp(1.0F, asked.limit_log2);
-    const float chance = chance_of(axis.confidence, asked);
-    if (chance > limit || axis.lines.size() <= kMostShared) return 1;
-    const LikelihoodRatios ratios(asked.profile, axis.lines, axis.reading, asked.odds_per_bit_q8,
-                                  axis.rolls);
-    const float sum = chance + codes_in_question(asked) * alternatives(kernels, ratios, limit);
-    if (sum > limit) return 1;
-    weigh_others(kernels, ratios, asked);
-    return sum + seam_alternatives(kernels, ratios);
+bool is_within_limit(float wrong, int limit_log2, Fix& fix) {
+    int exponent = 0;
+    std::frexp(wrong, &exponent);  // wrong < 2^exponent
+    fix.p_wrong_log2 = std::min(exponent, 0);
+    return fix.p_wrong_log2 <= limit_log2;
+}
+
+/// Returns whether both axes are certain; tells what they say of other profiles.
+bool are_certain(const Kernels& kernels, const std::array<Confidence, 2>& bits,
+                 const LikelihoodRatios& x, const LikelihoodRatios& y, const Asked& asked,
+                 Fix& fix) {
+    const UnsharedLines x_unshared(x);
+    const float x_wrong = axis_wrong(kernels, bits[0], x_unshared, asked);
+    if (x_wrong >= 1) return false;
+    const UnsharedLines y_unshared(y);
+    const float y_wrong = axis_wrong(kernels, bits[1], y_unshared, asked);
+    if (!is_within_limit(x_wrong + y_wrong, asked.limit_log2, fix)) return false;
+    if (asked.others == nullptr) return true;
+    weigh_other_codes(kernels, x_unshared, y_unshared, asked.profile, *asked.others);
+    return true;
 }
 
 /// Returns the odds of a bit from the bits of both axes, which are misread alike as they are read
@@ -262,13 +271,6 @@ int odds_of_bits_q8(const Confidence& x, const Confidence& y, const IntegrityOpt
     Confidence both = x;
     both.add(y);
     return odds_per_bit_q8(both);
-}
-
-bool is_within_limit(float wrong, int limit_log2, Fix& fix) {
-    int exponent = 0;
-    std::frexp(wrong, &exponent);  // wrong < 2^exponent
-    fix.p_wrong_log2 = std::min(exponent, 0);
-    return fix.p_wrong_log2 <= limit_log2;
 }
 
 /// Returns what the first column and the first row are read as.
@@ -289,11 +291,12 @@ bool is_plainly_certain(const Kernels& kernels, const std::array<AxisBits, 2>& a
     const auto& [x, y] = axes;
     const int odds_q8 = odds_of_bits_q8(x.confidence, y.confidence, options, fix);
     if (odds_q8 == 0) return false;
-    const int limit = options.max_p_wrong_log2;
-    const float x_wrong = axis_wrong(kernels, x, {profile, Axis::x, odds_q8, limit, others});
-    if (x_wrong >= 1) return false;
-    const float y_wrong = axis_wrong(kernels, y, {profile, Axis::y, odds_q8, limit, others});
-    return is_within_limit(x_wrong + y_wrong, limit, fix);
+    if (std::min(x.lines.size(), y.lines.size()) <= kMostShared) return false;
+    const auto ratios_of = [&](const AxisBits& axis) {
+        return LikelihoodRatios(profile, axis.lines, axis.reading, odds_q8, axis.rolls);
+    };
+    return are_certain(kernels, {x.confidence, y.confidence}, ratios_of(x), ratios_of(y),
+                       {profile, odds_q8, options.max_p_wrong_log2, others}, fix);
 }
 
 Evidence evidence_of(const Kernels& kernels, Profile profile, const Place& place,
@@ -310,14 +313,12 @@ bool is_certain(const Kernels& kernels, const Evidence& evidence, Profile profil
     const auto& [x_bits, y_bits] = evidence.bits;
     const int odds_q8 = odds_of_bits_q8(x_bits, y_bits, options, fix);
     if (odds_q8 == 0) return false;
+    if (std::min(evidence.columns.count(), evidence.rows.count()) <= kMostShared) return false;
     const auto [x, y] = readings_at(evidence.corner, profile);
-    const int limit = options.max_p_wrong_log2;
-    const float x_wrong = axis_wrong(kernels, x_bits, evidence.columns, x,
-                                     {profile, Axis::x, odds_q8, limit, others});
-    if (x_wrong >= 1) return false;
-    const float y_wrong =
-        axis_wrong(kernels, y_bits, evidence.rows, y, {profile, Axis::y, odds_q8, limit, others});
-    return is_within_limit(x_wrong + y_wrong, limit, fix);
+    return are_certain(kernels, evidence.bits,
+                       LikelihoodRatios(profile, evidence.columns, x, odds_q8),
+                       LikelihoodRatios(profile, evidence.rows, y, odds_q8),
+                       {profile, odds_q8, options.max_p_wrong_log2, others}, fix);
 }
 
 void weigh_other_codes(const Kernels& kernels, const Evidence& evidence, Profile profile,
@@ -327,10 +328,9 @@ void weigh_other_codes(const Kernels& kernels, const Evidence& evidence, Profile
     const int odds_q8 = odds_per_bit_q8(both);
     if (odds_q8 == 0) return;
     const auto [x, y] = readings_at(evidence.corner, profile);
-    weigh_other_codes(kernels, LikelihoodRatios(profile, evidence.columns, x, odds_q8), profile,
-                      Axis::x, others);
-    weigh_other_codes(kernels, LikelihoodRatios(profile, evidence.rows, y, odds_q8), profile,
-                      Axis::y, others);
+    const LikelihoodRatios by_x(profile, evidence.columns, x, odds_q8);
+    const LikelihoodRatios by_y(profile, evidence.rows, y, odds_q8);
+    weigh_other_codes(kernels, UnsharedLines(by_x), UnsharedLines(by_y), profile, others);
 }
 
 }  // namespace dotpose::core

@@ -21,15 +21,16 @@ bool differ_from(std::uint32_t position, Profile read, Profile other) {
 /// Returns whether profiles in question have other symbols in view than the one read, or may
 /// explain them at another place.
 bool tells_more(Profile read, const Place& place, bool has_more_lines, const OtherCodes& others) {
-    const Place corner = moved(read, place, -BitBlock::kMiddle, -BitBlock::kMiddle);
+    const auto have_other_rolls = [&](Profile other) {
+        const Place corner = moved(read, place, -BitBlock::kMiddle, -BitBlock::kMiddle);
+        return differ_from(corner.cell.x, read, other) || differ_from(corner.cell.y, read, other);
+    };
     for (std::size_t i = 0; i < others.of.size(); ++i) {
         const auto other = static_cast<Profile>(i);
         if (other == read) continue;
         if (others.of[i].elsewhere() > kNoDoubt) return true;
         if (!has_more_lines || others.of[i].here() < kSettled) continue;
-        if (differ_from(corner.cell.x, read, other) || differ_from(corner.cell.y, read, other)) {
-            return true;
-        }
+        if (have_other_rolls(other)) return true;
     }
     return false;
 }

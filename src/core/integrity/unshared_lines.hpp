@@ -23,6 +23,9 @@ class UnsharedLines {
     /// Uses the table with the most lines, at most `most_lines` and at most as many as there are.
     explicit UnsharedLines(const LikelihoodRatios& ratios, int most_lines = kMostLines);
 
+    const LikelihoodRatios& ratios() const { return ratios_; }
+    /// Returns the number of tables that suit the number of lines; the one with the most is used.
+    std::size_t tables() const { return row_ + 1; }
     /// Returns whether all alternatives in a sequence lose at least `enough`, without what they may
     /// regain.
     bool all_lose(std::size_t sequence, Sharing sharing, int enough) const {

@@ -267,11 +267,13 @@ void weigh_other_codes(const Kernels& kernels, const Grid& grid, Profile profile
     if (odds_q8 == 0) return;
     const Upright upright(grid, decoding.region, decoding.pattern_from_grid);
     const Place corner = corner_place(profile, decoding, upright);
-    for (const Axis axis : {Axis::x, Axis::y}) {
+    const auto ratios_of = [&](Axis axis) {
         const Lines lines = score_lines(upright, axis, scores_of(axis, storage));
-        const LikelihoodRatios ratios(profile, lines, reading_of(profile, corner, axis), odds_q8);
-        weigh_other_codes(kernels, ratios, profile, axis, *others);
-    }
+        return LikelihoodRatios(profile, lines, reading_of(profile, corner, axis), odds_q8);
+    };
+    const LikelihoodRatios x = ratios_of(Axis::x);
+    const LikelihoodRatios y = ratios_of(Axis::y);
+    weigh_other_codes(kernels, UnsharedLines(x), UnsharedLines(y), profile, *others);
 }
 
 Status verify(const Grid& grid, Profile profile, Decoding& decoding,

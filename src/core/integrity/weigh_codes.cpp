@@ -1,10 +1,12 @@
 #include "core/integrity/weigh_codes.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <optional>
 #include <span>
 
+#include "code/rolls.hpp"
 #include "code/unshared_codes.hpp"
-#include "core/integrity/similar_places.hpp"
 #include "core/integrity/unshared_lines.hpp"
 
 namespace dotpose::core {
@@ -21,7 +23,7 @@ constexpr float kEnough = 1e-13F;
 /// What places lose at least in the lines that they do not share.
 struct Losses {
     explicit Losses(const LikelihoodRatios& ratios)
-        : enough(ratios.loss_for(kPassedOver_q8) + ratios.most_regained()), unshared(ratios) {
+        : enough(ratios.loss_for(kPassedOver_q8) + ratios.most_regained()) {
         for (int line = 0; line < ratios.count(); ++line) {
             const int least = ratios.least_loss(line);
             const int eighths = std::max(least, 0) / kUnit;
@@ -35,10 +37,13 @@ struct Losses {
     StepLosses of_steps(const LikelihoodRatios& ratios) const {
         StepLosses steps;
         steps.count = ratios.count() - 1;
-        const int part = (enough + StepLosses::kEnough - 1) / StepLosses::kEnough;
+        // Quotients are less than 16, and floats exact enough that none is rounded up to the next.
+        const auto part =
+            static_cast<float>((enough + StepLosses::kEnough - 1) / StepLosses::kEnough);
         for (int step = 0; step < steps.count; ++step) {
             const int lost = std::min(ratios.least_loss_of_step(step), enough);
-            steps.parts[static_cast<std::size_t>(step)] = static_cast<std::uint8_t>(lost / part);
+            steps.parts[static_cast<std::size_t>(step)] =
+                static_cast<std::uint8_t>(static_cast<float>(lost) / part);
         }
         return steps;
     }
@@ -53,7 +58,6 @@ struct Losses {
     int all = 0;                              ///< units that places lose that share no line
     int at_best = 0;                          ///< score that these lose, less what they regain
     std::array<std::uint16_t, kMaxLines> of;  ///< units that each line is worth
-    UnsharedLines unshared;
 };
 
 /// Sums up the places of one other profile.
@@ -64,39 +68,47 @@ class OtherPlaces {
           losses_(losses),
           count_(static_cast<std::size_t>(ratios.count())),
           theirs_(code::basis(other)[kA4]),
-          shift_here_(modulo(roll(other, ratios.position) - roll(read, ratios.position))) {
-        const RollOffsets offsets = offsets_of(ratios.places[kA4]);
+          shift_here_(code::roll_further(read, other, ratios.position, ratios.places[kA4])),
+          here_(offsets_of(ratios.places[kA4])) {
+        // A line whose roll is the one read loses nothing.
+        const int shared = modulo(here_[0] - shift_here_);
         int lost = 0;
         for (std::size_t line = 0; line < count_ && !ratios_.is_hopeless(lost); ++line) {
-            const int shift = offsets[line] - offsets[0] + shift_here_;
-            lost += ratios_.loss(static_cast<int>(line), modulo(shift % kSections));
+            if (here_[line] == shared) continue;
+            has_same_rolls_ = false;
+            lost += ratios_.loss(static_cast<int>(line), here_[line] - shared);
         }
         result_.here = ratios_.odds(lost);
     }
 
-    /// Counts the places elsewhere by a table, if they have no more odds than `enough`. Returns
-    /// whether they were counted.
-    bool add_by_table(Profile read, Profile other, float enough) {
+    /// Likelihood ratio of the same place.
+    float here() const { return result_.here; }
+    /// Upper bound of the sum of those of all other places; once they are counted, that sum.
+    float elsewhere() const { return result_.elsewhere; }
+
+    /// Bounds the places elsewhere by a table.
+    void bound(const UnsharedLines& unshared, Profile read, Profile other) {
         const auto& table =
             code::kUnsharedInOther[static_cast<std::size_t>(read)][static_cast<std::size_t>(other)];
-        const int lost = losses_.unshared.least_loss(table) - ratios_.most_regained();
+        const int lost = unshared.least_loss(table) - ratios_.most_regained();
         // There are at most as many shifts as lines, besides those that no line shares.
-        const float all =
+        result_.elsewhere =
             static_cast<float>(theirs_.length * count_) * ratios_.odds(std::max(lost, 0)) +
             sharing_none();
-        if (all <= enough) result_.elsewhere = all;
-        return all <= enough;
     }
+
+    /// Forgets the bound, to count places one by one.
+    void begin_count() { result_.elsewhere = 0; }
 
     /// Adds the same place of a4 at its other shifts, and all places at shifts that share no line.
     void add_unsimilar() {
-        const std::uint32_t place = ratios_.places[kA4];
-        add(place, offsets_of(place), shift_here_);
+        // A place that has the rolls read shares all lines at one shift and none at the others.
+        if (!has_same_rolls_) add(ratios_.places[kA4], here_, shift_here_);
         add_sharing_none();
     }
 
     /// Adds another place in a4, at all shifts that some line shares.
-    void add(std::uint32_t place) { add(place, kNoShift); }
+    void add(std::uint32_t place) { add(place, offsets_of(place), kNoShift); }
     /// Adds a number of places that are passed over.
     void add_passed_over(int places) {
         result_.elsewhere += static_cast<float>(places * ratios_.count()) * kPassedOver;
@@ -162,10 +174,6 @@ class OtherPlaces {
         }
     }
 
-    void add(std::uint32_t place, int shift_left_out) {
-        add(place, offsets_of(place), shift_left_out);
-    }
-
     void add(std::uint32_t place, const RollOffsets& offsets, int shift_left_out) {
         // The units of the lines that are shared at each shift, by the offset of these lines.
         std::array<std::uint16_t, kSections + 1> shared{};
@@ -209,54 +217,86 @@ class OtherPlaces {
     const Losses& losses_;
     const std::size_t count_;
     const code::Secondary& theirs_;
-    int shift_here_;
+    const int shift_here_;
+    const RollOffsets here_;      ///< of the same place
+    bool has_same_rolls_ = true;  ///< whether the same place has the rolls read in all lines
     std::uint32_t best_place_ = 0;
     OtherAxis result_;
 };
 
-/// Returns the odds of the places in profile `other`. `across` are the odds of that profile by the
-/// other axis, as far as they are known.
-OtherAxis weigh(const Kernels& kernels, const LikelihoodRatios& ratios, const Losses& losses,
-                Profile read, Profile other, float across) {
-    OtherPlaces others(ratios, losses, read, other);
-    if (others.add_by_table(read, other, kEnough / std::max(across, kEnough))) {
-        return others.result();
+/// Weighs the places of the other profiles along one axis.
+class AxisWeigher {
+  public:
+    AxisWeigher(const Kernels& kernels, const UnsharedLines& unshared, Profile read)
+        : kernels_(kernels),
+          ratios_(unshared.ratios()),
+          unshared_(unshared),
+          read_(read),
+          losses_(ratios_) {}
+
+    /// Returns the places in profile `other`, those elsewhere bounded by a table.
+    OtherPlaces bounded(Profile other) const {
+        OtherPlaces others(ratios_, losses_, read_, other);
+        others.bound(unshared_, read_, other);
+        return others;
     }
-    others.add_unsimilar();
-    // The digits as they were read are looked for in the sequence of the other profile.
-    code::Secondary a4 = code::basis(other)[kA4];
-    a4.digits = ratios.basis[kA4].digits;
-    const PlaceBits similar =
-        kernels.find_similar_places(a4, ratios.places[kA4], losses.of_steps(ratios));
-    int added = 0;
-    for (std::uint32_t word = 0; word < similar.size(); ++word) {
-        visit_places(similar[word], word, [&](std::uint32_t place) {
-            others.add(place);
-            ++added;
-        });
+
+    /// Counts places elsewhere one by one if their bound, with odds of `across` on the other axis,
+    /// is not negligible.
+    void look_closer(Profile other, float across, OtherPlaces& others) {
+        if (others.elsewhere() * across <= kEnough) return;
+        others.begin_count();
+        others.add_unsimilar();
+        if (!steps_) steps_ = losses_.of_steps(ratios_);
+        // The digits as they were read are looked for in the sequence of the other profile.
+        code::Secondary a4 = code::basis(other)[kA4];
+        a4.digits = ratios_.basis[kA4].digits;
+        const PlaceBits similar = kernels_.find_similar_places(a4, ratios_.places[kA4], *steps_);
+        int added = 0;
+        for (std::uint32_t word = 0; word < similar.size(); ++word) {
+            // Few places are similar, so the others are skipped instead of visited.
+            for (std::uint32_t rest = similar[word]; rest != 0; rest &= rest - 1) {
+                others.add(32 * word + static_cast<std::uint32_t>(std::countr_zero(rest)));
+                ++added;
+            }
+        }
+        others.add_passed_over(a4.length - 1 - added);
     }
-    others.add_passed_over(a4.length - 1 - added);
-    return others.result();
-}
+
+  private:
+    const Kernels& kernels_;
+    const LikelihoodRatios& ratios_;
+    const UnsharedLines& unshared_;
+    const Profile read_;
+    const Losses losses_;
+    std::optional<StepLosses> steps_;  ///< once they are needed
+};
 
 }  // namespace
 
 OtherAxis weigh_other_code(const Kernels& kernels, const LikelihoodRatios& ratios, Profile read,
                            Profile other) {
-    return weigh(kernels, ratios, Losses(ratios), read, other, 1);
+    const UnsharedLines unshared(ratios);
+    AxisWeigher axis(kernels, unshared, read);
+    OtherPlaces places = axis.bounded(other);
+    axis.look_closer(other, 1, places);
+    return places.result();
 }
 
-void weigh_other_codes(const Kernels& kernels, const LikelihoodRatios& ratios, Profile read,
-                       Axis axis, OtherCodes& others) {
-    (axis == Axis::x ? others.first.x : others.first.y) = ratios.position;
-    const Losses losses(ratios);
+void weigh_other_codes(const Kernels& kernels, const UnsharedLines& columns,
+                       const UnsharedLines& rows, Profile read, OtherCodes& others) {
+    others.first = {columns.ratios().position, rows.ratios().position};
+    AxisWeigher by_x(kernels, columns, read);
+    AxisWeigher by_y(kernels, rows, read);
     for (std::size_t i = 0; i < others.of.size(); ++i) {
         const auto other = static_cast<Profile>(i);
         if (other == read) continue;
-        auto& [x, y] = others.of[i];
-        // Columns are weighed first.
-        const float across = axis == Axis::x ? 1 : x.here + x.elsewhere;
-        (axis == Axis::x ? x : y) = weigh(kernels, ratios, losses, read, other, across);
+        OtherPlaces x = by_x.bounded(other);
+        OtherPlaces y = by_y.bounded(other);
+        // An axis need not be looked at closely if the other one contradicts the profile.
+        by_x.look_closer(other, y.here() + y.elsewhere(), x);
+        by_y.look_closer(other, x.here() + x.elsewhere(), y);
+        others.of[i] = {x.result(), y.result()};
     }
 }
 

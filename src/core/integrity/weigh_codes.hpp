@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
+#include "core/integrity/unshared_lines.hpp"
 #include "core/kernels/kernels.hpp"
 #include "core/other_codes.hpp"
 
@@ -14,8 +15,8 @@ namespace dotpose::core {
 OtherAxis weigh_other_code(const Kernels& kernels, const LikelihoodRatios& ratios, Profile read,
                            Profile other);
 
-/// Sets the odds of the places in all other profiles.
-void weigh_other_codes(const Kernels& kernels, const LikelihoodRatios& ratios, Profile read,
-                       Axis axis, OtherCodes& others);
+/// Sets the odds of the places in all other profiles, by the ratios of both axes.
+void weigh_other_codes(const Kernels& kernels, const UnsharedLines& columns,
+                       const UnsharedLines& rows, Profile read, OtherCodes& others);
 
 }  // namespace dotpose::core
