@@ -91,5 +91,20 @@ TEST(FollowRolls, OneLineShowsTheFirstRollAndNoneNothing) {
     EXPECT_TRUE(followed(Profile::anoto, 12345, 62, 0).empty());
 }
 
+TEST(RollFurther, IsTheDifferenceOfTheRolls) {
+    std::mt19937 rng(kSeed);
+    for (int i = 0; i < 300; ++i) {
+        const std::uint32_t position = i == 0 ? 0 : i == 1 ? kL - 1 : random_place(rng).cell.x;
+        for (const Profile read : kProfiles) {
+            for (const Profile other : kProfiles) {
+                const int further =
+                    reference_roll(other, position) + 63 - reference_roll(read, position);
+                ASSERT_EQ(code::roll_further(read, other, position, position % 241), further % 63)
+                    << position << ", seed " << kSeed;
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace dotpose::code_test

@@ -68,6 +68,41 @@ TEST(WeighOtherCode, IsTheSumOverAllPlaces) {
     }
 }
 
+TEST(WeighOtherCodes, SumsUpPlacesAlongBothAxes) {
+    Rng rng(kSeed + 1);
+    int close = 0;
+    for (int i = 0; i < 60; ++i) {
+        const RatiosCase x = read_at_random(rng, 8 + i % 12);
+        RatiosCase y;
+        do
+            y = read_at_random(rng, 8 + i * 7 % 11);
+        while (y.profile != x.profile);
+        const LikelihoodRatios by_x = x.ratios();
+        const LikelihoodRatios by_y = y.ratios();
+        OtherCodes others;
+        weigh_other_codes(core::kernels(), UnsharedLines(by_x), UnsharedLines(by_y), x.profile,
+                          others);
+        EXPECT_EQ(others.first, (Cell{x.position, y.position}));
+        for (const Profile other : code_test::kProfiles) {
+            if (other == x.profile) continue;
+            SCOPED_TRACE(testing::Message() << "case " << i << ", seed " << kSeed);
+            const double x_here = odds_of_rolls(x, rolls_here(x, other));
+            const double y_here = odds_of_rolls(y, rolls_here(y, other));
+            const double x_elsewhere = exact_elsewhere(x, other);
+            const double y_elsewhere = exact_elsewhere(y, other);
+            const double exact = x_here * y_elsewhere + x_elsewhere * (y_here + y_elsewhere);
+            const OtherCode& there = others.of[static_cast<std::size_t>(other)];
+            EXPECT_NEAR(static_cast<double>(there.here()) / (x_here * y_here), 1, 0.06);
+            EXPECT_GE(static_cast<double>(there.elsewhere()), 0.94 * exact);
+            // What is passed over is counted at more than it has, on both axes.
+            const double most = x_here + x_elsewhere + y_here + y_elsewhere;
+            EXPECT_LE(static_cast<double>(there.elsewhere()), 1.06 * exact + 2e-12 * most + 4e-13);
+            close += exact > 1e-9 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(close, 20);
+}
+
 /// Returns clear lines of 12 bits, from a position on.
 RatiosCase clear_lines(Profile profile, std::uint32_t position, int lines) {
     Rng rng(kSeed);
