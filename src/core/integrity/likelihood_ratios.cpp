@@ -101,7 +101,7 @@ LikelihoodRatios::LikelihoodRatios(Profile profile, std::span<const TrackedLine>
       count_(static_cast<int>(lines_.size())),
       odds_per_bit_q8_(odds_q8) {
     find_places();
-    std::ranges::copy(rolls, rolls_.begin());
+    std::copy(rolls.begin(), rolls.end(), rolls_.begin());
     set_least_losses_of_bits();
 }
 

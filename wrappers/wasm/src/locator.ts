@@ -122,6 +122,8 @@ export class Locator {
     }
 
     #init(options: LocatorOptions): number {
+        const { attempts = 2 } = options;
+        if (attempts !== 1 && attempts !== 2) throw new RangeError(`attempts are 1 or 2, not ${String(attempts)}`);
         const core = this.#core;
         const given = core.reserve(kOptionsBytes);
         this.#require(core.call("dotpose_options_init", given, kOptionsBytes));
@@ -130,7 +132,7 @@ export class Locator {
             view.setInt32(kOptionOffsets[name], value, true);
         set("profile", this.#code);
         set("show_stages", options.dots ? 1 : 0);
-        if (options.attempts !== undefined) set("effort", options.attempts);
+        set("effort", attempts);
         if (options.spacing_mm !== undefined) set("spacing_nm", Math.round(options.spacing_mm * 1e6));
         if (options.lens_k_per_px2 !== undefined)
             set("lens_k_q40", Math.trunc(options.lens_k_per_px2 * 2 ** 40));

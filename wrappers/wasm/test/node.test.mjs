@@ -104,6 +104,8 @@ describe("Locator", () => {
         assert.ok(Math.abs(wide.x_mm - 2 * 560) < 0.006);
         await assert.rejects(Locator.create({ code: "morse" }), RangeError);
         await assert.rejects(Locator.create({ max_p_wrong: 2 }), RangeError);
+        await assert.rejects(Locator.create({ attempts: 0 }), RangeError);
+        await assert.rejects(Locator.create({ attempts: 3 }), RangeError);
     });
 
     test("dots and the map between image and pattern belong together", async () => {

@@ -1,0 +1,25 @@
+// Takes the place of the attempts of microcontrollers, which JavaScript cannot choose and would
+// download: without src/core/attempts/device*.cpp the linker leaves out what only these call.
+#include "core/attempts/device.hpp"
+#include "core/attempts/device_tracked.hpp"
+
+namespace dotpose::core {
+
+const Fix& finish_device_attempt(const Options&, Workspace& w) {
+    w.fix.status = Status::bad_argument;
+    return w.fix;
+}
+
+Status begin_device_tracked(int, int, const Options&, const Prediction&, Workspace&) {
+    return Status::not_tracked;
+}
+
+Status push_tracked_row(const std::uint8_t*, Workspace&) {
+    return Status::not_tracked;
+}
+
+const Fix& finish_device_tracked(const Options& options, Workspace& w) {
+    return finish_device_attempt(options, w);
+}
+
+}  // namespace dotpose::core
