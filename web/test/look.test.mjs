@@ -1,6 +1,6 @@
 // Look, with a camera that shows a clip of known poses, by both ways to the luma.
 import assert from "node:assert/strict";
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
@@ -82,12 +82,26 @@ test("the luma by canvas gives the poses of the clip", async () => {
     await page.close();
 });
 
-test("the columns of a log are those of the tool", async () => {
+test("the columns of a log are keys of the tool's lines", async () => {
     const { page, log } = await runCamera("#look", 2);
-    const tool = dotpose("locate", "--format", "csv", join(folder, "frames/frame_000000.pgm")).split("\n")[0].split(",");
-        // Those of `watch` are these and a few more, of which the page has two.
-    const known = new Set([...tool, "frame", "t_s"]);
-    for (const column of log.split("\n")[0].split(",")) assert.ok(known.has(column), column);
+    const schema = JSON.parse(readFileSync(new URL("../../docs/schema/lines-1.json", import.meta.url), "utf8"));
+    const known = new Set(Object.values(schema.$defs).flatMap(({ properties }) => Object.keys(properties ?? {})));
+    // An array has a column for each element.
+    for (const column of log.split("\n")[0].split(",")) assert.ok(known.has(column.replace(/^(section)_[uv]$/, "$1")), column);
+    await page.close();
+});
+
+test("the tool replays a log", async () => {
+    const { page, log } = await runCamera("#look", 5);
+    const path = join(folder, "page.csv");
+    writeFileSync(path, log);
+    const run = JSON.parse(dotpose("replay", path, "--format", "json"));
+    const lines = readCsv(log);
+    assert.equal(run.frames, lines.length);
+    assert.equal(run.fixes, lines.filter(({ status }) => status === "ok").length);
+    assert.equal(run.events.fix, 1);
+    const ways_mm = lines.slice(1).map(({ x_mm, y_mm }, i) => Math.hypot(x_mm - lines[i].x_mm, y_mm - lines[i].y_mm));
+    assert.ok(Math.abs(run.distance_mm - ways_mm.reduce((sum, way) => sum + way)) < 1e-3, `${run.distance_mm} mm`);
     await page.close();
 });
 

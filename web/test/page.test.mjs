@@ -1,8 +1,12 @@
 // The page as such: accessible, offline, installable, without outside requests.
 import assert from "node:assert/strict";
+import { mkdtempSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { launch, open, serve } from "./browser.mjs";
+import { makeClip } from "./clip.mjs";
 
 const kAxe = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
 let server;
@@ -34,6 +38,25 @@ for (const view of ["try", "look", "print"]) {
         });
     }
 }
+
+test("axe finds nothing in a frame explained, light and dark", async () => {
+    const folder = mkdtempSync(join(tmpdir(), "dotpose-frame-"));
+    try {
+        const { page } = await open(browser.context, `${server.url}#look`);
+        const [{ png: buffer }] = makeClip(folder, { frames: 1, size: "640x480" });
+        await page.setInputFiles("#look-file", { name: "frame.png", mimeType: "image/png", buffer });
+        await page.waitForFunction(() => document.getElementById("look-x").textContent !== "–");
+        await page.click("#look-freeze");
+        assert.equal(await page.locator("#explain[open] h3").count(), 6);
+        for (const colorScheme of ["light", "dark"]) {
+            await page.emulateMedia({ colorScheme, reducedMotion: "reduce" });
+            assert.deepEqual(await complaintsOfAxe(page), [], colorScheme);
+        }
+        await page.close();
+    } finally {
+        rmSync(folder, { recursive: true });
+    }
+});
 
 test("on a phone nothing is wider than the screen", async () => {
     const page = await browser.context.newPage();

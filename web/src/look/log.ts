@@ -1,37 +1,77 @@
-// The log of readings: those columns of the tool's CSV files that one frame has (docs/output.md).
+// The log of readings: those columns of the CSV that `dotpose watch --log` writes which one frame has
+// (docs/output.md), so that `dotpose replay` reads it. The page has no tracker: the track is the fix, and its
+// velocity the way from the fix of the frame before.
 import type { Reading } from "../engine/messages.js";
 
 const kDegrees = 180 / Math.PI;
 
-type Column = readonly [name: string, value: (reading: Reading, frame: number) => string | number, always?: true];
+interface Frame {
+    reading: Reading;
+    number: number;
+    /** The frame before, unless this is the first one. */
+    before: Reading | undefined;
+}
 
-const sigma = (reading: Reading, i: number) => Math.sqrt(reading.fix.covariance[4 * i]!);
+type Column = readonly [name: string, value: (frame: Frame) => string | number, always?: true];
+
+const sigma = ({ reading }: Frame, i: number) => Math.sqrt(reading.fix.covariance[4 * i]!);
+
+const isFound = ({ before }: Frame) => before?.fix.ok ?? false;
+
+/** What happened to the track in this frame, by the names of the tool. */
+function eventOf(frame: Frame): string {
+    if (frame.reading.fix.ok) return isFound(frame) ? "" : "fix";
+    return isFound(frame) ? "lost" : "";
+}
+
+/** Returns how fast a quantity changes, from the frame before; 0 after frames without a fix. */
+function speed(frame: Frame, of: (reading: Reading) => number, turns = false): string {
+    const { reading, before } = frame;
+    const took_s = before ? reading.time_s - before.time_s : 0;
+    if (!before?.fix.ok || took_s <= 0) return "0";
+    const way = of(reading) - of(before);
+    return ((turns ? way - 360 * Math.round(way / 360) : way) / took_s).toFixed(3);
+}
+
+const x_mm = ({ fix }: Reading) => fix.x_mm;
+const y_mm = ({ fix }: Reading) => fix.y_mm;
+const theta_deg = ({ fix }: Reading) => fix.theta_rad * kDegrees;
 
 /** Values are of located frames only, unless `always`. */
 const kColumns: readonly Column[] = [
     ["schema", () => 1, true],
-    ["frame", (_, frame) => frame, true],
-    ["t_s", ({ time_s }) => time_s.toFixed(6), true],
-    ["status", ({ fix }) => fix.status, true],
-    ["message", ({ fix }) => (fix.ok ? "" : fix.message.replaceAll(",", ";")), true],
-    ["x_mm", ({ fix }) => fix.x_mm.toFixed(6)],
-    ["y_mm", ({ fix }) => fix.y_mm.toFixed(6)],
-    ["theta_deg", ({ fix }) => (fix.theta_rad * kDegrees).toFixed(6)],
-    ["section_u", ({ fix }) => fix.section.u],
-    ["section_v", ({ fix }) => fix.section.v],
-    ["dots_seen", ({ fix }) => fix.dots_seen, true],
-    ["dots_used", ({ fix }) => fix.dots_used],
-    ["attempt", ({ fix }) => fix.attempt],
-    ["surface", ({ fix }) => fix.surface],
-    ["bit_errors", ({ fix }) => fix.bit_errors],
-    ["p_wrong", ({ fix }) => fix.p_wrong.toExponential(2)],
-    ["sigma_x_mm", (reading) => sigma(reading, 0).toFixed(6)],
-    ["sigma_y_mm", (reading) => sigma(reading, 1).toFixed(6)],
-    ["sigma_theta_deg", (reading) => (sigma(reading, 2) * kDegrees).toFixed(6)],
-    ["residual_px", ({ fix }) => fix.residual_px.toFixed(4)],
-    ["spacing_px", ({ fix }) => fix.spacing_px.toFixed(4)],
-    ["elapsed_us", ({ locate_ms }) => Math.round(1000 * locate_ms), true],
-    ["code", ({ fix }) => fix.code],
+    ["frame", ({ number }) => number, true],
+    ["t_s", ({ reading }) => reading.time_s.toFixed(6), true],
+    ["status", ({ reading }) => reading.fix.status, true],
+    ["message", ({ reading: { fix } }) => (fix.ok ? "" : fix.message.replaceAll(",", ";")), true],
+    ["x_mm", ({ reading }) => x_mm(reading).toFixed(6)],
+    ["y_mm", ({ reading }) => y_mm(reading).toFixed(6)],
+    ["theta_deg", ({ reading }) => theta_deg(reading).toFixed(6)],
+    ["section_u", ({ reading }) => reading.fix.section.u],
+    ["section_v", ({ reading }) => reading.fix.section.v],
+    ["dots_seen", ({ reading }) => reading.fix.dots_seen, true],
+    ["dots_used", ({ reading }) => reading.fix.dots_used],
+    ["attempt", ({ reading }) => reading.fix.attempt],
+    ["surface", ({ reading }) => reading.fix.surface],
+    ["bit_errors", ({ reading }) => reading.fix.bit_errors],
+    ["p_wrong", ({ reading }) => reading.fix.p_wrong.toExponential(2)],
+    ["sigma_x_mm", (frame) => sigma(frame, 0).toFixed(6)],
+    ["sigma_y_mm", (frame) => sigma(frame, 1).toFixed(6)],
+    ["sigma_theta_deg", (frame) => (sigma(frame, 2) * kDegrees).toFixed(6)],
+    ["residual_px", ({ reading }) => reading.fix.residual_px.toFixed(4)],
+    ["spacing_px", ({ reading }) => reading.fix.spacing_px.toFixed(4)],
+    ["elapsed_us", ({ reading }) => Math.round(1000 * reading.locate_ms), true],
+    ["code", ({ reading }) => reading.fix.code],
+    ["state", ({ reading }) => (reading.fix.ok ? "moving" : "lost"), true],
+    ["events", eventOf, true],
+    ["verdict", ({ reading }) => (reading.fix.ok ? "believed" : "none"), true],
+    ["plane", () => "pattern"],
+    ["track_x_mm", ({ reading }) => x_mm(reading).toFixed(6)],
+    ["track_y_mm", ({ reading }) => y_mm(reading).toFixed(6)],
+    ["track_theta_deg", ({ reading }) => theta_deg(reading).toFixed(6)],
+    ["vx_mm_s", (frame) => speed(frame, x_mm)],
+    ["vy_mm_s", (frame) => speed(frame, y_mm)],
+    ["turn_deg_s", (frame) => speed(frame, theta_deg, true)],
 ];
 
 /** Longest log that is kept, about an hour at 30 frames per second. */
@@ -41,6 +81,7 @@ export class Log {
     #lines: string[] = [];
     #frames = 0;
     #first_s: number | undefined;
+    #before: Reading | undefined;
 
     get length(): number {
         return this.#lines.length;
@@ -50,8 +91,9 @@ export class Log {
     add(reading: Reading): void {
         this.#first_s ??= reading.time_s;
         const timed = { ...reading, time_s: reading.time_s - this.#first_s };
-        const frame = this.#frames++;
-        const line = kColumns.map(([, value, always]) => (always || reading.fix.ok ? value(timed, frame) : ""));
+        const frame = { reading: timed, number: this.#frames++, before: this.#before };
+        this.#before = timed;
+        const line = kColumns.map(([, value, always]) => (always || reading.fix.ok ? value(frame) : ""));
         this.#lines.push(line.join(","));
         if (this.#lines.length > kMostLines) this.#lines.shift();
     }
@@ -60,6 +102,7 @@ export class Log {
         this.#lines = [];
         this.#frames = 0;
         this.#first_s = undefined;
+        this.#before = undefined;
     }
 
     text(): string {
