@@ -99,7 +99,7 @@ consteval std::uint8_t turn_roll(std::size_t length, unsigned roll_of_turn) {
 
 /// Returns the first place of each string of `Order` digits, by its key.
 template <unsigned Base, int Order, std::size_t Length>
-consteval auto first_places(const Digits<Length>& sequence) {
+constexpr auto first_places(const Digits<Length>& sequence) {
     constexpr std::size_t kKeys = [] {
         std::size_t keys = 1;
         for (int i = 0; i < Order; ++i)
@@ -119,11 +119,12 @@ consteval auto first_places(const Digits<Length>& sequence) {
 template <unsigned Base, int Order, std::size_t Length>
 consteval Digits<Length> next_twins(const Digits<Length>& sequence) {
     Digits<Length> twins{};
-    for (std::size_t i = 0; i < Length; ++i) {
-        std::size_t j = (i + 1) % Length;
-        while (key(sequence, j, Order, Base) != key(sequence, i, Order, Base))
-            j = (j + 1) % Length;
-        twins[i] = static_cast<std::uint8_t>(j);
+    // The next place after the end is the first one again.
+    auto next = first_places<Base, Order>(sequence);
+    for (std::size_t i = Length; i-- > 0;) {
+        std::uint8_t& place = next[key(sequence, i, Order, Base)];
+        twins[i] = place;
+        place = static_cast<std::uint8_t>(i);
     }
     return twins;
 }
