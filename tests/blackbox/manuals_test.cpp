@@ -143,7 +143,7 @@ TEST_F(Completions, OfZsh) {
         zpty -r typed answer "*$2*"
     )";
     const auto expect_becomes = [this](const std::string& typed, const std::string& completed) {
-        EXPECT_EQ(shell("TERM=xterm timeout 60 zsh -f try.zsh '" + typed + "' '" + completed + "'"),
+        EXPECT_EQ(shell("TERM=xterm timeout 240 zsh -f try.zsh '" + typed + "' '" + completed + "'"),
                   0)
             << typed;
     };
