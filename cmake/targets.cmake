@@ -36,6 +36,7 @@ function(dotpose_layer name)
         endif()
     else()
         dotpose_precompile(${target} ${arg_HEADERS})
+        dotpose_allow_promotion(${target})
     endif()
 endfunction()
 
@@ -150,4 +151,13 @@ function(dotpose_use_internals name)
                                                ${PROJECT_SOURCE_DIR}/src)
     target_link_libraries(${name} PRIVATE $<TARGET_NAME_IF_EXISTS:dotpose_tools_inside>
                                           $<TARGET_NAME_IF_EXISTS:dotpose_inside>)
+    dotpose_allow_promotion(${name})
+endfunction()
+
+# Promotions to double are harmless outside of the core. GCC sees those that might not be meant; clang
+# sees them all.
+function(dotpose_allow_promotion target)
+    if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+        target_compile_options(${target} PRIVATE -Wno-double-promotion)
+    endif()
 endfunction()
