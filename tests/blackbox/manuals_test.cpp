@@ -143,8 +143,8 @@ TEST_F(Completions, OfZsh) {
         zpty -r typed answer "*$2*"
     )";
     const auto expect_becomes = [this](const std::string& typed, const std::string& completed) {
-        EXPECT_EQ(shell("TERM=xterm timeout 240 zsh -f try.zsh '" + typed + "' '" + completed + "'"),
-                  0)
+        EXPECT_EQ(
+            shell("TERM=xterm timeout 240 zsh -f try.zsh '" + typed + "' '" + completed + "'"), 0)
             << typed;
     };
     ASSERT_EQ(shell("zsh -f -n _dotpose"), 0) << errors_;
