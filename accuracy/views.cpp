@@ -88,7 +88,7 @@ GreyImage drawn(const std::vector<std::string>& rows, double dpi) {
 }
 
 Page read_page(const std::string& path, double dpi) {
-    if (!path.ends_with(".txt")) return {read_image(path), kMmPerInch / dpi};
+    if (!path.ends_with(".txt")) return {read_image(path, kMaxImagePixels), kMmPerInch / dpi};
     std::ifstream file(path);
     std::vector<std::string> rows;
     for (std::string row; std::getline(file, row);) {
