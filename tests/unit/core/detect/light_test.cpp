@@ -52,7 +52,7 @@ TEST(Light, EveryBandBecomesReadyOnceWhateverTheHeight) {
                 covered = band_end(w.light, band);
                 // The rows of the band are still kept.
                 for (int v = band_begin(w.light, band); v < covered; ++v) {
-                    EXPECT_EQ(kept_row(w.light, v)[width - 1], 200);
+                    EXPECT_EQ(kept_row(w.light, v)[image.width_px - 1], 200);
                 }
             });
             EXPECT_EQ(covered, height);

@@ -28,8 +28,8 @@ struct Row {
         const double dark_share = rng.uniform(0, 1);
         begin_light(width_px, kMinFrameSide_px, light);
         for (int u = 0; u < whole_width(light); u += kTileWidth_px) {
-            const int half_low = rng.below(6) == 0 ? 0 : static_cast<int>(rng.below(128));
-            const int high = static_cast<int>(rng.below(2 * half_low + 1U));
+            const std::uint32_t half_low = rng.below(6) == 0 ? 0 : rng.below(128);
+            const std::uint32_t high = rng.below(2 * half_low + 1);
             for (int k = u; k < u + kTileWidth_px; ++k) {
                 light.half_low_levels[static_cast<std::size_t>(k)] =
                     static_cast<std::uint8_t>(half_low);
@@ -38,9 +38,11 @@ struct Row {
             const bool is_close = rng.below(2) == 0;
             for (int k = u; k < std::min(u + kTileWidth_px, width_px); ++k) {
                 const bool is_dark = rng.uniform(0, 1) < dark_share;
-                int level = static_cast<int>(is_dark ? rng.below(2 * half_low + 1U)
+                int level = static_cast<int>(is_dark ? rng.below(2 * half_low + 1)
                                                      : 255 - rng.below(256 - 2 * half_low));
-                if (is_close) level = (rng.below(2) == 0 ? 2 * half_low : high) - is_dark;
+                if (is_close) {
+                    level = static_cast<int>(rng.below(2) == 0 ? 2 * half_low : high) - is_dark;
+                }
                 pixels[static_cast<std::size_t>(k)] =
                     static_cast<std::uint8_t>(std::clamp(level, 0, 255));
             }
