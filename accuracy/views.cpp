@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <numbers>
@@ -237,6 +238,7 @@ int run(const Arguments& arguments) {
                    width_px, height_px, row.views, percent(row.alone, row.given),
                    percent(row.ambiguous, row.given), percent(row.later, row.later_given),
                    row.wrong);
+        std::fflush(stdout);
         wrong += row.wrong;
     }
     return wrong == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
