@@ -86,8 +86,12 @@ Page requested_page() {
 }
 
 CameraModel camera_of(const wasm::CameraRequest& camera) {
-    return {static_cast<int>(camera.width_px), static_cast<int>(camera.height_px), camera.mm_per_px,
-            camera.k, camera.working_distance_mm, {}};
+    return {static_cast<int>(camera.width_px),
+            static_cast<int>(camera.height_px),
+            camera.mm_per_px,
+            camera.k,
+            camera.working_distance_mm,
+            {}};
 }
 
 CameraPose pose_of(const wasm::CameraRequest& camera) {
