@@ -26,7 +26,8 @@ extern "C" [[gnu::noinline]] void count_tracked_frame(const ImageView& image,
                                                       Locator& locator) {
     locator.locate(image, prediction);
 }
-/// The same frame in any code and in the one given, to compare the two.
+/// Locates a frame with the profile left open, beside the same frame with its profile given: the
+/// difference is what not knowing the code costs.
 extern "C" [[gnu::noinline]] CodeReading count_frame_in_any_code(const ImageView& image,
                                                                  Locator& locator) {
     return locator.locate_in_any_code(image, {});

@@ -13,7 +13,8 @@ int roll_from(Profile profile, std::uint32_t position, int section, std::uint32_
 }
 
 int roll_further(Profile read, Profile other, std::uint32_t position, std::uint32_t place) {
-    // As in `roll`. Both sums are less than kTurns, a multiple of 63.
+    // Each profile's part of the roll by a4 is the sum over whole turns and over the digits before
+    // the place. It is less than kTurns, a multiple of 63, which keeps the difference above 0.
     constexpr std::uint32_t kTurns = 512 * kSections;
     const std::uint32_t lines = modulo_sections(position) + 4 * kSections;
     const auto by_a4 = [&](Profile profile) {
