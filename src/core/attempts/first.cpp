@@ -9,6 +9,7 @@
 #include "core/attempts/tracked.hpp"
 #include "core/attempts/tuning.hpp"
 #include "core/decode/bit_lines.hpp"
+#include "core/decode/exact_lines.hpp"
 #include "core/detect/patch.hpp"
 #include "core/lattice/outwards.hpp"
 
@@ -58,8 +59,12 @@ bool read_hypothesis(const Kernels& kernels, const Options& options, const Patch
     kernels.read_cells(patch.dots, grid.grid_from_image, grid.displacement, block.columns,
                        block.rows);
     const int quarters = likeliest_turn(kernels, block);
-    const BlockLines lines = score_block(kernels, turned(quarters, block), w.line_scores);
-    if (!find_place(options.profile, lines, hypothesis.place)) return false;
+    const BitBlock upright = turned(quarters, block);
+    if (!find_place_exactly(options.profile, upright, hypothesis.place) &&
+        !find_place(options.profile, score_block(kernels, upright, w.line_scores),
+                    hypothesis.place)) {
+        return false;
+    }
     hypothesis.pattern_from_image = turned(quarters, grid.grid_from_image);
     hypothesis.from_centre = from_centre;
     hypothesis.displacement = grid.displacement;
@@ -79,6 +84,7 @@ bool find_hypothesis(const Kernels& kernels, const ImageView& image, const Optio
     hypothesis.pattern_from_image =
         recentred(hypothesis.pattern_from_image, {-middle.x, -middle.y});
     hypothesis.from_centre = {};
+    hypothesis.is_predicted = true;
     return true;
 }
 

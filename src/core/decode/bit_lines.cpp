@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdlib>
 
+#include "code/tables.hpp"
+#include "core/decode/exact_lines.hpp"
 #include "core/decode/search.hpp"
 #include "core/decode/tuning.hpp"
 
@@ -39,13 +42,8 @@ BitLines backwards(const BitLines& lines) {
     return result;
 }
 
-struct Range {
-    int first = 0;
-    int count = 0;
-};
-
 /// Returns the range of lines that have bits; if these are more than `most`, the middle ones.
-Range lines_with_bits(const BitLines& lines, int most) {
+LineRange lines_with_bits(const BitLines& lines, int most) {
     int first = 0;
     int last = BitBlock::kSide - 1;
     while (first < BitBlock::kSide && lines.valid[static_cast<std::size_t>(first)] == 0)
@@ -57,27 +55,43 @@ Range lines_with_bits(const BitLines& lines, int most) {
     return {std::clamp(BitBlock::kMiddle - most / 2, first, last + 1 - most), most};
 }
 
+/// Returns how much better a line scores backwards than forwards. A line that is exact in one
+/// direction is so by chance if it has six bits, and with each further bit half as often.
+int backwardness(const Kernels& kernels, std::uint64_t bits, std::uint64_t valid) {
+    const std::uint64_t back = reversed(~bits);
+    const std::uint64_t valid_back = reversed(valid);
+    const bool is_exact = exact_roll(bits, valid) != code::kAbsent;
+    const bool is_exact_back = exact_roll(back, valid_back) != code::kAbsent;
+    constexpr int kWeight = 127;
+    if (is_exact != is_exact_back) {
+        const int score = kWeight * (std::popcount(valid) - code::kMainOrder);
+        return is_exact ? -score : score;
+    }
+    ScoredLine forwards;
+    ScoredLine backwards;
+    kernels.score_line(bits, valid, forwards);
+    kernels.score_line(back, valid_back, backwards);
+    return backwards.best.score - forwards.best.score;
+}
+
 /// Returns how much better some lines of the middle score backwards than forwards.
 int backwardness(const Kernels& kernels, const BitLines& lines) {
     constexpr int kVoters = tuning::turns::kVotersOfBits;
-    const Range range = lines_with_bits(lines, BitBlock::kSide);
+    const LineRange range = lines_with_bits(lines, BitBlock::kSide);
     int sum = 0;
     for (int voter = 0; voter < kVoters; ++voter) {
         // Voters are from the middle half of the lines, which has the longest ones.
         const auto i = static_cast<std::size_t>(range.first + range.count / 4 +
                                                 range.count * voter / (2 * kVoters));
         if (i >= lines.bits.size()) break;
-        ScoredLine scored;
-        kernels.score_line(lines.bits[i], lines.valid[i], scored);
-        sum -= scored.best.score;
-        kernels.score_line(reversed(~lines.bits[i]), reversed(lines.valid[i]), scored);
-        sum += scored.best.score;
+        sum += backwardness(kernels, lines.bits[i], lines.valid[i]);
+        if (std::abs(sum) >= tuning::turns::kLandslide) break;
     }
     return sum;
 }
 
-Lines score_lines(const Kernels& kernels, const BitLines& lines, const Range& which, int first_cell,
-                  std::span<ScoredLine> storage) {
+Lines score_lines(const Kernels& kernels, const BitLines& lines, const LineRange& which,
+                  int first_cell, std::span<ScoredLine> storage) {
     const auto count = static_cast<std::size_t>(which.count);
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t line = static_cast<std::size_t>(which.first) + i;
@@ -88,6 +102,10 @@ Lines score_lines(const Kernels& kernels, const BitLines& lines, const Range& wh
 }
 
 }  // namespace
+
+BlockRanges ranges_with_bits(const BitBlock& block, int most) {
+    return {lines_with_bits(block.columns, most), lines_with_bits(block.rows, most)};
+}
 
 int likeliest_turn(const Kernels& kernels, const BitBlock& block) {
     const bool columns_backwards = backwardness(kernels, block.columns) > 0;
@@ -129,11 +147,21 @@ FloatPlane turned(int quarters, const FloatPlane& p) {
 BlockLines score_block(const Kernels& kernels, const BitBlock& block,
                        std::span<ScoredLine> storage) {
     const int most = static_cast<int>(storage.size() / 2);
-    const Range columns = lines_with_bits(block.columns, most);
-    const Range rows = lines_with_bits(block.rows, most);
+    const auto [columns, rows] = ranges_with_bits(block, most);
     return {columns.first, rows.first,
             score_lines(kernels, block.columns, columns, rows.first, scores_of(Axis::x, storage)),
             score_lines(kernels, block.rows, rows, columns.first, scores_of(Axis::y, storage))};
+}
+
+Place place_of_middle(Profile profile, int first_column, int first_row, const AxisReading& column,
+                      const AxisReading& row) {
+    const auto section = [&](const AxisReading& own, const AxisReading& other) {
+        return static_cast<std::uint8_t>(
+            section_of(profile, own.roll, own.position, other.position));
+    };
+    const Place corner{{column.position, row.position},
+                       {section(column, row), section(row, column)}};
+    return moved(profile, corner, BitBlock::kMiddle - first_column, BitBlock::kMiddle - first_row);
 }
 
 bool find_place(Profile profile, const BlockLines& lines, Place& place) {
@@ -145,13 +173,7 @@ bool find_place(Profile profile, const BlockLines& lines, Place& place) {
         find_axis_briefly(profile, lines.rows, y) != Status::ok) {
         return false;
     }
-    const auto section = [&](const AxisReading& own, const AxisReading& other) {
-        return static_cast<std::uint8_t>(
-            section_of(profile, own.roll, own.position, other.position));
-    };
-    const Place corner{{x.position, y.position}, {section(x, y), section(y, x)}};
-    place = moved(profile, corner, BitBlock::kMiddle - lines.first_column,
-                  BitBlock::kMiddle - lines.first_row);
+    place = place_of_middle(profile, lines.first_column, lines.first_row, x, y);
     return true;
 }
 

@@ -17,6 +17,19 @@ struct BitBlock {
     BitLines rows;
 };
 
+/// Some lines in a row of a block, by index.
+struct LineRange {
+    int first = 0;
+    int count = 0;
+};
+struct BlockRanges {
+    LineRange columns;
+    LineRange rows;
+};
+
+/// Returns the columns and rows that have bits; of more than `most` the middle ones.
+BlockRanges ranges_with_bits(const BitBlock& block, int most);
+
 /// The lines of a block that are scored, and the cells that the first ones belong to.
 struct BlockLines {
     int first_column = 0;
@@ -39,6 +52,11 @@ FloatPlane turned(int quarters, const FloatPlane& grid_from_image);
 /// half of the storage holds, those around the middle.
 BlockLines score_block(const Kernels& kernels, const BitBlock& block,
                        std::span<ScoredLine> storage);
+
+/// Returns the place of cell (0, 0) of an upright block, of which the column `first_column` and the
+/// row `first_row`, by index, are read so.
+Place place_of_middle(Profile profile, int first_column, int first_row, const AxisReading& column,
+                      const AxisReading& row);
 
 /// Finds the place of cell (0, 0) of an upright block. Returns false if the lines spell no
 /// position.

@@ -56,16 +56,11 @@ class Choices {
 /// Returns the sum over all lines if line `line` is at `position` with `roll`.
 AxisReading evaluate(Profile profile, const Lines& lines, int line, std::uint32_t position,
                      int roll) {
-    const auto before = static_cast<std::uint32_t>(line);
-    AxisReading reading;
-    reading.position =
-        position >= before ? position - before : position + kPositionsPerAxis - before;
-    std::array<std::uint8_t, kMaxLines> rolls;
-    code::follow_rolls(profile, reading.position, 0, std::span(rolls).first(lines.all.size()));
-    const int first_roll = roll - rolls[before] + (roll < rolls[before] ? kSections : 0);
-    reading.roll = static_cast<std::uint8_t>(first_roll);
+    std::array<std::uint8_t, kMaxLines> storage;
+    const auto rolls = std::span(storage).first(lines.all.size());
+    AxisReading reading = reading_of_first(profile, position, roll, line, rolls);
     for (int i = 0; i < lines.count(); ++i) {
-        const int here = first_roll + rolls[static_cast<std::size_t>(i)];
+        const int here = reading.roll + rolls[static_cast<std::size_t>(i)];
         reading.score +=
             lines[i][static_cast<std::size_t>(here < kSections ? here : here - kSections)];
     }
@@ -142,23 +137,18 @@ void try_run(Profile profile, const Lines& lines, int first, int length, int mos
 int clearest_run(const Lines& lines, int length, const std::array<bool, kMaxLines>& taken) {
     int clearest = -1;
     int most = INT32_MIN;
-    for (int first = 0; first + length <= lines.count(); ++first) {
-        if (taken[static_cast<std::size_t>(first)]) continue;
-        int margin = 0;
-        for (int i = first; i < first + length; ++i)
-            margin += lines.best(i).margin;
-        if (margin > most) {
+    int margin = 0;
+    for (int end = 0; end < lines.count(); ++end) {
+        margin += lines.best(end).margin;
+        const int first = end + 1 - length;
+        if (first < 0) continue;
+        if (margin > most && !taken[static_cast<std::size_t>(first)]) {
             most = margin;
             clearest = first;
         }
+        margin -= lines.best(first).margin;
     }
     return clearest;
-}
-
-/// Returns how many consecutive lines carry a position. The misprinted sequence of libdots needs
-/// more lines, as its places are unique only by 7 steps from line to line.
-int run_length(Profile profile) {
-    return profile == Profile::libdots ? 8 : 6;
 }
 
 /// The most runs of lines that are read, and readings of each.
@@ -189,6 +179,22 @@ Status status_of(const AxisReading& best) {
 }
 
 }  // namespace
+
+int run_length(Profile profile) {
+    return profile == Profile::libdots ? 8 : 6;
+}
+
+AxisReading reading_of_first(Profile profile, std::uint32_t position, int roll, int line,
+                             std::span<std::uint8_t> rolls) {
+    const auto before = static_cast<std::uint32_t>(line);
+    AxisReading reading;
+    reading.position =
+        position >= before ? position - before : position + kPositionsPerAxis - before;
+    code::follow_rolls(profile, reading.position, 0, rolls);
+    const int there = rolls[before];
+    reading.roll = static_cast<std::uint8_t>(roll - there + (roll < there ? kSections : 0));
+    return reading;
+}
 
 Status find_axis(Profile profile, const Lines& lines, AxisReading& best) {
     search_by_runs(profile, lines, {tuned::kRuns, tuned::kReadings}, best);

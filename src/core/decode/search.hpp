@@ -7,6 +7,15 @@
 
 namespace dotpose::core {
 
+/// Returns how many consecutive lines carry a position. The misprinted sequence of libdots needs
+/// more lines, as its places are unique only by 7 steps from line to line.
+int run_length(Profile profile);
+
+/// Returns the reading of the first line if line `line` is at `position` with `roll`. Sets the
+/// rolls of all lines, modulo 63, counted from that of the first.
+AxisReading reading_of_first(Profile profile, std::uint32_t position, int roll, int line,
+                             std::span<std::uint8_t> rolls);
+
 /// Reads runs of consecutive lines, the clearest first, each in its likeliest ways, and keeps the
 /// position with the largest sum over all lines. If that is not perfect, searches by steps as well.
 /// Errors: not_in_code, if no reading occurs in the code.

@@ -82,6 +82,9 @@ namespace turns {
 inline constexpr int kVoters = 4;
 /// Lines of each axis that vote if their bits are hard; an odd number.
 inline constexpr int kVotersOfBits = 5;
+/// Difference between the scores of both directions from which the others of these need not vote:
+/// 8 bits; a line of 14 makes about 5.
+inline constexpr int kLandslide = 8 * 127;
 /// How much better, in fourths, a mirror image has to agree for the sheet to be seen from behind;
 /// lines of random bits reach about 60 % of the agreement of lines of the main sequence.
 inline constexpr int kMirrored_4ths = 5;

@@ -51,18 +51,19 @@ bool measure_contrast(Patch& patch) {
     const auto tile = [](int column, int row) {
         return static_cast<std::size_t>(row * Patch::kTilesPerRow + column);
     };
-    // Number of tiles with each darkness relative to their paper, in 1/64.
-    std::array<int, 65> counts{};
-    int dark_tiles = 0;
+    // Number of tiles with each darkness relative to their paper, in 1/64; the last one is of those
+    // without contrast.
+    constexpr std::size_t kFlat = 65;
+    std::array<int, kFlat + 1> counts{};
     for (int row = 0; row < rows; ++row) {
         for (int column = 0; column < columns; ++column) {
             const int paper = patch.brightest[tile(column, row)];
             const int darkness = paper + patch.darkness[tile(column, row)] - 255;
-            if (darkness < tuned::kLeastDarkness) continue;
-            ++counts[relative_darkness(darkness, paper)];
-            ++dark_tiles;
+            const bool is_dark = darkness >= tuned::kLeastDarkness;
+            ++counts[is_dark ? relative_darkness(darkness, paper) : kFlat];
         }
     }
+    const int dark_tiles = rows * columns - counts[kFlat];
     if (dark_tiles < tuned::kFewestTiles) return false;
     std::size_t median = 0;
     for (int below = counts[0]; 2 * below <= dark_tiles; below += counts[++median]) {
@@ -70,14 +71,16 @@ bool measure_contrast(Patch& patch) {
     patch.depth_q8 = 4 * static_cast<int>(median) + 2;
     const int share_q16 = patch.depth_q8 * tuned::kThreshold_q8;
     for (int row = 0; row < rows; ++row) {
-        for (int column = 0; column < columns; ++column) {
-            const int paper = patch.brightest[tile(column, row)];
-            patch.thresholds[tile(column, row)] =
-                static_cast<std::uint8_t>(paper - (paper * share_q16 >> 16));
-        }
+        // The whole row, used or not, is a vector.
+        const auto paper = std::span(patch.brightest).subspan(tile(0, row), Patch::kTilesPerRow);
+        std::array<std::uint8_t, Patch::kTilesPerRow> thresholds;
+        for (std::size_t i = 0; i < thresholds.size(); ++i)
+            thresholds[i] = static_cast<std::uint8_t>(paper[i] - (paper[i] * share_q16 >> 16));
         // Strips have two tiles; if the last strip has one, no pixel is darker than the threshold
         // of the other.
-        if (columns % 2 != 0) patch.thresholds[tile(columns, row)] = 0;
+        if (columns % 2 != 0) thresholds[static_cast<std::size_t>(columns)] = 0;
+        std::ranges::copy(thresholds,
+                          patch.thresholds.begin() + static_cast<std::ptrdiff_t>(tile(0, row)));
     }
     return true;
 }

@@ -105,6 +105,7 @@ bool PlaneNormalFloat::decompose() {
         const float root = std::sqrt(column.at(i));
         column.divide(root);
         column.set(i, root);
+        column.clear_before(i);
         for (std::size_t k = i + 1; k < kPoseParameters; ++k)
             m_[k].subtract(column, column.at(k));
     }
@@ -121,25 +122,19 @@ Parameters PlaneNormalFloat::whitened(const Parameters& of) const {
     return result;
 }
 
-Parameters PlaneNormalFloat::unwhitened(Parameters column) const {
+Parameters PlaneNormalFloat::unwhitened(const Parameters& column) const {
+    Column result;
     for (std::size_t i = kPoseParameters; i-- > 0;) {
-        if (!determines(i)) {
-            column[i] = 0;
-            continue;
-        }
-        for (std::size_t k = i + 1; k < kPoseParameters; ++k)
-            column[i] -= m_[i].at(k) * column[k];
-        column[i] /= m_[i].at(i);
+        if (determines(i)) result.set(i, (column[i] - m_[i].inner(result)) / m_[i].at(i));
     }
-    return column;
+    return result.numbers();
 }
 
 Parameters PlaneNormalFloat::times_transposed(const Parameters& column) const {
-    Parameters result{};
-    for (std::size_t i = 0; i < kPoseParameters; ++i) {
-        for (std::size_t k = i; k < kPoseParameters; ++k)
-            result[i] += m_[i].at(k) * column[k];
-    }
+    const Column other(column);
+    Parameters result;
+    for (std::size_t i = 0; i < kPoseParameters; ++i)
+        result[i] = m_[i].inner(other);
     return result;
 }
 

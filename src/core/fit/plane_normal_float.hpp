@@ -2,6 +2,8 @@
 // equations.
 #pragma once
 
+#include <cstring>
+
 #include "core/fit/projections.hpp"
 #include "core/kernels/kernels.hpp"
 
@@ -55,7 +57,7 @@ class PlaneNormalFloat {
     /// Returns L^-1 column. The inner product of two such columns a and b is a . M^-1 . b.
     Parameters whitened(const Parameters& column) const;
     /// Returns L^-T column.
-    Parameters unwhitened(Parameters column) const;
+    Parameters unwhitened(const Parameters& column) const;
     /// Returns L^T column.
     Parameters times_transposed(const Parameters& column) const;
 
@@ -69,13 +71,17 @@ class PlaneNormalFloat {
     bool determines(std::size_t parameter) const { return m_[parameter].at(parameter) > 0; }
 
   private:
-    /// A column of M or L, in whole vectors.
+    /// A column of M or L, in whole vectors. Those of L are 0 above the diagonal.
     class Column {
       public:
         Column() = default;
         explicit Column(const Parameters& numbers) {
-            for (std::size_t i = 0; i < numbers.size(); ++i)
-                set(i, numbers[i]);
+            std::memcpy(parts_.data(), numbers.data(), sizeof numbers);
+        }
+        Parameters numbers() const {
+            Parameters numbers;
+            std::memcpy(numbers.data(), parts_.data(), sizeof numbers);
+            return numbers;
         }
         float at(std::size_t row) const { return parts_[row / 4][row % 4]; }
         void set(std::size_t row, float number) { parts_[row / 4][row % 4] = number; }
@@ -86,6 +92,16 @@ class PlaneNormalFloat {
         void subtract(const Column& column, float times) {
             for (std::size_t i = 0; i < parts_.size(); ++i)
                 parts_[i] -= column.parts_[i] * times;
+        }
+        void clear_before(std::size_t row) {
+            for (std::size_t i = 0; i < row; ++i)
+                set(i, 0);
+        }
+        float inner(const Column& other) const {
+            Four sums{};
+            for (std::size_t i = 0; i < parts_.size(); ++i)
+                sums += parts_[i] * other.parts_[i];
+            return (sums[0] + sums[1]) + (sums[2] + sums[3]);
         }
 
       private:

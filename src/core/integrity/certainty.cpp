@@ -26,9 +26,9 @@ constexpr int kPassedOver_q8 = -52 * 256;
 constexpr float kPassedOver = 2.3e-16F;
 constexpr float kSingles = 741;
 
-/// Returns 2^n exactly, for -126 <= n < 128.
+/// Returns 2^n exactly, for n < 128; for less than 2^-126 it returns that.
 constexpr float power_of_two_exactly(int n) {
-    return __builtin_bit_cast(float, static_cast<std::uint32_t>(n + 127) << 23);
+    return __builtin_bit_cast(float, static_cast<std::uint32_t>(std::max(n, -126) + 127) << 23);
 }
 
 /// Returns 2^(n / 256), rounded up by up to 2 %; for less than 2^-100 it returns that.
@@ -205,7 +205,7 @@ bool is_code_in_question(const Asked& asked) {
 /// Returns the probability that chance agrees as well.
 float chance_of(const Confidence& bits, const Asked& asked) {
     if (!is_code_in_question(asked))
-        return std::ldexp(1.0F, chance_log2(bits, asked.odds_per_bit_q8));
+        return power_of_two_exactly(chance_log2(bits, asked.odds_per_bit_q8));
     return power_of_two(
         chance_log2_q8(bits, asked.odds_per_bit_q8, asked.others->log2_in_question_q8));
 }
@@ -221,7 +221,7 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedL
                  const Asked& asked) {
     const LikelihoodRatios& ratios = unshared.ratios();
     const int limit_log2 = asked.limit_log2;
-    const float limit = std::ldexp(1.0F, limit_log2);
+    const float limit = power_of_two_exactly(limit_log2);
     const float chance = chance_of(bits, asked);
     if (chance > limit) return 1;
     const float codes = codes_in_question(asked);
@@ -230,7 +230,7 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedL
     if (sum > limit && !ratios.is_of_bits()) {
         sum = with(power_of_two(quick_alternatives_log2_q8(ratios, 256 * limit_log2)));
         if (sum > limit) {
-            sum = with(std::ldexp(1.0F, alternatives_log2(asked.profile, ratios, limit_log2)));
+            sum = with(power_of_two_exactly(alternatives_log2(asked.profile, ratios, limit_log2)));
         }
     }
     if (sum > limit) return 1;

@@ -19,6 +19,8 @@ enum class Sharing : std::uint8_t {
 class UnsharedLines {
   public:
     static constexpr int kMostLines = 16;
+    /// The most lines that a table has as not shared.
+    static constexpr int kMostUnshared = 8;
 
     /// Uses the table with the most lines, at most `most_lines` and at most as many as there are.
     explicit UnsharedLines(const LikelihoodRatios& ratios, int most_lines = kMostLines);
@@ -42,7 +44,7 @@ class UnsharedLines {
     std::size_t row_ = SIZE_MAX;  ///< of the table; SIZE_MAX if there are too few lines for one
     std::uint32_t first_line_ = 0;
     /// By n: the sum of the n smallest losses.
-    std::array<std::int32_t, kMostLines + 1> least_{};
+    std::array<std::int32_t, kMostUnshared + 1> least_{};
 };
 
 }  // namespace dotpose::core

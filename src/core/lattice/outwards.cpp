@@ -47,13 +47,15 @@ std::optional<Waves> find_waves(const Kernels& kernels, const Patch& patch, cons
     return best;
 }
 
-/// Returns the phase of a wave in turns, from -1/2 to 1/2.
+/// Returns the phase of a wave in turns, from -1/2 to 1/2, to a thousandth.
 float phase_in_turns(const Waves& waves, std::size_t i) {
-    constexpr float kUnit = 65536.0F;
-    constexpr float kTurn = 4294967296.0F;
-    const Vec direction{static_cast<std::int32_t>(waves.phase_cos[i] * kUnit),
-                        static_cast<std::int32_t>(waves.phase_sin[i] * kUnit)};
-    return static_cast<float>(angle_bam(direction)) / kTurn;
+    const float x = std::abs(waves.phase_cos[i]);
+    const float y = std::abs(waves.phase_sin[i]);
+    const float ratio = std::min(x, y) / std::max({x, y, 1e-20F});
+    const float octant = ratio / (6.2831853F + 1.7593F * ratio * ratio);
+    const float quarter = y > x ? 0.25F - octant : octant;
+    const float half = waves.phase_cos[i] < 0 ? 0.5F - quarter : quarter;
+    return waves.phase_sin[i] < 0 ? -half : half;
 }
 
 FloatPlane plane_from_waves(const Waves& waves) {

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "../geometry.hpp"
+#include "code/tables.hpp"
+#include "core/decode/exact_lines.hpp"
 #include "core/kernels/select.hpp"
 #include "core/math/fixed.hpp"
 
@@ -133,6 +135,7 @@ struct Found {
     int blocks = 0;
     int turns = 0;
     int places = 0;
+    int exactly = 0;
 };
 
 /// Counts how many of `blocks` random blocks are found; none may be found in another place.
@@ -159,6 +162,9 @@ Found find_blocks(int blocks, int least_side, const Damage& damage, const core::
         if (!core::find_place(profile, lines, place)) continue;
         EXPECT_EQ(place, zero);
         ++found.places;
+        if (!core::find_place_exactly(profile, core::turned(turn, seen), place)) continue;
+        EXPECT_EQ(place, zero);
+        ++found.exactly;
     }
     return found;
 }
@@ -168,6 +174,7 @@ TEST(BitLines, BlocksAreFoundAtEveryTurnAnywhere) {
         const Found found = find_blocks(120, 16, {}, *kernels);
         EXPECT_EQ(found.turns, found.blocks);
         EXPECT_EQ(found.places, found.blocks);
+        EXPECT_EQ(found.exactly, found.blocks);
     }
 }
 
@@ -175,6 +182,51 @@ TEST(BitLines, DamagedBlocksAreFound) {
     const Found found = find_blocks(240, 18, {0.2, 0.03}, core::kernels());
     EXPECT_GE(found.turns, found.blocks * 99 / 100);
     EXPECT_GE(found.places, found.blocks * 95 / 100);
+}
+
+TEST(BitLines, HardlyDamagedBlocksAreOftenFoundExactly) {
+    const Found found = find_blocks(240, 18, {0.03, 0.003}, core::kernels());
+    EXPECT_GT(found.exactly, found.blocks / 3);
+    EXPECT_LT(found.exactly, found.blocks);
+}
+
+TEST(BitLines, OneWrongBitMakesALineInexact) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 500; ++i) {
+        SCOPED_TRACE(testing::Message() << "line " << i << ", seed " << kSeed);
+        const auto roll = static_cast<unsigned>(rng.below(63));
+        const auto first = static_cast<int>(rng.below(48));
+        const int last = std::min(first + 15 + static_cast<int>(rng.below(48)), 63);
+        std::uint64_t bits = rng.bits();
+        std::uint64_t valid = 0;
+        for (int cell = first; cell <= last; ++cell) {
+            const std::uint64_t here = std::uint64_t{1} << cell;
+            const bool bit = main_bit(roll + static_cast<unsigned>(cell)) == 1;
+            bits = bit ? bits | here : bits & ~here;
+            // There are six adjacent bits at the beginning; any of the others may be missing.
+            if (cell < first + 6 || rng.below(8) != 0) valid |= here;
+        }
+        EXPECT_EQ(core::exact_roll(bits, valid), roll);
+        const std::uint64_t wrong = std::uint64_t{1} << (first + static_cast<int>(rng.below(6)));
+        EXPECT_NE(core::exact_roll(bits ^ wrong, valid), roll);
+        EXPECT_EQ(core::exact_roll(bits, valid & ~(valid << 1) & ~(valid >> 1)), code::kAbsent);
+        EXPECT_EQ(core::exact_roll(bits, 0), code::kAbsent);
+    }
+}
+
+TEST(BitLines, LinesOfTwoPlacesAreNotOnePlace) {
+    Rng rng(kSeed);
+    for (int i = 0; i < 60; ++i) {
+        SCOPED_TRACE(testing::Message() << "block " << i << ", seed " << kSeed);
+        const Profile profile = kProfiles[static_cast<std::size_t>(i % 3)];
+        BitBlock block = seen_block(profile, some_place(i, rng), 0, {-8, -8}, {8, 8}, {}, rng);
+        const BitBlock other = seen_block(profile, random_place(rng), 0, {-8, -8}, {8, 8}, {}, rng);
+        // The first columns are of another place.
+        for (std::size_t line = 24; line < 28; ++line)
+            block.columns.bits[line] = other.columns.bits[line];
+        Place place;
+        EXPECT_FALSE(core::find_place_exactly(profile, block, place));
+    }
 }
 
 TEST(BitLines, FewLinesSpellNoPlace) {

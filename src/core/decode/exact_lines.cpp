@@ -1,0 +1,98 @@
+#include "core/decode/exact_lines.hpp"
+
+#include <array>
+#include <bit>
+
+#include "code/rolls.hpp"
+#include "code/tables.hpp"
+#include "core/decode/search.hpp"
+
+namespace dotpose::core {
+namespace {
+
+/// The index in the main sequence of each string of six bits, the first in the lowest bit.
+constexpr auto kIndexOfBits = [] {
+    std::array<std::uint8_t, 64> indices{};
+    indices.fill(code::kAbsent);
+    for (std::size_t i = 0; i < kSections; ++i)
+        indices[code::kMainWords[i] & 63] = static_cast<std::uint8_t>(i);
+    return indices;
+}();
+
+int below_sections(int roll) {
+    return roll < kSections ? roll : roll - kSections;
+}
+
+/// Returns 64 bits of the main sequence from an index on.
+std::uint64_t main_word(int index) {
+    const auto next = static_cast<std::size_t>(below_sections(index + 32));
+    return code::kMainWords[static_cast<std::size_t>(index)] | std::uint64_t{code::kMainWords[next]}
+                                                                   << 32;
+}
+
+/// Finds the position of the first line of a range, and its roll at `first_cell`.
+bool find_axis_exactly(Profile profile, const BitLines& lines, const LineRange& range,
+                       int first_cell, AxisReading& reading) {
+    const auto count = static_cast<std::size_t>(range.count);
+    const auto bits = [&](std::size_t i) {
+        return lines.bits[static_cast<std::size_t>(range.first) + i] >> first_cell;
+    };
+    const auto valid = [&](std::size_t i) {
+        return lines.valid[static_cast<std::size_t>(range.first) + i] >> first_cell;
+    };
+    const auto length = static_cast<std::size_t>(run_length(profile));
+    std::array<std::uint8_t, BitBlock::kSide> rolls;
+    // Lines in the middle are longest, and so surest.
+    std::size_t end = count / 4;
+    for (std::size_t run = 0; run < length; ++end) {
+        if (end == count) return false;
+        rolls[end] = exact_roll(bits(end), valid(end));
+        run = rolls[end] == code::kAbsent ? 0 : run + 1;
+    }
+    const std::size_t begin = end - length;
+    std::uint32_t position = 0;
+    if (position_from_rolls(profile, std::span(rolls).subspan(begin, length), position) !=
+        Status::ok) {
+        return false;
+    }
+    const std::uint8_t roll = rolls[begin];
+    reading = reading_of_first(profile, position, roll, static_cast<int>(begin),
+                               std::span(rolls).first(count));
+    int wrong = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const int here = below_sections(reading.roll + rolls[i]);
+        // Most lines have no wrong bit; many processors lack an instruction that counts them.
+        std::uint64_t differ = (bits(i) ^ main_word(here)) & valid(i);
+        for (; differ != 0; differ &= differ - 1)
+            ++wrong;
+    }
+    return 2 * wrong <= range.count;
+}
+
+}  // namespace
+
+std::uint8_t exact_roll(std::uint64_t bits, std::uint64_t valid) {
+    const std::uint64_t two = valid & valid >> 1;
+    const std::uint64_t six = two & two >> 2 & two >> 4;
+    if (six == 0) return code::kAbsent;
+    const int cell = std::countr_zero(six);
+    const std::uint8_t there = kIndexOfBits[bits >> cell & 63];
+    if (there == code::kAbsent) return code::kAbsent;
+    const int roll = below_sections(there + kSections - cell);
+    return ((bits ^ main_word(roll)) & valid) == 0 ? static_cast<std::uint8_t>(roll)
+                                                   : code::kAbsent;
+}
+
+bool find_place_exactly(Profile profile, const BitBlock& block, Place& place) {
+    const BlockRanges ranges = ranges_with_bits(block, BitBlock::kSide);
+    AxisReading x;
+    AxisReading y;
+    if (!find_axis_exactly(profile, block.columns, ranges.columns, ranges.rows.first, x) ||
+        !find_axis_exactly(profile, block.rows, ranges.rows, ranges.columns.first, y)) {
+        return false;
+    }
+    place = place_of_middle(profile, ranges.columns.first, ranges.rows.first, x, y);
+    return true;
+}
+
+}  // namespace dotpose::core
