@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/attempts/tuning.hpp"
 
@@ -9,6 +10,27 @@ namespace dotpose::core {
 namespace {
 
 namespace tuned = tuning::confirm;
+
+/// Asks for the pixels in view before the first dot needs them: an image that a camera has written
+/// is in no cache, and dots are read in an order that no processor foresees.
+void fetch_pixels(const ImageView& image, const CellsInView& view) {
+    constexpr std::ptrdiff_t kLine_bytes = 64;
+    const auto range = [&](float centre, int size_px) {
+        const auto limit = static_cast<float>(size_px);
+        return std::pair{
+            static_cast<std::ptrdiff_t>(std::clamp(centre - view.reach_px, 0.0F, limit)),
+            static_cast<std::ptrdiff_t>(std::clamp(centre + view.reach_px, 0.0F, limit))};
+    };
+    const auto [left, right] = range(view.centre_x, image.width_px);
+    const auto [top, bottom] = range(view.centre_y, image.height_px);
+    const std::ptrdiff_t bytes = (right - left) * (bottom - top);
+    if (bytes < tuned::kFewestFetched_bytes || bytes > tuned::kMostFetched_bytes) return;
+    for (std::ptrdiff_t v = top; v < bottom; ++v) {
+        const std::uint8_t* row = image.row(static_cast<int>(v));
+        for (std::ptrdiff_t u = left; u < right; u += kLine_bytes)
+            __builtin_prefetch(row + u);
+    }
+}
 
 /// Drops windows that are much darker than paper, because they show the table beyond the sheet,
 /// where noise is as dark as dots. `paper` is the mean level around dots, once it is known.
@@ -95,6 +117,7 @@ WindowOptions DotReader::window_options(const Hypothesis& hypothesis) const {
 }
 
 BitsRead DotReader::read(const CellsInView& view, Hypothesis& hypothesis, BitBlock* block) {
+    fetch_pixels(image_, view);
     BitLines* const columns = block != nullptr ? &block->columns : nullptr;
     BitLines* const rows = block != nullptr ? &block->rows : nullptr;
     if (hypothesis.is_exact)

@@ -85,6 +85,10 @@ inline constexpr float kLeastBell_px = 3.3F;
 /// Steps of the grid that differ from whole pixels by less than this make all dots fall on the
 /// pixels alike; with more, the dots of a view drift through all of a pixel.
 inline constexpr float kDrift_px = 0.05F;
+/// Range of the parts of images whose pixels are asked for before they are needed: smaller ones are
+/// in the cache already, and larger ones would push out their own first rows.
+inline constexpr int kFewestFetched_bytes = 32 << 10;
+inline constexpr int kMostFetched_bytes = 1 << 20;
 /// Fewest predicted dots that are enough to go on.
 inline constexpr int kFewestFound = 8;
 /// Greatest distance of a predicted dot from its place, in px.
