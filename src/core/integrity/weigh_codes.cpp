@@ -18,7 +18,7 @@ constexpr std::size_t kA4 = 3;
 constexpr int kPassedOver_q8 = -52 * 256;
 constexpr float kPassedOver = 2.3e-16F;
 /// Summed odds that need no closer look.
-constexpr float kEnough = 1e-13F;
+constexpr float kEnough = 1e-12F;
 
 /// What places lose at least in the lines that they do not share.
 struct Losses {
