@@ -72,6 +72,13 @@ bool read_hypothesis(const Kernels& kernels, const Options& options, const Patch
     return true;
 }
 
+/// Whether one look at each dot may be enough: where the patch shows the whole image, the grid
+/// predicts all dots to a fraction of a pixel, as it has been fitted to them.
+bool may_need_one_look(const ImageView& image, const Patch& patch, const FloatPlane& plane) {
+    return patch.width_px == image.width_px && patch.height_px == image.height_px &&
+           spacing_px(plane) >= tuned::kFinestOneLook_px;
+}
+
 /// Finds a hypothesis in the patch at the image centre. Returns false if it shows no place in the
 /// code.
 bool find_hypothesis(const Kernels& kernels, const ImageView& image, const Options& options,
@@ -84,7 +91,7 @@ bool find_hypothesis(const Kernels& kernels, const ImageView& image, const Optio
     hypothesis.pattern_from_image =
         recentred(hypothesis.pattern_from_image, {-middle.x, -middle.y});
     hypothesis.from_centre = {};
-    hypothesis.is_predicted = true;
+    hypothesis.is_predicted = may_need_one_look(image, patch, hypothesis.pattern_from_image);
     return true;
 }
 

@@ -13,6 +13,9 @@ namespace first {
 /// that are 11 px apart.
 inline constexpr int kPatchWidth_px = 224;
 inline constexpr int kPatchHeight_px = 160;
+/// Finest grid whose dots are measured in one look: those of finer ones are measured more
+/// accurately by bells of their own size.
+inline constexpr float kFinestOneLook_px = 9.5F;
 /// Number of hypotheses elsewhere whose bits may contradict them: each is one more chance of a
 /// wrong fix.
 inline constexpr int kMostTries = 4;
