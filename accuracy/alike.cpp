@@ -3,7 +3,8 @@
 // compared with frames at 7 degrees, in which the biases of single dots average out. Prints a table
 // of docs/accuracy.md in Markdown.
 //
-//   dotpose_alike [--frames N] [--seed S] [--threads N]
+//   dotpose_alike [--frames N] [--seed S] [--threads N] [--spacings P,...] [--dots D,...]
+//                 [--blurs B,...]
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +13,7 @@
 #include <numbers>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/core.h>
 
@@ -26,8 +28,6 @@ using namespace dotpose;
 constexpr double kNoise = 3;
 constexpr double kApart_deg = 7;
 constexpr std::array kAlike_deg{0.0, 45.0, 90.0};
-constexpr std::array kDots{0.10, 1.0 / 6, 0.25, 0.35};
-constexpr std::array kBlurs_px{0.3, 0.5, 0.7, 1.0, 1.5};
 /// Limits above which cells are marked: of the error relative to that at 7 degrees, and of the mean
 /// of error^2 / variance.
 constexpr double kMostOfError = 2;
@@ -36,6 +36,9 @@ constexpr std::array kNormalised{0.7, 1.5};
 struct Arguments {
     Counting counting;
     std::uint64_t frames = 200;
+    std::vector<int> spacings_px{8, 10, 11, 12, 16, 20, 24};
+    std::vector<double> dots{0.10, 1.0 / 6, 0.25, 0.35};
+    std::vector<double> blurs_px{0.3, 0.5, 0.7, 1.0, 1.5};
 };
 
 struct Condition {
@@ -65,6 +68,7 @@ Shot shot_of(const Condition& condition, const Arguments& arguments, int index) 
     shot.imperfections = {};
     shot.imperfections.noise_sigma = kNoise;
     shot.imperfections.blur_sigma_px = condition.blur_px;
+    shot.imperfections.sub_pixels = 8;  // Errors of 0.001 px count here.
     shot.page.pattern.dot_mm = condition.dot * kDefaultSpacing_mm;
     return shot;
 }
@@ -121,9 +125,9 @@ int run(const Arguments& arguments) {
         "| 0 degrees: the same, and error^2 / variance of x, y, theta | 45 degrees "
         "| 90 degrees |\n|--:|--:|--:|--:|---|---|---|\n");
     int wrong = 0;
-    for (const int spacing_px : {8, 10, 11, 12, 16, 20, 24}) {
-        for (const double dot : kDots) {
-            for (const double blur_px : kBlurs_px)
+    for (const int spacing_px : arguments.spacings_px) {
+        for (const double dot : arguments.dots) {
+            for (const double blur_px : arguments.blurs_px)
                 wrong += print_row({spacing_px, dot, blur_px}, arguments);
         }
     }
@@ -136,6 +140,13 @@ int main(int argc, char** argv) {
     Arguments arguments;
     CLI::App app("How exact is a frame whose dots fall on the pixels alike?", "dotpose_alike");
     add_count(app, "--frames", arguments.frames, "How many for each condition");
+    app.add_option("--spacings", arguments.spacings_px, "px; 16 and more at 640 x 480")
+        ->delimiter(',')
+        ->capture_default_str();
+    app.add_option("--dots", arguments.dots, "Diameters, spacings")->delimiter(',');
+    app.add_option("--blurs", arguments.blurs_px, "Deviations, px")
+        ->delimiter(',')
+        ->capture_default_str();
     arguments.counting.add_to(app);
     return run_program(app, argc, argv, [&] { return run(arguments); });
 }

@@ -62,7 +62,8 @@ Kernel make_kernel(const Imperfections& imperfections, double dot_px) {
     const double length_px = std::hypot(motion_px.x, motion_px.y);
 
     Kernel kernel;
-    kernel.per_pixel = sub_pixels_for(dot_px);
+    kernel.per_pixel =
+        imperfections.sub_pixels > 0 ? imperfections.sub_pixels : sub_pixels_for(dot_px);
     // Drawing on sub-pixels blurs like a triangle of twice their width, which has a variance of
     // 1/6. The Gaussian adds what is missing to the blur that was asked for.
     const double raster_variance = 1.0 / (6.0 * kernel.per_pixel * kernel.per_pixel);

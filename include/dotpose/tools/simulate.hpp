@@ -102,6 +102,9 @@ struct Imperfections {
     static constexpr double kGrain_px = 3;  ///< size of the texture's grains
     double tilt_x_rad = 0;  ///< added to the pose by `draw_shot`; `render` ignores it
     double tilt_y_rad = 0;
+    /// Rows and columns drawn for each of the image, at most 8; 0: so many that no dot is more than
+    /// 0.003 px off. More take longer.
+    int sub_pixels = 0;
 };
 
 /// The named conditions for which accuracy is given.

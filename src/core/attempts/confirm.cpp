@@ -15,6 +15,7 @@
 #include "core/pose/covariance.hpp"
 #include "core/pose/float_fit.hpp"
 #include "core/pose/subgrid.hpp"
+#include "core/pose/tuning.hpp"
 #include "core/pose/uneven.hpp"
 
 namespace dotpose::core {
@@ -139,6 +140,35 @@ bool fit_to_dots(const Kernels& kernels, const MeasuredDots& dots, const BitsRea
                      hypothesis.displacement, hypothesis.pattern_from_image, fit);
 }
 
+/// Fits the plane and the displacement once more if the dots' centres are biased alike. Returns the
+/// variance that is left of the bias along u and v, px^2.
+FloatVec fit_without_bias(const Kernels& kernels, const DotReader& reader, const CellsInView& view,
+                          const ImageView& image, Hypothesis& hypothesis, PoseFit& fit) {
+    FloatVec left_px2;
+    if (!reader.take_bias(view, hypothesis, fit, left_px2)) return {};
+    FloatPlane better = hypothesis.pattern_from_image;
+    PoseFit better_fit;
+    // Too few dots may be left without those at the border.
+    if (!fit_plane(kernels, reader.dots(), static_cast<int>(half_side_px(image)) + 1,
+                   tuning::fit::kOutlier * fit.variance, fit.displacement, better, better_fit)) {
+        return {};
+    }
+    hypothesis.pattern_from_image = better;
+    hypothesis.displacement = fit.displacement;
+    fit = better_fit;
+    return left_px2;
+}
+
+/// Adds a variance of the place in the image, along u and v, to the covariance.
+void add_variance(FloatVec px2, const FloatPlane& plane, PoseFit& fit) {
+    const std::array<float, 2> by_u{plane.du_x, plane.du_y};
+    const std::array<float, 2> by_v{plane.dv_x, plane.dv_y};
+    for (std::size_t i = 0; i < 2; ++i) {
+        for (std::size_t j = 0; j < 2; ++j)
+            fit.uneven[i][j] += px2.x * by_u[i] * by_u[j] + px2.y * by_v[i] * by_v[j];
+    }
+}
+
 void write_fix(const ImageView& image, const Options& options, const Hypothesis& hypothesis,
                const BitsRead& bits, const PoseFit& fit, Workspace& w) {
     w.fix.dots_seen = bits.seen;
@@ -225,6 +255,7 @@ Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
     PoseFit fit;
     BitsRead bits;
     bool is_second_pass = false;
+    FloatVec bias_px2;  // variance
     for (Reach reach(image, hypothesis, spacing);;) {
         const bool decides = reach.decides();
         if (!is_plausible(image, plane)) return Confirmation::implausible;
@@ -263,10 +294,14 @@ Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
             weigh_codes_in_view(kernels, options.profile, hypothesis.place, block,
                                 confidences_in(bits), !decides, w.line_scores, *codes);
         }
-        if (is_last) break;
+        if (is_last) {
+            bias_px2 = fit_without_bias(kernels, reader, view, image, hypothesis, fit);
+            break;
+        }
         reach.grow();
     }
     fit_uneven(kernels, dots, reference_px(options, hypothesis), plane, fit);
+    add_variance(bias_px2, plane, fit);
     if (!is_plausible(image, plane)) return Confirmation::implausible;
     if (is_implausible(fit, 2 * bits.read, bits.wrong_x + bits.wrong_y))
         return Confirmation::uncertain;

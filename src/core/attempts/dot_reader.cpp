@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/attempts/tuning.hpp"
+#include "core/pose/pixel_bias.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -47,25 +48,27 @@ void leave_out_table(MeasuredDots& dots, float& paper) {
     if (paper == 0 && count > 0) paper = sum / count;
 }
 
-/// Returns the reach in px of the bell that weights the pixels of a dot: small, against noise, but
-/// as far as the edge of a dot is seen.
-float bell_reach_px(const Hypothesis& hypothesis) {
+float dot_radius_px(const Hypothesis& hypothesis) {
     constexpr float kPi = 3.14159265F;
     const float beyond_cut =
         static_cast<float>(hypothesis.depth_q8 * (256 - kCutOfDepth_q8)) / 65536;
-    const float radius_px =
-        std::sqrt(hypothesis.typical_mass / (kPi * std::max(beyond_cut, 1.0F / 256)));
+    return std::sqrt(hypothesis.typical_mass / (kPi * std::max(beyond_cut, 1.0F / 256)));
+}
+
+/// Returns the reach in px of the bell that weights the pixels of a dot: small, against noise, but
+/// as far as the edge of a dot is seen.
+float bell_reach_px(const Hypothesis& hypothesis) {
     const bool is_quick = spacing_px(hypothesis.pattern_from_image) < tuned::kQuickBells_px;
-    return std::clamp(tuned::kBellRadii * radius_px, tuned::kLeastBell_px,
+    return std::clamp(tuned::kBellRadii * dot_radius_px(hypothesis), tuned::kLeastBell_px,
                       is_quick ? kQuickBellReach_px : kMostBellReach_px);
 }
 
-/// Whether all dots in view fall on the pixels alike, along u or v, because the grid's steps are
-/// whole pixels. The error of a single look at each dot does not average out then.
-bool falls_on_pixels_alike(const FloatPlane& p) {
+/// Whether dots fall on the pixels alike because a step of the grid is a whole number of pixels, to
+/// `most_off_px`, along u and along v.
+bool falls_on_pixels_alike(const FloatPlane& p, float most_off_px) {
     const float by = 1 / (p.du_x * p.dv_y - p.dv_x * p.du_y);
-    const auto is_whole = [](float px) {
-        return std::abs(px - std::floor(px + 0.5F)) < tuned::kDrift_px;
+    const auto is_whole = [&](float px) {
+        return std::abs(px - std::floor(px + 0.5F)) < most_off_px;
     };
     return (is_whole(by * p.dv_y) && is_whole(by * p.dv_x)) ||
            (is_whole(by * p.du_y) && is_whole(by * p.du_x));
@@ -109,7 +112,7 @@ void move_to_dots(const DotOffsets& found, Hypothesis& hypothesis, BitsRead& bit
 bool suits_one_pass(const Hypothesis& hypothesis) {
     const float spacing = spacing_px(hypothesis.pattern_from_image);
     return spacing >= tuned::kFinestOnePass_px && spacing < tuned::kQuickBells_px &&
-           !falls_on_pixels_alike(hypothesis.pattern_from_image);
+           !falls_on_pixels_alike(hypothesis.pattern_from_image, tuned::kDrift_px);
 }
 
 WindowOptions DotReader::window_options(const Hypothesis& hypothesis) const {
@@ -147,6 +150,25 @@ void DotReader::find_centres(const CellsInView& view, Hypothesis& hypothesis, bo
     } else if (is_last) {
         kernels_.refine_centres(image_, view, bell_reach_px(hypothesis), dots_);
     }
+}
+
+bool DotReader::take_bias(const CellsInView& view, const Hypothesis& hypothesis, const PoseFit& fit,
+                          FloatVec& left_px2) const {
+    // Where a lens bends the grid, or one look is enough, dots fall on the pixels in many ways.
+    // Where dots are off in other ways, as by how they were printed, the bias does not count.
+    const float variance_px2 =
+        fit.variance * spacing_px_ * spacing_px_ / static_cast<float>(fit.dots);
+    if (hypothesis.is_exact || view.lens.k != 0 || variance_px2 > tuned::kMostVariance_px2)
+        return false;
+    const float drift_px = tuned::kDriftInView_px * spacing_px_ /
+                           std::max(view.width_px, view.height_px);  // in a step of the grid
+    if (!falls_on_pixels_alike(hypothesis.pattern_from_image, drift_px)) return false;
+    const Bells bells{
+        bell_reach_px(hypothesis), dot_radius_px(hypothesis), {view.centre_x, view.centre_y}};
+    put_bells_on_centres(image_, bells, dots_);
+    kernels_.refine_centres(image_, view, bells.reach_px, dots_);
+    left_px2 = take_pixel_bias(image_, bells, hypothesis.pattern_from_image, fit, dots_);
+    return true;
 }
 
 }  // namespace dotpose::core

@@ -4,6 +4,7 @@
 
 #include "core/attempts/confirm.hpp"
 #include "core/decode/bit_lines.hpp"
+#include "core/pose/refine_pose.hpp"
 
 namespace dotpose::core {
 
@@ -25,6 +26,13 @@ class DotReader {
     /// displacement and residuals in `bits` updated.
     void find_centres(const CellsInView& view, Hypothesis& hypothesis, bool is_last,
                       BitsRead& bits) const;
+    /// Where all dots fall on the pixels alike, finds the centres once more and takes the bias from
+    /// them; the plane must be fitted to the centres so far, and then once more. Sets the variance
+    /// that is left of the mean of the centres, px^2. Returns false if there is no bias that
+    /// counts: dots fall on the pixels in many ways, or are off by more.
+    bool take_bias(const CellsInView& view, const Hypothesis& hypothesis, const PoseFit& fit,
+                   FloatVec& left_px2) const;
+    const MeasuredDots& dots() const { return dots_; }
 
   private:
     WindowOptions window_options(const Hypothesis& hypothesis) const;

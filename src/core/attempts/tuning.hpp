@@ -88,6 +88,11 @@ inline constexpr float kLeastBell_px = 3.3F;
 /// Steps of the grid that differ from whole pixels by less than this make all dots fall on the
 /// pixels alike; with more, the dots of a view drift through all of a pixel.
 inline constexpr float kDrift_px = 0.05F;
+/// Drift across the view up to which dots fall on the pixels so much alike that their bias is worth
+/// computing, which takes several times as long as the rest of the frame.
+inline constexpr float kDriftInView_px = 0.35F;
+/// Greatest variance, along an axis, of the place of all dots together beside which biases count.
+inline constexpr float kMostVariance_px2 = 0.01F * 0.01F;
 /// Range of the parts of images whose pixels are asked for before they are needed: smaller ones are
 /// in the cache already, and larger ones would push out their own first rows.
 inline constexpr int kFewestFetched_bytes = 32 << 10;

@@ -57,6 +57,44 @@ inline constexpr float kMostSettled = 1000;
 inline constexpr float kBentSettled = 0.04F;
 }  // namespace fit
 
+/// The model dot of a frame (pose/dot_shape).
+namespace shape {
+/// What is expected before dots are seen: how far all are off where a plane has them; the variance
+/// of blur, which is as large as its deviation; the difference of squared half axes, relative to
+/// one; contrast of ink.
+inline constexpr float kOff_px = 0.1F;
+inline constexpr float kBlur_2 = 0.25F;
+inline constexpr float kSigmaOfWidth = 0.3F;
+inline constexpr float kContrast = 0.8F;
+inline constexpr float kSigmaOfContrast = 0.2F;
+/// Least squared half axis, and variance of blur.
+inline constexpr float kLeast_px2 = 0.005F;
+/// Damping of the steps: at first, the most, and its growth after a step that led astray.
+inline constexpr float kFirstDamping = 0.01F;
+inline constexpr float kMostDamping = 1e4F;
+inline constexpr float kDampingGrows = 10;
+/// A gain below this, in squared deviations, is the last.
+inline constexpr float kSettled = 0.3F;
+inline constexpr int kMostRounds = 30;
+}  // namespace shape
+
+/// The bias of dots that fall on the pixels alike (pose/pixel_bias).
+namespace bias {
+/// Dots whose images are added up, as many as show their shape.
+inline constexpr int kDots = 256;
+/// Pixels count so far beyond the edge of a dot: as far as blur takes it there.
+inline constexpr float kBeyondEdge_px = 1.5F;
+/// Variance of the blur above which there is hardly any bias.
+inline constexpr float kBlurred_px2 = 0.7F * 0.7F;
+/// Variance of the bias, relative to its square, that a model dot leaves: of good dots, and for
+/// each variance of noise by which dots misfit beyond kMisfit, as those do that are not round.
+inline constexpr float kOfModel = 0.01F;
+inline constexpr float kMisfit = 2.5F;
+inline constexpr float kOfMisfit = 0.025F;
+/// Difference between the slopes along both axes, relative to one, that noise makes of round dots.
+inline constexpr float kSlopes = 0.03F;
+}  // namespace bias
+
 /// Whether dots are off alike (pose/uneven, pose/float_fit).
 namespace uneven {
 /// Blocks are looked at if runs of dots share residuals by more deviations than this; few frames of

@@ -1,0 +1,160 @@
+#include "core/pose/dot_shape.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/pose/tuning.hpp"
+
+namespace dotpose::core {
+namespace {
+
+namespace tuned = tuning::shape;
+
+constexpr float kPi = 3.14159265F;
+
+}  // namespace
+
+void DotShape::Normal::add(const Terms& derivatives, float rest, float weight) {
+    cost += weight * rest * rest;
+    for (std::size_t i = 0; i < Term::count; ++i) {
+        const float weighted = weight * derivatives[i];
+        right[i] += weighted * rest;
+        for (std::size_t k = 0; k <= i; ++k)
+            matrix[i][k] += weighted * derivatives[k];
+    }
+}
+
+void DotShape::Normal::expect(Term term, float value, float sigma, const Terms& now) {
+    Terms derivatives{};
+    derivatives[term] = 1;
+    add(derivatives, value - now[term], 1 / (sigma * sigma));
+}
+
+DotShape::Normal DotShape::equations(const StackedDots& stacks, const Terms& terms,
+                                     const Terms& first, float noise_2) {
+    Normal normal;
+    stacks.visit([&](const StackedDots::Stack& stack) {
+        const DotImages images = draw(dot(terms, {stack.rest.x / stack.dots + terms[off_u],
+                                                  stack.rest.y / stack.dots + terms[off_v]}),
+                                      stacks.half_px());
+        stacks.visit_pixels([&](int u, int v) {
+            Terms derivatives;
+            for (std::size_t i = 0; i < images.derivatives.size(); ++i)
+                derivatives[i] = terms[mass] * images.derivatives[i].at(u, v);
+            derivatives[mass] = images.dot.at(u, v);
+            derivatives[paper] = 1;
+            const float model = terms[mass] * images.dot.at(u, v) + terms[paper];
+            normal.add(derivatives, stack.darkness.at(u, v) / stack.dots - model,
+                       stack.dots / noise_2);
+            normal.pixels += 1;
+        });
+    });
+    normal.squares = normal.cost;
+    normal.expect(off_u, 0, tuned::kOff_px, terms);
+    normal.expect(off_v, 0, tuned::kOff_px, terms);
+    normal.expect(radius_u, first[radius_u], first[radius_u], terms);
+    normal.expect(blur_u, tuned::kBlur_2, tuned::kBlur_2, terms);
+    normal.expect(blur_v, tuned::kBlur_2, tuned::kBlur_2, terms);
+    // Most dots are about as wide as high.
+    Terms by_width{};
+    by_width[radius_u] = 1 / first[radius_u];
+    by_width[radius_v] = -by_width[radius_u];
+    normal.add(by_width, (terms[radius_v] - terms[radius_u]) / first[radius_u],
+               1 / (tuned::kSigmaOfWidth * tuned::kSigmaOfWidth));
+    // Small dots hardly show how large they are, but their ink is about as dark as that of others.
+    const float area = kPi * std::sqrt(terms[radius_u] * terms[radius_v]);
+    const float contrast = terms[mass] / area;
+    Terms by_contrast{};
+    by_contrast[radius_u] = -contrast / (2 * terms[radius_u]);
+    by_contrast[radius_v] = -contrast / (2 * terms[radius_v]);
+    by_contrast[mass] = 1 / area;
+    normal.add(by_contrast, tuned::kContrast - contrast,
+               1 / (tuned::kSigmaOfContrast * tuned::kSigmaOfContrast));
+    return normal;
+}
+
+bool DotShape::decompose(Matrix& m) {
+    constexpr float kDetermined = 1e-5F;
+    for (std::size_t i = 0; i < Term::count; ++i) {
+        for (std::size_t k = 0; k < i; ++k) {
+            for (std::size_t l = 0; l < k; ++l)
+                m[i][k] -= m[i][l] * m[k][l];
+            m[i][k] /= m[k][k];
+        }
+        float rest = m[i][i];
+        for (std::size_t l = 0; l < i; ++l)
+            rest -= m[i][l] * m[i][l];
+        if (!(rest > kDetermined * m[i][i])) return false;
+        m[i][i] = std::sqrt(rest);
+    }
+    return true;
+}
+
+DotShape::Terms DotShape::whitened(const Matrix& factor, Terms terms) {
+    for (std::size_t i = 0; i < Term::count; ++i) {
+        for (std::size_t k = 0; k < i; ++k)
+            terms[i] -= factor[i][k] * terms[k];
+        terms[i] /= factor[i][i];
+    }
+    return terms;
+}
+
+DotShape::Terms DotShape::solution(const Matrix& factor, const Terms& right) {
+    Terms terms = whitened(factor, right);
+    for (std::size_t i = Term::count; i-- > 0;) {
+        for (std::size_t k = i + 1; k < Term::count; ++k)
+            terms[i] -= factor[k][i] * terms[k];
+        terms[i] /= factor[i][i];
+    }
+    return terms;
+}
+
+DotShape::Terms DotShape::changed(const Terms& terms, const Terms& step) {
+    Terms result = terms;
+    for (std::size_t i = 0; i < Term::count; ++i)
+        result[i] += step[i];
+    // What a model dot cannot have less of shrinks to a quarter at most.
+    for (const std::size_t i : {radius_u, radius_v, blur_u, blur_v})
+        result[i] = std::max({result[i], terms[i] / 4, tuned::kLeast_px2});
+    return result;
+}
+
+bool DotShape::fit(const StackedDots& stacks) {
+    if (!stacks.are_enough()) return false;
+    const float noise_2 = stacks.noise_2();
+    const float darkness = stacks.mass();
+    const float radius_2 = std::max(darkness / (kPi * tuned::kContrast), tuned::kLeast_px2);
+    const Terms first{0, 0, radius_2, radius_2, tuned::kBlur_2, tuned::kBlur_2, darkness, 0};
+    terms_ = first;
+    Normal normal = equations(stacks, terms_, first, noise_2);
+    float damping = tuned::kFirstDamping;
+    // Levenberg 1944, Marquardt 1963.
+    for (int round = 0; round < tuned::kMostRounds && damping < tuned::kMostDamping; ++round) {
+        factor_ = normal.matrix;
+        for (std::size_t i = 0; i < Term::count; ++i)
+            factor_[i][i] *= 1 + damping;
+        damping *= tuned::kDampingGrows;
+        if (!decompose(factor_)) continue;
+        const Terms next = changed(terms_, solution(factor_, normal.right));
+        const Normal there = equations(stacks, next, first, noise_2);
+        const float gain = normal.cost - there.cost;
+        if (!(gain > 0)) continue;
+        terms_ = next;
+        normal = there;
+        damping /= tuned::kDampingGrows * tuned::kDampingGrows;
+        if (gain < tuned::kSettled) break;
+    }
+    factor_ = normal.matrix;
+    misfit_ = std::max(
+        normal.squares / std::max(normal.pixels - static_cast<float>(Term::count), 1.0F), 1.0F);
+    return decompose(factor_);
+}
+
+float DotShape::variance(const Terms& derivatives) const {
+    float sum = 0;
+    for (const float part : whitened(factor_, derivatives))
+        sum += part * part;
+    return misfit_ * sum;
+}
+
+}  // namespace dotpose::core

@@ -1,0 +1,237 @@
+#include "core/pose/pixel_bias.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/pose/dot_offsets.hpp"
+#include "core/pose/dot_shape.hpp"
+#include "core/pose/tuning.hpp"
+
+namespace dotpose::core {
+namespace {
+
+namespace tuned = tuning::bias;
+
+/// Returns sin(2 pi x), to 0.001, with the same bits everywhere.
+float sine_of_turns(float x) {
+    const float turn = x - std::floor(x + 0.5F);
+    const float y = 8 * turn * (1 - 2 * std::abs(turn));
+    return 0.775F * y + 0.225F * y * std::abs(y);
+}
+
+/// Returns the place of a dot's bell along one axis, px: a fourth of a pixel, as the kernels put
+/// it.
+float place_of_bell(std::int32_t window, std::int32_t sum, std::int32_t mass) {
+    const float quarters =
+        4 * static_cast<float>(sum) / static_cast<float>(std::max<std::int32_t>(mass, 1));
+    return static_cast<float>(window) + std::floor(quarters + 0.5F) / 4;
+}
+
+/// A bell at the pixels of a line; see kernels/loops/bells.inc.
+struct BellLine {
+    std::array<float, DotPixels::kSide> weight;
+    std::array<float, DotPixels::kSide> moment;
+    std::array<float, DotPixels::kSide> slope;
+
+    BellLine(float place_px, float reach_px) {
+        for (std::size_t i = 0; i < weight.size(); ++i) {
+            const float t = (static_cast<float>(i) - DotPixels::kHalf_px - place_px) / reach_px;
+            const float base = std::max(1 - t * t, 0.0F);
+            const float cube = base * base * base;
+            weight[i] = cube * base;
+            moment[i] = t * weight[i];
+            slope[i] = cube * (1 - 9 * t * t);
+        }
+    }
+};
+
+/// Returns the sum over pixels, weighted along u and v.
+float weighted(const DotPixels& pixels, const std::array<float, DotPixels::kSide>& along_u,
+               const std::array<float, DotPixels::kSide>& along_v) {
+    float sum = 0;
+    for (std::size_t v = 0; v < DotPixels::kSide; ++v) {
+        float row = 0;
+        for (std::size_t u = 0; u < DotPixels::kSide; ++u)
+            row += pixels.all[v][u] * along_u[u];
+        sum += row * along_v[v];
+    }
+    return sum;
+}
+
+/// What bells make of a model dot: how far they put it off, px.
+struct BellsError {
+    float px;
+    DotShape::Terms by_shape;  ///< derivatives
+    float slopes;              ///< the moment's slope along the axis, over that along u
+};
+
+enum class Along : std::uint8_t { u, v };
+
+/// Returns the error along an axis for a dot and a bell that are off the middle of a pixel by so
+/// much along this axis. The slope is that along u, as the kernels have one for both axes.
+BellsError bells_error(const DotShape& shape, Along axis, float dot_px, float bell_px,
+                       float reach_px) {
+    const bool is_u = axis == Along::u;
+    const BellLine u(is_u ? bell_px : 0, reach_px);
+    const BellLine v(is_u ? 0 : bell_px, reach_px);
+    const DotImages images = shape.drawn_at({is_u ? dot_px : 0, is_u ? 0 : dot_px});
+    const auto moment = [&](const DotPixels& pixels) {
+        return reach_px *
+               (is_u ? weighted(pixels, u.moment, v.weight) : weighted(pixels, u.weight, v.moment));
+    };
+    const float by = 1 / weighted(images.dot, u.slope, v.weight);
+    const float offset = moment(images.dot) * by;
+    const float slope = is_u ? 1 / by : weighted(images.dot, u.weight, v.slope);
+    BellsError error{bell_px + offset - dot_px, {}, slope * by};
+    for (std::size_t i = DotShape::radius_u; i <= DotShape::blur_v; ++i) {
+        const DotPixels& pixels = images.derivatives[i];
+        error.by_shape[i] = (moment(pixels) - offset * weighted(pixels, u.slope, v.weight)) * by;
+    }
+    return error;
+}
+
+/// The bias along one axis: amplitude sin(2 pi phase), of bells that are on their dots.
+class AxisBias {
+  public:
+    AxisBias(const DotShape& shape, Along axis, float reach_px) {
+        constexpr float kQuarter_px = 0.25F;  // where the sine is 1
+        const BellsError error = bells_error(shape, axis, kQuarter_px, kQuarter_px, reach_px);
+        const float of_model =
+            tuned::kOfModel + tuned::kOfMisfit * std::max(shape.misfit() - tuned::kMisfit, 0.0F);
+        const float variance = shape.variance(error.by_shape) + of_model * error.px * error.px;
+        // Shrunk, as it may be anything between nothing and twice as much.
+        const float belief = error.px * error.px / (error.px * error.px + variance + 1e-12F);
+        amplitude_px_ = belief * error.px;
+        variance_ = belief * variance;
+        const float differs = error.slopes - 1;
+        const float squared = differs * differs;
+        slopes_ = 1 + differs * squared / (squared + tuned::kSlopes * tuned::kSlopes);
+    }
+
+    float amplitude_px() const { return amplitude_px_; }
+    /// Returns the slope of the moments along this axis, over that along u.
+    float slopes() const { return slopes_; }
+    /// Returns the bias of a dot, px, and keeps in mind how it falls on the pixels.
+    float of(float phase) {
+        const float sine = sine_of_turns(phase);
+        sines_ += sine;
+        dots_ += 1;
+        return amplitude_px_ * sine;
+    }
+    /// Returns the variance that is left of the mean over the dots, px^2.
+    float variance_of_mean() const {
+        const float mean = sines_ / std::max(dots_, 1.0F);
+        return variance_ * mean * mean;
+    }
+
+  private:
+    float amplitude_px_ = 0;
+    float variance_ = 0;
+    float slopes_ = 1;
+    float sines_ = 0;
+    float dots_ = 0;
+};
+
+/// Returns what bells are off, px, that are beside their dots by `d`, as their only step of
+/// Newton's method takes moments for straight: with moments of slope (d - bend d^3), divided by the
+/// slope at the bell along u. `slopes` is the slope along v over that along u.
+FloatVec error_beside(float bend, float slopes, FloatVec d) {
+    return {2 * bend * d.x * d.x * d.x,
+            d.y * (slopes * (1 + bend * (3 * d.x * d.x - d.y * d.y)) - 1)};
+}
+
+float bend_of_moment(const DotShape& shape, float amplitude_px, float reach_px) {
+    constexpr float kBeside_px = 0.1F;
+    const float error = bells_error(shape, Along::u, kBeside_px, 0, reach_px).px -
+                        amplitude_px * sine_of_turns(kBeside_px);
+    return error / (2 * kBeside_px * kBeside_px * kBeside_px);
+}
+
+/// Where a plane has the dots in the image, of those that lie about there.
+class ExpectedDots {
+  public:
+    ExpectedDots(const FloatPlane& plane, const PoseFit& fit, FloatVec centre_px,
+                 const MeasuredDots& dots)
+        : plane_(plane),
+          by_(1 / (plane.du_x * plane.dv_y - plane.dv_x * plane.du_y)),
+          displacement_(fit.displacement),
+          limit_(tuning::fit::kOutlier * fit.variance),
+          centre_px_(centre_px),
+          dots_(dots) {}
+
+    /// Shows every so many-th dot, with its phase.
+    template <typename Use>
+    void visit(std::size_t every, Use use) const {
+        for (std::size_t k = 0; k < static_cast<std::size_t>(dots_.count); k += every) {
+            if (dots_.x[k] >= kNoDot_px || dots_.paper[k] <= 0) continue;
+            const DotOffset dot = dot_offset(dots_, k, plane_, displacement_);
+            if (!(dot.squared() <= limit_)) continue;
+            const float u = (dot.off.x * plane_.dv_y - dot.off.y * plane_.dv_x) * by_;
+            const float v = (dot.off.y * plane_.du_x - dot.off.x * plane_.du_y) * by_;
+            use(k, Phase({dots_.x[k] + u + centre_px_.x, dots_.y[k] + v + centre_px_.y}));
+        }
+    }
+
+  private:
+    const FloatPlane& plane_;
+    const float by_;  ///< from spacings^2 to px^2
+    const float displacement_;
+    const float limit_;
+    const FloatVec centre_px_;
+    const MeasuredDots& dots_;
+};
+
+}  // namespace
+
+void put_bells_on_centres(const ImageView& image, const Bells& bells, MeasuredDots& dots) {
+    const auto sum_at = [](float px, std::int32_t window, std::int32_t mass) {
+        const float from_window = px - static_cast<float>(window);
+        return static_cast<std::int32_t>(std::floor(from_window * static_cast<float>(mass) + 0.5F));
+    };
+    const auto right = static_cast<float>(image.width_px - 1);
+    const auto bottom = static_cast<float>(image.height_px - 1);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(dots.count); ++k) {
+        if (dots.x[k] >= kNoDot_px) continue;
+        const float u = dots.x[k] + bells.centre_px.x;
+        const float v = dots.y[k] + bells.centre_px.y;
+        if (std::min({u, right - u, v, bottom - v}) < bells.reach_px) dots.x[k] = kNoDot_px;
+        dots.sum_u[k] = sum_at(u, dots.window_u[k], dots.mass[k]);
+        dots.sum_v[k] = sum_at(v, dots.window_v[k], dots.mass[k]);
+    }
+}
+
+FloatVec take_pixel_bias(const ImageView& image, const Bells& bells, const FloatPlane& plane,
+                         const PoseFit& fit, MeasuredDots& dots) {
+    const ExpectedDots expected(plane, fit, bells.centre_px, dots);
+    StackedDots stacks(bells.dot_radius_px + tuned::kBeyondEdge_px);
+    expected.visit(static_cast<std::size_t>(dots.count / tuned::kDots + 1),
+                   [&](std::size_t k, const Phase& phase) {
+                       stacks.add(image, phase, static_cast<float>(dots.paper[k]));
+                   });
+    DotShape shape;
+    if (!shape.fit(stacks)) return {};
+    // Blur takes the bias away, and makes dots larger than a model dot is drawn.
+    if (std::min(shape.blur_2().x, shape.blur_2().y) > tuned::kBlurred_px2) return {};
+    AxisBias along_u(shape, Along::u, bells.reach_px);
+    AxisBias along_v(shape, Along::v, bells.reach_px);
+    const float bend = bend_of_moment(shape, along_u.amplitude_px(), bells.reach_px);
+    constexpr float kMost_px = 0.2F;
+    constexpr float kMostBend = 4;
+    if (!(std::abs(along_u.amplitude_px()) < kMost_px) ||
+        !(std::abs(along_v.amplitude_px()) < kMost_px) || !(std::abs(bend) < kMostBend)) {
+        return {};
+    }
+    const FloatVec off = shape.off();
+    expected.visit(1, [&](std::size_t k, const Phase& phase) {
+        const float u = place_of_bell(dots.window_u[k], dots.sum_u[k], dots.mass[k]);
+        const float v = place_of_bell(dots.window_v[k], dots.sum_v[k], dots.mass[k]);
+        const FloatVec beside =
+            error_beside(bend, along_v.slopes(),
+                         {dots.x[k] + bells.centre_px.x - u, dots.y[k] + bells.centre_px.y - v});
+        dots.x[k] -= along_u.of(phase.rest.x + off.x) + beside.x;
+        dots.y[k] -= along_v.of(phase.rest.y + off.y) + beside.y;
+    });
+    return {along_u.variance_of_mean(), along_v.variance_of_mean()};
+}
+
+}  // namespace dotpose::core

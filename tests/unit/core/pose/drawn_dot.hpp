@@ -1,0 +1,82 @@
+// Dots of any shape as a camera sees them, drawn by sampling the ink: slow, and independent of the
+// dot model of the core.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "../geometry.hpp"
+
+namespace dotpose::core_test {
+
+/// Whether there is ink at a place, px from the middle of a dot.
+using InkAt = std::function<bool(Vec2)>;
+
+inline InkAt disc(double radius_px) {
+    return [=](Vec2 p) { return p.x * p.x + p.y * p.y <= radius_px * radius_px; };
+}
+inline InkAt ellipse(double half_u_px, double half_v_px) {
+    return [=](Vec2 p) { return std::hypot(p.x / half_u_px, p.y / half_v_px) <= 1; };
+}
+inline InkAt square(double side_px) {
+    return [=](Vec2 p) { return std::max(std::abs(p.x), std::abs(p.y)) <= side_px / 2; };
+}
+
+/// The darkness of pixels around a dot, row by row.
+struct DrawnDot {
+    static constexpr int kHalf_px = 6;
+    static constexpr int kSide = 2 * kHalf_px + 1;
+
+    double at(int u, int v) const {
+        return darkness[static_cast<std::size_t>((v + kHalf_px) * kSide + u + kHalf_px)];
+    }
+    std::vector<double> darkness;
+};
+
+/// Returns the share of what is at `offset_px` from the middle of a pixel that the pixel collects
+/// through a Gaussian blur.
+inline double collected(double offset_px, double blur_px) {
+    const double scale = blur_px * std::numbers::sqrt2;
+    return 0.5 * (std::erf((offset_px + 0.5) / scale) - std::erf((offset_px - 0.5) / scale));
+}
+
+/// Draws a dot whose middle is at `centre`, px from the middle of the pixel in the middle.
+inline DrawnDot drawn_dot(const InkAt& ink, Vec2 centre, double blur_px) {
+    constexpr int kPerPixel = 40;
+    constexpr double kReach_px = 5;
+    constexpr int kSamples = static_cast<int>(2 * kReach_px * kPerPixel);
+    constexpr auto kSide = static_cast<std::size_t>(DrawnDot::kSide);
+    std::vector<std::array<double, kSide>> weights_u(kSamples);
+    std::vector<std::array<double, kSide>> weights_v(kSamples);
+    const auto place = [](int sample) { return (sample + 0.5) / kPerPixel - kReach_px; };
+    for (int s = 0; s < kSamples; ++s) {
+        for (int i = 0; i < DrawnDot::kSide; ++i) {
+            const double from_pixel = place(s) - (i - DrawnDot::kHalf_px);
+            const auto to = static_cast<std::size_t>(s);
+            const auto pixel = static_cast<std::size_t>(i);
+            weights_u[to][pixel] = collected(from_pixel + centre.x, blur_px) / kPerPixel;
+            weights_v[to][pixel] = collected(from_pixel + centre.y, blur_px) / kPerPixel;
+        }
+    }
+    DrawnDot dot{std::vector<double>(kSide * kSide)};
+    for (int y = 0; y < kSamples; ++y) {
+        std::array<double, kSide> row{};
+        bool has_ink = false;
+        for (int x = 0; x < kSamples; ++x) {
+            if (!ink({place(x), place(y)})) continue;
+            has_ink = true;
+            for (std::size_t u = 0; u < kSide; ++u)
+                row[u] += weights_u[static_cast<std::size_t>(x)][u];
+        }
+        if (!has_ink) continue;
+        for (std::size_t v = 0; v < kSide; ++v) {
+            for (std::size_t u = 0; u < kSide; ++u)
+                dot.darkness[v * kSide + u] += row[u] * weights_v[static_cast<std::size_t>(y)][v];
+        }
+    }
+    return dot;
+}
+
+}  // namespace dotpose::core_test
