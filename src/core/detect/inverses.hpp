@@ -1,19 +1,16 @@
 // Inverses: division by multiplication, for processors without a divider.
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
+
+#include "core/math/tabled.hpp"
 
 namespace dotpose::core {
 
-/// Element n is 1 / (n + 1) in 2^-22.
-inline constexpr auto kInverses_q22 = [] {
-    std::array<std::uint32_t, 256> all{};
-    for (std::uint32_t n = 0; n < all.size(); ++n)
-        all[n] = (1U << 22) / (n + 1);
-    return all;
-}();
+/// Returns 1 / (n + 1) in 2^-22.
+constexpr std::uint32_t inverse_q22(std::uint32_t n) {
+    return (1U << 22) / (n + 1);
+}
 
 /// Divides by a mass from 16 to 2^16, exact to a percent.
 class Inverse {
@@ -23,7 +20,8 @@ class Inverse {
             ++shift_;
         for (; mass <= 128; mass <<= 1)
             --shift_;
-        inverse_q22_ = static_cast<std::int32_t>(kInverses_q22[static_cast<std::size_t>(mass - 1)]);
+        inverse_q22_ = static_cast<std::int32_t>(
+            tabled<inverse_q22, 256>(static_cast<std::uint32_t>(mass - 1)));
     }
     /// Returns sum / mass in 2^-8, for a sum of at most 8 times the mass.
     std::int32_t quotient_q8(std::int32_t sum) const {

@@ -107,7 +107,8 @@ int take_contrasts(std::uint8_t* means, const std::uint8_t* darknesses, std::siz
         const int contrast = mean + darknesses[t] - 255;
         if (contrast >= min_contrast) {
             static_assert(kContrastBins == 64);
-            const std::uint32_t bins_q16 = kInverses_q22[static_cast<std::size_t>(mean)];
+            const std::uint32_t bins_q16 =
+                tabled<inverse_q22, 256>(static_cast<std::uint32_t>(mean));
             ++histogram[(static_cast<std::uint32_t>(contrast) * bins_q16) >> 16];
         } else {
             means[t] = 0;

@@ -6,26 +6,24 @@
 #include <cstdint>
 
 #include "core/detect/tuning.hpp"
+#include "core/math/tabled.hpp"
 
 namespace dotpose::core {
 namespace {
 
 namespace tuned = tuning::patch;
 
-/// Element n is 2^24 / (n + 1), rounded up; a division for each tile would take a microsecond in
-/// all.
-constexpr auto kReciprocals_q24 = [] {
-    std::array<std::uint32_t, 256> result{};
-    for (std::uint32_t n = 0; n < result.size(); ++n)
-        result[n] = ((1U << 24) + n) / (n + 1);
-    return result;
-}();
+/// Returns 2^24 / (n + 1), rounded up; a division for each tile would take a microsecond in all.
+constexpr std::uint32_t reciprocal_q24(std::uint32_t n) {
+    return ((1U << 24) + n) / (n + 1);
+}
 
 /// Returns 64 darkness / (paper + 1), rounded down.
 std::size_t relative_darkness(int darkness, int paper) {
-    return static_cast<std::size_t>(std::uint64_t{64} * static_cast<std::uint64_t>(darkness) *
-                                        kReciprocals_q24[static_cast<std::size_t>(paper)] >>
-                                    24);
+    return static_cast<std::size_t>(
+        std::uint64_t{64} * static_cast<std::uint64_t>(darkness) *
+            tabled<reciprocal_q24, 256>(static_cast<std::uint32_t>(paper)) >>
+        24);
 }
 
 /// Returns where a stretch of `length` px around `centre` begins, moved into [0, size).

@@ -6,6 +6,7 @@
 
 #include "core/detect/paper.hpp"
 #include "core/detect/tuning.hpp"
+#include "core/math/tabled.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -125,14 +126,11 @@ class Divider {
     std::uint64_t factor_ = 0;
 };
 
-/// kEvenLevel / mean in 2^-24, rounded up; its product with a pixel is too large by less than 1 /
-/// 256.
-constexpr auto kEvened_q24 = [] {
-    std::array<std::uint32_t, 256> factors{};
-    for (std::uint32_t mean = 1; mean < factors.size(); ++mean)
-        factors[mean] = ((std::uint32_t{kEvenLevel} << 24) - 1) / mean + 1;
-    return factors;
-}();
+/// Returns kEvenLevel / mean in 2^-24, rounded up; its product with a pixel is too large by less
+/// than 1 / 256. No mean is 0.
+constexpr std::uint32_t evened_q24(std::uint32_t mean) {
+    return mean == 0 ? 0 : ((std::uint32_t{kEvenLevel} << 24) - 1) / mean + 1;
+}
 
 /// Divides each pixel by the mean of its surroundings, times kEvenLevel.
 void even_out(const ImageView& image, int v, Smoothing& smoothing) {
@@ -149,7 +147,7 @@ void even_out(const ImageView& image, int v, Smoothing& smoothing) {
     const auto even = [&](int u, int columns_in_sum) {
         const std::uint32_t area = rows * static_cast<std::uint32_t>(columns_in_sum);
         const std::uint32_t mean = std::max<std::uint32_t>(divider.quotient(sum, area), 1U);
-        const std::uint64_t evened = std::uint64_t{pixels[u]} * kEvened_q24[mean] >> 24;
+        const std::uint64_t evened = std::uint64_t{pixels[u]} * tabled<evened_q24, 256>(mean) >> 24;
         pixels[u] = static_cast<std::uint8_t>(
             std::clamp<std::uint32_t>(static_cast<std::uint32_t>(evened), kDarkest, 255U));
     };
