@@ -61,6 +61,8 @@ export async function launch({ clip, ...options } = {}) {
         args: [...quiet, ...offline, ...camera, ...(clip ? [`--use-file-for-fake-video-capture=${clip}`] : [])],
         ...options,
     });
+    // A busy machine takes its time; what never comes fails after this.
+    context.setDefaultTimeout(120_000);
     return {
         context,
         close: async () => {
