@@ -3,8 +3,13 @@
 namespace dotpose::core {
 
 const Kernels& kernels() {
+#if defined(__wasm__) && !defined(__wasm_simd128__)
+    // Compilers would take vectors apart, number by number.
+    return portable_kernels();
+#else
     const Kernels* avx2 = avx2_kernels();
     return avx2 != nullptr ? *avx2 : wide_kernels();
+#endif
 }
 
 }  // namespace dotpose::core
