@@ -77,8 +77,8 @@ bool measure_contrast(Patch& patch) {
         // Strips have two tiles; if the last strip has one, no pixel is darker than the threshold
         // of the other.
         if (columns % 2 != 0) thresholds[static_cast<std::size_t>(columns)] = 0;
-        std::ranges::copy(thresholds,
-                          patch.thresholds.begin() + static_cast<std::ptrdiff_t>(tile(0, row)));
+        std::copy(thresholds.begin(), thresholds.end(),
+                  patch.thresholds.begin() + static_cast<std::ptrdiff_t>(tile(0, row)));
     }
     return true;
 }

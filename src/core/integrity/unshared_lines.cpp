@@ -18,18 +18,16 @@ UnsharedLines::UnsharedLines(const LikelihoodRatios& ratios, int most_lines) : r
     const int lines = numbers[row_];
     const int first = (ratios.count() - lines) / 2;
     first_line_ = static_cast<std::uint32_t>(first);
-    // The smallest losses, in order. Each further loss moves the larger ones up, all at once, which
-    // compilers make a vector of; branches on what is larger would often be mispredicted.
-    std::array<std::int16_t, kMostUnshared> sorted;
-    sorted.fill(INT16_MAX);
+    // The smallest losses, in order; further ones are sorted in as they come.
+    std::fill(least_.begin() + 1, least_.end(), INT32_MAX);
     for (int n = 0; n < lines; ++n) {
-        const auto loss = static_cast<std::int16_t>(std::max(ratios.least_loss(first + n), 0));
-        std::array<std::int16_t, kMostUnshared> smaller{};
-        std::copy(sorted.begin(), sorted.end() - 1, smaller.begin() + 1);
-        for (std::size_t i = 0; i < sorted.size(); ++i)
-            sorted[i] = std::max(smaller[i], std::min(sorted[i], loss));
+        const std::int32_t loss = std::max(ratios.least_loss(first + n), 0);
+        if (loss >= least_.back()) continue;
+        std::size_t i = least_.size() - 1;
+        for (; least_[i - 1] > loss; --i)
+            least_[i] = least_[i - 1];
+        least_[i] = loss;
     }
-    std::ranges::copy(sorted, least_.begin() + 1);
     for (std::size_t n = 1; n < least_.size(); ++n)
         least_[n] += least_[n - 1];
 }
