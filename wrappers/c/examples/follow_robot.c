@@ -4,6 +4,7 @@
  *     ./follow_robot frame_*.pgm */
 #include <dotpose.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -46,8 +47,8 @@ int main(int argc, char** argv) {
         if (track.is_lost)
             printf("%" PRId64 " us: lost\n", time_us);
         else
-            printf("%" PRId64 " us: x %.3f mm, y %.3f mm, %.0f mm/s, %.0f mm/s\n", time_us,
-                   track.x_mm, track.y_mm, (double)track.vx_mm_s, (double)track.vy_mm_s);
+            printf("%" PRId64 " us: x %.3f mm, y %.3f mm, %ld mm/s, %ld mm/s\n", time_us,
+                   track.x_mm, track.y_mm, lroundf(track.vx_mm_s), lroundf(track.vy_mm_s));
     }
     dotpose_locator_destroy(locator);
     return 0;
