@@ -255,7 +255,7 @@ Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
     PoseFit fit;
     BitsRead bits;
     bool is_second_pass = false;
-    FloatVec bias_px2;  // variance
+    FloatVec bias_px2;  // Variance of the pixel bias that is left, along u and v.
     for (Reach reach(image, hypothesis, spacing);;) {
         const bool decides = reach.decides();
         if (!is_plausible(image, plane)) return Confirmation::implausible;

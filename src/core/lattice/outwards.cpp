@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "core/lattice/tuning.hpp"
-#include "core/math/fixed.hpp"
 #include "core/math/float_plane.hpp"
 #include "core/math/symmetric2.hpp"
 

@@ -50,7 +50,7 @@ struct Normal {
     }
 };
 
-/// What the pixels of a line make of something blurred at one place.
+/// The responses of a line of pixels to a step and to a point at one place, both blurred.
 struct PixelLine {
     std::array<float, kSide> step;   ///< of a step: darkness 1 beyond the place
     std::array<float, kSide> point;  ///< of a point: derivative of the step by the place, negative
@@ -114,7 +114,7 @@ DotImages draw(const ModelDot& dot, int half_px) {
     }
     for (std::size_t v = begin; v < end; ++v) {
         for (std::size_t u = begin; u < end; ++u) {
-            // As chords grow, the same darkness is spread over a larger area.
+            // The darkness of the whole dot stays 1, so a wider ellipse is paler everywhere.
             float& by = by_radius_u.all[v][u];
             by = (by - images.dot.all[v][u] / radius.x) / (2 * radius.x);
             by_radius_v.all[v][u] /= 2 * radius.y;

@@ -113,7 +113,7 @@ DotShape::Terms DotShape::changed(const Terms& terms, const Terms& step) {
     Terms result = terms;
     for (std::size_t i = 0; i < Term::count; ++i)
         result[i] += step[i];
-    // What a model dot cannot have less of shrinks to a quarter at most.
+    // Half axes and blur stay above 0: a step shrinks them to a quarter at most.
     for (const std::size_t i : {radius_u, radius_v, blur_u, blur_v})
         result[i] = std::max({result[i], terms[i] / 4, tuned::kLeast_px2});
     return result;

@@ -8,7 +8,7 @@ namespace dotpose::core {
 /// The model dot of a frame, and how well it is known.
 class DotShape {
   public:
-    /// What is fitted: how far all dots are off along u and v; squared half axes and blur of the
+    /// Terms of the fit: how far all dots are off along u and v; squared half axes and blur of the
     /// model dot; its darkness, and that of the paper.
     enum Term : std::size_t {
         off_u,

@@ -58,9 +58,9 @@ float weighted(const DotPixels& pixels, const std::array<float, DotPixels::kSide
     return sum;
 }
 
-/// What bells make of a model dot: how far they put it off, px.
+/// The error of the centre that a bell gives of a model dot.
 struct BellsError {
-    float px;
+    float px;                  ///< from the dot to the centre found
     DotShape::Terms by_shape;  ///< derivatives
     float slopes;              ///< the moment's slope along the axis, over that along u
 };

@@ -59,9 +59,9 @@ inline constexpr float kBentSettled = 0.04F;
 
 /// The model dot of a frame (pose/dot_shape).
 namespace shape {
-/// What is expected before dots are seen: how far all are off where a plane has them; the variance
-/// of blur, which is as large as its deviation; the difference of squared half axes, relative to
-/// one; contrast of ink.
+/// Prior of the terms: deviation of all dots from where a plane has them; mean and deviation of the
+/// variance of blur; deviation of the difference of squared half axes, relative to one of them;
+/// mean and deviation of the contrast of ink.
 inline constexpr float kOff_px = 0.1F;
 inline constexpr float kBlur_2 = 0.25F;
 inline constexpr float kSigmaOfWidth = 0.3F;
