@@ -1,7 +1,7 @@
 # Functions that run once per frame are optimized for size, which leaves flash for the others.
 compile_core(-Os code/basis.cpp code/decode.cpp code/encode.cpp core/locate_device.cpp core/math/plane.cpp
              core/attempts/device.cpp core/attempts/device_tracked.cpp core/attempts/steps.cpp
-             core/integrity/likelihood_ratios.cpp core/decode/orientation.cpp
+             core/decode/orientation.cpp
              core/decode/position.cpp core/integrity/seam_alternatives.cpp
              core/integrity/unshared_lines.cpp core/integrity/verify.cpp
              core/decode/window.cpp core/detect/undistort.cpp core/lattice/neighbours.cpp

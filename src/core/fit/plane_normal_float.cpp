@@ -123,11 +123,15 @@ Parameters PlaneNormalFloat::whitened(const Parameters& of) const {
 }
 
 Parameters PlaneNormalFloat::unwhitened(const Parameters& column) const {
-    Column result;
+    // Each number waits for the one before it, so that comes last into the sum.
+    Parameters result{};
     for (std::size_t i = kPoseParameters; i-- > 0;) {
-        if (determines(i)) result.set(i, (column[i] - m_[i].inner(result)) / m_[i].at(i));
+        float rest = column[i];
+        for (std::size_t k = kPoseParameters; --k > i;)
+            rest -= m_[i].at(k) * result[k];
+        result[i] = determines(i) ? rest / m_[i].at(i) : 0;
     }
-    return result.numbers();
+    return result;
 }
 
 Parameters PlaneNormalFloat::times_transposed(const Parameters& column) const {

@@ -78,11 +78,6 @@ class PlaneNormalFloat {
         explicit Column(const Parameters& numbers) {
             std::memcpy(parts_.data(), numbers.data(), sizeof numbers);
         }
-        Parameters numbers() const {
-            Parameters numbers;
-            std::memcpy(numbers.data(), parts_.data(), sizeof numbers);
-            return numbers;
-        }
         float at(std::size_t row) const { return parts_[row / 4][row % 4]; }
         void set(std::size_t row, float number) { parts_[row / 4][row % 4] = number; }
         void divide(float by) {

@@ -137,8 +137,9 @@ float alternatives_by_table(const LikelihoodRatios& ratios, const UnsharedLines&
 /// Returns the odds of the alternatives that differ in one sequence and share a line, each sequence
 /// by the table with the most lines that gives at most `enough`; `widest` is of the table with the
 /// most. Sequences for which no table does are not counted, and stay in `sequences`.
-float alternatives_by_tables(const LikelihoodRatios& ratios, const UnsharedLines& widest,
-                             float enough, unsigned& sequences) {
+float alternatives_by_tables(const Kernels& kernels, const UnsharedLines& widest, float enough,
+                             unsigned& sequences) {
+    const LikelihoodRatios& ratios = widest.ratios();
     float sum = 0;
     const auto add_by = [&](const UnsharedLines& unshared) {
         for (unsigned rest = sequences; rest != 0; rest &= rest - 1) {
@@ -153,7 +154,7 @@ float alternatives_by_tables(const LikelihoodRatios& ratios, const UnsharedLines
     if (widest.tables() == 0) return 0;
     add_by(widest);
     for (std::size_t table = widest.tables() - 1; table-- > 0 && sequences != 0;)
-        add_by(UnsharedLines(ratios, code::kUnsharedOf[table]));
+        add_by(UnsharedLines(kernels, ratios, code::kUnsharedOf[table]));
     return sum;
 }
 
@@ -162,7 +163,7 @@ float alternatives_by_tables(const LikelihoodRatios& ratios, const UnsharedLines
 float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
                           const UnsharedLines& unshared, float limit) {
     unsigned sequences = 15;
-    float sum = alternatives_by_tables(ratios, unshared, limit / 12, sequences);
+    float sum = alternatives_by_tables(kernels, unshared, limit / 12, sequences);
     if (sequences == 0) return sum;
     std::array<LineLoss, kMaxLines> storage;
     const std::size_t lines = sort_losses(ratios, storage);
@@ -186,8 +187,8 @@ float alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
            single_alternatives(kernels, ratios, unshared, limit);
 }
 
-float seam_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios) {
-    return power_of_two(std::max(seam_alternatives_log2_q8(kernels, ratios), -100 * 256));
+float seam_alternatives(const Kernels& kernels, const UnsharedLines& unshared) {
+    return power_of_two(std::max(seam_alternatives_log2_q8(kernels, unshared), -100 * 256));
 }
 
 /// The question that is asked of both axes.
@@ -234,7 +235,7 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedL
         }
     }
     if (sum > limit) return 1;
-    return sum + seam_alternatives(kernels, ratios);
+    return sum + seam_alternatives(kernels, unshared);
 }
 
 bool is_within_limit(float wrong, int limit_log2, Fix& fix) {
@@ -248,10 +249,10 @@ bool is_within_limit(float wrong, int limit_log2, Fix& fix) {
 bool are_certain(const Kernels& kernels, const std::array<Confidence, 2>& bits,
                  const LikelihoodRatios& x, const LikelihoodRatios& y, const Asked& asked,
                  Fix& fix) {
-    const UnsharedLines x_unshared(x);
+    const UnsharedLines x_unshared(kernels, x);
     const float x_wrong = axis_wrong(kernels, bits[0], x_unshared, asked);
     if (x_wrong >= 1) return false;
-    const UnsharedLines y_unshared(y);
+    const UnsharedLines y_unshared(kernels, y);
     const float y_wrong = axis_wrong(kernels, bits[1], y_unshared, asked);
     if (!is_within_limit(x_wrong + y_wrong, asked.limit_log2, fix)) return false;
     if (asked.others == nullptr) return true;
@@ -330,7 +331,8 @@ void weigh_other_codes(const Kernels& kernels, const Evidence& evidence, Profile
     const auto [x, y] = readings_at(evidence.corner, profile);
     const LikelihoodRatios by_x(profile, evidence.columns, x, odds_q8);
     const LikelihoodRatios by_y(profile, evidence.rows, y, odds_q8);
-    weigh_other_codes(kernels, UnsharedLines(by_x), UnsharedLines(by_y), profile, others);
+    weigh_other_codes(kernels, UnsharedLines(kernels, by_x), UnsharedLines(kernels, by_y), profile,
+                      others);
 }
 
 }  // namespace dotpose::core

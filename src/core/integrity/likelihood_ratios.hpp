@@ -56,6 +56,11 @@ class LikelihoodRatios {
     /// Returns the least that an alternative loses in a line which it does not share; may be
     /// negative.
     int least_loss(int line) const { return least_losses_[static_cast<std::size_t>(line)]; }
+    /// Returns the same for some lines in a row.
+    std::span<const std::int16_t> least_losses(int first, int count) const {
+        return std::span(least_losses_)
+            .subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count));
+    }
     /// Returns the least that an alternative loses if its digit differs in the step from a line to
     /// the next, as it does not share one of the two. Not negative.
     int least_loss_of_step(int line) const {

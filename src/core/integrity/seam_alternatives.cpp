@@ -1,6 +1,7 @@
 #include "core/integrity/seam_alternatives.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 
 #include "core/integrity/least_losses.hpp"
@@ -104,11 +105,6 @@ int enough_for(const LikelihoodRatios& ratios) {
     return ratios.loss_for(kLeast_q8) + ratios.most_regained();
 }
 
-/// Returns whether no alternative can lose less than `enough`.
-bool has_none(const LikelihoodRatios& ratios, int enough) {
-    return surely_lose_with_border(ratios, enough) || least_loss_with_border(ratios) >= enough;
-}
-
 /// Returns the losses of all steps, in parts so large that an alternative which lost
 /// `StepLosses::kEnough` of them has lost enough even if one step, that of the border, does not
 /// count.
@@ -133,7 +129,8 @@ StepLosses losses_of_steps(const LikelihoodRatios& ratios, int enough) {
 int seam_alternatives_log2_q8(const LikelihoodRatios& ratios) {
     const int enough = enough_for(ratios);
     SeamAlternatives alternatives(ratios, enough);
-    if (has_none(ratios, enough)) return alternatives.sum_q8();
+    if (surely_lose_with_border(ratios, enough) || least_loss_with_border(ratios) >= enough)
+        return alternatives.sum_q8();
     const UnsharedLines unshared(ratios);
     visit_similar_places(
         ratios, Steps(ratios, enough, Excused::any_one),
@@ -144,14 +141,17 @@ int seam_alternatives_log2_q8(const LikelihoodRatios& ratios) {
     return alternatives.sum_q8();
 }
 
-int seam_alternatives_log2_q8(const Kernels& kernels, const LikelihoodRatios& ratios) {
+int seam_alternatives_log2_q8(const Kernels& kernels, const UnsharedLines& unshared) {
+    const LikelihoodRatios& ratios = unshared.ratios();
     const int enough = enough_for(ratios);
     SeamAlternatives alternatives(ratios, enough);
-    if (has_none(ratios, enough)) return alternatives.sum_q8();
-    const StepLosses steps = losses_of_steps(ratios, enough);
+    if (surely_lose_with_border(ratios, enough)) return alternatives.sum_q8();
+    std::optional<StepLosses> steps;
     for (std::size_t k = 0; k < ratios.basis.size(); ++k) {
+        if (unshared.all_lose(k, Sharing::on_two_sides, enough)) continue;
+        if (!steps) steps = losses_of_steps(ratios, enough);
         const PlaceBits similar =
-            kernels.find_similar_places(ratios.basis[k], ratios.places[k], steps);
+            kernels.find_similar_places(ratios.basis[k], ratios.places[k], *steps);
         for (std::uint32_t word = 0; word < similar.size(); ++word)
             visit_places(similar[word], word,
                          [&](std::uint32_t place) { alternatives.add(k, place); });

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/integrity/likelihood_ratios.hpp"
+#include "core/integrity/unshared_lines.hpp"
 #include "core/kernels/kernels.hpp"
 
 namespace dotpose::core {
@@ -13,6 +14,6 @@ namespace dotpose::core {
 int seam_alternatives_log2_q8(const LikelihoodRatios& ratios);
 
 /// Returns the same sum; kernels of the desktop look for the alternatives.
-int seam_alternatives_log2_q8(const Kernels& kernels, const LikelihoodRatios& ratios);
+int seam_alternatives_log2_q8(const Kernels& kernels, const UnsharedLines& unshared);
 
 }  // namespace dotpose::core

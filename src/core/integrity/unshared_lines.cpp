@@ -6,22 +6,27 @@
 
 namespace dotpose::core {
 
-UnsharedLines::UnsharedLines(const LikelihoodRatios& ratios, int most_lines) : ratios_(ratios) {
+std::span<const std::int16_t> UnsharedLines::choose_lines(int most_lines) {
     const auto& numbers = code::kUnsharedOf;
     static_assert(code::kUnsharedOf.back() == kMostLines);
     std::size_t rows = 0;
-    while (rows < numbers.size() && numbers[rows] <= std::min(ratios.count(), most_lines))
+    while (rows < numbers.size() && numbers[rows] <= std::min(ratios_.count(), most_lines))
         ++rows;
-    if (rows == 0) return;
+    if (rows == 0) return {};
     row_ = rows - 1;
-    // Tables are applied to the lines in the middle, which are longest.
     const int lines = numbers[row_];
-    const int first = (ratios.count() - lines) / 2;
+    const int first = (ratios_.count() - lines) / 2;
     first_line_ = static_cast<std::uint32_t>(first);
+    return ratios_.least_losses(first, lines);
+}
+
+UnsharedLines::UnsharedLines(const LikelihoodRatios& ratios, int most_lines) : ratios_(ratios) {
+    const auto losses = choose_lines(most_lines);
+    if (losses.empty()) return;
     // The smallest losses, in order; further ones are sorted in as they come.
     std::fill(least_.begin() + 1, least_.end(), INT32_MAX);
-    for (int n = 0; n < lines; ++n) {
-        const std::int32_t loss = std::max(ratios.least_loss(first + n), 0);
+    for (const std::int16_t any : losses) {
+        const auto loss = std::max<std::int32_t>(any, 0);
         if (loss >= least_.back()) continue;
         std::size_t i = least_.size() - 1;
         for (; least_[i - 1] > loss; --i)
@@ -30,6 +35,12 @@ UnsharedLines::UnsharedLines(const LikelihoodRatios& ratios, int most_lines) : r
     }
     for (std::size_t n = 1; n < least_.size(); ++n)
         least_[n] += least_[n - 1];
+}
+
+UnsharedLines::UnsharedLines(const Kernels& kernels, const LikelihoodRatios& ratios, int most_lines)
+    : ratios_(ratios) {
+    const auto losses = choose_lines(most_lines);
+    if (!losses.empty()) kernels.sum_least_losses(losses, least_);
 }
 
 int UnsharedLines::least_loss(std::size_t sequence, Sharing sharing) const {

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/integrity/likelihood_ratios.hpp"
+#include "core/kernels/kernels.hpp"
 
 namespace dotpose::core {
 
@@ -19,11 +20,11 @@ enum class Sharing : std::uint8_t {
 class UnsharedLines {
   public:
     static constexpr int kMostLines = 16;
-    /// The most lines that a table has as not shared.
-    static constexpr int kMostUnshared = 8;
-
     /// Uses the table with the most lines, at most `most_lines` and at most as many as there are.
     explicit UnsharedLines(const LikelihoodRatios& ratios, int most_lines = kMostLines);
+    /// The same; a kernel of the desktop sorts the losses.
+    UnsharedLines(const Kernels& kernels, const LikelihoodRatios& ratios,
+                  int most_lines = kMostLines);
 
     const LikelihoodRatios& ratios() const { return ratios_; }
     /// Returns the number of tables that suit the number of lines; the one with the most is used.
@@ -40,11 +41,14 @@ class UnsharedLines {
     int least_loss(const std::array<std::string_view, 3>& unshared_in_other) const;
 
   private:
+    /// Returns the losses of the lines in the middle, which are longest, that the table is applied
+    /// to; none if there are too few lines for one.
+    std::span<const std::int16_t> choose_lines(int most_lines);
+
     const LikelihoodRatios& ratios_;
     std::size_t row_ = SIZE_MAX;  ///< of the table; SIZE_MAX if there are too few lines for one
     std::uint32_t first_line_ = 0;
-    /// By n: the sum of the n smallest losses.
-    std::array<std::int32_t, kMostUnshared + 1> least_{};
+    LeastSums least_{};  ///< up to the most lines that a table has as not shared
 };
 
 }  // namespace dotpose::core

@@ -273,7 +273,8 @@ void weigh_other_codes(const Kernels& kernels, const Grid& grid, Profile profile
     };
     const LikelihoodRatios x = ratios_of(Axis::x);
     const LikelihoodRatios y = ratios_of(Axis::y);
-    weigh_other_codes(kernels, UnsharedLines(x), UnsharedLines(y), profile, *others);
+    weigh_other_codes(kernels, UnsharedLines(kernels, x), UnsharedLines(kernels, y), profile,
+                      *others);
 }
 
 Status verify(const Grid& grid, Profile profile, Decoding& decoding,

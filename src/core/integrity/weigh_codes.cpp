@@ -276,7 +276,7 @@ class AxisWeigher {
 
 OtherAxis weigh_other_code(const Kernels& kernels, const LikelihoodRatios& ratios, Profile read,
                            Profile other) {
-    const UnsharedLines unshared(ratios);
+    const UnsharedLines unshared(kernels, ratios);
     AxisWeigher axis(kernels, unshared, read);
     OtherPlaces places = axis.bounded(other);
     axis.look_closer(other, 1, places);

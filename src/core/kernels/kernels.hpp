@@ -184,6 +184,9 @@ struct FarAlternatives {
     std::array<float, 8> number{};
 };
 
+/// By n: the sum of the n smallest losses.
+using LeastSums = std::array<std::int32_t, 9>;
+
 /// Bits of 64 lines of 64 cells, a word for each line; `valid` says which bits were read.
 struct BitLines {
     std::array<std::uint64_t, 64> bits{};
@@ -269,6 +272,8 @@ struct Kernels {
     bool (*list_similar_places)(const code::Basis& basis, const std::array<std::uint32_t, 4>& own,
                                 unsigned sequences, std::span<const LineLoss> lines, int enough,
                                 SimilarPlaceList& list);
+    /// Sums up the smallest of 8 to 16 losses; negative ones count as 0.
+    void (*sum_least_losses)(std::span<const std::int16_t> losses, LeastSums& sums);
 };
 
 }  // namespace dotpose::core

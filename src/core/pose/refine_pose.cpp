@@ -180,10 +180,10 @@ bool solve(const Parameters& distortions, float unit, PoseFit& fit, Parameters& 
     constexpr float kExact = 1e-12F;
     fit.variance = std::max(left / static_cast<float>(freedom), kExact);
     // Once whitened, the share of each further term is independent of the terms after it.
-    Parameters all = normal.unwhitened(step);
-    for (std::size_t i = kTilt; i < kPoseParameters; ++i)
-        all[i] += distortions[i];
-    shrink(normal.times_transposed(all), unit, fit, step);
+    Parameters whole = normal.times_transposed(distortions);
+    for (std::size_t i = 0; i < kPoseParameters; ++i)
+        whole[i] += step[i];
+    shrink(whole, unit, fit, step);
     moved = 0;
     for (const float part : step)
         moved += part * part;

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/kernels/select.hpp"
 #include "ratios_case.hpp"
 
 namespace dotpose::core_test {
@@ -113,7 +114,11 @@ TEST(SeamAlternatives, AreAllThatExplainTheLinesAboutAsWell) {
         c.odds_q8 = static_cast<int>(256 * rng.uniform(2, 8));
         // Odds near the limit may be counted or not, as they are rounded.
         const double limit = std::exp2(kSeamLog2 + kLeastLog2);
-        const double counted = std::exp2(seam_alternatives_log2_q8(c.ratios()) / 256.0);
+        const LikelihoodRatios ratios = c.ratios();
+        const int counted_q8 = seam_alternatives_log2_q8(ratios);
+        const double counted = std::exp2(counted_q8 / 256.0);
+        const Kernels& desktop = kernels();
+        EXPECT_EQ(seam_alternatives_log2_q8(desktop, UnsharedLines(desktop, ratios)), counted_q8);
         const Sum sum = sum_of_all(c);
         const double log2_ratio = std::log2((counted + limit) / (sum.odds + limit));
         EXPECT_GE(log2_ratio, -0.1);

@@ -114,5 +114,25 @@ TEST(KernelsAlternatives, ListHasAllPlacesThatLoseTooLittle) {
     EXPECT_GT(listed, 100);
 }
 
+TEST(KernelsAlternatives, LeastLossesAreThoseOfSortedLosses) {
+    repeat_with_each_form(50, [&](const Kernels& kernels, Rng& rng) {
+        // Small ranges have many equal losses.
+        const int most = whole(rng, 0, 1) == 0 ? 3 : INT16_MAX;
+        std::vector<std::int16_t> losses;
+        const int count = whole(rng, 8, 16);
+        for (int line = 0; line < count; ++line)
+            losses.push_back(static_cast<std::int16_t>(whole(rng, -most / 2, most)));
+        LeastSums sums;
+        kernels.sum_least_losses(losses, sums);
+        std::ranges::sort(losses);
+        int expected = 0;
+        ASSERT_EQ(sums[0], 0);
+        for (std::size_t n = 1; n < sums.size(); ++n) {
+            expected += std::max<int>(losses[n - 1], 0);
+            ASSERT_EQ(sums[n], expected) << n;
+        }
+    });
+}
+
 }  // namespace
 }  // namespace dotpose::core_test
