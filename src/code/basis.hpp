@@ -21,18 +21,6 @@ constexpr const Basis& basis(Profile profile) {
     return kBasis<kA4Restored>;
 }
 
-constexpr const Twins& twins(Profile profile) {
-    switch (profile) {
-        case Profile::libdots:
-            return kTwins<kA4Published>;
-        case Profile::microdots:
-            return kTwins<kA4Microdots>;
-        case Profile::anoto:
-            break;
-    }
-    return kTwins<kA4Restored>;
-}
-
 /// Returns the position at which the four sequences stand at these places: the number with these
 /// remainders modulo 236, 233, 31 and 241.
 std::uint32_t position_at(const Basis& basis, const std::array<std::uint32_t, 4>& places);

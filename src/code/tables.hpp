@@ -65,6 +65,18 @@ struct Secondary {
             rest -= length;
         return rest;
     }
+    /// Returns at which of the 32 places from 32 * word on, one in each bit, the `count` digits
+    /// stand that stand at a place, itself included; the bits beyond the sequence's end are 0.
+    constexpr std::uint32_t places_like(std::uint32_t place, int count, std::uint32_t word) const {
+        const std::uint32_t rest = length - 32 * word;
+        std::uint32_t places = rest < 32 ? ~(~std::uint32_t{0} << rest) : ~std::uint32_t{0};
+        for (int ahead = 0; ahead < count; ++ahead) {
+            const std::uint32_t* here = places_of[digits[place]] + word;
+            places &= here[0] >> ahead | here[1] << 1 << (31 - ahead);
+            if (++place == length) place = 0;
+        }
+        return places;
+    }
 };
 
 /// Returns the table Secondary::rolls of a sequence.
@@ -114,21 +126,6 @@ constexpr auto first_places(const Digits<Length>& sequence) {
     return places;
 }
 
-/// Returns for each place the next one, cyclic, at which the same `Order` digits stand; the place
-/// itself if there is no other.
-template <unsigned Base, int Order, std::size_t Length>
-consteval Digits<Length> next_twins(const Digits<Length>& sequence) {
-    Digits<Length> twins{};
-    // The next place after the end is the first one again.
-    auto next = first_places<Base, Order>(sequence);
-    for (std::size_t i = Length; i-- > 0;) {
-        std::uint8_t& place = next[key(sequence, i, Order, Base)];
-        twins[i] = place;
-        place = static_cast<std::uint8_t>(i);
-    }
-    return twins;
-}
-
 /// The tables of one sequence.
 template <unsigned Base, const auto& Sequence, std::uint8_t Weight>
 struct Tables {
@@ -160,21 +157,6 @@ using Basis = std::array<Secondary, 4>;
 template <const auto& A4>
 inline constexpr Basis kBasis{Tables<3, kA1, 1>::kSecondary, Tables<3, kA2, 3>::kSecondary,
                               Tables<2, kA3, 9>::kSecondary, Tables<3, A4, 18>::kSecondary};
-
-/// By sequence and place: the next place with the same 3 digits, and with the same 4 digits, each
-/// in a cycle.
-using Twins = std::array<std::array<const std::uint8_t*, 2>, 4>;
-
-template <unsigned Base, const auto& Sequence>
-struct TwinTables {
-    static constexpr auto kOf3 = next_twins<Base, 3>(Sequence);
-    static constexpr auto kOf4 = next_twins<Base, 4>(Sequence);
-    static constexpr std::array<const std::uint8_t*, 2> kBoth{kOf3.data(), kOf4.data()};
-};
-
-template <const auto& A4>
-inline constexpr Twins kTwins{TwinTables<3, kA1>::kBoth, TwinTables<3, kA2>::kBoth,
-                              TwinTables<2, kA3>::kBoth, TwinTables<3, A4>::kBoth};
 
 inline constexpr int kSmallestDelta = 5;
 inline constexpr int kLargestDelta = 58;

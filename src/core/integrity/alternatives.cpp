@@ -42,12 +42,11 @@ float sum_of_other_sections(const LikelihoodRatios& ratios) {
 
 }  // namespace
 
-int alternatives_log2(Profile profile, const LikelihoodRatios& ratios, int limit_log2) {
+int alternatives_log2(const LikelihoodRatios& ratios, int limit_log2) {
     if (ratios.lines.count() <= kMostOfDistinct) return 0;
-    const code::Twins& twins = code::twins(profile);
     const RankedLines lines(ratios);
     const float known = sum_of_single_alternatives(lines) + sum_of_other_sections(ratios) +
-                        sum_of_near_alternatives(lines, twins, kMostOfDistinct);
+                        sum_of_near_alternatives(lines, kMostOfDistinct);
     const float expected = sum_of_far_alternatives(lines, kMostOfDistinct, 2);
     float sum = known + expected;
     const float limit = std::ldexp(1.0F, limit_log2);
@@ -56,7 +55,7 @@ int alternatives_log2(Profile profile, const LikelihoodRatios& ratios, int limit
     if (sum > far_below_doubt && expected > known && expected < kBeyondHelp) {
         sum = known + sum_of_far_alternatives(lines, kMostOfDistinct - 1, 3);
         // The sums that take longest are left out if the others exceed the limit already.
-        if (sum < limit) sum += sum_of_near_alternatives(lines, twins, kMostOfDistinct - 1);
+        if (sum < limit) sum += sum_of_near_alternatives(lines, kMostOfDistinct - 1);
         if (sum < limit) {
             // This is less than what remains to the limit; otherwise a fix might be lost by it.
             const float negligible = std::min(std::max(sum, far_below_doubt), limit - sum) / 8;

@@ -8,6 +8,6 @@ namespace dotpose::core {
 
 /// Returns log2 of an upper bound of the summed odds of all alternatives of a reading. The bound is
 /// only as close as it takes to tell on which side of 2^limit_log2 the sum is.
-int alternatives_log2(Profile profile, const LikelihoodRatios& ratios, int limit_log2 = 0);
+int alternatives_log2(const LikelihoodRatios& ratios, int limit_log2 = 0);
 
 }  // namespace dotpose::core

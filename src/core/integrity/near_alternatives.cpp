@@ -4,6 +4,8 @@
 #include <array>
 #include <span>
 
+#include "core/integrity/similar_places.hpp"
+
 namespace dotpose::core {
 namespace {
 
@@ -14,17 +16,20 @@ constexpr std::uint32_t kTurns = kMaxLines / code::kA3.size() + 1;
 /// included.
 class TwinPlaces {
   public:
-    /// The run begins `run` lines after the first; `next` leads from each place to its next twin.
-    TwinPlaces(const RankedLines& lines, std::size_t sequence, std::uint32_t run,
-               const std::uint8_t* next) {
-        const std::uint32_t length = lines.ratios.basis[sequence].length;
-        const std::uint32_t own = (lines.ratios.places[sequence] + run) % length;
-        std::uint32_t place = own;
-        do {
-            const std::uint32_t first = (place + kTurns * length - run) % length;
-            twins_[count_++] = since_run(lines, sequence, first, run);
-            place = next[place];
-        } while (place != own);
+    /// The run begins `run` lines after the first and has one line more than digits.
+    TwinPlaces(const RankedLines& lines, std::size_t sequence, std::uint32_t run, int digits) {
+        const code::Secondary& a = lines.ratios.basis[sequence];
+        const std::uint32_t own = (lines.ratios.places[sequence] + run) % a.length;
+        // The reading's own place is the first, and the places before it are the last.
+        for (const bool before : {false, true}) {
+            const auto add = [&](std::uint32_t place) {
+                if ((place < own) != before) return;
+                const std::uint32_t first = (place + kTurns * a.length - run) % a.length;
+                twins_[count_++] = since_run(lines, sequence, first, run);
+            };
+            for (std::uint32_t word = 0; 32 * word < a.length; ++word)
+                visit_places(a.places_like(own, digits, word), word, add);
+        }
     }
 
     /// The offsets of a place, and those of the first eight lines less that of the run's first
@@ -88,13 +93,11 @@ float sum_of_twins(const RankedLines& lines, const std::array<TwinPlaces, 4>& pl
 
 }  // namespace
 
-float sum_of_near_alternatives(const RankedLines& lines, const code::Twins& twins,
-                               int shared_lines) {
-    const auto order = static_cast<std::size_t>(shared_lines - 4);
+float sum_of_near_alternatives(const RankedLines& lines, int shared_lines) {
     float sum = 0;
     for (int run = 0; run + shared_lines <= lines.count(); ++run) {
         const auto places = [&](std::size_t k) {
-            return TwinPlaces(lines, k, static_cast<std::uint32_t>(run), twins[k][order]);
+            return TwinPlaces(lines, k, static_cast<std::uint32_t>(run), shared_lines - 1);
         };
         sum += sum_of_twins(lines, {places(0), places(1), places(2), places(3)});
     }

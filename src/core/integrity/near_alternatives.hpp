@@ -10,7 +10,6 @@ namespace dotpose::core {
 /// five, or more: one by one, from the places in the secondary sequences at which the digits of the
 /// three or four differences occur again. This is an upper bound, as those that share more lines
 /// are counted more than once, and hopeless ones as negligible.
-float sum_of_near_alternatives(const RankedLines& lines, const code::Twins& twins,
-                               int shared_lines);
+float sum_of_near_alternatives(const RankedLines& lines, int shared_lines);
 
 }  // namespace dotpose::core

@@ -307,8 +307,7 @@ Status verify_among_codes(const Grid& grid, Profile profile, const OtherCodes* o
             [&](std::size_t axis, const LikelihoodRatios& ratios) {
                 const bool is_in_doubt = p_wrong_q8[axis] > doubtful_q8 - 4 * 256;
                 if (!is_in_doubt) return 0;
-                return 256 * alternatives_log2(profile, ratios, options.max_p_wrong_log2) +
-                       codes_q8;
+                return 256 * alternatives_log2(ratios, options.max_p_wrong_log2) + codes_q8;
             });
         for (std::size_t i = 0; i < counted_q8.size(); ++i)
             p_wrong_q8[i] = std::min(p_wrong_q8[i], counted_q8[i]);

@@ -38,7 +38,7 @@ int alternatives_of_window(Profile profile, const Place& place, int columns, int
         (roll(profile, place.cell.x) + place.section.u + static_cast<int>(place.cell.y % 63)) % 63);
     // All bits of the line agree with the roll that the code has there.
     EXPECT_EQ(lines[0][reading.roll], 127 * kRows);
-    return alternatives_log2(profile, LikelihoodRatios(profile, lines, reading, odds_q8));
+    return alternatives_log2(LikelihoodRatios(profile, lines, reading, odds_q8));
 }
 
 TEST(Alternatives, GetFewerWithEveryColumn) {

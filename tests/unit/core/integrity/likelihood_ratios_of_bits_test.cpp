@@ -103,7 +103,7 @@ TEST(LikelihoodRatiosOfBits, EstimatesNoLessThanThereIs) {
         Columns columns(rng);
         const int estimate_q8 = quick_alternatives_log2_q8(columns.of_bits());
         // The exact sum counts one by one and is rounded up to a power of two, several times.
-        const int counted = alternatives_log2(Profile::anoto, columns.of_weights());
+        const int counted = alternatives_log2(columns.of_weights());
         // The exact sum counts negligible odds as 2^-64; for 12,597 alternatives that makes 2^-50.
         if (counted > -49) {
             EXPECT_GE(estimate_q8, 256 * (counted - 2));
