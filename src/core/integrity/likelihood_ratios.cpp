@@ -35,18 +35,27 @@ constexpr NearestStretches nearest_of(std::size_t first, std::size_t length) {
     return nearest;
 }
 
-/// The least number of bits in which a stretch of the main sequence differs from the others of its
-/// length, by its first index and its length; two lengths in a byte, at most 15.
-constexpr auto kLeastDistances = [] {
-    std::array<std::array<std::uint8_t, kMostTracked / 2 + 1>, kSections> least{};
-    for (std::size_t first = 0; first < least.size(); ++first) {
-        for (std::size_t length = 0; length <= kMostTracked; ++length) {
-            const int distance = std::min(nearest_of(first, length).distance, 15);
-            least[first][length / 2] |= static_cast<std::uint8_t>(distance << length % 2 * 4);
+/// Where the least distance of a stretch of the main sequence from the others of its length grows,
+/// by its first index: bit i is 1 if it is larger with bit i. It grows by at most one with each.
+constexpr auto kGrowingDistances = [] {
+    std::array<std::uint32_t, kSections> grows{};
+    for (std::size_t first = 0; first < grows.size(); ++first) {
+        int before = 0;
+        for (std::size_t i = 0; i < kMostTracked; ++i) {
+            const int distance = nearest_of(first, i + 1).distance;
+            if (distance > before) grows[first] |= std::uint32_t{1} << i;
+            before = distance;
         }
     }
-    return least;
+    return grows;
 }();
+static_assert([] {
+    for (std::size_t first = 0; first < kSections; ++first) {
+        const int distance = nearest_of(first, kMostTracked).distance;
+        if (bits_in(kGrowingDistances[first]) != distance) return false;
+    }
+    return true;
+}());
 
 /// log2 of the most stretches that differ from another in the fewest bits, by their length, in
 /// 2^-8, rounded up.
@@ -146,10 +155,8 @@ LikelihoodRatios::Nearest LikelihoodRatios::nearest(int line) const {
     const std::uint32_t stretch = bits.seen >> first;
     if (bits.wrong == 0 && (stretch & (stretch + 1)) == 0) {
         const int begin = own + first < kSections ? own + first : own + first - kSections;
-        const unsigned both =
-            kLeastDistances[static_cast<std::size_t>(begin)][static_cast<std::size_t>(length / 2)];
-        return {static_cast<int>(both >> length % 2 * 4 & 15),
-                kLog2OfNearest[static_cast<std::size_t>(length)]};
+        const std::uint32_t grows = kGrowingDistances[static_cast<std::size_t>(begin)];
+        return {bits_in(grows & stretch), kLog2OfNearest[static_cast<std::size_t>(length)]};
     }
     // Tables do not cover lines with gaps or wrong bits.
     NearestStretches nearest;

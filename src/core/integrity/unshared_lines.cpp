@@ -50,9 +50,9 @@ int UnsharedLines::least_loss(std::size_t sequence, Sharing sharing) const {
     if (row_ == SIZE_MAX || !is_known) return 0;
     const std::uint32_t ahead = ratios_.places[sequence] + first_line_;
     const std::uint32_t place = ahead < a.length ? ahead : ahead - a.length;
-    const unsigned both = code::kUnshared[row_][code::kUnsharedFrom[sequence] + place];
-    const unsigned unshared = sharing == Sharing::at_one_shift ? both >> 4 : both & 15;
-    return least_[unshared];
+    const std::size_t entry = code::kUnsharedFrom[sequence] + place;
+    return least_[sharing == Sharing::at_one_shift ? code::unshared_at_one_shift(entry, row_)
+                                                   : code::unshared_on_two_sides(entry, row_)];
 }
 
 int UnsharedLines::least_loss(const std::array<std::string_view, 3>& unshared_in_other) const {

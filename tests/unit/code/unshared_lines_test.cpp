@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -12,12 +13,13 @@ namespace dotpose::code {
 namespace {
 
 constexpr std::size_t kMost = 16;
-using Lines = std::array<int, kMost + 1>;
+using Lines = std::array<std::size_t, kMost + 1>;
+using Unshared = std::pair<std::size_t, std::size_t>;
 
 /// Returns, for every n, how many of the first n lines from one end have grown by the same offset
 /// at most.
 Lines most_equal(const std::array<int, kMost>& offsets, std::size_t lines, bool from_last) {
-    std::array<int, kSections> counts{};
+    std::array<std::size_t, kSections> counts{};
     Lines most{};
     for (std::size_t n = 0; n < lines; ++n) {
         const int offset = offsets[from_last ? lines - 1 - n : n];
@@ -26,11 +28,11 @@ Lines most_equal(const std::array<int, kMost>& offsets, std::size_t lines, bool 
     return most;
 }
 
-/// Returns the entry of a place: the number of lines that no other place of the sequence shares.
-int entry(const Secondary& a, std::uint32_t place, int count) {
-    const auto lines = static_cast<std::size_t>(count);
-    int most_at_one = 0;
-    int most_on_both = 0;
+/// Returns the numbers of lines that no other place of the sequence shares, at one shift and on two
+/// sides.
+Unshared counted(const Secondary& a, std::uint32_t place, std::size_t lines) {
+    std::size_t most_at_one = 0;
+    std::size_t most_on_both = 0;
     for (std::uint32_t other = 0; other < a.length; ++other) {
         if (other == place) continue;
         std::array<int, kMost> offsets{};
@@ -42,17 +44,20 @@ int entry(const Secondary& a, std::uint32_t place, int count) {
         for (std::size_t border = 0; border <= lines; ++border)
             most_on_both = std::max(most_on_both, before[border] + from[lines - border]);
     }
-    return 16 * (count - most_at_one) + count - most_on_both;
+    return {lines - most_at_one, lines - most_on_both};
 }
 
 TEST(UnsharedLines, AreAsCounted) {
     const Basis& sequences = basis(Profile::anoto);
     for (std::size_t row = 0; row < kUnsharedOf.size(); ++row) {
         for (std::size_t k = 0; k < sequences.size(); ++k) {
-            for (std::uint32_t place = 0; place < sequences[k].length; ++place)
-                ASSERT_EQ(kUnshared[row][kUnsharedFrom[k] + place],
-                          entry(sequences[k], place, kUnsharedOf[row]))
+            for (std::uint32_t place = 0; place < sequences[k].length; ++place) {
+                const std::size_t entry = kUnsharedFrom[k] + place;
+                ASSERT_EQ(
+                    Unshared(unshared_at_one_shift(entry, row), unshared_on_two_sides(entry, row)),
+                    counted(sequences[k], place, static_cast<std::size_t>(kUnsharedOf[row])))
                     << row << ' ' << k << ' ' << place;
+            }
         }
     }
 }
