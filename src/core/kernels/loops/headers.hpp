@@ -15,3 +15,14 @@
 
 #include "code/tables.hpp"
 #include "core/kernels/select.hpp"
+
+namespace dotpose::core {
+
+/// Whether loops have one form for all cases, not a faster one for each. WebAssembly is downloaded.
+#if defined(__wasm__)
+inline constexpr bool kOneForm = true;
+#else
+inline constexpr bool kOneForm = false;
+#endif
+
+}  // namespace dotpose::core
