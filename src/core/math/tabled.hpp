@@ -1,4 +1,5 @@
-// Tabled: a function of small numbers whose values are divisions, which small processors lack.
+// Tabled: a function of small numbers whose values are divisions, which the smallest processors
+// lack.
 #pragma once
 
 #include <array>
@@ -7,11 +8,12 @@
 
 namespace dotpose::core {
 
-/// Returns kFunction(n) for n < kCount. It is read from a table that the compiler makes;
-/// WebAssembly divides, as each table would be a kilobyte more to download.
+/// Returns kFunction(n) for n < kCount. It is read from a table that the compiler makes; where each
+/// kilobyte counts, to download or in flash, and there is a divider, it is divided.
 template <std::uint32_t (*kFunction)(std::uint32_t), std::uint32_t kCount>
 std::uint32_t tabled(std::uint32_t n) {
-#ifdef __wasm__
+#if defined(__wasm__) || defined(__mips__) || defined(__riscv_div) || \
+    (defined(__arm__) && defined(__ARM_FEATURE_IDIV))
     return kFunction(n);
 #else
     static constexpr auto kValues = [] {
