@@ -24,14 +24,15 @@
 namespace dotpose {
 
 /// How likely each profile is for one sheet, given all its frames so far. Frames that show the same
-/// dots count once, since they share the faults of these dots.
+/// dots count as one, at their mean, since they share the faults of these dots.
 class CodeEvidence {
   public:
     /// One value per profile: log2 of its likelihood or odds, in 2^-8.
     using LogOdds = std::array<std::int32_t, kProfileCount>;
 
-    /// Most by which all frames together change a profile's odds against the likeliest one, as
-    /// log2. The limit lets frames of another sheet still show that the sheet has changed.
+    /// Most by which one frame, or all frames together, change a profile's odds against the
+    /// likeliest one, as log2. The limit lets frames of another sheet still show that the sheet has
+    /// changed.
     static constexpr std::int32_t kMost_log2 = 40;
     /// Most by which the frames of one place change these odds, as log2: faults that spoil the same
     /// dots are not independent.
@@ -55,7 +56,8 @@ class CodeEvidence {
     LogOdds sum() const;
 
     LogOdds before_log2_q8_{};  ///< sum over the places before the newest
-    LogOdds here_log2_q8_{};    ///< newest place: the least of its frames
+    /// Newest place: the factors by which its frames make each profile less likely, summed up.
+    std::array<float, kProfileCount> factors_here_{};
     Cell here_;
     std::uint32_t frames_here_ = 0;
 };

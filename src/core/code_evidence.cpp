@@ -10,6 +10,8 @@ namespace {
 
 /// Frames closer to each other than this may show some of the same dots.
 constexpr std::uint32_t kSamePlace_cells = 64;
+/// Frames of one place that are counted; floats add up so many.
+constexpr std::uint32_t kMostFrames = 1U << 23;
 
 bool is_near(std::uint32_t a, std::uint32_t b) {
     const std::uint32_t apart = a > b ? a - b : b - a;
@@ -29,12 +31,12 @@ CodeEvidence::LogOdds against_likeliest(CodeEvidence::LogOdds log2_q8, std::int3
 CodeEvidence::LogOdds CodeEvidence::sum() const {
     LogOdds sum = before_log2_q8_;
     if (frames_here_ == 0) return sum;
-    // The strongest frame of this place counts, less log2 of the number of frames: each of them had
-    // a chance to be wrong.
-    const std::int32_t chances_q8 =
-        core::log2_at_most_q8(std::min(frames_here_, std::uint32_t{1} << 23));
-    for (std::size_t i = 0; i < sum.size(); ++i)
-        sum[i] += std::min<std::int32_t>(here_log2_q8_[i] + chances_q8, 0);
+    // However frames depend on each other, the mean of their factors is m or more against the true
+    // profile in at most one case of m.
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+        const float mean = factors_here_[i] / static_cast<float>(frames_here_);
+        sum[i] += std::clamp(core::log2_of_odds_q8(1 / mean), -256 * kMostOfPlace_log2, 0);
+    }
     return against_likeliest(sum, kMost_log2);
 }
 
@@ -59,17 +61,17 @@ float CodeEvidence::p_wrong(Profile profile) const {
 }
 
 void CodeEvidence::add(Cell cell, const LogOdds& log2_q8) {
-    const LogOdds frame = against_likeliest(log2_q8, kMostOfPlace_log2);
+    const LogOdds frame = against_likeliest(log2_q8, kMost_log2);
     if (frames_here_ == 0 || !is_near(cell.x, here_.x) || !is_near(cell.y, here_.y)) {
         before_log2_q8_ = sum();
-        here_log2_q8_ = frame;
+        factors_here_ = {};
         here_ = cell;
-        frames_here_ = 1;
-        return;
+        frames_here_ = 0;
     }
+    if (frames_here_ == kMostFrames) return;
+    ++frames_here_;
     for (std::size_t i = 0; i < frame.size(); ++i)
-        here_log2_q8_[i] = std::min(here_log2_q8_[i], frame[i]);
-    frames_here_ += frames_here_ < UINT32_MAX ? 1 : 0;
+        factors_here_[i] += core::power_of_two(-frame[i]);
 }
 
 Fix CodeReader::locate(const ImageView& image, Locator& locator) {

@@ -10,9 +10,10 @@ namespace {
 
 using namespace dotpose;
 
-/// The state of the evidence, as the core has it: log odds before and here, the cell, frames.
+/// The state of the evidence, as the core has it: log odds before, factors here, the cell, frames.
 struct State {
-    std::int32_t log2_q8[2 * kProfileCount];
+    std::int32_t log2_q8[kProfileCount];
+    float factors[kProfileCount];
     std::uint32_t x;
     std::uint32_t y;
     std::uint32_t frames;
@@ -27,9 +28,13 @@ dotpose_status read_evidence(const dotpose_code_evidence* given, CodeEvidence& e
     State state;
     std::memcpy(&state, given, sizeof state);
     constexpr std::int32_t kLeast_q8 = -256 * CodeEvidence::kMost_log2;
+    constexpr float kMost = 0x1p64F;
     const bool is_sound =
         std::all_of(std::begin(state.log2_q8), std::end(state.log2_q8),
-                    [](std::int32_t log2) { return log2 >= kLeast_q8 && log2 <= 0; });
+                    [](std::int32_t log2) { return log2 >= kLeast_q8 && log2 <= 0; }) &&
+        std::all_of(std::begin(state.factors), std::end(state.factors), [&](float factors) {
+            return factors >= static_cast<float>(state.frames) && factors <= kMost;
+        });
     if (!is_sound || state.x >= kPositionsPerAxis || state.y >= kPositionsPerAxis)
         return DOTPOSE_BAD_VALUE;
     std::memcpy(static_cast<void*>(&evidence), given, sizeof evidence);

@@ -1,12 +1,18 @@
 // How the evidence of frames for a profile adds up.
 #include "dotpose/code_evidence.hpp"
 
+#include <array>
+#include <numeric>
+#include <random>
+
 #include <gtest/gtest.h>
 
 namespace dotpose {
 namespace {
 
 constexpr Cell kPlace{1000, 2000};
+/// Most by which the evidence of a place is rounded down, in 2^-8 of log2.
+constexpr int kRounding = 24;
 /// Returns the log odds of a frame that makes this profile less likely by this log2.
 CodeEvidence::LogOdds against(Profile profile, int log2) {
     CodeEvidence::LogOdds odds{};
@@ -26,20 +32,76 @@ TEST(CodeEvidence, KnowsNothingAtFirst) {
 TEST(CodeEvidence, AddsUpFromPlaceToPlace) {
     CodeEvidence evidence;
     evidence.add(kPlace, against(Profile::anoto, 10));
-    EXPECT_EQ(evidence.log2_q8(Profile::anoto), -10 * 256);
+    EXPECT_NEAR(evidence.log2_q8(Profile::anoto), -10 * 256, kRounding);
     evidence.add({kPlace.x + 64, kPlace.y}, against(Profile::anoto, 12));
-    EXPECT_EQ(evidence.log2_q8(Profile::anoto), -22 * 256);
+    EXPECT_NEAR(evidence.log2_q8(Profile::anoto), -22 * 256, 2 * kRounding);
     EXPECT_NE(evidence.likeliest(), Profile::anoto);
     EXPECT_NEAR(evidence.p_wrong(Profile::libdots), 0.5, 0.01);
 }
 
-TEST(CodeEvidence, CountsThePlaceOnceAndItsFramesAsChances) {
+TEST(CodeEvidence, CountsThePlaceOnceAtTheMeanOfItsFrames) {
     CodeEvidence evidence;
-    for (int frame = 0; frame < 4; ++frame)
-        evidence.add({kPlace.x + static_cast<std::uint32_t>(frame), kPlace.y},
-                     against(Profile::anoto, frame == 1 ? 20 : 8));
-    // The strongest of four frames counts: 20 - log2(4).
-    EXPECT_NEAR(evidence.log2_q8(Profile::anoto), -18 * 256, 24);
+    for (const int log2 : {8, 20, 8, 8})
+        evidence.add({kPlace.x + static_cast<std::uint32_t>(log2), kPlace.y},
+                     against(Profile::anoto, log2));
+    // (2^20 + 3 * 2^8) / 4 is just above 2^18.
+    EXPECT_NEAR(evidence.log2_q8(Profile::anoto), -18 * 256, kRounding);
+    // Frames that say the same do not make it more, nor less.
+    CodeEvidence alike;
+    for (int frame = 0; frame < 1000; ++frame)
+        alike.add(kPlace, against(Profile::anoto, 20));
+    EXPECT_NEAR(alike.log2_q8(Profile::anoto), -20 * 256, kRounding);
+}
+
+TEST(CodeEvidence, CountsAPlaceAtMost32BitsHoweverManyFramesSayMore) {
+    CodeEvidence evidence;
+    for (int frame = 0; frame < 3; ++frame)
+        evidence.add(kPlace, against(Profile::anoto, 60));
+    EXPECT_EQ(evidence.log2_q8(Profile::anoto), -32 * 256);
+    // One strong frame is one in 256 here: 40 bits, the most of a frame, less 8.
+    for (int frame = 0; frame < 3 * 255; ++frame)
+        evidence.add(kPlace, against(Profile::anoto, 0));
+    EXPECT_NEAR(evidence.log2_q8(Profile::anoto), -32 * 256, kRounding);
+    for (int frame = 0; frame < 3 * 256 * 3; ++frame)
+        evidence.add(kPlace, against(Profile::anoto, 0));
+    EXPECT_NEAR(evidence.log2_q8(Profile::anoto), -30 * 256, kRounding);
+}
+
+TEST(CodeEvidence, FramesAgainstEachOtherCancelOut) {
+    CodeEvidence evidence;
+    for (const Profile profile : {Profile::anoto, Profile::libdots}) {
+        for (int frame = 0; frame < 5; ++frame)
+            evidence.add(kPlace, against(profile, 60));
+    }
+    EXPECT_EQ(evidence.log2_q8(Profile::anoto), evidence.log2_q8(Profile::libdots));
+}
+
+// Views of the same bits, which are fair coins at the true profile and three quarters ones at the
+// others: log2 of 1.5 for the others, or of 2 against them. The views overlap.
+TEST(CodeEvidence, IsSeldomMuchAgainstTheTruth) {
+    constexpr std::size_t kBits = 40;
+    constexpr std::size_t kSeen = 25;
+    constexpr int kSheets = 20'000;
+    std::mt19937 random(5);
+    std::array<int, 24> sheets_by_bits{};
+    for (int sheet = 0; sheet < kSheets; ++sheet) {
+        std::array<int, kBits> log2_q8;
+        for (int& bit : log2_q8)
+            bit = random() % 2 == 0 ? 150 : -256;
+        CodeEvidence evidence;
+        for (int frame = 0; frame < 20; ++frame) {
+            const int* first = log2_q8.data() + random() % (kBits - kSeen);
+            evidence.add(kPlace, {-std::accumulate(first, first + kSeen, 0), 0, 0});
+        }
+        const int bits = -evidence.log2_q8(Profile::anoto) / 256;
+        ++sheets_by_bits[static_cast<std::size_t>(bits)];
+    }
+    int beyond = kSheets;
+    for (int k = 1; k < 6; ++k) {
+        beyond -= sheets_by_bits[static_cast<std::size_t>(k - 1)];
+        EXPECT_LE(beyond, kSheets / ((1 << k) - 1)) << k;
+    }
+    EXPECT_GT(beyond, 20);
 }
 
 TEST(CodeEvidence, IsNotBeyondBeingMended) {
@@ -58,7 +120,7 @@ TEST(CodeEvidence, TellsFromTheOtherSideOfTheCodeWhatIsNear) {
     CodeEvidence evidence;
     evidence.add({kPositionsPerAxis - 5, 0}, against(Profile::anoto, 10));
     evidence.add({5, 10}, against(Profile::anoto, 10));
-    EXPECT_NEAR(evidence.log2_q8(Profile::anoto), -9 * 256, 24);
+    EXPECT_NEAR(evidence.log2_q8(Profile::anoto), -10 * 256, kRounding);
 }
 
 }  // namespace
