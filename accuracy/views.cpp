@@ -161,11 +161,12 @@ struct Row {
     int later_given = 0;
     int later = 0;  ///< of these, after the first views of a call, located by the call
     int wrong = 0;
+    double most_against_log2 = 0;  ///< evidence of any view by itself against the code given
 };
 
 class Reader {
   public:
-    explicit Reader(Profile profile) : given_(options_of(profile)) {}
+    explicit Reader(Profile profile) : profile_(profile), given_(options_of(profile)) {}
 
     void read(const View& view, Row& row) {
         const ImageView image = view.frame.view();
@@ -177,7 +178,10 @@ class Reader {
             return outcome.is_fix();
         };
         const bool given = is_located(given_.locate(image));
-        const Fix alone = any_.locate_in_any_code(image, {}).fix;
+        const CodeReading alone_reading = any_.locate_in_any_code(image, {});
+        const Fix& alone = alone_reading.fix;
+        row.most_against_log2 =
+            std::max(row.most_against_log2, -alone_reading.evidence.log2_q8(profile_) / 256.0);
         const bool is_alone = is_located(alone);
         const CodeReading reading = stream_.locate_in_any_code(image, evidence_);
         evidence_ = reading.evidence;
@@ -201,6 +205,7 @@ class Reader {
         return options;
     }
 
+    const Profile profile_;
     HeapLocator given_;
     HeapLocator any_;
     HeapLocator stream_;
@@ -214,9 +219,11 @@ int run(const Arguments& arguments) {
     for (const std::string& path : arguments.pages)
         pages.push_back(read_page(path, arguments.dpi));
 
-    fmt::print("| sheet | view | views | by itself | ambiguous | after {} views | wrong |\n",
-               kFirstViews);
-    fmt::print("|---|---|---:|---:|---:|---:|---:|\n");
+    fmt::print(
+        "| sheet | view | views | by itself | ambiguous | after {} views | wrong | "
+        "bits against the code |\n",
+        kFirstViews);
+    fmt::print("|---|---|---:|---:|---:|---:|---:|---:|\n");
     const auto percent = [](int part, int whole) { return 100.0 * part / std::max(whole, 1); };
     int wrong = 0;
     for (const auto& [width_px, height_px] :
@@ -234,10 +241,10 @@ int run(const Arguments& arguments) {
                 reader.read(*view, row);
             progress.update(row.views, static_cast<int>(arguments.views));
         }
-        fmt::print("| {} | {} x {} | {} | {:.1f} % | {:.1f} % | {:.1f} % | {} |\n", arguments.code,
-                   width_px, height_px, row.views, percent(row.alone, row.given),
+        fmt::print("| {} | {} x {} | {} | {:.1f} % | {:.1f} % | {:.1f} % | {} | {:.0f} |\n",
+                   arguments.code, width_px, height_px, row.views, percent(row.alone, row.given),
                    percent(row.ambiguous, row.given), percent(row.later, row.later_given),
-                   row.wrong);
+                   row.wrong, row.most_against_log2);
         std::fflush(stdout);
         wrong += row.wrong;
     }
