@@ -35,8 +35,11 @@ constexpr const char* kExamples =
     "  dotpose check-print test-scan.png\n\n"
     "Scan the whole page at 600 dpi, without sharpening. A photo tells bits and, from near, "
     "missing\n"
-    "dots, but no scale: an image that shows perspective or a lens is a photo whatever its\n"
-    "resolution. --dpi says that the page lies in the image as in a scan.\n"
+    "dots, but no scale: an image is a photo, whatever its resolution, if it shows perspective or "
+    "a\n"
+    "lens, or if its EXIF data have a camera's exposure. --dpi says that the page lies in the "
+    "image\n"
+    "as in a scan.\n"
     "Exit status: 0 no fault (with --fit, but for the scale that was written), 1 not checked, or\n"
     "nothing to fit, 3 faults.\n";
 
@@ -74,6 +77,12 @@ void require_scan(const std::string& scan, const PrintCheck& check) {
             "{:.1f} % across the page, and the lens displaces its corners by "
             "{:.1f} %{}",
             scan, 100 * check.camera->perspective, 100 * std::abs(check.camera->lens), kRemedy));
+    }
+    if (check.is_photo) {
+        throw Error(
+            fmt::format("{} is a photo, which has no scale of its own: its EXIF data have a "
+                        "camera's exposure{}",
+                        scan, kRemedy));
     }
     if (!check.fields.empty() && !check.resolution) {
         throw Error(
@@ -142,8 +151,13 @@ CheckPrintOptions options_of(const CheckPrintArguments& arguments,
     if (code) options.pattern.profile = *code;
     for (const SheetEntry& entry : sheets)
         options.sheets.push_back(entry.sheet);
-    options.resolution = arguments.dpi ? Resolution{*arguments.dpi, *arguments.dpi}
-                                       : read_resolution(arguments.scan);
+    if (arguments.dpi) {
+        options.resolution = Resolution{*arguments.dpi, *arguments.dpi};
+        return options;
+    }
+    const ImageOrigin origin = read_origin(arguments.scan);
+    options.is_photo = origin.is_photo;
+    options.resolution = origin.resolution;
     return options;
 }
 

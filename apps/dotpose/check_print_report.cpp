@@ -216,6 +216,7 @@ std::string json_report(const CheckedScan& scan, const PrintCheck& check) {
         object["x_dpi"] = rounded(check.resolution->x_dpi, 3);
         object["y_dpi"] = rounded(check.resolution->y_dpi, 3);
     }
+    if (check.is_photo) object["exif_of_camera"] = true;
     if (check.camera) {
         object["camera"] = {{"perspective", rounded(check.camera->perspective, 5)},
                             {"lens", rounded(check.camera->lens, 5)}};

@@ -211,6 +211,8 @@ PrintCheck check_print(const ImageView& scan, const CheckPrintOptions& asked) {
     validate(asked);
     PrintCheck check;
     CheckPrintOptions options = asked;
+    check.is_photo = asked.is_photo;
+    if (asked.is_photo) options.resolution.reset();
     Work work(asked);
     const CropDone done = [&work] { work.step(); };
     CropLocator locator(scan, asked.any_code ? std::nullopt : std::optional(asked.pattern.profile));

@@ -189,10 +189,15 @@ class Findings {
                 "scan it on a flatbed",
                 percent(camera->perspective), percent(std::abs(camera->lens)));
         }
+        if (check_.is_photo) {
+            return "scale was not checked, because this is a photo, which has none of its own: its "
+                   "EXIF data have a camera's exposure; scan it on a flatbed, or give --dpi if the "
+                   "page lies in the image as in a scan";
+        }
         return fmt::format(
             "scale was not checked, because the image states no resolution{}: scan on a flatbed, "
             "or give --dpi if the page lies in the image as in a scan",
-            options_.resolution ? " that can be true" : "");
+            options_.resolution ? " that can be true" : " of a scan");
     }
 
     void judge_scale_ratio(const PrintField& field) {

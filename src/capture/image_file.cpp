@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <memory>
@@ -10,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "capture/exif.hpp"
 #include "capture/image_codec.hpp"
 #include "capture/image_format.hpp"
 #include "capture/pnm.hpp"
@@ -137,6 +139,15 @@ auto with_name(const char* verb, const std::filesystem::path& path, Action actio
     }
 }
 
+/// Whether a resolution is one that cameras and programs state without knowing it.
+bool is_of_screen(const Resolution& resolution) {
+    // PNG and BMP count whole pixels per metre.
+    const auto is = [&](double dpi) {
+        return std::abs(resolution.x_dpi - dpi) < 0.1 && std::abs(resolution.y_dpi - dpi) < 0.1;
+    };
+    return is(72) || is(96);
+}
+
 }  // namespace
 
 GreyImage read_image(const std::filesystem::path& path, int max_pixels) {
@@ -148,11 +159,13 @@ GreyImage read_image(const std::filesystem::path& path, int max_pixels) {
     });
 }
 
-std::optional<Resolution> read_resolution(const std::filesystem::path& path) {
-    return with_name("read", path, [&]() -> std::optional<Resolution> {
+ImageOrigin read_origin(const std::filesystem::path& path) {
+    return with_name("read", path, [&]() -> ImageOrigin {
         const Content content = read_file(path, kMaxImagePixels);
-        if (content.format == ImageFormat::pnm) return std::nullopt;
-        return capture::decode_resolution(content.format, content.bytes);
+        if (content.format == ImageFormat::pnm) return {};
+        const auto stated = capture::decode_resolution(content.format, content.bytes);
+        if (capture::is_from_camera(content.format, content.bytes)) return {true, std::nullopt};
+        return {false, stated && is_of_screen(*stated) ? std::nullopt : stated};
     });
 }
 

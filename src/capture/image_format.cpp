@@ -6,21 +6,11 @@
 
 #include <fmt/core.h>
 
+#include "capture/bytes.hpp"
 #include "dotpose/tools/image_file.hpp"
 
 namespace dotpose::capture {
 namespace {
-
-using Bytes = std::span<const std::uint8_t>;
-
-/// Reads an unsigned integer of `size` bytes; the caller has checked that `bytes` is long enough.
-std::uint64_t integer(Bytes bytes, std::size_t offset, std::size_t size, bool big_endian) {
-    std::uint64_t value = 0;
-    for (std::size_t i = 0; i < size; ++i) {
-        value = value << 8 | bytes[offset + (big_endian ? i : size - 1 - i)];
-    }
-    return value;
-}
 
 bool png_is_cut_short(Bytes bytes) {
     constexpr std::size_t kSignature = 8;

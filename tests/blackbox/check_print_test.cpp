@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "../exif.hpp"
 #include "../jpeg.hpp"
 #include "../scanned_page.hpp"
 #include "dotpose/files/sheet_file.hpp"
@@ -134,10 +135,46 @@ TEST_F(CheckPrintCommand, fit_refuses_what_has_no_scale) {
     write_jpeg("scan.jpg", scan, 0);
     EXPECT_EQ(run("check-print scan.jpg --fit --sheets sheets.json"), 1);
     EXPECT_THAT(errors_, HasSubstr("scan.jpg states no resolution that can be true"));
+    write_jpeg("screen.jpg", scan, 72);
+    EXPECT_EQ(run("check-print screen.jpg --fit --sheets sheets.json"), 1);
+    EXPECT_THAT(errors_, HasSubstr("screen.jpg states no resolution that can be true"));
     EXPECT_EQ(run("check-print scan.jpg --fit --sheets sheets.json --dpi 400"), 1);
     EXPECT_THAT(errors_, HasSubstr("scan.jpg: a page at 150 % of its size is not what was"));
     EXPECT_EQ(file("sheets.json"), before);
     EXPECT_EQ(run("check-print scan.jpg --fit --sheets sheets.json --dpi 600"), 0) << errors_;
+}
+
+// A photo taken straight on looks like a scan at the resolution that the phone made up.
+TEST_F(CheckPrintCommand, tells_a_straight_photo_by_its_exif_data) {
+    ASSERT_EQ(run("print --paper 60x50 -o a.svg --sheets sheets.json --name a"), 0);
+    const std::string before = file("sheets.json");
+    ScanSettings settings;
+    settings.dpi = 330;
+    const GreyImage image =
+        test::scan_page(read_sheets(directory_ / "sheets.json")[0].sheet, settings);
+    const std::string jpeg = test::jpeg_of(image, 90, 300);
+    const auto write = [&](const char* name, const std::vector<std::uint16_t>& tags) {
+        std::ofstream(directory_ / name, std::ios::binary)
+            << test::with_exif(jpeg, test::exif_of(tags, true));
+    };
+    write("photo.jpg", {test::exposure_time, test::f_number, test::date_taken});
+    EXPECT_EQ(run("check-print photo.jpg --fit --sheets sheets.json"), 1);
+    EXPECT_THAT(errors_, StartsWith("dotpose: photo.jpg is a photo, which has no scale of its own: "
+                                    "its EXIF data have a camera's exposure; nothing was written"));
+    EXPECT_EQ(file("sheets.json"), before);
+    EXPECT_EQ(run("check-print photo.jpg"), 0) << output_;
+    EXPECT_THAT(output_, HasSubstr("note:  scale was not checked, because this is a photo, which "
+                                   "has none of its own: its EXIF data"));
+    EXPECT_THAT(output_, Not(HasSubstr("FAULT")));
+    EXPECT_EQ(run("check-print photo.jpg --format json"), 0);
+    EXPECT_EQ(json::parse(output_)["exif_of_camera"], true);
+
+    // A scanner's EXIF data have no exposure, so its 300 dpi count; and so does --dpi.
+    write("scan.jpg", {test::date_taken, test::file_source});
+    EXPECT_EQ(run("check-print scan.jpg"), 3);
+    EXPECT_THAT(output_, HasSubstr("FAULT: the driver scaled the page to 110.0 %"));
+    EXPECT_EQ(run("check-print photo.jpg --dpi 330"), 0) << output_;
+    EXPECT_THAT(output_, HasSubstr("scale       x 100.0"));
 }
 
 TEST_F(CheckPrintCommand, judges_every_sheet_on_the_scan_by_what_the_sheet_file_says) {

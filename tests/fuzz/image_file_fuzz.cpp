@@ -1,4 +1,4 @@
-// Any file: `read_image` gives an image or throws Error.
+// Any file: `read_image` gives an image and `read_origin` its origin, or they throw Error.
 #include <cstdint>
 #include <cstdlib>
 #include <string>
@@ -21,6 +21,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                               image.pixels.size() == static_cast<std::size_t>(image.width_px) *
                                                          static_cast<std::size_t>(image.height_px);
         if (!is_whole) std::abort();
+        const ImageOrigin origin = read_origin(file.path());
+        if (origin.is_photo && origin.resolution) std::abort();
     } catch (const Error& error) {
         if (std::string(error.what()).empty()) std::abort();
     }

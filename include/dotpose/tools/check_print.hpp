@@ -1,7 +1,9 @@
 /// Checking a print: what a scan or photo of a printed sheet shows about printer and paper.
 ///
-///     CheckPrintOptions options;                        // the pattern as it was printed
-///     options.resolution = read_resolution("scan.png"); // image_file.hpp
+///     CheckPrintOptions options;  // the pattern as it was printed
+///     const ImageOrigin origin = read_origin("scan.png");  // image_file.hpp
+///     options.resolution = origin.resolution;
+///     options.is_photo = origin.is_photo;
 ///     const PrintCheck check = check_print(read_image("scan.png").view(), options);
 ///     for (const Finding& finding : check.findings) puts(finding.text.c_str());
 ///
@@ -43,6 +45,8 @@ struct CheckPrintOptions {
     /// Resolution of the scan. Without it the image counts as a photo, and so does one with a
     /// camera's perspective or lens: both are then allowed for, and scale is not judged.
     std::optional<Resolution> resolution;
+    /// Whether a camera took the image, as its file says; a resolution is then not used.
+    bool is_photo = false;
     /// Reflectance of solid ink relative to the paper, 0 to 0.9; dots smaller than a few pixels
     /// never show it. Diameters are those of discs of this ink with the darkness of the dots.
     double ink_reflectance = 0.15;
@@ -164,6 +168,7 @@ struct PrintCheck {
     Profile code = Profile::anoto;  ///< profile that was given or found
     double code_p_wrong = 0;  ///< if the profile was found: probability that it is another one
     std::optional<Resolution> resolution;  ///< resolution that was used; none for a photo
+    bool is_photo = false;                 ///< as in the options
     std::optional<CameraSigns> camera;     ///< if the stated resolution was not used: the reason
     bool is_test_page = false;
     /// Patches of the usual test page (make_test_page's defaults) that are not among the fields.

@@ -53,10 +53,19 @@ struct Resolution {
     double y_dpi = 0;
 };
 
-/// Returns the resolution that the file states: PNG pHYs, JPEG density, TIFF and BMP resolution;
-/// none if it states none. Photos often state made-up numbers, such as 72 dpi. Throws Error as
-/// `read_image`.
-std::optional<Resolution> read_resolution(const std::filesystem::path& path);
+/// What a file says of how its image was made.
+struct ImageOrigin {
+    /// Whether a camera took it: EXIF data (of JPEG, PNG and TIFF) have the exposure time,
+    /// f-number, sensitivity or focal length.
+    bool is_photo = false;
+    /// Resolution of a scan: PNG pHYs, JPEG density, TIFF and BMP resolution. None if the file
+    /// states none, of photos, and of 72 and 96 dpi, which stand for a screen's where nobody knows
+    /// better.
+    std::optional<Resolution> resolution;
+};
+
+/// Returns the origin of an image, without decoding its pixels. Throws Error as `read_image`.
+ImageOrigin read_origin(const std::filesystem::path& path);
 
 /// Writes binary PGM (P5), replacing the file. Throws Error if the image is empty or the file
 /// cannot be written.

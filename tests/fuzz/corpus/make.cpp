@@ -4,6 +4,7 @@
 #include <fstream>
 #include <numbers>
 
+#include "../../exif.hpp"
 #include "../../unit/capture/encoders.hpp"
 #include "../locate_input.hpp"
 #include "dotpose/tools/simulate.hpp"
@@ -98,7 +99,11 @@ void make_images(const fs::path& folder) {
         test::Raster small = raster;
         small.width_px = small.height_px = 2;
         small.samples.resize(static_cast<std::size_t>(4 * channels));
-        write(folder / (stem + ".jpg"), test::encode_jpeg(small));
+        const Bytes jpeg = test::encode_jpeg(small);
+        write(folder / (stem + ".jpg"), jpeg);
+        const std::string photo = test::with_exif(
+            {jpeg.begin(), jpeg.end()}, test::exif_of({test::f_number}, channels == 1), 2);
+        write(folder / (stem + "-photo.jpg"), {photo.begin(), photo.end()});
         if (channels == 4) continue;
         write(folder / (stem + ".pnm"), test::encode_pnm(raster, false, 255));
         write(folder / (stem + "-text.pnm"), test::encode_pnm(small, true, 255));

@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include "../../exif.hpp"
 #include "../../jpeg.hpp"
+#include "capture/exif.hpp"
 #include "dotpose/tools/image_file.hpp"
 #include "dotpose/tools/print.hpp"
 #include "encoders.hpp"
@@ -23,13 +25,20 @@ class ResolutionTest : public testing::Test {
     }
     ~ResolutionTest() override { std::filesystem::remove_all(directory_); }
 
-    std::optional<Resolution> resolution_of(const std::string& content) const {
+    ImageOrigin origin_of(const std::string& content) const {
         const auto path = directory_ / "image";
         std::ofstream(path, std::ios::binary) << content;
-        return read_resolution(path);
+        return read_origin(path);
+    }
+    std::optional<Resolution> resolution_of(const std::string& content) const {
+        return origin_of(content).resolution;
     }
     std::optional<Resolution> resolution_of(const test::Bytes& content) const {
         return resolution_of(std::string(content.begin(), content.end()));
+    }
+
+    static test::Bytes bytes_of(const std::string& content) {
+        return {content.begin(), content.end()};
     }
 
     std::filesystem::path directory_;
@@ -44,7 +53,7 @@ TEST_F(ResolutionTest, is_read_from_png_and_tiff) {
         print.dpi = dpi;
         for (const char* name : {"sheet.png", "sheet.tif"}) {
             write_sheet(make_sheet(options), directory_ / name, print);
-            const auto resolution = read_resolution(directory_ / name);
+            const auto resolution = read_origin(directory_ / name).resolution;
             ASSERT_TRUE(resolution) << name;
             // PNG counts whole pixels per metre.
             EXPECT_NEAR(resolution->x_dpi, dpi, 0.013) << name;
@@ -68,9 +77,85 @@ TEST_F(ResolutionTest, is_nothing_where_a_file_states_none) {
     EXPECT_FALSE(resolution_of(test::encode_pnm(raster, false, 255)));
 }
 
+TEST_F(ResolutionTest, is_nothing_where_it_is_a_screens) {
+    for (const int dpi : {72, 96}) {
+        EXPECT_FALSE(resolution_of(test::jpeg_of(image_, 90, dpi))) << dpi;
+        EXPECT_FALSE(origin_of(test::jpeg_of(image_, 90, dpi)).is_photo) << dpi;
+    }
+    EXPECT_TRUE(resolution_of(test::jpeg_of(image_, 90, 75)));
+}
+
+TEST_F(ResolutionTest, is_nothing_where_a_camera_took_the_image) {
+    const std::string jpeg = test::jpeg_of(image_, 90, 300);
+    for (const std::uint16_t tag :
+         {test::exposure_time, test::f_number, test::sensitivity, test::focal_length}) {
+        for (const bool big_endian : {false, true}) {
+            const std::string exif = test::exif_of({test::date_taken, tag}, big_endian);
+            for (const std::size_t position : {2U, 20U}) {
+                const ImageOrigin origin = origin_of(test::with_exif(jpeg, exif, position));
+                EXPECT_TRUE(origin.is_photo) << tag;
+                EXPECT_FALSE(origin.resolution) << tag;
+            }
+        }
+    }
+}
+
+TEST_F(ResolutionTest, is_that_of_a_scan_whose_exif_data_have_no_exposure) {
+    for (const bool big_endian : {false, true}) {
+        const std::string exif = test::exif_of({test::date_taken, test::file_source}, big_endian);
+        const ImageOrigin origin = origin_of(test::with_exif(test::jpeg_of(image_, 90, 300), exif));
+        EXPECT_FALSE(origin.is_photo);
+        ASSERT_TRUE(origin.resolution);
+        EXPECT_EQ(origin.resolution->x_dpi, 300);
+    }
+}
+
+TEST_F(ResolutionTest, finds_a_camera_in_png_and_tiff) {
+    test::Raster raster{4, 4, 1, 8, std::vector<std::uint16_t>(16, 100)};
+    const std::string exif = test::exif_of({test::f_number}, true);
+    // After the signature and the header come length, type, data and a checksum, which only readers
+    // of the data ask for.
+    const test::Bytes png = test::encode_png(raster);
+    std::string content(png.begin(), png.end());
+    constexpr std::size_t kHeader = 8 + 25;
+    const std::string length{0, 0, 0, static_cast<char>(exif.size())};
+    content.insert(kHeader, length + "eXIf" + exif + "\0\0\0\0");
+    EXPECT_TRUE(capture::is_from_camera(capture::ImageFormat::png, bytes_of(content)));
+    EXPECT_FALSE(capture::is_from_camera(capture::ImageFormat::png, png));
+    EXPECT_TRUE(capture::is_from_camera(capture::ImageFormat::tiff, bytes_of(exif)));
+    EXPECT_FALSE(
+        capture::is_from_camera(capture::ImageFormat::tiff, test::encode_tiff(raster, true)));
+}
+
+// Whatever is cut off or wrong in EXIF data, they are not read beyond their end; a sanitizer would
+// tell. What is left of them may still have a camera's tag.
+TEST_F(ResolutionTest, survives_exif_data_that_are_damaged) {
+    const std::string exif = test::exif_of({test::date_taken, test::focal_length}, false);
+    const std::string jpeg = test::with_exif("\xFF\xD8\xFF\xDA", exif, 2);
+    for (std::size_t size = 0; size < exif.size(); ++size) {
+        const test::Bytes cut = bytes_of(exif.substr(0, size));
+        // Its last entry is whole, only the offset of the next directory is missing.
+        EXPECT_EQ(capture::is_from_camera(capture::ImageFormat::tiff, cut), size + 4 >= exif.size())
+            << size;
+    }
+    for (std::size_t size = 2; size < jpeg.size(); ++size) {
+        const test::Bytes cut = bytes_of(jpeg.substr(0, size));
+        EXPECT_EQ(capture::is_from_camera(capture::ImageFormat::jpeg, cut), size + 2 >= jpeg.size())
+            << size;
+    }
+    for (std::size_t at = 0; at < jpeg.size(); ++at) {
+        for (const int value : {0, 1, 127, 255}) {
+            std::string damaged = jpeg;
+            damaged[at] = static_cast<char>(value);
+            static_cast<void>(
+                capture::is_from_camera(capture::ImageFormat::jpeg, bytes_of(damaged)));
+        }
+    }
+}
+
 TEST_F(ResolutionTest, of_a_file_that_is_no_image_is_an_error) {
     EXPECT_THROW(resolution_of(std::string("not an image")), Error);
-    EXPECT_THROW(read_resolution(directory_ / "missing"), Error);
+    EXPECT_THROW(read_origin(directory_ / "missing"), Error);
 }
 
 }  // namespace

@@ -131,7 +131,11 @@ SeenCheck check(const py::object& scan, const std::string& code, double spacing_
         const auto* path = std::get_if<std::filesystem::path>(&frame);
         SeenCheck seen{{}, path ? read_image(*path) : std::get<GreyImage>(frame)};
         if (dpi) options.resolution = Resolution{*dpi, *dpi};
-        if (!dpi && !is_photo && path) options.resolution = read_resolution(*path);
+        if (!dpi && !is_photo && path) {
+            const ImageOrigin origin = read_origin(*path);
+            options.is_photo = origin.is_photo;
+            options.resolution = origin.resolution;
+        }
         seen.check = check_print(seen.scan.view(), options);
         return seen;
     });
@@ -150,8 +154,10 @@ void define_check(py::module_& module) {
         "dpi"_a = py::none(), "ink_reflectance"_a = 0.15,
         "Return a PrintCheck of the scan or photo of a printed sheet: an array or the name of an "
         "image file.\n\n"
-        "dpi: resolution of the scan; default: that of the file, if it states one. Without it, or "
-        "with is_photo, the image counts as a photo, and scale is not judged.\n"
+        "dpi: resolution of the scan; default: that of the file, if it states one. Without it, "
+        "with is_photo, or with a camera's EXIF data, the image counts as a photo, and scale is "
+        "not "
+        "judged.\n"
         "sheets: entries of the sheets that may be seen. ink_reflectance: of solid ink, relative "
         "to paper, 0 to 0.9.");
 }

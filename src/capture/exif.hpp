@@ -1,0 +1,13 @@
+/// What the EXIF data of an image file say, read from the file's bytes.
+#pragma once
+
+#include "capture/bytes.hpp"
+#include "capture/image_format.hpp"
+
+namespace dotpose::capture {
+
+/// Whether a file has EXIF data of a camera: exposure time, f-number, sensitivity or focal length,
+/// which scanners do not have. Data that are cut short or damaged say nothing.
+bool is_from_camera(ImageFormat format, Bytes file);
+
+}  // namespace dotpose::capture

@@ -1,0 +1,61 @@
+/// EXIF data as cameras and scanners write them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace dotpose::test {
+
+/// Tags of the directory that the first one refers to.
+enum ExifTag : std::uint16_t {
+    exposure_time = 33434,
+    f_number = 33437,
+    sensitivity = 34855,
+    date_taken = 36867,
+    focal_length = 37386,
+    file_source = 41728,
+};
+
+/// A TIFF structure whose first directory has a maker and refers to another one with these tags.
+inline std::string exif_of(const std::vector<std::uint16_t>& tags, bool big_endian) {
+    std::string bytes = big_endian ? "MM" : "II";
+    const auto add = [&](std::uint32_t value, int size) {
+        for (int i = 0; i < size; ++i)
+            bytes += static_cast<char>(value >> 8 * (big_endian ? size - 1 - i : i) & 255);
+    };
+    const auto add_entry = [&](std::uint16_t tag, std::uint16_t type, std::uint32_t value) {
+        add(tag, 2);
+        add(type, 2);
+        add(1, 4);
+        add(value, 4);
+    };
+    constexpr std::uint16_t kByte = 1;
+    constexpr std::uint16_t kLong = 4;
+    constexpr std::uint32_t kHeader = 8;
+    constexpr std::uint32_t kFirst = 2 + 2 * 12 + 4;
+    add(42, 2);
+    add(kHeader, 4);
+    add(2, 2);
+    add_entry(271, kByte, 0);  // maker
+    add_entry(34665, kLong, kHeader + kFirst);
+    add(0, 4);
+    add(static_cast<std::uint32_t>(tags.size()), 2);
+    for (const std::uint16_t tag : tags)
+        add_entry(tag, kLong, 0);
+    add(0, 4);
+    return bytes;
+}
+
+/// A JPEG with EXIF data in a segment before `position`, 2: right at the beginning, as in files of
+/// phones; 20: after the density.
+inline std::string with_exif(std::string jpeg, const std::string& exif, std::size_t position = 20) {
+    const std::size_t length = 2 + 6 + exif.size();
+    std::string segment = "\xFF\xE1";
+    segment += static_cast<char>(length >> 8);
+    segment += static_cast<char>(length & 255);
+    segment.append("Exif\0\0", 6);
+    return jpeg.insert(position, segment + exif);
+}
+
+}  // namespace dotpose::test
