@@ -10,7 +10,7 @@ memcpy:
     or      $v1, $a0, $a1
     andi    $v1, $v1, 3
     bnezc   $v1, .Lbytes
-    addiu   $a2, $a2, -32
+    addiu   $a2, $a2, -64
     bltz    $a2, .Lafter_blocks
     nop
 .Lblocks:
@@ -18,15 +18,36 @@ memcpy:
     lwp     $t2, 8($a1)
     lwp     $t4, 16($a1)
     lwp     $t6, 24($a1)
-    addiu   $a2, $a2, -32
+    swp     $t0, 0($a0)
+    swp     $t2, 8($a0)
+    swp     $t4, 16($a0)
+    swp     $t6, 24($a0)
+    lwp     $t0, 32($a1)
+    lwp     $t2, 40($a1)
+    lwp     $t4, 48($a1)
+    lwp     $t6, 56($a1)
+    swp     $t0, 32($a0)
+    swp     $t2, 40($a0)
+    swp     $t4, 48($a0)
+    swp     $t6, 56($a0)
+    addiu   $a2, $a2, -64
+    addiu   $a1, $a1, 64
+    bgez    $a2, .Lblocks
+    addiu   $a0, $a0, 64
+.Lafter_blocks:                     # the lower bits of $a2 are still those of the size
+    andi    $v1, $a2, 32
+    beqzc   $v1, .Lafter_eight_words
+    lwp     $t0, 0($a1)
+    lwp     $t2, 8($a1)
+    lwp     $t4, 16($a1)
+    lwp     $t6, 24($a1)
     swp     $t0, 0($a0)
     swp     $t2, 8($a0)
     swp     $t4, 16($a0)
     swp     $t6, 24($a0)
     addiu   $a1, $a1, 32
-    bgez    $a2, .Lblocks
     addiu   $a0, $a0, 32
-.Lafter_blocks:                     # the lower bits of $a2 are still those of the size
+.Lafter_eight_words:
     andi    $v1, $a2, 16
     beqzc   $v1, .Lafter_four_words
     lwp     $t0, 0($a1)
