@@ -97,12 +97,15 @@ inline constexpr float kSlopes = 0.03F;
 
 /// Whether dots are off alike (pose/uneven, pose/float_fit).
 namespace uneven {
-/// Blocks are looked at if runs of dots share residuals by more deviations than this; few frames of
-/// flat sheets exceed it.
-inline constexpr float kSuspectRuns = 2.2F;
-/// Deviations by which blocks share residuals: 3 % of the frames of flat sheets exceed kSuspect,
-/// hardly one in 1,000 exceeds kUneven.
-inline constexpr float kSuspect = 2.5F;
+/// Blocks are looked at if runs of dots share residuals by more deviations than this; one in ten
+/// frames of flat sheets exceeds it.
+inline constexpr float kSuspectRuns = 1.2F;
+/// Deviations by which blocks share residuals: one in ten frames of flat sheets exceeds kShared,
+/// from where on what blocks share widens the covariance; few exceed kSuspect, from where on a line
+/// is looked for, which takes long, and hardly one in 1,000 exceeds
+/// kUneven. `dotpose_slips` measures it.
+inline constexpr float kShared = 1.5F;
+inline constexpr float kSuspect = 3.5F;
 inline constexpr float kUneven = 5;
 /// Number of outliers that chance explains, plus a share of the dots.
 inline constexpr float kFewOutliers = 3;

@@ -54,10 +54,9 @@ Blocks blocks_here(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
     return {kernels, dots, sides.plane, sides.fit};
 }
 
-bool may_be_uneven(const Blocks& blocks) {
-    return blocks.scatter().excess() > tuned::kSuspect ||
-           blocks.outliers() >
-               tuned::kFewOutliers + tuned::kShareOfOutliers * blocks.scatter().dots;
+bool has_outliers(const Blocks& blocks) {
+    return blocks.outliers() >
+           tuned::kFewOutliers + tuned::kShareOfOutliers * blocks.scatter().dots;
 }
 
 /// Adds the difference of two planes at the reference point to the covariance, times `weight`, as
@@ -81,14 +80,12 @@ void add(float variance, std::size_t i, PoseFit& fit) {
     fit.uneven[i][i] += variance;
 }
 
-/// Adds what dots with common residuals leave open to the covariance, and marks the surface as
-/// uneven.
+/// Adds what dots with common residuals leave open to the covariance.
 void widen_by_blocks(const Blocks& blocks, PoseFit& fit) {
     const float variance = blocks.scatter().variance_between();
     add(tuned::kOfPlace * variance, 0, fit);
     add(tuned::kOfPlace * variance, 1, fit);
     add(tuned::kOfTurn * variance / (blocks.side() * blocks.side()), 2, fit);
-    fit.surface = Surface::uneven;
 }
 
 /// Widens the covariance if the line passes so near the reference point that either side may hold
@@ -117,8 +114,12 @@ void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
         plane = sides.plane;
         fit = sides.fit;
         fit.surface = Surface::divided;
+        // Where no dot is far off, the paper may as well be bent.
+        if (!has_outliers(blocks)) widen_by_blocks(blocks, fit);
     } else {
-        if (is_divided || blocks.scatter().excess() > tuned::kUneven) widen_by_blocks(blocks, fit);
+        const float excess = blocks.scatter().excess();
+        if (is_divided || excess > tuned::kUneven) fit.surface = Surface::uneven;
+        if (is_divided || excess > tuned::kShared) widen_by_blocks(blocks, fit);
         if (!has_line) return;
         const float weight =
             (sides.slip.gain - Slip::kPossible) / (Slip::kCertain - Slip::kPossible);
@@ -135,7 +136,11 @@ void fit_uneven(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_p
     fit.uneven = {};
     if (fit.is_plainly_even) return;
     const Blocks blocks(kernels, dots, plane, fit);
-    if (may_be_uneven(blocks)) consider_line(kernels, dots, reference_px, blocks, plane, fit);
+    const float excess = blocks.scatter().excess();
+    if (excess > tuned::kSuspect || has_outliers(blocks))
+        consider_line(kernels, dots, reference_px, blocks, plane, fit);
+    else if (excess > tuned::kShared)
+        widen_by_blocks(blocks, fit);
 }
 
 void fit_uneven(const Kernels& kernels, const Observations& observations, Vec reference_q8,
