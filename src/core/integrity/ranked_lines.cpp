@@ -1,6 +1,5 @@
 #include "core/integrity/ranked_lines.hpp"
 
-#include <algorithm>
 #include <numeric>
 #include <span>
 
@@ -24,15 +23,15 @@ RankedLines::RankedLines(const LikelihoodRatios& of) : ratios(of) {
 /// Ranks the lines by the mean odds of an alternative that does not share them, the least first.
 void RankedLines::rank_lines() {
     std::array<float, kMaxLines> sums;
-    for (int line = 0; line < count(); ++line) {
-        const auto others = std::span(odds(line)).subspan(1);
-        sums[static_cast<std::size_t>(line)] = std::accumulate(others.begin(), others.end(), 0.0F);
+    for (std::size_t line = 0; line < static_cast<std::size_t>(count()); ++line) {
+        const auto others = std::span(odds(static_cast<int>(line))).subspan(1);
+        sums[line] = std::accumulate(others.begin(), others.end(), 0.0F);
+        // Sorted in: `std::sort` would be as long as everything else here.
+        std::size_t rank = line;
+        for (; rank > 0 && sums[lines_[rank - 1]] > sums[line]; --rank)
+            lines_[rank] = lines_[rank - 1];
+        lines_[rank] = static_cast<std::uint8_t>(line);
     }
-    const auto end = lines_.begin() + count();
-    std::iota(lines_.begin(), end, std::uint8_t{0});
-    std::sort(lines_.begin(), end, [&](std::uint8_t a, std::uint8_t b) {
-        return sums[a] != sums[b] ? sums[a] < sums[b] : a < b;
-    });
     for (int n = 0; n < count(); ++n)
         ranks_[lines_[static_cast<std::size_t>(n)]] = static_cast<std::uint8_t>(n);
 }
