@@ -35,8 +35,8 @@ CodeEvidence::LogOdds CodeEvidence::sum() const {
     // profile in at most one case of m.
     for (std::size_t i = 0; i < sum.size(); ++i) {
         const float mean = factors_here_[i] / static_cast<float>(frames_here_);
-        sum[i] += std::clamp<std::int32_t>(core::log2_of_odds_q8(1 / mean),
-                                          -256 * kMostOfPlace_log2, 0);
+        sum[i] +=
+            std::clamp<std::int32_t>(core::log2_of_odds_q8(1 / mean), -256 * kMostOfPlace_log2, 0);
     }
     return against_likeliest(sum, kMost_log2);
 }

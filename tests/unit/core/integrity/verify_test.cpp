@@ -278,7 +278,6 @@ double exact_p_wrong(const Reading& reading) {
             (roll(profile, own) + section + static_cast<int>(cross % kSections)) % kSections);
         sum += std::exp2(chance_log2(axes[is_x ? 0 : 1], odds)) +
                std::exp2(alternatives_log2(
-                   profile,
                    LikelihoodRatios(profile, score_lines(upright, axis, storage), read, odds)));
     }
     return std::log2(sum);
