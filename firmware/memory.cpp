@@ -16,7 +16,7 @@ bool are_aligned(const void* a, const void* b) {
 
 extern "C" {
 
-// Cortex-M0+ has a faster one in cortex-m0plus/memcpy.S.
+// Cortex-M0+ and MIPS have a faster one each, in memcpy.S.
 [[gnu::weak]] void* memcpy(void* __restrict to, const void* __restrict from, std::size_t size) {
     auto* target_word = static_cast<Word*>(to);
     const auto* source_word = static_cast<const Word*>(from);

@@ -1,6 +1,17 @@
 # memcpy that copies two words with each instruction; compilers take one.
     .set micromips
     .set noreorder
+    .macro copy_eight_words offset
+    lwp     $t0, 0+\offset($a1)
+    lwp     $t2, 8+\offset($a1)
+    lwp     $t4, 16+\offset($a1)
+    lwp     $t6, 24+\offset($a1)
+    swp     $t0, 0+\offset($a0)
+    swp     $t2, 8+\offset($a0)
+    swp     $t4, 16+\offset($a0)
+    swp     $t6, 24+\offset($a0)
+    .endm
+
     .section .text.memcpy, "ax", @progbits
     .globl memcpy
     .type memcpy, @function
@@ -14,22 +25,8 @@ memcpy:
     bltz    $a2, .Lafter_blocks
     nop
 .Lblocks:
-    lwp     $t0, 0($a1)
-    lwp     $t2, 8($a1)
-    lwp     $t4, 16($a1)
-    lwp     $t6, 24($a1)
-    swp     $t0, 0($a0)
-    swp     $t2, 8($a0)
-    swp     $t4, 16($a0)
-    swp     $t6, 24($a0)
-    lwp     $t0, 32($a1)
-    lwp     $t2, 40($a1)
-    lwp     $t4, 48($a1)
-    lwp     $t6, 56($a1)
-    swp     $t0, 32($a0)
-    swp     $t2, 40($a0)
-    swp     $t4, 48($a0)
-    swp     $t6, 56($a0)
+    copy_eight_words 0
+    copy_eight_words 32
     addiu   $a2, $a2, -64
     addiu   $a1, $a1, 64
     bgez    $a2, .Lblocks
@@ -37,14 +34,7 @@ memcpy:
 .Lafter_blocks:                     # the lower bits of $a2 are still those of the size
     andi    $v1, $a2, 32
     beqzc   $v1, .Lafter_eight_words
-    lwp     $t0, 0($a1)
-    lwp     $t2, 8($a1)
-    lwp     $t4, 16($a1)
-    lwp     $t6, 24($a1)
-    swp     $t0, 0($a0)
-    swp     $t2, 8($a0)
-    swp     $t4, 16($a0)
-    swp     $t6, 24($a0)
+    copy_eight_words 0
     addiu   $a1, $a1, 32
     addiu   $a0, $a0, 32
 .Lafter_eight_words:

@@ -88,8 +88,9 @@ constexpr std::size_t unshared_at_one_shift(std::size_t entry, std::size_t row) 
     return row + 1 + (kUnshared[entry] >> 3 * row & 7U);
 }
 
-/// The same for a view of which one part is read at one shift of such a position and the rest at
-/// another. It is at least row, and exceeds that by two bits.
+/// Returns the least number of lines that are not shared with such a position if one part of a view
+/// is read at one of its shifts and the rest at another. It is at least row, and exceeds that by
+/// two bits.
 constexpr std::size_t unshared_on_two_sides(std::size_t entry, std::size_t row) {
     return row + (kUnshared[entry] >> (9 + 2 * row) & 3U);
 }

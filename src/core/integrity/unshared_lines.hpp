@@ -22,7 +22,7 @@ class UnsharedLines {
     static constexpr int kMostLines = 16;
     /// Uses the table with the most lines, at most `most_lines` and at most as many as there are.
     explicit UnsharedLines(const LikelihoodRatios& ratios, int most_lines = kMostLines);
-    /// The same; a kernel of the desktop sorts the losses.
+    /// Uses the same table as the constructor above; a kernel of the desktop sorts the losses.
     UnsharedLines(const Kernels& kernels, const LikelihoodRatios& ratios,
                   int most_lines = kMostLines);
 
