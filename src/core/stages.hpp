@@ -53,6 +53,7 @@ struct Light {
     int tiles_per_band = 0;
     int rows_taken = 0;
     bool has_contrast = false;  ///< whether any tile so far has contrast
+    int greatest_contrast = 0;  ///< grey levels between paper and ink, of all tiles so far
     /// Pixels of the two newest bands; rows are filled up to whole tiles.
     std::span<std::uint8_t> rows;
     std::span<Tile> tiles;  ///< tiles of the four newest bands

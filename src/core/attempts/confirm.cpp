@@ -254,7 +254,7 @@ Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
     DotReader reader(kernels, image, spacing, dots);
     PoseFit fit;
     BitsRead bits;
-    bool is_second_pass = false;
+    int looks = 0;
     FloatVec bias_px2;  // Variance of the pixel bias that is left, along u and v.
     for (Reach reach(image, hypothesis, spacing);;) {
         const bool decides = reach.decides();
@@ -282,8 +282,7 @@ Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
         if (!fit_to_dots(kernels, dots, bits, image, hypothesis, fit))
             return Confirmation::implausible;
         if (hypothesis.is_exact && is_far_from(before, plane, image)) {
-            if (is_second_pass) return Confirmation::implausible;
-            is_second_pass = true;
+            if (++looks == tuned::kMostLooks) return Confirmation::implausible;
             continue;
         }
         if (decides && !hypothesis.is_certain &&

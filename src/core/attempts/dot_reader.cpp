@@ -74,39 +74,6 @@ bool falls_on_pixels_alike(const FloatPlane& p, float most_off_px) {
            (is_whole(by * p.du_y) && is_whole(by * p.du_x));
 }
 
-/// Moves, scales and turns the plane to the dots found, by least squares. Sets their number,
-/// displacement and residuals in `bits`.
-void move_to_dots(const DotOffsets& found, Hypothesis& hypothesis, BitsRead& bits) {
-    // Offset = shift + turn * place, as complex numbers: least squares in closed form.
-    FloatPlane& p = hypothesis.pattern_from_image;
-    const auto points = static_cast<float>(found.points);
-    const float u = found.u / points;  // the mean place
-    const float v = found.v / points;
-    const float spread = found.squares - points * (u * u + v * v);
-    if (!(spread > 0)) return;
-    const float along = found.along - found.off_u * u - found.off_v * v;
-    const float across = found.across - found.off_v * u + found.off_u * v;
-    const float scale = along / spread;
-    const float turn = across / spread;
-    const float shift_u = found.off_u / points - scale * u + turn * v;
-    const float shift_v = found.off_v / points - scale * v - turn * u;
-    const float left = found.squared - scale * along - turn * across -
-                       (found.off_u * found.off_u + found.off_v * found.off_v) / points;
-    bits.right = found.points;
-    // A dot farther out along its displacement: offsets through the plane, which turns px to
-    // spacings.
-    bits.projected = points * hypothesis.displacement + p.du_x * found.of_x[0] +
-                     p.dv_x * found.of_x[1] + p.du_y * found.of_y[0] + p.dv_y * found.of_y[1];
-    bits.squares = std::max(left, 0.0F) * std::abs(p.du_x * p.dv_y - p.dv_x * p.du_y);
-    p = recentred(p, {-shift_u, -shift_v});
-    const float du_x = p.du_x - p.du_x * scale - p.dv_x * turn;
-    const float du_y = p.du_y - p.du_y * scale - p.dv_y * turn;
-    p.dv_x += p.du_x * turn - p.dv_x * scale;
-    p.dv_y += p.du_y * turn - p.dv_y * scale;
-    p.du_x = du_x;
-    p.du_y = du_y;
-}
-
 }  // namespace
 
 bool suits_one_pass(const Hypothesis& hypothesis) {
@@ -144,9 +111,20 @@ void DotReader::find_centres(const CellsInView& view, Hypothesis& hypothesis, bo
                              BitsRead& bits) const {
     if (hypothesis.is_exact) {
         bits.right = 0;
-        const DotOffsets found = kernels_.find_centres(image_, view, tuned::kMostOff_px, dots_);
+        const DotOffsets found = kernels_.find_centres(image_, view, tuned::kMostOff_px, 0, dots_);
         if (found.points < tuned::kFewestFound) return;
-        move_to_dots(found, hypothesis, bits);
+        FloatPlane& plane = hypothesis.pattern_from_image;
+        const auto points = static_cast<float>(found.points);
+        bits.right = found.points;
+        // A dot farther out along its displacement: offsets through the plane, which turns px to
+        // spacings.
+        bits.projected = points * hypothesis.displacement + plane.du_x * found.of_x[0] +
+                         plane.dv_x * found.of_x[1] + plane.du_y * found.of_y[0] +
+                         plane.dv_y * found.of_y[1];
+        const Similarity motion = similarity_of(found);
+        bits.squares =
+            motion.squares_px2 * std::abs(plane.du_x * plane.dv_y - plane.dv_x * plane.du_y);
+        plane = moved(plane, motion);
     } else if (is_last) {
         kernels_.refine_centres(image_, view, bell_reach_px(hypothesis), dots_);
     }

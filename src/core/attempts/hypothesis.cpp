@@ -101,4 +101,37 @@ void count_from_centre(Profile profile, Hypothesis& hypothesis) {
                              static_cast<std::int32_t>(row));
 }
 
+Similarity similarity_of(const DotOffsets& found) {
+    // Offset = shift + turn * place, as complex numbers: least squares in closed form.
+    const float share = 1 / static_cast<float>(found.points);
+    const float u = found.u * share;  // the mean place
+    const float v = found.v * share;
+    const float spread = found.squares - static_cast<float>(found.points) * (u * u + v * v);
+    Similarity fit{{found.off_u * share, found.off_v * share}, 0, 0, 0};
+    const float squares_of_shift = found.off_u * fit.shift_px.x + found.off_v * fit.shift_px.y;
+    float explained = 0;
+    if (spread > 0) {
+        const float along = found.along - found.off_u * u - found.off_v * v;
+        const float across = found.across - found.off_v * u + found.off_u * v;
+        fit.scale = along / spread;
+        fit.turn_rad = across / spread;
+        explained = fit.scale * along + fit.turn_rad * across;
+        fit.shift_px.x -= fit.scale * u - fit.turn_rad * v;
+        fit.shift_px.y -= fit.scale * v + fit.turn_rad * u;
+    }
+    fit.squares_px2 = std::max(found.squared - explained - squares_of_shift, 0.0F);
+    return fit;
+}
+
+FloatPlane moved(const FloatPlane& plane, const Similarity& by) {
+    FloatPlane p = recentred(plane, {-by.shift_px.x, -by.shift_px.y});
+    const float du_x = p.du_x - p.du_x * by.scale - p.dv_x * by.turn_rad;
+    const float du_y = p.du_y - p.du_y * by.scale - p.dv_y * by.turn_rad;
+    p.dv_x += p.du_x * by.turn_rad - p.dv_x * by.scale;
+    p.dv_y += p.du_y * by.turn_rad - p.dv_y * by.scale;
+    p.du_x = du_x;
+    p.du_y = du_y;
+    return p;
+}
+
 }  // namespace dotpose::core

@@ -46,4 +46,18 @@ CellsInView cells_in_view(const ImageView& image, const Options& options,
 /// Counts the cells of the hypothesis from the one nearest its point.
 void count_from_centre(Profile profile, Hypothesis& hypothesis);
 
+/// What predicted dots are off on the whole: position, scale and turn, fitted by least squares.
+struct Similarity {
+    FloatVec shift_px;
+    float scale = 0;  ///< less 1
+    float turn_rad = 0;
+    float squares_px2 = 0;  ///< sum of the squared offsets that are left
+};
+
+/// Fits a similarity to the offsets of two dots or more.
+Similarity similarity_of(const DotOffsets& found);
+
+/// Moves, scales and turns a plane to where the dots were found.
+FloatPlane moved(const FloatPlane& plane, const Similarity& by);
+
 }  // namespace dotpose::core

@@ -47,7 +47,10 @@ void threshold_bands(int ready, const Options& options, Workspace& w) {
     const int newest = (w.light.rows_taken - 1) >> w.light.band_shift;
     const bool is_last = w.light.rows_taken == w.light.height_px;
     for (int band = newest - ready + (is_last ? 1 : 0); ready > 0; --ready, ++band) {
+        const int before = w.light.greatest_contrast;
         measure_levels(band, options.threshold, w.light);
+        // No row above showed dots: what was taken for some was noise.
+        if (before < least_contrast(options.threshold, w.light)) w.dot_count = 0;
         for (int v = band_begin(w.light, band); v < band_end(w.light, band); ++v) {
             grow_blobs(v, w.light, w.open, dot_list(w));
         }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/attempts/confirm.hpp"
+#include "core/attempts/dot_reader.hpp"
 #include "core/attempts/steps.hpp"
 #include "core/attempts/tuning.hpp"
 #include "core/math/fixed.hpp"
@@ -50,6 +51,30 @@ int most_shift_px(const Prediction& prediction, float spacing_px) {
     return static_cast<int>(std::ceil(off * spacing_px));
 }
 
+/// Corrects the plane by the listed dots near its `from_centre`, which are off by less than a pixel
+/// but for a turn. Returns false if they are not there.
+bool correct_by_bells(const Kernels& kernels, const ImageView& image, CellsInView view,
+                      FloatPlane& plane, MeasuredDots& dots) {
+    const float far_px = std::max(view.width_px, view.height_px) / 2;
+    const float most_off_px = 1.5F;
+    for (int look = 0; look < tuned::kMostLooks; ++look) {
+        if (look > 0) {
+            view.plane = plane;
+            kernels.list_cells(view, dots);
+        }
+        const DotOffsets found =
+            kernels.find_centres(image, view, most_off_px, tuned::kWeight_px, dots);
+        if (found.points < tuned::kFewestNear) return false;
+        const Similarity motion = similarity_of(found);
+        plane = moved(plane, motion);
+        // Bells see a part only of what dots are off that a large turn moves.
+        const float moved_far_px =
+            far_px * std::max(std::abs(motion.scale), std::abs(motion.turn_rad));
+        if (moved_far_px < tuned::kTurned_px) break;
+    }
+    return true;
+}
+
 /// Corrects the hypothesis by the dots near its `from_centre`. Returns false if they are not there.
 bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Options& options,
                      int most_px, Hypothesis& hypothesis, Workspace& w) {
@@ -59,17 +84,29 @@ bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Optio
     const float reach = tuned::kNear * spacing;
     CellsInView view = cells_in_view(image, options, hypothesis, reach, dots.capacity(), w);
     view.windows = Windows::on_dots;
+    const bool by_bells = suits_one_pass(hypothesis);
+    // The image must hold the bells of the dots, wherever the search finds these.
+    if (by_bells) view.margin_px = kPredictedBellReach_px + static_cast<float>(most_px + 1);
     kernels.list_cells(view, dots);
     // The search makes thirteen shifts along either axis.
     const int step_px = std::max((most_px + 3) / 6, 1);
     Vec shift;
     if (!kernels.find_shift(image, dots, most_px, step_px, shift, hypothesis.depth_q8))
         return false;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(dots.count); ++i) {
+    const FloatVec shift_px{static_cast<float>(shift.x), static_cast<float>(shift.y)};
+    plane = recentred(plane, {-shift_px.x, -shift_px.y});
+    const auto count = static_cast<std::size_t>(dots.count);
+    if (by_bells) {
+        for (std::size_t i = 0; i < count; ++i) {
+            dots.x[i] += shift_px.x;
+            dots.y[i] += shift_px.y;
+        }
+        return correct_by_bells(kernels, image, view, plane, dots);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
         dots.window_u[i] += shift.x;
         dots.window_v[i] += shift.y;
     }
-    plane = recentred(plane, {static_cast<float>(-shift.x), static_cast<float>(-shift.y)});
     kernels.measure_windows(image, view, {spacing, 0.3F, hypothesis.depth_q8 * kCutOfDepth_q8 >> 8},
                             dots);
     return fit_similarity(kernels, dots, reach, hypothesis.displacement, tuned::kFirstOff, plane) &&

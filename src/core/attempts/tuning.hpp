@@ -43,6 +43,12 @@ inline constexpr float kMostDisplacement = 0.4F;
 /// Greatest distance of a dot from its place in the first and in the second fit, in spacings.
 inline constexpr float kFirstOff = 0.30F;
 inline constexpr float kSecondOff = 0.15F;
+/// Bells: the distance at which the moment of a usual dot equals its weight, which is right to a
+/// fifth; how far a correction may move the border of the image before another look is needed; and
+/// the most looks.
+inline constexpr float kWeight_px = 0.84F;
+inline constexpr float kTurned_px = 2;
+inline constexpr int kMostLooks = 3;
 /// Points around which dots are searched, from the image centre, in shares of the image's sides:
 /// where one is covered, another may not be.
 inline constexpr FloatVec kPoints[] = {
@@ -73,6 +79,7 @@ inline constexpr float kOutlier = 8.3F;
 /// miss a part of a dot's distance, so that a second look is made. docs/accuracy.md, "Dots that
 /// fall on the pixels alike", shows the remaining errors.
 inline constexpr float kFar_px = 0.055F;
+inline constexpr int kMostLooks = 3;
 /// Windows darker than this share of the paper's level show the table beyond the sheet, where noise
 /// is as dark as dots.
 inline constexpr float kTable = 0.4F;

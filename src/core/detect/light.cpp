@@ -100,11 +100,13 @@ using Histogram = std::array<std::uint16_t, kContrastBins>;
 /// Adds each tile with contrast to the histogram, and sets the mean of the others to 0. Returns how
 /// many have contrast.
 int take_contrasts(std::uint8_t* means, const std::uint8_t* darknesses, std::size_t tiles,
-                   int min_contrast, Histogram& histogram) {
+                   int min_contrast, int& greatest_contrast, Histogram& histogram) {
     int blank = 0;
+    int greatest = greatest_contrast;
     for (std::size_t t = 0; t < tiles; ++t) {
         const int mean = means[t];
         const int contrast = mean + darknesses[t] - 255;
+        greatest = std::max(greatest, contrast);
         if (contrast >= min_contrast) {
             static_assert(kContrastBins == 64);
             const std::uint32_t bins_q16 =
@@ -115,6 +117,7 @@ int take_contrasts(std::uint8_t* means, const std::uint8_t* darknesses, std::siz
             ++blank;
         }
     }
+    greatest_contrast = greatest;
     return static_cast<int>(tiles) - blank;
 }
 
@@ -123,9 +126,10 @@ int take_contrasts(std::uint8_t* means, const std::uint8_t* darknesses, std::siz
 /// same for all tiles. Strokes of graphics raise that of the tiles around them: the lower third
 /// over a band is that of dots even where strokes cross it.
 unsigned typical_depth_q8(std::uint8_t* means, const std::uint8_t* darknesses, std::size_t tiles,
-                          int min_contrast) {
+                          int min_contrast, int& greatest_contrast) {
     Histogram histogram{};
-    const int count = take_contrasts(means, darknesses, tiles, min_contrast, histogram);
+    const int count =
+        take_contrasts(means, darknesses, tiles, min_contrast, greatest_contrast, histogram);
     if (count == 0) return 0;
     unsigned bin = 0;
     for (int below = 0; bin < kContrastBins - 1; ++bin) {
@@ -152,6 +156,12 @@ void set_levels(const std::uint8_t* papers, std::size_t tiles, unsigned to_low_q
 
 }  // namespace
 
+int least_contrast(const ThresholdOptions& options, const Light& light) {
+    constexpr int kShare = 4;
+    return std::clamp(light.greatest_contrast / kShare, options.min_contrast,
+                      2 * options.min_contrast);
+}
+
 void begin_light(int width_px, int height_px, Light& light) {
     light.width_px = width_px;
     light.height_px = height_px;
@@ -161,6 +171,7 @@ void begin_light(int width_px, int height_px, Light& light) {
     light.tiles_per_band = (width_px + kTileWidth_px - 1) / kTileWidth_px;
     light.rows_taken = 0;
     light.has_contrast = false;
+    light.greatest_contrast = 0;
     std::fill_n(light.half_low_levels.begin() + whole_width(light), kReadAhead_px, kAlwaysDark);
 }
 
@@ -189,7 +200,8 @@ void measure_levels(int band, const ThresholdOptions& options, Light& light) {
     // If less than half of a tile is image, it shows little but the repeated last pixel of the row.
     if (whole_width(light) - light.width_px > kTileWidth_px / 2)
         papers[tiles - 1] = std::max(papers[tiles - 2], papers[tiles - 1]);
-    const unsigned depth_q8 = typical_depth_q8(papers, darknesses, tiles, options.min_contrast);
+    const unsigned depth_q8 = typical_depth_q8(
+        papers, darknesses, tiles, least_contrast(options, light), light.greatest_contrast);
     if (depth_q8 > 0) light.has_contrast = true;
     set_levels(papers, tiles, depth_q8 * static_cast<unsigned>(options.low_q8),
                depth_q8 * static_cast<unsigned>(options.high_q8), light);

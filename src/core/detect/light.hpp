@@ -23,6 +23,10 @@ int take_row(const std::uint8_t* pixels, Light& light);
 /// its neighbours. Bands come in order, each as soon as `take_row` says that it is ready.
 void measure_levels(int band, const ThresholdOptions& options, Light& light);
 
+/// Returns the contrast, in grey levels, below which tiles of the next band are blank: where others
+/// show dots, what is as pale as noise is no dot.
+int least_contrast(const ThresholdOptions& options, const Light& light);
+
 /// Returns the number of bands in the image.
 inline int band_count(const Light& light) {
     return (light.height_px + light.band_px - 1) >> light.band_shift;

@@ -236,10 +236,11 @@ struct Kernels {
     BitsRead (*read_levels)(const ImageView& image, const CellsInView& view, int depth_q8,
                             MeasuredDots& dots, BitLines* columns, BitLines* rows);
     /// Sets the centres of predicted dots as `refine_centres` does, by bells of
-    /// kPredictedBellReach_px; drops dots that are farther off than `most_off_px`. Returns the sums
-    /// over the others.
+    /// kPredictedBellReach_px; drops dots that are farther off than `most_off_px`. `weight_px` is
+    /// the distance at which a bell's moment equals its weight; 0: dots in the middle of the list
+    /// tell it. Returns the sums over the others.
     DotOffsets (*find_centres)(const ImageView& image, const CellsInView& view, float most_off_px,
-                               MeasuredDots& dots);
+                               float weight_px, MeasuredDots& dots);
     /// Reads the bits of measured dots and compares them with those that the code has there. Adds
     /// them to `columns` and `rows`, unless these are null; cell (-32, -32) is the first. Lines
     /// must be empty before, and no cell may have two dots.

@@ -98,11 +98,8 @@ class AxisBias {
         const BellsError error = bells_error(shape, axis, kQuarter_px, kQuarter_px, reach_px);
         const float of_model =
             tuned::kOfModel + tuned::kOfMisfit * std::max(shape.misfit() - tuned::kMisfit, 0.0F);
-        const float variance = shape.variance(error.by_shape) + of_model * error.px * error.px;
-        // Shrunk, as it may be anything between nothing and twice as much.
-        const float belief = error.px * error.px / (error.px * error.px + variance + 1e-12F);
-        amplitude_px_ = belief * error.px;
-        variance_ = belief * variance;
+        amplitude_px_ = error.px;
+        variance_ = shape.variance(error.by_shape) + of_model * error.px * error.px;
         const float differs = error.slopes - 1;
         const float squared = differs * differs;
         slopes_ = 1 + differs * squared / (squared + tuned::kSlopes * tuned::kSlopes);

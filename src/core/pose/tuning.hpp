@@ -66,7 +66,7 @@ inline constexpr float kOff_px = 0.1F;
 inline constexpr float kBlur_2 = 0.25F;
 inline constexpr float kSigmaOfWidth = 0.3F;
 inline constexpr float kContrast = 0.8F;
-inline constexpr float kSigmaOfContrast = 0.2F;
+inline constexpr float kSigmaOfContrast = 0.15F;
 /// Least squared half axis, and variance of blur.
 inline constexpr float kLeast_px2 = 0.005F;
 /// Damping of the steps: at first, the most, and its growth after a step that led astray.

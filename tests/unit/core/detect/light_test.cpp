@@ -181,6 +181,25 @@ TEST(Light, BlankAreasHaveNoInk) {
     }
 }
 
+TEST(Light, WhatIsAsPaleAsNoiseIsBlankOnceOthersShowInk) {
+    SmallWorkspace w;
+    ThresholdOptions options;
+    options.min_contrast = 8;
+    // Two spots of noise, with a spot of ink between them.
+    GreyImage image = blank(120, 120);
+    fill(image, 18, 18, 20, 20, 190);
+    fill(image, 98, 50, 100, 52, 80);
+    fill(image, 18, 98, 20, 100, 190);
+    int inked_above = 0;
+    int inked_below = 0;
+    for_each_band(image, options, w.light, [&](int band) {
+        if (levels_of_tile(w.light, 1).low == 0) return;
+        ++(band_begin(w.light, band) < 50 ? inked_above : inked_below);
+    });
+    EXPECT_GT(inked_above, 0);
+    EXPECT_EQ(inked_below, 0);
+}
+
 TEST(Light, ThresholdsFollowAShadow) {
     // The right half gets a third of the light.
     SmallWorkspace w;
