@@ -16,7 +16,7 @@ std::uint64_t magnitude(std::int64_t n) {
 extern "C" std::int64_t __divdi3(std::int64_t n, std::int64_t d) {
     std::uint64_t rest = magnitude(n);
     std::uint64_t divisor = magnitude(d);
-    int bit = std::countl_zero(divisor) - std::countl_zero(rest);
+    int bit = std::countl_zero(divisor | 1) - std::countl_zero(rest | 1);
     divisor <<= std::max(bit, 0);
     std::uint64_t quotient = 0;
     for (; bit >= 0; --bit) {

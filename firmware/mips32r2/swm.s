@@ -1,20 +1,23 @@
 # The assembler reads this file before the compiler's output (cmake/mips32r2.cmake). It replaces swm, which
-# stores several registers, by one sw for each, because swm in QEMU 7.2 stores only 16 bits of each. The
-# processor takes the same number of cycles; the code grows by 2 %.
+# stores several registers, by swp for every two and sw for the others, because swm in QEMU 7.2 stores only
+# 16 bits of each. The processor takes the same number of cycles; the code grows by 2 %.
 
 # In "swm $16-$18,$31,24($sp)", `first` is $16-$18, `more` is $31 and `memory` is 24($sp).
     .macro store_each memory, first, more:vararg
-    .set offset, 0
-    .irp n, 16, 17, 18, 19, 20, 21, 22, 23
-    sw $\n, offset+\memory
-    .set offset, offset + 4
+    .set last, 16
+    .irp n, 17, 18, 19, 20, 21, 22, 23
     .ifc \first, $16-$\n
-    .exitm
-    .endif
-    .ifc \first, $\n
-    .exitm
+    .set last, \n
     .endif
     .endr
+    .irp n, 16, 18, 20, 22
+    .if last > \n
+    swp $\n, 4*(\n-16)+\memory
+    .elseif last == \n
+    sw $\n, 4*(\n-16)+\memory
+    .endif
+    .endr
+    .set offset, 4*(last-15)
     .irp register, \more
     .ifnb \register
     sw \register, offset+\memory

@@ -1,6 +1,7 @@
 // Decoding: finds the position of a window of symbols without errors, exactly (paper sections II-A
 // and II-B.7).
 #include <array>
+#include <cstddef>
 
 #include "code/basis.hpp"
 #include "dotpose/code.hpp"
@@ -21,23 +22,19 @@ struct Places {
 };
 
 /// Whether the digits of all differences stand in the sequence from a place on.
-bool stands_at(const code::Secondary& a, int digit, std::span<const std::uint8_t> deltas,
+bool stands_at(const code::Secondary& a, std::size_t digit, std::span<const std::uint8_t> deltas,
                std::uint32_t place) {
     for (const std::uint8_t d : deltas) {
-        const auto& digits = code::kDigitsOfDelta[d - std::size_t{code::kSmallestDelta}];
-        if (a.digits[place] != digits[static_cast<std::size_t>(digit)]) return false;
+        if (a.digits[place] != code::digit_of_delta(d, digit)) return false;
         place = place + 1 == a.length ? 0 : place + 1;
     }
     return true;
 }
 
-Places find(const code::Secondary& a, int digit, std::span<const std::uint8_t> deltas) {
+Places find(const code::Secondary& a, std::size_t digit, std::span<const std::uint8_t> deltas) {
     unsigned key = 0;
-    for (int i = 0; i < code::kOrder; ++i) {
-        const auto& digits = code::kDigitsOfDelta[deltas[static_cast<std::size_t>(i)] -
-                                                  std::size_t{code::kSmallestDelta}];
-        key = key * a.base + digits[static_cast<std::size_t>(digit)];
-    }
+    for (const std::uint8_t d : deltas.first(code::kOrder))
+        key = key * a.base + code::digit_of_delta(d, digit);
     const std::uint8_t first = a.first_place_of[key];
     Places places;
     if (first == code::kAbsent) return places;
@@ -109,7 +106,7 @@ Status position_from_rolls(Profile profile, std::span<const std::uint8_t> rolls,
     int ways = 1;
     const code::Basis& basis = code::basis(profile);
     for (std::size_t n = 0; n < first_places.size(); ++n) {
-        const Places places = find(basis[n], static_cast<int>(n), deltas);
+        const Places places = find(basis[n], n, deltas);
         if (places.count == 0) return Status::not_in_code;
         first_places[n] = places.first;
         ways *= places.count;

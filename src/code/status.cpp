@@ -49,7 +49,7 @@ static_assert(in_order(), "one row for each Status, in its order");
 
 /// The names alone, so that a device that prints no message does not store the messages.
 constexpr auto kNames = [] {
-    std::array<std::array<char, 20>, kStatusCount> names{};
+    std::array<std::array<char, 16>, kStatusCount> names{};
     for (std::size_t i = 0; i < names.size(); ++i) {
         const std::string_view name = kTexts[i].name;
         std::copy_n(name.data(), name.size() + 1, names[i].begin());  // with the terminating zero

@@ -161,16 +161,20 @@ inline constexpr Basis kBasis{Tables<3, kA1, 1>::kSecondary, Tables<3, kA2, 3>::
 inline constexpr int kSmallestDelta = 5;
 inline constexpr int kLargestDelta = 58;
 
-/// The digits a1..a4 of each difference from 5 to 58.
+/// The digits a1..a4 of each difference from 5 to 58, two bits for each, from the lowest on.
 inline constexpr auto kDigitsOfDelta = [] {
-    std::array<std::array<std::uint8_t, 4>, kLargestDelta - kSmallestDelta + 1> result{};
-    for (int i = 0; i < static_cast<int>(result.size()); ++i) {
-        result[static_cast<std::size_t>(i)] = {
-            static_cast<std::uint8_t>(i % 3), static_cast<std::uint8_t>(i / 3 % 3),
-            static_cast<std::uint8_t>(i / 9 % 2), static_cast<std::uint8_t>(i / 18)};
+    std::array<std::uint8_t, kLargestDelta - kSmallestDelta + 1> result{};
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        result[i] =
+            static_cast<std::uint8_t>(i % 3 | i / 3 % 3 << 2 | i / 9 % 2 << 4 | i / 18 << 6);
     }
     return result;
 }();
+
+/// Returns the digit a1..a4 of a difference, for n = 0..3.
+constexpr unsigned digit_of_delta(std::size_t delta, std::size_t n) {
+    return kDigitsOfDelta[delta - kSmallestDelta] >> 2 * n & 3U;
+}
 
 /// The main sequence, continued so that 256 bits follow any index.
 inline constexpr auto kMainRepeated = [] {

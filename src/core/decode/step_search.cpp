@@ -37,7 +37,7 @@ StepLosses losses_of(const LineScores& line, const LineScores& next) {
     losses.fill({INT32_MAX, INT32_MAX, INT32_MAX});
     for (std::size_t i = 0; i < kStepSizes; ++i) {
         for (std::size_t n = 0; n < kSequences; ++n) {
-            std::int32_t& least = losses[n][code::kDigitsOfDelta[i][n]];
+            std::int32_t& least = losses[n][code::digit_of_delta(i + code::kSmallestDelta, n)];
             least = std::min(least, most - agreements[i]);
         }
     }
