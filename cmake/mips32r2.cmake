@@ -14,7 +14,7 @@ set(CMAKE_ASM_FLAGS_INIT "${machine}")
 # The core runs instructions in order, one a cycle: moved about, they only need more registers. To
 # GCC the costs of a 4Kc are nearer to that than those of a M14K. Divisors are known not to be zero.
 set(code "-mtune=4kc -fno-schedule-insns -mno-check-zero-division")
-set(CMAKE_CXX_FLAGS_INIT "${machine} ${code} -isystem ${firmware}/include -Wa,${firmware}/swm.s")
+set(CMAKE_CXX_FLAGS_INIT "${machine} ${code} -isystem ${firmware}/include -Wa,${firmware}/stores.s")
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-static -no-pie")
 
 set(DOTPOSE_FIRMWARE mips32r2)

@@ -163,17 +163,12 @@ void visit_round(const Tracking& tracking, Vec middle, int round, Use use) {
 
 /// Applies a small turn and stretch of the cells to the slopes of the plane.
 void turn_back(const SimilarityFit::Similarity& s, Tracking& tracking) {
-    const auto less = [&](Vec v, Vec ahead) {
-        const auto part = [&](std::int32_t along, std::int32_t across) {
-            return static_cast<std::int32_t>(
-                (std::int64_t{s.stretch_q20} * along + std::int64_t{s.turn_q20} * across) >> 20);
-        };
-        return v - Vec{part(v.x, ahead.x), part(v.y, ahead.y)};
-    };
-    const Vec du = tracking.du_q20;
-    const Vec dv = tracking.dv_q20;
-    tracking.du_q20 = less(du, dv);
-    tracking.dv_q20 = less(dv, -du);
+    Vec& du = tracking.du_q20;
+    Vec& dv = tracking.dv_q20;
+    const Vec of_x = change(s, {dv.x, du.x});
+    const Vec of_y = change(s, {dv.y, du.y});
+    du = du - Vec{of_x.y, of_y.y};
+    dv = dv - Vec{of_x.x, of_y.x};
 }
 
 }  // namespace
