@@ -57,8 +57,8 @@ class DeviceWorkspaceOf : public Workspace {
                       kHas.height_px <= kLargestWithLowTiles_px,
                   "there is room for low tiles only");
 
-    // The braces initialize all members at once: memory is cleared by one call, which is 800 bytes
-    // of code less than to store each member.
+    // The braces initialize all members at once: memory is cleared by one call. Code that stores
+    // each member would be 800 bytes longer.
     DeviceWorkspaceOf() : Workspace{} {
         max_width_px = kHas.width_px;
         if constexpr (kHas.height_px != kMaxFrameSide_px) max_height_px = kHas.height_px;

@@ -161,7 +161,8 @@ void visit_round(const Tracking& tracking, Vec middle, int round, Use use) {
     }
 }
 
-/// Applies a small turn and stretch of the cells to the slopes of the plane.
+/// Applies a small turn and stretch of the cells to the slopes of the plane. In each coordinate,
+/// the pair (dv, du) is stretched and turned like a vector.
 void turn_back(const SimilarityFit::Similarity& s, Tracking& tracking) {
     Vec& du = tracking.du_q20;
     Vec& dv = tracking.dv_q20;
