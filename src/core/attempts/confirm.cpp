@@ -41,7 +41,8 @@ bool is_plausible(const BitsRead& bits, const MeasuredDots& dots, const Options&
 /// Whether nearly all dots are clear and hardly a bit is wrong.
 bool is_clean(const BitsRead& bits) {
     return 100 * bits.read >= tuned::kClear_percent * bits.seen &&
-           bits.wrong_x + bits.wrong_y <= tuned::kMostWrong;
+           bits.wrong_x + bits.wrong_y <=
+               std::max(tuned::kMostWrong, bits.read / tuned::kDotsPerWrong);
 }
 
 /// Returns the confidence in one axis of which `bits` bits were read, `wrong` of them wrongly.
@@ -192,15 +193,17 @@ void write_fix(const ImageView& image, const Options& options, const Hypothesis&
     w.fix.status = Status::ok;
 }
 
-/// Whether the fitted plane is so far from where dots were looked for that quick bells miss a part
-/// of that distance.
-bool is_far_from(const FloatPlane& before, const FloatPlane& now, const ImageView& image) {
-    const FloatVec half = centre_px(image);
+/// Whether the fitted plane is so far, within reach, from where dots were looked for that quick
+/// bells miss a part of that distance.
+bool is_far_from(const FloatPlane& before, const FloatPlane& now, const ImageView& image,
+                 float reach_px) {
+    const FloatVec centre = centre_px(image);
+    const FloatVec half{std::min(centre.x, reach_px), std::min(centre.y, reach_px)};
     for (const FloatVec corner : {FloatVec{-half.x, -half.y}, FloatVec{half.x, -half.y},
                                   FloatVec{-half.x, half.y}, FloatVec{half.x, half.y}}) {
         const FloatVec was = plane_point(before, corner);
         const FloatVec is = plane_point(now, corner);
-        if (std::max(std::abs(was.x - is.x), std::abs(was.y - is.y)) > tuned::kFar_px) return true;
+        if (std::max(std::abs(was.x - is.x), std::abs(was.y - is.y)) > tuned::kFar) return true;
     }
     return false;
 }
@@ -281,7 +284,7 @@ Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
         reader.find_centres(view, hypothesis, is_last, bits);
         if (!fit_to_dots(kernels, dots, bits, image, hypothesis, fit))
             return Confirmation::implausible;
-        if (hypothesis.is_exact && is_far_from(before, plane, image)) {
+        if (hypothesis.is_exact && is_far_from(before, plane, image, reach.now)) {
             if (++looks == tuned::kMostLooks) return Confirmation::implausible;
             continue;
         }

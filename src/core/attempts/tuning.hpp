@@ -69,16 +69,18 @@ inline constexpr float kDecidingOfPart = 32;
 /// Factor by which a plane can be trusted beyond the dots that it was fitted to.
 inline constexpr float kFarther = 3.5F;
 /// Bits are clean, and need no second reading, if at least this share of the dots is clear and at
-/// most this number of bits is wrong.
+/// most this number of bits is wrong, or of many, one for so many dots.
 inline constexpr int kClear_percent = 97;
 inline constexpr int kMostWrong = 1;
+inline constexpr int kDotsPerWrong = 200;
 /// Greatest square of a dot's residual that counts, over the mean of the squares: four standard
 /// deviations.
 inline constexpr float kOutlier = 8.3F;
-/// Distance in px, in a corner, between the planes before and after a fit, from which quick bells
-/// miss a part of a dot's distance, so that a second look is made. docs/accuracy.md, "Dots that
-/// fall on the pixels alike", shows the remaining errors.
-inline constexpr float kFar_px = 0.055F;
+/// Distance in spacings, in a corner of what is in reach, between the planes before and after a
+/// fit, from which quick bells miss a part of a dot's distance, so that another look is made; and
+/// the most looks. docs/accuracy.md, "Dots that fall on the pixels alike", shows the remaining
+/// errors.
+inline constexpr float kFar = 0.055F;
 inline constexpr int kMostLooks = 3;
 /// Windows darker than this share of the paper's level show the table beyond the sheet, where noise
 /// is as dark as dots.

@@ -261,7 +261,8 @@ TEST_F(KernelsTest, LevelsAndCentresOfPredictedDotsAreTheSame) {
                                         &rows));
             record(columns, all);
             record(rows, all);
-            all.add(kernels.find_centres(picture.view, random.view, 1, table.dots));
+            all.add(kernels.find_centres(picture.view, random.view, 1, 0, table.dots));
+            all.add(kernels.find_centres(picture.view, random.view, 3, 0.84F, table.dots));
             table.record_measures(all);
         });
     });

@@ -157,7 +157,7 @@ TEST(KernelsWindows, PredictedCentresAreFoundHoweverFarDotsAreOff) {
             dots.y[k] = static_cast<float>(v - off[k]);
         }
         dots.x[5] = kNoDot_px;
-        const DotOffsets found = kernels.find_centres(dot.view, dot.cells, 1, dots);
+        const DotOffsets found = kernels.find_centres(dot.view, dot.cells, 1, 0, dots);
         double sum_u = 0;
         double squared = 0;
         double along = 0;
@@ -242,7 +242,7 @@ void expect_no_common_error(const Kernels& kernels, Rng& rng, float reach_px, Le
     LitDots again(rng, level);
     kernels.refine_centres(again.view, again.cells, reach_px, again.table.dots);
     LitDots predicted(rng, level);
-    kernels.find_centres(predicted.view, predicted.cells, 1, predicted.table.dots);
+    kernels.find_centres(predicted.view, predicted.cells, 1, 0, predicted.table.dots);
     for (const auto& [x, y] : {again.mean_error(), predicted.mean_error()}) {
         EXPECT_NEAR(x, 0, 0.006) << reach_px;
         EXPECT_NEAR(y, 0, 0.006) << reach_px;
