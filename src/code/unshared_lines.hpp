@@ -81,6 +81,27 @@ inline constexpr std::array<std::uint16_t, 741> kUnshared{
     0x7322, 0x7522, 0x74DA, 0x7D1B, 0x551B, 0x5CDB, 0x54DB, 0x2C93, 0x2C4A,
 };
 
+/// The most unshared lines for which positions are counted.
+inline constexpr std::size_t kMostCounted = 7;
+
+/// By row, sequence and n from 1 on: with how many other positions a position has exactly n
+/// unshared lines, at most. Positions stand elsewhere in that sequence alone, and count once for
+/// each shift at which they share a line. It holds at all places, for the a4 of every profile.
+inline constexpr std::array<std::array<std::array<std::uint8_t, kMostCounted>, 4>, 3> kMostWith{{
+    {{{1, 4, 15, 34, 64, 120, 227},
+      {2, 4, 11, 30, 65, 118, 222},
+      {0, 1, 5, 10, 17, 21, 28},
+      {1, 6, 15, 28, 76, 145, 229}}},
+    {{{0, 1, 3, 7, 18, 32, 51},
+      {0, 1, 2, 5, 14, 29, 57},
+      {0, 0, 1, 2, 6, 13, 18},
+      {0, 3, 6, 8, 14, 28, 55}}},
+    {{{0, 0, 0, 2, 4, 10, 19},
+      {0, 0, 1, 2, 4, 7, 13},
+      {0, 0, 0, 0, 2, 4, 6},
+      {0, 0, 3, 4, 7, 10, 16}}},
+}};
+
 /// Returns the least number of lines, of `kUnsharedOf[row]`, that are not shared with a position
 /// that stands elsewhere in one sequence alone. It is at least row + 1, and exceeds that by three
 /// bits of an entry of the table.

@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "code/rolls.hpp"
-#include "code/unshared_lines.hpp"
 #include "core/integrity/alternative_sets.hpp"
 #include "core/integrity/alternatives.hpp"
 #include "core/integrity/least_losses.hpp"
 #include "core/integrity/quick_alternatives.hpp"
 #include "core/integrity/seam_alternatives.hpp"
+#include "core/integrity/tabled_alternatives.hpp"
 #include "core/integrity/unshared_lines.hpp"
 #include "core/integrity/weigh_codes.hpp"
 #include "core/math/fixed.hpp"
@@ -123,47 +123,12 @@ int loss_of(const LikelihoodRatios& ratios, std::size_t sequence, std::uint32_t 
     return lost;
 }
 
-/// Returns a bound of the odds of the alternatives in one sequence that share a line. A table tells
-/// how many lines they do not share at least, of some in the middle of the view; what they lose in
-/// these is a bound for all lines.
-float alternatives_by_table(const LikelihoodRatios& ratios, const UnsharedLines& unshared,
-                            std::size_t sequence) {
-    const int lost = unshared.least_loss(sequence, Sharing::at_one_shift) - ratios.most_regained();
-    // An alternative shares a line at no more shifts than there are lines.
-    return static_cast<float>(ratios.count() * ratios.basis[sequence].length) *
-           odds_of(ratios, std::max(lost, 0));
-}
-
-/// Returns the odds of the alternatives that differ in one sequence and share a line, each sequence
-/// by the table with the most lines that gives at most `enough`; `widest` is of the table with the
-/// most. Sequences for which no table does are not counted, and stay in `sequences`.
-float alternatives_by_tables(const Kernels& kernels, const UnsharedLines& widest, float enough,
-                             unsigned& sequences) {
-    const LikelihoodRatios& ratios = widest.ratios();
-    float sum = 0;
-    const auto add_by = [&](const UnsharedLines& unshared) {
-        for (unsigned rest = sequences; rest != 0; rest &= rest - 1) {
-            const int sequence = std::countr_zero(rest);
-            const float odds =
-                alternatives_by_table(ratios, unshared, static_cast<std::size_t>(sequence));
-            if (odds > enough) continue;
-            sum += odds;
-            sequences ^= 1U << sequence;
-        }
-    };
-    if (widest.tables() == 0) return 0;
-    add_by(widest);
-    for (std::size_t table = widest.tables() - 1; table-- > 0 && sequences != 0;)
-        add_by(UnsharedLines(kernels, ratios, code::kUnsharedOf[table]));
-    return sum;
-}
-
 /// Returns the odds of the alternatives that differ in one sequence. Where tables do not settle it,
 /// all that lose little enough to matter are counted one by one. Returns 1 if there are too many.
 float single_alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
                           const UnsharedLines& unshared, float limit) {
     unsigned sequences = 15;
-    float sum = alternatives_by_tables(kernels, unshared, limit / 12, sequences);
+    float sum = tabled_alternatives(kernels, unshared, limit / 12, sequences);
     if (sequences == 0) return sum;
     std::array<LineLoss, kMaxLines> storage;
     const std::size_t lines = sort_losses(ratios, storage);

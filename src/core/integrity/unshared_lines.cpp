@@ -44,15 +44,7 @@ UnsharedLines::UnsharedLines(const Kernels& kernels, const LikelihoodRatios& rat
 }
 
 int UnsharedLines::least_loss(std::size_t sequence, Sharing sharing) const {
-    const code::Secondary& a = ratios_.basis[sequence];
-    // There is no table for the other forms of a4.
-    const bool is_known = sequence < 3 || a.digits == code::kA4Restored.data();
-    if (row_ == SIZE_MAX || !is_known) return 0;
-    const std::uint32_t ahead = ratios_.places[sequence] + first_line_;
-    const std::uint32_t place = ahead < a.length ? ahead : ahead - a.length;
-    const std::size_t entry = code::kUnsharedFrom[sequence] + place;
-    return least_[sharing == Sharing::at_one_shift ? code::unshared_at_one_shift(entry, row_)
-                                                   : code::unshared_on_two_sides(entry, row_)];
+    return least_[least_unshared(sequence, sharing)];
 }
 
 int UnsharedLines::least_loss(const std::array<std::string_view, 3>& unshared_in_other) const {

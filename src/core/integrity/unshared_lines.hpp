@@ -5,6 +5,7 @@
 #include <array>
 #include <string_view>
 
+#include "code/unshared_lines.hpp"
 #include "core/integrity/likelihood_ratios.hpp"
 #include "core/kernels/kernels.hpp"
 
@@ -34,6 +35,12 @@ class UnsharedLines {
     bool all_lose(std::size_t sequence, Sharing sharing, int enough) const {
         return least_loss(sequence, sharing) >= enough;
     }
+    /// Returns how many of the table's lines all alternatives in a sequence do not share at least;
+    /// 0 if there is no table for it.
+    std::size_t least_unshared(std::size_t sequence, Sharing sharing) const;
+    /// Returns what alternatives lose at least that do not share n of the table's lines, without
+    /// what they may regain.
+    int least_loss_of(std::size_t n) const { return least_[n]; }
     /// Returns what all alternatives in a sequence lose at least; 0 if there is no table for it.
     int least_loss(std::size_t sequence, Sharing sharing) const;
     /// Returns what all places of another profile's a4 lose at least, by the rows of
@@ -50,5 +57,17 @@ class UnsharedLines {
     std::uint32_t first_line_ = 0;
     LeastSums least_{};  ///< up to the most lines that a table has as not shared
 };
+
+inline std::size_t UnsharedLines::least_unshared(std::size_t sequence, Sharing sharing) const {
+    const code::Secondary& a = ratios_.basis[sequence];
+    // There is no table for the other forms of a4.
+    const bool is_known = sequence < 3 || a.digits == code::kA4Restored.data();
+    if (row_ == SIZE_MAX || !is_known) return 0;
+    const std::uint32_t ahead = ratios_.places[sequence] + first_line_;
+    const std::uint32_t place = ahead < a.length ? ahead : ahead - a.length;
+    const std::size_t entry = code::kUnsharedFrom[sequence] + place;
+    return sharing == Sharing::at_one_shift ? code::unshared_at_one_shift(entry, row_)
+                                            : code::unshared_on_two_sides(entry, row_);
+}
 
 }  // namespace dotpose::core

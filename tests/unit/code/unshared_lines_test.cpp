@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "code/basis.hpp"
+#include "reference.hpp"
 
 namespace dotpose::code {
 namespace {
@@ -58,6 +59,45 @@ TEST(UnsharedLines, AreAsCounted) {
                     counted(sequences[k], place, static_cast<std::size_t>(kUnsharedOf[row])))
                     << row << ' ' << k << ' ' << place;
             }
+        }
+    }
+}
+
+using Counts = std::array<int, kMostCounted>;
+
+/// Returns by n - 1 how many other positions of one sequence leave exactly n lines unshared, each
+/// counted at every shift at which it shares a line.
+Counts counted_by_unshared(const Secondary& a, std::uint32_t place, std::size_t lines) {
+    Counts counts{};
+    for (std::uint32_t other = 0; other < a.length; ++other) {
+        if (other == place) continue;
+        std::array<std::size_t, kSections> shared{};
+        for (std::size_t line = 0; line < lines; ++line)
+            ++shared[static_cast<std::size_t>(
+                (a.rolls[other + line] - a.rolls[place + line] + kSections) % kSections)];
+        for (const std::size_t n : shared) {
+            EXPECT_LT(n, lines);
+            if (n > 0 && lines - n <= kMostCounted) ++counts[lines - n - 1];
+        }
+    }
+    return counts;
+}
+
+TEST(UnsharedLines, AreOfAsManyPositionsAsCounted) {
+    for (std::size_t row = 0; row < kUnsharedOf.size(); ++row) {
+        for (std::size_t k = 0; k < 4; ++k) {
+            Counts most{};
+            for (const Profile profile : code_test::kProfiles) {
+                const Secondary& a = basis(profile)[k];
+                for (std::uint32_t place = 0; place < a.length; ++place) {
+                    const Counts here =
+                        counted_by_unshared(a, place, static_cast<std::size_t>(kUnsharedOf[row]));
+                    for (std::size_t n = 0; n < most.size(); ++n)
+                        most[n] = std::max(most[n], here[n]);
+                }
+            }
+            for (std::size_t n = 0; n < most.size(); ++n)
+                EXPECT_EQ(most[n], kMostWith[row][k][n]) << row << ' ' << k << ' ' << n + 1;
         }
     }
 }

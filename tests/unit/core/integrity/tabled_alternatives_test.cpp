@@ -1,0 +1,160 @@
+// Bounds by tables compared with sums over all alternatives in double precision.
+#include "core/integrity/tabled_alternatives.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "code/rolls.hpp"
+#include "code/unshared_lines.hpp"
+#include "core/kernels/select.hpp"
+#include "ratios_case.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+constexpr std::uint64_t kSeed = 83;
+
+/// Returns the odds of all alternatives that differ in one sequence and share a line, one by one.
+double exact_sum(const LikelihoodRatios& ratios, std::size_t sequence) {
+    double sum = 0;
+    for (std::uint32_t place = 0; place < ratios.basis[sequence].length; ++place) {
+        if (place == ratios.places[sequence]) continue;
+        RollOffsets offsets;
+        set_roll_offsets(ratios, sequence, place, offsets);
+        const auto end = offsets.begin() + ratios.count();
+        for (auto shared = offsets.begin(); shared != end; ++shared) {
+            // Shared lines at the same shift belong to the same alternative.
+            if (std::find(offsets.begin(), shared, *shared) != shared) continue;
+            int lost = 0;
+            for (int line = 0; line < ratios.count(); ++line)
+                lost += ratios.loss(line, offsets[static_cast<std::size_t>(line)] - *shared);
+            sum += std::exp2(ratios.log2_odds_q8(lost) / 256.0);
+        }
+    }
+    return sum;
+}
+
+/// Compares the bounds of all sequences, by all tables, with the sums.
+class Comparison {
+  public:
+    void compare(const LikelihoodRatios& ratios) {
+        for (std::size_t sequence = 0; sequence < ratios.basis.size(); ++sequence) {
+            const double exact = exact_sum(ratios, sequence);
+            for (const int most_lines : code::kUnsharedOf) {
+                const UnsharedLines unshared(kernels(), ratios, most_lines);
+                compare(unshared, sequence, exact);
+            }
+        }
+    }
+    int settled() const { return settled_; }
+    /// Returns by which factor the bound is larger than the sum where it is least so.
+    double least_factor() const { return least_factor_; }
+
+  private:
+    void compare(const UnsharedLines& unshared, std::size_t sequence, double exact) {
+        for (const float enough : {0x1p-33F, 1.0F, std::numeric_limits<float>::infinity()}) {
+            unsigned left = 1U << sequence;
+            const double bound =
+                static_cast<double>(tabled_alternatives(kernels(), unshared, enough, left));
+            if (left != 0) {
+                EXPECT_EQ(bound, 0);
+                continue;
+            }
+            EXPECT_LE(bound, enough);
+            EXPECT_GE(bound, exact) << sequence << " by " << unshared.tables();
+            if (enough < 1) ++settled_;
+            // Odds below 2^-64 are counted as that.
+            if (exact > 0x1p-50) least_factor_ = std::min(least_factor_, bound / exact);
+        }
+    }
+
+    int settled_ = 0;
+    double least_factor_ = std::numeric_limits<double>::infinity();
+};
+
+/// A position near the end of the code, where it begins anew, or of a sequence, or anywhere.
+std::uint32_t any_position(Rng& rng, int i) {
+    const auto before = static_cast<std::uint32_t>(rng.below(20));
+    if (i % 8 == 0) return kPositionsPerAxis - 1 - before;
+    constexpr std::array<std::uint32_t, 4> kLengths{236, 233, 31, 241};
+    const auto anywhere = static_cast<std::uint32_t>(rng.below(kPositionsPerAxis - 250));
+    if (i % 8 > 4) return anywhere;
+    const std::uint32_t length = kLengths[static_cast<std::size_t>(i % 4)];
+    return anywhere - anywhere % length + length - 1 - std::min(before, length - 1);
+}
+
+/// Lines of hard bits, of which some are missing, and some are wrong.
+struct BitsCase {
+    BitsCase(Profile profile_, Rng& rng, int i) : profile(profile_) {
+        reading.position = any_position(rng, i);
+        reading.roll = static_cast<std::uint8_t>(rng.below(kSections));
+        lines.resize(8 + rng.below(20));
+        std::vector<std::uint8_t> rolls(lines.size());
+        code::follow_rolls(profile, reading.position, reading.roll, rolls);
+        const std::uint64_t missing = rng.below(3) * rng.below(6);
+        const std::uint64_t wrong = rng.below(3);
+        for (std::size_t n = 0; n < lines.size(); ++n) {
+            lines[n].code = code::kMainWords[rolls[n]];
+            if (rng.below(50) < missing) continue;
+            lines[n].seen = (~std::uint32_t{0} >> (10 + rng.below(14))) << rng.below(8);
+            for (std::uint32_t bit = 1; bit != 0; bit <<= 1) {
+                if (rng.below(50) < missing) lines[n].seen &= ~bit;
+                if (rng.below(60) < wrong) lines[n].wrong |= lines[n].seen & bit;
+            }
+        }
+        odds_q8 = static_cast<int>(256 * (2 + rng.below(8)));
+    }
+    LikelihoodRatios ratios() const { return {profile, lines, reading, odds_q8}; }
+
+    Profile profile;
+    AxisReading reading;
+    std::vector<TrackedLine> lines;
+    int odds_q8;
+};
+
+TEST(TabledAlternatives, AreNoLessThanThereAreByBits) {
+    Rng rng(kSeed);
+    Comparison comparison;
+    for (int i = 0; i < 600; ++i) {
+        SCOPED_TRACE(testing::Message() << "lines " << i << ", seed " << kSeed);
+        const BitsCase c(code_test::kProfiles[static_cast<std::size_t>(i % 3)], rng, i);
+        comparison.compare(c.ratios());
+    }
+    EXPECT_GT(comparison.settled(), 1000);
+    EXPECT_LT(comparison.least_factor(), 4);
+}
+
+TEST(TabledAlternatives, AreNoLessThanThereAreByScores) {
+    Rng rng(kSeed);
+    Comparison comparison;
+    for (int i = 0; i < 300; ++i) {
+        SCOPED_TRACE(testing::Message() << "lines " << i << ", seed " << kSeed);
+        const int lines = 8 + static_cast<int>(rng.below(14));
+        RatiosCase c = at_random_place(rng, lines);
+        c.odds_q8 = static_cast<int>(256 * (3 + rng.below(6)));
+        const double wrong = 0.01 * static_cast<double>(rng.below(4));
+        for (const int roll : c.rolls) {
+            const int bits = 8 + static_cast<int>(rng.below(14));
+            c.storage.push_back(scored_line(roll, bits, wrong, 127, rng));
+        }
+        comparison.compare(c.ratios());
+    }
+    EXPECT_GT(comparison.settled(), 500);
+    EXPECT_LT(comparison.least_factor(), 4);
+}
+
+TEST(TabledAlternatives, AreNotToldOfFewLines) {
+    Rng rng(kSeed);
+    const RatiosCase c = read_at_random(rng, 9);
+    unsigned sequences = 15;
+    EXPECT_EQ(tabled_alternatives(kernels(), UnsharedLines(c.ratios()), 1, sequences), 0.0F);
+    EXPECT_EQ(sequences, 15U);
+}
+
+}  // namespace
+}  // namespace dotpose::core_test
