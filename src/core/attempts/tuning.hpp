@@ -69,9 +69,9 @@ inline constexpr float kDecidingOfPart = 32;
 /// Factor by which a plane can be trusted beyond the dots that it was fitted to.
 inline constexpr float kFarther = 3.5F;
 /// Bits are clean, and need no second reading, if at least this share of the dots is clear and at
-/// most this number of bits is wrong, or of many, one for so many dots.
+/// most this number of bits is wrong, those of one dot, or of many, one for so many dots.
 inline constexpr int kClear_percent = 97;
-inline constexpr int kMostWrong = 1;
+inline constexpr int kMostWrong = 2;
 inline constexpr int kDotsPerWrong = 200;
 /// Greatest square of a dot's residual that counts, over the mean of the squares: four standard
 /// deviations.
