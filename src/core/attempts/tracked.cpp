@@ -19,28 +19,22 @@ namespace tuned = tuning::tracked;
 /// false if the dots do not determine them.
 bool fit_similarity(const Kernels& kernels, const MeasuredDots& dots, float reach_px,
                     float displacement, float most_off, FloatPlane& plane) {
+    const ScaledPlane scaled(plane, reach_px);
     const FitSums sums =
-        kernels.sum_similarity(dots, plane, displacement, reach_px, most_off * most_off);
-    if (sums.points < static_cast<float>(tuned::kFewestNear)) return false;
+        kernels.sum_fit(dots, plane, displacement, scaled.scale(), most_off * most_off);
+    if (sums.points < tuned::kFewestNear) return false;
     // Residual = shift + turn * place, as complex numbers: least squares in closed form.
-    const float share = 1 / sums.points;
-    const float right_x = sums.right[0];
-    const float right_y = sums.right[1];
-    const float along = sums.right[2];
-    const float across = sums.right[3];
-    const float u = sums.matrix[2][0] * share;  // the mean place
-    const float v = sums.matrix[2][1] * share;
-    const float spread = sums.matrix[3][3] - sums.points * (u * u + v * v);
+    const auto points = static_cast<float>(sums.points);
+    const float share = 1 / points;
+    const auto& [x, y, xu, yv, yu, xv, au, av, aq] = sums.residuals;
+    const float u = sums.places[1] * share;  // the mean place
+    const float v = sums.places[2] * share;
+    const float spread = sums.places[3] + sums.places[5] - points * (u * u + v * v);
     if (!(spread > 0)) return false;
-    const float scale = (along - right_x * u - right_y * v) / spread;
-    const float turn = (across - right_y * u + right_x * v) / spread;
-    const float unit = 1 / reach_px;
-    plane.at_x += right_x * share - scale * u + turn * v;
-    plane.at_y += right_y * share - scale * v - turn * u;
-    plane.du_x += scale * unit;
-    plane.du_y += turn * unit;
-    plane.dv_x -= turn * unit;
-    plane.dv_y += scale * unit;
+    const float scale = (xu + yv - x * u - y * v) / spread;
+    const float turn = (yu - xv - y * u + x * v) / spread;
+    plane = scaled.changed(
+        {x * share - scale * u + turn * v, y * share - scale * v - turn * u, scale, turn});
     return true;
 }
 

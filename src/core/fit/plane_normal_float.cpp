@@ -4,74 +4,55 @@
 
 namespace dotpose::core {
 
-void PlaneSumsFloat::add(const Projections& projections, const Residuals& residuals) {
-    const auto& [u, v] = projections.scale;
-    const auto& [ax, ay] = projections.tilt_x;
-    const auto& [bx, by] = projections.tilt_y;
-    const auto& [cx, cy] = projections.bend;
-    const auto& [rx, ry] = residuals.off;
+void PlaneSumsFloat::add(const FourVecs& places, const Residuals& residuals) {
+    const auto& [u, v] = places;
+    const auto& [x, y] = residuals.off;
     const Four w = residuals.weight;
     less_points_ += w > 0.0F;
-    // In each product the weight is multiplied into one of the two factors.
+    const Four q = u * u + v * v;
     const Four wu = w * u;
     const Four wv = w * v;
-    const Four wax = w * ax;
-    const Four way = w * ay;
-    const Four wbx = w * bx;
-    const Four wby = w * by;
-    const Four wcx = w * cx;
-    const Four wcy = w * cy;
-    add_each(one_scale_square_, w, wu, wv, w * (rx * rx + ry * ry));
-    add_each(tilts_, wax, way, wbx, wby);
-    add_each(bend_off_, wcx, wcy, w * rx, w * ry);
-    add_each(scale_turned_, wu * u + wv * v, wv * u - wu * v, wu * u - wv * v, wu * v + wv * u);
-    add_each(tilt_x_turned_, wax * u + way * v, way * u - wax * v, ax * wu - ay * wv,
-             ax * wv + ay * wu);
-    add_each(tilt_y_turned_, wbx * u + wby * v, wby * u - wbx * v, bx * wu - by * wv,
-             bx * wv + by * wu);
-    add_each(bend_turned_, wcx * u + wcy * v, wcy * u - wcx * v, wcx * u - wcy * v,
-             wcx * v + wcy * u);
-    add_each(off_turned_, rx * wu + ry * wv, ry * wu - rx * wv, rx * wu - ry * wv,
-             rx * wv + ry * wu);
-    add_each(tilt_tilt_, wax * ax + way * ay, wbx * ax + wby * ay, wbx * bx + wby * by, Four{});
-    add_each(bend_further_, wcx * ax + wcy * ay, wcx * bx + wcy * by, wcx * cx + wcy * cy, Four{});
-    add_each(off_further_, wax * rx + way * ry, wbx * rx + wby * ry, wcx * rx + wcy * ry, Four{});
+    const Four uu = wu * u;
+    const Four uv = wu * v;
+    const Four vv = wv * v;
+    add_each(places_[0], w, wu, wv, uu);
+    add_each(places_[1], uv, vv, uu * u, uu * v);
+    add_each(places_[2], vv * u, vv * v, q * uu, q * uv);
+    add_each(places_[3], q * vv, q * q * wu, q * q * wv, q * q * (uu + vv));
+    const Four a = x * wu + y * wv;
+    add_each(residuals_[0], w * x, w * y, x * wu, y * wv);
+    add_each(residuals_[1], y * wu, x * wv, a * u, a * v);
+    add_each(residuals_[2], a * q, w * (x * x + y * y), Four{}, Four{});
 }
 
-PlaneNormalFloat::PlaneNormalFloat(const PlaneSumsFloat& sum)
-    : squared_residuals_(sum.one_scale_square_[3]) {
+FitSums PlaneSumsFloat::all() const {
+    FitSums sums;
     for (int i = 0; i < 4; ++i)
-        points_ -= sum.less_points_[i];
-    const float one = sum.one_scale_square_[0];
-    const float u = sum.one_scale_square_[1];
-    const float v = sum.one_scale_square_[2];
-    const Four& a = sum.tilts_;
-    const Four& c = sum.bend_off_;
-    const Four& z = sum.scale_turned_;
-    const Four& az = sum.tilt_x_turned_;
-    const Four& bz = sum.tilt_y_turned_;
-    const Four& cz = sum.bend_turned_;
-    const Four& rz = sum.off_turned_;
-    const Four& t = sum.tilt_tilt_;
-    const Four& ca = sum.bend_further_;
-    const Four& ra = sum.off_further_;
-    set_rows({{{one},
-               {0, one},
-               {u, v, z[0]},
-               {-v, u, -z[1], z[0]},
-               {a[0], a[1], az[0], az[1], t[0]},
-               {a[2], a[3], bz[0], bz[1], t[1], t[2]},
-               {u, -v, z[2], -z[3], az[2], bz[2], z[0]},
-               {v, u, z[3], z[2], az[3], bz[3], z[1], z[0]},
-               {c[0], c[1], cz[0], cz[1], ca[0], ca[1], cz[2], cz[3], ca[2]}}});
-    right_ = {c[2], c[3], rz[0], rz[1], ra[0], ra[1], rz[2], rz[3], ra[2]};
+        sums.points -= less_points_[i];
+    std::memcpy(sums.places.data(), places_.data(), sizeof sums.places);
+    std::memcpy(sums.residuals.data(), residuals_.data(), sizeof sums.residuals);
+    sums.squares = residuals_[2][1];
+    return sums;
 }
 
 PlaneNormalFloat::PlaneNormalFloat(const FitSums& sums)
-    : right_(sums.right),
-      squared_residuals_(sums.squared_residuals),
-      points_(static_cast<int>(sums.points)) {
-    set_rows(sums.matrix);
+    : squared_residuals_(sums.squares), points_(sums.points) {
+    const auto& [n, u, v, uu, uv, vv, uuu, uuv, uvv, vvv, quu, quv, qvv, qqu, qqv, qqq] =
+        sums.places;
+    const float qu = uuu + uvv;
+    const float qv = uuv + vvv;
+    const float q = uu + vv;
+    set_rows({{{n},
+               {0, n},
+               {u, v, q},
+               {-v, u, 0, q},
+               {uu, uv, qu, 0, quu},
+               {uv, vv, qv, 0, quv, qvv},
+               {u, -v, uu - vv, -2 * uv, uuu - uvv, uuv - vvv, q},
+               {v, u, 2 * uv, uu - vv, 2 * uuv, 2 * uvv, 0, q},
+               {qu, qv, quu + qvv, 0, qqu, qqv, quu - qvv, 2 * quv, qqq}}});
+    const auto& [x, y, xu, yv, yu, xv, au, av, aq] = sums.residuals;
+    right_ = {x, y, xu + yv, yu - xv, au, av, xu - yv, xv + yu, aq};
 }
 
 void PlaneNormalFloat::set_rows(const std::array<Parameters, kPoseParameters>& lower) {

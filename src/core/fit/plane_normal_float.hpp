@@ -16,38 +16,23 @@ struct Residuals {
     Four weight;
 };
 
-/// Sums over points of which the normal equations consist; "turned" are products with scale, turn
-/// and shear.
+/// The sums of `FitSums` that the normal equations consist of, with a weight for each point.
 class PlaneSumsFloat {
   public:
-    void add(const Projections& projections, const Residuals& residuals);
+    void add(const FourVecs& places, const Residuals& residuals);
+    FitSums all() const;
 
   private:
-    friend class PlaneNormalFloat;
-
     /// Minus the number of points: a comparison of vectors gives -1 where it is true.
     FourInts less_points_{};
-    // Sums of the derivatives by scale, tilts and bend, and of the residuals, ...
-    Four one_scale_square_{};  ///< 1, scale (x, y), squared residual
-    Four tilts_{};             ///< tilt_x (x, y), tilt_y (x, y)
-    Four bend_off_{};          ///< bend (x, y), residual (x, y)
-    // ... of their products with the derivatives by scale, turn and shear (2), ...
-    Four scale_turned_{};
-    Four tilt_x_turned_{};
-    Four tilt_y_turned_{};
-    Four bend_turned_{};
-    Four off_turned_{};
-    // ... and of their products with each other.
-    Four tilt_tilt_{};     ///< xx, xy, yy
-    Four bend_further_{};  ///< bend with tilt_x, tilt_y, bend
-    Four off_further_{};   ///< residual with tilt_x, tilt_y, bend
+    std::array<Four, 4> places_{};
+    std::array<Four, 3> residuals_{};  ///< and their squares
 };
 
 /// The normal equations M p = right, solved by Cholesky's decomposition M = L L^T.
 class PlaneNormalFloat {
   public:
     PlaneNormalFloat() = default;
-    explicit PlaneNormalFloat(const PlaneSumsFloat& sums);
     explicit PlaneNormalFloat(const FitSums& sums);
 
     /// Replaces M by L. Returns false if the points do not determine the first four parameters; of

@@ -1,60 +1,67 @@
 #include "core/fit/projections.hpp"
 
-#include <algorithm>
 #include <cmath>
-
-#include "core/math/plane_units.hpp"
 
 namespace dotpose::core {
 
-ScaledPlane::ScaledPlane(const PlaneFromImage& plane, int reach_px)
-    : plane_(plane), reach_px_(static_cast<float>(reach_px)) {
-    const auto slope = [&](std::int32_t value) {
-        return static_cast<float>(value) * reach_px_ / kPower24;
-    };
-    du_x_ = slope(plane.du_q24.x);
-    du_y_ = slope(plane.du_q24.y);
-    dv_x_ = slope(plane.dv_q24.x);
-    dv_y_ = slope(plane.dv_q24.y);
-    tilt_x_ = static_cast<float>(plane.perspective_q30.x) * reach_px_ / kPower30;
-    tilt_y_ = static_cast<float>(plane.perspective_q30.y) * reach_px_ / kPower30;
-    bend_ = static_cast<float>(plane.lens_q40) * reach_px_ * reach_px_ / kPower40;
+std::array<Parameters, 2> jacobian(const FourVecs& places, std::size_t point) {
+    const float u = places.x[point];
+    const float v = places.y[point];
+    const float q = u * u + v * v;
+    return {Parameters{1, 0, u, -v, u * u, u * v, u, v, q * u},
+            Parameters{0, 1, v, u, u * v, v * v, -v, u, q * v}};
 }
 
-Projections ScaledPlane::project(FourInts x_q8, FourInts y_q8) const {
-    const float unit = 1.0F / (256.0F * reach_px_);
-    const Four x = __builtin_convertvector(x_q8, Four) * unit;
-    const Four y = __builtin_convertvector(y_q8, Four) * unit;
-    const Four r2 = x * x + y * y;
-    const Four denominator = 1.0F + tilt_x_ * x + tilt_y_ * y + bend_ * r2;
-    const Four divisor = denominator < 0.25F ? Four{} + 0.25F : denominator;
-    const Four u = x / divisor;
-    const Four v = y / divisor;
-    const Four t = r2 / divisor;
-    const Four qx = du_x_ * u + dv_x_ * v;
-    const Four qy = du_y_ * u + dv_y_ * v;
-    return {{qx, qy}, {u, v}, {-qx * u, -qy * u}, {-qx * v, -qy * v}, {-qx * t, -qy * t}};
-}
+ScaledPlane::ScaledPlane(const FloatPlane& plane, float reach_px)
+    : plane_(plane),
+      reach_px_(reach_px),
+      scale_(reach_px * std::sqrt((plane.du_x * plane.du_x + plane.du_y * plane.du_y +
+                                   plane.dv_x * plane.dv_x + plane.dv_y * plane.dv_y) /
+                                  2)) {}
 
-float ScaledPlane::scale() const {
-    return std::sqrt((du_x_ * du_x_ + du_y_ * du_y_ + dv_x_ * dv_x_ + dv_y_ * dv_y_) / 2);
+FourVecs ScaledPlane::project(Four x, Four y) const {
+    const FloatPlane& p = plane_;
+    const Four divisor = 1.0F + p.tilt_x * x + p.tilt_y * y + p.bend * (x * x + y * y);
+    const Four unit = scale_ * (divisor < 0.25F ? Four{} + 0.25F : divisor);
+    return {(p.du_x * x + p.dv_x * y) / unit, (p.du_y * x + p.dv_y * y) / unit};
 }
 
 Parameters ScaledPlane::distortions() const {
-    return {0, 0, 0, 0, tilt_x_, tilt_y_, (du_x_ - dv_y_) / 2, (dv_x_ + du_y_) / 2, bend_};
+    const FloatPlane& p = plane_;
+    const float by = scale_ * scale_ / (p.du_x * p.dv_y - p.dv_x * p.du_y);
+    // As complex numbers, the plane is a z + m conj(z), and its shear m / conj(a).
+    const float ax = (p.du_x + p.dv_y) / 2;
+    const float ay = (p.du_y - p.dv_x) / 2;
+    const float mx = (p.du_x - p.dv_y) / 2;
+    const float my = (p.du_y + p.dv_x) / 2;
+    const float unit = scale_ / (ax * ax + ay * ay);
+    return {0,
+            0,
+            0,
+            0,
+            (p.du_y * p.tilt_y - p.dv_y * p.tilt_x) * by,
+            (p.dv_x * p.tilt_x - p.du_x * p.tilt_y) * by,
+            (mx * ax - my * ay) * unit,
+            (mx * ay + my * ax) * unit,
+            -p.bend * scale_ * reach_px_ * reach_px_};
 }
 
-PlaneFromImage ScaledPlane::changed(const Parameters& by) const {
-    const auto slope = [&](float value) { return rounded(value / reach_px_ * kPower24); };
-    PlaneFromImage result = plane_;
-    result.at_centre_q16 =
-        result.at_centre_q16 + Vec{rounded(by[0] * kPower16), rounded(by[1] * kPower16)};
-    result.du_q24 = result.du_q24 + Vec{slope(by[2] + by[6]), slope(by[3] + by[7])};
-    result.dv_q24 = result.dv_q24 + Vec{slope(by[7] - by[3]), slope(by[2] - by[6])};
-    result.perspective_q30 = {rounded((tilt_x_ + by[4]) / reach_px_ * kPower30),
-                              rounded((tilt_y_ + by[5]) / reach_px_ * kPower30)};
-    result.lens_q40 = rounded((bend_ + by[8]) / (reach_px_ * reach_px_) * kPower40);
-    return result;
+FloatPlane ScaledPlane::changed(const Parameters& by) const {
+    const FloatPlane& p = plane_;
+    const float unit = 1 / scale_;
+    const FloatVec x{1 + (by[2] + by[6]) * unit, (by[7] + by[3]) * unit};
+    const FloatVec y{(by[7] - by[3]) * unit, 1 + (by[2] - by[6]) * unit};
+    const float tilt_x = by[4] * unit * unit;
+    const float tilt_y = by[5] * unit * unit;
+    return {p.at_x + by[0],
+            p.at_y + by[1],
+            x.x * p.du_x + y.x * p.du_y,
+            x.y * p.du_x + y.y * p.du_y,
+            x.x * p.dv_x + y.x * p.dv_y,
+            x.y * p.dv_x + y.y * p.dv_y,
+            p.tilt_x - (tilt_x * p.du_x + tilt_y * p.du_y),
+            p.tilt_y - (tilt_x * p.dv_x + tilt_y * p.dv_y),
+            p.bend - by[8] * unit / (reach_px_ * reach_px_)};
 }
 
 }  // namespace dotpose::core

@@ -88,13 +88,20 @@ inline constexpr float kQuickBellReach_px = 4;  ///< takes a tenth of a wider be
 /// seen where dots are 8 to 13 px apart.
 inline constexpr float kPredictedBellReach_px = 3.65F;
 
-/// Sums for the fit of nine parameters; see PlaneNormalFloat.
+/// Sums over dots for the fit of nine parameters; see PlaneNormalFloat. Places (u, v) are where a
+/// plane has the dots, from its `at`, in units of its scale; residuals (x, y) are in spacings. Four
+/// dots that are listed one after the other are a run of neighbours.
 struct FitSums {
-    float points = 0;
-    float squared_residuals = 0;
-    float projected = 0;  ///< sum over dots of offset . direction of displacement
-    std::array<std::array<float, 9>, 9> matrix{};  ///< the lower triangle
-    std::array<float, 9> right{};
+    int points = 0;             ///< dots that count
+    int outliers = 0;           ///< dots that lie too far off
+    float farthest = 0;         ///< largest squared residual of a dot that counts
+    float projected = 0;        ///< offset . direction of displacement
+    float squares = 0;          ///< squared residuals
+    float runs = 0;             ///< those with dots that count
+    float squares_of_runs = 0;  ///< over runs: dots times squared mean residual
+    /// 1, u, v, uu, uv, vv, uuu, uuv, uvv, vvv, quu, quv, qvv, qqu, qqv, qqq; q = uu + vv.
+    std::array<float, 16> places{};
+    std::array<float, 9> residuals{};  ///< x, y, xu, yv, yu, xv, au, av, aq; a = xu + yv
 };
 
 /// Sums over predicted dots: where they are, in px from the image's centre, and what they are off.
@@ -111,16 +118,6 @@ struct DotOffsets {
     /// Sums of offsets times the direction of the dot's displacement along x, and along y.
     std::array<float, 2> of_x{};
     std::array<float, 2> of_y{};
-};
-
-/// Counts and residuals of the dots that lie where a plane has them. Four dots that are listed one
-/// after the other are a run of neighbours.
-struct FittingDots {
-    int points = 0;
-    int outliers = 0;           ///< dots that lie too far off
-    float squares = 0;          ///< sum of the dots' squared residuals, spacings^2
-    float squares_of_runs = 0;  ///< sum over runs: dots times squared mean residual
-    int runs = 0;
 };
 
 /// Sums of residuals over the dots of square blocks of the image, in spacings.
@@ -246,15 +243,10 @@ struct Kernels {
     /// must be empty before, and no cell may have two dots.
     BitsRead (*read_bits)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
                           BitLines* columns, BitLines* rows);
-    /// Returns the sums over the dots that are at most `limit` (spacings^2) off.
+    /// Returns the sums over the dots that are at most `limit` (spacings^2) off. `scale` is the
+    /// unit of places.
     FitSums (*sum_fit)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
-                       float reach_px, float limit);
-    /// Returns the counts and residuals of the dots that are at most `limit` (spacings^2) off.
-    FittingDots (*count_fitting)(const MeasuredDots& dots, const FloatPlane& plane,
-                                 float displacement, float limit);
-    /// Returns the sums for at, scale and turn only; all others are 0.
-    FitSums (*sum_similarity)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,
-                              float reach_px, float limit);
+                       float scale, float limit);
     /// Sums up residuals of the dots that are at most `limit` (spacings^2) off, in `side` x `side`
     /// blocks, which reach `reach_px` from the plane's centre along both axes.
     void (*sum_blocks)(const MeasuredDots& dots, const FloatPlane& plane, float displacement,

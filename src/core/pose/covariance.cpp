@@ -7,11 +7,13 @@ namespace dotpose::core {
 namespace {
 
 /// Returns the derivatives, by the parameters, of the direction from one point to another, in rad.
-Parameters direction_gradient(const Projections& projections, std::size_t from, std::size_t to) {
-    const float x = projections.at.x[to] - projections.at.x[from];
-    const float y = projections.at.y[to] - projections.at.y[from];
-    const auto of_from = projections.jacobian(from);
-    const auto of_to = projections.jacobian(to);
+/// `scale` is the unit of places.
+Parameters direction_gradient(const FourVecs& places, float scale, std::size_t from,
+                              std::size_t to) {
+    const float x = (places.x[to] - places.x[from]) * scale;
+    const float y = (places.y[to] - places.y[from]) * scale;
+    const auto of_from = jacobian(places, from);
+    const auto of_to = jacobian(places, to);
     const float over = 1 / (x * x + y * y);
     Parameters gradient;
     for (std::size_t i = 0; i < gradient.size(); ++i) {
@@ -48,14 +50,16 @@ void estimate_covariance(const PoseFit& fit, const PlaneFromImage& pattern_from_
     // Some dots are seen only when measured where the code has them, not as blobs of their own.
     fix.dots_seen = std::max(fix.dots_seen, fix.dots_used);
     fix.residual_px = std::sqrt(fit.variance) * static_cast<float>(fix.spacing_px_q16) / 65536.0F;
-    const ScaledPlane plane(pattern_from_image, fit.reach_px);
+    const ScaledPlane plane(float_plane(pattern_from_image), static_cast<float>(fit.reach_px));
     // Theta is the direction of the image's x axis, here between two points 16 px apart.
-    constexpr std::int32_t kStep_q8 = 8 * 256;
-    const Vec p = reference_q8 - pattern_from_image.centre_q8;
-    const Projections projections =
-        plane.project(FourInts{p.x, p.x - kStep_q8, p.x + kStep_q8}, FourInts{p.y, p.y, p.y});
-    const auto here = projections.jacobian(0);
-    std::array<Parameters, 3> gradients{here[0], here[1], direction_gradient(projections, 1, 2)};
+    constexpr float kStep_px = 8;
+    const Vec from_centre_q8 = reference_q8 - pattern_from_image.centre_q8;
+    const float x = static_cast<float>(from_centre_q8.x) / 256;
+    const float y = static_cast<float>(from_centre_q8.y) / 256;
+    const FourVecs places = plane.project(Four{x, x - kStep_px, x + kStep_px}, Four{y, y, y});
+    const auto here = jacobian(places, 0);
+    std::array<Parameters, 3> gradients{here[0], here[1],
+                                        direction_gradient(places, plane.scale(), 1, 2)};
     for (Parameters& gradient : gradients)
         gradient = fit.normal.whitened(gradient);
     for (std::size_t j = 0; j < 3; ++j) {

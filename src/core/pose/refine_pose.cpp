@@ -13,9 +13,9 @@ namespace tuned = tuning::fit;
 
 constexpr float kPower30 = 1073741824.0F;
 
-/// What cameras and prints are like, as deviations. Of a tilt: the change of scale from the middle
-/// to the outermost dot, about 0.01 for 2 degrees. Of a shear: relative to the scale. Of a bend:
-/// the outermost dot's displacement relative to its distance. A bend must be beyond doubt.
+/// What cameras and prints are like, as deviations, relative to the scale. Of a tilt: the change of
+/// scale from the middle to the outermost dot, about 0.01 for 2 degrees. Of a bend: the outermost
+/// dot's displacement relative to its distance. A bend must be beyond doubt.
 constexpr std::array<FurtherTerms, 3> kTerms{{
     {kTilt, 2, {{{0.1F, 0}, {0.8F, 0.01F}, {0.1F, 0.1F}}}},
     {kShear, 2, {{{0.5F, 0}, {0.4F, 0.002F}, {0.1F, 0.03F}}}},
@@ -60,7 +60,9 @@ class Scatter {
 class Round {
   public:
     Round(const Survey& survey, const PlaneFromImage& pose)
-        : survey_(survey), pose_(pose), plane_(pose, survey.reach_px()) {
+        : survey_(survey),
+          pose_(pose),
+          plane_(from_its_at(pose), static_cast<float>(survey.reach_px())) {
         const Batch& sample = survey.sample();
         Batch::Values<std::int32_t> x_q16;  // from the intersection
         Batch::Values<std::int32_t> y_q16;
@@ -90,18 +92,25 @@ class Round {
             for (std::size_t i = 0; i < batch.count; i += 4)
                 add_four(batch, i, scatter, sums);
         });
-        return PlaneNormalFloat(sums);
+        return PlaneNormalFloat(sums.all());
     }
 
     bool solve(PoseFit& fit, PlaneFromImage& pose, float& moved) const {
         fit.displacement = static_cast<float>(displacement_q16_) / 65536.0F;
         Parameters step;
         if (!core::solve(plane_.distortions(), plane_.scale(), fit, step, moved)) return false;
-        pose = plane_.changed(step);
+        pose = fixed_plane(plane_.changed(step), pose_.centre_q8);
+        pose.at_centre_q16 = pose.at_centre_q16 + pose_.at_centre_q16;
         return true;
     }
 
   private:
+    /// Returns the plane counted from its `at_centre`, which may take more digits than a float has.
+    static FloatPlane from_its_at(PlaneFromImage plane) {
+        plane.at_centre_q16 = {};
+        return float_plane(plane);
+    }
+
     static std::int32_t squared_q30(Vec residual_q16) {
         return static_cast<std::int32_t>(
             std::min<std::int64_t>(squared(residual_q16) >> 2, INT32_MAX));
@@ -128,17 +137,21 @@ class Round {
 
     void add_four(const Batch& batch, std::size_t i, const Scatter& scatter,
                   PlaneSumsFloat& sums) const {
-        const Projections projections =
-            plane_.project(four_at(&batch.x_q8[i]), four_at(&batch.y_q8[i]));
+        const auto px = [](const std::int32_t* at_q8) {
+            return __builtin_convertvector(four_at(at_q8), Four) / 256.0F;
+        };
+        const FourVecs places = plane_.project(px(&batch.x_q8[i]), px(&batch.y_q8[i]));
         const auto target = [&](const auto& step_q16, const auto& direction, std::int32_t at_q16) {
             const FourInts target_q16 =
                 four_at(&step_q16[i]) + four_at(&direction[i]) * displacement_q16_ - at_q16;
             return __builtin_convertvector(target_q16, Four) / 65536.0F;
         };
-        const Four x = target(batch.step_x_q16, batch.dx, pose_.at_centre_q16.x) - projections.at.x;
-        const Four y = target(batch.step_y_q16, batch.dy, pose_.at_centre_q16.y) - projections.at.y;
+        const Four x =
+            target(batch.step_x_q16, batch.dx, pose_.at_centre_q16.x) - places.x * plane_.scale();
+        const Four y =
+            target(batch.step_y_q16, batch.dy, pose_.at_centre_q16.y) - places.y * plane_.scale();
         const Four weight = scatter.weight(four_at(&batch.noise[i]));
-        sums.add(projections, {{x, y}, weight * (x * x + y * y) <= limit_ ? weight : Four{}});
+        sums.add(places, {{x, y}, weight * (x * x + y * y) <= limit_ ? weight : Four{}});
     }
 
     const Survey& survey_;
@@ -155,8 +168,7 @@ void shrink(const Parameters& whole, float unit, PoseFit& fit, Parameters& step)
     for (std::size_t i = 0; i < kTilt; ++i)
         fit.covariance[i][i] = fit.variance;
     for (const FurtherTerms& terms : kTerms) {
-        const Posterior posterior =
-            posterior_of(terms, fit.normal, whole, fit.variance, terms.first == kShear ? unit : 1);
+        const Posterior posterior = posterior_of(terms, fit.normal, whole, fit.variance, unit);
         for (std::size_t i = 0; i < terms.count; ++i) {
             step[terms.first + i] += posterior.mean[i] - whole[terms.first + i];
             for (std::size_t j = 0; j < terms.count; ++j)
@@ -176,9 +188,8 @@ bool solve(const Parameters& distortions, float unit, PoseFit& fit, Parameters& 
     for (const float part : step)
         left -= part * part;
     fit.dots = normal.points();
-    const int freedom = std::max(2 * fit.dots - static_cast<int>(kPoseParameters), 1);
     constexpr float kExact = 1e-12F;
-    fit.variance = std::max(left / static_cast<float>(freedom), kExact);
+    fit.variance = std::max(left / fit.freedom(), kExact);
     // Once whitened, the share of each further term is independent of the terms after it.
     Parameters whole = normal.times_transposed(distortions);
     for (std::size_t i = 0; i < kPoseParameters; ++i)

@@ -4,6 +4,8 @@
 // floating point, of single precision.
 #pragma once
 
+#include <algorithm>
+
 #include "core/fit/plane_normal_float.hpp"
 #include "core/pose/observations.hpp"
 #include "core/pose/posterior.hpp"
@@ -25,6 +27,11 @@ struct PoseFit {
     Surface surface = Surface::even;
     /// What an uneven sheet adds to the covariance of x, y and theta.
     std::array<std::array<float, 3>, 3> uneven{};
+
+    /// Returns the coordinates that were measured, less the parameters that were fitted.
+    float freedom() const {
+        return static_cast<float>(std::max(2 * dots - static_cast<int>(kPoseParameters), 1));
+    }
 };
 
 /// Solves the normal equations of `fit` for the step to the plane of least squares, and shrinks the

@@ -45,15 +45,17 @@ inline constexpr int kOutlier_medians = 12;
 /// Dots beyond so many variances are left out, where the variance is known: 1 in 4,000 lies 4.1
 /// sigma out.
 inline constexpr float kOutlier = 16.6F;
+/// Other dots may count if the limit changes by a larger share than this.
+inline constexpr float kSameLimit = 0.15F;
 /// Largest share of the scatter that is put down to pixel noise.
 inline constexpr float kMostByNoise = 0.9F;
 /// Fewest dots that a plane is fitted to in vectors.
 inline constexpr int kFewestDots = 20;
 /// A step below this, in squared deviations of the pose, needs no other round: kBentSettled over
 /// the square of how much the plane bends (a fifth of a deviation left), but at least kLeastSettled
-/// and at most kMostSettled.
+/// and at most kMostSettled, so that what the step explains is hardly within runs of dots.
 inline constexpr float kLeastSettled = 0.2F;
-inline constexpr float kMostSettled = 1000;
+inline constexpr float kMostSettled = 30;
 inline constexpr float kBentSettled = 0.04F;
 }  // namespace fit
 

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "../geometry.hpp"
+#include "../float_planes.hpp"
 #include "core/math/plane.hpp"
 
 namespace dotpose::core_test {
@@ -38,10 +38,15 @@ Vec random_pixel_q8(Rng& rng) {
     return fixed({rng.uniform(0, 187), rng.uniform(0, 119)}, 8);
 }
 
-/// Projects a pixel as the first of four points; the other three lie elsewhere.
-Projections project(const ScaledPlane& scaled, const PlaneFromImage& plane, Vec pixel_q8) {
-    const Vec p{pixel_q8.x - plane.centre_q8.x, pixel_q8.y - plane.centre_q8.y};
-    return scaled.project(FourInts{p.x, 256, -5000, 7000}, FourInts{p.y, -256, 3000, 3000});
+ScaledPlane scaled(const PlaneFromImage& plane) {
+    return {float_plane(plane), kReach_px};
+}
+
+/// Returns the place of a pixel as the first of four; the other three lie elsewhere.
+FourVecs project(const ScaledPlane& scaled, const PlaneFromImage& plane, Vec pixel_q8) {
+    const auto x = static_cast<float>(pixel_q8.x - plane.centre_q8.x) / 256;
+    const auto y = static_cast<float>(pixel_q8.y - plane.centre_q8.y) / 256;
+    return scaled.project(Four{x, 1, -20, 27}, Four{y, -1, 12, 12});
 }
 
 TEST(ScaledPlane, SeesPointsWhereThePlaneHasThem) {
@@ -49,11 +54,14 @@ TEST(ScaledPlane, SeesPointsWhereThePlaneHasThem) {
     for (int i = 0; i < 1000; ++i) {
         const PlaneFromImage plane = random_plane(rng);
         const Vec pixel_q8 = random_pixel_q8(rng);
-        const Projections projections = project(ScaledPlane(plane, kReach_px), plane, pixel_q8);
+        const FourVecs places = project(scaled(plane), plane, pixel_q8);
         const Vec2 expected =
             real(plane_point_q16(plane, pixel_q8), 16) - real(plane.at_centre_q16, 16);
-        ASSERT_NEAR(projections.at.x[0], expected.x, 3e-5) << "plane " << i << ", seed " << kSeed;
-        ASSERT_NEAR(projections.at.y[0], expected.y, 3e-5) << "plane " << i << ", seed " << kSeed;
+        const auto unit = static_cast<double>(scaled(plane).scale());
+        ASSERT_NEAR(double{places.x[0]} * unit, expected.x, 3e-5)
+            << "plane " << i << ", seed " << kSeed;
+        ASSERT_NEAR(double{places.y[0]} * unit, expected.y, 3e-5)
+            << "plane " << i << ", seed " << kSeed;
     }
 }
 
@@ -61,40 +69,49 @@ TEST(ScaledPlane, ChangesAsItsDerivativesTell) {
     Rng rng(kSeed);
     for (int i = 0; i < 200; ++i) {
         const PlaneFromImage plane = random_plane(rng);
-        const ScaledPlane scaled(plane, kReach_px);
+        const FloatPlane seen = float_plane(plane);
+        const Vec pixel_q8 = random_pixel_q8(rng);
+        const Vec2 px = real(pixel_q8, 8) - real(plane.centre_q8, 8);
+        const auto derivatives = jacobian(project(scaled(plane), plane, pixel_q8), 0);
         for (std::size_t k = 0; k < kPoseParameters; ++k) {
             SCOPED_TRACE(testing::Message() << "plane " << i << ", parameter " << k);
-            constexpr float kStep = 2e-3F;
+            constexpr float kStep = 0.01F;
             Parameters more{};
             more[k] = kStep;
             Parameters less{};
             less[k] = -kStep;
-            const Vec pixel_q8 = random_pixel_q8(rng);
-            const Vec2 change = (1 / (2.0 * static_cast<double>(kStep))) *
-                                (real(plane_point_q16(scaled.changed(more), pixel_q8), 16) -
-                                 real(plane_point_q16(scaled.changed(less), pixel_q8), 16));
-            const auto jacobian = project(scaled, plane, pixel_q8).jacobian(0);
-            // The places that `change` is computed from are rounded to 2^-16 spacings.
-            ASSERT_NEAR(jacobian[0][k], change.x, 0.02);
-            ASSERT_NEAR(jacobian[1][k], change.y, 0.02);
+            const Vec2 change =
+                (1 / (2 * static_cast<double>(kStep))) * (formula(scaled(plane).changed(more), px) -
+                                                          formula(scaled(plane).changed(less), px));
+            // The derivative by the bend is that of a plane without tilt and shear.
+            const double most = k == kBend ? 0.15 : 0.002;
+            ASSERT_NEAR(derivatives[0][k], change.x, most);
+            ASSERT_NEAR(derivatives[1][k], change.y, most);
         }
+        // So do large changes, except the bend: a tilt in the pattern stays a tilt in the image.
+        const Vec2 place = formula(seen, px) - formula(seen, {});
+        const double by = 1 + (0.3 * place.x - 0.2 * place.y) / 9;
+        const auto unit = scaled(plane).scale();
+        Parameters tilt{};
+        tilt[kTilt] = -0.3F / 9 * unit * unit;
+        tilt[kTilt + 1] = 0.2F / 9 * unit * unit;
+        const FloatPlane tilted = scaled(plane).changed(tilt);
+        ASSERT_LT(length((1 / by) * place - (formula(tilted, px) - formula(tilted, {}))),
+                  2e-4 * length(place) / (by * by));
     }
 }
 
 TEST(ScaledPlane, ChangesThatMakeNoSenseAreLimited) {
-    using core::operator-;
     Rng rng(kSeed);
     const PlaneFromImage plane = random_plane(rng);
-    const ScaledPlane scaled(plane, kReach_px);
     constexpr float kInfinite = std::numeric_limits<float>::infinity();
     for (const float change : {1e12F, -1e12F, kInfinite, -kInfinite, std::nanf("")}) {
         SCOPED_TRACE(testing::Message() << "change " << change);
         Parameters all;
         all.fill(change);
-        const PlaneFromImage changed = scaled.changed(all);
-        for (const Vec part :
-             {changed.at_centre_q16 - plane.at_centre_q16, changed.du_q24 - plane.du_q24,
-              changed.dv_q24 - plane.dv_q24, changed.perspective_q30, Vec{changed.lens_q40, 0}}) {
+        const PlaneFromImage changed = fixed_plane(scaled(plane).changed(all), {});
+        for (const Vec part : {changed.at_centre_q16, changed.du_q24, changed.dv_q24,
+                               changed.perspective_q30, Vec{changed.lens_q40, 0}}) {
             EXPECT_LE(larger_component(part), 1 << 28);
         }
     }
@@ -103,47 +120,46 @@ TEST(ScaledPlane, ChangesThatMakeNoSenseAreLimited) {
 TEST(ScaledPlane, DistortionsAreWhatMakesItDifferFromAPlainCamera) {
     Rng rng(kSeed);
     const PlaneFromImage plane = random_plane(rng);
-    const ScaledPlane scaled(plane, kReach_px);
-    Parameters off = scaled.distortions();
+    Parameters off = scaled(plane).distortions();
     for (float& value : off)
         value = -value;
-    const PlaneFromImage plain = scaled.changed(off);
-    EXPECT_EQ(plain.perspective_q30, Vec{});
-    EXPECT_EQ(plain.lens_q40, 0);
-    EXPECT_NEAR(plain.du_q24.x, plain.dv_q24.y, 2);
-    EXPECT_NEAR(plain.du_q24.y, -plain.dv_q24.x, 2);
+    const FloatPlane plain = scaled(plane).changed(off);
+    EXPECT_NEAR(plain.bend, 0, 1e-11);
+    // Taking off the shear, which is 1 %, turns what is left of the tilt a little.
+    EXPECT_NEAR(plain.tilt_x, 0, 2e-5);
+    EXPECT_NEAR(plain.tilt_y, 0, 2e-5);
+    EXPECT_NEAR(plain.du_x, plain.dv_y, 2e-5);
+    EXPECT_NEAR(plain.du_y, -plain.dv_x, 2e-5);
 }
 
-/// Projections of many points, with residuals that a known step explains.
+/// Places of many points, with residuals that a known step explains.
 struct Problem {
     static constexpr int kPoints = 150;
     PlaneNormalFloat normal;
     double squared_residuals = 0;
 
     Problem(const Parameters& step, Rng& rng, bool on_one_line = false) {
-        const ScaledPlane plane(random_plane(rng), kReach_px);
+        const ScaledPlane plane = scaled(random_plane(rng));
         PlaneSumsFloat sums;
         for (int first = 0; first < kPoints; first += 4) {
-            FourInts x_q8;
-            FourInts y_q8;
+            Four x;
+            Four y;
             for (int k = 0; k < 4; ++k) {
-                const Vec pixel_q8 = random_pixel_q8(rng);
-                x_q8[k] = pixel_q8.x - 93 * 256;
-                y_q8[k] = on_one_line ? 0 : pixel_q8.y - 59 * 256;
+                x[k] = static_cast<float>(rng.uniform(-93, 93));
+                y[k] = on_one_line ? 0 : static_cast<float>(rng.uniform(-59, 59));
             }
-            const Projections projections = plane.project(x_q8, y_q8);
+            const FourVecs places = plane.project(x, y);
             Residuals residuals{};
             for (int k = 0; k < 4 && first + k < kPoints; ++k) {
-                const Vec2 off =
-                    explained_by(step, projections.jacobian(static_cast<std::size_t>(k)));
+                const Vec2 off = explained_by(step, jacobian(places, static_cast<std::size_t>(k)));
                 squared_residuals += off.x * off.x + off.y * off.y;
                 residuals.off.x[k] = static_cast<float>(off.x);
                 residuals.off.y[k] = static_cast<float>(off.y);
                 residuals.weight[k] = 1;
             }
-            sums.add(projections, residuals);
+            sums.add(places, residuals);
         }
-        normal = PlaneNormalFloat(sums);
+        normal = PlaneNormalFloat(sums.all());
     }
 
     static Vec2 explained_by(const Parameters& step, const std::array<Parameters, 2>& jacobian) {
@@ -186,18 +202,18 @@ double product(float a, float b) {
 
 TEST(PlaneNormalFloat, IsThatOfItsDefinition) {
     Rng rng(kSeed);
-    const ScaledPlane plane(random_plane(rng), kReach_px);
+    const ScaledPlane plane = scaled(random_plane(rng));
     PlaneSumsFloat sums;
     double expected[kPoseParameters][kPoseParameters] = {};
     double right[kPoseParameters] = {};
     for (int n = 0; n < 10; ++n) {
-        const Projections projections = plane.project(FourInts{n, -9000, 700 * n, 11000},
-                                                      FourInts{-8000, 300 * n, 4000, 900 * n});
+        const auto by = static_cast<float>(n);
+        const FourVecs places = plane.project(Four{0, -35, 3 * by, 43}, Four{-31, by, 16, 4 * by});
         const Residuals residuals{{Four{0.5F, -1, 2, 0.1F}, Four{1, 0.3F, -0.7F, 0.2F}},
                                   Four{1, 0.5F, 0, 3}};
-        sums.add(projections, residuals);
+        sums.add(places, residuals);
         for (int point = 0; point < 4; ++point) {
-            const auto [a, b] = projections.jacobian(static_cast<std::size_t>(point));
+            const auto [a, b] = jacobian(places, static_cast<std::size_t>(point));
             const auto weight = static_cast<double>(residuals.weight[point]);
             for (std::size_t i = 0; i < kPoseParameters; ++i) {
                 right[i] += weight * (product(a[i], residuals.off.x[point]) +
@@ -207,7 +223,7 @@ TEST(PlaneNormalFloat, IsThatOfItsDefinition) {
             }
         }
     }
-    PlaneNormalFloat normal(sums);
+    PlaneNormalFloat normal(sums.all());
     EXPECT_EQ(normal.points(), 30);
     for (std::size_t i = 0; i < kPoseParameters; ++i)
         EXPECT_NEAR(normal.right()[i], right[i], 1e-4) << i;
@@ -224,25 +240,25 @@ TEST(PlaneNormalFloat, IsThatOfItsDefinition) {
 
 TEST(PlaneNormalFloat, CountsAPointOfWeightThreeThreeTimes) {
     Rng rng(kSeed);
-    const ScaledPlane plane(random_plane(rng), kReach_px);
+    const ScaledPlane plane = scaled(random_plane(rng));
     PlaneSumsFloat weighted;
     PlaneSumsFloat repeated;
     for (int i = 0; i < 10; ++i) {
-        FourInts x_q8;
-        FourInts y_q8;
+        Four x;
+        Four y;
         Four off;
         for (int k = 0; k < 4; ++k) {
-            x_q8[k] = random_pixel_q8(rng).x;
-            y_q8[k] = random_pixel_q8(rng).y;
+            x[k] = static_cast<float>(rng.uniform(-93, 93));
+            y[k] = static_cast<float>(rng.uniform(-59, 59));
             off[k] = static_cast<float>(rng.uniform(-1, 1));
         }
-        const Projections projections = plane.project(x_q8, y_q8);
-        weighted.add(projections, {{off, -off}, Four{3, 3, 3, 3}});
+        const FourVecs places = plane.project(x, y);
+        weighted.add(places, {{off, -off}, Four{3, 3, 3, 3}});
         for (int n = 0; n < 3; ++n)
-            repeated.add(projections, {{off, -off}, Four{1, 1, 1, 1}});
+            repeated.add(places, {{off, -off}, Four{1, 1, 1, 1}});
     }
-    PlaneNormalFloat one(weighted);
-    PlaneNormalFloat three(repeated);
+    PlaneNormalFloat one(weighted.all());
+    PlaneNormalFloat three(repeated.all());
     EXPECT_EQ(one.points(), 40);
     EXPECT_NEAR(one.squared_residuals(), three.squared_residuals(), 1e-3);
     for (std::size_t k = 0; k < kPoseParameters; ++k)
@@ -268,12 +284,12 @@ TEST(PlaneNormalFloat, LeavesOutWhatThePointsDoNotDetermine) {
 }
 
 TEST(PlaneNormalFloat, NeedsPoints) {
-    PlaneNormalFloat none{PlaneSumsFloat()};
+    PlaneNormalFloat none{FitSums()};
     EXPECT_FALSE(none.decompose());
     PlaneSumsFloat sums;
-    const ScaledPlane plane({{}, {}, {1 << 20, 0}, {0, 1 << 20}, {}, 0}, 10);
-    sums.add(plane.project(FourInts{256}, FourInts{256}), {{Four{}, Four{}}, Four{1}});
-    PlaneNormalFloat one(sums);
+    const ScaledPlane plane({0, 0, 0.06F, 0, 0, 0.06F}, 10);
+    sums.add(plane.project(Four{1}, Four{1}), {{Four{}, Four{}}, Four{1}});
+    PlaneNormalFloat one(sums.all());
     EXPECT_EQ(one.points(), 1);
     EXPECT_FALSE(one.decompose());
 }

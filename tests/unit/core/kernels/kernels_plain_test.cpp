@@ -23,6 +23,12 @@ std::array<double, 2> exactly(const FloatPlane& plane, double x, double y) {
     return {along(plane.at_x, plane.du_x, plane.dv_x), along(plane.at_y, plane.du_y, plane.dv_y)};
 }
 
+template <std::size_t kCount>
+void add(const std::array<double, kCount>& numbers, std::array<double, kCount>& sums) {
+    for (std::size_t k = 0; k < kCount; ++k)
+        sums[k] += numbers[k];
+}
+
 int mean(int a, int b) {
     return (a + b + 1) / 2;
 }
@@ -164,14 +170,18 @@ TEST(KernelsPlain, BitsStandInTheirLines) {
     });
 }
 
-TEST(KernelsPlain, SimilarityIsSummedOverDotsNearTheirPlaces) {
+TEST(KernelsPlain, FitIsSummedOverDotsNearTheirPlaces) {
     repeat_with_each_form(30, [](const Kernels& kernels, Rng& rng) {
         const FloatPlane plane = random_plane(rng, 11, 0, 0);
         const DotTable table = random_measures(plane, whole(rng, 20, 300), 0.167F, rng);
         const double limit = 0.012;
+        constexpr double kScale = 9;
         double points = 0;
         double squares = 0;
-        double right_x = 0;
+        double projected = 0;
+        double farthest = 0;
+        std::array<double, 16> places{};
+        std::array<double, 9> residuals{};
         int seen = 0;
         std::map<std::size_t, std::array<double, 3>> runs;  // number of dots, and sums of their
                                                             // residuals
@@ -190,7 +200,19 @@ TEST(KernelsPlain, SimilarityIsSummedOverDotsNearTheirPlaces) {
             if (left_x * left_x + left_y * left_y > limit) continue;
             ++points;
             squares += left_x * left_x + left_y * left_y;
-            right_x += left_x;
+            farthest = std::max(farthest, left_x * left_x + left_y * left_y);
+            projected += (0.167 * (y_bit - x_bit) - left_x) * (y_bit - x_bit) +
+                         (0.167 * (x_bit + y_bit - 1) - left_y) * (x_bit + y_bit - 1);
+            const double u = (at_x - static_cast<double>(plane.at_x)) / kScale;
+            const double v = (at_y - static_cast<double>(plane.at_y)) / kScale;
+            const double q = u * u + v * v;
+            add({1, u, v, u * u, u * v, v * v, u * u * u, u * u * v, u * v * v, v * v * v,
+                 q * u * u, q * u * v, q * v * v, q * q * u, q * q * v, q * q * q},
+                places);
+            const double a = left_x * u + left_y * v;
+            add({left_x, left_y, left_x * u, left_y * v, left_y * u, left_x * v, a * u, a * v,
+                 a * q},
+                residuals);
             auto& [of_run, off_x, off_y] = runs[k / 4];
             of_run += 1;
             off_x += left_x;
@@ -199,20 +221,19 @@ TEST(KernelsPlain, SimilarityIsSummedOverDotsNearTheirPlaces) {
         double squares_of_runs = 0;
         for (const auto& [index, run] : runs)
             squares_of_runs += (run[1] * run[1] + run[2] * run[2]) / run[0];
-        const FittingDots fitting =
-            kernels.count_fitting(table.dots, plane, 0.167F, static_cast<float>(limit));
-        EXPECT_EQ(fitting.points, points);
-        EXPECT_EQ(fitting.outliers, seen - points);
-        EXPECT_EQ(fitting.runs, runs.size());
-        EXPECT_NEAR(fitting.squares, squares, 1e-4);
-        EXPECT_NEAR(fitting.squares_of_runs, squares_of_runs, 1e-4);
-        for (const FitSums& sums :
-             {kernels.sum_fit(table.dots, plane, 0.167F, 100, static_cast<float>(limit)),
-              kernels.sum_similarity(table.dots, plane, 0.167F, 100, static_cast<float>(limit))}) {
-            EXPECT_EQ(sums.points, points);
-            EXPECT_NEAR(sums.squared_residuals, squares, 1e-4);
-            EXPECT_NEAR(sums.right[0], right_x, 1e-3);
-        }
+        const FitSums sums =
+            kernels.sum_fit(table.dots, plane, 0.167F, kScale, static_cast<float>(limit));
+        EXPECT_EQ(sums.points, points);
+        EXPECT_EQ(sums.outliers, seen - points);
+        EXPECT_EQ(sums.runs, static_cast<float>(runs.size()));
+        EXPECT_NEAR(sums.squares, squares, 1e-4);
+        EXPECT_NEAR(sums.farthest, farthest, 1e-6);
+        EXPECT_NEAR(sums.projected, projected, 1e-3);
+        EXPECT_NEAR(sums.squares_of_runs, squares_of_runs, 1e-4);
+        for (std::size_t k = 0; k < places.size(); ++k)
+            EXPECT_NEAR(sums.places[k], places[k], 1e-3) << k;
+        for (std::size_t k = 0; k < residuals.size(); ++k)
+            EXPECT_NEAR(sums.residuals[k], residuals[k], 1e-3) << k;
     });
 }
 

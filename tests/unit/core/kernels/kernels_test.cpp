@@ -291,10 +291,9 @@ TEST_F(KernelsTest, SumsOfFitsAreTheSame) {
         const DotTable table = random_measures(plane, whole(rng, 0, 500), 0.167F, rng);
         const float limit = number(rng, 0.001, 0.05);
         const float reach = number(rng, 30, 400);
+        const float scale = number(rng, 3, 40);
         expect_same([&](const Kernels& kernels, Record& record) {
-            record.add(kernels.sum_fit(table.dots, plane, 0.167F, reach, limit));
-            record.add(kernels.count_fitting(table.dots, plane, 0.167F, limit));
-            record.add(kernels.sum_similarity(table.dots, plane, 0.167F, reach, limit));
+            record.add(kernels.sum_fit(table.dots, plane, 0.167F, scale, limit));
             BlockSums blocks;
             kernels.sum_blocks(table.dots, plane, 0.167F, limit, reach, 6, blocks);
             for (std::size_t b = 0; b < 36; ++b)

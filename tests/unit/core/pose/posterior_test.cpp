@@ -25,16 +25,9 @@ PlaneNormalFloat random_normal(Rng& rng) {
         return values;
     };
     PlaneSumsFloat sums;
-    for (int i = 0; i < 8; ++i) {
-        Projections projections;
-        for (FourVecs* each :
-             {&projections.scale, &projections.tilt_x, &projections.tilt_y, &projections.bend})
-            *each = {random(), random()};
-        projections.tilt_y.x += projections.tilt_x.x;
-        projections.tilt_y.y += projections.tilt_x.y;
-        sums.add(projections, {{Four{}, Four{}}, Four{1, 1, 1, 1}});
-    }
-    PlaneNormalFloat normal(sums);
+    for (int i = 0; i < 8; ++i)
+        sums.add({random(), random()}, {{Four{}, Four{}}, Four{1, 1, 1, 1}});
+    PlaneNormalFloat normal(sums.all());
     EXPECT_TRUE(normal.decompose());
     return normal;
 }
