@@ -25,8 +25,7 @@ float settled(const FloatPlane& p, float reach) {
 bool is_plainly_even(const FitSums& sums, const PoseFit& fit) {
     if (sums.outliers > 3 + sums.points / 50) return false;
     // What the step explains is shared by the dots of each run.
-    const float left = fit.variance * fit.freedom();
-    const GroupScatter runs{left, sums.squares_of_runs - (sums.squares - left),
+    const GroupScatter runs{fit.squares, sums.squares_of_runs - (sums.squares - fit.squares),
                             static_cast<float>(sums.points), sums.runs};
     return runs.excess() <= tuning::uneven::kSuspectRuns;
 }

@@ -188,16 +188,22 @@ bool solve(const Parameters& distortions, float unit, PoseFit& fit, Parameters& 
     for (const float part : step)
         left -= part * part;
     fit.dots = normal.points();
+    const int freedom = std::max(2 * fit.dots - static_cast<int>(kPoseParameters), 1);
     constexpr float kExact = 1e-12F;
-    fit.variance = std::max(left / fit.freedom(), kExact);
+    fit.variance = std::max(left / static_cast<float>(freedom), kExact);
     // Once whitened, the share of each further term is independent of the terms after it.
     Parameters whole = normal.times_transposed(distortions);
     for (std::size_t i = 0; i < kPoseParameters; ++i)
         whole[i] += step[i];
+    const Parameters exact = step;
     shrink(whole, unit, fit, step);
     moved = 0;
-    for (const float part : step)
-        moved += part * part;
+    fit.squares = left;
+    for (std::size_t i = 0; i < kPoseParameters; ++i) {
+        const float lost = exact[i] - step[i];
+        moved += step[i] * step[i];
+        fit.squares += lost * lost;
+    }
     moved /= fit.variance;
     step = normal.unwhitened(step);
     return true;

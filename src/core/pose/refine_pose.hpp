@@ -4,8 +4,6 @@
 // floating point, of single precision.
 #pragma once
 
-#include <algorithm>
-
 #include "core/fit/plane_normal_float.hpp"
 #include "core/pose/observations.hpp"
 #include "core/pose/posterior.hpp"
@@ -19,6 +17,7 @@ struct PoseFit {
     int reach_px = 1;         ///< the unit of length in the image
     int dots = 0;             ///< those used; others lay too far off
     float variance = 0;       ///< of one coordinate of one dot, spacings^2
+    float squares = 0;        ///< squared residuals after the last step, of all dots used
     float displacement = 0;   ///< of the typical dot from its intersection, spacings
     PlaneNormalFloat normal;  ///< of the parameters of `jacobian`, decomposed
     std::array<Parameters, kPoseParameters> covariance;  ///< of the whitened parameters
@@ -27,11 +26,6 @@ struct PoseFit {
     Surface surface = Surface::even;
     /// What an uneven sheet adds to the covariance of x, y and theta.
     std::array<std::array<float, 3>, 3> uneven{};
-
-    /// Returns the coordinates that were measured, less the parameters that were fitted.
-    float freedom() const {
-        return static_cast<float>(std::max(2 * dots - static_cast<int>(kPoseParameters), 1));
-    }
 };
 
 /// Solves the normal equations of `fit` for the step to the plane of least squares, and shrinks the
