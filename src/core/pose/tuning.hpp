@@ -46,7 +46,7 @@ inline constexpr int kOutlier_medians = 12;
 /// sigma out.
 inline constexpr float kOutlier = 16.6F;
 /// Other dots may count if the limit changes by a larger share than this.
-inline constexpr float kSameLimit = 0.15F;
+inline constexpr float kSameLimit = 0.04F;
 /// Largest share of the scatter that is put down to pixel noise.
 inline constexpr float kMostByNoise = 0.9F;
 /// Fewest dots that a plane is fitted to in vectors.
