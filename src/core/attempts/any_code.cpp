@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "core/attempts/device.hpp"
@@ -82,7 +83,10 @@ class AnyCode {
         if (prediction != nullptr) {
             prediction_ = prediction;
             const Profile code = options_.profile;
-            if (attempt(Step::tracked, code) && judge(code).is_certain) return accepted(code);
+            if (attempt(Step::tracked, code)) {
+                const Judgement judgement = judge(code);
+                if (judgement.is_certain) return accepted(code, judgement);
+            }
         }
         if (!may_try_twice()) return locate_by({Step::outwards, Step::rows});
         return locate_by({Step::outwards, Step::rows, Step::second, Step::resampled});
@@ -120,7 +124,7 @@ class AnyCode {
             result.other = other;
         }
         result.is_ambiguous = elsewhere > tuned::kAsWell;
-        const float own = std::ldexp(1.0F, w_.fix.p_wrong_log2);
+        const float own = power_of_two_exactly(w_.fix.p_wrong_log2);
         result.p_wrong_log2 = std::min(rounded_up(w_.fix.p_wrong_log2, 1 + elsewhere / own), 0);
         result.is_certain = result.p_wrong_log2 <= options_.integrity.max_p_wrong_log2;
         return result;
@@ -153,9 +157,8 @@ class AnyCode {
     /// Makes the steps in order until a profile gives a certain fix; otherwise returns the first
     /// doubtful fix, or the failure in the likeliest profile.
     CodeReading locate_by(std::initializer_list<Step> steps) {
-        bool is_doubtful = false;
-        CodeReading doubtful;
-        Fix failure;
+        std::optional<CodeReading> doubtful;
+        std::optional<Fix> failure;
         for (const Step step : steps) {
             for (const Profile code : worth_trying(step)) {
                 if (!attempt(step, code)) {
@@ -165,17 +168,13 @@ class AnyCode {
                 }
                 const Judgement judgement = judge(code);
                 if (judgement.is_certain) return best_of(step, code, judgement);
-                if (is_doubtful) continue;
-                is_doubtful = true;
-                doubtful = in_doubt(code, judgement);
+                if (!doubtful) doubtful = in_doubt(code, judgement);
             }
-            if (is_doubtful && doubtful.fix.status == Status::ambiguous_code) break;
+            if (doubtful && doubtful->fix.status == Status::ambiguous_code) break;
         }
-        if (!is_doubtful) {
-            doubtful = {failure, order_[0], evidence_};
-        }
-        w_.fix = doubtful.fix;
-        return doubtful;
+        if (!doubtful) doubtful = CodeReading{failure.value_or(Fix{}), order_[0], evidence_};
+        w_.fix = doubtful->fix;
+        return *doubtful;
     }
 
     /// Returns the profiles in which a step is tried.
@@ -252,23 +251,25 @@ class AnyCode {
 
     /// Returns the certain fix or a better one: of a profile that explains the same place better,
     /// or of the second attempt.
-    CodeReading best_of(Step step, Profile code, const Judgement& judgement) {
-        if (judgement.other_odds > tuned::kBetter) {
-            if (attempt(step, judgement.other) && judge(judgement.other).is_certain) {
-                code = judgement.other;
-            } else {
-                attempt(step, code);
-            }
-        }
+    CodeReading best_of(Step step, Profile code, Judgement judgement) {
+        const auto make = [&](Step other_step, Profile other) {
+            if (!attempt(other_step, other)) return false;
+            code = other;
+            judgement = judge(other);
+            return judgement.is_certain;
+        };
+        const Profile read = code;
+        if (judgement.other_odds > tuned::kBetter && !make(step, judgement.other)) make(step, read);
         const bool may_be_improved = step == Step::outwards || step == Step::rows;
         if (may_be_improved && is_rough(w_.fix) && may_try_twice()) {
-            if (!attempt(Step::resampled, code) || !judge(code).is_certain) attempt(step, code);
+            const Profile best = code;
+            if (!make(Step::resampled, best)) make(step, best);
         }
-        return accepted(code);
+        return accepted(code, judgement);
     }
 
-    CodeReading accepted(Profile code) {
-        w_.fix.p_wrong_log2 = judge(code).p_wrong_log2;
+    CodeReading accepted(Profile code, const Judgement& judgement) {
+        w_.fix.p_wrong_log2 = judgement.p_wrong_log2;
         CodeReading reading{w_.fix, code, evidence_};
         reading.evidence.add(w_.fix.cell, likelihoods(code));
         return reading;

@@ -14,6 +14,7 @@
 #include "core/integrity/unshared_lines.hpp"
 #include "core/integrity/weigh_codes.hpp"
 #include "core/math/fixed.hpp"
+#include "core/math/odds.hpp"
 
 namespace dotpose::core {
 namespace {
@@ -26,13 +27,8 @@ constexpr int kPassedOver_q8 = -52 * 256;
 constexpr float kPassedOver = 2.3e-16F;
 constexpr float kSingles = 741;
 
-/// Returns 2^n exactly, for n < 128; for less than 2^-126 it returns that.
-constexpr float power_of_two_exactly(int n) {
-    return __builtin_bit_cast(float, static_cast<std::uint32_t>(std::max(n, -126) + 127) << 23);
-}
-
 /// Returns 2^(n / 256), rounded up by up to 2 %; for less than 2^-100 it returns that.
-constexpr float power_of_two(int n_q8) {
+constexpr float power_of_two_rounded_up(int n_q8) {
     const int n = std::max(n_q8, -100 * 256);
     const int whole = n >> 8;
     return static_cast<float>(exp2_q16(n - whole * 256)) * 1.02F * power_of_two_exactly(whole - 16);
@@ -49,8 +45,8 @@ float odds_of(const LikelihoodRatios& ratios, int lost) {
 constexpr FarAlternatives kFarAlternatives = [] {
     FarAlternatives sets;
     for (std::size_t i = 0; i < kAlternativeSets.size(); ++i) {
-        sets.equal[i] = power_of_two(kAlternativeSets[i].equal_q8 + kUnevenness_q8);
-        sets.number[i] = power_of_two(kAlternativeSets[i].alternatives_q8);
+        sets.equal[i] = power_of_two_rounded_up(kAlternativeSets[i].equal_q8 + kUnevenness_q8);
+        sets.number[i] = power_of_two_rounded_up(kAlternativeSets[i].alternatives_q8);
     }
     return sets;
 }();
@@ -153,7 +149,8 @@ float alternatives(const Kernels& kernels, const LikelihoodRatios& ratios,
 }
 
 float seam_alternatives(const Kernels& kernels, const UnsharedLines& unshared) {
-    return power_of_two(std::max(seam_alternatives_log2_q8(kernels, unshared), -100 * 256));
+    return power_of_two_rounded_up(
+        std::max(seam_alternatives_log2_q8(kernels, unshared), -100 * 256));
 }
 
 /// The question that is asked of both axes.
@@ -172,13 +169,14 @@ bool is_code_in_question(const Asked& asked) {
 float chance_of(const Confidence& bits, const Asked& asked) {
     if (!is_code_in_question(asked))
         return power_of_two_exactly(chance_log2(bits, asked.odds_per_bit_q8));
-    return power_of_two(
+    return power_of_two_rounded_up(
         chance_log2_q8(bits, asked.odds_per_bit_q8, asked.others->log2_in_question_q8));
 }
 
 /// Returns how many profiles are in question; each has as many alternatives.
 float codes_in_question(const Asked& asked) {
-    return !is_code_in_question(asked) ? 1 : power_of_two(asked.others->log2_in_question_q8);
+    return !is_code_in_question(asked) ? 1
+                                       : power_of_two_rounded_up(asked.others->log2_in_question_q8);
 }
 
 /// Returns the probability that one axis is wrong, or 1 if it is above the limit. By bits alone,
@@ -194,7 +192,7 @@ float axis_wrong(const Kernels& kernels, const Confidence& bits, const UnsharedL
     const auto with = [&](float alternatives) { return chance + codes * alternatives; };
     float sum = with(alternatives(kernels, ratios, unshared, limit));
     if (sum > limit && !ratios.is_of_bits()) {
-        sum = with(power_of_two(quick_alternatives_log2_q8(ratios, 256 * limit_log2)));
+        sum = with(power_of_two_rounded_up(quick_alternatives_log2_q8(ratios, 256 * limit_log2)));
         if (sum > limit) {
             sum = with(power_of_two_exactly(alternatives_log2(ratios, limit_log2)));
         }

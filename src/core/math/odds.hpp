@@ -9,11 +9,16 @@
 
 namespace dotpose::core {
 
+/// Returns 2^n exactly, for n < 128; for less than 2^-126 it returns that.
+constexpr float power_of_two_exactly(int n) {
+    return __builtin_bit_cast(float, static_cast<std::uint32_t>(std::max(n, -126) + 127) << 23);
+}
+
 /// Returns 2^(n / 256), exact to 2 %, and 2^-100 for any less; n < 127 * 256.
 inline float power_of_two(int n_q8) {
     const int n = std::max(n_q8, -100 * 256);
     const int whole = n >> 8;
-    return std::ldexp(static_cast<float>(exp2_q16(n - whole * 256)), whole - 16);
+    return static_cast<float>(exp2_q16(n - whole * 256)) * power_of_two_exactly(whole - 16);
 }
 
 /// Returns the log2 of odds in 2^-8, rounded up.
