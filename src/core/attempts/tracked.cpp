@@ -45,20 +45,19 @@ int most_shift_px(const Prediction& prediction, float spacing_px) {
     return static_cast<int>(std::ceil(off * spacing_px));
 }
 
-/// Corrects the plane by the listed dots near its `from_centre`, which are off by less than a pixel
-/// but for a turn. Returns false if they are not there.
+/// Corrects the plane by the listed dots, which are off by about a pixel or less. Returns false if
+/// that does not hold for most of them.
 bool correct_by_bells(const Kernels& kernels, const ImageView& image, CellsInView view,
                       FloatPlane& plane, MeasuredDots& dots) {
     const float far_px = std::max(view.width_px, view.height_px) / 2;
-    const float most_off_px = 1.5F;
     for (int look = 0; look < tuned::kMostLooks; ++look) {
         if (look > 0) {
             view.plane = plane;
             kernels.list_cells(view, dots);
         }
         const DotOffsets found =
-            kernels.find_centres(image, view, most_off_px, tuned::kWeight_px, dots);
-        if (found.points < tuned::kFewestNear) return false;
+            kernels.find_centres(image, view, tuned::kSeenByBells_px, tuned::kWeight_px, dots);
+        if (found.points < tuned::kFewestNear || 4 * found.points < 3 * dots.count) return false;
         const Similarity motion = similarity_of(found);
         plane = moved(plane, motion);
         // Bells see a part only of what dots are off that a large turn moves.
@@ -89,18 +88,20 @@ bool correct_by_dots(const Kernels& kernels, const ImageView& image, const Optio
         return false;
     const FloatVec shift_px{static_cast<float>(shift.x), static_cast<float>(shift.y)};
     plane = recentred(plane, {-shift_px.x, -shift_px.y});
-    const auto count = static_cast<std::size_t>(dots.count);
+    view.plane = plane;
     if (by_bells) {
-        for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(dots.count); ++i) {
             dots.x[i] += shift_px.x;
             dots.y[i] += shift_px.y;
         }
-        return correct_by_bells(kernels, image, view, plane, dots);
+        FloatPlane corrected = plane;
+        if (correct_by_bells(kernels, image, view, corrected, dots)) {
+            plane = corrected;
+            return true;
+        }
     }
-    for (std::size_t i = 0; i < count; ++i) {
-        dots.window_u[i] += shift.x;
-        dots.window_v[i] += shift.y;
-    }
+    // Windows see farther than bells.
+    kernels.list_cells(view, dots);
     kernels.measure_windows(image, view, {spacing, 0.3F, hypothesis.depth_q8 * kCutOfDepth_q8 >> 8},
                             dots);
     return fit_similarity(kernels, dots, reach, hypothesis.displacement, tuned::kFirstOff, plane) &&

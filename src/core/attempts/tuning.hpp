@@ -43,9 +43,10 @@ inline constexpr float kMostDisplacement = 0.4F;
 /// Greatest distance of a dot from its place in the first and in the second fit, in spacings.
 inline constexpr float kFirstOff = 0.30F;
 inline constexpr float kSecondOff = 0.15F;
-/// Bells: the distance at which the moment of a usual dot equals its weight, which is right to a
-/// fifth; how far a correction may move the border of the image before another look is needed; and
-/// the most looks.
+/// Bells: how far dots may be off to be seen by them; the distance at which the moment of a usual
+/// dot equals its weight, which is right to a fifth; how far a correction may move the border of
+/// the image before another look is needed; and the most looks.
+inline constexpr float kSeenByBells_px = 1.5F;
 inline constexpr float kWeight_px = 0.84F;
 inline constexpr float kTurned_px = 2;
 inline constexpr int kMostLooks = 3;

@@ -157,7 +157,8 @@ void set_levels(const std::uint8_t* papers, std::size_t tiles, unsigned to_low_q
 }  // namespace
 
 int least_contrast(const ThresholdOptions& options, const Light& light) {
-    constexpr int kShare = 4;
+    // A larger share would leave more noise out, but also pale dots in uneven light.
+    constexpr int kShare = 6;
     return std::clamp(light.greatest_contrast / kShare, options.min_contrast,
                       2 * options.min_contrast);
 }

@@ -126,7 +126,7 @@ TEST(LocateTracked, FindsWhatIsHalfASpacingAndFourDegreesOff) {
         ++found;
         EXPECT_TRUE(is_right(fix, shot));
     }
-    EXPECT_GE(found, kFrames * 95 / 100);
+    EXPECT_GE(found, kFrames * 99 / 100);
 }
 
 TEST(LocateTracked, FollowsTheFixOfTheFrameBefore) {
