@@ -245,8 +245,8 @@ bool is_plausible(const ImageView& image, const FloatPlane& plane) {
 
 namespace {
 
-/// Measures and compares the dots of the hypothesis and fits the pose. If the hypothesis is exact
-/// and its dots need more than one look, it is implausible.
+/// Measures and compares the dots of the hypothesis and fits the pose. An exact hypothesis is
+/// implausible if its bits are not clean, or if kMostLooks looks do not bring it to its dots.
 Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
                                  const Options& options, Hypothesis hypothesis, Workspace& w) {
     FloatPlane& plane = hypothesis.pattern_from_image;

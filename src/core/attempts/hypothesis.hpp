@@ -46,7 +46,7 @@ CellsInView cells_in_view(const ImageView& image, const Options& options,
 /// Counts the cells of the hypothesis from the one nearest its point.
 void count_from_centre(Profile profile, Hypothesis& hypothesis);
 
-/// What predicted dots are off on the whole: position, scale and turn, fitted by least squares.
+/// The shift, scale and turn that take predicted dots to where they were found, by least squares.
 struct Similarity {
     FloatVec shift_px;
     float scale = 0;  ///< less 1

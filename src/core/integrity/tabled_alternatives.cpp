@@ -33,7 +33,8 @@ class Bounds {
 
   private:
     const UnsharedLines& unshared_;
-    /// Of an alternative that does not share n lines; the last is of all that share still fewer.
+    /// Element n bounds the odds of an alternative that leaves n lines unshared, the last element
+    /// those of all alternatives that leave as many or more.
     std::array<float, code::kMostCounted + 2> odds_;
 };
 

@@ -24,7 +24,8 @@ float settled(const FloatPlane& p, float reach) {
 /// blocks of dots tell more (pose/uneven).
 bool is_plainly_even(const FitSums& sums, const PoseFit& fit) {
     if (sums.outliers > 3 + sums.points / 50) return false;
-    // What the step explains is shared by the dots of each run.
+    // Residuals that the fitted step takes away are common to the dots of a run, and say nothing of
+    // uneven paper.
     const GroupScatter runs{fit.squares, sums.squares_of_runs - (sums.squares - fit.squares),
                             static_cast<float>(sums.points), sums.runs};
     return runs.excess() <= tuning::uneven::kSuspectRuns;

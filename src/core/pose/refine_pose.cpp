@@ -13,9 +13,10 @@ namespace tuned = tuning::fit;
 
 constexpr float kPower30 = 1073741824.0F;
 
-/// What cameras and prints are like, as deviations, relative to the scale. Of a tilt: the change of
-/// scale from the middle to the outermost dot, about 0.01 for 2 degrees. Of a bend: the outermost
-/// dot's displacement relative to its distance. A bend must be beyond doubt.
+/// Prior deviations of tilt, shear and bend, as cameras and prints have them, relative to the
+/// scale. A tilt is the change of scale from the middle to the outermost dot, about 0.01 for 2
+/// degrees; a bend is the outermost dot's displacement relative to its distance, and must be beyond
+/// doubt.
 constexpr std::array<FurtherTerms, 3> kTerms{{
     {kTilt, 2, {{{0.1F, 0}, {0.8F, 0.01F}, {0.1F, 0.1F}}}},
     {kShear, 2, {{{0.5F, 0}, {0.4F, 0.002F}, {0.1F, 0.03F}}}},

@@ -88,7 +88,8 @@ TEST(ScaledPlane, ChangesAsItsDerivativesTell) {
             ASSERT_NEAR(derivatives[0][k], change.x, most);
             ASSERT_NEAR(derivatives[1][k], change.y, most);
         }
-        // So do large changes, except the bend: a tilt in the pattern stays a tilt in the image.
+        // A large change of any parameter but the bend is exact, too: a tilt in the pattern stays a
+        // tilt in the image.
         const Vec2 place = formula(seen, px) - formula(seen, {});
         const double by = 1 + (0.3 * place.x - 0.2 * place.y) / 9;
         const auto unit = scaled(plane).scale();

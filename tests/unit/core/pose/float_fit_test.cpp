@@ -150,7 +150,7 @@ TEST(FitPlane, TellsWhetherNeighboursAreOffAlike) {
             owned.dots.column[k] += owned.dots.x[k] > 20 ? 0.06F : 0;
         divided += is_even() ? 0 : 1;
     }
-    // Of even sheets one in ten shares residuals by as much as 1.2 deviations, by chance.
+    // By chance, the dots of one even sheet in ten share residuals by 1.2 deviations or more.
     EXPECT_GT(even, kTrials * 8 / 10);
     EXPECT_LT(even, kTrials * 97 / 100);
     EXPECT_GT(divided, kTrials * 9 / 10);
