@@ -33,13 +33,10 @@ constexpr const char* kExamples =
     "  dotpose check-print scan.png --fit --sheets sheets.json\n"
     "  dotpose print --test-page -o test.pdf    (print and scan it, then)\n"
     "  dotpose check-print test-scan.png\n\n"
-    "Scan the whole page at 600 dpi, without sharpening. A photo tells bits and, from near, "
-    "missing\n"
-    "dots, but no scale: an image is a photo, whatever its resolution, if it shows perspective or "
-    "a\n"
-    "lens, or if its EXIF data have a camera's exposure. --dpi says that the page lies in the "
-    "image\n"
-    "as in a scan.\n"
+    "Scan the whole page at 600 dpi, without sharpening. A photo tells bits and, from near,\n"
+    "missing dots, but no scale: an image is a photo, whatever its resolution, if it shows\n"
+    "perspective or a lens, or if its EXIF data have a camera's exposure. --dpi says that the\n"
+    "page lies in the image as in a scan.\n"
     "Exit status: 0 no fault (with --fit, but for the scale that was written), 1 not checked, or\n"
     "nothing to fit, 3 faults.\n";
 

@@ -344,7 +344,8 @@ void add_findings(const CheckPrintOptions& options, PrintCheck& check) {
     } else {
         findings.judge_sheets();
     }
-    std::ranges::stable_partition(list, &Finding::is_fault);
+    std::stable_partition(list.begin(), list.end(),
+                          [](const Finding& finding) { return finding.is_fault; });
     check.findings = std::move(list);
 }
 

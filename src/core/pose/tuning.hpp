@@ -120,6 +120,9 @@ inline constexpr int kFewAlong = 6;
 /// docs/integrity.md has what fixes claim on sheets that are bent.
 inline constexpr float kOfPlace = 2;
 inline constexpr float kOfTurn = 8;
+/// Deviation of what blocks share that is not put down to the sheet: the bias of dots whose places
+/// drift slowly through a pixel, which averages out over the view.
+inline constexpr float kPixelBias_px = 0.004F;
 /// Either side may hold the reference point if it is within so many spacings of the line.
 inline constexpr float kNearLine = 1.2F;
 }  // namespace uneven

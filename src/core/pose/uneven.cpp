@@ -24,7 +24,10 @@ class Blocks {
         BlockSums sums;
         kernels.sum_blocks(dots, plane, fit.displacement, tuning::fit::kOutlier * fit.variance,
                            reach_px, side, sums);
-        side_ = 2 * reach_px / (static_cast<float>(side) * spacing_px(plane));
+        const float spacing = spacing_px(plane);
+        side_ = 2 * reach_px / (static_cast<float>(side) * spacing);
+        const float bias = tuned::kPixelBias_px / spacing;
+        variance_of_bias_ = bias * bias;
         for (int b = 0; b < side * side; ++b) {
             const BlockSums::Block& block = sums.all[static_cast<std::size_t>(b)];
             if (block.dots == 0) continue;
@@ -40,11 +43,16 @@ class Blocks {
     const GroupScatter& scatter() const { return scatter_; }
     float outliers() const { return outliers_; }
     float side() const { return side_; }  ///< of a block, in spacings
+    /// Returns the variance, along one axis, of the sheet's displacement at a block, in spacings^2.
+    float variance_of_sheet() const {
+        return std::max(scatter_.variance_between() - variance_of_bias_, 0.0F);
+    }
 
   private:
     GroupScatter scatter_;
     float outliers_;
     float side_;
+    float variance_of_bias_;
 };
 
 /// Returns the blocks of the dots on the reference point's side of a line.
@@ -82,7 +90,7 @@ void add(float variance, std::size_t i, PoseFit& fit) {
 
 /// Adds what dots with common residuals leave open to the covariance.
 void widen_by_blocks(const Blocks& blocks, PoseFit& fit) {
-    const float variance = blocks.scatter().variance_between();
+    const float variance = blocks.variance_of_sheet();
     add(tuned::kOfPlace * variance, 0, fit);
     add(tuned::kOfPlace * variance, 1, fit);
     add(tuned::kOfTurn * variance / (blocks.side() * blocks.side()), 2, fit);

@@ -154,10 +154,9 @@ void define_check(py::module_& module) {
         "dpi"_a = py::none(), "ink_reflectance"_a = 0.15,
         "Return a PrintCheck of the scan or photo of a printed sheet: an array or the name of an "
         "image file.\n\n"
-        "dpi: resolution of the scan; default: that of the file, if it states one. Without it, "
-        "with is_photo, or with a camera's EXIF data, the image counts as a photo, and scale is "
-        "not "
-        "judged.\n"
+        "dpi: resolution of the scan; default: that of the file, if it states one. Without it,\n"
+        "with is_photo, or with a camera's EXIF data, the image counts as a photo, and scale is\n"
+        "not judged.\n"
         "sheets: entries of the sheets that may be seen. ink_reflectance: of solid ink, relative "
         "to paper, 0 to 0.9.");
 }
