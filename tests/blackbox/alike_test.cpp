@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <memory>
 #include <numbers>
+#include <ostream>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -21,8 +22,14 @@ struct Alike {
     int spacing_px;
     double angle_deg;
     double blur_px;
-    double most_px;  ///< median error
+    double most_px;        ///< median error
+    double dot = 1.0 / 6;  ///< diameter, spacings
 };
+
+void PrintTo(const Alike& alike, std::ostream* out) {
+    *out << alike.spacing_px << " px, " << alike.angle_deg << " degrees, dots of " << alike.dot
+         << ", blur " << alike.blur_px << " px";
+}
 
 Shot shot_of(const Alike& alike, int index) {
     Setup setup;
@@ -34,6 +41,7 @@ Shot shot_of(const Alike& alike, int index) {
     shot.imperfections.noise_sigma = 3;
     shot.imperfections.blur_sigma_px = alike.blur_px;
     shot.imperfections.sub_pixels = 8;
+    shot.page.pattern.dot_mm = alike.dot * kDefaultSpacing_mm;
     return shot;
 }
 
@@ -72,6 +80,11 @@ INSTANTIATE_TEST_SUITE_P(Spacings, DotsAlike,
 INSTANTIATE_TEST_SUITE_P(HardlyBlurred, DotsAlike,
                          testing::Values(Alike{8, 0, 0.3, 0.004}, Alike{11, 90, 0.3, 0.0035},
                                          Alike{12, 0, 0.3, 0.0035}, Alike{12, 90, 0.3, 0.0035}));
+
+// Dots hardly darker than noise, of which a threshold leaves a pixel or two: 0.030 px, and more
+// than two variances, if only centres near those pixels are trusted.
+INSTANTIATE_TEST_SUITE_P(Pale, DotsAlike,
+                         testing::Values(Alike{8, 0, 1, 0.024, 0.1}, Alike{8, 90, 1, 0.024, 0.1}));
 
 }  // namespace
 }  // namespace dotpose::test
