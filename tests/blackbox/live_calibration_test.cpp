@@ -88,7 +88,7 @@ TEST_F(LiveCalibration, SaysWhatWasMissingAndWritesNothing) {
     EXPECT_THAT(errors_, HasSubstr("take more frames (3 of 5)"));
     EXPECT_EQ(output_, "");
 
-    simulate("--frames 12 --section 3,4 --at 5000,7000 --angle 20");
+    simulate("--frames 12 --preset clean --section 3,4 --at 5000,7000 --angle 20");
     EXPECT_EQ(calibrate("frames"), 1);
     EXPECT_FALSE(has_file());
     EXPECT_THAT(errors_, HasSubstr("were located and 1 taken"));
