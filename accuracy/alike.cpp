@@ -10,22 +10,20 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/core.h>
 
+#include "../tests/alike_frames.hpp"
 #include "dotpose/tools/score.hpp"
-#include "dotpose/tools/simulate.hpp"
 #include "evaluate_all.hpp"
 
 namespace {
 
 using namespace dotpose;
 
-constexpr double kNoise = 3;
 constexpr double kApart_deg = 7;
 constexpr std::array kAlike_deg{0.0, 45.0, 90.0};
 /// Limits above which cells are marked: of the error relative to that at 7 degrees, and of the mean
@@ -41,54 +39,21 @@ struct Arguments {
     std::vector<double> blurs_px{0.3, 0.5, 0.7, 1.0, 1.5};
 };
 
-struct Condition {
-    int spacing_px = 11;
-    double dot = 1.0 / 6;  ///< diameter, spacings
-    double blur_px = 0.7;
-    double angle_deg = 0;
-};
-
-CameraModel camera_of(int spacing_px) {
-    CameraModel camera;
-    if (spacing_px >= 16) {
-        camera.width_px = 640;
-        camera.height_px = 480;
-    }
-    camera.mm_per_px = kDefaultSpacing_mm / spacing_px;
-    return camera;
-}
-
-Shot shot_of(const Condition& condition, const Arguments& arguments, int index) {
-    Setup setup;
-    setup.camera = camera_of(condition.spacing_px);
-    setup.seed = arguments.counting.seed;
-    Shot shot = draw_shot(setup, static_cast<std::uint64_t>(index));
-    shot.pose.theta_rad = condition.angle_deg * std::numbers::pi / 180;
-    shot.pose.tilt_x_rad = shot.pose.tilt_y_rad = 0;
-    shot.imperfections = {};
-    shot.imperfections.noise_sigma = kNoise;
-    shot.imperfections.blur_sigma_px = condition.blur_px;
-    shot.imperfections.sub_pixels = 8;  // Errors of 0.001 px count here.
-    shot.page.pattern.dot_mm = condition.dot * kDefaultSpacing_mm;
-    return shot;
-}
-
-/// Locates the frames of a condition with the first attempt.
-Score score_of_condition(const Condition& condition, const Arguments& arguments) {
+/// Locates the frames of a condition.
+Score score_of_condition(const test::AlikeDots& condition, const Arguments& arguments) {
     FrameRun run;
     run.frames = static_cast<int>(arguments.frames);
     run.frame_at = [&](int index) {
-        const Shot shot = shot_of(condition, arguments, index);
+        const Shot shot = shot_of(condition, arguments.counting.seed, index);
         return KnownFrame{render(shot), truth_of(shot), {}, {}};
     };
-    run.options.front().effort = Effort::once;
     const std::string what = fmt::format("{} px, dots of {:.2f}, blur {}", condition.spacing_px,
                                          condition.dot, condition.blur_px);
     return score_of(evaluate_all(what, std::move(run), arguments.counting).front());
 }
 
-double median_px(const Score& score, const Condition& condition) {
-    return score.position_um.median / 1000 / camera_of(condition.spacing_px).mm_per_px;
+double median_px(const Score& score, const test::AlikeDots& condition) {
+    return score.position_um.median / 1000 / camera_of(condition).mm_per_px;
 }
 
 bool is_within_claims(const Score& score) {
@@ -98,7 +63,7 @@ bool is_within_claims(const Score& score) {
 }
 
 /// Prints a row and returns the number of wrong fixes.
-int print_row(Condition condition, const Arguments& arguments) {
+int print_row(test::AlikeDots condition, const Arguments& arguments) {
     condition.angle_deg = kApart_deg;
     const Score apart = score_of_condition(condition, arguments);
     const double apart_px = median_px(apart, condition);

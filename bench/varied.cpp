@@ -63,7 +63,8 @@ Subject locating_narrowly(const std::vector<KnownFrame>& frames) {
     static core::SmallWorkspace workspace;
     const auto locates = [](const GreyImage& image) {
         workspace.fix = {};
-        return core::locate_outwards(core::wide_kernels(), image.view(), {}, workspace);
+        return core::locate_outwards(core::wide_kernels(), image.view(), {}, core::Rough::counted,
+                                     workspace) == core::Confirmation::ok;
     };
     Subject subject = subject_on(frames, [locates](std::size_t, GreyImage& image) {
         benchmark::DoNotOptimize(locates(image));

@@ -42,6 +42,10 @@ std::string percent(double share, int decimals = 1) {
     return fmt::format("{:.{}f} %", 100 * share, decimals);
 }
 
+bool is_fault(const Finding& finding) {
+    return finding.is_fault;
+}
+
 /// Writes the findings about a print.
 class Findings {
   public:
@@ -69,7 +73,7 @@ class Findings {
     void judge_as_a_whole(std::size_t first_finding) {
         const bool has_fault =
             std::any_of(findings_.begin() + static_cast<std::ptrdiff_t>(first_finding),
-                        findings_.end(), [](const Finding& finding) { return finding.is_fault; });
+                        findings_.end(), is_fault);
         if (has_fault) return;
         const bool is_all_told =
             check_.is_test_page || !field_ ||
@@ -344,8 +348,7 @@ void add_findings(const CheckPrintOptions& options, PrintCheck& check) {
     } else {
         findings.judge_sheets();
     }
-    std::stable_partition(list.begin(), list.end(),
-                          [](const Finding& finding) { return finding.is_fault; });
+    std::stable_partition(list.begin(), list.end(), is_fault);
     check.findings = std::move(list);
 }
 

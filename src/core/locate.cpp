@@ -17,13 +17,15 @@ Fix locate(const ImageView& image, const Options& options, Workspace& w) {
     const Status status = check(image, options, w);
     if (status != Status::ok) return refuse(status, w);
     if (options.effort == Effort::device) return locate_as_device(image, options, w);
-    const Fix fix = make_first_attempt(image, options, w);
-    const bool is_good = fix.status == Status::ok && !is_rough(fix);
-    if (is_good || options.effort == Effort::once || !w.has_second_attempt) return fix;
+    const bool may_try_twice = options.effort == Effort::twice && w.has_second_attempt;
+    if (!may_try_twice) return *make_first_attempt(image, options, Rough::counted, w);
+    const std::optional<Fix> first = make_first_attempt(image, options, Rough::left, w);
+    const bool has_failed = first && first->status != Status::ok;
+    if (first && !has_failed && !is_rough(*first)) return *first;
     const Fix second = make_second_attempt(image, options, w);
-    if (second.status == Status::ok || fix.status != Status::ok) return second;
-    return make_first_attempt(image, options, w);  // The workspace must match the fix that is
-                                                   // returned.
+    if (second.status == Status::ok || has_failed) return second;
+    // The frame was left, or the workspace must match the rough fix that is returned.
+    return *make_first_attempt(image, options, Rough::counted, w);
 }
 
 Fix locate(const ImageView& image, const Options& options, const Prediction& prediction,

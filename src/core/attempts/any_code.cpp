@@ -206,7 +206,8 @@ class AnyCode {
             case Step::outwards:
                 forget_frame(w_);
                 return searches_outwards(options_, w_) &&
-                       locate_outwards(kernels(), image_, options_, w_);
+                       locate_outwards(kernels(), image_, options_, Rough::counted, w_) ==
+                           Confirmation::ok;
             case Step::rows:
                 return locate_by_rows(kernels(), image_, options_, w_);
             case Step::second:

@@ -5,6 +5,7 @@
 
 #include "core/attempts/dot_reader.hpp"
 #include "core/attempts/fitted_pose.hpp"
+#include "core/attempts/rows.hpp"
 #include "core/attempts/steps.hpp"
 #include "core/attempts/tuning.hpp"
 #include "core/decode/bit_lines.hpp"
@@ -58,10 +59,11 @@ std::array<Confidence, 2> confidences_in(const BitsRead& bits) {
     return {confidence_in(bits.read, bits.wrong_x), confidence_in(bits.read, bits.wrong_y)};
 }
 
-/// Whether the bits of all dots near the centre leave no doubt about the place.
-bool is_certain(const Kernels& kernels, const Options& options, const Hypothesis& hypothesis,
-                const CellsInView& view, const BitBlock& block, const BitsRead& bits,
-                Workspace& w) {
+/// Returns whether the bits of all dots near the centre leave no doubt about the place.
+Confirmation confirm_place(const Kernels& kernels, const Options& options,
+                           const Hypothesis& hypothesis, const CellsInView& view,
+                           const BitBlock& block, const BitsRead& bits, const PoseFit& fit,
+                           Workspace& w) {
     w.decoding.bits = 2 * bits.read;
     const auto confidences = confidences_in(bits);
     OtherCodes* others = wanted_codes(w);
@@ -69,11 +71,16 @@ bool is_certain(const Kernels& kernels, const Options& options, const Hypothesis
     if (is_plainly_certain(
             kernels, {coded.axis(Axis::x, confidences[0]), coded.axis(Axis::y, confidences[1])},
             options.profile, options.integrity, w.fix, others)) {
-        return true;
+        return Confirmation::ok;
     }
+    const float spacing = spacing_px(hypothesis.pattern_from_image);
+    if (hypothesis.rough == Rough::left && is_rough(std::sqrt(fit.variance) * spacing, spacing))
+        return Confirmation::left;
     const Evidence evidence =
         evidence_of(kernels, options.profile, hypothesis.place, block, confidences, w.line_scores);
-    return core::is_certain(kernels, evidence, options.profile, options.integrity, w.fix, others);
+    return is_certain(kernels, evidence, options.profile, options.integrity, w.fix, others)
+               ? Confirmation::ok
+               : Confirmation::uncertain;
 }
 
 /// Writes the dots and the bits read from them into the workspace, for the trace.
@@ -288,9 +295,10 @@ Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
             if (++looks == tuned::kMostLooks) return Confirmation::implausible;
             continue;
         }
-        if (decides && !hypothesis.is_certain &&
-            !is_certain(kernels, options, hypothesis, view, block, bits, w)) {
-            return Confirmation::uncertain;
+        if (decides && !hypothesis.is_certain) {
+            const Confirmation place =
+                confirm_place(kernels, options, hypothesis, view, block, bits, fit, w);
+            if (place != Confirmation::ok) return place;
         }
         if (is_last && codes != nullptr) {
             weigh_codes_in_view(kernels, options.profile, hypothesis.place, block,

@@ -19,6 +19,7 @@ enum class Confirmation : std::uint8_t {
     ok,
     implausible,  ///< the dots are not where they were expected
     uncertain,    ///< they are, but their bits leave doubts
+    left,         ///< they are, but roughly: see Rough::left
 };
 
 /// Measures, compares and fits; a predicted hypothesis gets one look at each dot if that is enough.

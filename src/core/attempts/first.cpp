@@ -125,46 +125,52 @@ bool find_hypothesis_around(const Kernels& kernels, const ImageView& image, cons
     return false;
 }
 
+/// Whether no other hypothesis is looked for.
+bool is_last(Confirmation confirmation) {
+    return confirmation == Confirmation::ok || confirmation == Confirmation::left;
+}
+
 /// Searches a patch around a point of the image, and once more around the point where its dots are
 /// densest, if that lies elsewhere. Every hypothesis whose bits contradict it is one more chance of
 /// a wrong fix; `tries_left` counts how many more are allowed.
-bool locate_around(const Kernels& kernels, const ImageView& image, const Options& options,
-                   Vec around_px, int scale, int& tries_left, Workspace& w) {
+Confirmation locate_around(const Kernels& kernels, const ImageView& image, const Options& options,
+                           Rough rough, Vec around_px, int scale, int& tries_left, Workspace& w) {
     for (int round = 0; round < 2 && tries_left > 0; ++round) {
         Hypothesis hypothesis;
+        hypothesis.rough = rough;
         Vec densest_px = around_px;
         if (find_hypothesis_around(kernels, image, options, around_px, scale, w, densest_px,
                                    hypothesis)) {
             const auto confirmation = confirm(kernels, image, options, hypothesis, w);
             w.fix.attempt = Attempt::first;
             tries_left -= confirmation == Confirmation::uncertain ? 1 : 0;
-            return confirmation == Confirmation::ok;
+            return confirmation;
         }
         const bool is_other_patch =
             4 * std::abs(densest_px.x - around_px.x) > kPatchWidth_px * scale ||
             4 * std::abs(densest_px.y - around_px.y) > kPatchHeight_px * scale;
-        if (!is_other_patch) return false;
+        if (!is_other_patch) break;
         around_px = densest_px;
     }
-    return false;
+    return Confirmation::implausible;
 }
 
 /// Searches the whole image for dots, in patches that grow.
-bool locate_elsewhere(const Kernels& kernels, const ImageView& image, const Options& options,
-                      Workspace& w) {
+Confirmation locate_elsewhere(const Kernels& kernels, const ImageView& image,
+                              const Options& options, Rough rough, Workspace& w) {
     int tries_left = tuned::kMostTries;
     for (const int scale : {1, 2, 4}) {
         const int width = kPatchWidth_px * scale;
         const int height = kPatchHeight_px * scale;
         for (int v = height / 2; v < image.height_px + height / 2; v += height) {
             for (int u = width / 2; u < image.width_px + width / 2; u += width) {
-                if (locate_around(kernels, image, options, {u, v}, scale, tries_left, w)) {
-                    return true;
-                }
+                const Confirmation confirmation =
+                    locate_around(kernels, image, options, rough, {u, v}, scale, tries_left, w);
+                if (is_last(confirmation)) return confirmation;
             }
         }
     }
-    return false;
+    return Confirmation::uncertain;
 }
 
 }  // namespace
@@ -173,21 +179,22 @@ bool searches_outwards(const Options& options, const Workspace& w) {
     return options.decoder == Decoder::all && w.patch != nullptr;
 }
 
-bool locate_outwards(const Kernels& kernels, const ImageView& image, const Options& options,
-                     Workspace& w) {
+Confirmation locate_outwards(const Kernels& kernels, const ImageView& image, const Options& options,
+                             Rough rough, Workspace& w) {
     for (const int scale : {1, 2, 4}) {
         if (!place_patch(image, image.width_px / 2, image.height_px / 2, kPatchWidth_px * scale,
                          kPatchHeight_px * scale, scale, *w.patch)) {
             break;
         }
         Hypothesis hypothesis;
+        hypothesis.rough = rough;
         if (!find_hypothesis(kernels, image, options, w, hypothesis)) continue;
         const Confirmation confirmation = confirm(kernels, image, options, hypothesis, w);
         w.fix.attempt = Attempt::first;
-        if (confirmation == Confirmation::ok) return true;
+        if (is_last(confirmation)) return confirmation;
         if (confirmation == Confirmation::uncertain) break;
     }
-    return locate_elsewhere(kernels, image, options, w);
+    return locate_elsewhere(kernels, image, options, rough, w);
 }
 
 bool locate_by_rows(const Kernels& kernels, const ImageView& image, const Options& options,
@@ -199,11 +206,14 @@ bool locate_by_rows(const Kernels& kernels, const ImageView& image, const Option
     return true;
 }
 
-Fix make_first_attempt(const ImageView& image, const Options& options, Workspace& w) {
+std::optional<Fix> make_first_attempt(const ImageView& image, const Options& options, Rough rough,
+                                      Workspace& w) {
     forget_frame(w);
-    if (!searches_outwards(options, w) || !locate_outwards(kernels(), image, options, w)) {
-        locate_by_rows(kernels(), image, options, w);
-    }
+    auto confirmation = Confirmation::implausible;
+    if (searches_outwards(options, w))
+        confirmation = locate_outwards(kernels(), image, options, rough, w);
+    if (confirmation == Confirmation::left) return {};
+    if (confirmation != Confirmation::ok) locate_by_rows(kernels(), image, options, w);
     return w.fix;
 }
 

@@ -1,6 +1,9 @@
 // The first attempt of a desktop: locates an image without a prediction, outwards from a patch.
 #pragma once
 
+#include <optional>
+
+#include "core/attempts/confirm.hpp"
 #include "core/kernels/select.hpp"
 #include "core/workspace.hpp"
 #include "dotpose/image.hpp"
@@ -8,9 +11,9 @@
 
 namespace dotpose::core {
 
-/// Locates from a patch of the image, then outwards. Returns whether there is a fix.
-bool locate_outwards(const Kernels& kernels, const ImageView& image, const Options& options,
-                     Workspace& w);
+/// Locates from a patch of the image, then outwards. Leaves the fix, if any, in the workspace.
+Confirmation locate_outwards(const Kernels& kernels, const ImageView& image, const Options& options,
+                             Rough rough, Workspace& w);
 
 /// Whether `locate_outwards` suits the options and has memory.
 bool searches_outwards(const Options& options, const Workspace& w);
@@ -20,7 +23,9 @@ bool searches_outwards(const Options& options, const Workspace& w);
 bool locate_by_rows(const Kernels& kernels, const ImageView& image, const Options& options,
                     Workspace& w);
 
-/// Locates outwards and, without a fix, by rows.
-Fix make_first_attempt(const ImageView& image, const Options& options, Workspace& w);
+/// Locates outwards and, without a fix, by rows. Returns nothing if the frame is left to the second
+/// attempt.
+std::optional<Fix> make_first_attempt(const ImageView& image, const Options& options, Rough rough,
+                                      Workspace& w);
 
 }  // namespace dotpose::core

@@ -10,6 +10,12 @@
 
 namespace dotpose::core {
 
+/// What becomes of a frame whose dots lie roughly, and whose hard bits leave doubts.
+enum class Rough : std::uint8_t {
+    counted,  ///< the alternatives to its place are counted closely
+    left,     ///< it is left to the second attempt, which reads the bits better in less time
+};
+
 /// A hypothesis of where the pattern is in the image.
 struct Hypothesis {
     FloatPlane pattern_from_image;  ///< upright, px counted from `from_centre`
@@ -23,6 +29,7 @@ struct Hypothesis {
     bool is_exact = false;
     bool shows_part = false;  ///< whether the pattern may cover only a part of the image, around
                               ///< `from_centre`
+    Rough rough = Rough::counted;
     int depth_q8 = 0;  ///< darkness of a typical dot against paper in the smoothed patch, in 1/256
     float typical_mass = 0;  ///< sum of a dot's darkness beyond the cut, relative to the paper's
                              ///< level; 0: not known yet

@@ -54,9 +54,12 @@ Fix finish_rows(const Options& options, Workspace& w) {
     return w.fix;
 }
 
+bool is_rough(float residual_px, float spacing_px) {
+    return residual_px >= std::max(tuning::rows::kRough_px, tuning::rows::kRough * spacing_px);
+}
+
 bool is_rough(const Fix& fix) {
-    const float spacing_px = static_cast<float>(fix.spacing_px_q16) / 65536.0F;
-    return fix.residual_px >= std::max(tuning::rows::kRough_px, tuning::rows::kRough * spacing_px);
+    return is_rough(fix.residual_px, static_cast<float>(fix.spacing_px_q16) / 65536.0F);
 }
 
 }  // namespace dotpose::core

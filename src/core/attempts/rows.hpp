@@ -12,5 +12,6 @@ Fix finish_rows(const Options& options, Workspace& w);
 
 /// Whether the dots lie so far from their fitted places that a second attempt may be better.
 bool is_rough(const Fix& fix);
+bool is_rough(float residual_px, float spacing_px);
 
 }  // namespace dotpose::core

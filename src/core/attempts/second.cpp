@@ -94,10 +94,8 @@ Status resample(const ImageView& image, const Options& options, bool may_presume
     return shows_one_pattern(image, options, w) ? read_position(options, w) : Status::not_certain;
 }
 
-}  // namespace
-
-Status see_filtered(const ImageView& image, const Options& options, Workspace& w) {
-    const Options filtered = for_filtered(options);
+/// Finds dots and grid in the filtered image, and reads the bits.
+Status see_with(const Options& filtered, const ImageView& image, Workspace& w) {
     detect_filtered(image, filtered, w);
     Status status = find_dots(filtered, w);                                // II-B.1
     if (status == Status::ok) status = find_grid_thoroughly(filtered, w);  // II-B.2-3
@@ -106,6 +104,24 @@ Status see_filtered(const ImageView& image, const Options& options, Workspace& w
     }
     if (status != Status::ok) return status;
     return shows_one_pattern(image, filtered, w) ? Status::ok : Status::not_certain;
+}
+
+}  // namespace
+
+Status see_filtered(const ImageView& image, const Options& options, Workspace& w) {
+    Options filtered = for_filtered(options);
+    const Status status = see_with(filtered, image, w);
+    const int pale = (options.threshold.min_contrast + tuned::kPaleParts - 1) / tuned::kPaleParts;
+    const bool may_be_pale = (status == Status::no_contrast || status == Status::too_few_dots) &&
+                             w.light.greatest_contrast >= pale;
+    if (!may_be_pale) return status;
+    const Fix seen = w.fix;
+    filtered.threshold.min_contrast = pale;
+    if (see_with(filtered, image, w) == Status::ok) return Status::ok;
+    // What was taken for dots may have been noise, of which the first status tells.
+    w.fix = seen;
+    w.dot_count = 0;
+    return status;
 }
 
 Status read_position(const Options& options, Workspace& w) {

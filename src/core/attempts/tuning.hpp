@@ -138,6 +138,10 @@ namespace second {
 /// % with these, and in 80 % with the thresholds of the options.
 inline constexpr int kLow_3rds = 2;
 inline constexpr int kHigh_10ths = 9;
+/// Part (1/n) of the least contrast with which an image is looked at again that shows too few dots:
+/// noise is a third in a filtered image. Dots 6 grey levels darker than paper are found by it
+/// (`dotpose_alike --spacings 8 --dots 0.10 --blurs 1.5`).
+inline constexpr int kPaleParts = 3;
 /// Greatest turn of the periodogram search against the first estimate, in degrees, one try after
 /// the other: between graphics, connections of the remaining dots may point anywhere.
 inline constexpr int kMostTurns_deg[] = {12, 45};

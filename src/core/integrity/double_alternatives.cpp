@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <initializer_list>
 #include <span>
 
@@ -62,16 +63,58 @@ class Groups {
     std::array<Anchors, kFewestFound - 1> groups_{};
 };
 
-/// The offsets of one place of a sequence in the first eight lines, less that of an anchor. Bytes
-/// hold values that are valid only in the sum over a pair of places.
-struct Since {
-    EightOffsets first;
-    const RankedLines::Offsets* offsets;
-};
+/// A byte for each anchor, by rank, and for a few lines more; compilers keep them in one register.
+using AnchorBytes [[gnu::vector_size(16)]] = std::uint8_t;
+static_assert(sizeof(AnchorBytes) >= kMostAnchors && sizeof(AnchorBytes) <= kMaxLines);
 
 int at(const RankedLines::Offsets& offsets, int rank) {
     return offsets.all[static_cast<std::size_t>(rank)];
 }
+
+/// Returns offsets between -62 and 62 modulo 63; negative ones are stored modulo 256.
+AnchorBytes modulo_sections(AnchorBytes offsets) {
+    return offsets + (static_cast<AnchorBytes>(offsets >= kSections) & kSections);
+}
+
+AnchorBytes anchors_of(const RankedLines::Offsets& offsets) {
+    AnchorBytes bytes;
+    std::memcpy(&bytes, offsets.all.data(), sizeof bytes);
+    return bytes;
+}
+
+/// Returns the offsets of a place less that at one anchor, modulo 63.
+AnchorBytes since(int one, const RankedLines::Offsets& offsets) {
+    return modulo_sections(anchors_of(offsets) - offsets.all[static_cast<std::size_t>(one)]);
+}
+
+/// Returns the negative of the same, modulo 63. A place shares the anchors at which these equal
+/// its own `since` with the place.
+AnchorBytes opposite(int one, const RankedLines::Offsets& offsets) {
+    return modulo_sections(offsets.all[static_cast<std::size_t>(one)] - anchors_of(offsets));
+}
+
+/// Some anchors, each marked by 1 in its byte.
+class Marks {
+  public:
+    explicit Marks(AnchorBytes marks) { std::memcpy(halves_.data(), &marks, sizeof marks); }
+
+    int count() const { return static_cast<int>((halves_[0] + halves_[1]) * kInEach >> 56); }
+    Anchors anchors() const { return bits_of(halves_[0]) | bits_of(halves_[1]) << 8; }
+
+  private:
+    /// Returns the lowest bits of eight bytes: each is moved to another bit of the highest byte.
+    static Anchors bits_of(std::uint64_t bytes) {
+        return static_cast<Anchors>(bytes * 0x0102040810204080 >> 56);
+    }
+
+    std::array<std::uint64_t, 2> halves_;
+};
+
+/// A place of a sequence, with the offsets that shared anchors have in another sequence.
+struct Opposite {
+    AnchorBytes offsets;
+    const RankedLines::Offsets* place;
+};
 
 /// The places of a sequence other than the reading's, in buckets by how much larger the offset at
 /// one anchor is than at another, modulo 63.
@@ -92,9 +135,7 @@ class Buckets {
         for (std::uint32_t place = 0; place < length; ++place) {
             if (place == own) continue;
             const RankedLines::Offsets& offsets = lines.offsets(sequence, place);
-            // 126 is no shift, as are 63 and 189; it keeps the sum of two places above 0.
-            const auto base = static_cast<EightOffsets>(2 * kSections - at(offsets, one));
-            places_[next[less_at(place)]++] = {offsets.first + base * kInEach, &offsets};
+            places_[next[less_at(place)]++] = {opposite(one, offsets), &offsets};
         }
     }
 
@@ -103,21 +144,24 @@ class Buckets {
         return static_cast<std::size_t>(less < 0 ? less + kSections : less);
     }
 
-    std::span<const Since> operator[](std::size_t less) const {
+    std::span<const Opposite> operator[](std::size_t less) const {
         return std::span(places_).subspan(
             begins_[less], static_cast<std::size_t>(begins_[less + 1] - begins_[less]));
     }
 
   private:
     std::array<std::uint8_t, kSections + 1> begins_{};
-    std::array<Since, code::kA4Restored.size()> places_;
+    std::array<Opposite, code::kA4Restored.size()> places_;
 };
 
 /// Sums up the alternatives that share at least `shared` anchors.
 class Finder {
   public:
     Finder(const RankedLines& lines, int anchors, int shared)
-        : lines_(lines), anchors_(anchors), shared_(shared), groups_(lines, anchors, shared) {}
+        : lines_(lines), shared_(shared), groups_(lines, anchors, shared) {
+        for (int rank = 0; rank < anchors; ++rank)
+            anchors_[rank] = 1;
+    }
 
     float sum() const {
         float sum = 0;
@@ -140,30 +184,26 @@ class Finder {
             for (std::uint32_t place = 0; place < lines_.ratios.basis[k].length; ++place) {
                 if (place == lines_.ratios.places[k]) continue;
                 const RankedLines::Offsets& a = lines_.offsets(k, place);
-                const EightOffsets since =
-                    a.first - static_cast<EightOffsets>(at(a, one)) * kInEach;
-                for (const Since& b : buckets[Buckets::offset_less(a, other, one)])
-                    sum += odds(since + b.first, a, *b.offsets, one, other);
+                const AnchorBytes offsets = since(one, a);
+                for (const Opposite& b : buckets[Buckets::offset_less(a, other, one)]) {
+                    const Marks marks(static_cast<AnchorBytes>(offsets == b.offsets) & anchors_);
+                    if (marks.count() >= shared_ &&
+                        groups_.is_first_pair(marks.anchors(), one, other)) {
+                        sum += odds(a, *b.place, at(a, one) + at(*b.place, one));
+                    }
+                }
             }
         }
         return sum;
     }
 
-    /// Returns the odds of a pair of places; 0 if it shares too few anchors or was met before.
-    /// `first` has the offsets of the first eight lines, less that of the shared anchor.
-    float odds(EightOffsets first, const RankedLines::Offsets& a, const RankedLines::Offsets& b,
-               int one, int other) const {
-        int lost = lines_.loss_of_first(first);
-        if (lines_.ratios.is_hopeless(lost)) return kNegligible;
-        const int base = 2 * kSections - at(a, one) - at(b, one);
-        Anchors shared = 0;
-        for (int rank = 0; rank < anchors_; ++rank) {
-            const int further = at(a, rank) + at(b, rank) + base;
-            if (further % kSections == 0) shared |= 1U << rank;
-        }
-        if (std::popcount(shared) < shared_) return 0;
-        if (!groups_.is_first_pair(shared, one, other)) return 0;
-        for (int rank = 8; rank < lines_.count(); ++rank) {
+    /// Returns the odds of a pair of places; `shared` is the sum of their offsets in a line that it
+    /// shares.
+    float odds(const RankedLines::Offsets& a, const RankedLines::Offsets& b, int shared) const {
+        // 126 is no shift, as are 63 and 189; it keeps the sums of two places above 0.
+        const int base = 2 * kSections - shared;
+        int lost = 0;
+        for (int rank = 0; rank < lines_.count(); ++rank) {
             lost += lines_.loss(rank, at(a, rank) + at(b, rank) + base);
             if (lines_.ratios.is_hopeless(lost)) return kNegligible;
         }
@@ -171,9 +211,9 @@ class Finder {
     }
 
     const RankedLines& lines_;
-    int anchors_;
     int shared_;
     Groups groups_;
+    AnchorBytes anchors_{};  ///< 1 for each anchor, 0 for lines that are none
 };
 
 }  // namespace

@@ -16,7 +16,9 @@ Fix outwards(const GreyImage& image, const Options& options = {},
              const core::Kernels& kernels = core::kernels()) {
     Workspace& w = large_workspace();
     w.fix = {};
-    if (core::locate_outwards(kernels, image.view(), options, w)) {
+    const auto confirmation =
+        core::locate_outwards(kernels, image.view(), options, core::Rough::counted, w);
+    if (confirmation == core::Confirmation::ok) {
         EXPECT_EQ(w.fix.status, Status::ok);
         EXPECT_EQ(w.fix.attempt, Attempt::first);
         return w.fix;
@@ -181,7 +183,7 @@ TEST(LocateOutwards, ShowsItsDotsAndCellsWhenAsked) {
         EXPECT_LE(alone, 2);
         // Without `show_stages` it leaves no dots.
         options.show_stages = false;
-        core::make_first_attempt(image.view(), options, large_workspace());
+        core::make_first_attempt(image.view(), options, core::Rough::counted, large_workspace());
         EXPECT_EQ(w.dot_count, 0);
     }
 }

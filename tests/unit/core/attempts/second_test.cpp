@@ -1,0 +1,73 @@
+// The second attempt: what is left to it, and what only it sees.
+#include "core/attempts/second.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/attempts/first.hpp"
+#include "core/attempts/rows.hpp"
+#include "core/locate.hpp"
+#include "shots.hpp"
+
+namespace dotpose::core_test {
+namespace {
+
+constexpr std::uint64_t kSeed = 93;
+
+/// Returns a frame of clean dots that are 6 grey levels darker than paper.
+Shot pale_shot(std::uint64_t index) {
+    Shot shot = shot_of({.spacing_px = 8}, kSeed, index);
+    shot.imperfections = {};
+    shot.imperfections.noise_sigma = 3;
+    shot.imperfections.blur_sigma_px = 1.5;
+    shot.page.pattern.dot_mm = 0.10 * shot.page.pattern.spacing_mm;
+    return shot;
+}
+
+TEST(SecondAttempt, SeesDotsPalerThanTheLeastContrast) {
+    for (std::uint64_t i = 0; i < 20; ++i) {
+        SCOPED_TRACE(testing::Message() << "shot " << i << ", seed " << kSeed);
+        const Shot shot = pale_shot(i);
+        const Fix fix = core::locate(render(shot).view(), {}, large_workspace());
+        ASSERT_EQ(fix.status, Status::ok);
+        EXPECT_EQ(fix.attempt, Attempt::second);
+        EXPECT_TRUE(is_right(fix, shot));
+    }
+}
+
+TEST(SecondAttempt, NoiseWithoutDotsIsRefusedAsThat) {
+    for (std::uint64_t i = 0; i < 20; ++i) {
+        SCOPED_TRACE(testing::Message() << "shot " << i << ", seed " << kSeed);
+        Shot shot = pale_shot(i);
+        shot.imperfections.noise_sigma = 5;
+        shot.page.pattern.dot_mm = 1e-4;
+        const Fix fix = core::locate(render(shot).view(), {}, large_workspace());
+        EXPECT_TRUE(fix.status == Status::no_contrast || fix.status == Status::too_few_dots);
+        EXPECT_LT(fix.dots_seen, Options{}.lattice.min_dots);
+    }
+}
+
+TEST(SecondAttempt, GetsRoughFramesWhoseBitsLeaveDoubts) {
+    core::Workspace& w = large_workspace();
+    int left = 0;
+    for (std::uint64_t i = 0; i < 100; ++i) {
+        SCOPED_TRACE(testing::Message() << "shot " << i << ", seed " << kSeed);
+        const Shot shot = shot_of({.preset = Preset::hard}, kSeed, i);
+        const GreyImage image = render(shot);
+        const auto first = core::make_first_attempt(image.view(), {}, core::Rough::left, w);
+        const auto counted = core::make_first_attempt(image.view(), {}, core::Rough::counted, w);
+        ASSERT_TRUE(counted);
+        if (first) {
+            expect_same_bits(*first, *counted);
+            continue;
+        }
+        ++left;
+        EXPECT_TRUE(counted->status != Status::ok || core::is_rough(*counted));
+        const Fix fix = core::locate(image.view(), {}, w);
+        EXPECT_TRUE(fix.status == Status::ok || counted->status != Status::ok);
+    }
+    EXPECT_GT(left, 5);
+    EXPECT_LT(left, 95);
+}
+
+}  // namespace
+}  // namespace dotpose::core_test
