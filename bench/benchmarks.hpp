@@ -48,6 +48,21 @@ struct TiltTimes {
 std::vector<TiltTimes> time_tilted_frames(bool is_quick);
 std::string tilt_table(const std::vector<TiltTimes>& times);
 
+// ---- Hard frames: hard.cpp ----
+
+/// Results for hard frames of 188 x 120 px, each with the faster of two looks at it.
+struct HardTimes {
+    int frames = 0;
+    int located = 0;
+    int at_once = 0;  ///< number of frames whose fix is that of the first attempt
+    double median_ms = 0;
+    double p99_ms = 0;
+    double longest_ms = 0;
+};
+/// Locates frames of preset hard. Throws Error if a fix is wrong.
+HardTimes time_hard_frames(int frames);
+std::string hard_table(const HardTimes& times);
+
 // ---- Stages: stages_bench.cpp ----
 
 void add_stage_benchmarks();

@@ -116,7 +116,7 @@ std::pair<double, double> worst_tilt(const std::vector<TiltTimes>& tilts) {
 
 /// Returns a table of the aims and the measured values.
 std::string aims_table(const std::vector<FrameTimes>& sizes, const Varied& varied,
-                       const std::vector<TiltTimes>& tilts) {
+                       const std::vector<TiltTimes>& tilts, const HardTimes& hard) {
     const double locate_us = varied.of(Way::twice).median_us;
     const FrameTimes& vga = of_width(sizes, 640);
     const auto [share, ratio] = worst_tilt(tilts);
@@ -137,6 +137,8 @@ std::string aims_table(const std::vector<FrameTimes>& sizes, const Varied& varie
         {"12 megapixels at 6 px per spacing, µs", 2000, of_width(sizes, 4000).locate_us, 0},
         {"tilted by up to 20 degrees, not located at once, %", 2, 100 - share, 1},
         {"tilted by up to 20 degrees, median / that at 0 degrees", 2, ratio, 2},
+        {"hard frames of 188 x 120, 99 %, ms", 5, hard.p99_ms, 2},
+        {"hard frames of 188 x 120, longest of 20,000, ms", 15, hard.longest_ms, 1},
     };
     std::string table = "| | at most | measured | |\n|---|--:|--:|---|\n";
     for (const Aim& aim : aims) {
@@ -160,16 +162,18 @@ void run(const Arguments& arguments) {
     const Varied varied =
         arguments.is_quick ? time_varied_frames(200, 2) : time_varied_frames(2000, 10);
     const std::vector<TiltTimes> tilts = time_tilted_frames(arguments.is_quick);
+    const HardTimes hard = time_hard_frames(arguments.is_quick ? 500 : 20'000);
     const std::string load =
         fmt::format("- load average before: {}; after: {}\n", load_before, load_average());
 
     const std::vector<FrameTimes> sizes = times_by_size(results);
     const std::vector<FrameTimes> by_dots = times_by_dots(results);
     const Blocks blocks = {
-        {"machine", machine_list() + load}, {"aims", aims_table(sizes, varied, tilts)},
+        {"machine", machine_list() + load}, {"aims", aims_table(sizes, varied, tilts, hard)},
         {"sizes", size_table(sizes)},       {"dots", dots_table(by_dots)},
         {"varied", varied_table(varied)},   {"tilts", tilt_table(tilts)},
-        {"stages", stage_table(results)},   {"code", code_table(results)}};
+        {"hard", hard_table(hard)},         {"stages", stage_table(results)},
+        {"code", code_table(results)}};
     draw::write_file(arguments.out / "pixels.svg",
                      [&](std::ostream& out) { draw_pixels(out, sizes); });
     draw::write_file(arguments.out / "dots.svg",

@@ -148,12 +148,13 @@ bool fit_to_dots(const Kernels& kernels, const MeasuredDots& dots, const BitsRea
                      hypothesis.displacement, hypothesis.pattern_from_image, fit);
 }
 
-/// Fits the plane and the displacement once more if the dots' centres are biased alike. Returns the
-/// variance that is left of the bias along u and v, px^2.
+/// Fits the plane and the displacement once more if the dots' centres are biased alike, or drawn
+/// together. Returns the variance that is left of the bias along u and v, px^2.
 FloatVec fit_without_bias(const Kernels& kernels, const DotReader& reader, const CellsInView& view,
                           const ImageView& image, Hypothesis& hypothesis, PoseFit& fit) {
     FloatVec left_px2;
-    if (!reader.take_bias(view, hypothesis, fit, left_px2)) return {};
+    const bool was_biased = reader.take_bias(view, hypothesis, fit, left_px2);
+    if (!reader.take_pull(hypothesis, fit) && !was_biased) return {};
     FloatPlane better = hypothesis.pattern_from_image;
     PoseFit better_fit;
     // Too few dots may be left without those at the border.

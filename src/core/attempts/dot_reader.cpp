@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/attempts/tuning.hpp"
+#include "core/pose/facing_dots.hpp"
 #include "core/pose/pixel_bias.hpp"
 
 namespace dotpose::core {
@@ -147,6 +148,12 @@ bool DotReader::take_bias(const CellsInView& view, const Hypothesis& hypothesis,
     kernels_.refine_centres(image_, view, bells.reach_px, dots_);
     left_px2 = take_pixel_bias(image_, bells, hypothesis.pattern_from_image, fit, dots_);
     return true;
+}
+
+bool DotReader::take_pull(const Hypothesis& hypothesis, const PoseFit& fit) const {
+    const float between_px = spacing_px_ * (1 - 2 * fit.displacement);
+    return !hypothesis.is_exact && bell_reach_px(hypothesis) > tuned::kFacing * between_px &&
+           core::take_pull(hypothesis.pattern_from_image, fit, dots_);
 }
 
 }  // namespace dotpose::core

@@ -32,6 +32,9 @@ class DotReader {
     /// counts: dots fall on the pixels in many ways, or are off by more.
     bool take_bias(const CellsInView& view, const Hypothesis& hypothesis, const PoseFit& fit,
                    FloatVec& left_px2) const;
+    /// Moves dots apart that face each other and are so large and near that they draw each other's
+    /// centres together; then the plane must be fitted once more. Returns false if there are none.
+    bool take_pull(const Hypothesis& hypothesis, const PoseFit& fit) const;
     const MeasuredDots& dots() const { return dots_; }
 
   private:

@@ -95,6 +95,9 @@ inline constexpr float kFinestOnePass_px = 8;
 /// so far that it does not depend on how dots fall on the pixels (`dotpose_alike`).
 inline constexpr float kBellRadii = 2.4F;
 inline constexpr float kLeastBell_px = 3.3F;
+/// Share of the distance between facing dots that a bell must reach for them to draw each other's
+/// centres.
+inline constexpr float kFacing = 0.55F;
 /// Steps of the grid that differ from whole pixels by less than this make all dots fall on the
 /// pixels alike; with more, the dots of a view drift through all of a pixel.
 inline constexpr float kDrift_px = 0.05F;

@@ -81,6 +81,11 @@ inline constexpr int kMostRounds = 30;
 }  // namespace shape
 
 /// The bias of dots that fall on the pixels alike (pose/pixel_bias).
+namespace facing {
+/// Deviations by which the mean pull of facing dots must differ from none.
+inline constexpr float kSure = 4;
+}  // namespace facing
+
 namespace bias {
 /// Dots whose images are added up, as many as show their shape.
 inline constexpr int kDots = 256;
