@@ -59,7 +59,7 @@ std::array<Confidence, 2> confidences_in(const BitsRead& bits) {
     return {confidence_in(bits.read, bits.wrong_x), confidence_in(bits.read, bits.wrong_y)};
 }
 
-/// Returns whether the bits of all dots near the centre leave no doubt about the place.
+/// Judges the place by the bits of all dots near the centre: ok, uncertain or left.
 Confirmation confirm_place(const Kernels& kernels, const Options& options,
                            const Hypothesis& hypothesis, const CellsInView& view,
                            const BitBlock& block, const BitsRead& bits, const PoseFit& fit,

@@ -83,6 +83,12 @@ bool suits_one_pass(const Hypothesis& hypothesis) {
            !falls_on_pixels_alike(hypothesis.pattern_from_image, tuned::kDrift_px);
 }
 
+bool may_be_biased(const FloatPlane& plane, float variance_px2, int side_px) {
+    if (variance_px2 > tuned::kMostVariance_px2) return false;
+    const float drift_px = tuned::kDriftInView_px * spacing_px(plane) / static_cast<float>(side_px);
+    return falls_on_pixels_alike(plane, drift_px);  // in a step of the grid
+}
+
 WindowOptions DotReader::window_options(const Hypothesis& hypothesis) const {
     return {spacing_px_, 0.36F, hypothesis.depth_q8 * kCutOfDepth_q8 >> 8};
 }
@@ -134,14 +140,13 @@ void DotReader::find_centres(const CellsInView& view, Hypothesis& hypothesis, bo
 bool DotReader::take_bias(const CellsInView& view, const Hypothesis& hypothesis, const PoseFit& fit,
                           FloatVec& left_px2) const {
     // Where a lens bends the grid, or one look is enough, dots fall on the pixels in many ways.
-    // Where dots are off in other ways, as by how they were printed, the bias does not count.
+    if (hypothesis.is_exact || view.lens.k != 0) return false;
     const float variance_px2 =
         fit.variance * spacing_px_ * spacing_px_ / static_cast<float>(fit.dots);
-    if (hypothesis.is_exact || view.lens.k != 0 || variance_px2 > tuned::kMostVariance_px2)
+    if (!may_be_biased(hypothesis.pattern_from_image, variance_px2,
+                       std::max(image_.width_px, image_.height_px))) {
         return false;
-    const float drift_px = tuned::kDriftInView_px * spacing_px_ /
-                           std::max(view.width_px, view.height_px);  // in a step of the grid
-    if (!falls_on_pixels_alike(hypothesis.pattern_from_image, drift_px)) return false;
+    }
     const Bells bells{
         bell_reach_px(hypothesis), dot_radius_px(hypothesis), {view.centre_x, view.centre_y}};
     put_bells_on_centres(image_, bells, dots_);

@@ -11,6 +11,11 @@ namespace dotpose::core {
 /// Whether dots that are where they are predicted can be read in one look each, by quick bells.
 bool suits_one_pass(const Hypothesis& hypothesis);
 
+/// Whether all dots in view fall on the pixels alike, so that what their centres are off does not
+/// average out, and are so exact otherwise that this counts. `variance_px2` is that of the mean of
+/// their centres along one axis, `side_px` the longer side of the image.
+bool may_be_biased(const FloatPlane& plane, float variance_px2, int side_px);
+
 /// Reads and measures the listed dots: exactly at their places, if these are known, otherwise in
 /// windows around the intersections.
 class DotReader {

@@ -1,7 +1,12 @@
 #include "core/attempts/second.hpp"
 
+#include <algorithm>
+
+#include "core/attempts/dot_reader.hpp"
+#include "core/attempts/first.hpp"
 #include "core/attempts/fitted_pose.hpp"
 #include "core/attempts/steps.hpp"
+#include "core/attempts/tracked.hpp"
 #include "core/attempts/tuning.hpp"
 #include "core/decode/likelihood.hpp"
 #include "core/decode/position.hpp"
@@ -94,6 +99,18 @@ Status resample(const ImageView& image, const Options& options, bool may_presume
     return shows_one_pattern(image, options, w) ? read_position(options, w) : Status::not_certain;
 }
 
+/// Measures the dots of the fix as the first attempt does, whose centres are not biased, if they
+/// fall on the pixels alike.
+void take_bias(const ImageView& image, const Options& options, Workspace& w) {
+    if (!searches_outwards(options, w)) return;
+    const float variance_px2 =
+        w.fix.residual_px * w.fix.residual_px / static_cast<float>(w.fix.dots_used);
+    if (may_be_biased(float_plane(w.pattern_from_image), variance_px2,
+                      std::max(image.width_px, image.height_px))) {
+        measure_again(kernels(), image, options, w);
+    }
+}
+
 /// Finds dots and grid in the filtered image, and reads the bits.
 Status see_with(const Options& filtered, const ImageView& image, Workspace& w) {
     detect_filtered(image, filtered, w);
@@ -148,6 +165,7 @@ Status measure_and_weigh(const ImageView& image, const Options& options, Workspa
     if (status == Status::ok) {
         weigh_other_codes(kernels(), w.grid, options.profile, w.decoding, w.line_scores,
                           wanted_codes(w));
+        take_bias(image, options, w);
     }
     return status;
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../../../alike_frames.hpp"
 #include "core/attempts/first.hpp"
 #include "core/attempts/rows.hpp"
 #include "core/locate.hpp"
@@ -43,6 +44,20 @@ TEST(SecondAttempt, NoiseWithoutDotsIsRefusedAsThat) {
         const Fix fix = core::locate(render(shot).view(), {}, large_workspace());
         EXPECT_TRUE(fix.status == Status::no_contrast || fix.status == Status::too_few_dots);
         EXPECT_LT(fix.dots_seen, Options{}.lattice.min_dots);
+    }
+}
+
+TEST(SecondAttempt, DotsThatFallOnThePixelsAlikeAreNotBiased) {
+    for (int i = 0; i < 20; ++i) {
+        SCOPED_TRACE(testing::Message() << "shot " << i << ", seed " << kSeed);
+        const Shot shot = test::shot_of(
+            test::AlikeDots{.spacing_px = 12, .blur_px = 0.3, .angle_deg = 90}, kSeed, i);
+        const Fix fix = core::make_second_attempt(render(shot).view(), {}, large_workspace());
+        ASSERT_EQ(fix.status, Status::ok);
+        EXPECT_EQ(fix.attempt, Attempt::second);
+        // Up to 0.01 with the bias, which is 50 deviations.
+        EXPECT_LT(std::abs(fix.x_grid() - x_grid(shot.pose)), 5 * std::sqrt(fix.covariance[0][0]));
+        EXPECT_LT(std::abs(fix.y_grid() - y_grid(shot.pose)), 5 * std::sqrt(fix.covariance[1][1]));
     }
 }
 
