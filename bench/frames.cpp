@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <thread>
@@ -61,6 +62,11 @@ bool is_right(const Fix& fix, const Truth& truth) {
     outcome.fix = fix;
     outcome.truth = truth;
     return outcome.is_fix() && !outcome.is_wrong();
+}
+
+double quantile(const std::vector<double>& sorted, double share) {
+    const double rank = std::ceil(share * static_cast<double>(sorted.size()));
+    return sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
 }
 
 void on_all_cores(int count, const std::function<void(int)>& work) {

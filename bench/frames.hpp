@@ -19,6 +19,9 @@ const std::vector<KnownFrame>& nominal_frames(const CameraModel& camera);
 /// Whether there is a pose and it is right.
 bool is_right(const Fix& fix, const Truth& truth);
 
+/// Returns a quantile of sorted values, by the nearest rank.
+double quantile(const std::vector<double>& sorted, double share);
+
 /// Calls `work(i)` for i from 0 to count - 1, on all cores.
 void on_all_cores(int count, const std::function<void(int)>& work);
 

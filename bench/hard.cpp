@@ -53,8 +53,8 @@ HardTimes time_hard_frames(int frames) {
     for (int first = 0; first < frames; first += kRenderedAtOnce)
         time_frames(first, std::min(kRenderedAtOnce, frames - first), *memory, times, ms);
     std::ranges::sort(ms);
-    times.median_ms = ms[ms.size() / 2];
-    times.p99_ms = ms[ms.size() * 99 / 100];
+    times.median_ms = quantile(ms, 0.5);
+    times.p99_ms = quantile(ms, 0.99);
     times.longest_ms = ms.back();
     return times;
 }

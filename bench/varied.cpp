@@ -135,12 +135,6 @@ void pass(Subject& subject) {
     }
 }
 
-/// Returns a quantile of sorted values, by the nearest rank.
-double quantile(const std::vector<double>& sorted, double share) {
-    const double rank = std::ceil(share * static_cast<double>(sorted.size()));
-    return sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
-}
-
 FrameSpread spread_of(const Subject& subject) {
     std::vector<double> us = subject.fastest_us;
     std::ranges::sort(us);

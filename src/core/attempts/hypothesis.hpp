@@ -10,7 +10,8 @@
 
 namespace dotpose::core {
 
-/// What becomes of a frame whose dots lie roughly, and whose hard bits leave doubts.
+/// What the first attempt does with a frame whose dots lie far from their fitted places
+/// (`is_rough`) and whose bits, each taken as surely 0 or 1, leave doubts about the place.
 enum class Rough : std::uint8_t {
     counted,  ///< the alternatives to its place are counted closely
     left,     ///< it is left to the second attempt, which reads the bits better in less time

@@ -135,7 +135,8 @@ Status see_filtered(const ImageView& image, const Options& options, Workspace& w
     const Fix seen = w.fix;
     filtered.threshold.min_contrast = pale;
     if (see_with(filtered, image, w) == Status::ok) return Status::ok;
-    // What was taken for dots may have been noise, of which the first status tells.
+    // The second look found no pattern: its dots were noise, so the result of the first look
+    // stands.
     w.fix = seen;
     w.dot_count = 0;
     return status;

@@ -76,7 +76,7 @@ class FacingFrame {
 core::PoseFit fit_with(double pull) {
     core::PoseFit fit;
     fit.displacement = static_cast<float>(kDisplacement);
-    // Of eight coordinates one is that of a pull.
+    // One coordinate in eight is pulled: a quarter of the dots face a neighbour, along one axis.
     fit.variance = static_cast<float>(kNoise * kNoise + pull * pull / 8);
     return fit;
 }
