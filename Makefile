@@ -1,5 +1,5 @@
-# A front door to the CMake presets. Where there is no apt-get: install the packages named by
-# `scripts/setup --list` by hand and say `make SETUP=true`.
+# A front door to the CMake presets. Each target first installs what it needs (scripts/setup). Where there is no
+# apt-get: install the packages named by `scripts/setup --list GROUP` by hand and say `make SETUP=true`.
 SETUP ?= scripts/setup
 JOBS ?= $(shell nproc)
 PREFIX ?= /usr/local
@@ -10,42 +10,70 @@ BUILD = env -u MAKEFLAGS cmake --build --preset
 RELEASE = build/release
 
 .DEFAULT_GOAL := release
-.PHONY: release setup demo test asan fuzz bench accuracy budget portable python wasm web format check install clean
+.PHONY: release setup demo test quick asan fuzz bench parsers accuracy budget portable python wasm web format lint check install clean
 
-release: setup $(RELEASE)/build.ninja
+# The groups of scripts/setup that a target needs.
+release: GROUPS = live
+demo: GROUPS = core
+test quick: GROUPS = tests
+asan: GROUPS = tests
+fuzz: GROUPS = fuzz
+bench: GROUPS = bench
+accuracy: GROUPS = tools
+budget portable: GROUPS = firmware
+wasm web: GROUPS = wasm tests
+python: GROUPS = python
+lint format: GROUPS = format
+check: GROUPS = format tools
+parsers: GROUPS = tests
+
+release: $(RELEASE)/build.ninja
 	$(BUILD) release -j $(JOBS)
 
 setup:
-	@$(SETUP)
+	@$(SETUP) $(GROUPS)
 
-build/%/build.ninja: CMakePresets.json | setup
-	cmake --preset $*
-	@touch $@
+# Configured anew when packages were installed since, with which more can be built. As `setup` is phony, this
+# runs every time.
+build/%/build.ninja: setup
+	@for cause in CMakePresets.json build/packages-installed; do \
+	    if [ ! -f $@ ] || [ $$cause -nt $@ ]; then cmake --preset $* && touch $@ || exit 1; fi; \
+	done
 
-demo: setup $(RELEASE)/build.ninja
-	$(BUILD) release -j $(JOBS) --target dotpose_cli dotpose_demo
+demo: $(RELEASE)/build.ninja
+	$(BUILD) release -j $(JOBS) --target dotpose_demo
 	$(RELEASE)/bin/dotpose_demo
 
-test: release
+test: $(RELEASE)/build.ninja
+	$(BUILD) release -j $(JOBS) --target all dotpose_tests
 	ctest --preset release -j $(JOBS)
 
-asan: setup build/asan/build.ninja
-	$(BUILD) asan -j $(JOBS)
+quick: $(RELEASE)/build.ninja
+	$(BUILD) release -j $(JOBS) --target dotpose_quick_tests
+	ctest --preset quick -j $(JOBS)
+
+asan: build/asan/build.ninja
+	$(BUILD) asan -j $(JOBS) --target all dotpose_tests
 	ctest --preset asan -j $(JOBS)
 
+# The layers that parse strangers' bytes: unit tests, and the seeds of the fuzz targets replayed, under the same
+# sanitizers as all of `asan`.
+parsers: build/asan/build.ninja
+	$(BUILD) asan -j $(JOBS) --target dotpose_parser_tests
+	ctest --preset parsers -j $(JOBS)
+
 # And the unit tests of what is fuzzed, under the same sanitizers.
-fuzz: SETUP += --fuzz
-fuzz: setup build/fuzz/build.ninja
+fuzz: build/fuzz/build.ninja
 	cmake --preset fuzz -DDOTPOSE_FUZZ_SECONDS=$(FUZZ_SECONDS)
-	$(BUILD) fuzz -j $(JOBS) --target dotpose_fuzz dotpose_unit_tests
+	$(BUILD) fuzz -j $(JOBS) --target dotpose_fuzz dotpose_tests
 	ctest --preset fuzz -j $(JOBS)
 
-bench: setup $(RELEASE)/build.ninja
+bench: $(RELEASE)/build.ninja
 	$(BUILD) release -j $(JOBS) --target dotpose_bench dotpose_instructions
 	$(RELEASE)/bin/dotpose_bench $(ARGS)
 	bench/instructions $(if $(findstring --update,$(ARGS)),--update)
 
-accuracy: setup $(RELEASE)/build.ninja
+accuracy: $(RELEASE)/build.ninja
 	$(BUILD) release -j $(JOBS) --target dotpose_accuracy
 	$(RELEASE)/bin/dotpose_accuracy $(ARGS)
 
@@ -54,43 +82,36 @@ ifneq ($(findstring --all,$(ARGS)),)
 more_frames = dotpose_frames_160x120 dotpose_frames_320x240
 more_cores = cortex-m4f cortex-m33 rv32imc
 endif
-budget: SETUP += --firmware
-budget: setup $(RELEASE)/build.ninja \
-    $(patsubst %,build/%/build.ninja,cortex-m0plus mips32r2 $(more_cores))
+# With ARGS=--quick: Cortex-M0+ only.
+cores = cortex-m0plus $(if $(findstring --quick,$(ARGS)),,mips32r2)
+budget: $(RELEASE)/build.ninja $(patsubst %,build/%/build.ninja,$(cores) $(more_cores))
 	$(BUILD) release -j $(JOBS) --target dotpose_cli dotpose_frames dotpose_count dotpose_budget \
 	    dotpose_golden_files $(more_frames)
-	$(BUILD) cortex-m0plus -j $(JOBS)
-	$(BUILD) mips32r2 -j $(JOBS)
+	set -e; for core in $(cores); do $(BUILD) $$core -j $(JOBS); done
 	$(if $(more_cores),set -e; for core in cortex-m0plus mips32r2 $(more_cores); do \
 	    $(BUILD) $$core -j $(JOBS) --target dotpose_firmware_of_all_sizes; done)
 	firmware/budget $(ARGS)
 	$(RELEASE)/bin/dotpose_golden_files build/budget/golden
 	wrappers/c/device/run build/cortex-m0plus/wrappers/c/libdotpose_c.a build/budget/golden
 
-portable: SETUP += --firmware
 portable: setup
 	scripts/check-portable
 	tests/checks/portable_selftest scripts
 
-wasm: SETUP += --wasm
-wasm: setup $(RELEASE)/build.ninja
+wasm: $(RELEASE)/build.ninja
 	wrappers/wasm/build
 	$(BUILD) release -j $(JOBS) --target dotpose_cli dotpose_golden_files
 	ctest --preset release -L wasm
 
-web: SETUP += --wasm
-web: setup $(RELEASE)/build.ninja
+web: $(RELEASE)/build.ninja
 	wrappers/wasm/build
 	web/build
 	$(BUILD) release -j $(JOBS) --target dotpose_cli
 	ctest --preset release -L web
 
-# A wheel in build/python, and an environment with it, whose example is run. Configures again, as
-# the packages may have been missing before.
+# A wheel in build/python, and an environment with it, whose example is run.
 PYTHON = /usr/bin/python3
-python: SETUP += --python
-python: setup
-	cmake --preset release
+python: $(RELEASE)/build.ninja
 	$(BUILD) release -j $(JOBS) --target dotpose_python
 	rm -rf build/python
 	DOTPOSE_BUILD=$(CURDIR)/$(RELEASE) $(PYTHON) -m build --wheel --no-isolation \
@@ -103,11 +124,14 @@ python: setup
 format: setup
 	scripts/format
 
-check: setup $(RELEASE)/build.ninja
+# What needs no build.
+lint: setup
 	scripts/format --check
 	scripts/check-layers
 	scripts/check-names
 	scripts/check-pipeline
+
+check: lint $(RELEASE)/build.ninja
 	$(BUILD) release -j $(JOBS) --target dotpose dotpose_golden
 	scripts/golden-frames
 	scripts/check-core-symbols $(RELEASE)/src/libdotpose.a

@@ -6,22 +6,29 @@ file(RELATIVE_PATH DOTPOSE_PREFIX_FROM_PC
      /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
 string(REGEX REPLACE "/$" "" DOTPOSE_PREFIX_FROM_PC "${DOTPOSE_PREFIX_FROM_PC}")
 
-# Who links the static library links what it uses; a shared one brings that along.
+# Who links the static libraries links what they use; a shared one brings that along.
+set(DOTPOSE_PC_FILES)
+set(DOTPOSE_PC_TOOLS)
+set(DOTPOSE_PC_TOOLS_LIBS)
+foreach(part IN LISTS DOTPOSE_LIBRARIES)
+    if(NOT part MATCHES "^(base|files)$")
+        string(PREPEND DOTPOSE_PC_TOOLS_LIBS " -ldotpose_${part}")
+    endif()
+endforeach()
 if(NOT BUILD_SHARED_LIBS)
-    set(DOTPOSE_FILES_PC_REQUIRES ", yaml-cpp")
-    set(DOTPOSE_PC_REQUIRES
-        ", libpng, libtiff-4, fmt, GraphicsMagick, librsvg-2.0, libqpdf")
-    set(DOTPOSE_PC_LIBS " -lceres -lglog -pthread")
+    set(DOTPOSE_PC_FILES ", yaml-cpp, fmt")
+    set(DOTPOSE_PC_TOOLS ", libpng, libtiff-4, GraphicsMagick, librsvg-2.0, libqpdf")
+    string(APPEND DOTPOSE_PC_TOOLS_LIBS " -lceres -lglog -pthread")
 endif()
 
 # A header without its library would only fail when the user links.
 set(without)
-foreach(library IN ITEMS files tools)
-    string(TOUPPER ${library} upper)
-    if(NOT DOTPOSE_BUILD_${upper})
-        list(APPEND without PATTERN ${library} EXCLUDE)
-    endif()
-endforeach()
+if(NOT DOTPOSE_HAS_FILES)
+    list(APPEND without PATTERN files EXCLUDE)
+endif()
+if(NOT DOTPOSE_HAS_TOOL)
+    list(APPEND without PATTERN tools EXCLUDE)
+endif()
 install(DIRECTORY include/dotpose TYPE INCLUDE FILES_MATCHING PATTERN "*.hpp" ${without})
 
 if(TARGET dotpose_c)
@@ -29,14 +36,20 @@ if(TARGET dotpose_c)
 endif()
 
 # An export set each: who only wants the core must not need yaml-cpp, nor libpng, to be found.
-foreach(target IN ITEMS dotpose dotpose_c dotpose_files dotpose_tools)
-    if(TARGET ${target})
-        install(TARGETS ${target} EXPORT ${target}
-                ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-                LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-        install(EXPORT ${target} NAMESPACE dotpose:: DESTINATION ${config_dir}
-                FILE ${target}Targets.cmake)
-        string(REPLACE _ - pc_name ${target})
+set(libraries dotpose dotpose_c)
+list(TRANSFORM DOTPOSE_LIBRARIES PREPEND dotpose_ OUTPUT_VARIABLE libraries_of_parts)
+list(APPEND libraries ${libraries_of_parts})
+if(DOTPOSE_HAS_TOOL)
+    list(APPEND libraries dotpose_tools)
+endif()
+foreach(target IN LISTS libraries)
+    install(TARGETS ${target} EXPORT ${target}
+            ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+            LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+    install(EXPORT ${target} NAMESPACE dotpose:: DESTINATION ${config_dir}
+            FILE ${target}Targets.cmake)
+    string(REPLACE _ - pc_name ${target})
+    if(EXISTS ${PROJECT_SOURCE_DIR}/cmake/${pc_name}.pc.in)
         configure_file(cmake/${pc_name}.pc.in ${pc_name}.pc @ONLY)
         install(FILES ${PROJECT_BINARY_DIR}/${pc_name}.pc
                 DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
@@ -58,6 +71,18 @@ install(DIRECTORY examples TYPE DOC FILES_MATCHING PATTERN "*.cpp")
 install(FILES wrappers/c/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/wrappers/c)
 install(DIRECTORY wrappers/c/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}/wrappers/c)
 
+set(DOTPOSE_PRINT_NEEDS)
+if(DOTPOSE_HAS_TIFF)
+    string(APPEND DOTPOSE_PRINT_NEEDS " TIFF")
+endif()
+if(DOTPOSE_HAS_PDF)
+    string(APPEND DOTPOSE_PRINT_NEEDS " Qpdf=libqpdf")
+endif()
+list(REMOVE_ITEM DOTPOSE_LIBRARIES base)
+list(JOIN DOTPOSE_LIBRARIES " " DOTPOSE_COMPONENTS)
+if(DOTPOSE_HAS_TOOL)
+    string(APPEND DOTPOSE_COMPONENTS " tools")
+endif()
 configure_package_config_file(cmake/dotposeConfig.cmake.in dotposeConfig.cmake
                               INSTALL_DESTINATION ${config_dir})
 write_basic_package_version_file(dotposeConfigVersion.cmake COMPATIBILITY SameMinorVersion)

@@ -1,16 +1,12 @@
-# dotpose_layer(NAME [PURE] [SOURCES file...] [USES target...] [HEADERS header...])
+# dotpose_layer(NAME [PURE] [SOURCES file...] [EXCEPT file...] [USES target...])
 #
 # One directory of src/ is one layer and one object library dotpose_NAME_layer. The layers are put together
-# into the installed libraries in src/CMakeLists.txt. A directory without sources gives no target. SOURCES:
-# these only, and not all of the directory.
+# into the installed libraries in src/CMakeLists.txt. SOURCES: these only, and not all of the directory;
+# EXCEPT: all but these.
 # PURE: may use no heap, exceptions, RTTI or dependency (scripts/check-core-symbols proves it).
-# HEADERS: see dotpose_precompile.
 function(dotpose_layer name)
-    cmake_parse_arguments(PARSE_ARGV 1 arg "PURE" "" "SOURCES;USES;HEADERS")
+    cmake_parse_arguments(PARSE_ARGV 1 arg "PURE" "" "SOURCES;EXCEPT;USES")
     dotpose_sources(sources)
-    if(NOT sources)
-        return()
-    endif()
     set(target dotpose_${name}_layer)
     add_library(${target} OBJECT ${sources})
     target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/include
@@ -35,27 +31,25 @@ function(dotpose_layer name)
             target_compile_options(${target} PRIVATE -fno-sanitize-coverage=trace-cmp)
         endif()
     else()
-        dotpose_precompile(${target} ${arg_HEADERS})
         dotpose_allow_promotion(${target})
     endif()
 endfunction()
 
 # dotpose_library(NAME LAYERS layer... [PUBLIC target...] [PRIVATE target...]): the installed library
-# NAME, exported under dotpose::, a shared one with BUILD_SHARED_LIBS. NAME_inside is what the
-# project's own programs link, which look inside: static, as a shared library hides its internals.
+# NAME, a shared one with BUILD_SHARED_LIBS. Users know dotpose_print as dotpose::print, in this tree and
+# installed. NAME_inside is what the project's own programs link, which look inside: static, as a shared
+# library hides its internals.
 function(dotpose_library name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LAYERS;PUBLIC;PRIVATE")
     set(objects)
     foreach(layer IN LISTS arg_LAYERS)
-        if(TARGET dotpose_${layer}_layer)
-            list(APPEND objects $<TARGET_OBJECTS:dotpose_${layer}_layer>)
-        endif()
+        list(APPEND objects $<TARGET_OBJECTS:dotpose_${layer}_layer>)
     endforeach()
-    if(NOT objects)
-        return()
-    endif()
     add_library(${name} ${objects})
     dotpose_set_up_library(${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+    string(REGEX REPLACE "^dotpose_" "" short ${name})
+    add_library(dotpose::${short} ALIAS ${name})
+    set_target_properties(${name} PROPERTIES EXPORT_NAME ${short})
     if(BUILD_SHARED_LIBS)
         set_target_properties(${name} PROPERTIES
             VERSION ${DOTPOSE_INTERFACE}.${PROJECT_VERSION}
@@ -89,17 +83,14 @@ macro(dotpose_sources result)
     endif()
 endmacro()
 
-# dotpose_program(NAME [LIGHT] [SOURCES file...] [EXCEPT file...] [USES target...] [HEADERS header...]): one
-# program from the sources named, or from all of the directory but some. LIGHT: see dotpose_compile_light.
-# HEADERS: see dotpose_precompile.
+# dotpose_program(NAME [LIGHT] [SOURCES file...] [EXCEPT file...] [LIBRARIES part...] [USES target...]
+# [HEADERS header...]): one program from the sources named, or from all of the directory but some. LIGHT: see
+# dotpose_compile_light. LIBRARIES: see dotpose_use_internals. HEADERS: see dotpose_precompile.
 function(dotpose_program name)
-    cmake_parse_arguments(PARSE_ARGV 1 arg "LIGHT" "" "SOURCES;EXCEPT;USES;HEADERS")
+    cmake_parse_arguments(PARSE_ARGV 1 arg "LIGHT" "" "SOURCES;EXCEPT;LIBRARIES;USES;HEADERS")
     dotpose_sources(sources)
-    if(NOT sources)
-        return()
-    endif()
     add_executable(${name} ${sources})
-    dotpose_use_internals(${name})
+    dotpose_use_internals(${name} ${arg_LIBRARIES})
     if(arg_LIGHT OR DOTPOSE_SANITIZE)
         dotpose_compile_light(${name})
     endif()
@@ -145,12 +136,18 @@ function(dotpose_compile_light target)
     endif()
 endfunction()
 
-# Tests, benchmarks and the tool may look inside: they see src/ as well as include/.
+# dotpose_use_internals(TARGET [LIBRARY...]): tests, benchmarks and the tool may look inside: they see src/ as
+# well as include/. They link the libraries of the parts named; without any, those of all parts.
 function(dotpose_use_internals name)
     target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/include
                                                ${PROJECT_SOURCE_DIR}/src)
-    target_link_libraries(${name} PRIVATE $<TARGET_NAME_IF_EXISTS:dotpose_tools_inside>
-                                          $<TARGET_NAME_IF_EXISTS:dotpose_inside>)
+    if(ARGN)
+        list(TRANSFORM ARGN REPLACE "(.+)" "dotpose_\\1_inside" OUTPUT_VARIABLE libraries)
+        target_link_libraries(${name} PRIVATE ${libraries})
+    else()
+        target_link_libraries(${name} PRIVATE $<TARGET_NAME_IF_EXISTS:dotpose_tools_inside>)
+    endif()
+    target_link_libraries(${name} PRIVATE dotpose_inside)
     dotpose_allow_promotion(${name})
 endfunction()
 

@@ -8,14 +8,12 @@
 #include <memory>
 #include <numbers>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <fmt/core.h>
 
 #include <dotpose/tools/draw.hpp>
 #include <dotpose/tools/heap_locator.hpp>
-#include <dotpose/tools/image_file.hpp>
 #include <dotpose/tools/print.hpp>
 #include <dotpose/tools/simulate.hpp>
 
@@ -27,26 +25,6 @@ using namespace dotpose;
 constexpr int kFrames = 500;
 constexpr int kPicturedFrames[] = {0, 140, 320};
 constexpr std::uint64_t kSeed = 1;
-
-struct Arguments {
-    fs::path out = "demo-out";
-    fs::path photo = "../shared/real/photo.pgm";
-};
-
-Arguments parse(int argc, char** argv) {
-    Arguments arguments;
-    for (int i = 1; i < argc; ++i) {
-        const std::string_view argument = argv[i];
-        if (argument == "--photo" && i + 1 < argc) {
-            arguments.photo = argv[++i];
-        } else if (argument.starts_with('-')) {
-            throw BadArgument("usage: dotpose_demo [--photo IMAGE] [FOLDER]");
-        } else {
-            arguments.out = argument;
-        }
-    }
-    return arguments;
-}
 
 Sheet print_sheet(const fs::path& folder) {
     SheetOptions options;
@@ -184,45 +162,34 @@ void print_table(const Drive& drive) {
                1e6 / median(drive.times_us));
 }
 
-void locate_photo(const fs::path& photo, const fs::path& folder, Locator& locator) {
-    if (!fs::exists(photo)) {
-        fmt::print("{}: not there, so the real photo is skipped (--photo names one)\n",
-                   photo.string());
-        return;
-    }
-    const GreyImage image = read_image(photo);
-    const Fix fix = locator.locate(image.view());
-    const fs::path picture = folder / "photo.svg";
-    draw_frame(picture, image.view(), locator.trace(), {.title = "a real photo"});
-    fmt::print("{}: {}", picture.string(), message(fix.status));
-    if (fix.status == Status::ok) {
-        fmt::print(" at x {:.3f} mm, y {:.3f} mm, {:.3f} deg", fix.x_mm(), fix.y_mm(),
-                   fix.theta_rad() * 180 / std::numbers::pi);
-    }
-    fmt::print("\n");
-}
-
 /// Runs the demo. Returns whether nearly all frames were located and none of them wrongly.
-bool run(const Arguments& arguments) {
-    fs::create_directories(arguments.out);
+bool run(const fs::path& folder) {
+    fs::create_directories(folder);
     Options options;
     options.show_stages = true;
     HeapLocator locator(options);
-    const Sheet sheet = print_sheet(arguments.out);
-    const Drive drive = drive_over(sheet, arguments.out, locator);
-    const fs::path picture = arguments.out / "path.svg";
+    const Sheet sheet = print_sheet(folder);
+    const Drive drive = drive_over(sheet, folder, locator);
+    const fs::path picture = folder / "path.svg";
     draw_path(picture, sheet, drive.path, "A simulated drive over an A4 sheet");
     fmt::print("{}: the drive and its errors\n", picture.string());
     print_table(drive);
-    locate_photo(arguments.photo, arguments.out, locator);
+    fmt::print("Look at the pictures in {}/. What next:\n"
+               "  make         builds the whole tool, build/release/bin/dotpose; start with docs/start.md\n"
+               "  make web     builds the page: a simulated camera in the browser, and your own\n",
+               folder.string());
     return drive.wrong_fixes == 0 && drive.lost <= kFrames / 100;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+    if (argc > 2) {
+        std::fputs("usage: dotpose_demo [FOLDER]\n", stderr);
+        return 2;
+    }
     try {
-        return run(parse(argc, argv)) ? 0 : 1;
+        return run(argc == 2 ? argv[1] : "demo-out") ? 0 : 1;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "dotpose_demo: %s\n", error.what());
         return 1;

@@ -1,10 +1,10 @@
 // Reports the budget of the firmware from the files that firmware/budget has written to FOLDER.
 //
-//   dotpose_budget [--update] [--all] DOCUMENT FOLDER
+//   dotpose_budget [--update] [--all | --quick] DOCUMENT FOLDER
 //
 // Prints a line `TARGET PRESET median=N worst=N ram=N code=N` for each run, and tables; `median`
 // and `worst` are instructions per frame, `ram` and `code` bytes. With --all, also the table of all
-// sizes and cores. With --update, the tables replace the generated parts of the document. Without
+// sizes and cores; with --quick, only the first core. With --update, the tables replace the generated parts of the document. Without
 // it, the exit status is 1 if any figure is more than 3 % above that of the document.
 #include <algorithm>
 #include <array>
@@ -151,17 +151,19 @@ bool keeps_budget(const fs::path& path, const std::vector<Run>& runs) {
 struct Wanted {
     bool is_update = false;
     bool has_all_sizes = false;
+    bool is_quick = false;
 };
 
 /// Prints the report or updates the document. Returns whether the budget is kept.
 bool report(const Wanted& wanted, const fs::path& document, const fs::path& folder) {
     std::vector<Run> runs;
-    for (const Target& target : kTargets) {
+    for (const Target& target : std::span(kTargets).first(wanted.is_quick ? 1 : kTargets.size())) {
         for (const char* preset : kPresets)
             runs.push_back(read_run(folder, target, preset));
     }
     for (const Run& run : runs)
         fmt::print("{}\n", line_of(run));
+    if (wanted.is_quick) return keeps_budget(document, runs);
     Blocks blocks = {{"budget", summary(runs)},
                      {"located", located(folder)},
                      {"stages", stage_tables(runs)},
@@ -187,9 +189,9 @@ bool report(const Wanted& wanted, const fs::path& document, const fs::path& fold
 int main(int argc, char** argv) {
     std::vector<std::string> arguments(argv + 1, argv + argc);
     const auto take = [&](const char* option) { return std::erase(arguments, option) > 0; };
-    const Wanted wanted{take("--update"), take("--all")};
-    if (arguments.size() != 2 || arguments[0].starts_with('-')) {
-        fmt::print(stderr, "usage: dotpose_budget [--update] [--all] DOCUMENT FOLDER\n");
+    const Wanted wanted{take("--update"), take("--all"), take("--quick")};
+    if ((wanted.is_quick && (wanted.is_update || wanted.has_all_sizes)) || arguments.size() != 2 || arguments[0].starts_with('-')) {
+        fmt::print(stderr, "usage: dotpose_budget [--update] [--all | --quick] DOCUMENT FOLDER\n");
         return 2;
     }
     try {

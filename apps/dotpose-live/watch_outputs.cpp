@@ -11,7 +11,7 @@
 
 #include "dotpose/files/error.hpp"
 #include "dotpose/pose_packet.hpp"
-#include "files/output_file.hpp"
+#include "base/output_file.hpp"
 #include "panel_text.hpp"
 #include "reading_fields.hpp"
 #include "robot_state.hpp"
@@ -105,7 +105,7 @@ WatchOutputs::WatchOutputs(const OutputOptions& options, const Follower& followe
       screen_(options.screen),
       begun_(std::chrono::steady_clock::now()) {
     for (const std::string& late : {options.map, options.screen.record}) {
-        if (!late.empty()) files::require_writable(late);
+        if (!late.empty()) base::require_writable(late);
     }
     const bool has_sheets = !follower.sheets().empty();
     if (options.lines.format == RecordFormat::csv) {
@@ -194,7 +194,7 @@ void WatchOutputs::finish() {
              newest_.is_lost ? std::nullopt : std::optional(newest_.pose.theta_rad()),
              newest_.is_lost});
     }
-    files::OutputFile file(options_.map);
+    base::OutputFile file(options_.map);
     file.write(draw::draw_map(map));
     file.commit();
 }

@@ -17,7 +17,7 @@
 #include "common.hpp"
 #include "dotpose/files/camera_file.hpp"
 #include "dotpose/tools/draw.hpp"
-#include "files/output_file.hpp"
+#include "base/output_file.hpp"
 #include "live_calibration.hpp"
 #include "old_spellings.hpp"
 #include "output_arguments.hpp"
@@ -229,7 +229,7 @@ int run(const CalibrateArguments& arguments) {
     Series series = series_of(arguments);
     require_apart(arguments, series);
     // Nobody should move a camera for minutes in vain.
-    if (arguments.is_live && !arguments.out.empty()) files::require_writable(arguments.out);
+    if (arguments.is_live && !arguments.out.empty()) base::require_writable(arguments.out);
     catch_interrupts();
     const std::string report =
         arguments.stitch ? stitch(arguments, *series.lens) : calibrate_camera(arguments, series);

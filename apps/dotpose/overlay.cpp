@@ -10,7 +10,7 @@
 
 #include "commands.hpp"
 #include "common.hpp"
-#include "files/output_file.hpp"
+#include "base/output_file.hpp"
 #include "output_arguments.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"
@@ -68,7 +68,7 @@ void run(OverlayArguments& arguments) {
     catch_interrupts();
     std::optional<SheetReservation> reservation;
     if (arguments.entries.given()) {
-        if (arguments.out != kStandardOutput) files::require_writable(arguments.out);
+        if (arguments.out != kStandardOutput) base::require_writable(arguments.out);
         options.place = [&](std::span<OverlaidPage> pages) {
             const auto enter_all = [&](SheetFile& file) {
                 for (auto& [number, sheet] : pages)

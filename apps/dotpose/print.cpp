@@ -13,7 +13,7 @@
 #include "commands.hpp"
 #include "common.hpp"
 #include "dotpose/tools/test_page.hpp"
-#include "files/output_file.hpp"
+#include "base/output_file.hpp"
 #include "output_arguments.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"
@@ -154,7 +154,7 @@ void run(const PrintArguments& arguments) {
     const SheetPrint print = print_of(arguments);
     std::optional<SheetReservation> reservation;
     if (arguments.entries.given()) {
-        if (arguments.out != kStandardOutput) files::require_writable(arguments.out);
+        if (arguments.out != kStandardOutput) base::require_writable(arguments.out);
         catch_interrupts();
         const auto enter_all = [&](SheetFile& file) {
             for (std::size_t i = 0; i < sheets.size(); ++i)

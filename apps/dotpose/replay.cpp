@@ -7,7 +7,7 @@
 
 #include "commands.hpp"
 #include "dotpose/files/error.hpp"
-#include "files/output_file.hpp"
+#include "base/output_file.hpp"
 #include "log_updates.hpp"
 #include "output_arguments.hpp"
 #include "print/lower_case.hpp"
@@ -108,7 +108,7 @@ void run(const ReplayArguments& arguments) {
     files.writes("-o", arguments.report.out,
                  is_recording(arguments.report.out) ? Content::mcap : content_of(arguments.report));
     files.writes("--draw", arguments.picture, Content::svg);
-    if (!arguments.picture.empty()) files::require_writable(arguments.picture);
+    if (!arguments.picture.empty()) base::require_writable(arguments.picture);
     const auto rows = read_log(arguments.log);
     const RunStatistics statistics = statistics_of(rows);
     ReportArguments report = arguments.report;
@@ -118,7 +118,7 @@ void run(const ReplayArguments& arguments) {
     }
     write_report(report, report.as_json ? json_report(statistics) : text_report(statistics));
     if (arguments.picture.empty()) return;
-    files::OutputFile file(arguments.picture);
+    base::OutputFile file(arguments.picture);
     file.write(draw_run(rows, std::filesystem::path(arguments.log).filename().string()));
     file.commit();
 }

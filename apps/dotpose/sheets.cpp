@@ -11,7 +11,7 @@
 #include "common.hpp"
 #include "dotpose/files/sheet_file.hpp"
 #include "dotpose/tools/draw.hpp"
-#include "files/output_file.hpp"
+#include "base/output_file.hpp"
 #include "output_arguments.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"
@@ -135,7 +135,7 @@ void draw_map(const SheetsArguments& arguments) {
     files.writes("-o", arguments.out, Content::svg);
     const std::vector<SheetEntry> sheets = sheets_of(arguments);
     const DocumentOutput output(arguments.out, ".svg");
-    files::require_writable(output.path());
+    base::require_writable(output.path());
     draw_sheets(output.path(), sheets);
     output.finish();
 }

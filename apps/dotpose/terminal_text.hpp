@@ -5,12 +5,12 @@
 #include <string>
 #include <string_view>
 
-#include "files/printable.hpp"
+#include "base/printable.hpp"
 
 namespace dotpose::cli {
 
-using files::printable;
-using files::with_escaped_controls;
+using base::printable;
+using base::with_escaped_controls;
 
 /// Writes "dotpose: MESSAGE" to standard error, as one printable line.
 void tell(std::string_view message);

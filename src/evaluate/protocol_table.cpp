@@ -5,7 +5,7 @@
 #include <fmt/core.h>
 
 #include "dotpose/tools/draw.hpp"
-#include "draw/raster.hpp"
+#include "evaluate/raster.hpp"
 #include "draw/svg.hpp"
 #include "evaluate/protocol.hpp"
 

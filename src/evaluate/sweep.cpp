@@ -10,7 +10,7 @@
 
 #include "dotpose/tools/draw.hpp"
 #include "dotpose/tools/option_names.hpp"
-#include "draw/raster.hpp"
+#include "evaluate/raster.hpp"
 #include "draw/svg.hpp"
 
 namespace dotpose {

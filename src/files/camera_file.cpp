@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include "files/output_file.hpp"
+#include "base/output_file.hpp"
 #include "files/ros_camera.hpp"
 #include "files/yaml_reader.hpp"
 
@@ -141,7 +141,7 @@ bool is_camera_info(const std::filesystem::path& path) {
 
 void write_camera(const std::filesystem::path& path, const Camera& camera) {
     validate(camera);
-    files::OutputFile file(path);
+    base::OutputFile file(path);
     file.write(yaml_of(camera));
     file.require_good();
     file.commit();

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "dotpose/files/error.hpp"
-#include "files/system_error.hpp"
+#include "base/system_error.hpp"
 
 namespace dotpose::files {
 namespace fs = std::filesystem;
@@ -18,7 +18,7 @@ std::optional<std::string> text_of(const fs::path& path, std::size_t most) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (status.type() == fs::file_type::not_found) return std::nullopt;
-    if (fs::is_directory(status)) throw_system("read", path, EISDIR);
+    if (fs::is_directory(status)) base::throw_system("read", path, EISDIR);
     errno = 0;
     std::ifstream stream(path, std::ios::binary);
     std::string text;
@@ -29,7 +29,7 @@ std::optional<std::string> text_of(const fs::path& path, std::size_t most) {
             throw Error(fmt::format("{} has more than {} MB", path.string(), most >> 20));
         }
     }
-    if (!stream.is_open() || stream.bad()) throw_system("read", path, errno != 0 ? errno : EIO);
+    if (!stream.is_open() || stream.bad()) base::throw_system("read", path, errno != 0 ? errno : EIO);
     return text;
 }
 

@@ -13,14 +13,14 @@
 #include <unistd.h>
 
 #include "files/input_file.hpp"
-#include "files/output_file.hpp"
+#include "base/output_file.hpp"
 #include "files/sheet_json.hpp"
 #include "files/sheet_list.hpp"
-#include "files/system_error.hpp"
+#include "base/system_error.hpp"
 
 namespace dotpose {
 namespace fs = std::filesystem;
-using files::throw_system;
+using base::throw_system;
 namespace {
 
 /// Largest sheet file that is read; it holds about 100,000 sheets.
@@ -111,7 +111,7 @@ SheetFile::Lock::~Lock() {
 
 // Links are followed first, so that all names of a file lead to the same lock.
 SheetFile::SheetFile(const fs::path& path, const SheetFileWait& wait)
-    : path_(files::without_links(path)), lock_(path_, wait), text_(text_of(path_)) {
+    : path_(base::without_links(path)), lock_(path_, wait), text_(text_of(path_)) {
     if (text_) sheets_ = files::sheets_from_json(*text_, path_.string());
 }
 
@@ -175,7 +175,7 @@ void SheetFile::save() {
                                 path_.string()));
     }
     std::string text = files::json_from_sheets(sheets_, text_, names_in_text_);
-    files::OutputFile file(path_);
+    base::OutputFile file(path_);
     file.write(text);
     file.commit();
     text_ = std::move(text);

@@ -9,7 +9,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include "files/printable.hpp"
+#include "base/printable.hpp"
 
 namespace dotpose {
 namespace {
@@ -44,7 +44,7 @@ void validate_name(const std::string& name) {
     } catch (const nlohmann::json::exception&) {
         throw BadArgument("the name of a sheet must be text in UTF-8");
     }
-    if (files::printable(name) != name) {
+    if (base::printable(name) != name) {
         throw BadArgument(
             "the name of a sheet may not contain control characters, nor such as break the line "
             "or turn the direction of writing");

@@ -5,7 +5,7 @@
 #include <fmt/core.h>
 
 #include "dotpose/files/sheet_file.hpp"
-#include "files/output_file.hpp"
+#include "base/output_file.hpp"
 
 namespace dotpose {
 namespace fs = std::filesystem;
@@ -84,7 +84,7 @@ void SheetReservation::release() {
             fs::remove(file.path_);
             return;
         }
-        files::OutputFile old(file.path_);
+        base::OutputFile old(file.path_);
         old.write(*text_before_);
         old.commit();
         return;

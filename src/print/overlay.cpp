@@ -183,7 +183,7 @@ class Overlay {
     }
 
     void write(const fs::path& out) {
-        files::OutputFile file(out);
+        base::OutputFile file(out);
         print::write_document(pdf_, *rows_, file);
         for (const std::string& fault : small_faults(pdf_, in_))
             report_.warnings.push_back("the document had a fault that was mended: " + fault);

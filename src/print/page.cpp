@@ -98,7 +98,7 @@ void validate(const PrintPage& page) {
 }
 
 void write_raster(const PrintPage& page, PrintFormat format, const PrintOptions& options,
-                  files::OutputFile& file) {
+                  base::OutputFile& file) {
     const print::RasterSize size = print::raster_size(page.sheets.front(), options.dpi);
     Bitmap bitmap(size);
     int sheets_done = 0;
@@ -146,7 +146,7 @@ void write_page(const PrintPage& page, const std::filesystem::path& path,
         for (const Sheet& sheet : page.sheets)
             validate_resolution(sheet, options.dpi);
     }
-    files::OutputFile file(path);
+    base::OutputFile file(path);
     if (format == PrintFormat::svg) {
         print::write_svg_page(page, options.progress, file);
     } else if (format == PrintFormat::pdf) {

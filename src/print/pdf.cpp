@@ -44,7 +44,7 @@ void set_information(QPDF& pdf, const std::string& title) {
 }  // namespace
 
 void write_pdf(std::span<const Sheet> sheets, const PrintOptions& options,
-               files::OutputFile& file) {
+               base::OutputFile& file) {
     QPDF pdf;
     pdf.emptyPDF();
     const auto rows = std::make_shared<RowCount>();
@@ -79,7 +79,7 @@ void write_pdf(std::span<const Sheet> sheets, const PrintOptions& options,
     write_document(pdf, *rows, file);
 }
 
-void write_pdf_page(const PrintPage& page, const PrintOptions& options, files::OutputFile& file) {
+void write_pdf_page(const PrintPage& page, const PrintOptions& options, base::OutputFile& file) {
     QPDF pdf;
     pdf.emptyPDF();
     const auto rows = std::make_shared<RowCount>();

@@ -18,7 +18,7 @@ void keep_packed(QPDF& pdf) {
 
 }  // namespace
 
-void write_document(QPDF& pdf, const RowCount& rows, files::OutputFile& file) {
+void write_document(QPDF& pdf, const RowCount& rows, base::OutputFile& file) {
     FilePipeline out(file);
     try {
         keep_packed(pdf);

@@ -4,14 +4,14 @@
 #include <qpdf/Pipeline.hh>
 #include <qpdf/QPDF.hh>
 
-#include "files/output_file.hpp"
+#include "base/output_file.hpp"
 #include "pdf_dots.hpp"
 
 namespace dotpose::print {
 
 class FilePipeline : public Pipeline {
   public:
-    explicit FilePipeline(files::OutputFile& file)
+    explicit FilePipeline(base::OutputFile& file)
         : Pipeline("output file", nullptr), file_(file) {}
 
     void write(unsigned char const* data, std::size_t size_bytes) override {
@@ -21,11 +21,11 @@ class FilePipeline : public Pipeline {
     void finish() override {}
 
   private:
-    files::OutputFile& file_;
+    base::OutputFile& file_;
 };
 
 /// Writes `pdf` into `file` and leaves the commit to the caller. Throws the exception that `rows`
 /// keeps, or Error if the file cannot be written or qpdf fails.
-void write_document(QPDF& pdf, const RowCount& rows, files::OutputFile& file);
+void write_document(QPDF& pdf, const RowCount& rows, base::OutputFile& file);
 
 }  // namespace dotpose::print

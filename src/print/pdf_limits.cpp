@@ -15,7 +15,7 @@
 #include <qpdf/QPDFXRefEntry.hh>
 
 #include "dotpose/files/error.hpp"
-#include "files/system_error.hpp"
+#include "base/system_error.hpp"
 
 namespace dotpose::print {
 namespace {
@@ -140,7 +140,7 @@ void require_shallow_page_tree(QPDF& pdf) {
 std::shared_ptr<InputSource> open_pdf(const std::filesystem::path& path) {
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(path, error);
-    if (std::filesystem::is_directory(status)) files::throw_system("read", path, EISDIR);
+    if (std::filesystem::is_directory(status)) base::throw_system("read", path, EISDIR);
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
         throw Error(
             fmt::format("cannot read {}: a PDF is read from its end, which pipes and "

@@ -18,7 +18,7 @@ constexpr int kCompressionLevel = 4;
 /// with no object in its scope that has a destructor.
 class PngWriter {
   public:
-    explicit PngWriter(files::OutputFile& file) {
+    explicit PngWriter(base::OutputFile& file) {
         png_ = png_create_write_struct(PNG_LIBPNG_VER_STRING, this, on_error, on_warning);
         info_ = png_ != nullptr ? png_create_info_struct(png_) : nullptr;
         if (info_ == nullptr) {
@@ -65,7 +65,7 @@ class PngWriter {
     }
     static void on_warning(png_structp, png_const_charp) {}
     static void on_write(png_structp png, png_bytep data, png_size_t size_bytes) {
-        static_cast<files::OutputFile*>(png_get_io_ptr(png))->write(data, size_bytes);
+        static_cast<base::OutputFile*>(png_get_io_ptr(png))->write(data, size_bytes);
     }
     static void on_flush(png_structp) {}
 
@@ -76,7 +76,7 @@ class PngWriter {
 
 }  // namespace
 
-void write_png(RasterSize size, double dpi, const RowSource& rows, files::OutputFile& file) {
+void write_png(RasterSize size, double dpi, const RowSource& rows, base::OutputFile& file) {
     PngWriter png(file);
     png.begin(size, dpi);
     rows([&](std::span<const std::uint8_t> bits) {

@@ -5,7 +5,7 @@
 #include <fmt/core.h>
 
 #include "dotpose/tools/print.hpp"
-#include "files/sheet_checks.hpp"
+#include "base/sheet_checks.hpp"
 #include "geometry.hpp"
 #include "regions.hpp"
 
@@ -17,21 +17,21 @@ constexpr double kPixelAt300Dpi_mm = print::kInch_mm / 300;
 /// Returns the first position at or after `mm` at which a dot fills whole printer pixels at 300
 /// dpi.
 double snap_up_mm(double mm) {
-    return (std::ceil((mm - files::kTolerance_mm) / kPixelAt300Dpi_mm - 0.5) + 0.5) *
+    return (std::ceil((mm - base::kTolerance_mm) / kPixelAt300Dpi_mm - 0.5) + 0.5) *
            kPixelAt300Dpi_mm;
 }
 
 /// Number of intersections from `first_mm` to `last_mm`, both included.
 double count_between(double first_mm, double last_mm, double spacing_mm) {
-    return std::floor((last_mm - first_mm + files::kTolerance_mm) / spacing_mm) + 1;
+    return std::floor((last_mm - first_mm + base::kTolerance_mm) / spacing_mm) + 1;
 }
 
 }  // namespace
 
 Sheet make_sheet(const SheetOptions& options) {
     const auto& [pattern, origin, paper, margin_mm] = options;
-    files::validate_paper(paper.width_mm, paper.height_mm);
-    files::validate_pattern(pattern);
+    base::validate_paper(paper.width_mm, paper.height_mm);
+    base::validate_pattern(pattern);
     if (!(std::isfinite(margin_mm) && margin_mm >= 0)) {
         throw BadArgument(fmt::format("the margin must be 0 mm or more, not {:g}", margin_mm));
     }
@@ -45,8 +45,8 @@ Sheet make_sheet(const SheetOptions& options) {
     const double first_mm = snap_up_mm(clear_mm);
     const double columns = count_between(first_mm, paper.width_mm - clear_mm, pattern.spacing_mm);
     const double rows = count_between(first_mm, paper.height_mm - clear_mm, pattern.spacing_mm);
-    files::validate_region("columns", 'x', origin.x, columns);
-    files::validate_region("rows", 'y', origin.y, rows);
+    base::validate_region("columns", 'x', origin.x, columns);
+    base::validate_region("rows", 'y', origin.y, rows);
 
     Sheet sheet;
     sheet.pattern = pattern;
@@ -69,8 +69,8 @@ std::vector<Sheet> make_sheets(const SheetOptions& options, int pages) {
     print::Regions regions(options.origin);
     for (Sheet& sheet : sheets) {
         sheet.origin = regions.take(sheet.columns, sheet.rows);
-        files::validate_region("columns", 'x', sheet.origin.x, sheet.columns);
-        files::validate_region("rows", 'y', sheet.origin.y, sheet.rows);
+        base::validate_region("columns", 'x', sheet.origin.x, sheet.columns);
+        base::validate_region("rows", 'y', sheet.origin.y, sheet.rows);
     }
     return sheets;
 }

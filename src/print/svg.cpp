@@ -34,7 +34,7 @@ std::string head(double width_mm, double height_mm, const std::string& title) {
 /// Writes one path per row of dots. A dot is a line of length zero with round ends, which draws a
 /// circle and takes a dozen bytes.
 void write_dots(const Sheet& sheet, const std::function<void(int)>& row_done,
-                files::ByteSink& file) {
+                base::ByteSink& file) {
     SymbolRows symbols(sheet);
     file.write(
         fmt::format("<g fill=\"none\" stroke=\"#000\" stroke-width=\"{}\" "
@@ -65,7 +65,7 @@ void write_dots(const Sheet& sheet, const std::function<void(int)>& row_done,
 
 }  // namespace
 
-void write_svg(const Sheet& sheet, const Progress& progress, files::ByteSink& file) {
+void write_svg(const Sheet& sheet, const Progress& progress, base::ByteSink& file) {
     const Pattern& pattern = sheet.pattern;
     file.write(head(sheet.width_mm, sheet.height_mm,
                     fmt::format("Position code: {} x {} cells from ({}, {}), section ({}, {}), "
@@ -77,7 +77,7 @@ void write_svg(const Sheet& sheet, const Progress& progress, files::ByteSink& fi
     file.write("</svg>\n");
 }
 
-void write_svg_page(const PrintPage& page, const Progress& progress, files::ByteSink& file) {
+void write_svg_page(const PrintPage& page, const Progress& progress, base::ByteSink& file) {
     file.write(head(page.width_mm, page.height_mm,
                     fmt::format("Position code: {} regions", page.sheets.size())));
     for (const InkRectangle& mark : page.marks) {

@@ -5,7 +5,7 @@
 
 namespace dotpose::print {
 
-void write_text(const Sheet& sheet, const Progress& progress, files::OutputFile& file) {
+void write_text(const Sheet& sheet, const Progress& progress, base::OutputFile& file) {
     SymbolRows symbols(sheet);
     std::string line;
     for (int j = 0; j < sheet.rows; ++j) {

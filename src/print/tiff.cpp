@@ -14,13 +14,13 @@ constexpr std::uint32_t kRowsPerStrip = 64;
 
 // Every write succeeds for libtiff: OutputFile keeps the first failure and its reason.
 tmsize_t on_write(thandle_t handle, void* data, tmsize_t size_bytes) {
-    static_cast<files::OutputFile*>(handle)->write(data, static_cast<std::size_t>(size_bytes));
+    static_cast<base::OutputFile*>(handle)->write(data, static_cast<std::size_t>(size_bytes));
     return size_bytes;
 }
 toff_t on_seek(thandle_t handle, toff_t offset, int whence) {
     const auto signed_offset = static_cast<std::int64_t>(offset);
     return static_cast<toff_t>(
-        static_cast<files::OutputFile*>(handle)->seek(signed_offset, whence));
+        static_cast<base::OutputFile*>(handle)->seek(signed_offset, whence));
 }
 tmsize_t on_read(thandle_t, void*, tmsize_t) {
     return 0;
@@ -34,7 +34,7 @@ toff_t on_size(thandle_t) {
 
 using Tiff = std::unique_ptr<TIFF, decltype(&TIFFClose)>;
 
-Tiff open_tiff(RasterSize size, double dpi, files::OutputFile& file) {
+Tiff open_tiff(RasterSize size, double dpi, base::OutputFile& file) {
     const std::int64_t bytes = std::int64_t{size.width_px} * size.height_px / 8;
     Tiff tiff(TIFFClientOpen("sheet", bytes < kBigTiff_bytes ? "w" : "w8", &file, on_read, on_write,
                              on_seek, on_close, on_size, nullptr, nullptr),
@@ -56,7 +56,7 @@ Tiff open_tiff(RasterSize size, double dpi, files::OutputFile& file) {
 
 }  // namespace
 
-void write_tiff(RasterSize size, double dpi, const RowSource& rows, files::OutputFile& file) {
+void write_tiff(RasterSize size, double dpi, const RowSource& rows, base::OutputFile& file) {
     const Tiff tiff = open_tiff(size, dpi, file);
     std::vector<std::uint8_t> row;
     std::uint32_t row_index = 0;

@@ -4,7 +4,7 @@
 #include <fmt/core.h>
 
 #include "dotpose/tools/print.hpp"
-#include "files/output_file.hpp"
+#include "base/output_file.hpp"
 #include "lower_case.hpp"
 #include "writers.hpp"
 
@@ -40,7 +40,7 @@ void write_sheets(std::span<const Sheet> sheets, const std::filesystem::path& pa
         }
     }
     const Sheet& sheet = sheets.front();
-    files::OutputFile file(path);
+    base::OutputFile file(path);
     const auto rows = [&](const print::RowSink& sink) {
         print::rasterize(sheet, options.dpi, options.progress, sink);
     };

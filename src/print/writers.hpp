@@ -5,22 +5,22 @@
 #include <span>
 
 #include "dotpose/tools/print.hpp"
-#include "files/output_file.hpp"
+#include "base/output_file.hpp"
 #include "raster.hpp"
 
 namespace dotpose::print {
 
-void write_text(const Sheet& sheet, const Progress& progress, files::OutputFile& file);
-void write_svg(const Sheet& sheet, const Progress& progress, files::ByteSink& file);
+void write_text(const Sheet& sheet, const Progress& progress, base::OutputFile& file);
+void write_svg(const Sheet& sheet, const Progress& progress, base::ByteSink& file);
 
 /// Calls a sink for all pixel rows of an image, from top to bottom.
 using RowSource = std::function<void(const RowSink&)>;
-void write_png(RasterSize size, double dpi, const RowSource& rows, files::OutputFile& file);
-void write_tiff(RasterSize size, double dpi, const RowSource& rows, files::OutputFile& file);
+void write_png(RasterSize size, double dpi, const RowSource& rows, base::OutputFile& file);
+void write_tiff(RasterSize size, double dpi, const RowSource& rows, base::OutputFile& file);
 
-void write_pdf(std::span<const Sheet> sheets, const PrintOptions& options, files::OutputFile& file);
-void write_pdf_page(const PrintPage& page, const PrintOptions& options, files::OutputFile& file);
-void write_svg_page(const PrintPage& page, const Progress& progress, files::ByteSink& file);
+void write_pdf(std::span<const Sheet> sheets, const PrintOptions& options, base::OutputFile& file);
+void write_pdf_page(const PrintPage& page, const PrintOptions& options, base::OutputFile& file);
+void write_svg_page(const PrintPage& page, const Progress& progress, base::ByteSink& file);
 
 /// Reports another finished row; throws Error if `progress` returns false.
 void report(const Progress& progress, int rows_done, int rows);

@@ -111,7 +111,7 @@ TEST_F(Completions, OfBashOfferValues) {
 }
 
 TEST_F(Completions, OfFish) {
-    if (!has("fish")) GTEST_SKIP() << "no fish; scripts/setup --packaging installs it";
+    if (!has("fish")) GTEST_SKIP() << "no fish; scripts/setup packaging installs it";
     const auto offers = [this](const std::string& line) {
         EXPECT_EQ(shell("HOME=$PWD fish --no-config -c 'source dotpose.fish; complete -C \"" +
                         line + "\"' | cut -f 1"),
@@ -131,7 +131,7 @@ TEST_F(Completions, OfFish) {
 }
 
 TEST_F(Completions, OfZsh) {
-    if (!has("zsh")) GTEST_SKIP() << "no zsh; scripts/setup --packaging installs it";
+    if (!has("zsh")) GTEST_SKIP() << "no zsh; scripts/setup packaging installs it";
     // What is typed and then completed is read back from a terminal.
     std::ofstream(directory_ / "try.zsh") << R"(
         zmodload zsh/zpty

@@ -13,6 +13,7 @@
 
 #include "../drive.hpp"
 #include "../json_schema.hpp"
+#include "../paths.hpp"
 #include "dotpose/pose_packet.hpp"
 #include "dotpose/tools/image_file.hpp"
 #include "locate_command.hpp"
@@ -99,7 +100,7 @@ class OutputLines : public ToolCommand {
     static constexpr int kFirst = 320;  ///< the robot is in a curve, at 300 mm/s
     const Drive drive_;
     const JsonSchema schema_{
-        json::parse(read_file(DOTPOSE_SOURCE_DIR "/docs/schema/lines-1.json"))};
+        json::parse(read_file(test::source_dir() + "/docs/schema/lines-1.json"))};
 };
 
 /// All commands that write lines, with what each option of their fields can be.

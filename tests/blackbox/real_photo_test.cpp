@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../paths.hpp"
 #include "dotpose/locate.hpp"
 #include "dotpose/tools/image_file.hpp"
 
@@ -37,7 +38,7 @@ GreyImage turned(const GreyImage& image) {
 class RealPhoto : public testing::TestWithParam<int> {};
 
 TEST_P(RealPhoto, is_located_whatever_way_it_is_turned) {
-    const fs::path path = fs::path(DOTPOSE_SOURCE_DIR) / "../shared/real/photo.pgm";
+    const fs::path path = fs::path(test::source_dir()) / "../shared/real/photo.pgm";
     if (!fs::exists(path)) GTEST_SKIP() << "no real photo: " << path << " does not exist";
     GreyImage image = read_image(path);
     for (int i = 0; i < GetParam(); ++i)

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../paths.hpp"
 #include "../shell.hpp"
 #include "../temporary_directory.hpp"
 
@@ -46,7 +47,7 @@ class ToolCommand : public testing::Test {
     int shell(const std::string& commands) {
         const fs::path errors = root_.path() / "errors";
         const ShellOutcome outcome =
-            run_shell("cd '" + directory_.string() + "' && T='" DOTPOSE_TOOL "' && { " + commands +
+            run_shell("cd '" + directory_.string() + "' && T='" + tool_path() + "' && { " + commands +
                       "; } 2>'" + errors.string() + "'");
         exit_code_ = outcome.exit_code;
         output_ = outcome.output;

@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -37,12 +38,20 @@ class WatchCommand : public ToolCommand {
         save_drive_sheets(directory_ / "sheets.json");
     }
 
-    /// Renders frames of the drive, as drive.raw.
+    /// Returns a frame of the drive, which is rendered once for all tests of the process.
+    static const GreyImage& frame(int index) {
+        static const Drive drive;
+        static const DriveCamera camera(kWidth, kHeight);
+        static std::map<int, GreyImage> frames;
+        const auto known = frames.find(index);
+        if (known != frames.end()) return known->second;
+        return frames.emplace(index, camera.frame(drive, index)).first->second;
+    }
+    /// Writes frames of the drive as drive.raw.
     void put_raw(int frames, int first = 0) {
-        const DriveCamera camera(kWidth, kHeight);
         std::ofstream raw(directory_ / "drive.raw", std::ios::binary);
         for (int i = 0; i < frames; ++i) {
-            const GreyImage image = camera.frame(drive_, first + i);
+            const GreyImage& image = frame(first + i);
             raw.write(reinterpret_cast<const char*>(image.pixels.data()),
                       static_cast<std::streamsize>(image.pixels.size()));
         }

@@ -16,6 +16,7 @@
 #include <gtest/gtest.h>
 
 #include "../drive.hpp"
+#include "../paths.hpp"
 #include "mqtt_fixture.hpp"
 #include "watched_fleet.hpp"
 
@@ -37,8 +38,8 @@ class FleetScale : public Mqtt {
     /// Publishes `states` of each robot, 20 per second, and returns when the broker has all.
     void publish(const Broker& broker, int robots, int states, int first = 0) {
         const ShellOutcome outcome = run_shell(fmt::format(
-            "'" DOTPOSE_FLEET_LOAD "' --port {} --robots {} --hz 20 --seconds {} --first {}",
-            broker.port(), robots, states / 20.0, first));
+            "'{}' --port {} --robots {} --hz 20 --seconds {} --first {}",
+            test::built("dotpose_fleet_load"), broker.port(), robots, states / 20.0, first));
         EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
     }
 
@@ -199,8 +200,7 @@ TEST_F(FleetScale, ARobotThatVanishesIsLost) {
     std::thread robot([&] {
         run_shell("cd '" + directory_.string() +
                   "' && mkfifo camera && { { cat frames; exec sleep 60; } > camera & "
-                  "echo $! > sender; '" DOTPOSE_TOOL
-                  "' watch - --size 188x120 --fps 200 "
+                  "echo $! > sender; '" + test::tool_path() + "' watch - --size 188x120 --fps 200 "
                   "--sheets table.json --robot anna --qos 1 --mqtt " +
                   broker.url() + " < camera > lines 2> told & echo $! > robot; wait; }");
     });

@@ -5,6 +5,7 @@
 #include <string>
 #include <thread>
 
+#include "../paths.hpp"
 #include "mqtt_fixture.hpp"
 
 namespace dotpose::test {
@@ -16,8 +17,7 @@ class WatchedFleet {
     WatchedFleet(const fs::path& directory, const std::string& arguments)
         : directory_(directory), thread_([directory, arguments] {
               run_shell("cd '" + directory.string() +
-                        "' && echo $$ > fleet.pid && exec '" DOTPOSE_TOOL
-                        "' fleet --draw fleet.svg --every 0.2 " +
+                        "' && echo $$ > fleet.pid && exec '" + tool_path() + "' fleet --draw fleet.svg --every 0.2 " +
                         arguments + " > table 2> news");
           }) {
         wait_until([this] { return fs::exists(directory_ / "fleet.svg"); });

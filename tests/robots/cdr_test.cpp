@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "../paths.hpp"
 #include "../temporary_directory.hpp"
 #include "dotpose/tools/ros_messages.hpp"
 #include "npm_readers.hpp"
@@ -25,7 +26,7 @@ std::string hex(const std::vector<std::uint8_t>& bytes) {
 
 /// Returns the bytes of a type that the other serialiser made, by golden.mjs.
 std::string golden(const std::string& wanted) {
-    std::ifstream file(DOTPOSE_SOURCE_DIR "/tests/robots/golden.txt");
+    std::ifstream file(test::source_dir() + "/tests/robots/golden.txt");
     std::string type;
     for (std::string bytes; file >> type >> bytes;)
         if (type == wanted) return bytes;
@@ -85,7 +86,7 @@ TEST(Cdr, CountsTheBytesOfATextAndItsEnd) {
 
 TEST(Cdr, GoldenBytesAreStillThoseOfTheOtherSerialiser) {
     DOTPOSE_NEEDS_NPM();
-    std::ifstream file(DOTPOSE_SOURCE_DIR "/tests/robots/golden.txt");
+    std::ifstream file(test::source_dir() + "/tests/robots/golden.txt");
     const std::string kept{std::istreambuf_iterator<char>(file), {}};
     EXPECT_EQ(run_node("golden.mjs").output, kept);
 }

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "../paths.hpp"
 #include "../shell.hpp"
 
 namespace dotpose::test {
@@ -16,7 +17,7 @@ namespace dotpose::test {
 /// or no network.
 inline std::string npm_folder() {
     static const ShellOutcome installed =
-        run_shell("'" DOTPOSE_SOURCE_DIR "/tests/robots/npm_packages' '" DOTPOSE_NPM_FOLDER "'");
+        run_shell("'" + source_dir() + "/tests/robots/npm_packages' '" DOTPOSE_NPM_FOLDER "'");
     return installed.exit_code == 0 ? DOTPOSE_NPM_FOLDER : "";
 }
 

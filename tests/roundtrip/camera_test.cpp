@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "../paths.hpp"
 #include "../temporary_directory.hpp"
 #include "dotpose/tools/image_file.hpp"
 #include "dotpose/tools/simulate.hpp"
@@ -67,7 +68,7 @@ class OverlaidBook : public testing::TestWithParam<Camera> {
         roff.close();
         in_directory(fmt::format("groff -P-p{}c,{}c -Tpdf book.roff > in.pdf", kPageHeight_mm / 10,
                                  kPageWidth_mm / 10));
-        const std::string tool = "'" DOTPOSE_TOOL "'";
+        const std::string tool = "'" + test::tool_path() + "'";
         in_directory(tool + " print -o a.svg --paper 60x80 --sheets sheets.json --name table");
         in_directory(tool + " overlay in.pdf -o out.pdf --sheets sheets.json --name book " +
                      GetParam().overlay_options);
@@ -117,7 +118,7 @@ TEST_P(OverlaidBook, is_located_on_the_right_page_in_the_right_place) {
     make_book();
     const std::vector<TakenFrame> taken = take_frames();
     std::istringstream lines(
-        in_directory("'" DOTPOSE_TOOL "' locate --sheets sheets.json --list list.txt"));
+        in_directory("'" + test::tool_path() + "' locate --sheets sheets.json --list list.txt"));
     int found = 0;
     double largest_mm = 0;
     for (const TakenFrame& frame : taken) {

@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "../paths.hpp"
 #include "../temporary_directory.hpp"
 #include "dot_places.hpp"
 #include "rendered_page.hpp"
@@ -37,8 +38,8 @@ constexpr Producer kProducers[] = {
     {"cairo", "groff -P-p14.8c,10.5c -Tpdf page.roff > p.pdf && pdftocairo -pdf p.pdf in.pdf"},
     {"mupdf", "groff -P-p14.8c,10.5c -Tpdf page.roff > p.pdf && mutool convert -o in.pdf p.pdf"},
     {"libtiff", "gs -q -o p.tif -sDEVICE=tifflzw -r72 page.ps && tiff2pdf -o in.pdf p.tif"},
-    {"libreoffice", "cp " DOTPOSE_SOURCE_DIR "/tests/roundtrip/documents/letter.pdf in.pdf"},
-    {"pdftex", "cp " DOTPOSE_SOURCE_DIR "/tests/roundtrip/documents/report.pdf in.pdf"},
+    {"libreoffice", "cp \"$S\"/tests/roundtrip/documents/letter.pdf in.pdf"},
+    {"pdftex", "cp \"$S\"/tests/roundtrip/documents/report.pdf in.pdf"},
 };
 
 class Documents : public testing::Test {
@@ -53,7 +54,8 @@ class Documents : public testing::Test {
 
     fs::path path(const std::string& name) const { return directory_.path() / name; }
     std::string in_directory(const std::string& command) const {
-        return run(fmt::format("cd '{}' && ( {} )", directory_.path().string(), command));
+        return run(fmt::format("cd '{}' && S='{}' && ( {} )", directory_.path().string(),
+                               test::source_dir(), command));
     }
     std::string text(const std::string& name) const {
         return in_directory("pdftotext -layout " + name + " - 2>&1");

@@ -30,7 +30,7 @@ class BuildWithCMake(build_ext):
         if not build:
             build = str(Path(self.build_temp).resolve())
             generator = ["-G", "Ninja"] if shutil.which("ninja") else []
-            options = ["CMAKE_BUILD_TYPE=Release", "DOTPOSE_BUILD_TESTS=OFF"]
+            options = ["CMAKE_BUILD_TYPE=Release", "DOTPOSE_WITH_TESTS=OFF", "DOTPOSE_WITH_TOOL=OFF"]
             options += ["DOTPOSE_BUILD_PYTHON=ON", f"Python_EXECUTABLE={sys.executable}"]
             configure = ["cmake", "-S", str(ROOT), "-B", build, *generator]
             subprocess.run(configure + [f"-D{option}" for option in options], check=True)

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "../../paths.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/pose_packet.hpp"
 #include "gtest/gtest.h"
@@ -53,7 +54,7 @@ TEST(Status, ValuesCountFromZero) {
 
 // Receivers in other languages take the numbers from this document.
 TEST(Status, NumbersAreThoseOfTheDocumentedPackets) {
-    std::ifstream file(std::string(DOTPOSE_SOURCE_DIR) + "/docs/pose-packet.md");
+    std::ifstream file(test::source_dir() + "/docs/pose-packet.md");
     const std::string text(std::istreambuf_iterator<char>(file), {});
     for (const auto& [status, identifier] : kNames) {
         const std::string row = "\n| " + std::to_string(static_cast<int>(status)) + " | " +

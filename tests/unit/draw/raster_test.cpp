@@ -1,5 +1,5 @@
 // Drawings in pixels: as large, and where what was drawn is.
-#include "draw/raster.hpp"
+#include "evaluate/raster.hpp"
 
 #include <fstream>
 #include <iterator>

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "../../paths.hpp"
 #include "../print/files.hpp"
 #include "dotpose/files/profile_names.hpp"
 #include "dotpose/files/sheet_file.hpp"
@@ -67,7 +68,7 @@ TEST(read_sheets, print_scale_and_world_may_be_missing) {
 }
 
 TEST(read_sheets, reads_the_example_of_the_documentation) {
-    const std::string page = read_file(DOTPOSE_SOURCE_DIR "/docs/sheet-files.md");
+    const std::string page = read_file(test::source_dir() + "/docs/sheet-files.md");
     const std::string start = "```json\n";
     const std::size_t first = page.find(start) + start.size();
     const TemporaryDirectory directory;

@@ -29,7 +29,7 @@ wasm::SheetLayout layout;
 std::vector<std::uint8_t> bytes;
 std::vector<double> points_mm;
 
-class MemorySink : public files::ByteSink {
+class MemorySink : public base::ByteSink {
   public:
     using ByteSink::write;
     void write(const void* data, std::size_t size_bytes) noexcept override {

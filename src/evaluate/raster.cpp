@@ -1,4 +1,4 @@
-#include "draw/raster.hpp"
+#include "evaluate/raster.hpp"
 
 #include <cmath>
 #include <memory>

@@ -6,12 +6,12 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "files/byte_sink.hpp"
+#include "base/byte_sink.hpp"
 
 // Visible outside of the library because the tools library calls them too.
 #pragma GCC visibility push(default)
 
-namespace dotpose::files {
+namespace dotpose::base {
 
 /// Follows symbolic links and returns the path of the file that they lead to, which need not exist
 /// yet.
@@ -53,6 +53,6 @@ class OutputFile : public ByteSink {
 /// computation whose result goes into the file.
 void require_writable(const std::filesystem::path& target);
 
-}  // namespace dotpose::files
+}  // namespace dotpose::base
 
 #pragma GCC visibility pop

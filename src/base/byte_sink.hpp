@@ -7,7 +7,7 @@
 // Visible outside of the library because the tools library derives from it too.
 #pragma GCC visibility push(default)
 
-namespace dotpose::files {
+namespace dotpose::base {
 
 class ByteSink {
   public:
@@ -22,6 +22,6 @@ class ByteSink {
     virtual void require_good() const {}
 };
 
-}  // namespace dotpose::files
+}  // namespace dotpose::base
 
 #pragma GCC visibility pop

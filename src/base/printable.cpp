@@ -1,11 +1,11 @@
-#include "files/printable.hpp"
+#include "base/printable.hpp"
 
 #include <cstddef>
 #include <cstdint>
 
 #include <fmt/core.h>
 
-namespace dotpose::files {
+namespace dotpose::base {
 namespace {
 
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
@@ -78,4 +78,4 @@ std::string with_escaped_controls(std::string_view json) {
     });
 }
 
-}  // namespace dotpose::files
+}  // namespace dotpose::base

@@ -7,7 +7,7 @@
 
 #include "dotpose/files/error.hpp"
 
-namespace dotpose::files {
+namespace dotpose::base {
 
 /// Throws Error with the text "cannot ACTION PATH: REASON"; the reason is that of a value of errno.
 [[noreturn]] inline void throw_system(const std::string& action, const std::filesystem::path& path,
@@ -16,4 +16,4 @@ namespace dotpose::files {
                 std::generic_category().message(error_number));
 }
 
-}  // namespace dotpose::files
+}  // namespace dotpose::base

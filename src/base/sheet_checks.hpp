@@ -8,7 +8,7 @@
 // Visible outside of the library because the tools library calls them too.
 #pragma GCC visibility push(default)
 
-namespace dotpose::files {
+namespace dotpose::base {
 
 /// Decimal lengths are not exact in binary, so comparisons allow a tenth of a nanometre, which is
 /// far below the accuracy of any printer.
@@ -26,6 +26,6 @@ void validate_pattern(const Pattern& pattern);
 /// double so that it can be checked before it is made an integer.
 void validate_region(const char* what, char axis, std::uint32_t first, double count);
 
-}  // namespace dotpose::files
+}  // namespace dotpose::base
 
 #pragma GCC visibility pop

@@ -7,7 +7,7 @@
 // Visible outside of the library because the tools library calls them too.
 #pragma GCC visibility push(default)
 
-namespace dotpose::files {
+namespace dotpose::base {
 
 /// Returns the text with U+FFFD in place of every byte that is not UTF-8 and of every character
 /// that moves the cursor, starts a terminal command, breaks the line or changes the direction of
@@ -18,6 +18,6 @@ std::string printable(std::string_view text);
 /// \u escapes. The JSON value stays the same, and a terminal does not obey it.
 std::string with_escaped_controls(std::string_view json);
 
-}  // namespace dotpose::files
+}  // namespace dotpose::base
 
 #pragma GCC visibility pop

@@ -1,4 +1,4 @@
-#include "files/output_file.hpp"
+#include "base/output_file.hpp"
 
 #include <cerrno>
 #include <random>
@@ -10,9 +10,9 @@
 #include <unistd.h>
 
 #include "dotpose/files/error.hpp"
-#include "files/system_error.hpp"
+#include "base/system_error.hpp"
 
-namespace dotpose::files {
+namespace dotpose::base {
 namespace fs = std::filesystem;
 namespace {
 
@@ -110,4 +110,4 @@ void require_writable(const fs::path& target) {
     const OutputFile never_committed(target);
 }
 
-}  // namespace dotpose::files
+}  // namespace dotpose::base

@@ -6,7 +6,7 @@
 #include <fmt/core.h>
 
 #include "dotpose/files/error.hpp"
-#include "files/sheet_checks.hpp"
+#include "base/sheet_checks.hpp"
 
 namespace dotpose {
 namespace {
@@ -19,7 +19,7 @@ void require_length(const char* what, double mm, double smallest_mm = 0) {
 
 }  // namespace
 
-void files::validate_paper(double width_mm, double height_mm) {
+void base::validate_paper(double width_mm, double height_mm) {
     for (const double mm : {width_mm, height_mm}) {
         if (mm > 0 && mm <= kMaxPage_mm) continue;
         throw BadArgument(
@@ -29,7 +29,7 @@ void files::validate_paper(double width_mm, double height_mm) {
     }
 }
 
-void files::validate_pattern(const Pattern& pattern) {
+void base::validate_pattern(const Pattern& pattern) {
     require_length("spacing", pattern.spacing_mm);
     require_length("displacement", pattern.displacement_mm);
     require_length("dot diameter", pattern.dot_mm);
@@ -53,7 +53,7 @@ void files::validate_pattern(const Pattern& pattern) {
     }
 }
 
-void files::validate_region(const char* what, char axis, std::uint32_t first, double count) {
+void base::validate_region(const char* what, char axis, std::uint32_t first, double count) {
     if (count < kMinSheetCells) {
         throw BadArgument(
             fmt::format("only {:.0f} {} of dots fit on the page inside its margins; "
@@ -69,15 +69,15 @@ void files::validate_region(const char* what, char axis, std::uint32_t first, do
 }
 
 void validate(const Sheet& sheet) {
-    files::validate_paper(sheet.width_mm, sheet.height_mm);
-    files::validate_pattern(sheet.pattern);
-    files::validate_region("columns", 'x', sheet.origin.x, sheet.columns);
-    files::validate_region("rows", 'y', sheet.origin.y, sheet.rows);
+    base::validate_paper(sheet.width_mm, sheet.height_mm);
+    base::validate_pattern(sheet.pattern);
+    base::validate_region("columns", 'x', sheet.origin.x, sheet.columns);
+    base::validate_region("rows", 'y', sheet.origin.y, sheet.rows);
     const double reach = reach_mm(sheet.pattern);
     const auto inside = [&](double first_mm, int count, double size_mm) {
         const double last_mm = first_mm + (count - 1) * sheet.pattern.spacing_mm;
-        return first_mm >= reach - files::kTolerance_mm &&
-               last_mm <= size_mm - reach + files::kTolerance_mm;
+        return first_mm >= reach - base::kTolerance_mm &&
+               last_mm <= size_mm - reach + base::kTolerance_mm;
     };
     if (inside(sheet.origin_x_mm, sheet.columns, sheet.width_mm) &&
         inside(sheet.origin_y_mm, sheet.rows, sheet.height_mm)) {

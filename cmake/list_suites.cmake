@@ -1,0 +1,26 @@
+# Run by ctest for each program of dotpose_discover_suites: adds a test for each suite that the program lists.
+if(NOT EXISTS ${program})
+    add_test(${prefix}_NOT_BUILT ${program})
+    return()
+endif()
+execute_process(COMMAND ${program} --gtest_list_tests --gtest_filter=${filter}
+                OUTPUT_VARIABLE lines RESULT_VARIABLE status)
+if(NOT status EQUAL 0)
+    message(FATAL_ERROR "${program} cannot list its tests")
+endif()
+# A suite begins a line; its cases are indented.
+string(REGEX MATCHALL "(^|\n)[A-Za-z0-9_/]+\\." suites "${lines}")
+list(TRANSFORM suites STRIP)
+list(REMOVE_DUPLICATES suites)
+# What the filter excludes is excluded within the suites too.
+string(REGEX MATCH "-.*" excluded "${filter}")
+foreach(suite IN LISTS suites)
+    string(REPLACE "." "" name ${suite})
+    set(all_labels ${labels})
+    if(name IN_LIST slow)
+        list(APPEND all_labels slow)
+    endif()
+    add_test(${prefix}.${name} ${program} --gtest_filter=${suite}*${excluded})
+    set_tests_properties(${prefix}.${name} PROPERTIES WORKING_DIRECTORY ${directory} LABELS "${all_labels}"
+                         FIXTURES_REQUIRED "${fixture}")
+endforeach()

@@ -1,0 +1,158 @@
+# The parts of dotpose beside the core, and the libraries that they need. Each library is looked up in one
+# place, here, and only if a part wants it.
+
+if(PROJECT_IS_TOP_LEVEL)
+    set(default FOUND)
+else()
+    set(default CORE)
+endif()
+set(DOTPOSE_PARTS ${default} CACHE STRING
+    "Parts to build: CORE (none but the core), FOUND (those whose libraries are found), ALL (a missing library is an error)")
+set_property(CACHE DOTPOSE_PARTS PROPERTY STRINGS CORE FOUND ALL)
+
+# dotpose_dependency(TARGET DEBIAN package (PACKAGE name | MODULES module... | FILE file)): a library that parts
+# may need. It is found by find_package, by pkg-config, or by a file of cmake/ that defines the target.
+macro(dotpose_dependency target)
+    set(dotpose_how_${target} ${ARGN})
+endmacro()
+
+#                  target                    Debian's package              how it is found
+dotpose_dependency(fmt::fmt                  libfmt-dev                    PACKAGE fmt)
+dotpose_dependency(nlohmann_json::nlohmann_json nlohmann-json3-dev         PACKAGE nlohmann_json)
+dotpose_dependency(yaml-cpp                  libyaml-cpp-dev               PACKAGE yaml-cpp)
+dotpose_dependency(PNG::PNG                  libpng-dev                    PACKAGE PNG)
+dotpose_dependency(TIFF::TIFF                libtiff-dev                   PACKAGE TIFF)
+dotpose_dependency(JPEG::JPEG                libjpeg-dev                   PACKAGE JPEG)
+dotpose_dependency(PkgConfig::Qpdf           libqpdf-dev                   MODULES libqpdf)
+dotpose_dependency(PkgConfig::GraphicsMagick libgraphicsmagick1-dev        MODULES GraphicsMagick)
+dotpose_dependency(PkgConfig::Rsvg           librsvg2-dev                  MODULES librsvg-2.0)
+dotpose_dependency(Eigen3::Eigen             libeigen3-dev                 PACKAGE Eigen3)
+dotpose_dependency(Ceres::ceres              libceres-dev                  PACKAGE Ceres)
+dotpose_dependency(CLI11::CLI11              libcli11-dev                  PACKAGE CLI11)
+dotpose_dependency(simdjson::simdjson        libsimdjson-dev               PACKAGE simdjson)
+dotpose_dependency(dotpose_opencv            libopencv-{videoio,highgui,imgproc}-dev FILE opencv.cmake)
+dotpose_dependency(PkgConfig::FFmpeg         libav{format,codec}-dev,\ libswscale-dev
+                                             MODULES libavformat libavcodec libavutil libswscale)
+dotpose_dependency(PkgConfig::Mosquitto      libmosquitto-dev              MODULES libmosquitto)
+dotpose_dependency(CycloneDDS::ddsc          cyclonedds-dev                PACKAGE CycloneDDS)
+dotpose_dependency(CycloneDDS::idlc          cyclonedds-tools              FILE idlc.cmake)
+dotpose_dependency(Threads::Threads          libc6-dev                     PACKAGE Threads)
+dotpose_dependency(GTest::gmock_main         libgtest-dev,\ libgmock-dev   PACKAGE GTest)
+dotpose_dependency(benchmark::benchmark      libbenchmark-dev              PACKAGE benchmark)
+dotpose_dependency(PkgConfig::Apriltag       libapriltag-dev               MODULES apriltag)
+
+# dotpose_find(TARGET): looks the library up, unless that has been done. A macro, as packages set variables.
+macro(dotpose_find target)
+    if(NOT TARGET ${target})
+        list(GET dotpose_how_${target} 1 dotpose_kind)
+        list(SUBLIST dotpose_how_${target} 2 -1 dotpose_names)
+        if(dotpose_kind STREQUAL "PACKAGE")
+            find_package(${dotpose_names} QUIET)
+        elseif(dotpose_kind STREQUAL "FILE")
+            include(${PROJECT_SOURCE_DIR}/cmake/${dotpose_names})
+        else()
+            string(REPLACE "PkgConfig::" "" dotpose_prefix ${target})
+            find_package(PkgConfig QUIET)
+            if(PkgConfig_FOUND)
+                pkg_check_modules(${dotpose_prefix} QUIET IMPORTED_TARGET ${dotpose_names})
+            endif()
+        endif()
+    endif()
+endmacro()
+
+# dotpose_part(NAME "what it is" SETUP group [NEEDS target...] [PARTS part...]): declares a part that needs
+# libraries and parts declared before. The option DOTPOSE_WITH_NAME is ON (a missing library is an error), OFF, or
+# empty: as DOTPOSE_PARTS says, or ON for what another part needs. SETUP: the group of scripts/setup that installs
+# what it needs.
+set(parts)
+macro(dotpose_part name what)
+    cmake_parse_arguments(${name} "" "SETUP" "NEEDS;PARTS" ${ARGN})
+    set(${name}_what ${what})
+    set(DOTPOSE_WITH_${name} "" CACHE STRING "Build ${what}: ON, OFF, empty: see DOTPOSE_PARTS")
+    set(${name}_wanted "${DOTPOSE_WITH_${name}}")
+    list(APPEND parts ${name})
+endmacro()
+
+# Sets DOTPOSE_HAS_NAME for a part, and says why it is left out.
+macro(dotpose_decide name)
+    set(missing)
+    foreach(needed IN LISTS ${name}_PARTS)
+        if(NOT DOTPOSE_HAS_${needed})
+            list(APPEND missing "DOTPOSE_WITH_${needed}")
+        endif()
+    endforeach()
+    foreach(needed IN LISTS ${name}_NEEDS)
+        dotpose_find(${needed})
+        if(NOT TARGET ${needed})
+            list(GET dotpose_how_${needed} 0 package)
+            list(APPEND missing "${package}")
+        endif()
+    endforeach()
+    set(DOTPOSE_HAS_${name} ON)
+    if(missing)
+        set(DOTPOSE_HAS_${name} OFF)
+        list(JOIN missing ", " missing)
+        set(text "${${name}_what}: missing ${missing} (scripts/setup ${${name}_SETUP})")
+        if(${name}_wanted)
+            message(FATAL_ERROR "Cannot build ${text}")
+        endif()
+        message(STATUS "Left out: ${text}")
+    endif()
+endmacro()
+
+dotpose_part(BASE      "sheets as values" SETUP core NEEDS fmt::fmt)
+dotpose_part(SIMULATE  "the simulated camera" SETUP core)
+dotpose_part(PRINT     "printing: PNG, SVG, text" SETUP core PARTS BASE NEEDS PNG::PNG)
+dotpose_part(DRAW      "pictures of what was read" SETUP core PARTS BASE NEEDS PNG::PNG)
+dotpose_part(FILES     "sheet and camera files" SETUP tools
+             PARTS BASE NEEDS yaml-cpp nlohmann_json::nlohmann_json)
+dotpose_part(TIFF      "printing: TIFF" SETUP tools PARTS PRINT NEEDS TIFF::TIFF)
+dotpose_part(PDF       "printing: PDF, and dots over PDF documents" SETUP tools
+             PARTS PRINT NEEDS PkgConfig::Qpdf nlohmann_json::nlohmann_json)
+dotpose_part(IMAGES    "image files" SETUP tools PARTS BASE NEEDS PkgConfig::GraphicsMagick)
+dotpose_part(EVALUATE  "evaluation" SETUP tools PARTS DRAW IMAGES SIMULATE NEEDS PkgConfig::Rsvg)
+dotpose_part(CALIBRATE "calibration and the check of prints" SETUP tools
+             PARTS FILES PRINT NEEDS Eigen3::Eigen Ceres::ceres)
+dotpose_part(FOLLOW    "following over sheets" SETUP tools PARTS CALIBRATE)
+dotpose_part(ROBOTS    "messages and recordings of ROS" SETUP tools PARTS FOLLOW)
+dotpose_part(TOOL      "the program dotpose" SETUP tools
+             PARTS TIFF PDF EVALUATE ROBOTS NEEDS CLI11::CLI11 Threads::Threads)
+dotpose_part(LIVE      "dotpose watch and fleet" SETUP live
+             PARTS TOOL
+             NEEDS dotpose_opencv PkgConfig::FFmpeg PkgConfig::Mosquitto simdjson::simdjson)
+dotpose_part(DDS       "dotpose watch --dds" SETUP robots
+             PARTS LIVE NEEDS CycloneDDS::ddsc CycloneDDS::idlc)
+# The fuzz preset has neither calibration nor live use, which take minutes to build, and no test of their own.
+set(tested LIVE)
+if(DOTPOSE_SANITIZE MATCHES "fuzzer")
+    set(tested TIFF PDF FILES EVALUATE)
+    dotpose_find(CLI11::CLI11)
+    dotpose_find(simdjson::simdjson)
+endif()
+dotpose_part(TESTS     "the tests" SETUP tests
+             PARTS ${tested} NEEDS GTest::gmock_main JPEG::JPEG)
+dotpose_part(BENCH     "the benchmarks" SETUP bench
+             PARTS TOOL NEEDS benchmark::benchmark PkgConfig::Apriltag)
+
+list(REVERSE parts)
+foreach(part IN LISTS parts)
+    if(${part}_wanted STREQUAL "" AND DOTPOSE_PARTS STREQUAL "ALL")
+        set(${part}_wanted ON)
+    endif()
+    if(${part}_wanted)
+        foreach(needed IN LISTS ${part}_PARTS)
+            if(${needed}_wanted STREQUAL "")
+                set(${needed}_wanted ON)
+            endif()
+        endforeach()
+    elseif(${part}_wanted STREQUAL "" AND DOTPOSE_PARTS STREQUAL "CORE")
+        set(${part}_wanted OFF)
+    endif()
+endforeach()
+list(REVERSE parts)
+foreach(part IN LISTS parts)
+    set(DOTPOSE_HAS_${part} OFF)
+    if(${part}_wanted STREQUAL "" OR ${part}_wanted)
+        dotpose_decide(${part})
+    endif()
+endforeach()

@@ -1,0 +1,21 @@
+# Registers a GoogleTest program with CTest, one test for each suite: a process for each case would load the
+# libraries of the program a thousand times.
+
+# dotpose_discover_suites(TARGET PREFIX [FILTER filter] [LABELS label...] [FIXTURE name]): tests PREFIX.SUITE. The suites are
+# listed when ctest runs, as a program that crashes while it lists them must not fail the build. Suites of
+# DOTPOSE_SLOW_SUITES have the label `slow` too.
+function(dotpose_discover_suites target prefix)
+    cmake_parse_arguments(PARSE_ARGV 2 arg "" "FILTER;FIXTURE" "LABELS")
+    set(script ${CMAKE_CURRENT_BINARY_DIR}/${target}_suites.cmake)
+    file(GENERATE OUTPUT ${script} CONTENT "
+set(program [==[$<TARGET_FILE:${target}>]==])
+set(prefix [==[${prefix}]==])
+set(filter [==[${arg_FILTER}]==])
+set(directory [==[${PROJECT_SOURCE_DIR}]==])
+set(labels [==[${arg_LABELS}]==])
+set(fixture [==[${arg_FIXTURE}]==])
+set(slow [==[${DOTPOSE_SLOW_SUITES}]==])
+include([==[${PROJECT_SOURCE_DIR}/cmake/list_suites.cmake]==])
+")
+    set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${script})
+endfunction()

@@ -1,0 +1,10 @@
+// Stands in for the TIFF writer in a build without libtiff.
+#include "writers.hpp"
+
+namespace dotpose::print {
+
+void write_tiff(RasterSize, double, const RowSource&, base::OutputFile&) {
+    throw Error("cannot write TIFF: dotpose was built without libtiff");
+}
+
+}  // namespace dotpose::print
