@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <limits>
 
-#include <Eigen/Cholesky>
 #include <fmt/core.h>
 
 #include "calibrate/all_dots.hpp"
 #include "calibrate/camera_lens.hpp"
+#include "calibrate/least_squares.hpp"
 #include "calibrate/lens_fit.hpp"
 #include "calibrate/located_frame.hpp"
 #include "calibrate/paper_view.hpp"
@@ -77,23 +77,17 @@ double gain_of_own_view(const LocatedFrame& frame,
                         const std::vector<std::array<double, 2>>& residuals,
                         const std::vector<char>& is_outlier, const FitSetting& setting,
                         double sigma_px) {
-    using Parameters = Eigen::Matrix<double, 8, 1>;
-    Eigen::Matrix<double, 8, 8> normal = Eigen::Matrix<double, 8, 8>::Zero();
-    Parameters right = Parameters::Zero();
+    NormalEquations equations(8);
     const double reach_px = setting.reach_px();
     for (std::size_t k = 0; k < residuals.size(); ++k) {
         if (is_outlier[k]) continue;
         const double a = (frame.dots[k].pixel.u - (setting.width_px - 1) / 2.0) / reach_px;
         const double b = (frame.dots[k].pixel.v - (setting.height_px - 1) / 2.0) / reach_px;
         // To first order, the parameters are place, turn, scale, shear, perspective.
-        Parameters along_u;
-        along_u << 1, 0, -b, a, a, b, a * a, a * b;
-        Parameters along_v;
-        along_v << 0, 1, a, b, -b, a, a * b, b * b;
-        normal += along_u * along_u.transpose() + along_v * along_v.transpose();
-        right += along_u * residuals[k][0] + along_v * residuals[k][1];
+        equations.add(std::array{1.0, 0.0, -b, a, a, b, a * a, a * b}, residuals[k][0]);
+        equations.add(std::array{0.0, 1.0, a, b, -b, a, a * b, b * b}, residuals[k][1]);
     }
-    return right.dot(normal.ldlt().solve(right)) / (sigma_px * sigma_px);
+    return equations.explained_squares() / (sigma_px * sigma_px);
 }
 
 /// Whether heights and tilts of the frames differ by more than noise explains.

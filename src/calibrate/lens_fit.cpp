@@ -320,7 +320,7 @@ class Fitter {
             if (by_hand) fit_.sigma.shape[static_cast<std::size_t>(i)] = sigma(3 + i);
         }
         if (by_hand) return;
-        fit_.mounted_covariance = covariance.topLeftCorner<8, 8>();
+        fit_.mounted_covariance = covariance.topLeftCorner(8, 8);
         for (Eigen::Index i = 0; i < 5; ++i)
             fit_.sigma.paper[static_cast<std::size_t>(i)] = sigma(3 + i);
     }

@@ -31,8 +31,8 @@ struct LensFit {
     Stand stand = Stand::mounted;
     SharedModel camera;
     SharedModel sigma;  ///< standard deviations
-    /// Covariance of `camera.lens` and `camera.paper`.
-    Eigen::Matrix<double, 8, 8> mounted_covariance = Eigen::Matrix<double, 8, 8>::Zero();
+    /// Covariance of `camera.lens` and `camera.paper`; only if mounted.
+    Eigen::MatrixXd mounted_covariance;
     /// By frame: place (mm, from the intersection where its steps start) and turn; by hand also mm
     /// per px and tilt.
     std::vector<std::array<double, 6>> poses;

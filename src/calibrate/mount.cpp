@@ -1,13 +1,14 @@
 // Finds where a camera sits on a robot, from a turn on the spot and from a straight drive.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 #include <fmt/core.h>
 
+#include "calibrate/least_squares.hpp"
 #include "dotpose/code_evidence.hpp"
 #include "dotpose/tools/calibrate.hpp"
 #include "dotpose/tools/heap_locator.hpp"
@@ -16,7 +17,7 @@
 namespace dotpose {
 namespace {
 
-using Eigen::Matrix2d;
+using calibrate::NormalEquations;
 using Eigen::Vector2d;
 
 constexpr int kLeastSpinFrames = 3;
@@ -48,10 +49,10 @@ double steps(std::uint32_t from, std::uint32_t to) {
     return std::remainder(double(to) - double(from), double(kPositionsPerAxis));
 }
 
-Matrix2d turn(double angle_rad) {
+Vector2d turned(double angle_rad, const Vector2d& v) {
     const double c = std::cos(angle_rad);
     const double s = std::sin(angle_rad);
-    return (Matrix2d() << c, -s, s, c).finished();
+    return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
 }
 
 PixelPoint image_centre(const Camera& camera) {
@@ -143,37 +144,43 @@ void require_stations(std::size_t found, int least, int frames) {
 struct SpotTurn {
     Vector2d pivot;
     Vector2d offset;          ///< from the image centre to the pivot, along the image axes
+    Vector2d drift;           ///< 0 for a robot that stays on the spot
     double squares_mm2 = 0;   ///< sum of the squared residuals
     double offset_share = 0;  ///< variance of the offset, per axis, relative to that of a place
 };
 
-/// Fits a turn. `kParameters` is 4 for a robot that stays on the spot, 6 for one that also drifts.
-template <int kParameters>
-SpotTurn fit_turn(const std::vector<Station>& stations) {
-    using Rows = Eigen::Matrix<double, 2, kParameters>;
-    using Vector = Eigen::Matrix<double, kParameters, 1>;
-    const auto rows_of = [&](std::size_t i) {
-        Rows rows;
-        rows.template leftCols<4>() << Matrix2d::Identity(), -turn(stations[i].theta_rad);
-        if constexpr (kParameters == 6) {
-            const double t = 2.0 * double(i) / double(stations.size() - 1) - 1;
-            rows.template rightCols<2>() = t * Matrix2d::Identity();
-        }
-        return rows;
-    };
-    Eigen::Matrix<double, kParameters, kParameters> normal =
-        Eigen::Matrix<double, kParameters, kParameters>::Zero();
-    Vector right = Vector::Zero();
+/// Returns t of a frame.
+double time_of(std::size_t frame, const std::vector<Station>& stations) {
+    return 2.0 * double(frame) / double(stations.size() - 1) - 1;
+}
+
+/// Returns where the turn expects a frame minus where the frame is.
+Vector2d residual_mm(const SpotTurn& spot_turn, std::size_t frame,
+                     const std::vector<Station>& stations) {
+    const Station& station = stations[frame];
+    return spot_turn.pivot + time_of(frame, stations) * spot_turn.drift -
+           turned(station.theta_rad, spot_turn.offset) - station.place_mm;
+}
+
+/// Fits the turn of a robot that stays on the spot, or of one that also drifts.
+SpotTurn fit_turn(const std::vector<Station>& stations, bool has_drift) {
+    const std::size_t parameters = has_drift ? 6 : 4;  // pivot, offset, drift
+    NormalEquations equations(static_cast<int>(parameters));
     for (std::size_t i = 0; i < stations.size(); ++i) {
-        const Rows rows = rows_of(i);
-        normal += rows.transpose() * rows;
-        right += rows.transpose() * stations[i].place_mm;
+        const double c = std::cos(stations[i].theta_rad);
+        const double s = std::sin(stations[i].theta_rad);
+        const double t = time_of(i, stations);
+        const std::array x{1.0, 0.0, -c, s, t, 0.0};
+        const std::array y{0.0, 1.0, -s, -c, 0.0, t};
+        equations.add(std::span(x).first(parameters), stations[i].place_mm.x());
+        equations.add(std::span(y).first(parameters), stations[i].place_mm.y());
     }
-    const Vector solved = normal.ldlt().solve(right);
-    SpotTurn result{solved.template head<2>(), solved.template segment<2>(2)};
+    const std::vector<double> solved = equations.solution();
+    SpotTurn result{{solved[0], solved[1]}, {solved[2], solved[3]}, {0, 0}};
+    if (has_drift) result.drift = {solved[4], solved[5]};
     for (std::size_t i = 0; i < stations.size(); ++i)
-        result.squares_mm2 += (stations[i].place_mm - rows_of(i) * solved).squaredNorm();
-    result.offset_share = normal.inverse()(2, 2);
+        result.squares_mm2 += residual_mm(result, i, stations).squaredNorm();
+    result.offset_share = equations.unit_covariance()(2, 2);
     return result;
 }
 
@@ -182,7 +189,7 @@ SpotTurn fit_turn(const std::vector<Station>& stations) {
 /// with drift / squares without) ^ (m / 2).
 double bias_of_drift_mm(const std::vector<Station>& stations, const SpotTurn& on_the_spot) {
     if (stations.size() < kLeastDriftFrames) return 0;
-    const SpotTurn drifting = fit_turn<6>(stations);
+    const SpotTurn drifting = fit_turn(stations, true);
     const auto half_m = static_cast<double>(stations.size() - 3);
     const double chance = std::pow(drifting.squares_mm2 / on_the_spot.squares_mm2, half_m);
     if (!(chance < kFalseDrift)) return 0;
@@ -210,6 +217,22 @@ void require_spin(const SpinCalibration& spin, double spacing_mm) {
         "the frames do not tell the point that stays put: it is known to +- {:.2f} mm, and half a "
         "spacing, {:.3f} mm, is needed; {}",
         spin.sigma_mm, spacing_mm / 2, why));
+}
+
+/// Returns the direction of the line that fits the places best, with the sense of `drive`: the
+/// major axis of their scatter.
+Vector2d direction_of_line(const std::vector<Station>& stations, const Vector2d& mean,
+                           const Vector2d& drive) {
+    double difference = 0;  // of the scatter along x and along y
+    double product = 0;
+    for (const Station& station : stations) {
+        const Vector2d off = station.place_mm - mean;
+        difference += off.x() * off.x() - off.y() * off.y();
+        product += off.x() * off.y();
+    }
+    const double angle_rad = std::atan2(2 * product, difference) / 2;
+    const Vector2d along(std::cos(angle_rad), std::sin(angle_rad));
+    return along.dot(drive) < 0 ? Vector2d(-along) : along;
 }
 
 /// Throws Error unless the frames are in the order of the drive, and none is farther off the line
@@ -255,11 +278,11 @@ SpinCalibration calibrate_spin(int frames, const FrameAt& frame_at,
             "spot by at least {:.0f}, best all around",
             result.turn_rad * 180 / std::numbers::pi, kLeastTurn_rad * 180 / std::numbers::pi));
     }
-    const SpotTurn fitted = fit_turn<4>(found.stations);
+    const SpotTurn fitted = fit_turn(found.stations, false);
     const Vector2d& offset = fitted.offset;
     for (const Station& station : found.stations) {
         const Vector2d from_pivot = station.place_mm - fitted.pivot;
-        const Vector2d off = from_pivot + turn(station.theta_rad) * offset;
+        const Vector2d off = from_pivot + turned(station.theta_rad, offset);
         result.stations.push_back(
             {from_pivot.x(), from_pivot.y(), station.theta_rad, off.x(), off.y()});
     }
@@ -306,22 +329,21 @@ DriveCalibration calibrate_drive(int frames, const FrameAt& frame_at,
                         "centimetres, and name the frames in order",
                         result.length_mm));
     }
-    Matrix2d scatter = Matrix2d::Zero();
-    for (const Station& station : found.stations)
-        scatter += (station.place_mm - mean) * (station.place_mm - mean).transpose();
-    const Eigen::SelfAdjointEigenSolver<Matrix2d> axes(scatter);
-    Vector2d along = axes.eigenvectors().col(1);
-    if (along.dot(drive) < 0) along = -along;
+    const Vector2d along = direction_of_line(found.stations, mean, drive);
     std::vector<Vector2d> on_line;
+    double along_mm2 = 0;
+    double across_mm2 = 0;
     for (const Station& station : found.stations) {
         const Vector2d off = station.place_mm - mean;
         on_line.push_back({along.dot(off), along.x() * off.y() - along.y() * off.x()});
+        along_mm2 += on_line.back().x() * on_line.back().x();
+        across_mm2 += on_line.back().y() * on_line.back().y();
     }
     require_straight(on_line, result.length_mm);
     const double theta_rad = std::atan2(heading.y(), heading.x());
-    result.residual_mm = std::sqrt(std::max(axes.eigenvalues()[0], 0.0) / count);
+    result.residual_mm = std::sqrt(across_mm2 / count);
     // Variances of the line's direction and of the mean angle are added.
-    const double line = result.residual_mm * result.residual_mm / axes.eigenvalues()[1];
+    const double line = result.residual_mm * result.residual_mm / along_mm2;
     double squares = 0;
     double swerve_rad = 0;
     for (const Station& station : found.stations) {

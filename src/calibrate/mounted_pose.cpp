@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "calibrate/dot_fit.hpp"
+#include "calibrate/least_squares.hpp"
 #include "calibrate/located_frame.hpp"
 
 namespace dotpose {
@@ -23,13 +24,9 @@ constexpr std::size_t kLeastDots = 12;
 /// place, c, s, and the displacement, which ink and blur change.
 constexpr int kParameters = 5;
 
-struct PoseFit : DotFit<kParameters> {
+struct PoseFit : DotFit {
     CameraPoint middle;
 };
-
-Eigen::Matrix<double, 2, 4> rows_at(double x, double y) {
-    return Eigen::Matrix<double, 2, 4>{{1, 0, x, -y}, {0, 1, y, x}};
-}
 
 PoseFit fit_pose(const std::vector<LocatedDot>& dots, const Camera& camera,
                  const AxisScale& print) {
@@ -40,17 +37,15 @@ PoseFit fit_pose(const std::vector<LocatedDot>& dots, const Camera& camera,
         middle.x_mm += points.back().x_mm / static_cast<double>(dots.size());
         middle.y_mm += points.back().y_mm / static_cast<double>(dots.size());
     }
-    std::vector<DotEquation<kParameters>> equations;
+    std::vector<DotEquation> equations;
     for (std::size_t i = 0; i < dots.size(); ++i) {
-        DotEquation<kParameters> equation;
-        equation.rows.leftCols<4>() =
-            rows_at(points[i].x_mm - middle.x_mm, points[i].y_mm - middle.y_mm);
-        equation.rows.col(4) =
-            Eigen::Vector2d(-print.x * dx(dots[i].symbol), -print.y * dy(dots[i].symbol));
-        equation.wanted = {print.x * dots[i].step.x, print.y * dots[i].step.y};
-        equations.push_back(equation);
+        const double x = points[i].x_mm - middle.x_mm;
+        const double y = points[i].y_mm - middle.y_mm;
+        equations.push_back(
+            {AxisEquation{{1, 0, x, -y, -print.x * dx(dots[i].symbol)}, print.x * dots[i].step.x},
+             AxisEquation{{0, 1, y, x, -print.y * dy(dots[i].symbol)}, print.y * dots[i].step.y}});
     }
-    return {fit_dots(equations), middle};
+    return {fit_dots(equations, kParameters), middle};
 }
 
 std::uint32_t to_bam(double angle_rad) {
@@ -76,12 +71,11 @@ void write_covariance(const PoseFit& fit, double x, double y, const AxisScale& p
     const double c = fit.parameters[2];
     const double s = fit.parameters[3];
     const double size2 = c * c + s * s;
-    Eigen::Matrix<double, 3, 4> by_parameter;
-    by_parameter << rows_at(x, y), 0, 0, -s / size2, c / size2;
-    by_parameter.row(0) /= print.x;
-    by_parameter.row(1) /= print.y;
-    const Eigen::Matrix3d covariance =
-        by_parameter * fit.covariance.topLeftCorner<4, 4>() * by_parameter.transpose();
+    Eigen::MatrixXd by_parameter(3, kParameters);
+    by_parameter << 1 / print.x, 0, x / print.x, -y / print.x, 0,  //
+        0, 1 / print.y, y / print.y, x / print.y, 0,               //
+        0, 0, -s / size2, c / size2, 0;
+    const Eigen::MatrixXd covariance = propagated(by_parameter, fit.covariance);
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j)
             out.covariance[i][j] = static_cast<float>(covariance(i, j));
@@ -106,9 +100,9 @@ Fix with_camera(const Fix& fix, const Camera& camera, const Trace& trace, const 
         const CameraPoint at = on_paper(camera, reference);
         const double x = at.x_mm - pose.middle.x_mm;
         const double y = at.y_mm - pose.middle.y_mm;
-        const Eigen::Vector2d place = rows_at(x, y) * pose.parameters.head<4>();
-        write_place(place.x() / print.x, place.y() / print.y, trace.options.profile,
-                    trace.decoding.place, result);
+        const auto& p = pose.parameters;
+        write_place((p[0] + x * p[2] - y * p[3]) / print.x, (p[1] + y * p[2] + x * p[3]) / print.y,
+                    trace.options.profile, trace.decoding.place, result);
         write_covariance(pose, x, y, print, result);
         result.dots_used = pose.dots;
         result.dots_seen = std::max(result.dots_seen, result.dots_used);

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
-#include <Eigen/Cholesky>
 #include <ceres/crs_matrix.h>
+
+#include "calibrate/least_squares.hpp"
 
 namespace dotpose::calibrate {
 namespace {
@@ -25,14 +26,6 @@ struct Normal {
     std::vector<Own> owns;
     std::vector<std::size_t> own_of_column;  ///< by column, for those that are not shared
 };
-
-/// Returns the inverse, computed with the parameters scaled alike so that no precision is lost.
-MatrixXd inverse_of(const MatrixXd& normal) {
-    const Eigen::VectorXd scale = normal.diagonal().cwiseSqrt().cwiseMax(1e-30).cwiseInverse();
-    const MatrixXd scaled = scale.asDiagonal() * normal * scale.asDiagonal();
-    const MatrixXd inverse = scaled.ldlt().solve(MatrixXd::Identity(normal.rows(), normal.cols()));
-    return scale.asDiagonal() * inverse * scale.asDiagonal();
-}
 
 /// Calls `work(column, value)` for each element of one row of the Jacobian.
 template <typename Work>

@@ -6,9 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Core>
 #include <ceres/ceres.h>
+
+#include "calibrate/least_squares.hpp"
+#include "calibrate/normal_inverse.hpp"
 
 namespace dotpose::calibrate {
 namespace {
@@ -16,14 +17,11 @@ namespace {
 /// Greatest relative standard deviation of a focal length that is worth reporting.
 constexpr double kWorthTelling = 0.15;
 
-using Paper = Eigen::Matrix<double, 5, 1>;
-using PaperCovariance = Eigen::Matrix<double, 5, 5>;
-
 /// The difference between a view (PaperScale, perspective times reach) and that of a tilted camera
 /// with square pixels.
 struct TiltResidual {
-    Paper seen;
-    PaperCovariance whitening;
+    std::array<double, 5> seen;
+    Eigen::MatrixXd whitening;
 
     /// `tilt`: mm per px, angle about x, angle about y, reach / focal length.
     template <typename T>
@@ -50,17 +48,17 @@ struct TiltResidual {
         const T per_px_v = tilt[3] * (sx * down_t);
         const T view[5] = {tilt[0] * length, tilt[0] * down_across, down_along / length, -per_px_u,
                            -per_px_v};
-        for (int i = 0; i < 5; ++i) {
+        for (std::size_t i = 0; i < 5; ++i) {
             residual[i] = T(0);
-            for (int j = 0; j < 5; ++j)
-                residual[i] += whitening(i, j) * (view[j] - seen[j]);
+            for (std::size_t j = 0; j < 5; ++j)
+                residual[i] += whitening(Eigen::Index(i), Eigen::Index(j)) * (view[j] - seen[j]);
         }
         return true;
     }
 };
 
 /// Place (x, y in mm) and direction (radians) of the image centre.
-using CentrePose = Eigen::Vector3d;
+using CentrePose = std::array<double, 3>;
 
 /// Returns the pose of the image centre of `camera`, after its view is laid onto that of `other` in
 /// the same pixels by place, angle and scale, as `with_camera` does.
@@ -125,8 +123,8 @@ void describe_mounted(const LensFit& fit, double reach_px, Camera& camera) {
     constexpr double kBeyondDoubt = 5;
     if (!(perspective_sigmas > kBeyondDoubt)) return;
 
-    const PaperCovariance lower = fit.mounted_covariance.bottomRightCorner<5, 5>().llt().matrixL();
-    const auto residual = new TiltResidual{Eigen::Map<const Paper>(paper.data()), lower.inverse()};
+    const auto residual =
+        new TiltResidual{paper, whitening_of(fit.mounted_covariance.bottomRightCorner(5, 5))};
     // Perspective is tilt over focal length; half a reach per focal length is typical of lenses.
     std::array tilt{std::sqrt(paper[0] * paper[1]), -2 * paper[4], 2 * paper[3], 0.5};
     ceres::Problem problem;
@@ -138,36 +136,28 @@ void describe_mounted(const LensFit& fit, double reach_px, Camera& camera) {
     options.function_tolerance = 1e-12;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);
-    ceres::Covariance::Options how;
-    how.algorithm_type = ceres::DENSE_SVD;
-    ceres::Covariance found(how);
-    if (!found.Compute(
-            std::vector<std::pair<const double*, const double*>>{{tilt.data(), tilt.data()}},
-            &problem)) {
-        return;
-    }
-    std::array<double, 16> matrix{};
-    found.GetCovarianceBlock(tilt.data(), tilt.data(), matrix.data());
-    const double share = std::sqrt(matrix[15]) / std::abs(tilt[3]);
+    const Eigen::MatrixXd covariance = normal_inverse(problem, {tilt.data()});
+    const double share = std::sqrt(covariance(3, 3)) / std::abs(tilt[3]);
     if (!(tilt[3] > 0 && share < kWorthTelling)) return;
     camera.focal_px = reach_px / tilt[3];
     camera.sigma["focal_px"] = *camera.focal_px * share;
     camera.tilt = Tilt{tilt[1], tilt[2]};
-    camera.sigma["tilt_x_rad"] = std::sqrt(matrix[5]);
-    camera.sigma["tilt_y_rad"] = std::sqrt(matrix[10]);
+    camera.sigma["tilt_x_rad"] = std::sqrt(covariance(1, 1));
+    camera.sigma["tilt_y_rad"] = std::sqrt(covariance(2, 2));
 }
 
 void describe_centre(const LensFit& fit, double reach_px, Camera& camera) {
     // The step is so small that differences are derivatives, for any parameter.
     constexpr double kStep_sigmas = 0.01;
     const CentrePose here = centre_pose(camera, camera);
-    Eigen::Matrix<double, 3, 8> derivative;
+    Eigen::MatrixXd derivative(3, 8);
     for (Eigen::Index i = 0; i < 8; ++i) {
         const double step = kStep_sigmas * std::sqrt(fit.mounted_covariance(i, i));
-        derivative.col(i) =
-            (centre_pose(with_moved(camera, i, step, reach_px), camera) - here) / step;
+        const CentrePose moved = centre_pose(with_moved(camera, i, step, reach_px), camera);
+        for (std::size_t k = 0; k < 3; ++k)
+            derivative(Eigen::Index(k), i) = (moved[k] - here[k]) / step;
     }
-    const Eigen::Matrix3d covariance = derivative * fit.mounted_covariance * derivative.transpose();
+    const Eigen::MatrixXd covariance = propagated(derivative, fit.mounted_covariance);
     camera.sigma["image_centre_mm"] = std::sqrt((covariance(0, 0) + covariance(1, 1)) / 2);
     camera.sigma["image_axis_rad"] = std::sqrt(covariance(2, 2));
 }

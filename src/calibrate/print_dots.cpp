@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include <Eigen/Cholesky>
+#include "calibrate/least_squares.hpp"
 
 namespace dotpose::calibrate {
 namespace {
@@ -310,21 +310,23 @@ std::optional<LocalMap> fit_map(const SeenTile& tile, const Code& code,
         const Vector2d d = code.dot_cell(cell.x, cell.y, cell.nominal) - middle;
         return Vector2d(d / (1 + map.perspective_per_cell.dot(d)));
     };
-    Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-    Eigen::Matrix<double, 3, 2> products = Eigen::Matrix<double, 3, 2>::Zero();
+    NormalEquations along_u(3);
+    NormalEquations along_v(3);
+    Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
     for (const SeenCell& cell : tile.cells) {
         if (!cell.is_right()) continue;
         const Vector2d step = without(cell);
-        const Eigen::Vector3d c(step.x(), step.y(), 1);
-        squares += c * c.transpose();
-        products += c * cell.centre_px().transpose();
+        const std::array row{step.x(), step.y(), 1.0};
+        along_u.add(row, double(cell.u_px));
+        along_v.add(row, double(cell.v_px));
+        spread += step * step.transpose();
     }
     // A single line of dots does not determine the map across it.
-    const Eigen::Matrix2d spread = squares.topLeftCorner<2, 2>();
     if (spread.determinant() < 1e-3 * spread.trace() * spread.trace()) return std::nullopt;
-    const Eigen::Matrix<double, 3, 2> solution = squares.ldlt().solve(products);
-    map.px_per_cell = solution.topRows<2>().transpose();
-    map.centre_px = solution.row(2).transpose();
+    const std::vector<double> u = along_u.solution();
+    const std::vector<double> v = along_v.solution();
+    map.px_per_cell << u[0], u[1], v[0], v[1];
+    map.centre_px = {u[2], v[2]};
     return map;
 }
 

@@ -1,10 +1,12 @@
 #include "calibrate/print_fit.hpp"
 
+#include <array>
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
+
+#include "calibrate/least_squares.hpp"
 
 namespace dotpose::calibrate {
 namespace {
@@ -15,7 +17,8 @@ using Eigen::Vector2d;
 constexpr int kRounds = 2;
 constexpr int kSteps = 6;
 constexpr double kOutlier_sigmas = 4;
-using Parameters = Eigen::Matrix<double, 9, 1>;
+/// Indices of the parameters: offset, rows of `linear`, perspective, lens.
+constexpr int kLinear = 2;
 constexpr int kPerspective = 6;
 constexpr int kLens = 8;
 
@@ -42,8 +45,7 @@ Matrix2d lens_slope(const PlaneFit& fit, const Vector2d& q) {
 /// residual before the step.
 double step(const std::vector<Match>& matches, Free free, const Reach& reach, double limit,
             PlaneFit& fit) {
-    Eigen::Matrix<double, 9, 9> normal = Eigen::Matrix<double, 9, 9>::Zero();
-    Parameters right = Parameters::Zero();
+    NormalEquations equations(9);
     double squares = 0;
     double count = 0;
     for (const Match& match : matches) {
@@ -60,26 +62,27 @@ double step(const std::vector<Match>& matches, Free free, const Reach& reach, do
         const Vector2d lever = d / (divisor * reach.paper_mm);
         const Vector2d by_lens = q * (q.squaredNorm() / (reach.seen * reach.seen));
         for (int axis = 0; axis < 2; ++axis) {
-            Parameters slope = Parameters::Zero();
-            slope.head<2>() = by_q.row(axis);
-            slope.segment<2>(2) = by_q(axis, 0) * lever;
-            slope.segment<2>(4) = by_q(axis, 1) * lever;
-            if (free.perspective) {
-                const double along = by_q.row(axis).dot(projected) / reach.paper_mm;
-                slope.segment<2>(kPerspective) = -along * lever;
-            }
-            if (free.lens) slope[kLens] = by_lens[axis];
-            normal += slope * slope.transpose();
-            right += slope * residual[axis];
+            const double a = by_q(axis, 0);
+            const double b = by_q(axis, 1);
+            const double along = (a * projected.x() + b * projected.y()) / reach.paper_mm;
+            const double perspective = free.perspective ? -along : 0;
+            equations.add(std::array{a, b, a * lever.x(), a * lever.y(), b * lever.x(),
+                                     b * lever.y(), perspective * lever.x(),
+                                     perspective * lever.y(), free.lens ? by_lens[axis] : 0},
+                          residual[axis]);
         }
     }
-    if (!free.perspective) normal.diagonal().segment<2>(kPerspective).setOnes();
-    if (!free.lens) normal(kLens, kLens) = 1;
-    const Parameters change = normal.ldlt().solve(right);
-    fit.offset += change.head<2>();
-    fit.linear.row(0) += change.segment<2>(2).transpose() / reach.paper_mm;
-    fit.linear.row(1) += change.segment<2>(4).transpose() / reach.paper_mm;
-    fit.perspective_per_mm += change.segment<2>(kPerspective) / (reach.paper_mm * reach.paper_mm);
+    if (!free.perspective) {
+        equations.pull_to_zero(kPerspective, 1);
+        equations.pull_to_zero(kPerspective + 1, 1);
+    }
+    if (!free.lens) equations.pull_to_zero(kLens, 1);
+    const std::vector<double> change = equations.solution();
+    const auto pair = [&](std::size_t first) { return Vector2d(change[first], change[first + 1]); };
+    fit.offset += pair(0);
+    fit.linear.row(0) += pair(kLinear) / reach.paper_mm;
+    fit.linear.row(1) += pair(kLinear + 2) / reach.paper_mm;
+    fit.perspective_per_mm += pair(kPerspective) / (reach.paper_mm * reach.paper_mm);
     fit.lens += change[kLens] / (reach.seen * reach.seen);
     return count > 0 ? std::sqrt(squares / count) : 0;
 }

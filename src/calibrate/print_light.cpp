@@ -1,15 +1,17 @@
 #include "calibrate/print_light.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 
-#include <Eigen/Cholesky>
+#include "calibrate/least_squares.hpp"
 
 namespace dotpose::calibrate {
 namespace {
 
-using Terms = Eigen::Matrix<double, 6, 1>;
+using Terms = std::array<double, 6>;
 
 /// Least number of tiles for a surface of second degree, and for a plane; with fewer, the edges of
 /// the field, where tiles also show other print, have too much weight.
@@ -21,10 +23,14 @@ constexpr int kEnoughForSlopes = 25;
 Terms terms_of(int tile, const Tiling& tiling, int count) {
     const double u = 2.0 * (tile % tiling.columns + 0.5) / tiling.columns - 1;
     const double v = 2.0 * (tile / tiling.columns + 0.5) / tiling.rows - 1;
-    Terms terms;
-    terms << 1, u, v, u * u, u * v, v * v;
-    terms.tail(6 - count).setZero();
+    Terms terms = {1, u, v, u * u, u * v, v * v};
+    std::fill(terms.begin() + count, terms.end(), 0.0);
     return terms;
+}
+
+/// Returns the height of a surface, given by its coefficients.
+double height(const std::vector<double>& surface, const Terms& terms) {
+    return std::inner_product(terms.begin(), terms.end(), surface.begin(), 0.0);
 }
 
 struct Sample {
@@ -40,23 +46,22 @@ double median(std::vector<Sample>& samples, double Sample::*value) {
 }
 
 /// Fits a surface by least squares, beginning with the median, in rounds without outliers.
-Terms surface_through(std::vector<Sample>& samples) {
+std::vector<double> surface_through(std::vector<Sample>& samples) {
     constexpr int kRounds = 5;
     constexpr double kOutlier = 4;  // in medians of the distances
-    Terms surface = Terms::Zero();
+    std::vector<double> surface(6);
     surface[0] = median(samples, &Sample::strength);
     for (int round = 0; round < kRounds; ++round) {
         for (Sample& sample : samples)
-            sample.off = std::abs(sample.strength - surface.dot(sample.terms));
+            sample.off = std::abs(sample.strength - height(surface, sample.terms));
         const double limit = kOutlier * median(samples, &Sample::off);
-        Eigen::Matrix<double, 6, 6> squares = Eigen::Matrix<double, 6, 6>::Identity() * 1e-9;
-        Terms products = Terms::Zero();
+        NormalEquations equations(6);
+        for (int term = 0; term < 6; ++term)
+            equations.pull_to_zero(term, 1e-9);  // for terms that no tile determines
         for (const Sample& sample : samples) {
-            if (sample.off > limit) continue;
-            squares += sample.terms * sample.terms.transpose();
-            products += sample.strength * sample.terms;
+            if (sample.off <= limit) equations.add(sample.terms, sample.strength);
         }
-        surface = squares.ldlt().solve(products);
+        surface = equations.solution();
     }
     return surface;
 }
@@ -75,12 +80,12 @@ std::vector<double> smooth_strengths(const Field& field, const Tiling& tiling) {
     }
     std::vector<double> result(field.strengths.size());
     if (samples.empty()) return result;
-    const Terms surface = surface_through(samples);
+    const std::vector<double> surface = surface_through(samples);
     // Far from known tiles the surface may take any value, so it is limited.
     const auto [least, most] = std::ranges::minmax(samples, {}, &Sample::strength);
     for (int t = 0; t < tiling.count(); ++t) {
         result[static_cast<std::size_t>(t)] =
-            std::clamp(surface.dot(terms_of(t, tiling, 6)), least.strength, most.strength);
+            std::clamp(height(surface, terms_of(t, tiling, 6)), least.strength, most.strength);
     }
     return result;
 }

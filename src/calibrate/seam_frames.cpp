@@ -5,10 +5,8 @@
 #include <cmath>
 #include <span>
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
-
 #include "calibrate/dot_fit.hpp"
+#include "calibrate/least_squares.hpp"
 #include "dotpose/files/sheet_place.hpp"
 
 namespace dotpose::calibrate {
@@ -78,20 +76,19 @@ void see_with_scale(const std::vector<LocatedDot>& dots, const Camera& camera,
         view.middle += points.back() / static_cast<double>(dots.size());
     }
     // The parameters are place, axes column by column, and displacement.
-    std::vector<DotEquation<7>> equations;
+    std::vector<DotEquation> equations;
     for (std::size_t i = 0; i < dots.size(); ++i) {
         const Eigen::Vector2d p = points[i] - view.middle;
-        DotEquation<7> equation;
-        equation.rows << 1, 0, p.x(), 0, p.y(), 0, -spacing_mm * dx(dots[i].symbol),  //
-            0, 1, 0, p.x(), 0, p.y(), -spacing_mm * dy(dots[i].symbol);
-        equation.wanted = first + spacing_mm * Eigen::Vector2d(dots[i].step.x, dots[i].step.y);
-        equations.push_back(equation);
+        const LocatedDot& dot = dots[i];
+        equations.push_back({AxisEquation{{1, 0, p.x(), 0, p.y(), 0, -spacing_mm * dx(dot.symbol)},
+                                          first.x() + spacing_mm * dot.step.x},
+                             AxisEquation{{0, 1, 0, p.x(), 0, p.y(), -spacing_mm * dy(dot.symbol)},
+                                          first.y() + spacing_mm * dot.step.y}});
     }
-    const DotFit<7> fit = fit_dots(equations);
-    view.place = fit.parameters.head<2>();
+    const DotFit fit = fit_dots(equations, 7);
+    view.place = {fit.parameters[0], fit.parameters[1]};
     view.axes << fit.parameters[2], fit.parameters[4], fit.parameters[3], fit.parameters[5];
-    const Eigen::Matrix<double, 6, 6> lower = fit.covariance.topLeftCorner<6, 6>().llt().matrixL();
-    view.whitening = lower.inverse();
+    view.whitening = whitening_of(fit.covariance.topLeftCorner(6, 6));
     view.rows = 6;
 }
 
@@ -102,17 +99,20 @@ void see_without_scale(const Fix& fix, const NominalPlace& centre, double spacin
     const double s = std::sin(centre.theta_rad);
     view.place = centre.mm;
     view.axes << c, -s, s, c;
-    Eigen::Matrix3d covariance;
-    for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j)
-            covariance(i, j) = static_cast<double>(fix.covariance[i][j]);
+    const std::array units = {spacing_mm, spacing_mm, 1.0};
+    Eigen::MatrixXd covariance(3, 3);
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) {
+            covariance(Eigen::Index(i), Eigen::Index(j)) =
+                units[i] * units[j] * static_cast<double>(fix.covariance[i][j]);
+        }
     }
-    const Eigen::DiagonalMatrix<double, 3> units(spacing_mm, spacing_mm, 1);
-    const Eigen::Matrix3d lower = (units * covariance * units).llt().matrixL();
-    Eigen::Matrix<double, 3, 6> known = Eigen::Matrix<double, 3, 6>::Zero();
-    known.leftCols<2>().topRows<2>().setIdentity();
-    known.row(2).segment<2>(2) << -s, c;  // across the x axis: the sine of the turn
-    view.whitening.topRows<3>() = lower.inverse() * known;
+    const Eigen::MatrixXd whitening = whitening_of(covariance);
+    for (Eigen::Index i = 0; i < 3; ++i) {
+        // The place, and the x axis in the direction across it: the sine of the turn.
+        view.whitening.row(i) << whitening(i, 0), whitening(i, 1), -s * whitening(i, 2),
+            c * whitening(i, 2), 0, 0;
+    }
     view.rows = 3;
 }
 

@@ -6,10 +6,10 @@
 #include <map>
 #include <utility>
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <ceres/ceres.h>
 
+#include "calibrate/least_squares.hpp"
 #include "calibrate/normal_inverse.hpp"
 
 namespace dotpose::calibrate {
@@ -24,6 +24,22 @@ constexpr double kCameraPrior = 0.03;
 /// Standard deviation of a camera's aspect and skew if its file has none; pixels are square.
 constexpr double kSquarePrior = 0.002;
 
+/// A vector in the plane; T is double or a type that carries derivatives.
+template <typename T>
+struct Vector {
+    T x;
+    T y;
+};
+
+template <typename T>
+Vector<T> turned(const T& angle, const Vector<T>& v) {
+    using std::cos;
+    using std::sin;
+    const T c = cos(angle);
+    const T s = sin(angle);
+    return {c * v.x - s * v.y, s * v.x + c * v.y};
+}
+
 /// The residual of a view, by camera, frame and sheet as parameters, in standard deviations.
 struct ViewResidual {
     const SheetView& view;
@@ -31,34 +47,31 @@ struct ViewResidual {
 
     template <typename T>
     bool operator()(const T* camera, const T* frame, const T* sheet, T* residual) const {
-        using std::cos;
         using std::exp;
-        using std::sin;
-        using Vector = Eigen::Matrix<T, 2, 1>;
-        using Matrix = Eigen::Matrix<T, 2, 2>;
-        const auto turned = [](const T& angle) {
-            Matrix turn;
-            turn << cos(angle), -sin(angle), sin(angle), cos(angle);
-            return turn;
+        const T scale = exp(camera[0]);
+        const auto true_mm = [&](double x, double y) {
+            return Vector<T>{scale * ((1.0 + camera[1]) * x + camera[2] * y),
+                             scale * (1.0 - camera[1]) * y};
         };
-        Matrix true_mm;
-        true_mm << 1.0 + camera[1], camera[2], T(0), 1.0 - camera[1];
-        true_mm *= exp(camera[0]);
-        const Matrix turn = turned(-sheet[2]);
-        Matrix nominal = Matrix::Zero();
-        nominal(0, 0) = exp(-sheet[3]);
-        nominal(1, 1) = exp(-sheet[4]);
-
-        const Vector seen = turned(frame[2]) * (true_mm * view.middle.template cast<T>());
-        const Vector world(frame[0] + seen[0] - sheet[0], frame[1] + seen[1] - sheet[1]);
-        const Vector on_page = turn * world - first_mm.template cast<T>();
-        const Vector place = nominal * on_page - view.place.template cast<T>();
-        const Matrix axes =
-            nominal * turned(frame[2] - sheet[2]) * true_mm - view.axes.template cast<T>();
-        Eigen::Matrix<T, 6, 1> off;
-        off << place, axes.col(0), axes.col(1);
-        Eigen::Map<Eigen::Matrix<T, 6, 1>> out(residual);
-        out = view.whitening.template cast<T>() * off;
+        const T per_print_x = exp(-sheet[3]);
+        const T per_print_y = exp(-sheet[4]);
+        const Vector<T> seen = turned(frame[2], true_mm(view.middle.x(), view.middle.y()));
+        const Vector<T> on_page =
+            turned<T>(-sheet[2], {frame[0] + seen.x - sheet[0], frame[1] + seen.y - sheet[1]});
+        const T turn = frame[2] - sheet[2];
+        const Vector<T> x_axis = turned(turn, true_mm(1, 0));
+        const Vector<T> y_axis = turned(turn, true_mm(0, 1));
+        const T off[6] = {per_print_x * (on_page.x - first_mm.x()) - view.place.x(),
+                          per_print_y * (on_page.y - first_mm.y()) - view.place.y(),
+                          per_print_x * x_axis.x - view.axes(0, 0),
+                          per_print_y * x_axis.y - view.axes(1, 0),
+                          per_print_x * y_axis.x - view.axes(0, 1),
+                          per_print_y * y_axis.y - view.axes(1, 1)};
+        for (int i = 0; i < 6; ++i) {
+            residual[i] = T(0);
+            for (int j = 0; j < 6; ++j)
+                residual[i] += view.whitening(i, j) * off[j];
+        }
         return true;
     }
 };
@@ -310,36 +323,38 @@ std::vector<SheetGraph::DotShare> SheetGraph::dot_shares(const SheetView& view) 
     const Pattern& pattern = sheets_[view.sheet].sheet.pattern;
     const Cell first = sheets_[view.sheet].sheet.origin;
     const Eigen::Matrix2d camera_from_sheet = view.axes.inverse();
-    Eigen::Matrix3Xd places(3, view.dots.size());  // 1, x, y in the camera frame
-    for (Eigen::Index i = 0; i < places.cols(); ++i) {
-        const std::uint64_t dot = view.dots[static_cast<std::size_t>(i)];
+    std::vector<std::array<double, 3>> places;  // 1, x, y in the camera frame
+    NormalEquations equations(3);               // of the map along one axis
+    for (const std::uint64_t dot : view.dots) {
         const Eigen::Vector2d steps(static_cast<double>((dot >> 32) - first.x),
                                     static_cast<double>((dot & 0xffffffff) - first.y));
-        places.col(i) << 1, camera_from_sheet * (pattern.spacing_mm * steps - view.place);
+        const Eigen::Vector2d at = camera_from_sheet * (pattern.spacing_mm * steps - view.place);
+        equations.add(places.emplace_back(std::array{1.0, at.x(), at.y()}), 0);
     }
-    const Eigen::Matrix3d normal = places * places.transpose();
-    const Eigen::Matrix3Xd fitted = normal.ldlt().solve(places);
-    std::vector<DotShare> shares(view.dots.size(), DotShare::Zero());
-    Eigen::Matrix<double, 6, 6> squares = Eigen::Matrix<double, 6, 6>::Zero();
-    for (std::size_t i = 0; i < shares.size(); ++i) {
-        DotShare off;
-        for (Eigen::Index k = 0; k < 3; ++k)  // place, then axes column by column
-            off.middleRows<2>(2 * k) =
-                fitted(k, static_cast<Eigen::Index>(i)) * Eigen::Matrix2d::Identity();
-        shares[i] = view.whitening * off;
-        squares += shares[i] * shares[i].transpose();
+    const Eigen::MatrixXd along_axis = equations.unit_covariance();
+    // Of place, then axes column by column: the errors along both axes are independent.
+    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(6, 6);
+    for (Eigen::Index i = 0; i < 6; ++i) {
+        for (Eigen::Index j = i % 2; j < 6; j += 2)
+            covariance(i, j) = along_axis(i / 2, j / 2);
     }
-    const auto known = squares.topLeftCorner(view.rows, view.rows);
-    const Eigen::MatrixXd lower = known.llt().matrixL();
-    for (DotShare& share : shares)
-        share.topRows(view.rows) =
-            lower.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd(share.topRows(view.rows)));
+    const Eigen::MatrixXd known = view.whitening.topRows(view.rows);
+    const Eigen::MatrixXd scaled = whitening_of(propagated(known, covariance)) * known;
+    std::vector<DotShare> shares;
+    for (const auto& place : places) {
+        DotShare& share = shares.emplace_back(DotShare::Zero());
+        for (Eigen::Index k = 0; k < 3; ++k) {
+            const double fitted = along_axis(k, 0) * place[0] + along_axis(k, 1) * place[1] +
+                                  along_axis(k, 2) * place[2];
+            share.topRows(view.rows) += fitted * scaled.middleCols<2>(2 * k);
+        }
+    }
     return shares;
 }
 
-/// Returns the covariance of the shared parameters that comes from printing: a dot has the same
-/// error in all frames that show it.
-Eigen::MatrixXd SheetGraph::print_covariance(const Eigen::MatrixXd& gain) const {
+/// Returns the variances of the shared parameters that come from printing: a dot has the same error
+/// in all frames that show it.
+Eigen::VectorXd SheetGraph::print_variances(const Eigen::MatrixXd& gain) const {
     std::map<std::pair<std::size_t, std::uint64_t>, Eigen::MatrixX2d> of_dots;
     Eigen::Index row = 0;
     for (const SheetView& view : views_) {
@@ -351,10 +366,10 @@ Eigen::MatrixXd SheetGraph::print_covariance(const Eigen::MatrixXd& gain) const 
         }
         row += 6;
     }
-    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(gain.rows(), gain.rows());
+    Eigen::VectorXd variances = Eigen::VectorXd::Zero(gain.rows());
     for (const auto& [dot, moves] : of_dots)
-        covariance += moves * moves.transpose();
-    return covariance;
+        variances += moves.rowwise().squaredNorm();
+    return variances;
 }
 
 void SheetGraph::estimate_variances(ceres::Problem& problem, double cost) {
@@ -373,13 +388,12 @@ void SheetGraph::estimate_variances(ceres::Problem& problem, double cost) {
     const double misfit = std::max(2 * cost / std::max(residuals - parameters, 1), 1.0);
     const Eigen::MatrixXd gain = normal_gain(problem, shared);
     const auto pins = gain.rightCols(gain.cols() - 6 * static_cast<Eigen::Index>(views_.size()));
-    const Eigen::MatrixXd covariance =
-        misfit * print_covariance(gain) + Eigen::MatrixXd(pins * pins.transpose());
+    const Eigen::VectorXd variances = misfit * print_variances(gain) + pins.rowwise().squaredNorm();
     Eigen::Index row = 0;
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
         if (!nodes_[i]) continue;
         for (double& variance : variances_[i]) {
-            variance = covariance(row, row);
+            variance = variances[row];
             ++row;
         }
         if (has_scale()) continue;

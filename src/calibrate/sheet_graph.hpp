@@ -65,7 +65,7 @@ class SheetGraph {
     void pin_camera(ceres::Problem& problem);
     void estimate_variances(ceres::Problem& problem, double cost);
     std::vector<DotShare> dot_shares(const SheetView& view) const;
-    Eigen::MatrixXd print_covariance(const Eigen::MatrixXd& gain) const;
+    Eigen::VectorXd print_variances(const Eigen::MatrixXd& gain) const;
     bool has_scale() const;
 
     const std::vector<SheetEntry>& sheets_;
