@@ -9,7 +9,6 @@
 #include <array>
 #include <cstdlib>
 #include <ctime>
-#include <map>
 #include <memory>
 #include <numeric>
 #include <span>
@@ -19,6 +18,7 @@
 
 #include <fmt/core.h>
 
+#include "../apps/dotpose/choices.hpp"
 #include "../tests/adversarial_frames.hpp"
 #include "counting.hpp"
 #include "dotpose/code_evidence.hpp"
@@ -152,19 +152,26 @@ int run(const Counting& counting, std::uint64_t frames, Code code,
 int main(int argc, char** argv) {
     Counting counting;
     std::uint64_t frames = 18'000;
-    CLI::App app("How often is `locate` deceived? Status 1 if any fix is wrong.",
-                 "dotpose_adversarial");
+    cli::Command app("How often is `locate` deceived? Status 1 if any fix is wrong.",
+                     "dotpose_adversarial");
     add_count(app, "--frames", frames, "How many, evenly over the classes");
-    std::map<std::string, Adversary> by_name;
+    std::vector<std::string> all;
     for (const Adversary adversary : test::kAdversaries)
-        by_name.emplace(name(adversary), adversary);
-    std::vector<Adversary> adversaries(test::kAdversaries.begin(), test::kAdversaries.end());
-    app.add_option("--class", adversaries, "Only frames of this class, given once or more")
-        ->transform(CLI::CheckedTransformer(by_name));
-    Code code = Code::given;
+        all.emplace_back(name(adversary));
+    std::vector<std::string> wanted = all;
+    app.add_option("--class", wanted,
+                   "Only frames of this class, given once or more: " + cli::alternatives(all))
+        ->check(cli::one_of(all));
+    std::string code = "given";
     app.add_option("--code", code, "The printed code: given, or found out (auto)")
-        ->transform(CLI::CheckedTransformer(
-            std::map<std::string, Code>{{"given", Code::given}, {"auto", Code::automatic}}));
+        ->check(cli::one_of({"given", "auto"}));
     counting.add_to(app);
-    return run_program(app, argc, argv, [&] { return run(counting, frames, code, adversaries); });
+    return run_program(app, argc, argv, [&] {
+        std::vector<Adversary> adversaries;
+        for (const std::string& each : wanted) {
+            const auto at = std::find(all.begin(), all.end(), each) - all.begin();
+            adversaries.push_back(test::kAdversaries[static_cast<std::size_t>(at)]);
+        }
+        return run(counting, frames, code == "auto" ? Code::automatic : Code::given, adversaries);
+    });
 }

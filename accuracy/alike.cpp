@@ -103,7 +103,7 @@ int run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
     Arguments arguments;
-    CLI::App app("How exact is a frame whose dots fall on the pixels alike?", "dotpose_alike");
+    cli::Command app("How exact is a frame whose dots fall on the pixels alike?", "dotpose_alike");
     add_count(app, "--frames", arguments.frames, "How many for each condition");
     app.add_option("--spacings", arguments.spacings_px, "px; 16 and more at 640 x 480")
         ->delimiter(',')

@@ -34,7 +34,7 @@ int run(const Arguments& arguments) {
 int main(int argc, char** argv) {
     using namespace dotpose;
     Arguments arguments;
-    CLI::App app("How far are calibrations off, and do they know it?", "dotpose_calibration");
+    cli::Command app("How far are calibrations off, and do they know it?", "dotpose_calibration");
     add_count(app, "--calibrations", arguments.calibrations, "How many of small cameras");
     add_count(app, "--large", arguments.large, "How many of large ones");
     add_count(app, "--spins", arguments.spins, "How many of robots that turn on the spot");

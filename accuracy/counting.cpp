@@ -7,26 +7,27 @@
 
 namespace dotpose {
 
-void Counting::add_to(CLI::App& app) {
+void Counting::add_to(cli::Command& app) {
     app.add_option("--seed", seed, "Another seed gives other frames")->capture_default_str();
     app.add_option("--threads", threads, "Default: one for each processor")
-        ->check(CLI::Range(1, 1024));
+        ->check(cli::Range(1, 1024));
 }
 
-void add_count(CLI::App& app, const std::string& flag, std::uint64_t& count,
+void add_count(cli::Command& app, const std::string& flag, std::uint64_t& count,
                const std::string& what) {
     constexpr std::uint64_t kMost = 2'000'000'000;
     app.add_option(flag, count, what)
-        ->check(CLI::Range(std::uint64_t{0}, kMost))
+        ->check(cli::Range(std::uint64_t{0}, kMost))
         ->capture_default_str();
 }
 
-int run_program(CLI::App& app, int argc, char** argv, const std::function<int()>& run) {
+int run_program(cli::Command& app, int argc, char** argv, const std::function<int()>& run) {
     try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
+        if (!app.parse(argc, argv)) return EXIT_SUCCESS;
+    } catch (const cli::UsageError& error) {
+        fmt::print(stderr, "{}\nRun with --help for more information.\n", error.what());
         constexpr int kWrongUsage = 2;
-        return app.exit(error) == 0 ? EXIT_SUCCESS : kWrongUsage;
+        return kWrongUsage;
     }
     try {
         cli::catch_interrupts();

@@ -12,8 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
+#include "../apps/dotpose/command_line.hpp"
 #include "../apps/dotpose/progress.hpp"
 
 namespace dotpose {
@@ -23,16 +22,16 @@ struct Counting {
     std::uint64_t seed = 1;
     unsigned threads = std::max(std::thread::hardware_concurrency(), 1u);
 
-    void add_to(CLI::App& app);
+    void add_to(cli::Command& app);
 };
 
 /// Adds an option for a number of items, 0 to 2e9.
-void add_count(CLI::App& app, const std::string& flag, std::uint64_t& count,
+void add_count(cli::Command& app, const std::string& flag, std::uint64_t& count,
                const std::string& what);
 
 /// The body of main(): reads the arguments and calls `run`, whose result is the exit status.
 /// Returns 2 for wrong usage and 1 for other errors. Ctrl-C then ends `count_on_threads` early.
-int run_program(CLI::App& app, int argc, char** argv, const std::function<int()>& run);
+int run_program(cli::Command& app, int argc, char** argv, const std::function<int()>& run);
 
 template <typename Tally>
 struct Count {

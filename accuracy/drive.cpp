@@ -216,14 +216,14 @@ int run(const Arguments& arguments) {
 int main(int argc, char** argv) {
     using namespace dotpose;
     Arguments arguments;
-    CLI::App app("How exactly is a robot followed?", "dotpose_drive");
+    cli::Command app("How exactly is a robot followed?", "dotpose_drive");
     app.add_option("--speeds", arguments.speeds_mm_s, "Highest speeds of the drives, mm/s")
-        ->check(CLI::Range(0.0, 350.0))
+        ->check(cli::Range(0.0, 350.0))
         ->capture_default_str();
     app.add_option("--width", arguments.width_px, "Of a frame, px")->capture_default_str();
     app.add_option("--height", arguments.height_px, "Of a frame, px")->capture_default_str();
     app.add_option("--draw", arguments.picture, "Picture (SVG) of the last drive on nominal paper");
     app.add_option("--threads", arguments.threads, "Default: one for each processor")
-        ->check(CLI::Range(1, 1024));
+        ->check(cli::Range(1, 1024));
     return run_program(app, argc, argv, [&] { return run(arguments); });
 }

@@ -228,7 +228,7 @@ int run(unsigned threads) {
 
 int main(int argc, char** argv) {
     unsigned threads = Counting{}.threads;
-    CLI::App app("Checksums of frames and fixes, for scripts/golden-frames.", "dotpose_golden");
-    app.add_option("--threads", threads, "How many frames at once")->check(CLI::Range(1, 256));
+    cli::Command app("Checksums of frames and fixes, for scripts/golden-frames.", "dotpose_golden");
+    app.add_option("--threads", threads, "How many frames at once")->check(cli::Range(1, 256));
     return run_program(app, argc, argv, [&] { return run(threads); });
 }

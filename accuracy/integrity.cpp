@@ -198,8 +198,8 @@ int run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
     Arguments arguments;
-    CLI::App app("Is p_wrong what it claims to be? Status 1 if more is wrong than claimed.",
-                 "dotpose_integrity");
+    cli::Command app("Is p_wrong what it claims to be? Status 1 if more is wrong than claimed.",
+                     "dotpose_integrity");
     add_count(app, "--grids", arguments.grids, "Grids with errors of all rates");
     add_count(app, "--doubtful", arguments.doubtful, "Grids whose p_wrong is near 1e-3 to 1e-5");
     add_count(app, "--frames", arguments.frames, "Rendered frames");

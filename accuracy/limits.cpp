@@ -112,7 +112,7 @@ int run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
     Arguments arguments;
-    CLI::App app("How bad may a frame be? Status 1 if any fix is wrong.", "dotpose_limits");
+    cli::Command app("How bad may a frame be? Status 1 if any fix is wrong.", "dotpose_limits");
     add_count(app, "--frames", arguments.frames, "How many for each condition");
     arguments.counting.add_to(app);
     return run_program(app, argc, argv, [&] { return run(arguments); });

@@ -141,7 +141,7 @@ int run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
     Arguments arguments;
-    CLI::App app(
+    cli::Command app(
         "Does a fix tell how exact it is where the sheet is not one plane? Status 1 if any is "
         "wrong.",
         "dotpose_slips");

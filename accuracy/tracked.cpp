@@ -12,6 +12,7 @@
 
 #include <fmt/core.h>
 
+#include "../apps/dotpose/choices.hpp"
 #include "../reports/document.hpp"
 #include "counting.hpp"
 #include "tracked_drives.hpp"
@@ -62,9 +63,11 @@ int run(const Arguments& arguments) {
 int main(int argc, char** argv) {
     using namespace dotpose;
     Arguments arguments;
-    CLI::App app("What becomes of predictions? Status 1 if any fix is wrong.", "dotpose_tracked");
-    app.add_option("--part", arguments.parts, "Only this table, given once or more")
-        ->check(CLI::IsMember({"drives", "offsets", "changes", "wrong"}));
+    cli::Command app("What becomes of predictions? Status 1 if any fix is wrong.",
+                     "dotpose_tracked");
+    app.add_option("--part", arguments.parts,
+                   "Only this table, given once or more: " + cli::alternatives(arguments.parts))
+        ->check(cli::one_of(arguments.parts));
     add_count(app, "--frames", arguments.frames, "Frames that are off, and that change");
     add_count(app, "--predictions", arguments.predictions,
               "Wrong predictions, evenly over their classes");

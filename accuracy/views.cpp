@@ -255,8 +255,8 @@ int run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
     Arguments arguments;
-    CLI::App app("What is read of sheets that others made? Status 1 if any fix is wrong.",
-                 "dotpose_views");
+    cli::Command app("What is read of sheets that others made? Status 1 if any fix is wrong.",
+                     "dotpose_views");
     app.add_option("page", arguments.pages, "Images of pages, or texts of symbols")->required();
     app.add_option("--code", arguments.code, "Of the pages: anoto, libdots, microdots")
         ->capture_default_str();

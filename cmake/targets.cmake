@@ -111,7 +111,9 @@ function(dotpose_objects name)
     dotpose_compile_light(${name})
     target_include_directories(${name} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
     target_link_libraries(${name} PUBLIC ${arg_USES})
-    dotpose_precompile(${name} ${arg_HEADERS})
+    if(arg_HEADERS)
+        dotpose_precompile(${name} ${arg_HEADERS})
+    endif()
 endfunction()
 
 # dotpose_precompile(TARGET header...): most of the time of most sources goes into headers of libraries,

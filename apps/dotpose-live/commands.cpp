@@ -2,7 +2,7 @@
 
 namespace dotpose::cli {
 
-void add_live_commands(CLI::App& app, int& exit_code) {
+void add_live_commands(Command& app, int& exit_code) {
     add_watch(app, exit_code);
     add_fleet(app, exit_code);
 }

@@ -2,14 +2,14 @@
 /// starts, because the libraries for video take a tenth of a second to load.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "command_line.hpp"
 
 namespace dotpose::cli {
 
-void add_watch(CLI::App& app, int& exit_code);
-void add_fleet(CLI::App& app, int& exit_code);
+void add_watch(Command& app, int& exit_code);
+void add_fleet(Command& app, int& exit_code);
 
 /// Registers all of these.
-void add_live_commands(CLI::App& app, int& exit_code);
+void add_live_commands(Command& app, int& exit_code);
 
 }  // namespace dotpose::cli

@@ -115,9 +115,9 @@ void run(const FleetArguments& arguments) {
 
 }  // namespace
 
-void add_fleet(CLI::App& app, int&) {
+void add_fleet(Command& app, int&) {
     const auto arguments = std::make_shared<FleetArguments>();
-    CLI::App* command = app.add_subcommand("fleet", "Show all robots that publish to a broker");
+    Command* command = app.add_subcommand("fleet", "Show all robots that publish to a broker");
     command->footer(kExamples);
     arguments->mqtt.add_to(*command)->required();
     add_sheets_option(*command, arguments->sheets, "Sheet file: draw its sheets on the map");
@@ -128,10 +128,10 @@ void add_fleet(CLI::App& app, int&) {
     command->add_option("--every", arguments->every_s, "Time between two looks")
         ->type_name("S")
         ->capture_default_str()
-        ->check(CLI::Range(0.05, 3600.0).description(""));
+        ->check(Range(0.05, 3600.0).description(""));
     command->add_option("--seconds", arguments->seconds, "End after this time")
         ->type_name("S")
-        ->check(CLI::Range(0.1, 1e9).description(""));
+        ->check(Range(0.1, 1e9).description(""));
     command->callback([arguments] { run(*arguments); });
 }
 

@@ -26,7 +26,7 @@ void parse_shard(const std::string& text, Shard& shard) {
     constexpr std::uint32_t kMost = 1'000'000;
     const auto numbers = whole_numbers(text, "/", kMost);
     if (!numbers || (*numbers)[0] < 1 || (*numbers)[0] > (*numbers)[1]) {
-        throw CLI::ValidationError("--shard", "'" + text + "' is not I/N with I from 1 to N");
+        throw ValidationError("--shard", "'" + text + "' is not I/N with I from 1 to N");
     }
     shard = {(*numbers)[0], (*numbers)[1]};
 }
@@ -37,14 +37,14 @@ bool Shard::has(std::string_view robot) const {
     return count == 1 || hash_of(robot) % count == index - 1;
 }
 
-void ShareArguments::add_to(CLI::App& command) {
+void ShareArguments::add_to(Command& command) {
     auto* const share =
         command
             .add_option("--share", group_,
                         "Share the states with the other fleets of this group: each is sent to one "
                         "of them")
             ->type_name("GROUP")
-            ->check(CLI::Validator(check_group, ""));
+            ->check(check_group);
     command
         .add_option_function<std::string>(
             "--shard", [this](const std::string& text) { parse_shard(text, shard_); },

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include <CLI/CLI.hpp>
+#include "command_line.hpp"
 
 namespace dotpose::cli {
 
@@ -21,7 +21,7 @@ struct Shard {
 class ShareArguments {
   public:
     /// Adds --share and --shard.
-    void add_to(CLI::App& command);
+    void add_to(Command& command);
 
     /// Returns the topic to subscribe to for the states of the robots.
     std::string topic() const;

@@ -3,7 +3,7 @@
 #include "tool_main.hpp"
 
 int main(int argc, char** argv) {
-    return dotpose::cli::tool_main(argc, argv, [](CLI::App& app, int& exit_code) {
+    return dotpose::cli::tool_main(argc, argv, [](dotpose::cli::Command& app, int& exit_code) {
         using namespace dotpose::cli;
         add_live_commands(app, exit_code);
         // `dotpose` starts this program for cameras and videos.

@@ -9,12 +9,12 @@
 
 namespace dotpose::cli {
 
-CLI::Option* MqttArguments::add_to(CLI::App& command) {
+Option* MqttArguments::add_to(Command& command) {
     command.add_option("--mqtt-ca", ca_file_, "Certificates to trust (mqtts)")->type_name("FILE");
     command.add_option("--qos", qos_, "0: states may be lost, 1: they arrive, perhaps twice")
         ->type_name("N")
         ->capture_default_str()
-        ->check(CLI::Range(0, 1).description(""));
+        ->check(Range(0, 1).description(""));
     return command
         .add_option("--mqtt", url_,
                     "Broker: mqtt://[USER[:PASSWORD]@]HOST[:PORT], or mqtts:// for TLS; a password "

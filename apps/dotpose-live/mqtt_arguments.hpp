@@ -4,8 +4,7 @@
 #include <optional>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
+#include "command_line.hpp"
 #include "publish/mqtt.hpp"
 
 namespace dotpose::cli {
@@ -13,7 +12,7 @@ namespace dotpose::cli {
 class MqttArguments {
   public:
     /// Adds --mqtt, --mqtt-ca and --qos.
-    CLI::Option* add_to(CLI::App& command);
+    Option* add_to(Command& command);
 
     /// Returns none if no broker was given. The password may be in the environment variable
     /// DOTPOSE_MQTT_PASSWORD. Throws BadArgument if the options are invalid.

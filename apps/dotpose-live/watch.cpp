@@ -62,8 +62,7 @@ struct DdsArguments {
         const char* given = std::getenv("ROS_DOMAIN_ID");
         if (given == nullptr || *given == '\0') return 0;
         int number = 0;
-        if (CLI::detail::lexical_cast(std::string(given), number) && number >= 0 &&
-            number <= kLastDomain) {
+        if (parse_number(std::string(given), number) && number >= 0 && number <= kLastDomain) {
             return number;
         }
         throw BadArgument(
@@ -244,7 +243,7 @@ int run(WatchArguments& arguments) {
     return is_unreadable && outputs.tally().frames == 0 ? kExitFailed : exit_code;
 }
 
-void add_output_options(CLI::App& command, WatchArguments& arguments) {
+void add_output_options(Command& command, WatchArguments& arguments) {
     OutputOptions& outputs = arguments.outputs;
     add_line_options(command, outputs.lines);
     add_draw_option(command, outputs.map, "Draw the path at the end (SVG)");
@@ -263,38 +262,38 @@ void add_output_options(CLI::App& command, WatchArguments& arguments) {
         ->type_name("DIR");
     command.add_option("--save-every", arguments.save.every, "Save every N-th frame instead")
         ->type_name("N")
-        ->check(CLI::Range(1, 2'000'000'000).description(""));
+        ->check(Range(1, 2'000'000'000).description(""));
     command.add_flag("--list-cameras", arguments.lists_cameras,
                      "Print the cameras of this computer with their sizes and rates, and end");
     command.add_flag("--no-window", arguments.has_no_window,
                      "Show nothing, even where there is a display");
     command.add_option("--frames", arguments.frames, "End after so many")
         ->type_name("N")
-        ->check(CLI::Range(1, 2'000'000'000).description(""));
+        ->check(Range(1, 2'000'000'000).description(""));
 }
 
-void add_publish_options(CLI::App& command, OutputOptions& outputs, MqttArguments& mqtt) {
+void add_publish_options(Command& command, OutputOptions& outputs, MqttArguments& mqtt) {
     mqtt.add_to(command);
     add_robot_option(command, outputs.robot,
                      "Name of the robot on the broker and in topics of ROS");
     command.add_option("--mqtt-rate", outputs.mqtt_rate_hz, "Most states a second; events always")
         ->type_name("HZ")
         ->default_str("all")
-        ->check(CLI::Range(0.001, 1e6).description(""));
+        ->check(Range(0.001, 1e6).description(""));
 }
 
-void add_dds_options(CLI::App& command, DdsArguments& dds) {
+void add_dds_options(Command& command, DdsArguments& dds) {
     command.add_flag("--dds", dds.is_wanted, "Publish messages of ROS 2, over DDS");
     command.add_flag("--dds-reliable", dds.is_reliable,
                      "Send lost poses again: for subscribers that ask for it");
     command.add_option("--dds-domain", dds.domain, "Domain of DDS")
         ->type_name("N")
         ->default_str("ROS_DOMAIN_ID, or 0")
-        ->check(CLI::Range(0, kLastDomain).description(""));
+        ->check(Range(0, kLastDomain).description(""));
 }
 
-void add_track_options(CLI::App& command, TrackOptions& track) {
-    const auto require_positive = CLI::Range(1e-3, 1e7).description("");
+void add_track_options(Command& command, TrackOptions& track) {
+    const auto require_positive = Range(1e-3, 1e7).description("");
     command.add_option("--max-speed", track.max_speed_mm_s, "Of the robot")
         ->type_name("MM/S")
         ->capture_default_str()
@@ -314,7 +313,7 @@ void add_track_options(CLI::App& command, TrackOptions& track) {
             "Probability of being wrong above which a position is refused, the prior included")
         ->type_name("P")
         ->default_str("1e-9")
-        ->check(CLI::Range(1e-60, 1e-3).description(""));
+        ->check(Range(1e-60, 1e-3).description(""));
     command
         .add_option_function<double>(
             "--lost-after",
@@ -322,14 +321,14 @@ void add_track_options(CLI::App& command, TrackOptions& track) {
             "Time without a believed fix after which the robot is lost")
         ->type_name("MS")
         ->default_str("70")
-        ->check(CLI::Range(0.0, 1e9).description(""));
+        ->check(Range(0.0, 1e9).description(""));
 }
 
 }  // namespace
 
-void add_watch(CLI::App& app, int& exit_code) {
+void add_watch(Command& app, int& exit_code) {
     const auto arguments = std::make_shared<WatchArguments>();
-    CLI::App* command =
+    Command* command =
         app.add_subcommand("watch", "Follow a camera live, or a video frame by frame");
     command->footer(kExamples);
     arguments->sources.add_to(*command);

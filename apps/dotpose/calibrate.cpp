@@ -170,9 +170,8 @@ ScaleReference parse_reference(const std::string& text) {
     if (text == "camera") return {ScaleReference::By::camera, "", 0};
     const std::size_t sign = text.rfind('=');
     ScaleReference reference{ScaleReference::By::width, text.substr(0, sign), 0};
-    if (sign == std::string::npos ||
-        !CLI::detail::lexical_cast(text.substr(sign + 1), reference.width_mm)) {
-        throw CLI::ValidationError(
+    if (sign == std::string::npos || !parse_number(text.substr(sign + 1), reference.width_mm)) {
+        throw ValidationError(
             "--true-scale", fmt::format("'{}' must be camera, or SHEET=MM with the true width of a "
                                         "sheet",
                                         text));
@@ -241,8 +240,8 @@ int run(const CalibrateArguments& arguments) {
     return 0;
 }
 
-void add_live_options(CLI::App& command, CalibrateArguments& arguments) {
-    CLI::Option* live = command.add_flag(
+void add_live_options(Command& command, CalibrateArguments& arguments) {
+    Option* live = command.add_flag(
         "--live", arguments.is_live,
         "Take frames by itself while you move the camera, and show what is still missing");
     for (const char* other : {"--spin", "--drive", "--stitch"})
@@ -259,9 +258,9 @@ void add_live_options(CLI::App& command, CalibrateArguments& arguments) {
 
 }  // namespace
 
-void add_calibrate(CLI::App& app, int& exit_code) {
+void add_calibrate(Command& app, int& exit_code) {
     const auto arguments = std::make_shared<CalibrateArguments>();
-    CLI::App* command =
+    Command* command =
         app.add_subcommand("calibrate", "Find lens and mount of a camera from frames of a sheet");
     command->footer(kExamples);
     arguments->sources.add_to(*command);
@@ -291,10 +290,10 @@ void add_calibrate(CLI::App& app, int& exit_code) {
         ->add_option("--drive", arguments->drive,
                      "Frames of a straight drive ahead, in order: find the heading (theta_offset)")
         ->type_name("SOURCE");
-    CLI::Option* stitch = command->add_flag(
+    Option* stitch = command->add_flag(
         "--stitch", arguments->stitch,
         "Find how the sheets of a sheet file lie, from frames that show two, and write it there");
-    CLI::Option* sheets = add_sheets_option(*command, arguments->sheets, "Sheet file to stitch");
+    Option* sheets = add_sheets_option(*command, arguments->sheets, "Sheet file to stitch");
     command
         ->add_option_function<std::string>(
             "--true-scale",

@@ -209,9 +209,9 @@ int run(const CheckPrintArguments& arguments) {
 
 }  // namespace
 
-void add_check_print(CLI::App& app, int& exit_code) {
+void add_check_print(Command& app, int& exit_code) {
     const auto arguments = std::make_shared<CheckPrintArguments>();
-    CLI::App* command =
+    Command* command =
         app.add_subcommand("check-print", "Judge a printed sheet by a scan or photo of it");
     command->footer(kExamples);
     command->add_option("scan", arguments->scan, "PNG, TIFF, JPEG, BMP or PGM file")
@@ -220,19 +220,19 @@ void add_check_print(CLI::App& app, int& exit_code) {
     command->add_option("--dpi", arguments->dpi, "Resolution of the scan")
         ->type_name("N")
         ->default_str("as the file states")
-        ->check(CLI::Range(1.0, 100'000.0));
+        ->check(Range(1.0, 100'000.0));
     command
         ->add_option("--max-pixels", arguments->max_megapixels,
                      "Largest scan, in millions; each takes 9 MB of memory")
         ->type_name("N")
         ->capture_default_str()
-        ->check(CLI::Range(1, kMaxImagePixels / 1'000'000));
+        ->check(Range(1, kMaxImagePixels / 1'000'000));
     arguments->pattern.add_to(*command, PatternArguments::Use::expected);
     add_report_options(*command, arguments->report);
     add_draw_option(*command, arguments->picture, "Also draw a map of the distortion (.svg)");
-    CLI::Option* fit = command->add_flag(
+    Option* fit = command->add_flag(
         "--fit", arguments->fit, "Write the scale found into the sheet file, for true millimetres");
-    CLI::Option* sheets =
+    Option* sheets =
         add_sheets_option(*command, arguments->sheets,
                           "Sheet file that says how the sheets on the scan were printed");
     fit->needs(sheets);

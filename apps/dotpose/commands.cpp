@@ -2,7 +2,7 @@
 
 namespace dotpose::cli {
 
-void add_commands(CLI::App& app, int& exit_code) {
+void add_commands(Command& app, int& exit_code) {
     add_locate(app, exit_code);
     add_print(app, exit_code);
     add_overlay(app, exit_code);

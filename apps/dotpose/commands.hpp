@@ -4,28 +4,27 @@
 /// status.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
+#include "command_line.hpp"
 #include "exit_codes.hpp"
 
 namespace dotpose::cli {
 
-void add_print(CLI::App& app, int& exit_code);
-void add_overlay(CLI::App& app, int& exit_code);
-void add_locate(CLI::App& app, int& exit_code);
-void add_simulate(CLI::App& app, int& exit_code);
-void add_evaluate(CLI::App& app, int& exit_code);
-void add_check_print(CLI::App& app, int& exit_code);
-void add_calibrate(CLI::App& app, int& exit_code);
-void add_optics(CLI::App& app, int& exit_code);
-void add_listen(CLI::App& app, int& exit_code);
-void add_replay(CLI::App& app, int& exit_code);
-void add_sheets(CLI::App& app, int& exit_code);
+void add_print(Command& app, int& exit_code);
+void add_overlay(Command& app, int& exit_code);
+void add_locate(Command& app, int& exit_code);
+void add_simulate(Command& app, int& exit_code);
+void add_evaluate(Command& app, int& exit_code);
+void add_check_print(Command& app, int& exit_code);
+void add_calibrate(Command& app, int& exit_code);
+void add_optics(Command& app, int& exit_code);
+void add_listen(Command& app, int& exit_code);
+void add_replay(Command& app, int& exit_code);
+void add_sheets(Command& app, int& exit_code);
 
 /// Registers all of these.
-void add_commands(CLI::App& app, int& exit_code);
+void add_commands(Command& app, int& exit_code);
 
 /// Registers the commands that the program in apps/dotpose-live executes, without their options.
-void add_live(CLI::App& app);
+void add_live(Command& app);
 
 }  // namespace dotpose::cli

@@ -47,7 +47,7 @@ std::pair<std::uint32_t, std::uint32_t> parse_pair(const std::string& flag, cons
                                                    std::uint32_t limit) {
     const auto numbers = whole_numbers(text, ",", limit - 1);
     if (!numbers) {
-        throw CLI::ValidationError(
+        throw ValidationError(
             flag, fmt::format("'{}' must be two whole numbers from 0 to {} with a comma between",
                               text, limit - 1));
     }
@@ -57,7 +57,7 @@ std::pair<std::uint32_t, std::uint32_t> parse_pair(const std::string& flag, cons
 /// Checks that a number is positive. CLI11's own check prints a limit of 309 digits in its message.
 std::string require_positive(const std::string& text) {
     double value = 0;
-    if (CLI::detail::lexical_cast(text, value) && value > 0 && std::isfinite(value)) return {};
+    if (parse_number(text, value) && value > 0 && std::isfinite(value)) return {};
     return "'" + text + "' is not a length in mm above 0";
 }
 
@@ -68,8 +68,7 @@ std::string require_spacing(const std::string& text) {
     constexpr double kLeast_mm = 0.01;
     constexpr double kMost_mm = 100;
     double value_mm = 0;
-    if (!CLI::detail::lexical_cast(text, value_mm) || !(value_mm > 0))
-        return require_positive(text);
+    if (!parse_number(text, value_mm) || !(value_mm > 0)) return require_positive(text);
     if (value_mm >= kLeast_mm && value_mm <= kMost_mm) return {};
     return fmt::format("'{}' is no spacing of dots in mm, {:g} to {:g}; usual is {:g}", text,
                        kLeast_mm, kMost_mm, kDefaultSpacing_mm);
@@ -77,7 +76,7 @@ std::string require_spacing(const std::string& text) {
 
 }  // namespace
 
-void add_code_option(CLI::App& command, Profile& profile) {
+void add_code_option(Command& command, Profile& profile) {
     command
         .add_option_function<std::string>(
             "--code", [&profile](const std::string& asked) { profile = *profile_by_name(asked); },
@@ -87,7 +86,7 @@ void add_code_option(CLI::App& command, Profile& profile) {
         ->check(one_of(kCodes, kEarlierCodes));
 }
 
-void add_code_option(CLI::App& command, std::optional<Profile>& code) {
+void add_code_option(Command& command, std::optional<Profile>& code) {
     std::vector<std::string> names = {"auto"};
     names.insert(names.end(), kCodes.begin(), kCodes.end());
     command
@@ -99,7 +98,7 @@ void add_code_option(CLI::App& command, std::optional<Profile>& code) {
         ->check(one_of(names, kEarlierCodes));
 }
 
-void add_section_option(CLI::App& command, Section& section) {
+void add_section_option(Command& command, Section& section) {
     command
         .add_option_function<std::string>(
             "--section",
@@ -112,14 +111,14 @@ void add_section_option(CLI::App& command, Section& section) {
         ->default_str(fmt::format("{},{}", section.u, section.v));
 }
 
-void add_spacing_option(CLI::App& command, double& spacing_mm) {
+void add_spacing_option(Command& command, double& spacing_mm) {
     command.add_option("--spacing", spacing_mm, "Distance of neighbouring grid intersections")
         ->type_name("MM")
         ->capture_default_str()
         ->check(require_spacing);
 }
 
-void add_cell_option(CLI::App& command, const std::string& flag, Cell& cell,
+void add_cell_option(Command& command, const std::string& flag, Cell& cell,
                      const std::string& help) {
     command
         .add_option_function<std::string>(
@@ -133,25 +132,22 @@ void add_cell_option(CLI::App& command, const std::string& flag, Cell& cell,
         ->default_str(fmt::format("{},{}", cell.x, cell.y));
 }
 
-CLI::Option* add_sheets_option(CLI::App& command, std::string& path, const std::string& help) {
+Option* add_sheets_option(Command& command, std::string& path, const std::string& help) {
     const auto not_empty = [](const std::string& text) {
         return text.empty() ? std::string("the name of the sheet file is empty") : std::string();
     };
-    return command.add_option("--sheets", path, help)
-        ->type_name("FILE")
-        ->check(CLI::Validator(not_empty, ""));
+    return command.add_option("--sheets", path, help)->type_name("FILE")->check(not_empty);
 }
 
-CLI::Option* add_lens_option(CLI::App& command, Lens& lens) {
+Option* add_lens_option(Command& command, Lens& lens) {
     return command
         .add_option_function<double>(
             "--k",
             [&lens](double k_per_px2) {
                 constexpr double kLargest_k = 1.0 / 512;
                 if (!(std::abs(k_per_px2) < kLargest_k)) {
-                    throw CLI::ValidationError(
-                        "--k", fmt::format("{} is not between {:.4f} and {:.4f}", k_per_px2,
-                                           -kLargest_k, kLargest_k));
+                    throw ValidationError("--k", fmt::format("{} is not between {:.4f} and {:.4f}",
+                                                             k_per_px2, -kLargest_k, kLargest_k));
                 }
                 lens = Lens::from_k(k_per_px2);
             },
@@ -160,7 +156,7 @@ CLI::Option* add_lens_option(CLI::App& command, Lens& lens) {
         ->default_str("0");
 }
 
-CLI::Option* add_camera_option(CLI::App& command, CameraArgument& camera, const std::string& help) {
+Option* add_camera_option(Command& command, CameraArgument& camera, const std::string& help) {
     return command
         .add_option_function<std::string>(
             "--camera",
@@ -171,7 +167,7 @@ CLI::Option* add_camera_option(CLI::App& command, CameraArgument& camera, const 
         ->type_name("FILE");
 }
 
-void add_attempt_options(CLI::App& command, Options& options) {
+void add_attempt_options(Command& command, Options& options) {
     add_named(command, "--decoder", kDecoders, name(options.decoder),
               "What the position is read from",
               [&options](Decoder decoder) { options.decoder = decoder; });
@@ -179,7 +175,7 @@ void add_attempt_options(CLI::App& command, Options& options) {
               [&options](Effort effort) { options.effort = effort; });
 }
 
-void add_size_option(CLI::App& command, CameraModel& camera) {
+void add_size_option(Command& command, CameraModel& camera) {
     command
         .add_option_function<std::string>(
             "--size",
@@ -205,7 +201,7 @@ std::optional<DotDrawing> drawing_by_name(const std::string& name) {
     return found == kDrawings.end() ? std::nullopt : std::optional(found->second);
 }
 
-void add_drawing_option(CLI::App& command, DotDrawing& drawing) {
+void add_drawing_option(Command& command, DotDrawing& drawing) {
     std::vector<std::string> names;
     for (const auto& [name, value] : kDrawings)
         names.push_back(name);
@@ -239,28 +235,28 @@ std::optional<std::vector<std::uint32_t>> whole_numbers(std::string_view text,
 FrameSize parse_frame_size(const std::string& flag, const std::string& text) {
     const auto numbers = whole_numbers(text, "x", kMaxImageSide_px);
     if (!numbers || (*numbers)[0] == 0 || (*numbers)[1] == 0) {
-        throw CLI::ValidationError(
-            flag, fmt::format("'{}' is not WIDTHxHEIGHT in px, such as 188x120", text));
+        throw ValidationError(flag,
+                              fmt::format("'{}' is not WIDTHxHEIGHT in px, such as 188x120", text));
     }
     const std::uint64_t pixels = std::uint64_t{(*numbers)[0]} * (*numbers)[1];
     if (pixels > kMaxImagePixels) {
-        throw CLI::ValidationError(
+        throw ValidationError(
             flag, fmt::format("{} has more than {} million pixels", text, kMaxImagePixels >> 20));
     }
     return {static_cast<int>((*numbers)[0]), static_cast<int>((*numbers)[1])};
 }
 
-void refuse_non_finite_numbers(CLI::App& app) {
+void refuse_non_finite_numbers(Command& app) {
     // Values of these types are text: a file may be called "nan".
     const std::set<std::string> texts = {"DIR",   "FILE", "FILE|-", "FILE|-|DIR", "NAME", "PART",
                                          "RANGE", "SCAN", "SOURCE", "TEXT",       "URL"};
     const auto is_finite = [](const std::string& text) -> std::string {
         double value = 0;
-        if (!CLI::detail::lexical_cast(text, value) || std::isfinite(value)) return {};
+        if (!parse_number(text, value) || std::isfinite(value)) return {};
         return "'" + text + "' is not a finite number";
     };
-    for (CLI::App* command : app.get_subcommands({})) {
-        for (CLI::Option* option : command->get_options()) {
+    for (Command* command : app.get_all_subcommands()) {
+        for (Option* option : command->get_options()) {
             if (!texts.contains(option->get_type_name())) option->check(is_finite);
         }
         refuse_non_finite_numbers(*command);
@@ -288,7 +284,7 @@ std::string command_line(const std::set<std::string>& without) {
     return line;
 }
 
-void PatternArguments::add_to(CLI::App& command, Use use) {
+void PatternArguments::add_to(Command& command, Use use) {
     if (use == Use::made) {
         add_code_option(command, given_.profile);
         add_section_option(command, given_.section);

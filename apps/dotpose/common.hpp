@@ -8,9 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "choices.hpp"
+#include "command_line.hpp"
 #include "dotpose/files/camera.hpp"
 #include "dotpose/files/sheet.hpp"
 #include "dotpose/options.hpp"
@@ -20,27 +19,27 @@
 namespace dotpose::cli {
 
 /// Adds --code anoto|libdots|microdots for output. The default is the value of `profile`.
-void add_code_option(CLI::App& command, Profile& profile);
+void add_code_option(Command& command, Profile& profile);
 
 /// Adds --code auto|anoto|libdots|microdots for input. None means auto, which is the default.
-void add_code_option(CLI::App& command, std::optional<Profile>& code);
+void add_code_option(Command& command, std::optional<Profile>& code);
 
 /// Adds --section U,V, each 0 to 62.
-void add_section_option(CLI::App& command, Section& section);
+void add_section_option(Command& command, Section& section);
 
 /// Adds --spacing MM, which must be above 0.
-void add_spacing_option(CLI::App& command, double& spacing_mm);
+void add_spacing_option(Command& command, double& spacing_mm);
 
 /// Adds an option for a cell X,Y, such as --origin; `help` says what the cell means for the
 /// command.
-void add_cell_option(CLI::App& command, const std::string& flag, Cell& cell,
+void add_cell_option(Command& command, const std::string& flag, Cell& cell,
                      const std::string& help);
 
 /// Adds --sheets FILE; `help` says what the command uses the file for.
-CLI::Option* add_sheets_option(CLI::App& command, std::string& path, const std::string& help);
+Option* add_sheets_option(Command& command, std::string& path, const std::string& help);
 
 /// Adds --k, the lens distortion in 1/px^2 that `locate` corrects.
-CLI::Option* add_lens_option(CLI::App& command, Lens& lens);
+Option* add_lens_option(Command& command, Lens& lens);
 
 /// A camera file and its contents.
 struct CameraArgument {
@@ -49,18 +48,18 @@ struct CameraArgument {
 };
 
 /// Adds --camera FILE; the file is read while the command line is parsed.
-CLI::Option* add_camera_option(CLI::App& command, CameraArgument& camera, const std::string& help);
+Option* add_camera_option(Command& command, CameraArgument& camera, const std::string& help);
 
 /// Adds --decoder and --effort. `options` must outlive the command.
-void add_attempt_options(CLI::App& command, Options& options);
+void add_attempt_options(Command& command, Options& options);
 
 /// Adds --size WxH, the size of a simulated frame.
-void add_size_option(CLI::App& command, CameraModel& camera);
+void add_size_option(Command& command, CameraModel& camera);
 
 /// Adds an option whose value is the name of one of `values`, which must outlive the command.
 template <typename Values, typename Store>
-CLI::Option* add_named(CLI::App& command, const std::string& flag, const Values& values,
-                       const std::string& default_name, const std::string& help, Store store) {
+Option* add_named(Command& command, const std::string& flag, const Values& values,
+                  const std::string& default_name, const std::string& help, Store store) {
     std::vector<std::string> names;
     for (const auto value : values)
         names.emplace_back(name(value));
@@ -84,7 +83,7 @@ class PatternArguments {
     /// Whether the pattern is output or expected in an image. For an expected pattern there is no
     /// option --section, because the section is read from the image.
     enum class Use { made, expected };
-    void add_to(CLI::App& command, Use use = Use::made);
+    void add_to(Command& command, Use use = Use::made);
 
     /// The pattern that the options describe. Displacement and dot diameter are a sixth of the
     /// spacing unless they are given.
@@ -106,7 +105,7 @@ std::string drawing_name(DotDrawing drawing);
 std::optional<DotDrawing> drawing_by_name(const std::string& name);
 
 /// Adds --dots, the way in which a PDF draws dots.
-void add_drawing_option(CLI::App& command, DotDrawing& drawing);
+void add_drawing_option(Command& command, DotDrawing& drawing);
 
 /// Parses integers from 0 to `most` with these separators between them and nothing else: "640x480"
 /// with the separators "x", "10,20,640x480" with ",,x". Returns none for any other text.
@@ -118,12 +117,12 @@ struct FrameSize {
     int width_px = 0;
     int height_px = 0;
 };
-/// Parses "WIDTHxHEIGHT". Throws CLI::ValidationError that names the flag.
+/// Parses "WIDTHxHEIGHT". Throws ValidationError that names the flag.
 FrameSize parse_frame_size(const std::string& flag, const std::string& text);
 
 /// Makes every numeric option of every subcommand refuse values that are not finite: nan, inf,
 /// 1e999. Call it after all options have been added.
-void refuse_non_finite_numbers(CLI::App& app);
+void refuse_non_finite_numbers(Command& app);
 
 /// Stores the arguments of `main` for `command_line`.
 void remember_command_line(int argc, char** argv);

@@ -317,7 +317,7 @@ int run(EvaluateArguments& arguments) {
     return evaluate_preset(arguments);
 }
 
-void add_jobs(CLI::App& command, const std::shared_ptr<EvaluateArguments>& arguments) {
+void add_jobs(Command& command, const std::shared_ptr<EvaluateArguments>& arguments) {
     arguments->sources.add_to(command);
     command.get_option("--size")->description(
         "Of simulated frames (default 188x120) and raw ones; of a camera, what it is asked for");
@@ -336,7 +336,7 @@ void add_jobs(CLI::App& command, const std::shared_ptr<EvaluateArguments>& argum
         .add_option("--frames", arguments->frames,
                     "How many; of a sweep for each value, of the protocol at each place")
         ->type_name("N")
-        ->check(CLI::Range(1, 10'000'000))
+        ->check(Range(1, 10'000'000))
         ->default_str("1000, 200, 20");
     command.add_option("--seed", arguments->setup.seed, "Another seed, other frames")
         ->type_name("N")
@@ -345,16 +345,16 @@ void add_jobs(CLI::App& command, const std::shared_ptr<EvaluateArguments>& argum
 
 }  // namespace
 
-void add_evaluate(CLI::App& app, int& exit_code) {
+void add_evaluate(Command& app, int& exit_code) {
     const auto arguments = std::make_shared<EvaluateArguments>();
-    CLI::App* command =
+    Command* command =
         app.add_subcommand("evaluate", "Measure how often and how well frames are located");
     command->footer(kExamples);
     add_jobs(*command, arguments);
     add_attempt_options(*command, arguments->options);
     add_code_option(*command, arguments->code);
     add_spacing_option(*command, arguments->spacing_mm);
-    CLI::Option* camera =
+    Option* camera =
         add_camera_option(*command, arguments->camera,
                           "Camera file that frames are located with, as by locate --camera");
     camera->excludes(add_lens_option(*command, arguments->options.lens));
@@ -368,7 +368,7 @@ void add_evaluate(CLI::App& app, int& exit_code) {
     command
         ->add_option("--threads", arguments->threads, "Results do not depend on it; 0: all cores")
         ->type_name("N")
-        ->check(CLI::Range(0, 1024))
+        ->check(Range(0, 1024))
         ->capture_default_str();
     add_report_options(*command, arguments->report,
                        "File to write instead of standard output; of a sweep and of the protocol, "

@@ -15,11 +15,11 @@ PixelPoint parse_reference(const std::string& text) {
     PixelPoint point;
     const std::size_t comma = text.find(',');
     const auto parse = [](const std::string& number, double& value) {
-        return CLI::detail::lexical_cast(number, value) && std::abs(value) <= kFarthestReference_px;
+        return parse_number(number, value) && std::abs(value) <= kFarthestReference_px;
     };
     if (comma == std::string::npos || !parse(text.substr(0, comma), point.u) ||
         !parse(text.substr(comma + 1), point.v)) {
-        throw CLI::ValidationError(
+        throw ValidationError(
             "--reference",
             fmt::format("'{}' must be two numbers from {} to {} with a comma between", text,
                         -kFarthestReference_px, kFarthestReference_px));
@@ -43,13 +43,14 @@ FollowerOptions FollowerArguments::read() const {
     return result;
 }
 
-void add_follower_options(CLI::App& command, FollowerArguments& arguments,
+void add_follower_options(Command& command, FollowerArguments& arguments,
                           const std::string& sheets_help) {
     FollowerOptions& options = arguments.options;
     add_spacing_option(command, options.spacing_mm);
     add_code_option(command, options.code);
     add_sheets_option(command, arguments.sheets, sheets_help)
-        ->excludes(command.get_option("--spacing"), command.get_option("--code"));
+        ->excludes(command.get_option("--spacing"))
+        ->excludes(command.get_option("--code"));
     command.add_flag("--inverted", arguments.is_inverted, "The dots are white on black");
     add_camera_option(command, arguments.camera,
                       "Camera file, of 'dotpose calibrate' or ROS: lens, reference, heading")

@@ -3,8 +3,7 @@
 
 #include <string>
 
-#include <CLI/CLI.hpp>
-
+#include "command_line.hpp"
 #include "common.hpp"
 #include "dotpose/tools/follower.hpp"
 #include "run_files.hpp"
@@ -25,7 +24,7 @@ struct FollowerArguments {
 };
 
 /// Adds the options. `sheets_help` says what the sheet file does for this command.
-void add_follower_options(CLI::App& command, FollowerArguments& arguments,
+void add_follower_options(Command& command, FollowerArguments& arguments,
                           const std::string& sheets_help);
 
 /// Makes white dots on black dark dots on white.

@@ -202,7 +202,7 @@ void run(const ListenArguments& arguments) {
     losses.report(reader.damaged());
 }
 
-void add_baud_option(CLI::App& command, Baud& baud) {
+void add_baud_option(Command& command, Baud& baud) {
     command
         .add_option_function<int>(
             "--baud",
@@ -213,7 +213,7 @@ void add_baud_option(CLI::App& command, Baud& baud) {
                         return;
                     }
                 }
-                throw CLI::ValidationError(
+                throw ValidationError(
                     "--baud", fmt::format("{} is no usual rate, such as 115200 or 921600", rate));
             },
             "Of a serial device")
@@ -223,9 +223,9 @@ void add_baud_option(CLI::App& command, Baud& baud) {
 
 }  // namespace
 
-void add_listen(CLI::App& app, int&) {
+void add_listen(Command& app, int&) {
     const auto arguments = std::make_shared<ListenArguments>();
-    CLI::App* command =
+    Command* command =
         app.add_subcommand("listen", "Print the poses that a device sends as packets");
     command->footer(kExamples);
     command->add_option("source", arguments->source, "Serial device, file, or - (standard input)")

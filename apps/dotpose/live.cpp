@@ -51,8 +51,8 @@ int become_live() {
                     what, live_program(), std::strerror(error_number)));
 }
 
-void add_forwarded(CLI::App& app, const char* name, const char* what) {
-    CLI::App* command = app.add_subcommand(name, what);
+void add_forwarded(Command& app, const char* name, const char* what) {
+    Command* command = app.add_subcommand(name, what);
     command->set_help_flag();
     command->prefix_command();
     command->callback(
@@ -81,7 +81,7 @@ LensCalibration calibrate_live(const SourceArguments&, Sources&, const Calibrate
     throw_missing("calibrate --live needs", become_live());
 }
 
-void add_live(CLI::App& app) {
+void add_live(Command& app) {
     add_forwarded(app, "watch", "Follow a camera live, or a video frame by frame");
     add_forwarded(app, "fleet", "Show all robots that publish to a broker");
 }

@@ -247,9 +247,9 @@ int run(const LocateArguments& arguments) {
 
 }  // namespace
 
-void add_locate(CLI::App& app, int& exit_code) {
+void add_locate(Command& app, int& exit_code) {
     const auto arguments = std::make_shared<LocateArguments>();
-    CLI::App* command = app.add_subcommand("locate", "Find where images look on the pattern");
+    Command* command = app.add_subcommand("locate", "Find where images look on the pattern");
     command->footer(kExamples);
     arguments->sources.add_to(*command);
     add_follower_options(*command, arguments->follower,

@@ -77,16 +77,16 @@ int run(OpticsArguments& arguments) {
 
 }  // namespace
 
-void add_optics(CLI::App& app, int& exit_code) {
+void add_optics(Command& app, int& exit_code) {
     const auto arguments = std::make_shared<OpticsArguments>();
     Optics& optics = arguments->optics;
-    CLI::App* command =
+    Command* command =
         app.add_subcommand("optics", "What a camera of given parts would see, and what to change");
     command->footer(kExamples);
     const auto add = [command](const char* flag, auto& value, const char* unit, const char* help) {
         return command->add_option(flag, value, help)->type_name(unit)->capture_default_str();
     };
-    CLI::Option* paper =
+    Option* paper =
         command
             ->add_option_function<std::string>(
                 "--device", [arguments](const std::string&) { arguments->is_paper = true; },
@@ -100,9 +100,9 @@ void add_optics(CLI::App& app, int& exit_code) {
     add("--f-number", optics.f_number, "N", "Focal length over aperture");
     add_spacing_option(*command, optics.spacing_mm);
     double& dot_mm = optics.dot_mm;
-    CLI::Option* dot = command->add_option("--dot", dot_mm, "Diameter of a dot")
-                           ->type_name("MM")
-                           ->default_str("spacing/6");
+    Option* dot = command->add_option("--dot", dot_mm, "Diameter of a dot")
+                      ->type_name("MM")
+                      ->default_str("spacing/6");
     command->add_option("--exposure", arguments->exposures_per_s, "Exposure time is 1/N s")
         ->type_name("N")
         ->capture_default_str();
@@ -112,7 +112,7 @@ void add_optics(CLI::App& app, int& exit_code) {
     command->add_option("--mm-per-px", optics.mm_per_px, "Measured scale on the paper")
         ->type_name("MM")
         ->default_str("as of a thin lens");
-    for (CLI::Option* option : command->get_options()) {
+    for (Option* option : command->get_options()) {
         if (option != paper && option->get_name() != "--help") paper->excludes(option);
     }
     command->callback([arguments, dot, &exit_code] {

@@ -17,13 +17,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void add_out_option(CLI::App& command, std::string& out, const std::string& help) {
+void add_out_option(Command& command, std::string& out, const std::string& help) {
     command.add_option("-o,--out", out, help)->type_name("FILE|-");
 }
 
 }  // namespace
 
-void add_line_options(CLI::App& command, LineArguments& arguments) {
+void add_line_options(Command& command, LineArguments& arguments) {
     command
         .add_option_function<std::string>(
             "--format",
@@ -47,8 +47,7 @@ void add_line_options(CLI::App& command, LineArguments& arguments) {
     add_out_option(command, arguments.out, "File to write instead of standard output");
 }
 
-void add_report_options(CLI::App& command, ReportArguments& arguments,
-                        const std::string& out_help) {
+void add_report_options(Command& command, ReportArguments& arguments, const std::string& out_help) {
     command
         .add_option_function<std::string>(
             "--format",
@@ -66,7 +65,7 @@ void write_report(const ReportArguments& arguments, const std::string& report) {
     Lines(arguments.out).write(is_plain ? report : for_standard_output(report));
 }
 
-CLI::Option* add_draw_option(CLI::App& command, std::string& path, const std::string& help) {
+Option* add_draw_option(Command& command, std::string& path, const std::string& help) {
     return command.add_option("--draw", path, help)->type_name("FILE");
 }
 

@@ -5,8 +5,7 @@
 #include <cstdio>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
+#include "command_line.hpp"
 #include "fields.hpp"
 #include "lines.hpp"
 #include "pose_fields.hpp"
@@ -21,7 +20,7 @@ struct LineArguments {
 };
 
 /// Adds --format json|csv, --units mm|ros and -o.
-void add_line_options(CLI::App& command, LineArguments& arguments);
+void add_line_options(Command& command, LineArguments& arguments);
 
 /// The options of commands that write one report.
 struct ReportArguments {
@@ -30,7 +29,7 @@ struct ReportArguments {
 };
 
 /// Adds --format text|json, and -o with `out_help`.
-void add_report_options(CLI::App& command, ReportArguments& arguments,
+void add_report_options(Command& command, ReportArguments& arguments,
                         const std::string& out_help = "File to write instead of standard output");
 
 /// Writes the report to the file of -o or to standard output, there in colour if it is text and
@@ -38,7 +37,7 @@ void add_report_options(CLI::App& command, ReportArguments& arguments,
 void write_report(const ReportArguments& arguments, const std::string& report);
 
 /// Adds --draw FILE, a picture to draw as well.
-CLI::Option* add_draw_option(CLI::App& command, std::string& path, const std::string& help);
+Option* add_draw_option(Command& command, std::string& path, const std::string& help);
 
 /// Where a document that goes to a named file in the library is written: there, or if it is to go
 /// to standard output, into a temporary file that is copied there at the end.

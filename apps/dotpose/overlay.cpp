@@ -99,7 +99,7 @@ void run(OverlayArguments& arguments) {
         tell("warning: " + warning);
 }
 
-void add_ink_options(CLI::App& command, OverlayOptions& options) {
+void add_ink_options(Command& command, OverlayOptions& options) {
     command.add_flag("--under", options.under, "Dots below the document instead of above");
     command.add_flag("--cmy-black", options.black_to_cmy,
                      "Print the document's black without black ink");
@@ -112,10 +112,10 @@ void add_ink_options(CLI::App& command, OverlayOptions& options) {
 
 }  // namespace
 
-void add_overlay(CLI::App& app, int& /*exit_code*/) {
+void add_overlay(Command& app, int& /*exit_code*/) {
     const auto arguments = std::make_shared<OverlayArguments>();
     OverlayOptions& options = arguments->options;
-    CLI::App* command = app.add_subcommand("overlay", "Lay dots over the pages of a PDF");
+    Command* command = app.add_subcommand("overlay", "Lay dots over the pages of a PDF");
     command->footer(kExamples);
     command->add_option("pdf", arguments->in, "Document that gets dots")
         ->type_name("FILE")
@@ -142,7 +142,7 @@ void add_overlay(CLI::App& app, int& /*exit_code*/) {
                      "Most that a page's content may take when it is unpacked")
         ->type_name("MB")
         ->capture_default_str()
-        ->check(CLI::Range(1, 1'000'000));
+        ->check(Range(1, 1'000'000));
     command->add_option("--dpi", options.dpi, "The printer's own resolution")
         ->type_name("N")
         ->capture_default_str();

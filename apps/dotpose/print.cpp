@@ -186,9 +186,9 @@ void run(const PrintArguments& arguments) {
 
 }  // namespace
 
-void add_print(CLI::App& app, int& /*exit_code*/) {
+void add_print(Command& app, int& /*exit_code*/) {
     const auto arguments = std::make_shared<PrintArguments>();
-    CLI::App* command = app.add_subcommand("print", "Make a sheet of dots to print");
+    Command* command = app.add_subcommand("print", "Make a sheet of dots to print");
     command->footer(kExamples);
     command
         ->add_option("-o,--out", arguments->out,
@@ -225,7 +225,7 @@ void add_print(CLI::App& app, int& /*exit_code*/) {
         "--no-labels", [arguments] { arguments->print.labels = false; },
         "No text and rulers in the margins of a .pdf");
     arguments->entries.add_to(*command);
-    CLI::Option* test_page = command->add_flag(
+    Option* test_page = command->add_flag(
         "--test-page", arguments->test_page,
         "Patches of dot sizes and spacings, to find what suits a printer with check-print");
     for (const char* own :

@@ -125,9 +125,9 @@ void run(const ReplayArguments& arguments) {
 
 }  // namespace
 
-void add_replay(CLI::App& app, int&) {
+void add_replay(Command& app, int&) {
     const auto arguments = std::make_shared<ReplayArguments>();
-    CLI::App* command =
+    Command* command =
         app.add_subcommand("replay", "Figures and a picture of a run that watch --log kept");
     command->footer(kExamples);
     command->add_option("log", arguments->log, "CSV file of dotpose watch --log")

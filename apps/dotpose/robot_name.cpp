@@ -2,13 +2,12 @@
 
 #include <cstddef>
 
-#include <CLI/CLI.hpp>
-
+#include "command_line.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
 
-void add_robot_option(CLI::App& command, std::string& robot, const std::string& help) {
+void add_robot_option(Command& command, std::string& robot, const std::string& help) {
     command.add_option("--robot", robot, help)
         ->type_name("NAME")
         ->capture_default_str()

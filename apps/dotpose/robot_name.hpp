@@ -3,13 +3,11 @@
 
 #include <string>
 
-namespace CLI {
-class App;
-}
-
 namespace dotpose::cli {
 
+class Command;
+
 /// Adds --robot NAME, and refuses names that no topic can have.
-void add_robot_option(CLI::App& command, std::string& robot, const std::string& help);
+void add_robot_option(Command& command, std::string& robot, const std::string& help);
 
 }  // namespace dotpose::cli

@@ -10,17 +10,17 @@
 
 namespace dotpose::cli {
 
-void SheetEntryArguments::add_to(CLI::App& command) {
-    CLI::Option* sheets = add_sheets_option(
+void SheetEntryArguments::add_to(Command& command) {
+    Option* sheets = add_sheets_option(
         command, path_, "Sheet file to add the pages to, in free regions unless --origin");
-    CLI::Option* name = command.add_option("--name", name_, "Name in the sheet file");
+    Option* name = command.add_option("--name", name_, "Name in the sheet file");
     name->type_name("NAME")->needs(sheets);
     sheets->needs(name);
     command.add_option("--wait", wait_s_, "Longest to wait for others who change the sheet file")
         ->type_name("SECONDS")
         ->capture_default_str()
         ->needs(sheets)
-        ->check(CLI::Range(0.0, 86'400.0));
+        ->check(Range(0.0, 86'400.0));
     origin_ = command.get_option("--origin");
 }
 

@@ -7,8 +7,7 @@
 #include <set>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
+#include "command_line.hpp"
 #include "dotpose/files/sheet_file.hpp"
 
 namespace dotpose::cli {
@@ -16,7 +15,7 @@ namespace dotpose::cli {
 class SheetEntryArguments {
   public:
     /// Adds the options. Call it after the option --origin of the command has been added.
-    void add_to(CLI::App& command);
+    void add_to(Command& command);
 
     /// Whether a sheet file was given; the functions below require one.
     bool given() const { return !path_.empty(); }
@@ -57,7 +56,7 @@ class SheetEntryArguments {
     std::string path_;
     std::string name_;
     double wait_s_ = SheetFileWait{}.most_s;
-    const CLI::Option* origin_ = nullptr;
+    const Option* origin_ = nullptr;
 };
 
 }  // namespace dotpose::cli

@@ -142,43 +142,43 @@ void draw_map(const SheetsArguments& arguments) {
 
 using Arguments = std::shared_ptr<SheetsArguments>;
 
-void add_out_option(CLI::App& command, const Arguments& arguments, const std::string& help) {
+void add_out_option(Command& command, const Arguments& arguments, const std::string& help) {
     command.add_option("-o,--out", arguments->out, help)->type_name("FILE")->required();
 }
 
 /// Adds a subcommand with the options that all have.
-CLI::App& add_command(CLI::App& sheets, const Arguments& arguments, const char* name,
-                      const char* what, void (*run)(const SheetsArguments&)) {
-    CLI::App* command = sheets.add_subcommand(name, what)->group("Commands");
+Command& add_command(Command& sheets, const Arguments& arguments, const char* name,
+                     const char* what, void (*run)(const SheetsArguments&)) {
+    Command* command = sheets.add_subcommand(name, what)->group("Commands");
     add_sheets_option(*command, arguments->sheets, "Sheet file")->capture_default_str();
     command->callback([arguments, run] { run(*arguments); });
     return *command;
 }
 
 /// Adds a subcommand for one sheet, which the user names.
-CLI::App& add_command_of_one(CLI::App& sheets, const Arguments& arguments, const char* name,
-                             const char* what, void (*run)(const SheetsArguments&)) {
-    CLI::App& command = add_command(sheets, arguments, name, what, run);
+Command& add_command_of_one(Command& sheets, const Arguments& arguments, const char* name,
+                            const char* what, void (*run)(const SheetsArguments&)) {
+    Command& command = add_command(sheets, arguments, name, what, run);
     command.add_option("name", arguments->name, "Name of the sheet")->type_name("NAME")->required();
     return command;
 }
 
-void add_wait_option(CLI::App& command, const Arguments& arguments) {
+void add_wait_option(Command& command, const Arguments& arguments) {
     command
         .add_option("--wait", arguments->wait_s,
                     "Longest to wait for others who change the sheet file")
         ->type_name("SECONDS")
         ->capture_default_str()
-        ->check(CLI::Range(0.0, 86'400.0));
+        ->check(Range(0.0, 86'400.0));
 }
 
-void add_place(CLI::App& sheets, const Arguments& arguments) {
-    CLI::App& command = add_command_of_one(
+void add_place(Command& sheets, const Arguments& arguments) {
+    Command& command = add_command_of_one(
         sheets, arguments, "place", "Enter where the page of a sheet lies in the world", place);
     command.footer(kFrames);
     add_wait_option(command, arguments);
-    CLI::Option* unknown = command.add_flag("--unknown", arguments->is_unknown,
-                                            "Where the page lies is not known any more");
+    Option* unknown = command.add_flag("--unknown", arguments->is_unknown,
+                                       "Where the page lies is not known any more");
     const auto add = [&](const char* flag, std::optional<double>& value, const char* unit,
                          const char* help) {
         command.add_option(flag, value, help)->type_name(unit)->excludes(unknown);
@@ -190,9 +190,9 @@ void add_place(CLI::App& sheets, const Arguments& arguments) {
 
 }  // namespace
 
-void add_sheets(CLI::App& app, int& /*exit_code*/) {
+void add_sheets(Command& app, int& /*exit_code*/) {
     const auto arguments = std::make_shared<SheetsArguments>();
-    CLI::App* command = app.add_subcommand("sheets", "Show and change a sheet file");
+    Command* command = app.add_subcommand("sheets", "Show and change a sheet file");
     command->footer(kExamples);
     command->require_subcommand(1);
     add_command(*command, arguments, "list", "List all sheets", [](const SheetsArguments& given) {
@@ -204,7 +204,7 @@ void add_sheets(CLI::App& app, int& /*exit_code*/) {
             fmt::print("{}", sheet_text(named_sheet(sheets_of(given), given.name, given.sheets)));
         });
     add_place(*command, arguments);
-    CLI::App& renaming =
+    Command& renaming =
         add_command_of_one(*command, arguments, "rename", "Give a sheet another name", rename);
     renaming.add_option("new_name", arguments->new_name, "Name that it gets")
         ->type_name("NAME")
@@ -213,8 +213,8 @@ void add_sheets(CLI::App& app, int& /*exit_code*/) {
     add_wait_option(
         add_command_of_one(*command, arguments, "remove", "Remove a sheet from the file", remove),
         arguments);
-    CLI::App& reprinting = add_command_of_one(*command, arguments, "reprint",
-                                              "Make the very same page of a sheet again", reprint);
+    Command& reprinting = add_command_of_one(*command, arguments, "reprint",
+                                             "Make the very same page of a sheet again", reprint);
     add_out_option(reprinting, arguments, "File to write: .pdf, .svg, .png, .tif or .txt");
     add_wait_option(reprinting, arguments);
     add_out_option(

@@ -243,12 +243,12 @@ void run(SimulateArguments& arguments, bool section_given, int& exit_code) {
     }
 }
 
-void add_pair(CLI::App& command, const std::string& flag, const std::string& unit, Pair& pair,
+void add_pair(Command& command, const std::string& flag, const std::string& unit, Pair& pair,
               const std::string& help) {
     command.add_option(flag, pair.values, help)->type_name(unit)->delimiter(',')->expected(2);
 }
 
-void add_camera_options(CLI::App& command, CameraModel& camera) {
+void add_camera_options(Command& command, CameraModel& camera) {
     add_size_option(command, camera);
     command.add_option("--mm-per-px", camera.mm_per_px, "Size of a pixel on the paper")
         ->type_name("MM")
@@ -264,7 +264,7 @@ void add_camera_options(CLI::App& command, CameraModel& camera) {
 }
 
 // Adds options for everything that is otherwise random in each frame.
-void add_overrides(CLI::App& command, SimulateArguments& arguments) {
+void add_overrides(Command& command, SimulateArguments& arguments) {
     command.add_option("--angle", arguments.angle_deg, "Angle of the camera on the page")
         ->type_name("DEG");
     add_pair(command, "--at", "X,Y", arguments.at_grid,
@@ -292,9 +292,9 @@ void add_overrides(CLI::App& command, SimulateArguments& arguments) {
 
 }  // namespace
 
-void add_simulate(CLI::App& app, int& exit_code) {
+void add_simulate(Command& app, int& exit_code) {
     const auto arguments = std::make_shared<SimulateArguments>();
-    CLI::App* command =
+    Command* command =
         app.add_subcommand("simulate", "Make camera frames whose pose is known exactly");
     command->footer(kExamples);
     command->add_option("-o,--out", arguments->out, "Folder for the frames; made if missing")
@@ -302,7 +302,7 @@ void add_simulate(CLI::App& app, int& exit_code) {
         ->required();
     command->add_option("--frames", arguments->frames, "How many")
         ->type_name("N")
-        ->check(CLI::Range(1, 1'000'000))
+        ->check(Range(1, 1'000'000))
         ->capture_default_str();
     add_named(*command, "--preset", kPresets, name(arguments->setup.preset),
               "Conditions to draw from", [arguments](Preset p) { arguments->setup.preset = p; });

@@ -15,7 +15,7 @@ namespace {
 capture::Region parse_region(const std::string& text) {
     const auto numbers = whole_numbers(text, ",,x", kMaxImageSide_px);
     if (!numbers) {
-        throw CLI::ValidationError(
+        throw ValidationError(
             "--roi",
             fmt::format("'{}' is not LEFT,TOP,WIDTHxHEIGHT in px, such as 10,20,640x480", text));
     }
@@ -38,7 +38,7 @@ std::int64_t SourceArguments::reads_of_standard_input() const {
     return std::ranges::count(names, "-") + (list == "-" ? 1 : 0);
 }
 
-void SourceArguments::add_to(CLI::App& command) {
+void SourceArguments::add_to(Command& command) {
     command.add_option("sources", names, kSourcesHelp)->type_name("SOURCE");
     command
         .add_option("--list", list, "Read names of sources from a file, or from - (standard input)")
@@ -46,7 +46,7 @@ void SourceArguments::add_to(CLI::App& command) {
     add_frame_options(command);
 }
 
-void SourceArguments::add_frame_options(CLI::App& command) {
+void SourceArguments::add_frame_options(Command& command) {
     command
         .add_option_function<std::string>(
             "--size",
@@ -59,7 +59,7 @@ void SourceArguments::add_frame_options(CLI::App& command) {
         ->type_name("WxH");
     command.add_option("--fps", options.fps, "Frames per second, where the frames tell no time")
         ->type_name("N")
-        ->check(CLI::Range(0.001, 1e6).description(""));
+        ->check(Range(0.001, 1e6).description(""));
     command.add_option("--exposure", options.exposure, "Of a camera, in its driver's unit")
         ->type_name("N");
     command.add_option("--gain", options.gain, "Of a camera, in its driver's unit")->type_name("N");

@@ -7,9 +7,8 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "capture/source_list.hpp"
+#include "command_line.hpp"
 #include "run_files.hpp"
 #include "source_names.hpp"
 
@@ -30,10 +29,10 @@ struct SourceArguments {
     std::int64_t reads_of_standard_input() const;
 
     /// Adds the sources, --list and the options of cameras, videos and raw frames.
-    void add_to(CLI::App& command);
+    void add_to(Command& command);
 
     /// Adds --size, --fps, --exposure, --gain and --roi alone.
-    void add_frame_options(CLI::App& command);
+    void add_frame_options(Command& command);
 };
 
 /// The sources of one run.

@@ -32,12 +32,12 @@ std::string places_of_documents() {
 
 /// Adds the commands `help` and `version`. The first stores the words that ask for the help wanted
 /// in `help_words`, which must outlive the app, the last one first.
-void add_help_and_version(CLI::App& app, std::vector<std::string>& help_words) {
+void add_help_and_version(Command& app, std::vector<std::string>& help_words) {
     std::vector<std::string> names;
-    for (const CLI::App* command : app.get_subcommands({}))
+    for (const Command* command : app.get_all_subcommands())
         names.push_back(command->get_name());
     const auto topic = std::make_shared<std::string>();
-    CLI::App* help = app.add_subcommand(kHelpCommand, "Show the options of a command");
+    Command* help = app.add_subcommand(kHelpCommand, "Show the options of a command");
     help->add_option("command", *topic, "The command, none for a list of all")
         ->type_name("NAME")
         ->check(one_of(names));
@@ -53,11 +53,11 @@ void add_help_and_version(CLI::App& app, std::vector<std::string>& help_words) {
 int run(int argc, char** argv, const AddCommands& add) {
     remember_command_line(argc, argv);
     CommandLine line(add);
-    CLI::App& app = line.app;
-    for (CLI::App* command : app.get_subcommands({})) {
-        std::vector<CLI::App*> with_options = command->get_subcommands({});
+    Command& app = line.app;
+    for (Command* command : app.get_all_subcommands()) {
+        std::vector<Command*> with_options = command->get_all_subcommands();
         with_options.push_back(command);
-        for (CLI::App* each : with_options) {
+        for (Command* each : with_options) {
             each->preparse_callback(
                 [each, argc, argv](std::size_t) { require_two_hyphens(*each, argc, argv); });
         }
@@ -69,9 +69,7 @@ int run(int argc, char** argv, const AddCommands& add) {
         app.parse(argc, argv);
         if (!line.help_words.empty()) app.parse(line.help_words);
         return line.exit_code;
-    } catch (const CLI::Success& request) {
-        return app.exit(request);  // --help and --version
-    } catch (const CLI::ParseError& error) {
+    } catch (const UsageError& error) {
         tell_failure(usage_error(app, error));
     } catch (const BadArgument& error) {
         tell_failure(error.what());
@@ -86,11 +84,10 @@ CommandLine::CommandLine(const AddCommands& add)
     : app("Locates a camera on a sheet printed with a dot position code.", "dotpose") {
     app.set_version_flag("--version", kVersion);
     app.require_subcommand(1);
-    app.get_formatter()->label("SUBCOMMAND", "COMMAND");
     add(app, exit_code);
     refuse_non_finite_numbers(app);
     add_help_and_version(app, help_words);
-    for (CLI::App* command : app.get_subcommands({}))
+    for (Command* command : app.get_all_subcommands())
         command->group("Commands");
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
+#include "command_line.hpp"
 
 namespace dotpose::cli {
 
@@ -17,13 +17,13 @@ inline constexpr const char* kFirstDay =
     "  dotpose locate photo.jpg     where on it a picture was taken\n"
     "  dotpose watch 0              where on it a camera is, live\n";
 
-using AddCommands = std::function<void(CLI::App& app, int& exit_code)>;
+using AddCommands = std::function<void(Command& app, int& exit_code)>;
 
 /// The command line of a program: the commands that `add` registers, and `help` and `version`.
 struct CommandLine {
     explicit CommandLine(const AddCommands& add);
 
-    CLI::App app;
+    Command app;
     int exit_code = 0;
     /// After parsing: the words that ask for the help wanted, the last one first; else none.
     std::vector<std::string> help_words;

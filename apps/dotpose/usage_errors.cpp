@@ -20,16 +20,16 @@ std::string without_value(const std::string& word) {
     return word.substr(0, word.find('='));
 }
 
-std::vector<std::string> command_names(const CLI::App& app) {
+std::vector<std::string> command_names(const Command& app) {
     std::vector<std::string> names;
-    for (const CLI::App* command : app.get_subcommands({}))
+    for (const Command* command : app.get_all_subcommands())
         names.push_back(command->get_name());
     return names;
 }
 
-std::vector<std::string> long_options(const CLI::App& command) {
+std::vector<std::string> long_options(const Command& command) {
     std::vector<std::string> names;
-    for (const CLI::Option* option : command.get_options()) {
+    for (const Option* option : command.get_options()) {
         for (const std::string& name : option->get_lnames())
             names.push_back("--" + name);
     }
@@ -37,16 +37,16 @@ std::vector<std::string> long_options(const CLI::App& command) {
 }
 
 /// Returns the words that the command did not understand, those that look like options first.
-std::vector<std::string> unknown_words(const CLI::App& command) {
+std::vector<std::string> unknown_words(const Command& command) {
     std::vector<std::string> words = command.remaining();
     std::erase(words, "--");
     std::stable_partition(words.begin(), words.end(), is_option);
     return words;
 }
 
-std::string unknown_to(const CLI::App& command, const std::string& word) {
+std::string unknown_to(const Command& command, const std::string& word) {
     if (!is_option(word)) {
-        const CLI::Option* out = command.get_option_no_throw("--out");
+        const Option* out = command.get_option_no_throw("--out");
         const bool lacks_output = out != nullptr && out->count() == 0;
         return fmt::format("unexpected argument '{}'{}", word,
                            lacks_output ? "; the file to write is named with -o" : "");
@@ -57,23 +57,23 @@ std::string unknown_to(const CLI::App& command, const std::string& word) {
 }
 
 /// Returns the commands that were parsed, as words: "dotpose sheets list".
-std::string parsed_commands(const CLI::App& app) {
+std::string parsed_commands(const Command& app) {
     std::string words = "dotpose";
-    for (const CLI::App* command = &app; !command->get_subcommands().empty();) {
-        command = command->get_subcommands().front();
+    for (const Command* command = &app; !command->get_parsed_subcommands().empty();) {
+        command = command->get_parsed_subcommands().front();
         words += " " + command->get_name();
     }
     return words;
 }
 
 /// Describes a word before the command, or in its place; commands may have commands of their own.
-std::string unknown_before_command(const CLI::App& app, const CLI::App& parent,
+std::string unknown_before_command(const Command& app, const Command& parent,
                                    const std::string& word) {
     if (!is_option(word)) {
         return fmt::format("unknown command '{}'{}", word,
                            did_you_mean(word, command_names(parent)));
     }
-    if (parent.get_subcommands().empty()) return unknown_to(parent, word);
+    if (parent.get_parsed_subcommands().empty()) return unknown_to(parent, word);
     return fmt::format("unknown option '{}'; options of a command follow it: {} {}",
                        without_value(word), parsed_commands(app), without_value(word));
 }
@@ -85,9 +85,9 @@ std::string enclosed(const std::string& text, std::string_view before, std::stri
 }
 
 /// Puts an error of CLI11 into words that name the next step.
-std::string in_plain_words(const CLI::ParseError& error) {
+std::string in_plain_words(const UsageError& error) {
     const std::string text = error.what();
-    if (text == CLI::RequiredError::Subcommand(1).what()) return "no command given";
+    if (text == "A subcommand is required") return "no command given";
     if (text == "--out is required") return "--out is required: name the file to write, -o FILE";
     const std::string not_converted = enclosed(text, "Could not convert: ", "");
     if (const std::size_t at = not_converted.find(" = "); at != std::string::npos) {
@@ -102,22 +102,22 @@ std::string in_plain_words(const CLI::ParseError& error) {
 
 }  // namespace
 
-std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
-    for (const CLI::App* command = &app; command != nullptr;) {
+std::string usage_error(const Command& app, const UsageError& error) {
+    for (const Command* command = &app; command != nullptr;) {
         const std::vector<std::string> words = unknown_words(*command);
-        const bool has_commands = !command->get_subcommands({}).empty();
+        const bool has_commands = !command->get_all_subcommands().empty();
         if (!words.empty() && has_commands)
             return unknown_before_command(app, *command, words.front());
         if (!words.empty()) return unknown_to(*command, words.front());
-        const std::vector<CLI::App*> parsed = command->get_subcommands();
+        const std::vector<Command*> parsed = command->get_parsed_subcommands();
         command = parsed.empty() ? nullptr : parsed.front();
     }
     return in_plain_words(error);
 }
 
-void require_two_hyphens(const CLI::App& command, int argc, const char* const* argv) {
+void require_two_hyphens(const Command& command, int argc, const char* const* argv) {
     std::vector<std::string> mistakes;
-    for (const CLI::Option* option : command.get_options()) {
+    for (const Option* option : command.get_options()) {
         if (option->get_snames().empty() || option->get_items_expected_max() == 0) continue;
         for (const std::string& name : option->get_lnames())
             mistakes.push_back("-" + name);
@@ -125,14 +125,12 @@ void require_two_hyphens(const CLI::App& command, int argc, const char* const* a
     for (int i = 2; i < argc && std::string_view(argv[i]) != "--"; ++i) {
         const std::string option = without_value(argv[i]);
         if (std::find(mistakes.begin(), mistakes.end(), option) == mistakes.end()) continue;
-        throw CLI::ParseError(
-            fmt::format("unknown option '{}'; did you mean '-{}'?", option, option),
-            CLI::ExitCodes::ExtrasError);
+        throw UsageError(fmt::format("unknown option '{}'; did you mean '-{}'?", option, option));
     }
 }
 
-std::string help_command(const CLI::App& app) {
-    const std::vector<CLI::App*> commands = app.get_subcommands();
+std::string help_command(const Command& app) {
+    const std::vector<Command*> commands = app.get_parsed_subcommands();
     if (commands.empty() || commands.front()->get_name() == kHelpCommand) return "dotpose --help";
     return parsed_commands(app) + " --help";
 }

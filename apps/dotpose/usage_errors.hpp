@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include <CLI/CLI.hpp>
+#include "command_line.hpp"
 
 namespace dotpose::cli {
 
@@ -13,14 +13,14 @@ inline constexpr const char* kHelpCommand = "help";
 /// Returns the message for an error that `app` threw while it parsed. A word that no command
 /// understands is told before whatever else the error says: a misspelt `--out` would otherwise be
 /// "--out is required".
-std::string usage_error(const CLI::App& app, const CLI::ParseError& error);
+std::string usage_error(const Command& app, const UsageError& error);
 
-/// Throws CLI::ParseError if an option that has a short form is written with one hyphen, as in
+/// Throws UsageError if an option that has a short form is written with one hyphen, as in
 /// `-out sheet.pdf`: it would be taken for `-o` with the file name "ut". The words are those of
 /// `main`.
-void require_two_hyphens(const CLI::App& command, int argc, const char* const* argv);
+void require_two_hyphens(const Command& command, int argc, const char* const* argv);
 
 /// Returns "dotpose COMMAND --help" for the command that was parsed, else "dotpose --help".
-std::string help_command(const CLI::App& app);
+std::string help_command(const Command& app);
 
 }  // namespace dotpose::cli

@@ -2,11 +2,9 @@
 
 #include <set>
 
-#include <CLI/CLI.hpp>
-
 #include "../dotpose-live/commands.hpp"
 #include "../dotpose/commands.hpp"
-#include "choices.hpp"
+#include "command_line.hpp"
 #include "tool_main.hpp"
 
 namespace dotpose::manuals {
@@ -19,44 +17,37 @@ ValueKind kind_of(const std::string& type) {
     return type == "DIR" ? ValueKind::folder : ValueKind::text;
 }
 
-std::vector<std::string> names_of(const std::set<CLI::Option*>& options) {
-    std::vector<std::string> names;
-    for (const CLI::Option* option : options)
-        names.push_back(option->get_name());
-    return names;
-}
-
-OptionText text_of(CLI::Option& option) {
+OptionText text_of(const cli::Option& option) {
     OptionText text;
     if (!option.get_snames().empty()) text.short_name = "-" + option.get_snames().front();
     if (!option.get_lnames().empty()) text.long_name = "--" + option.get_lnames().front();
-    if (option.get_positional()) text.argument = option.get_name(true, false);
+    if (option.get_positional()) text.argument = option.get_name();
     text.help = option.get_description();
-    text.needs = names_of(option.get_needs());
-    text.excludes = names_of(option.get_excludes());
+    text.needs = option.get_needs();
+    text.excludes = option.get_excludes();
     text.is_required = option.get_required();
     if (option.get_items_expected_max() == 0) return text;  // a flag
     // CLI11 adds the ranges that a validator describes after a colon.
     const std::string type = option.get_type_name();
     text.type = type.substr(0, type.find(':'));
     text.default_text = option.get_default_str();
-    text.choices = cli::choices_of(option);
+    text.choices = option.choices();
     text.kind = kind_of(text.type);
-    text.is_repeated = option.get_items_expected_max() >= CLI::detail::expected_max_vector_size;
+    text.is_repeated = option.takes_any_number();
     text.values = option.get_items_expected_max();
     return text;
 }
 
-CommandText text_of(CLI::App& command) {
+CommandText text_of(const cli::Command& command) {
     CommandText text;
     text.name = command.get_name();
     text.what = command.get_description();
     text.notes = command.get_footer();
-    for (CLI::Option* option : command.get_options()) {
+    for (const cli::Option* option : command.get_options()) {
         // Earlier spellings have no group, and no help shows them.
         if (!option->get_group().empty()) text.options.push_back(text_of(*option));
     }
-    for (CLI::App* own : command.get_subcommands({})) {
+    for (const cli::Command* own : command.get_all_subcommands()) {
         text.commands.push_back(text_of(*own));
         // CLI11 hands the notes of a command down to commands that have none.
         if (text.commands.back().notes == text.notes) text.commands.back().notes.clear();
@@ -67,7 +58,7 @@ CommandText text_of(CLI::App& command) {
 }  // namespace
 
 ToolText declarations() {
-    cli::CommandLine line([](CLI::App& app, int& exit_code) {
+    cli::CommandLine line([](cli::Command& app, int& exit_code) {
         cli::add_commands(app, exit_code);
         cli::add_live_commands(app, exit_code);
     });

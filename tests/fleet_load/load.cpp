@@ -8,10 +8,10 @@
 #include <thread>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/core.h>
 #include <sys/resource.h>
 
+#include "../../apps/dotpose/command_line.hpp"
 #include "connection.hpp"
 #include "robots.hpp"
 
@@ -119,7 +119,8 @@ int run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
     dotpose::test::Arguments arguments;
-    CLI::App app("Publishes the states of many robots to a broker on this computer, at QoS 1");
+    dotpose::cli::Command app(
+        "Publishes the states of many robots to a broker on this computer, at QoS 1");
     app.add_option("--port", arguments.port, "Port of the broker")->capture_default_str();
     app.add_option("--robots", arguments.robots, "Number of robots")->capture_default_str();
     app.add_option("--first", arguments.first, "Number of the first robot")->capture_default_str();
@@ -129,6 +130,10 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_flag("--serve", arguments.serves,
                  "Be the broker of one subscriber, which connects to the port");
-    CLI11_PARSE(app, argc, argv);
-    return dotpose::test::run(arguments);
+    try {
+        return app.parse(argc, argv) ? dotpose::test::run(arguments) : 0;
+    } catch (const dotpose::cli::UsageError& error) {
+        fmt::print(stderr, "dotpose_fleet_load: {}\n", error.what());
+        return 2;
+    }
 }

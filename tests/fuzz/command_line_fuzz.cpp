@@ -26,7 +26,7 @@ struct Values {
     std::string paper = "A4";
 };
 
-void add_options(CLI::App& command, Values& values) {
+void add_options(cli::Command& command, Values& values) {
     values.pattern.add_to(command);
     cli::add_cell_option(command, "--origin", values.cell, "");
     cli::add_lens_option(command, values.lens);
@@ -48,7 +48,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (std::string line; std::getline(stream, line);)
         arguments.insert(arguments.begin(), line);
     Values values;
-    CLI::App app;
+    cli::Command app;
     add_options(*app.add_subcommand("command"), values);
     cli::refuse_non_finite_numbers(app);
     arguments.emplace_back("command");
@@ -61,7 +61,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const Paper paper = paper_by_name(values.paper);
         require(paper.width_mm > 0 && paper.width_mm <= kMaxPage_mm);
         make_sheet({.pattern = pattern, .origin = values.cell, .paper = paper});
-    } catch (const CLI::Error&) {
+    } catch (const cli::UsageError&) {
         return 0;
     } catch (const Error& error) {
         require(!std::string(error.what()).empty());

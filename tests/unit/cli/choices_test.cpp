@@ -14,45 +14,46 @@ using testing::IsEmpty;
 struct Options {
     Options() {
         app.add_option("--code", code)->check(one_of({"anoto", "libdots"}, {"published"}));
-        app.add_option("--name", name)->check(CLI::Validator([](std::string&) { return ""; }, ""));
-        app.add_flag("--json");
+        app.add_option("--name", name)->check([](const std::string&) { return ""; });
+        app.add_flag("--json", is_json);
     }
 
     /// Returns the message of the error, empty if there was none.
-    std::string parse(const std::string& words) {
+    std::string parse_code(const std::string& value) {
         try {
-            app.parse(words);
-        } catch (const CLI::ValidationError& error) {
+            app.parse({value, "--code"});
+        } catch (const UsageError& error) {
             return error.what();
         }
         return {};
     }
 
-    CLI::App app;
+    Command app;
     std::string code, name;
+    bool is_json = false;
 };
 
 TEST(Choices, AcceptsTheNamesAndEarlierOnes) {
     Options options;
     for (const std::string accepted : {"anoto", "libdots", "published"}) {
-        EXPECT_EQ(options.parse("--code " + accepted), "");
+        EXPECT_EQ(options.parse_code(accepted), "");
         EXPECT_EQ(options.code, accepted);
     }
 }
 
 TEST(Choices, RefusesOthersAndTellsTheNearest) {
     Options options;
-    EXPECT_EQ(options.parse("--code libdot"),
+    EXPECT_EQ(options.parse_code("libdot"),
               "--code: 'libdot' is not anoto or libdots; did you mean 'libdots'?");
-    EXPECT_EQ(options.parse("--code banana"), "--code: 'banana' is not anoto or libdots");
-    EXPECT_EQ(options.parse("--code publishe"), "--code: 'publishe' is not anoto or libdots");
+    EXPECT_EQ(options.parse_code("banana"), "--code: 'banana' is not anoto or libdots");
+    EXPECT_EQ(options.parse_code("publishe"), "--code: 'publishe' is not anoto or libdots");
 }
 
 TEST(Choices, AreKnownOfTheOption) {
     Options options;
-    EXPECT_THAT(choices_of(*options.app.get_option("--code")), ElementsAre("anoto", "libdots"));
-    EXPECT_THAT(choices_of(*options.app.get_option("--name")), IsEmpty());
-    EXPECT_THAT(choices_of(*options.app.get_option("--json")), IsEmpty());
+    EXPECT_THAT(options.app.get_option("--code")->choices(), ElementsAre("anoto", "libdots"));
+    EXPECT_THAT(options.app.get_option("--name")->choices(), IsEmpty());
+    EXPECT_THAT(options.app.get_option("--json")->choices(), IsEmpty());
 }
 
 TEST(Choices, AsAList) {

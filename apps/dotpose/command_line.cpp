@@ -1,0 +1,327 @@
+#include "command_line.hpp"
+
+#include <optional>
+#include <set>
+
+#include <CLI/CLI.hpp>
+
+namespace dotpose::cli {
+namespace {
+
+template <typename Number>
+Validator range(Number least, Number most) {
+    const CLI::Range range(least, most);
+    return Validator([range](const std::string& value) { return range(value); },
+                     range.get_description());
+}
+
+/// Calls `parse` and turns what CLI11 throws into what Command::parse promises.
+bool parsed(CLI::App& app, const std::function<void()>& parse) {
+    try {
+        parse();
+        return true;
+    } catch (const CLI::Success& request) {
+        app.exit(request);
+        return false;
+    } catch (const CLI::ParseError& error) {
+        throw UsageError(error.what());
+    }
+}
+
+std::vector<std::string> names_of(const std::set<CLI::Option*>& options) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : options)
+        names.push_back(option->get_name());
+    return names;
+}
+
+}  // namespace
+
+bool parse_number(const std::string& text, double& number) {
+    return CLI::detail::lexical_cast(text, number);
+}
+
+bool parse_number(const std::string& text, int& number) {
+    return CLI::detail::lexical_cast(text, number);
+}
+
+Range::Range(int least, int most) : Validator(range(least, most)) {}
+Range::Range(double least, double most) : Validator(range(least, most)) {}
+Range::Range(std::uint64_t least, std::uint64_t most) : Validator(range(least, most)) {}
+
+Option* Option::type_name(const std::string& name) {
+    option_->type_name(name);
+    return this;
+}
+
+Option* Option::description(const std::string& help) {
+    option_->description(help);
+    return this;
+}
+
+Option* Option::default_str(const std::string& text) {
+    option_->default_str(text);
+    return this;
+}
+
+Option* Option::capture_default_str() {
+    option_->capture_default_str();
+    return this;
+}
+
+Option* Option::group(const std::string& name) {
+    option_->group(name);
+    return this;
+}
+
+Option* Option::required() {
+    option_->required();
+    return this;
+}
+
+Option* Option::needs(Option* other) {
+    option_->needs(other->option_);
+    return this;
+}
+
+Option* Option::excludes(Option* other) {
+    option_->excludes(other->option_);
+    return this;
+}
+
+Option* Option::expected(int values) {
+    option_->expected(values);
+    return this;
+}
+
+Option* Option::delimiter(char separator) {
+    option_->delimiter(separator);
+    return this;
+}
+
+Option* Option::check(const Check& check) {
+    option_->check(check);
+    return this;
+}
+
+Option* Option::check(const Validator& validator) {
+    option_->check(validator.check_, validator.description_);
+    if (!validator.choices_.empty()) choices_ = validator.choices_;
+    return this;
+}
+
+std::size_t Option::count() const {
+    return option_->count();
+}
+
+std::string Option::get_name() const {
+    return option_->get_name();
+}
+
+std::string Option::get_type_name() const {
+    return option_->get_type_name();
+}
+
+std::string Option::get_description() const {
+    return option_->get_description();
+}
+
+std::string Option::get_default_str() const {
+    return option_->get_default_str();
+}
+
+std::string Option::get_group() const {
+    return option_->get_group();
+}
+
+std::vector<std::string> Option::get_snames() const {
+    return option_->get_snames();
+}
+
+std::vector<std::string> Option::get_lnames() const {
+    return option_->get_lnames();
+}
+
+std::vector<std::string> Option::get_needs() const {
+    return names_of(option_->get_needs());
+}
+
+std::vector<std::string> Option::get_excludes() const {
+    return names_of(option_->get_excludes());
+}
+
+bool Option::get_positional() const {
+    return option_->get_positional();
+}
+
+bool Option::get_required() const {
+    return option_->get_required();
+}
+
+int Option::get_items_expected_max() const {
+    return option_->get_items_expected_max();
+}
+
+bool Option::takes_any_number() const {
+    return option_->get_items_expected_max() >= CLI::detail::expected_max_vector_size;
+}
+
+Command::Command(const std::string& what, const std::string& name)
+    : app_(std::make_shared<CLI::App>(what, name)) {
+    app_->get_formatter()->label("SUBCOMMAND", "COMMAND");
+}
+
+Command* Command::add_subcommand(const std::string& name, const std::string& what) {
+    return command_of(app_->add_subcommand(name, what));
+}
+
+template <typename Value>
+Option* Command::add_option(const std::string& names, Value& value, const std::string& help) {
+    return option_of(app_->add_option(names, value, help));
+}
+
+template <typename Value>
+Option* Command::add_option_function(const std::string& names,
+                                     const std::function<void(const Value&)>& store,
+                                     const std::string& help) {
+    return option_of(app_->add_option_function<Value>(names, store, help));
+}
+
+Option* Command::add_flag(const std::string& names, bool& is_given, const std::string& help) {
+    return option_of(app_->add_flag(names, is_given, help));
+}
+
+Option* Command::add_flag_callback(const std::string& names, const std::function<void()>& store,
+                                   const std::string& help) {
+    return option_of(app_->add_flag_callback(names, store, help));
+}
+
+Command* Command::callback(const std::function<void()>& run) {
+    app_->callback(run);
+    return this;
+}
+
+Command* Command::preparse_callback(const std::function<void(std::size_t)>& run) {
+    app_->preparse_callback(run);
+    return this;
+}
+
+Command* Command::footer(const std::string& text) {
+    app_->footer(text);
+    return this;
+}
+
+Command* Command::group(const std::string& name) {
+    app_->group(name);
+    return this;
+}
+
+Command* Command::require_subcommand(int number) {
+    app_->require_subcommand(number);
+    return this;
+}
+
+Command* Command::prefix_command() {
+    app_->prefix_command();
+    return this;
+}
+
+Command* Command::set_help_flag() {
+    app_->set_help_flag();
+    return this;
+}
+
+Command* Command::set_version_flag(const std::string& name, const std::string& version) {
+    app_->set_version_flag(name, version);
+    return this;
+}
+
+bool Command::parse(int argc, const char* const* argv) {
+    return parsed(*app_, [&] { app_->parse(argc, argv); });
+}
+
+bool Command::parse(std::vector<std::string> words) {
+    return parsed(*app_, [&] { app_->parse(std::move(words)); });
+}
+
+std::string Command::get_name() const {
+    return app_->get_name();
+}
+
+std::string Command::get_description() const {
+    return app_->get_description();
+}
+
+std::string Command::get_footer() const {
+    return app_->get_footer();
+}
+
+std::size_t Command::count(const std::string& option) const {
+    return app_->count(option);
+}
+
+Option* Command::get_option(const std::string& name) const {
+    return option_of(app_->get_option(name));
+}
+
+Option* Command::get_option_no_throw(const std::string& name) const {
+    CLI::Option* option = app_->get_option_no_throw(name);
+    return option == nullptr ? nullptr : option_of(option);
+}
+
+std::vector<Option*> Command::get_options() const {
+    std::vector<Option*> options;
+    for (CLI::Option* option : app_->get_options())
+        options.push_back(option_of(option));
+    return options;
+}
+
+std::vector<Command*> Command::get_all_subcommands() const {
+    std::vector<Command*> commands;
+    for (CLI::App* app : app_->get_subcommands([](CLI::App*) { return true; }))
+        commands.push_back(command_of(app));
+    return commands;
+}
+
+std::vector<Command*> Command::get_parsed_subcommands() const {
+    std::vector<Command*> commands;
+    for (CLI::App* app : app_->get_subcommands())
+        commands.push_back(command_of(app));
+    return commands;
+}
+
+std::vector<std::string> Command::remaining() const {
+    return app_->remaining();
+}
+
+Option* Command::option_of(CLI::Option* option) const {
+    return &options_.try_emplace(option, *option).first->second;
+}
+
+Command* Command::command_of(CLI::App* app) const {
+    std::unique_ptr<Command>& command = commands_[app];
+    if (!command) command = std::make_unique<Command>(app_->get_subcommand_ptr(app));
+    return command.get();
+}
+
+// The types of values of options.
+template <typename Value>
+using Store = std::function<void(const Value&)>;
+using Text = const std::string&;
+template Option* Command::add_option(Text, std::string&, Text);
+template Option* Command::add_option(Text, std::vector<std::string>&, Text);
+template Option* Command::add_option(Text, int&, Text);
+template Option* Command::add_option(Text, std::optional<int>&, Text);
+template Option* Command::add_option(Text, unsigned&, Text);
+template Option* Command::add_option(Text, std::int64_t&, Text);
+template Option* Command::add_option(Text, std::uint64_t&, Text);
+template Option* Command::add_option(Text, float&, Text);
+template Option* Command::add_option(Text, double&, Text);
+template Option* Command::add_option(Text, std::optional<double>&, Text);
+template Option* Command::add_option(Text, std::vector<int>&, Text);
+template Option* Command::add_option(Text, std::vector<double>&, Text);
+template Option* Command::add_option_function(Text, const Store<std::string>&, Text);
+template Option* Command::add_option_function(Text, const Store<int>&, Text);
+template Option* Command::add_option_function(Text, const Store<double>&, Text);
+
+}  // namespace dotpose::cli

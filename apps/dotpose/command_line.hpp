@@ -1,0 +1,178 @@
+/// Commands and their options, as CLI11 has them: the member functions mean what they mean there.
+///
+/// The header of CLI11 takes a compiler ten seconds, in every source that includes it. Here only
+/// command_line.cpp does.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace dotpose::cli {
+
+/// The command line is wrong; the message says in what.
+class UsageError : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// The value of an option is wrong.
+class ValidationError : public UsageError {
+  public:
+    ValidationError(const std::string& option, const std::string& why)
+        : UsageError(option + ": " + why) {}
+};
+
+/// Parses a number as it is parsed for options. Returns whether all of the text is one.
+bool parse_number(const std::string& text, double& number);
+bool parse_number(const std::string& text, int& number);
+
+/// Tells what is wrong with a value; an empty text if nothing is.
+using Check = std::function<std::string(const std::string& value)>;
+
+/// A check of values with what is told about them.
+class Validator {
+  public:
+    /// `description` is added to the type of the value in the help; `choices` are all values, if
+    /// they are few.
+    explicit Validator(Check check, std::string description = "",
+                       std::vector<std::string> choices = {})
+        : check_(std::move(check)),
+          description_(std::move(description)),
+          choices_(std::move(choices)) {}
+
+    /// Returns the validator with another text for the help, which may be empty.
+    Validator description(const std::string& text) const {
+        return Validator(check_, text, choices_);
+    }
+
+  private:
+    friend class Option;
+    Check check_;
+    std::string description_;
+    std::vector<std::string> choices_;
+};
+
+/// A range of numbers, both ends included.
+class Range : public Validator {
+  public:
+    Range(int least, int most);
+    Range(double least, double most);
+    Range(std::uint64_t least, std::uint64_t most);
+};
+
+/// An option of a command, or an argument without one. Commands own their options.
+class Option {
+  public:
+    explicit Option(CLI::Option& option) : option_(&option) {}
+    Option(const Option&) = delete;
+    Option& operator=(const Option&) = delete;
+
+    Option* type_name(const std::string& name);
+    Option* description(const std::string& help);
+    Option* default_str(const std::string& text);
+    Option* capture_default_str();
+    Option* group(const std::string& name);
+    Option* required();
+    Option* needs(Option* other);
+    Option* excludes(Option* other);
+    Option* expected(int values);
+    Option* delimiter(char separator);
+    Option* check(const Check& check);
+    Option* check(const Validator& validator);
+
+    std::size_t count() const;  ///< how often the option was given
+
+    std::string get_name() const;       ///< the longest, with the hyphens
+    std::string get_type_name() const;  ///< with what validators add, after a colon
+    std::string get_description() const;
+    std::string get_default_str() const;
+    std::string get_group() const;
+    std::vector<std::string> get_snames() const;  ///< names of one letter, without the hyphen
+    std::vector<std::string> get_lnames() const;  ///< longer names, without the hyphens
+    bool get_positional() const;
+    bool get_required() const;
+    std::vector<std::string> get_needs() const;     ///< names of options
+    std::vector<std::string> get_excludes() const;  ///< names of options
+    int get_items_expected_max() const;             ///< how many values it takes; 0: it is a flag
+    bool takes_any_number() const;                  ///< of values
+    /// All values that its validators accept; none if there are others.
+    const std::vector<std::string>& choices() const { return choices_; }
+
+  private:
+    CLI::Option* option_;
+    std::vector<std::string> choices_;
+};
+
+/// A command, or the program with its commands. It owns its commands and options.
+class Command {
+  public:
+    /// A program; the name is that of its file if none is given.
+    explicit Command(const std::string& what = "", const std::string& name = "");
+    /// A command within a program.
+    explicit Command(std::shared_ptr<CLI::App> app) : app_(std::move(app)) {}
+    Command(const Command&) = delete;
+    Command& operator=(const Command&) = delete;
+
+    Command* add_subcommand(const std::string& name, const std::string& what = "");
+    /// Adds an option whose value is stored in a variable, which must outlive the command. The
+    /// types are those at the end of command_line.cpp.
+    template <typename Value>
+    Option* add_option(const std::string& names, Value& value, const std::string& help = "");
+    /// Adds an option whose value is handed to a function. The types are those at the end of
+    /// command_line.cpp.
+    template <typename Value>
+    Option* add_option_function(const std::string& names,
+                                const std::function<void(const Value&)>& store,
+                                const std::string& help = "");
+    Option* add_flag(const std::string& names, bool& is_given, const std::string& help = "");
+    Option* add_flag_callback(const std::string& names, const std::function<void()>& store,
+                              const std::string& help = "");
+
+    Command* callback(const std::function<void()>& run);
+    Command* preparse_callback(const std::function<void(std::size_t)>& run);
+    Command* footer(const std::string& text);
+    Command* group(const std::string& name);
+    Command* require_subcommand(int number);
+    Command* prefix_command();  ///< whatever follows is accepted
+    Command* set_help_flag();   ///< to none
+    Command* set_version_flag(const std::string& name, const std::string& version);
+
+    /// Parses the arguments of `main` and runs the callbacks of the commands that are named. Throws
+    /// UsageError. Returns false if the help or the version was asked for; it has been printed.
+    bool parse(int argc, const char* const* argv);
+    /// The same for words in reverse order, without the name of the program.
+    bool parse(std::vector<std::string> words);
+
+    std::string get_name() const;
+    std::string get_description() const;
+    std::string get_footer() const;
+    std::size_t count(const std::string& option) const;
+    Option* get_option(const std::string& name) const;           ///< throws if there is none
+    Option* get_option_no_throw(const std::string& name) const;  ///< null if there is none
+    std::vector<Option*> get_options() const;
+    std::vector<Command*> get_all_subcommands() const;
+    std::vector<Command*> get_parsed_subcommands() const;
+    std::vector<std::string> remaining() const;  ///< words that were not understood
+
+  private:
+    Option* option_of(CLI::Option* option) const;
+    Command* command_of(CLI::App* app) const;
+
+    std::shared_ptr<CLI::App> app_;
+    // What callers see of the options and commands; made when first asked for.
+    mutable std::map<CLI::Option*, Option> options_;
+    mutable std::map<CLI::App*, std::unique_ptr<Command>> commands_;
+};
+
+}  // namespace dotpose::cli
