@@ -174,10 +174,12 @@ bool run(const fs::path& folder) {
     draw_path(picture, sheet, drive.path, "A simulated drive over an A4 sheet");
     fmt::print("{}: the drive and its errors\n", picture.string());
     print_table(drive);
-    fmt::print("Look at the pictures in {}/. What next:\n"
-               "  make         builds the whole tool, build/release/bin/dotpose; start with docs/start.md\n"
-               "  make web     builds the page: a simulated camera in the browser, and your own\n",
-               folder.string());
+    fmt::print(
+        "Look at the pictures in {}/. What next:\n"
+        "  make         builds the whole tool, build/release/bin/dotpose; start with "
+        "docs/start.md\n"
+        "  make web     builds the page: a simulated camera in the browser, and your own\n",
+        folder.string());
     return drive.wrong_fixes == 0 && drive.lost <= kFrames / 100;
 }
 

@@ -4,8 +4,9 @@
 //
 // Prints a line `TARGET PRESET median=N worst=N ram=N code=N` for each run, and tables; `median`
 // and `worst` are instructions per frame, `ram` and `code` bytes. With --all, also the table of all
-// sizes and cores; with --quick, only the first core. With --update, the tables replace the generated parts of the document. Without
-// it, the exit status is 1 if any figure is more than 3 % above that of the document.
+// sizes and cores; with --quick, only the first core. With --update, the tables replace the
+// generated parts of the document. Without it, the exit status is 1 if any figure is more than 3 %
+// above that of the document.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -190,7 +191,8 @@ int main(int argc, char** argv) {
     std::vector<std::string> arguments(argv + 1, argv + argc);
     const auto take = [&](const char* option) { return std::erase(arguments, option) > 0; };
     const Wanted wanted{take("--update"), take("--all"), take("--quick")};
-    if ((wanted.is_quick && (wanted.is_update || wanted.has_all_sizes)) || arguments.size() != 2 || arguments[0].starts_with('-')) {
+    if ((wanted.is_quick && (wanted.is_update || wanted.has_all_sizes)) || arguments.size() != 2 ||
+        arguments[0].starts_with('-')) {
         fmt::print(stderr, "usage: dotpose_budget [--update] [--all | --quick] DOCUMENT FOLDER\n");
         return 2;
     }

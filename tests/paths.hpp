@@ -1,5 +1,5 @@
-/// Where the files are that tests use. In a source of its own, so that objects of tests do not depend on where
-/// the checkout is.
+/// Where the files are that tests use. In a source of its own, so that objects of tests do not
+/// depend on where the checkout is.
 #pragma once
 
 #include <string>

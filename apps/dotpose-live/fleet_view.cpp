@@ -7,9 +7,9 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include "base/output_file.hpp"
 #include "dotpose/files/error.hpp"
 #include "dotpose/files/sheet_file.hpp"
-#include "base/output_file.hpp"
 #include "path_memory.hpp"
 #include "terminal_text.hpp"
 

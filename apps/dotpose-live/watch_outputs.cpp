@@ -9,9 +9,9 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include "base/output_file.hpp"
 #include "dotpose/files/error.hpp"
 #include "dotpose/pose_packet.hpp"
-#include "base/output_file.hpp"
 #include "panel_text.hpp"
 #include "reading_fields.hpp"
 #include "robot_state.hpp"

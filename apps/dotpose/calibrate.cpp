@@ -11,13 +11,13 @@
 
 #include <fmt/core.h>
 
+#include "base/output_file.hpp"
 #include "calibrate_report.hpp"
 #include "calibration_frames.hpp"
 #include "commands.hpp"
 #include "common.hpp"
 #include "dotpose/files/camera_file.hpp"
 #include "dotpose/tools/draw.hpp"
-#include "base/output_file.hpp"
 #include "live_calibration.hpp"
 #include "old_spellings.hpp"
 #include "output_arguments.hpp"

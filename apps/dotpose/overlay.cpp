@@ -8,9 +8,9 @@
 
 #include <fmt/core.h>
 
+#include "base/output_file.hpp"
 #include "commands.hpp"
 #include "common.hpp"
-#include "base/output_file.hpp"
 #include "output_arguments.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"

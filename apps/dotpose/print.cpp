@@ -10,10 +10,10 @@
 
 #include <fmt/core.h>
 
+#include "base/output_file.hpp"
 #include "commands.hpp"
 #include "common.hpp"
 #include "dotpose/tools/test_page.hpp"
-#include "base/output_file.hpp"
 #include "output_arguments.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"

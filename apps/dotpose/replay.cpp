@@ -5,9 +5,9 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include "base/output_file.hpp"
 #include "commands.hpp"
 #include "dotpose/files/error.hpp"
-#include "base/output_file.hpp"
 #include "log_updates.hpp"
 #include "output_arguments.hpp"
 #include "print/lower_case.hpp"

@@ -8,8 +8,8 @@
 #include <fmt/core.h>
 #include <sys/stat.h>
 
-#include "dotpose/files/error.hpp"
 #include "base/output_file.hpp"
+#include "dotpose/files/error.hpp"
 #include "print/lower_case.hpp"
 
 namespace dotpose::cli {

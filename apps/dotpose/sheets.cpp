@@ -7,11 +7,11 @@
 
 #include <fmt/core.h>
 
+#include "base/output_file.hpp"
 #include "commands.hpp"
 #include "common.hpp"
 #include "dotpose/files/sheet_file.hpp"
 #include "dotpose/tools/draw.hpp"
-#include "base/output_file.hpp"
 #include "output_arguments.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"

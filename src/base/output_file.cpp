@@ -9,8 +9,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "dotpose/files/error.hpp"
 #include "base/system_error.hpp"
+#include "dotpose/files/error.hpp"
 
 namespace dotpose::base {
 namespace fs = std::filesystem;

@@ -5,8 +5,8 @@
 
 #include <fmt/core.h>
 
-#include "dotpose/files/error.hpp"
 #include "base/sheet_checks.hpp"
+#include "dotpose/files/error.hpp"
 
 namespace dotpose {
 namespace {

@@ -5,9 +5,9 @@
 #include <fmt/core.h>
 
 #include "dotpose/tools/draw.hpp"
-#include "evaluate/raster.hpp"
 #include "draw/svg.hpp"
 #include "evaluate/protocol.hpp"
+#include "evaluate/raster.hpp"
 
 namespace dotpose {
 namespace {

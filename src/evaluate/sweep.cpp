@@ -10,8 +10,8 @@
 
 #include "dotpose/tools/draw.hpp"
 #include "dotpose/tools/option_names.hpp"
-#include "evaluate/raster.hpp"
 #include "draw/svg.hpp"
+#include "evaluate/raster.hpp"
 
 namespace dotpose {
 namespace evaluate_detail {

@@ -8,8 +8,8 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include "dotpose/files/error.hpp"
 #include "base/system_error.hpp"
+#include "dotpose/files/error.hpp"
 
 namespace dotpose::files {
 namespace fs = std::filesystem;
@@ -29,7 +29,8 @@ std::optional<std::string> text_of(const fs::path& path, std::size_t most) {
             throw Error(fmt::format("{} has more than {} MB", path.string(), most >> 20));
         }
     }
-    if (!stream.is_open() || stream.bad()) base::throw_system("read", path, errno != 0 ? errno : EIO);
+    if (!stream.is_open() || stream.bad())
+        base::throw_system("read", path, errno != 0 ? errno : EIO);
     return text;
 }
 

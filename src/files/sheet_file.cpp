@@ -12,11 +12,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "files/input_file.hpp"
 #include "base/output_file.hpp"
+#include "base/system_error.hpp"
+#include "files/input_file.hpp"
 #include "files/sheet_json.hpp"
 #include "files/sheet_list.hpp"
-#include "base/system_error.hpp"
 
 namespace dotpose {
 namespace fs = std::filesystem;

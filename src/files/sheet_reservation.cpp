@@ -4,8 +4,8 @@
 
 #include <fmt/core.h>
 
-#include "dotpose/files/sheet_file.hpp"
 #include "base/output_file.hpp"
+#include "dotpose/files/sheet_file.hpp"
 
 namespace dotpose {
 namespace fs = std::filesystem;

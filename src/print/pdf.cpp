@@ -43,8 +43,7 @@ void set_information(QPDF& pdf, const std::string& title) {
 
 }  // namespace
 
-void write_pdf(std::span<const Sheet> sheets, const PrintOptions& options,
-               base::OutputFile& file) {
+void write_pdf(std::span<const Sheet> sheets, const PrintOptions& options, base::OutputFile& file) {
     QPDF pdf;
     pdf.emptyPDF();
     const auto rows = std::make_shared<RowCount>();

@@ -11,8 +11,7 @@ namespace dotpose::print {
 
 class FilePipeline : public Pipeline {
   public:
-    explicit FilePipeline(base::OutputFile& file)
-        : Pipeline("output file", nullptr), file_(file) {}
+    explicit FilePipeline(base::OutputFile& file) : Pipeline("output file", nullptr), file_(file) {}
 
     void write(unsigned char const* data, std::size_t size_bytes) override {
         file_.write(data, size_bytes);

@@ -14,8 +14,8 @@
 #include <qpdf/Pipeline.hh>
 #include <qpdf/QPDFXRefEntry.hh>
 
-#include "dotpose/files/error.hpp"
 #include "base/system_error.hpp"
+#include "dotpose/files/error.hpp"
 
 namespace dotpose::print {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <fmt/core.h>
 
-#include "dotpose/tools/print.hpp"
 #include "base/sheet_checks.hpp"
+#include "dotpose/tools/print.hpp"
 #include "geometry.hpp"
 #include "regions.hpp"
 

@@ -19,8 +19,7 @@ tmsize_t on_write(thandle_t handle, void* data, tmsize_t size_bytes) {
 }
 toff_t on_seek(thandle_t handle, toff_t offset, int whence) {
     const auto signed_offset = static_cast<std::int64_t>(offset);
-    return static_cast<toff_t>(
-        static_cast<base::OutputFile*>(handle)->seek(signed_offset, whence));
+    return static_cast<toff_t>(static_cast<base::OutputFile*>(handle)->seek(signed_offset, whence));
 }
 tmsize_t on_read(thandle_t, void*, tmsize_t) {
     return 0;

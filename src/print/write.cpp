@@ -3,8 +3,8 @@
 
 #include <fmt/core.h>
 
-#include "dotpose/tools/print.hpp"
 #include "base/output_file.hpp"
+#include "dotpose/tools/print.hpp"
 #include "lower_case.hpp"
 #include "writers.hpp"
 

@@ -4,8 +4,8 @@
 
 #include <span>
 
-#include "dotpose/tools/print.hpp"
 #include "base/output_file.hpp"
+#include "dotpose/tools/print.hpp"
 #include "raster.hpp"
 
 namespace dotpose::print {

@@ -47,8 +47,8 @@ class ToolCommand : public testing::Test {
     int shell(const std::string& commands) {
         const fs::path errors = root_.path() / "errors";
         const ShellOutcome outcome =
-            run_shell("cd '" + directory_.string() + "' && T='" + tool_path() + "' && { " + commands +
-                      "; } 2>'" + errors.string() + "'");
+            run_shell("cd '" + directory_.string() + "' && T='" + tool_path() + "' && { " +
+                      commands + "; } 2>'" + errors.string() + "'");
         exit_code_ = outcome.exit_code;
         output_ = outcome.output;
         errors_ = read_file(errors);

@@ -65,8 +65,8 @@ TEST_F(WatchSources, StopsCleanlyOnAnInterrupt) {
     // The pipe stays open, so that only the signal ends the run.
     shell(
         "mkfifo pipe && bash -c '(cat drive.raw; exec sleep 30) > pipe & writer=$!; "
-        "\"" + tool_path() + "\" watch - " +
-        std::string(kRaw) + " --draw run.svg -o run.jsonl " + kTrack +
+        "\"" +
+        tool_path() + "\" watch - " + std::string(kRaw) + " --draw run.svg -o run.jsonl " + kTrack +
         " < pipe 2> errors & pid=$!; "
         "until [ \"$(cat run.jsonl 2>/dev/null | wc -l)\" = 60 ]; do sleep 0.05; done; "
         "kill -INT $pid; wait $pid; echo $? > status; kill $writer'");

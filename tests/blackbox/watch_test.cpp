@@ -131,8 +131,8 @@ TEST_F(Watch, FollowsADrive) {
     expect_accurate(lines, drive_);
     expect_accurate_at_seam(lines, drive_);
 
-    shell("ffmpeg -v error -i drive.avi -f rawvideo -pix_fmt gray - | '" + test::tool_path() + "' watch - -o piped " +
-          std::string(kRaw) + " " + kTrack + " 2>errors");
+    shell("ffmpeg -v error -i drive.avi -f rawvideo -pix_fmt gray - | '" + test::tool_path() +
+          "' watch - -o piped " + std::string(kRaw) + " " + kTrack + " 2>errors");
     EXPECT_TRUE(file("piped") == from_file);
 }
 

@@ -150,7 +150,8 @@ class EmulatedDevice : public testing::Test {
         // Bytes that arrive before the line is set up would be changed, and those that are on the
         // way when listening ends are lost.
         const std::string commands =
-            "cd " + directory_.path().string() + "; " + test::tool_path() + " listen " + serial.name() +
+            "cd " + directory_.path().string() + "; " + test::tool_path() + " listen " +
+            serial.name() +
             " -o lines 2>losses & listener=$!;"
             " wait_for() { n=0; until eval \"$1\" || [ $((n+=1)) -gt 300 ]; do sleep 0.1; done; };"
             " wait_for 'stty -F " +

@@ -86,7 +86,9 @@ TEST_F(Cameras, AtThisComputer) {
         shell(
             std::string(kWaiting) +
             "export FAKE_CAMERA=$PWD/camera.raw FAKE_CAMERA_SIZE=188x120 FAKE_CAMERA_LOG=$PWD/log\n"
-            "LD_PRELOAD='" + test::built("libdotpose_fake_camera.so") + "' \"$T\" watch 0 --size 188x120 --fps 100 --exposure 50 --gain 3 --no-window "
+            "LD_PRELOAD='" +
+            test::built("libdotpose_fake_camera.so") +
+            "' \"$T\" watch 0 --size 188x120 --fps 100 --exposure 50 --gain 3 --no-window "
             "--sheets sheets.json -o lines 2>told & watch=$!\n"
             "unplug() { mv camera.raw away; }; plug_in() { mv away camera.raw; }\n" +
             kRun),
@@ -148,7 +150,8 @@ TEST_F(Cameras, AreListedWithSizesAndRates) {
 #endif
     const std::string fake =
         "FAKE_CAMERA=$PWD/camera.raw FAKE_CAMERA_SIZE=188x120 FAKE_CAMERA_LOG=$PWD/log "
-        "LD_PRELOAD='" + test::built("libdotpose_fake_camera.so") + "' \"$T\" watch ";
+        "LD_PRELOAD='" +
+        test::built("libdotpose_fake_camera.so") + "' \"$T\" watch ";
     ASSERT_EQ(shell(fake + "--list-cameras"), 0) << errors_;
     EXPECT_THAT(output_, testing::StartsWith("/dev/video0  fake\n"
                                              "  188x120     30, 15 frames/s         YUYV\n"
@@ -164,7 +167,9 @@ TEST_F(Cameras, CalibrateTakesItsFramesUntilTheUserEndsIt) {
 #endif
     ASSERT_EQ(shell("export FAKE_CAMERA=$PWD/camera.raw FAKE_CAMERA_SIZE=188x120 "
                     "FAKE_CAMERA_LOG=$PWD/log\n"
-                    "LD_PRELOAD='" + test::built("libdotpose_fake_camera.so") + "' \"$T\" calibrate 0 -o camera.yaml 2>told & tool=$!\n"
+                    "LD_PRELOAD='" +
+                    test::built("libdotpose_fake_camera.so") +
+                    "' \"$T\" calibrate 0 -o camera.yaml 2>told & tool=$!\n"
                     "until [ $(grep -c time log) -ge 10 ] || ! kill -0 $tool; do sleep 0.05; done\n"
                     "kill -INT $tool; wait $tool; echo $? > status"),
               0)

@@ -200,7 +200,9 @@ TEST_F(FleetScale, ARobotThatVanishesIsLost) {
     std::thread robot([&] {
         run_shell("cd '" + directory_.string() +
                   "' && mkfifo camera && { { cat frames; exec sleep 60; } > camera & "
-                  "echo $! > sender; '" + test::tool_path() + "' watch - --size 188x120 --fps 200 "
+                  "echo $! > sender; '" +
+                  test::tool_path() +
+                  "' watch - --size 188x120 --fps 200 "
                   "--sheets table.json --robot anna --qos 1 --mqtt " +
                   broker.url() + " < camera > lines 2> told & echo $! > robot; wait; }");
     });

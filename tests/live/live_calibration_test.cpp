@@ -33,7 +33,9 @@ TEST_F(LiveCalibration, OfACameraEndsByItself) {
     // The camera goes through its frames again and again.
     ASSERT_EQ(shell("export FAKE_CAMERA=$PWD/camera.raw FAKE_CAMERA_SIZE=188x120 "
                     "FAKE_CAMERA_LOG=$PWD/log\n"
-                    "LD_PRELOAD='" + test::built("libdotpose_fake_camera.so") + "' \"$T\" calibrate --live 0 --size 188x120 --fps 30 --no-window "
+                    "LD_PRELOAD='" +
+                    test::built("libdotpose_fake_camera.so") +
+                    "' \"$T\" calibrate --live 0 --size 188x120 --fps 30 --no-window "
                     "-o camera.yaml"),
               0)
         << errors_;

@@ -16,9 +16,9 @@ class WatchedFleet {
   public:
     WatchedFleet(const fs::path& directory, const std::string& arguments)
         : directory_(directory), thread_([directory, arguments] {
-              run_shell("cd '" + directory.string() +
-                        "' && echo $$ > fleet.pid && exec '" + tool_path() + "' fleet --draw fleet.svg --every 0.2 " +
-                        arguments + " > table 2> news");
+              run_shell("cd '" + directory.string() + "' && echo $$ > fleet.pid && exec '" +
+                        tool_path() + "' fleet --draw fleet.svg --every 0.2 " + arguments +
+                        " > table 2> news");
           }) {
         wait_until([this] { return fs::exists(directory_ / "fleet.svg"); });
     }

@@ -41,8 +41,8 @@ class Dds : public WatchCommand {
     /// Runs `dotpose watch` with the frames of the drive at their pace, and a reader of its
     /// messages, which is there first. Returns what the reader got.
     std::vector<json> read_drive(const std::string& reliability, const std::string& options) {
-        const std::string watch = "'" + test::tool_path() + "' watch - " + std::string(kRaw) + " " + kTrack +
-                                  " --units ros --dds --robot anna -o lines " + options;
+        const std::string watch = "'" + test::tool_path() + "' watch - " + std::string(kRaw) + " " +
+                                  kTrack + " --units ros --dds --robot anna -o lines " + options;
         // The frames come when reader and writers know of each other; the reader says when it
         // knows.
         const std::string frames =
