@@ -1,9 +1,10 @@
 # Run by ctest for each program of dotpose_discover_suites: adds a test for each suite that the program lists.
+cmake_policy(VERSION 3.25)
 if(NOT EXISTS ${program})
     add_test(${prefix}_NOT_BUILT ${program})
     return()
 endif()
-execute_process(COMMAND ${program} --gtest_list_tests --gtest_filter=${filter}
+execute_process(COMMAND ${program} --gtest_list_tests "--gtest_filter=*${filter}"
                 OUTPUT_VARIABLE lines RESULT_VARIABLE status)
 if(NOT status EQUAL 0)
     message(FATAL_ERROR "${program} cannot list its tests")
@@ -20,7 +21,7 @@ foreach(suite IN LISTS suites)
     if(name IN_LIST slow)
         list(APPEND all_labels slow)
     endif()
-    add_test(${prefix}.${name} ${program} --gtest_filter=${suite}*${excluded})
+    add_test(${prefix}.${name} ${program} "--gtest_filter=${suite}*${excluded}")
     set_tests_properties(${prefix}.${name} PROPERTIES WORKING_DIRECTORY ${directory} LABELS "${all_labels}"
                          FIXTURES_REQUIRED "${fixture}")
 endforeach()
