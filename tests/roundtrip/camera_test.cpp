@@ -146,9 +146,9 @@ std::string camera_name(const testing::TestParamInfo<Camera>& tested) {
 }
 
 INSTANTIATE_TEST_SUITE_P(cameras, OverlaidBook,
-                         testing::Values(Camera{"infrared", "--cmy-black", true, 500, 500},
-                                         Camera{"light_text", "--lighten 0.75", false, 500, 500},
-                                         Camera{"black_text", "", false, 200, 190}),
+                         testing::Values(Camera{"infrared", "--cmy-black", true, 150, 150},
+                                         Camera{"light_text", "--lighten 0.75", false, 150, 150},
+                                         Camera{"black_text", "", false, 80, 76}),
                          camera_name);
 
 }  // namespace
