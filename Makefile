@@ -58,8 +58,8 @@ asan: build/asan/build.ninja
 
 # The layers that parse strangers' bytes: unit tests, and the seeds of the fuzz targets replayed, under the same
 # sanitizers as all of `asan`.
-parsers: build/asan/build.ninja
-	$(BUILD) asan -j $(JOBS) --target dotpose_parser_tests
+parsers: build/parsers/build.ninja
+	$(BUILD) parsers -j $(JOBS) --target dotpose_parser_tests
 	ctest --preset parsers -j $(JOBS)
 
 # And the unit tests of what is fuzzed, under the same sanitizers.
