@@ -138,8 +138,8 @@ class Scan : public QPDFObjectHandle::TokenFilter {
             set(now_.stroke, kind_of_count());
         } else if (is({"cs", "CS"}) && ends_with_name()) {
             const auto space = QPDFObjectHandle::newName(operands_.back().text);
-            (name == "cs" ? now_.fill : now_.stroke) = {
-                kind_of_space(space, resource("/ColorSpace")), true};
+            (name == "cs" ? now_.fill : now_.stroke) =
+                Colour{kind_of_space(space, resource("/ColorSpace")), true};
         } else if (is({"sc", "scn"})) {
             set(now_.fill, now_.fill.kind);
         } else if (is({"SC", "SCN"})) {
