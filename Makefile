@@ -2,6 +2,8 @@
 # apt-get: install the packages named by `scripts/setup --list GROUP` by hand and say `make SETUP=true`.
 SETUP ?= scripts/setup
 JOBS ?= $(shell nproc)
+# Some tests wait for brokers, cameras and clocks.
+TEST_JOBS ?= $(shell expr $(JOBS) + 2)
 PREFIX ?= /usr/local
 # How long each fuzz target runs.
 FUZZ_SECONDS ?= 60
@@ -46,7 +48,7 @@ demo: $(RELEASE)/build.ninja
 
 test: $(RELEASE)/build.ninja
 	$(BUILD) release -j $(JOBS) --target all dotpose_tests
-	ctest --preset release -j $(JOBS)
+	ctest --preset release -j $(TEST_JOBS)
 
 quick: $(RELEASE)/build.ninja
 	$(BUILD) release -j $(JOBS) --target dotpose_quick_tests

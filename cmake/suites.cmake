@@ -3,7 +3,8 @@
 
 # dotpose_discover_suites(TARGET PREFIX [FILTER filter] [LABELS label...] [FIXTURE name]): tests PREFIX.SUITE. The suites are
 # listed when ctest runs, as a program that crashes while it lists them must not fail the build. Suites of
-# DOTPOSE_SLOW_SUITES have the label `slow` too.
+# DOTPOSE_SLOW_SUITES have the label `slow` too, and those named ...AtLength `nightly`: cases that take seconds,
+# of which shorter ones test the same code by day.
 function(dotpose_discover_suites target prefix)
     cmake_parse_arguments(PARSE_ARGV 2 arg "" "FILTER;FIXTURE" "LABELS")
     set(script ${CMAKE_CURRENT_BINARY_DIR}/${target}_suites.cmake)

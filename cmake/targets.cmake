@@ -32,6 +32,15 @@ function(dotpose_layer name)
         endif()
     else()
         dotpose_allow_promotion(${target})
+        if(TARGET dotpose_base_layer AND NOT name STREQUAL "base")
+            dotpose_share_headers(${target} dotpose_base_layer)
+            # It is among these headers.
+            target_link_libraries(${target} PRIVATE fmt::fmt)
+        endif()
+        if(NOT EMSCRIPTEN)
+            # librsvg asks for it, and the headers are precompiled for all layers alike.
+            target_compile_options(${target} PRIVATE -pthread)
+        endif()
     endif()
 endfunction()
 
@@ -84,10 +93,10 @@ macro(dotpose_sources result)
 endmacro()
 
 # dotpose_program(NAME [LIGHT] [SOURCES file...] [EXCEPT file...] [LIBRARIES part...] [USES target...]
-# [HEADERS header...]): one program from the sources named, or from all of the directory but some. LIGHT: see
-# dotpose_compile_light. LIBRARIES: see dotpose_use_internals. HEADERS: see dotpose_precompile.
+# [HEADERS_OF target]): one program from the sources named, or from all of the directory but some. LIGHT: see
+# dotpose_compile_light. LIBRARIES: see dotpose_use_internals. HEADERS_OF: see dotpose_share_headers.
 function(dotpose_program name)
-    cmake_parse_arguments(PARSE_ARGV 1 arg "LIGHT" "" "SOURCES;EXCEPT;LIBRARIES;USES;HEADERS")
+    cmake_parse_arguments(PARSE_ARGV 1 arg "LIGHT" "HEADERS_OF" "SOURCES;EXCEPT;LIBRARIES;USES")
     dotpose_sources(sources)
     add_executable(${name} ${sources})
     dotpose_use_internals(${name} ${arg_LIBRARIES})
@@ -95,24 +104,24 @@ function(dotpose_program name)
         dotpose_compile_light(${name})
     endif()
     target_link_libraries(${name} PRIVATE ${arg_USES})
-    if(arg_HEADERS)
-        dotpose_precompile(${name} ${arg_HEADERS})
+    if(arg_HEADERS_OF)
+        dotpose_share_headers(${name} ${arg_HEADERS_OF})
     endif()
 endfunction()
 
-# dotpose_objects(NAME [SOURCES file...] [EXCEPT file...] [USES target...] [HEADERS header...]): sources
+# dotpose_objects(NAME [SOURCES file...] [EXCEPT file...] [USES target...] [HEADERS_OF target]): sources
 # that several programs share, compiled once and light. A program names all such targets it needs, also
-# those that another one of them uses. HEADERS: see dotpose_precompile.
+# those that another one of them uses. HEADERS_OF: see dotpose_share_headers.
 function(dotpose_objects name)
-    cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;EXCEPT;USES;HEADERS")
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "HEADERS_OF" "SOURCES;EXCEPT;USES")
     dotpose_sources(sources)
     add_library(${name} OBJECT ${sources})
     dotpose_use_internals(${name})
     dotpose_compile_light(${name})
     target_include_directories(${name} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
     target_link_libraries(${name} PUBLIC ${arg_USES})
-    if(arg_HEADERS)
-        dotpose_precompile(${name} ${arg_HEADERS})
+    if(arg_HEADERS_OF)
+        dotpose_share_headers(${name} ${arg_HEADERS_OF})
     endif()
 endfunction()
 
@@ -122,6 +131,16 @@ endfunction()
 function(dotpose_precompile target)
     target_precompile_headers(${target} PRIVATE <algorithm> <array> <cmath> <filesystem> <functional>
         <map> <memory> <numbers> <optional> <span> <string> <vector> ${ARGN})
+    dotpose_allow_array_bounds(${target})
+endfunction()
+
+# dotpose_share_headers(TARGET OWNER): the headers that were precompiled for OWNER, which has the same options.
+function(dotpose_share_headers target owner)
+    target_precompile_headers(${target} REUSE_FROM ${owner})
+    dotpose_allow_array_bounds(${target})
+endfunction()
+
+function(dotpose_allow_array_bounds target)
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
         # False alarms in the standard library, which GCC 12 keeps silent only outside of such headers.
         target_compile_options(${target} PRIVATE -Wno-array-bounds)

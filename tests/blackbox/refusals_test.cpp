@@ -67,7 +67,7 @@ TEST(Refusals, DeviceFrames) {
 TEST(Refusals, TheSmallestFrames) {
     refuse_all({64, 64}, 45);
 }
-TEST(Refusals, LargerFrames) {
+TEST(RefusalsAtLength, LargerFrames) {
     refuse_all({640, 480}, 6);
 }
 

@@ -37,7 +37,8 @@ class Recording : public WatchCommand {
     }
 };
 
-TEST_F(Recording, HasThePosesOfTheLines) {
+// One test, because the drive takes seconds to locate and its recording as long to read.
+TEST_F(Recording, HasThePosesAndTheOdometryOfTheLines) {
     DOTPOSE_NEEDS_NPM();
     put_raw(drive_.frames());
     ASSERT_EQ(run(std::string("watch - ") + kRaw + " " + kTrack +
@@ -47,21 +48,14 @@ TEST_F(Recording, HasThePosesOfTheLines) {
         << errors_;
     const auto lines = parsed(output_);
     ASSERT_EQ(lines.size(), static_cast<std::size_t>(drive_.frames()));
-    expect_messages_of(lines, recorded("run.mcap"), "anna", kAsWatched);
+    const auto messages = recorded("run.mcap");
+    expect_messages_of(lines, messages, "anna", kAsWatched);
+    expect_odometry_of(lines, messages, "anna");
 
     // The log has rounded numbers, and less of the covariances of the velocities.
     ASSERT_EQ(run("replay run.csv -o again.mcap --robot anna"), 0) << errors_;
     EXPECT_THAT(output_, HasSubstr("frames with a fix "));
     expect_messages_of(lines, recorded("again.mcap"), "anna", kAsLogged);
-}
-
-TEST_F(Recording, OdometryLeadsToWhereTheRobotIs) {
-    DOTPOSE_NEEDS_NPM();
-    put_raw(drive_.frames());
-    ASSERT_EQ(run(std::string("watch - ") + kRaw + " " + kTrack + " --units ros --mcap run.mcap",
-                  "drive.raw"),
-              0);
-    expect_odometry_of(parsed(output_), recorded("run.mcap"), "robot");
 }
 
 TEST_F(Recording, WithoutSheetsTheMapIsThePattern) {

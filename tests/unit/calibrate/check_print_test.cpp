@@ -260,7 +260,7 @@ TEST(CheckPrint, scan_without_a_pattern) {
     EXPECT_THAT(check(render_scene(Scene::random_symbols, shot), 300).fields, IsEmpty());
 }
 
-TEST(CheckPrint, a_whole_page_at_600_dpi) {
+TEST(CheckPrintAtLength, a_whole_page_at_600_dpi) {
     ScanSettings settings;
     settings.scale_x = 0.998;
     settings.scale_y = 1.0005;

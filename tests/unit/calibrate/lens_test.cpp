@@ -97,7 +97,7 @@ TEST(CalibrateLens, ASlightTiltTellsAnUnbiasedFocalLength) {
 }
 
 // The far corner has half as many px per spacing as the middle.
-TEST(CalibrateLens, AStrongTiltIsCoveredToTheCorners) {
+TEST(CalibrateLensAtLength, AStrongTiltIsCoveredToTheCorners) {
     CameraModel truth;
     truth.width_px = 640;
     truth.height_px = 480;
@@ -112,7 +112,7 @@ TEST(CalibrateLens, AStrongTiltIsCoveredToTheCorners) {
     expect_near_truth(result.camera, "tilt_y_rad", result.camera.tilt->y_rad, 25 * kDegree_rad);
 }
 
-TEST(CalibrateLens, FindsTheFocalLengthOfALargeCameraHeldByHand) {
+TEST(CalibrateLensAtLength, FindsTheFocalLengthOfALargeCameraHeldByHand) {
     CameraModel truth;
     truth.width_px = 640;
     truth.height_px = 480;

@@ -89,7 +89,7 @@ double exact_sum(const Case& c) {
     return sum;
 }
 
-TEST(DoubleAlternatives, AreSummedOneByOne) {
+TEST(DoubleAlternativesAtLength, AreSummedOneByOne) {
     Rng rng(kSeed);
     // The reading's own score is 1000, so in the last case others fit some lines better.
     for (const int least : {-600, -200, 420}) {
