@@ -37,7 +37,7 @@ std::int64_t Stamps::of(const capture::Frame& frame) {
 RobotOutput::RobotOutput(const RobotOutputOptions& options)
     : options_(options),
       stamps_(options.camera ? options.camera->exposure_us.value_or(0) : 0),
-      messenger_(options.robot) {
+      messenger_(options.robot, ros::with_prefix(options.frame_prefix)) {
     if (!options.mcap.empty()) recording_.emplace(options.mcap, options.robot);
     if (options.dds) publisher_.emplace(ros_name(options.robot), *options.dds);
 }
@@ -52,7 +52,7 @@ void RobotOutput::take(const capture::Frame& frame, const Reading& reading) {
         }
     }
     const ros::RobotMessages messages = messenger_.messages(update_of(reading, stamp_ns));
-    if (publisher_) publisher_->publish(messages);
+    if (publisher_) publisher_->publish(messages, !frame.is_live);
     if (!recording_) return;
     recording_->take(messages, stamp_ns);
     if (!options_.has_images || frame.image.pixels.empty()) return;

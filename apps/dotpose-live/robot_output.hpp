@@ -18,6 +18,7 @@ struct RobotOutputOptions {
     bool has_images = false;                   ///< whether the frames are recorded too
     std::optional<dds::PublisherOptions> dds;  ///< none if nothing is published
     std::string robot;
+    std::string frame_prefix;      ///< before the names of the robot's frames
     std::optional<Camera> camera;  ///< tells the mount and the exposure
 
     bool is_wanted() const { return !mcap.empty() || dds; }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/core.h>
@@ -54,7 +55,9 @@ struct DdsArguments {
     /// Returns none if nothing is published. Throws BadArgument if the environment names no domain.
     std::optional<dds::PublisherOptions> publisher() const {
         if (!is_wanted) return std::nullopt;
-        return dds::PublisherOptions{domain ? *domain : domain_of_ros(), is_reliable};
+        const char* range = std::getenv("ROS_AUTOMATIC_DISCOVERY_RANGE");
+        const bool is_local = range != nullptr && std::string_view(range) == "LOCALHOST";
+        return dds::PublisherOptions{domain ? *domain : domain_of_ros(), is_reliable, is_local};
     }
 
   private:
@@ -276,6 +279,7 @@ void add_publish_options(Command& command, OutputOptions& outputs, MqttArguments
     mqtt.add_to(command);
     add_robot_option(command, outputs.robot,
                      "Name of the robot on the broker and in topics of ROS");
+    add_frame_prefix_option(command, outputs.messages.frame_prefix);
     command.add_option("--mqtt-rate", outputs.mqtt_rate_hz, "Most states a second; events always")
         ->type_name("HZ")
         ->default_str("all")

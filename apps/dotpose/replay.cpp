@@ -32,6 +32,7 @@ struct ReplayArguments {
     std::string log;
     std::string picture;
     std::string robot = "robot";
+    std::string frame_prefix;
     ReportArguments report;
 };
 
@@ -95,8 +96,8 @@ std::string json_report(const RunStatistics& run) {
 /// Writes the messages that the robot would have sent.
 void record(const ReplayArguments& arguments) {
     LogReader log(arguments.log);
+    ros::RobotMessenger messenger(arguments.robot, ros::with_prefix(arguments.frame_prefix));
     RobotRecording recording(arguments.report.out, arguments.robot);
-    ros::RobotMessenger messenger(arguments.robot);
     while (const auto update = log.next(update_of))
         recording.take(messenger.messages(*update), update->time_ns);
     recording.finish();
@@ -137,6 +138,7 @@ void add_replay(Command& app, int&) {
                        "File to write instead of standard output; NAME.mcap: messages of ROS 2");
     add_draw_option(*command, arguments->picture, "Also draw the run (SVG)");
     add_robot_option(*command, arguments->robot, "Name of the robot in topics of ROS");
+    add_frame_prefix_option(*command, arguments->frame_prefix);
     command->callback([arguments] { run(*arguments); });
 }
 

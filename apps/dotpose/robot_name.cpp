@@ -20,4 +20,12 @@ void add_robot_option(Command& command, std::string& robot, const std::string& h
         });
 }
 
+void add_frame_prefix_option(Command& command, std::string& prefix) {
+    command
+        .add_option("--frame-prefix", prefix,
+                    "Before the names of the robot's frames in ROS, such as anna/, where several "
+                    "robots share one tree of transforms")
+        ->type_name("PREFIX");
+}
+
 }  // namespace dotpose::cli

@@ -10,4 +10,7 @@ class Command;
 /// Adds --robot NAME, and refuses names that no topic can have.
 void add_robot_option(Command& command, std::string& robot, const std::string& help);
 
+/// Adds --frame-prefix PREFIX. ros::with_prefix refuses prefixes that ROS does not allow.
+void add_frame_prefix_option(Command& command, std::string& prefix);
+
 }  // namespace dotpose::cli

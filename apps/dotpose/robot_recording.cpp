@@ -39,6 +39,10 @@ void RobotRecording::take(const ros::RobotMessages& messages, std::int64_t time_
 }
 
 void RobotRecording::take_mount(const ros::TransformStamped& mount, std::int64_t time_ns) {
+    if (!tf_static_) {
+        tf_static_ = file_.add_channel(RobotTopics::kTfStatic, ros::type_of(ros::TFMessage{}),
+                                       {.depth = 1, .is_transient_local = true});
+    }
     write(tf_static_, RobotTopics::kTfStatic, ros::TFMessage{{mount}}, time_ns);
 }
 

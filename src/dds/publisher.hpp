@@ -15,6 +15,9 @@ struct PublisherOptions {
     /// Whether lost poses are sent again. A subscriber that asks for that (the default of ROS) does
     /// not get anything from a publisher that does not.
     bool is_reliable = false;
+    /// Whether only programs of this computer are found and served, as nodes of ROS with
+    /// ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST do.
+    bool is_local = false;
 };
 
 class Publisher {
@@ -27,12 +30,15 @@ class Publisher {
     Publisher(const Publisher&) = delete;
     Publisher& operator=(const Publisher&) = delete;
 
-    /// Publishes the messages of a frame.
-    void publish(const ros::RobotMessages& messages);
+    /// Publishes the messages of a frame. With `waits`, it waits up to 10 s for subscribers of
+    /// reliable messages that fall behind; otherwise the newest 100 messages of a topic are kept
+    /// for them.
+    void publish(const ros::RobotMessages& messages, bool waits);
     /// Publishes where the camera sits, also for readers that come later.
     void publish(const ros::TransformStamped& mount);
 
-    /// Number of messages that were handed to DDS, and of those it had no room for.
+    /// Number of messages that were handed to DDS, and of those that it had no room for or that a
+    /// subscriber did not receive in 10 s.
     std::int64_t sent() const;
     std::int64_t dropped() const;
 

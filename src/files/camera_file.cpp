@@ -68,6 +68,17 @@ Camera read_native(const YamlMap& file) {
     return camera;
 }
 
+Camera camera_of(const YamlMap& file, const std::string& name) {
+    const Camera camera =
+        files::is_camera_info(file) ? files::camera_from_camera_info(file) : read_native(file);
+    try {
+        validate(camera);
+    } catch (const BadArgument& error) {
+        throw Error(fmt::format("{}: {}", name, error.what()));
+    }
+    return camera;
+}
+
 /// Returns a number that is short to read, and exact to far below any standard deviation.
 std::string text_of(double value) {
     return fmt::format("{:.10g}", value);
@@ -124,15 +135,11 @@ std::string yaml_of(const Camera& camera) {
 }  // namespace
 
 Camera read_camera(const std::filesystem::path& path) {
-    const YamlMap file(path);
-    const Camera camera =
-        files::is_camera_info(file) ? files::camera_from_camera_info(file) : read_native(file);
-    try {
-        validate(camera);
-    } catch (const BadArgument& error) {
-        throw Error(fmt::format("{}: {}", path.string(), error.what()));
-    }
-    return camera;
+    return camera_of(YamlMap(path), path.string());
+}
+
+Camera parse_camera(const std::string& text, const std::string& name) {
+    return camera_of(YamlMap(text, name), name);
 }
 
 bool is_camera_info(const std::filesystem::path& path) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -13,13 +14,19 @@ namespace {
 
 constexpr std::size_t kMostBytes = 1 << 20;
 
+std::string text_of(const std::filesystem::path& path) {
+    const auto text = files::text_of(path, kMostBytes);
+    if (!text) throw Error(fmt::format("cannot read {}", path.string()));
+    return *text;
+}
+
 }  // namespace
 
-YamlMap::YamlMap(const std::filesystem::path& path) : file_(path.string()) {
+YamlMap::YamlMap(const std::filesystem::path& path) : YamlMap(text_of(path), path.string()) {}
+
+YamlMap::YamlMap(const std::string& text, std::string name) : file_(std::move(name)) {
     try {
-        const auto text = files::text_of(path, kMostBytes);
-        if (!text) throw Error(fmt::format("cannot read {}", file_));
-        node_ = YAML::Load(*text);
+        node_ = YAML::Load(text);
     } catch (const YAML::Exception& error) {
         throw Error(
             fmt::format("{}: not YAML: line {}: {}", file_, error.mark.line + 1, error.msg));

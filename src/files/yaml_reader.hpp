@@ -16,6 +16,8 @@ class YamlMap {
   public:
     /// Reads a file. Throws Error if it cannot be read, is not YAML, or does not hold a mapping.
     explicit YamlMap(const std::filesystem::path& path);
+    /// Reads a text, which messages call `name`.
+    YamlMap(const std::string& text, std::string name);
 
     bool has(const std::string& key) const { return static_cast<bool>(node_[key]); }
     std::string text(const std::string& key) const;

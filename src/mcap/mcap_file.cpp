@@ -14,6 +14,22 @@ namespace dotpose {
 
 using namespace mcap;
 
+namespace {
+
+/// Returns the list of qualities that rosbag2 keeps with a channel, as YAML. Policies are the
+/// numbers of rmw, which all versions of rosbag2 read: history 1 keeps the last messages,
+/// reliability 1 is reliable, durability 1 transient local and 2 volatile, liveliness 1 automatic.
+std::string offered_profiles(const McapQuality& quality) {
+    const std::string durability = quality.is_transient_local ? "1" : "2";
+    const std::string forever = "\n    sec: 9223372036\n    nsec: 854775807\n";
+    return "- history: 1\n  depth: " + std::to_string(quality.depth) +
+           "\n  reliability: 1\n  durability: " + durability + "\n  deadline:" + forever +
+           "  lifespan:" + forever + "  liveliness: 1\n  liveliness_lease_duration:" + forever +
+           "  avoid_ros_namespace_conventions: false";
+}
+
+}  // namespace
+
 class McapFile::Writer {
   public:
     Writer(const std::filesystem::path& path, const McapOptions& options)
@@ -35,7 +51,8 @@ class McapFile::Writer {
         if (descriptor_ >= 0) close(descriptor_);
     }
 
-    McapChannel add_channel(const std::string& topic, const ros::MessageType& type) {
+    McapChannel add_channel(const std::string& topic, const ros::MessageType& type,
+                            const McapQuality& quality) {
         const std::uint16_t schema = schema_of(type);
         const auto id = static_cast<std::uint16_t>(contents_.messages.size() + 1);
         contents_.messages[id] = 0;
@@ -45,7 +62,8 @@ class McapFile::Writer {
             channel.put(schema);
             channel.put(std::string_view(topic));
             channel.put(std::string_view("cdr"));
-            channel.put(std::map<std::uint16_t, std::uint8_t>());  // no metadata
+            channel.put(std::map<std::string, std::string>{
+                {"offered_qos_profiles", offered_profiles(quality)}});
         });
         Members(contents_.channels).put_raw(record);
         Members(chunk_.records()).put_raw(record);
@@ -137,8 +155,9 @@ McapFile::~McapFile() {
     }
 }
 
-McapChannel McapFile::add_channel(const std::string& topic, const ros::MessageType& type) {
-    return writer_->add_channel(topic, type);
+McapChannel McapFile::add_channel(const std::string& topic, const ros::MessageType& type,
+                                  const McapQuality& quality) {
+    return writer_->add_channel(topic, type, quality);
 }
 
 void McapFile::write(McapChannel channel, std::int64_t time_ns, std::span<const std::uint8_t> cdr) {

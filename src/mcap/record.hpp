@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -53,6 +54,16 @@ class Members {
             put(key);
             put(value);
         }
+    }
+    void put(const std::map<std::string, std::string>& map) {
+        Bytes entries;
+        Members members(entries);
+        for (const auto& [key, value] : map) {
+            members.put(std::string_view(key));
+            members.put(std::string_view(value));
+        }
+        put(static_cast<std::uint32_t>(entries.size()));
+        put_raw(entries);
     }
 
   private:

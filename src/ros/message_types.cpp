@@ -76,10 +76,10 @@ void collect(std::string_view members, std::vector<std::string>& names) {
     }
 }
 
-MessageType message_type(std::string_view full_name) {
+MessageType message_type(std::string_view full_name, std::string_view sha256) {
     const Definition& whole = definition(full_name);
     MessageType type{std::string(whole.package) + "/msg/" + std::string(whole.name),
-                     std::string(whole.members)};
+                     std::string(whole.members), "RIHS01_" + std::string(sha256)};
     std::vector<std::string> parts;
     collect(whole.members, parts);
     for (const std::string& part : parts) {
@@ -92,27 +92,35 @@ MessageType message_type(std::string_view full_name) {
 }  // namespace
 
 const MessageType& type_of(const PoseWithCovarianceStamped&) {
-    static const MessageType type = message_type("geometry_msgs/PoseWithCovarianceStamped");
+    static const MessageType type =
+        message_type("geometry_msgs/PoseWithCovarianceStamped",
+                     "26432f9803e43727d3c8f668d1fdb3c630f548af631e2f4e31382371bfea3b6e");
     return type;
 }
 
 const MessageType& type_of(const Odometry&) {
-    static const MessageType type = message_type("nav_msgs/Odometry");
+    static const MessageType type = message_type(
+        "nav_msgs/Odometry", "3cc97dc7fb7502f8714462c526d369e35b603cfc34d946e3f2eda2766dfec6e0");
     return type;
 }
 
 const MessageType& type_of(const TFMessage&) {
-    static const MessageType type = message_type("tf2_msgs/TFMessage");
+    static const MessageType type = message_type(
+        "tf2_msgs/TFMessage", "e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087");
     return type;
 }
 
 const MessageType& type_of(const DiagnosticArray&) {
-    static const MessageType type = message_type("diagnostic_msgs/DiagnosticArray");
+    static const MessageType type =
+        message_type("diagnostic_msgs/DiagnosticArray",
+                     "5a8a36efb05fb25070fa0fb3810290c0e6cd4862b54a8fb975a1ee8dc55a333e");
     return type;
 }
 
 const MessageType& type_of(const CompressedImage&) {
-    static const MessageType type = message_type("sensor_msgs/CompressedImage");
+    static const MessageType type =
+        message_type("sensor_msgs/CompressedImage",
+                     "15640771531571185e2efc8a100baf923961a4d15d5569652e6cb6691e8e371a");
     return type;
 }
 

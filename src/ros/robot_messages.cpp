@@ -1,8 +1,10 @@
 #include "dotpose/tools/robot_messages.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "dotpose/files/error.hpp"
 #include "ros/planar.hpp"
 
 namespace dotpose::ros {
@@ -75,6 +77,18 @@ TwistWithCovariance twist_of(const PlanarMotion& motion) {
 }
 
 }  // namespace
+
+RobotFrames with_prefix(const std::string& prefix, RobotFrames frames) {
+    const auto is_bad = [](unsigned char c) { return c <= ' ' || c == 127; };
+    if (prefix.starts_with('/') || std::ranges::any_of(prefix, is_bad)) {
+        throw BadArgument("the frame prefix '" + prefix +
+                          "' begins with a slash or contains a space, which ROS does not allow in "
+                          "names of frames: use one such as anna/");
+    }
+    for (std::string* own : {&frames.odom, &frames.base, &frames.camera})
+        own->insert(0, prefix);
+    return frames;
+}
 
 RobotMessenger::RobotMessenger(std::string robot, RobotFrames frames)
     : robot_(std::move(robot)), frames_(std::move(frames)) {}

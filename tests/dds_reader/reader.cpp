@@ -8,6 +8,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <memory>
 #include <mutex>
@@ -17,12 +18,14 @@
 
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/domain/DomainParticipantListener.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
 #include <fastdds/dds/subscriber/DataReaderListener.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/TopicDataType.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
+#include <fastrtps/utils/IPLocator.h>
 
 namespace {
 
@@ -97,6 +100,37 @@ class Printer : public DataReaderListener {
     std::atomic<bool> has_gone_ = false;
 };
 
+/// With ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST, hears no multicast and looks for participants at
+/// the ports of this computer, as nodes of ROS do.
+DomainParticipantQos participant_quality() {
+    DomainParticipantQos qos = PARTICIPANT_QOS_DEFAULT;
+    if (std::getenv("ROS_AUTOMATIC_DISCOVERY_RANGE") == nullptr) return qos;
+    constexpr uint32_t kFirstPort = 7410;  // of domain 0
+    constexpr uint32_t kParticipants = 8;
+    auto& discovery = qos.wire_protocol().builtin;
+    for (uint32_t i = 0; i < kParticipants; ++i) {
+        eprosima::fastrtps::rtps::Locator_t locator;
+        eprosima::fastrtps::rtps::IPLocator::setIPv4(locator, 127, 0, 0, 1);
+        locator.port = kFirstPort + 2 * i;
+        if (i == 0) discovery.metatrafficUnicastLocatorList.push_back(locator);
+        discovery.initialPeersList.push_back(locator);
+    }
+    return qos;
+}
+
+/// Says which writers of ROS topics have no type hash in their user data.
+class HashCheck : public DomainParticipantListener {
+  public:
+    void on_publisher_discovery(DomainParticipant*,
+                                eprosima::fastrtps::rtps::WriterDiscoveryInfo&& writer) override {
+        const auto& data = writer.info.m_qos.m_userData.data_vec();
+        const std::string text(data.begin(), data.end());
+        const std::string topic = writer.info.topicName().to_string();
+        if (topic.rfind("rt/", 0) == 0 && text.rfind("typehash=RIHS01_", 0) != 0)
+            std::fprintf(stderr, "%s: no type hash\n", topic.c_str());
+    }
+};
+
 DataReaderQos quality(const std::string& topic, bool is_reliable) {
     DataReaderQos qos;
     const bool is_transform = topic == "/tf" || topic == "/tf_static";
@@ -113,8 +147,9 @@ DataReaderQos quality(const std::string& topic, bool is_reliable) {
 int main(int argc, char** argv) {
     if (argc < 5) return 2;
     const bool is_reliable = std::string(argv[1]) == "reliable";
-    DomainParticipant* participant =
-        DomainParticipantFactory::get_instance()->create_participant(0, PARTICIPANT_QOS_DEFAULT);
+    HashCheck hash_check;
+    DomainParticipant* participant = DomainParticipantFactory::get_instance()->create_participant(
+        0, participant_quality(), &hash_check, StatusMask::none());
     if (participant == nullptr) return 1;
     Subscriber* subscriber = participant->create_subscriber(SUBSCRIBER_QOS_DEFAULT);
     std::vector<std::unique_ptr<Printer>> printers;

@@ -97,7 +97,8 @@ TEST(Cdr, TypesAreDefinedAsInRos) {
     for (const MessageType& type :
          {type_of(PoseWithCovarianceStamped{}), type_of(Odometry{}), type_of(TFMessage{}),
           type_of(DiagnosticArray{}), type_of(CompressedImage{})}) {
-        types.push_back({{"name", type.name}, {"definition", type.definition}});
+        types.push_back(
+            {{"name", type.name}, {"definition", type.definition}, {"hash", type.hash}});
     }
     const TemporaryDirectory directory;
     const std::string path = (directory.path() / "types.json").string();

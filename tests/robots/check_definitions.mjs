@@ -1,5 +1,7 @@
 // Reads types and their definitions, as JSON on standard input, and says where they differ from
-// those of ROS 2. Comments, and constants, do not matter.
+// those of ROS 2. Comments, and constants, do not matter. The hashes of the types are those that REP 2011
+// computes from the definitions of ROS 2.
+import { createHash } from "node:crypto";
 import { readFile } from "node:fs/promises";
 
 import { parse } from "@foxglove/rosmsg";
@@ -14,8 +16,51 @@ function members(definition) {
     .join(", ");
 }
 
+/** Numbers of types in a type_description_interfaces/FieldType. */
+const typeIds = { message: 1, uint8: 3, int32: 6, uint32: 7, float64: 11, byte: 16, string: 17 };
+const kOfArrays = 48;
+const kOfSequences = 144;
+
+/** The npm package replaces `byte`. */
+const asInRos = { "diagnostic_msgs/DiagnosticStatus level": "byte" };
+
+function described({ name, definitions }) {
+  const fields = definitions.filter((member) => !member.isConstant).map((member) => {
+    const given = asInRos[`${name} ${member.name}`] ?? member.type;
+    const type = given === "time" ? "builtin_interfaces/Time" : given;
+    const isMessage = type.includes("/");
+    const kind = !member.isArray ? 0 : member.arrayLength ? kOfArrays : kOfSequences;
+    return {
+      name: member.name,
+      type: {
+        type_id: typeIds[isMessage ? "message" : type] + kind,
+        capacity: member.arrayLength ?? 0,
+        string_capacity: 0,
+        nested_type_name: isMessage ? type.replace("/", "/msg/") : "",
+      },
+    };
+  });
+  return { type_name: name.replace("/", "/msg/"), fields };
+}
+
+/** The hash of a type, whose definition comes first, as JSON with spaces after commas and colons. */
+function typeHash([whole, ...parts]) {
+  const byName = (a, b) => (a.type_name < b.type_name ? -1 : 1);
+  const text = JSON.stringify({
+    type_description: described(whole),
+    referenced_type_descriptions: parts.map(described).sort(byName),
+  });
+  const spaced = text.replace(/([,:])/g, "$1 ");  // no name contains either
+  return `RIHS01_${createHash("sha256").update(spaced).digest("hex")}`;
+}
+
+const timeDefinition = {
+  name: "builtin_interfaces/Time",
+  definitions: [{ type: "int32", name: "sec" }, { type: "uint32", name: "nanosec" }],
+};
+
 let differ = false;
-for (const { name, definition } of JSON.parse(await readFile("/dev/stdin", "utf8"))) {
+for (const { name, definition, hash } of JSON.parse(await readFile("/dev/stdin", "utf8"))) {
   const type = name.replace("/msg/", "/");
   const parts = parse(definition, { ros2: true });
   // Their readers know a time without a definition; files of ROS have one.
@@ -26,6 +71,10 @@ for (const { name, definition } of JSON.parse(await readFile("/dev/stdin", "utf8
   }
   const ours = parts.filter((part) => part !== time);
   const theirs = definitionsOf(type);
+  if (hash !== typeHash([...theirs, timeDefinition])) {
+    console.log(`${name}: hash ${hash} instead of ${typeHash([...theirs, timeDefinition])}`);
+    differ = true;
+  }
   if (ours.length !== theirs.length) {
     console.log(`${name}: ${ours.length} definitions instead of ${theirs.length}`);
     differ = true;

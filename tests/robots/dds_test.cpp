@@ -38,22 +38,20 @@ class Dds : public WatchCommand {
         return run_shell(std::string("unshare -rn sh -c '") + kNetwork + "' 2>&1").exit_code == 0;
     }
 
-    /// Runs `dotpose watch` with the frames of the drive at their pace, and a reader of its
-    /// messages, which is there first. Returns what the reader got.
-    std::vector<json> read_drive(const std::string& reliability, const std::string& options) {
-        const std::string watch = "'" + test::tool_path() + "' watch - " + std::string(kRaw) + " " +
-                                  kTrack + " --units ros --dds --robot anna -o lines " + options;
+    /// Runs `dotpose watch` with frames that `frames` writes, and a reader of its messages, which
+    /// is there first. Returns what the reader got.
+    std::vector<json> read_drive(const std::string& frames, const std::string& reliability,
+                                 const std::string& options, const std::string& environment = "") {
+        const std::string watch = "'" + test::tool_path() + "' watch - " + kRaw + " " + kTrack +
+                                  " --units ros --dds --robot anna -o lines " + options;
         // The frames come when reader and writers know of each other; the reader says when it
         // knows.
-        const std::string frames =
-            "until [ -e ready ] || ! kill -0 $reader; do sleep 0.1; done; sleep 1; "
-            "ffmpeg -v error -readrate 0.5 -f rawvideo -pix_fmt gray -s 320x240 -r 200 -i "
-            "drive.raw -f "
-            "rawvideo -";
+        const std::string ready =
+            "until [ -e ready ] || ! kill -0 $reader; do sleep 0.1; done; sleep 1; ";
         std::ofstream(directory_ / "run.sh")
-            << kNetwork << "'" << kReader << "' " << reliability << " ready " << kTopics
-            << " >samples 2>reader.txt & reader=$!\n"
-            << "(" << frames << ") | " << watch << " 2>watch.txt\n"
+            << kNetwork << environment << "'" << kReader << "' " << reliability << " ready "
+            << kTopics << " >samples 2>reader.txt & reader=$!\n"
+            << "(" << ready << frames << ") | " << watch << " 2>watch.txt\n"
             << "wait $reader\n";
         EXPECT_EQ(shell("unshare -rn sh run.sh"), 0) << errors_;
         EXPECT_EQ(file("reader.txt"), "");
@@ -74,17 +72,30 @@ class Dds : public WatchCommand {
 TEST_F(Dds, HasThePosesOfTheLines) {
     DOTPOSE_NEEDS_DDS();
     put_raw(drive_.frames());
-    const auto messages = read_drive("reliable", "--dds-reliable");
+    // As fast as they are read: nothing is lost then either.
+    const auto messages = read_drive("cat drive.raw", "reliable", "--dds-reliable");
     expect_messages_of(parsed(file("lines")), messages, "anna", kAsWatched);
 }
 
 TEST_F(Dds, SendsSensorDataAsRosDoes) {
     DOTPOSE_NEEDS_DDS();
     put_raw(200);
-    const auto messages = read_drive("best-effort", "");
+    const auto messages = read_drive(
+        "ffmpeg -v error -readrate 0.5 -f rawvideo -pix_fmt gray -s 320x240 -r 200 -i drive.raw "
+        "-f rawvideo -",
+        "best-effort", "");
     // Nothing is lost on a quiet loopback interface, but nothing promises that.
     EXPECT_GT(of_topic(messages, "/anna/pose").size(), 150U);
     EXPECT_EQ(of_topic(messages, "/tf").size(), 200U);
+}
+
+TEST_F(Dds, IsFoundOnThisComputerAloneIfRosSaysSo) {
+    DOTPOSE_NEEDS_DDS();
+    put_raw(20);
+    // The reader hears no multicast then, by which programs find each other in a network.
+    const auto messages = read_drive("cat drive.raw", "reliable", "--dds-reliable",
+                                     "export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST; ");
+    EXPECT_EQ(of_topic(messages, "/anna/pose").size(), 20U);
 }
 
 TEST_F(Dds, RefusesDomainsThatDoNotExist) {

@@ -1,5 +1,5 @@
 // Reads an MCAP file with readers that are not ours, and prints every message as a line of JSON:
-// topic, type, time and content. The stream reader and the indexed reader must agree, and all check
+// topic, type, time, quality of service and content. The stream reader and the indexed reader must agree, and all check
 // sums must be right; otherwise it says what is wrong and exits with 1.
 //
 //   node read_mcap.mjs FILE [--stream]
@@ -48,6 +48,7 @@ class Decoder {
         type: schema.type,
         sequence: message.sequence,
         log_ns: message.logTime,
+        offered: channel.metadata.get("offered_qos_profiles"),
         message: schema.reader.readMessage(message.data),
       },
       json,

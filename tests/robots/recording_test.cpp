@@ -112,6 +112,31 @@ TEST_F(Recording, TellsWhereTheCameraSits) {
     const json& mount = mounts[0]["message"]["transforms"][0];
     EXPECT_EQ(mount["child_frame_id"], "camera_optical");
     EXPECT_NEAR(mount["transform"]["translation"]["x"], 0.00458, 1e-9);
+    // `ros2 bag play` offers it so that listeners of transforms take it: transient local.
+    EXPECT_THAT(mounts[0]["offered"], HasSubstr("\n  durability: 1\n"));
+    const auto poses = of_topic(recorded("run.mcap"), "/robot/pose");
+    EXPECT_THAT(poses.at(0)["offered"], HasSubstr("\n  durability: 2\n"));
+}
+
+TEST_F(Recording, RobotsMayHaveFramesOfTheirOwn) {
+    DOTPOSE_NEEDS_NPM();
+    put_raw(20);
+    ASSERT_EQ(run(std::string("watch - ") + kRaw + " " + kTrack +
+                      " --log run.csv --frame-prefix anna/ --mcap run.mcap",
+                  "drive.raw"),
+              0)
+        << errors_;
+    ASSERT_EQ(run("replay run.csv --frame-prefix anna/ -o replayed.mcap"), 0) << errors_;
+    for (const char* name : {"run.mcap", "replayed.mcap"}) {
+        const auto messages = recorded(name);
+        const json pose = of_topic(messages, "/robot/pose").at(0)["message"];
+        EXPECT_EQ(pose["header"]["frame_id"], "map");
+        const json odometry = of_topic(messages, "/robot/odom").at(0)["message"];
+        EXPECT_EQ(odometry["header"]["frame_id"], "anna/odom");
+        EXPECT_EQ(odometry["child_frame_id"], "anna/base_link");
+    }
+    EXPECT_EQ(run("replay run.csv --frame-prefix /anna/ -o replayed.mcap"), 2);
+    EXPECT_THAT(errors_, HasSubstr("begins with a slash"));
 }
 
 TEST_F(Recording, KilledItIsStillReadable) {

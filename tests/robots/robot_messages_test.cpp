@@ -70,6 +70,21 @@ TEST(RobotMessages, PutsAFixIntoTheMap) {
     EXPECT_FALSE(messages.tf);
 }
 
+TEST(RobotMessages, APrefixIsOfTheRobotsOwnFrames) {
+    RobotFrames frames;
+    frames.camera = "eye";
+    const RobotMessages messages =
+        RobotMessenger("anna", with_prefix("anna/", frames)).messages(update(northwards()));
+    ASSERT_TRUE(messages.tf);
+    EXPECT_EQ(messages.tf->transforms.at(0).header.frame_id, "map");
+    EXPECT_EQ(messages.tf->transforms.at(0).child_frame_id, "anna/odom");
+    EXPECT_EQ(messages.tf->transforms.at(1).child_frame_id, "anna/base_link");
+    EXPECT_EQ(with_prefix("anna/", frames).camera, "anna/eye");
+    EXPECT_EQ(with_prefix("").odom, "odom");
+    EXPECT_THROW(with_prefix("/anna/"), BadArgument);
+    EXPECT_THROW(with_prefix("anna /"), BadArgument);
+}
+
 TEST(RobotMessages, NeverSaysThatAnythingIsExact) {
     RobotUpdate seen;
     seen.fix = PlanarFix{};  // without a covariance

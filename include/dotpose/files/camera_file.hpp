@@ -25,6 +25,9 @@ inline constexpr int kCameraFileVersion = 1;
 /// eq. 2 cannot follow to within 0.5 px rms.
 Camera read_camera(const std::filesystem::path& path);
 
+/// Reads a camera from the text of such a file. `name` is what messages call the file.
+Camera parse_camera(const std::string& text, const std::string& name);
+
 /// Whether the file is a camera_info file of ROS, which `write_camera` would replace by one of
 /// another format. Throws Error if the file cannot be read.
 bool is_camera_info(const std::filesystem::path& path);

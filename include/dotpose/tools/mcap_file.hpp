@@ -26,6 +26,14 @@ namespace dotpose {
 /// The number of a channel in its file.
 enum class McapChannel : std::uint16_t {};
 
+/// The quality of service that `ros2 bag play` offers the messages of a channel with. The default
+/// suits every subscriber but those of /tf_static, which need the newest message of `depth` 1 kept
+/// for subscribers that come later.
+struct McapQuality {
+    int depth = 100;
+    bool is_transient_local = false;
+};
+
 /// When a chunk ends.
 struct McapOptions {
     /// A chunk ends with the message that makes it longer or larger than this. Longer ones lose
@@ -44,7 +52,8 @@ class McapFile {
     McapFile& operator=(const McapFile&) = delete;
 
     /// Adds a channel for messages of one type, in CDR.
-    McapChannel add_channel(const std::string& topic, const ros::MessageType& type);
+    McapChannel add_channel(const std::string& topic, const ros::MessageType& type,
+                            const McapQuality& quality = {});
 
     /// Appends a message. `time_ns` should not be below 0. Throws Error.
     void write(McapChannel channel, std::int64_t time_ns, std::span<const std::uint8_t> cdr);

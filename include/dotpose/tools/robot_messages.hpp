@@ -81,6 +81,12 @@ struct RobotFrames {
     std::string camera = "camera_optical";
 };
 
+/// Returns the frames with `prefix` ("anna/") before the names of the robot's own frames: `odom`,
+/// `base` and `camera`. Robots with different prefixes share one tree of transforms, with one
+/// `map`. Throws BadArgument if ROS does not allow the prefix: it begins with a slash, or contains
+/// a space or a control character.
+RobotFrames with_prefix(const std::string& prefix, RobotFrames frames = {});
+
 /// The messages of one frame. `odometry` and `tf` are missing while the robot is lost.
 struct RobotMessages {
     std::optional<PoseWithCovarianceStamped> pose;  ///< of the fix, in `map`

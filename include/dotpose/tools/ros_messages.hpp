@@ -150,6 +150,7 @@ std::vector<std::uint8_t> to_cdr(const CompressedImage& message);
 struct MessageType {
     std::string name;        ///< such as "geometry_msgs/msg/PoseWithCovarianceStamped"
     std::string definition;  ///< the .msg files of the type and of all that it contains (ros2msg)
+    std::string hash;        ///< "RIHS01_" and 64 hexadecimal digits (ROS REP 2011)
 };
 
 /// Returns the type of a message.

@@ -1,6 +1,7 @@
 #include "dds/publisher.hpp"
 
 #include <array>
+#include <cstdlib>
 
 #include <dds/dds.h>
 
@@ -15,18 +16,40 @@ dds_entity_t require(dds_entity_t entity, const std::string& what) {
     return entity;
 }
 
+/// Number of messages of a reliable topic that are kept until all readers have them.
+constexpr int kDepth = 100;
+
 /// How a topic is sent; the values that ROS uses.
 struct Quality {
     bool is_reliable = true;
     bool is_kept = false;  ///< for readers that come later
-    int depth = 100;       ///< messages that are kept until all readers have them
+    int depth = kDepth;
 };
 
 /// How long a reliable message may wait for room, which delays the frame.
 constexpr dds_duration_t kMostWait_ns = DDS_MSECS(10);
 
+/// How long readers are waited for that fall behind. A reader that has ended without a word is
+/// forgotten after that time.
+constexpr dds_duration_t kPatience_ns = DDS_SECS(10);
+
+/// Returns a domain that finds programs of this computer only, by the same settings as those of
+/// ROS's rmw_cyclonedds. CYCLONEDDS_URI comes after them, as it overrides them.
+dds_entity_t local_domain(int number) {
+    std::string settings =
+        "<General><AllowMulticast>false</AllowMulticast></General>"
+        "<Discovery><ParticipantIndex>auto</ParticipantIndex>"
+        "<MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>"
+        "<Peers><Peer address=\"localhost\"/></Peers></Discovery>";
+    const char* own = std::getenv("CYCLONEDDS_URI");
+    if (own != nullptr && *own != '\0') settings += std::string(",") + own;
+    return require(dds_create_domain(static_cast<dds_domainid_t>(number), settings.c_str()),
+                   "domain " + std::to_string(number));
+}
+
 dds_entity_t writer_of(dds_entity_t participant, const dds_topic_descriptor_t& type,
-                       const std::string& topic, const Quality& quality) {
+                       const std::string& topic, const std::string& type_hash,
+                       const Quality& quality) {
     const dds_entity_t entity = require(
         dds_create_topic(participant, &type, topic.c_str(), nullptr, nullptr), "topic " + topic);
     dds_qos_t* qos = dds_create_qos();
@@ -36,6 +59,9 @@ dds_entity_t writer_of(dds_entity_t participant, const dds_topic_descriptor_t& t
     dds_qset_durability(qos,
                         quality.is_kept ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
     dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, quality.depth);
+    // Nodes since ROS 2 Iron warn of topics without it.
+    const std::string user_data = "typehash=" + type_hash + ';';
+    dds_qset_userdata(qos, user_data.data(), user_data.size());
     // ROS 2 up to Humble looks at the representation that old readers have: plain CDR.
     const std::array<dds_data_representation_id_t, 1> plain = {DDS_DATA_REPRESENTATION_XCDR1};
     dds_qset_data_representation(qos, plain.size(), plain.data());
@@ -49,33 +75,54 @@ dds_entity_t writer_of(dds_entity_t participant, const dds_topic_descriptor_t& t
 class Publisher::Writers {
   public:
     Writers(const std::string& robot, const PublisherOptions& options)
-        : participant_(require(
-              dds_create_participant(static_cast<dds_domainid_t>(options.domain), nullptr, nullptr),
-              "domain " + std::to_string(options.domain))) {
-        const Quality sensor = {options.is_reliable, false, options.is_reliable ? 100 : 5};
+        : domain_(options.is_local ? local_domain(options.domain) : 0) {
+        const Quality sensor = {options.is_reliable, false, options.is_reliable ? kDepth : 5};
         // ROS puts "rt" before the names of its topics.
         const std::string prefix = "rt/" + robot;
         try {
+            participant_ =
+                require(dds_create_participant(static_cast<dds_domainid_t>(options.domain), nullptr,
+                                               nullptr),
+                        "domain " + std::to_string(options.domain));
             pose_ = writer_of(participant_, geometry_msgs_msg_dds__PoseWithCovarianceStamped__desc,
-                              prefix + "/pose", sensor);
-            odometry_ =
-                writer_of(participant_, nav_msgs_msg_dds__Odometry__desc, prefix + "/odom", sensor);
+                              prefix + "/pose", ros::type_of(ros::PoseWithCovarianceStamped{}).hash,
+                              sensor);
+            odometry_ = writer_of(participant_, nav_msgs_msg_dds__Odometry__desc, prefix + "/odom",
+                                  ros::type_of(ros::Odometry{}).hash, sensor);
             status_ = writer_of(participant_, diagnostic_msgs_msg_dds__DiagnosticArray__desc,
-                                prefix + "/status", Quality{});
-            tf_ = writer_of(participant_, tf2_msgs_msg_dds__TFMessage__desc, "rt/tf", Quality{});
+                                prefix + "/status", ros::type_of(ros::DiagnosticArray{}).hash, {});
+            const std::string& transforms = ros::type_of(ros::TFMessage{}).hash;
+            tf_ =
+                writer_of(participant_, tf2_msgs_msg_dds__TFMessage__desc, "rt/tf", transforms, {});
             tf_static_ = writer_of(participant_, tf2_msgs_msg_dds__TFMessage__desc, "rt/tf_static",
-                                   {true, true, 1});
+                                   transforms, {true, true, 1});
         } catch (...) {
-            dds_delete(participant_);
+            close();
             throw;
         }
     }
     Writers(const Writers&) = delete;
     Writers& operator=(const Writers&) = delete;
     ~Writers() {
-        for (const dds_entity_t writer : {pose_, odometry_, status_, tf_})
-            dds_wait_for_acks(writer, DDS_SECS(1));
-        dds_delete(participant_);
+        wait_for_readers(DDS_SECS(1));
+        close();
+    }
+
+    void write(const ros::RobotMessages& messages) {
+        if (messages.pose) write(*messages.pose);
+        if (messages.odometry) write(*messages.odometry);
+        if (messages.tf) write(*messages.tf);
+        write(messages.status);
+        ++unconfirmed_frames_;
+    }
+
+    /// Waits until reliable readers have all messages, before messages would be replaced that they
+    /// do not have yet. Those that a reader does not take are counted as dropped.
+    void keep_pace() {
+        if (unconfirmed_frames_ < kDepth / 2) return;
+        if (!wait_for_readers(kPatience_ns)) dropped_ += sent_ - confirmed_;
+        confirmed_ = sent_;
+        unconfirmed_frames_ = 0;
     }
 
     void write(const ros::PoseWithCovarianceStamped& message) {
@@ -113,6 +160,20 @@ class Publisher::Writers {
     std::int64_t dropped() const { return dropped_; }
 
   private:
+    void close() {
+        if (participant_ > 0) dds_delete(participant_);
+        if (domain_ > 0) dds_delete(domain_);
+    }
+    /// Returns whether all reliable readers have all messages. The time is for the first writer
+    /// that waits in vain: the others share its readers.
+    bool wait_for_readers(dds_duration_t most_ns) {
+        bool have_all = true;
+        for (const dds_entity_t writer : {pose_, odometry_, status_, tf_}) {
+            const dds_duration_t patience_ns = have_all ? most_ns : 0;
+            have_all = dds_wait_for_acks(writer, patience_ns) == DDS_RETCODE_OK && have_all;
+        }
+        return have_all;
+    }
     void write_transforms(dds_entity_t writer, const ros::TFMessage& message) {
         using Transforms = dds_sequence_geometry_msgs_msg_dds__TransformStamped_;
         std::vector<geometry_msgs_msg_dds__TransformStamped_> transforms;
@@ -125,7 +186,8 @@ class Publisher::Writers {
         dds_write(writer, sample) == DDS_RETCODE_OK ? ++sent_ : ++dropped_;
     }
 
-    dds_entity_t participant_;
+    dds_entity_t domain_;  ///< 0 if it is that of the environment
+    dds_entity_t participant_ = 0;
     dds_entity_t pose_ = 0;
     dds_entity_t odometry_ = 0;
     dds_entity_t status_ = 0;
@@ -133,6 +195,8 @@ class Publisher::Writers {
     dds_entity_t tf_static_ = 0;
     std::int64_t sent_ = 0;
     std::int64_t dropped_ = 0;
+    std::int64_t confirmed_ = 0;  ///< of the messages sent, those that reliable readers have
+    int unconfirmed_frames_ = 0;
 };
 
 Publisher::Publisher(const std::string& robot, const PublisherOptions& options)
@@ -140,11 +204,9 @@ Publisher::Publisher(const std::string& robot, const PublisherOptions& options)
 
 Publisher::~Publisher() = default;
 
-void Publisher::publish(const ros::RobotMessages& messages) {
-    if (messages.pose) writers_->write(*messages.pose);
-    if (messages.odometry) writers_->write(*messages.odometry);
-    if (messages.tf) writers_->write(*messages.tf);
-    writers_->write(messages.status);
+void Publisher::publish(const ros::RobotMessages& messages, bool waits) {
+    writers_->write(messages);
+    if (waits) writers_->keep_pace();
 }
 
 void Publisher::publish(const ros::TransformStamped& mount) {

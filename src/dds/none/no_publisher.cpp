@@ -14,7 +14,7 @@ Publisher::Publisher(const std::string&, const PublisherOptions&) {
 
 Publisher::~Publisher() = default;
 
-void Publisher::publish(const ros::RobotMessages&) {}
+void Publisher::publish(const ros::RobotMessages&, bool) {}
 
 void Publisher::publish(const ros::TransformStamped&) {}
 

@@ -1,20 +1,31 @@
-"""Starts the node: ros2 launch dotpose_ros locator.launch.py sheets:=table.json camera:=camera.yaml"""
+"""Starts the node: ros2 launch dotpose_ros locator.launch.py sheets:=table.json camera:=camera.yaml
+
+Two robots: namespace:=anna frame_prefix:=anna/, and the same with another name.
+"""
 
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
+from launch_ros.parameter_descriptions import ParameterValue
+
+# Texts, even where they look like numbers.
+TEXTS = {"sheets": "", "camera": "", "frame_prefix": ""}
+TOPICS = {"image": "image_raw", "camera_info": "camera_info"}
 
 
 def generate_launch_description():
-    names = {"sheets": "", "camera": "", "image": "image_raw", "camera_info": "camera_info"}
-    arguments = [DeclareLaunchArgument(name, default_value=value) for name, value in names.items()]
+    defaults = {"namespace": "", "reliable": "false", **TEXTS, **TOPICS}
+    texts = {name: ParameterValue(LaunchConfiguration(name), value_type=str) for name in TEXTS}
     node = Node(
         package="dotpose_ros",
         executable="locator",
         name="dotpose",
-        parameters=[{name: LaunchConfiguration(name) for name in ("sheets", "camera")}],
-        remappings=[(name, LaunchConfiguration(source)) for name, source in
-                    (("image", "image"), ("camera_info", "camera_info"))],
+        namespace=LaunchConfiguration("namespace"),
+        parameters=[
+            {**texts, "reliable": ParameterValue(LaunchConfiguration("reliable"), value_type=bool)}
+        ],
+        remappings=[(name, LaunchConfiguration(name)) for name in TOPICS],
     )
+    arguments = [DeclareLaunchArgument(name, default_value=value) for name, value in defaults.items()]
     return LaunchDescription([*arguments, node])

@@ -1,181 +1,146 @@
 // A component of ROS 2: images and camera_info in; poses, odometry, transforms and diagnostics out.
-// All that it knows of dots, frames and covariances is in the library dotpose.
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <memory>
-#include <optional>
-#include <string>
+// It only subscribes and publishes; parameters.hpp and robot_locator.hpp do the rest.
+#include "locator_node.hpp"
 
-#include <rclcpp/rclcpp.hpp>
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <string>
+#include <type_traits>
+#include <variant>
+
+#include <rcl_interfaces/msg/parameter_descriptor.hpp>
 #include <rclcpp_components/register_node_macro.hpp>
 #include <sensor_msgs/msg/camera_info.hpp>
 #include <sensor_msgs/msg/image.hpp>
 
-#include <dotpose/files/camera_file.hpp>
-#include <dotpose/files/sheet_file.hpp>
-#include <dotpose/tools/follower.hpp>
-#include <dotpose/tools/robot_messages.hpp>
+#include <dotpose/files/error.hpp>
 
 #include "messages.hpp"
+#include "parameters.hpp"
+#include "robot_locator.hpp"
 
 namespace dotpose_ros {
+namespace {
 
 using sensor_msgs::msg::CameraInfo;
 using sensor_msgs::msg::Image;
 
-namespace {
-
-struct TemporaryFolder {
-    std::filesystem::path path;
-    ~TemporaryFolder() {
-        std::error_code failed;
-        std::filesystem::remove_all(path, failed);
+/// Declares a parameter and returns its value. `ros2 param set` refuses parameters that are read
+/// only. With dynamic typing, a number may be written without a point: settings_of checks types.
+Value declare(rclcpp::Node& node, const Parameter& parameter) {
+    rcl_interfaces::msg::ParameterDescriptor descriptor;
+    descriptor.description = parameter.description;
+    descriptor.read_only = true;
+    descriptor.dynamic_typing = true;
+    const rclcpp::ParameterValue standard = std::visit(
+        [](const auto& value) {
+            if constexpr (std::is_same_v<decltype(value), const std::monostate&>) {
+                return rclcpp::ParameterValue();
+            } else {
+                return rclcpp::ParameterValue(value);
+            }
+        },
+        parameter.standard);
+    const rclcpp::ParameterValue value =
+        node.declare_parameter(parameter.name, standard, descriptor);
+    switch (value.get_type()) {
+        case rclcpp::ParameterType::PARAMETER_NOT_SET:
+            return {};
+        case rclcpp::ParameterType::PARAMETER_BOOL:
+            return value.get<bool>();
+        case rclcpp::ParameterType::PARAMETER_INTEGER:
+            return value.get<std::int64_t>();
+        case rclcpp::ParameterType::PARAMETER_DOUBLE:
+            return value.get<double>();
+        case rclcpp::ParameterType::PARAMETER_STRING:
+            return value.get<std::string>();
+        default:
+            break;
     }
-};
+    throw dotpose::Error(std::string("parameter ") + parameter.name + " must be a single value");
+}
 
-/// Reads the lens from a camera_info as from a file of that format. Throws dotpose::Error.
-dotpose::Camera camera_of(const CameraInfo& info) {
-    std::string name = (std::filesystem::temp_directory_path() / "dotpose-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw dotpose::Error("cannot create a temporary folder");
-    const TemporaryFolder folder{name};
-    const std::filesystem::path file_name = folder.path / "camera_info.yaml";
-    const auto write = [](std::ostream& file, const char* key, const auto& values) {
-        file << key << ": [";
-        for (std::size_t i = 0; i < values.size(); ++i)
-            file << (i > 0 ? ", " : "") << values[i];
-        file << "]\n";
-    };
-    {
-        std::ofstream file(file_name);
-        file.precision(17);
-        file << "width: " << info.width << "\nheight: " << info.height
-             << "\ndistortion_model: " << info.distortion_model << '\n';
-        write(file, "k", info.k);
-        write(file, "d", info.d);
-    }
-    return dotpose::read_camera(file_name);
+Settings declared_settings(rclcpp::Node& node) {
+    std::map<std::string, Value> values;
+    for (const Parameter& parameter : parameters())
+        values[parameter.name] = declare(node, parameter);
+    return settings_of(values);
+}
+
+/// Sensor data is sent best effort, unless the parameter `reliable` says otherwise.
+rclcpp::QoS sensor_quality(const Settings& settings) {
+    rclcpp::QoS quality = rclcpp::SensorDataQoS();
+    if (settings.is_reliable) quality.reliable();
+    return quality;
 }
 
 }  // namespace
 
 class LocatorNode : public rclcpp::Node {
   public:
-    explicit LocatorNode(const rclcpp::NodeOptions& node_options)
-        : Node("dotpose", node_options), messenger_(get_name(), frames()) {
-        const std::string sheets = declare_parameter("sheets", "");
-        const std::string camera = declare_parameter("camera", "");
-        options_.spacing_mm = declare_parameter("spacing_mm", options_.spacing_mm);
-        options_.track.max_speed_mm_s = static_cast<float>(
-            1000 *
-            declare_parameter("max_speed_m_s", double{options_.track.max_speed_mm_s} / 1000));
-        options_.track.acceleration_mm_s2 = static_cast<float>(
-            1000 * declare_parameter("acceleration_m_s2",
-                                     double{options_.track.acceleration_mm_s2} / 1000));
-        half_exposure_ns_ = static_cast<std::int64_t>(500 * declare_parameter("exposure_us", 0.0));
-        if (!sheets.empty()) options_.sheets = dotpose::read_sheets(sheets);
-        if (!camera.empty()) options_.camera = dotpose::read_camera(camera);
-        follower_.emplace(options_);
-        add_publishers();
-        add_subscriptions(camera.empty());
+    explicit LocatorNode(const rclcpp::NodeOptions& options) : Node("dotpose", options) {
+        const Settings settings = declared_settings(*this);
+        locator_.emplace(settings, get_fully_qualified_name());
+        add_publishers(settings);
+        if (auto mount = locator_->mount(now().nanoseconds()))
+            tf_static_->publish(to_ros(dotpose::ros::TFMessage{{*mount}}));
+        add_subscriptions(settings);
     }
 
   private:
-    dotpose::ros::RobotFrames frames() {
-        dotpose::ros::RobotFrames frames;
-        frames.map = declare_parameter("map_frame", frames.map);
-        frames.odom = declare_parameter("odom_frame", frames.odom);
-        frames.base = declare_parameter("base_frame", frames.base);
-        return frames;
-    }
-
-    void add_publishers() {
-        // Sensor data is sent best effort, unless the parameter says otherwise.
-        rclcpp::QoS quality = rclcpp::SensorDataQoS();
-        if (declare_parameter("reliable", false)) quality.reliable();
+    void add_publishers(const Settings& settings) {
+        const rclcpp::QoS quality = sensor_quality(settings);
         pose_ = create_publisher<geometry_msgs::msg::PoseWithCovarianceStamped>("~/pose", quality);
         odometry_ = create_publisher<nav_msgs::msg::Odometry>("~/odom", quality);
-        if (declare_parameter("publish_tf", true)) {
+        if (settings.publishes_tf)
             tf_ = create_publisher<tf2_msgs::msg::TFMessage>("/tf", rclcpp::QoS(100));
-        }
-        status_ = create_publisher<diagnostic_msgs::msg::DiagnosticArray>("/diagnostics", 10);
-        tf_static_ = create_publisher<tf2_msgs::msg::TFMessage>("/tf_static",
-                                                                rclcpp::QoS(1).transient_local());
-        publish_mount();
+        status_ = create_publisher<diagnostic_msgs::msg::DiagnosticArray>("/diagnostics",
+                                                                          rclcpp::QoS(10));
+        // With intra-process communication, processes that come later would not get it.
+        rclcpp::PublisherOptions kept;
+        kept.use_intra_process_comm = rclcpp::IntraProcessSetting::Disable;
+        tf_static_ = create_publisher<tf2_msgs::msg::TFMessage>(
+            "/tf_static", rclcpp::QoS(1).transient_local(), kept);
     }
 
-    void add_subscriptions(bool needs_camera) {
-        image_ = create_subscription<Image>("image", rclcpp::SensorDataQoS(),
+    void add_subscriptions(const Settings& settings) {
+        const rclcpp::QoS quality = sensor_quality(settings);
+        image_ = create_subscription<Image>("image", quality,
                                             [this](Image::ConstSharedPtr image) { take(*image); });
-        if (!needs_camera) return;
+        if (settings.has_camera_file) return;
+        // It lasts as long as the node: a subscription that ends in its own callback leaves the
+        // executor of Jazzy without any callback.
         camera_info_ = create_subscription<CameraInfo>(
-            "camera_info", rclcpp::SensorDataQoS(),
-            [this](CameraInfo::ConstSharedPtr info) { take(*info); });
+            "camera_info", quality, [this](CameraInfo::ConstSharedPtr info) { take(*info); });
     }
 
-    /// Takes the lens from the first camera_info; a camera file knows more.
     void take(const CameraInfo& info) {
-        camera_info_.reset();
-        if (info.k[0] == 0) {
-            RCLCPP_WARN(get_logger(), "camera_info says that the camera was never calibrated");
-            return;
-        }
-        try {
-            options_.camera = camera_of(info);
-            follower_.emplace(options_);
-        } catch (const dotpose::Error& error) {
-            options_.camera.reset();
-            RCLCPP_WARN(get_logger(), "camera_info is not used: %s", error.what());
-        }
+        Lens lens{info.width, info.height, info.distortion_model, {}, info.d};
+        std::ranges::copy(info.k, lens.k.begin());
+        warn(locator_->take(lens));
     }
 
     void take(const Image& image) {
-        if (image.encoding != "mono8" && image.encoding != "8UC1") {
-            RCLCPP_WARN_ONCE(get_logger(), "images must be mono8, not %s", image.encoding.c_str());
-            return;
-        }
-        if (image.data.size() < std::size_t{image.step} * image.height) return;
-        const rclcpp::Time end = image.header.stamp;
-        const std::int64_t time_ns = end.nanoseconds() - half_exposure_ns_;
-        try {
-            const dotpose::ImageView view = {image.data.data(), static_cast<int>(image.width),
-                                             static_cast<int>(image.height),
-                                             static_cast<std::ptrdiff_t>(image.step)};
-            publish(follower_->follow(view, time_ns / 1000), time_ns);
-        } catch (const dotpose::Error& error) {
-            RCLCPP_ERROR_THROTTLE(get_logger(), *get_clock(), 5000, "%s", error.what());
-        }
-    }
-
-    void publish(const dotpose::Followed& now, std::int64_t time_ns) {
-        const dotpose::ros::RobotMessages messages =
-            messenger_.messages(dotpose::ros::update_of(now, follower_->is_in_world(), time_ns));
+        const std::int64_t arrival_ns =
+            std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
+        const RobotLocator::Answer answer = locator_->take(
+            {image.encoding, image.width, image.height, image.step, image.is_bigendian != 0,
+             image.data},
+            nanoseconds(image.header.stamp.sec, image.header.stamp.nanosec), arrival_ns);
+        warn(answer.warning);
+        const dotpose::ros::RobotMessages& messages = answer.messages;
         if (messages.pose) pose_->publish(to_ros(*messages.pose));
         if (messages.odometry) odometry_->publish(to_ros(*messages.odometry));
         if (messages.tf && tf_) tf_->publish(to_ros(*messages.tf));
-        // Diagnostics are for people: at a change, and once a second.
-        constexpr std::int64_t kPause_ns = 1'000'000'000;
-        const std::string& state = messages.status.status.front().message;
-        if (state == told_state_ && time_ns < told_ns_ + kPause_ns) return;
-        told_state_ = state;
-        told_ns_ = time_ns;
-        status_->publish(to_ros(messages.status));
+        if (!messages.status.status.empty()) status_->publish(to_ros(messages.status));
     }
 
-    void publish_mount() {
-        if (!options_.camera) return;
-        auto mount = dotpose::ros::camera_mount(*options_.camera, messenger_.frames());
-        if (!mount) return;
-        mount->header.stamp = dotpose::ros::ros_time(now().nanoseconds());
-        tf_static_->publish(to_ros(dotpose::ros::TFMessage{{*mount}}));
+    void warn(const std::string& text) {
+        if (!text.empty()) RCLCPP_WARN(get_logger(), "%s", text.c_str());
     }
 
-    dotpose::FollowerOptions options_;
-    std::optional<dotpose::Follower> follower_;
-    dotpose::ros::RobotMessenger messenger_;
-    std::int64_t half_exposure_ns_ = 0;
-    std::string told_state_;
-    std::int64_t told_ns_ = 0;
+    std::optional<RobotLocator> locator_;
     rclcpp::Publisher<geometry_msgs::msg::PoseWithCovarianceStamped>::SharedPtr pose_;
     rclcpp::Publisher<nav_msgs::msg::Odometry>::SharedPtr odometry_;
     rclcpp::Publisher<tf2_msgs::msg::TFMessage>::SharedPtr tf_;
@@ -184,6 +149,10 @@ class LocatorNode : public rclcpp::Node {
     rclcpp::Subscription<Image>::SharedPtr image_;
     rclcpp::Subscription<CameraInfo>::SharedPtr camera_info_;
 };
+
+std::shared_ptr<rclcpp::Node> make_locator_node(const rclcpp::NodeOptions& options) {
+    return std::make_shared<LocatorNode>(options);
+}
 
 }  // namespace dotpose_ros
 
