@@ -108,7 +108,7 @@ dotpose_part(FILES     "sheet and camera files" SETUP tools
              PARTS BASE NEEDS yaml-cpp nlohmann_json::nlohmann_json)
 dotpose_part(TIFF      "printing: TIFF" SETUP tools PARTS PRINT NEEDS TIFF::TIFF)
 dotpose_part(PDF       "printing: PDF, and dots over PDF documents" SETUP tools
-             PARTS PRINT NEEDS PkgConfig::Qpdf nlohmann_json::nlohmann_json)
+             PARTS PRINT NEEDS PkgConfig::Qpdf PkgConfig::Rsvg nlohmann_json::nlohmann_json)
 dotpose_part(IMAGES    "image files" SETUP tools PARTS BASE NEEDS PkgConfig::GraphicsMagick)
 dotpose_part(EVALUATE  "evaluation" SETUP tools PARTS DRAW IMAGES SIMULATE NEEDS PkgConfig::Rsvg)
 dotpose_part(CALIBRATE "calibration and the check of prints" SETUP tools

@@ -3,12 +3,13 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 
 #include <dotpose/tools/heap_locator.hpp>
 #include <dotpose/tools/image_file.hpp>
 #include <dotpose/track.hpp>
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
     using namespace dotpose;
     if (argc < 3) return 2;
     HeapLocator locator;
@@ -32,4 +33,6 @@ int main(int argc, char** argv) {
                     double{pose.vx_mm_s}, double{pose.vy_mm_s},
                     ok ? name(fix.attempt) : message(fix.status));
     }
+} catch (const std::exception& problem) {
+    return std::fprintf(stderr, "%s\n", problem.what()), 1;
 }

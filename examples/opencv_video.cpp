@@ -1,6 +1,7 @@
 // Locates what OpenCV captures, a cv::Mat at a time: dotpose_opencv_video CAMERA_OR_VIDEO
 #include <cctype>
 #include <cstdio>
+#include <exception>
 #include <string>
 
 #include <opencv2/imgproc.hpp>
@@ -17,7 +18,7 @@ dotpose::ImageView view_of(const cv::Mat& grey) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
     if (argc != 2) return 2;
     const std::string source = argv[1];
     const bool is_number = source.size() == 1 && std::isdigit(source[0]) != 0;
@@ -39,4 +40,6 @@ int main(int argc, char** argv) {
             std::puts(dotpose::message(fix.status));
         }
     }
+} catch (const std::exception& problem) {
+    return std::fprintf(stderr, "%s\n", problem.what()), 1;
 }

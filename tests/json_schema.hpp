@@ -126,6 +126,7 @@ class JsonSchema {
         if (type == "object") return value.is_object();
         if (type == "array") return value.is_array();
         if (type == "string") return value.is_string();
+        if (type == "boolean") return value.is_boolean();
         if (type == "number") return value.is_number();
         if (type == "integer") return value.is_number_integer();
         throw std::logic_error("tests/json_schema.hpp does not know the type " + type);

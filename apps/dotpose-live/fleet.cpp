@@ -50,7 +50,7 @@ class FleetInput {
           fleet_([this](std::string_view robot, const RobotState& state) { log(robot, state); }) {
         if (!arguments.log.empty()) log_.emplace(arguments.log);
         subscriber_.emplace(
-            options, arguments.share.topic(),
+            options, arguments.share.topics(),
             [this](std::string_view topic, std::string_view payload) { take(topic, payload); });
     }
 
@@ -61,16 +61,19 @@ class FleetInput {
         if (log_) log_->flush();
     }
 
-    /// Leaves the broker and completes the log. Throws Error.
+    /// Ends the connection and completes the log. Throws Error if the log cannot be written.
     void finish() {
-        subscriber_.reset();
+        subscriber_->disconnect();
         flush();
     }
 
+    /// Throws Error if the broker was never reached.
+    void require_reached() const { subscriber_->require_reached(); }
+
   private:
     void take(std::string_view topic, std::string_view payload) {
-        const auto robot = robot_of(topic);
-        if (robot && !shard_.has(*robot)) return;
+        const auto sender = parse_topic(topic);
+        if (sender && !shard_.has(sender->robot)) return;
         now_us_ = system_us();
         fleet_.take(topic, payload, now_us_);
     }
@@ -111,6 +114,7 @@ void run(const FleetArguments& arguments) {
     }
     input.finish();
     view.finish(input.fleet());
+    input.require_reached();
 }
 
 }  // namespace

@@ -53,9 +53,10 @@ void ShareArguments::add_to(Command& command) {
         ->excludes(share);
 }
 
-std::string ShareArguments::topic() const {
-    const std::string topic = state_topic("+");
-    return is_shared() ? "$share/" + group_ + '/' + topic : topic;
+std::vector<std::string> ShareArguments::topics() const {
+    const std::string states = topic_of("+", Subject::visualization);
+    return {is_shared() ? "$share/" + group_ + '/' + states : states,
+            topic_of("+", Subject::connection)};
 }
 
 }  // namespace dotpose::cli

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "command_line.hpp"
 
@@ -23,8 +24,8 @@ class ShareArguments {
     /// Adds --share and --shard.
     void add_to(Command& command);
 
-    /// Returns the topic to subscribe to for the states of the robots.
-    std::string topic() const;
+    /// Returns the topics to subscribe to: states, of which a group gets its part, and connections.
+    std::vector<std::string> topics() const;
     bool is_shared() const { return !group_.empty(); }
     const Shard& shard() const { return shard_; }
 

@@ -16,28 +16,43 @@ double quantile(std::vector<float>& values, double share) {
 }  // namespace
 
 void FleetState::take(std::string_view topic, std::string_view payload, std::int64_t now_us) {
-    const auto name = robot_of(topic);
-    auto state = name ? parse_state(payload) : std::nullopt;
+    const auto sender = parse_topic(topic);
+    const bool is_connection = sender && sender->subject == Subject::connection;
+    auto state = sender && !is_connection ? parse_state(payload) : std::nullopt;
+    const auto connection = is_connection ? parse_connection(payload) : std::nullopt;
     const std::lock_guard lock(mutex_);
-    if (!state) {
+    if (state) {
+        take_state(sender->robot, std::move(*state), now_us);
+    } else if (connection) {
+        take_connection(sender->robot, *connection, now_us);
+    } else {
         ++bad_;
-        return;
     }
-    Robot& robot = heard(*name);
+}
+
+void FleetState::take_connection(std::string_view name, const RobotConnection& connection,
+                                 std::int64_t now_us) {
+    Robot& robot = heard(name);
+    // The broker may have retained the message for days.
+    FleetRobot& shown = robot.shown;
+    shown.heard_us = std::max(shown.heard_us, std::min(now_us, connection.sent_us));
+    if (connection.presence == publish::Presence::online) return;
+    const bool is_broken = connection.presence == publish::Presence::broken;
+    shown.newest.state = is_broken ? "lost" : "offline";
+    shown.newest.is_localized = false;
+}
+
+void FleetState::take_state(std::string_view name, RobotState state, std::int64_t now_us) {
+    Robot& robot = heard(name);
     robot.shown.heard_us = now_us;
-    if (state->is_will) {
-        // Made when the robot started, so its number and time tell nothing.
-        ++robot.shown.counts.messages;
-        robot.shown.newest.state = state->state;
-        robot.shown.newest.is_localized = false;
-        return;
-    }
-    count_latency(static_cast<float>(now_us - state->sent_us) * 1e-3F);
-    const auto arrival = robot.numbers.take(*state, robot.shown.counts);
+    count_latency(static_cast<float>(now_us - state.sent_us) * 1e-3F);
+    const auto arrival = robot.numbers.take(state, robot.shown.counts);
     if (arrival == StateNumbers::Arrival::repeated) return;
-    listener_(*name, *state);
+    // A lost robot is still on the map on which it was.
+    if (!state.is_localized) state.map_id = robot.shown.newest.map_id;
+    listener_(name, state);
     if (arrival == StateNumbers::Arrival::late) return;
-    robot.shown.newest = std::move(*state);
+    robot.shown.newest = std::move(state);
     if (robot.shown.newest.is_localized) extend_path(robot);
 }
 

@@ -42,9 +42,9 @@ class FleetState {
     explicit FleetState(Listener listener = [](std::string_view, const RobotState&) {})
         : listener_(std::move(listener)) {}
 
-    /// Takes a message. A message that is older than the newest of its robot is only counted,
+    /// Takes a message. A state that is older than the newest of its robot is only counted,
     /// unless several of them follow each other: then the sender's clock was set back. Messages
-    /// that are not valid states are counted as bad. May be called by any thread.
+    /// that are not valid are counted as bad. May be called by any thread.
     void take(std::string_view topic, std::string_view payload, std::int64_t now_us);
 
     /// Returns the robots by their names.
@@ -70,6 +70,9 @@ class FleetState {
         std::list<const std::string*>::iterator place;  ///< in `by_age_`
     };
 
+    void take_state(std::string_view name, RobotState state, std::int64_t now_us);
+    void take_connection(std::string_view name, const RobotConnection& connection,
+                         std::int64_t now_us);
     Robot& heard(std::string_view name);
     void remove_oldest();
     void extend_path(Robot& robot) const;

@@ -13,7 +13,6 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
-#include "capture/image_codec.hpp"
 #include "dotpose/files/error.hpp"
 #include "lines.hpp"
 
@@ -23,6 +22,18 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kPrefix = "frame_";
+
+const char* ending_of(capture::FrameFormat format) {
+    switch (format) {
+        case capture::FrameFormat::jpeg:
+            return ".jpg";
+        case capture::FrameFormat::pgm:
+            return ".pgm";
+        case capture::FrameFormat::png:
+            break;
+    }
+    return ".png";
+}
 
 /// Returns the number that follows the largest one of the frames in a folder.
 std::int64_t number_after(const fs::path& folder) {
@@ -81,12 +92,14 @@ void FrameSaver::take(ImageView image, const Fix& fix) {
     GreyImage copy{{}, image.width_px, image.height_px};
     for (int v = 0; v < image.height_px; ++v)
         copy.pixels.insert(copy.pixels.end(), image.row(v), image.row(v) + image.width_px);
-    const std::vector<std::uint8_t> bytes = capture::encode_png(copy);
+    const std::vector<std::uint8_t> bytes = capture::encode(options_.format, copy);
+    const auto path = [this] {
+        return fs::path(options_.folder) /
+               fmt::format("{}{:06}{}", kPrefix, next_number_, ending_of(options_.format));
+    };
     // Another program may save into the same folder.
-    while (!write_new(fs::path(options_.folder) / fmt::format("frame_{:06}.png", next_number_),
-                      bytes)) {
+    while (!write_new(path(), bytes))
         ++next_number_;
-    }
     ++next_number_;
     ++saved_;
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "capture/image_codec.hpp"
 #include "dotpose/fix.hpp"
 #include "dotpose/image.hpp"
 #include "new_places.hpp"
@@ -14,6 +15,7 @@ namespace dotpose::cli {
 struct SaveOptions {
     std::string folder;      ///< empty: nothing is saved
     std::int64_t every = 0;  ///< one in this many frames; 0: those that show a new place
+    capture::FrameFormat format = capture::FrameFormat::png;
 };
 
 class FrameSaver {
@@ -21,7 +23,7 @@ class FrameSaver {
     /// Creates the folder, whose parent must exist. Throws Error if that fails.
     explicit FrameSaver(SaveOptions options);
 
-    /// Saves the frame if it is wanted, without loss, as frame_000000.png and so on. Numbers go on
+    /// Saves the frame if it is wanted, as frame_000000.png and so on. Numbers go on
     /// after the last image in the folder; no file is ever overwritten. Throws Error if it cannot
     /// be written.
     void take(ImageView image, const Fix& fix);

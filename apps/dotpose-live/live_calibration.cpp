@@ -83,7 +83,7 @@ class LiveCalibration {
           reader_(given_code(calibration)),
           job_(calibration),
           display_(!options.has_no_window && video::has_display()) {
-        if (!options.save.empty()) saver_.emplace(SaveOptions{options.save, 1});
+        if (!options.save.empty()) saver_.emplace(SaveOptions{options.save, 1, {}});
     }
 
     void say(const std::string& message) { display_.say(message); }

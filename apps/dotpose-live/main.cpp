@@ -10,5 +10,6 @@ int main(int argc, char** argv) {
         add_locate(app, exit_code);
         add_calibrate(app, exit_code);
         add_evaluate(app, exit_code);
+        add_simulate(app, exit_code);
     });
 }

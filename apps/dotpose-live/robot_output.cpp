@@ -5,7 +5,6 @@
 
 #include <fmt/core.h>
 
-#include "capture/image_codec.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
@@ -57,8 +56,8 @@ void RobotOutput::take(const capture::Frame& frame, const Reading& reading) {
     recording_->take(messages, stamp_ns);
     if (!options_.has_images || frame.image.pixels.empty()) return;
     recording_->take_image({{ros::ros_time(stamp_ns), messenger_.frames().camera},
-                            "png",
-                            capture::encode_png(frame.image)},
+                            options_.image_format == capture::FrameFormat::jpeg ? "jpeg" : "png",
+                            capture::encode(options_.image_format, frame.image)},
                            stamp_ns);
 }
 

@@ -1,7 +1,11 @@
 #include "state_message.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <ctime>
+#include <iterator>
+#include <numbers>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -21,10 +25,26 @@ std::string timestamp(std::int64_t time_us) {
                        time_us % kMicro);
 }
 
+/// Name of each subject in topics, in the order of the enumeration.
+constexpr std::string_view kSubjects[] = {"visualization", "connection"};
+
+/// Returns the members with which each message begins.
+nlohmann::ordered_json header(const std::string& robot, std::uint64_t id, std::int64_t sent_us) {
+    return {{"headerId", id},
+            {"timestamp", timestamp(sent_us)},
+            {"version", "2.0.0"},
+            {"manufacturer", "dotpose"},
+            {"serialNumber", robot}};
+}
+
+std::string dump(const nlohmann::ordered_json& json) {
+    return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 }  // namespace
 
-std::string state_topic(const std::string& robot) {
-    return fmt::format("{}/{}/state", kTopicRoot, robot);
+std::string topic_of(const std::string& robot, Subject subject) {
+    return fmt::format("{}/{}/{}", kTopicRoot, robot, kSubjects[static_cast<int>(subject)]);
 }
 
 std::int64_t system_us() {
@@ -33,38 +53,42 @@ std::int64_t system_us() {
 }
 
 std::string json_of(const RobotState& state) {
-    nlohmann::ordered_json json = {
-        {"headerId", state.header_id}, {"timestamp", timestamp(state.sent_us)},
-        {"version", "2.0.0"},          {"manufacturer", "dotpose"},
-        {"serialNumber", state.robot}, {"state", state.state}};
-    nlohmann::ordered_json position = {{"positionInitialized", state.is_localized},
-                                       {"localized", state.is_localized},
-                                       {"mapId", state.map_id}};
+    nlohmann::ordered_json json = header(state.robot, state.header_id, state.sent_us);
+    json["state"] = state.state;  // not a member of VDA 5050, which permits others
     if (state.is_localized) {
-        position["x"] = state.x_m;
-        position["y"] = state.y_m;
-        position["theta"] = state.theta_rad;
-        position["deviationRange"] = state.deviation_m;
+        json["agvPosition"] = {{"positionInitialized", true},
+                               {"mapId", state.map_id},
+                               {"x", state.x_m},
+                               {"y", state.y_m},
+                               {"theta", std::remainder(state.theta_rad, 2 * std::numbers::pi)},
+                               {"deviationRange", state.deviation_m}};
         json["velocity"] = {
             {"vx", state.vx_m_s}, {"vy", state.vy_m_s}, {"omega", state.omega_rad_s}};
     }
-    json["agvPosition"] = position;
-    if (state.is_will) json["connectionState"] = kBroken;
-    return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return dump(json);
 }
 
-std::optional<std::string_view> robot_of(std::string_view topic) {
+std::string json_of(const RobotConnection& connection) {
+    nlohmann::ordered_json json =
+        header(connection.robot, connection.header_id, connection.sent_us);
+    json["connectionState"] = kConnectionStates[static_cast<int>(connection.presence)];
+    return dump(json);
+}
+
+std::optional<MessageTopic> parse_topic(std::string_view topic) {
     constexpr std::string_view kRoot = kTopicRoot;
-    constexpr std::string_view kSuffix = "/state";
-    if (!topic.starts_with(kRoot) || !topic.ends_with(kSuffix)) return std::nullopt;
+    if (!topic.starts_with(kRoot)) return std::nullopt;
     topic.remove_prefix(kRoot.size());
-    if (!topic.starts_with('/') || topic.size() <= kSuffix.size() + 1) return std::nullopt;
+    if (!topic.starts_with('/')) return std::nullopt;
     topic.remove_prefix(1);
-    topic.remove_suffix(kSuffix.size());
-    if (topic.size() > kMostNameBytes || topic.find('/') != std::string_view::npos) {
+    const std::size_t slash = topic.find('/');
+    if (slash == 0 || slash == std::string_view::npos || slash > kMostNameBytes) {
         return std::nullopt;
     }
-    return topic;
+    const auto subject = std::ranges::find(kSubjects, topic.substr(slash + 1));
+    if (subject == std::end(kSubjects)) return std::nullopt;
+    return MessageTopic{topic.substr(0, slash),
+                        static_cast<Subject>(subject - std::begin(kSubjects))};
 }
 
 }  // namespace dotpose::cli

@@ -1,16 +1,21 @@
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 #include <fmt/core.h>
 #include <fmt/format.h>
 
+#include "choices.hpp"
 #include "commands.hpp"
 #include "common.hpp"
 #include "dotpose/files/error.hpp"
@@ -73,6 +78,12 @@ struct DdsArguments {
     }
 };
 
+const std::map<std::string, capture::FrameFormat> kFrameFormats = {
+    {"png", capture::FrameFormat::png},
+    {"jpeg", capture::FrameFormat::jpeg},
+    {"pgm", capture::FrameFormat::pgm},
+};
+
 struct WatchArguments {
     SourceArguments sources;
     FollowerArguments follower;
@@ -82,6 +93,7 @@ struct WatchArguments {
     SaveOptions save;
     bool lists_cameras = false;
     bool has_no_window = false;
+    bool is_realtime = false;
     std::int64_t frames = 0;  ///< number of frames to take; 0 for no limit
 };
 
@@ -133,6 +145,25 @@ void save(FrameSaver& saver, GreyImage& image, const Fix& fix, bool is_inverted)
     if (is_inverted) invert(image);
 }
 
+/// Waits until recorded frames are due, by their times.
+class Pace {
+  public:
+    void wait_for(const capture::Frame& frame) {
+        using namespace std::chrono;
+        // The first frame is due now. Live frames are due when they come.
+        if (frame.is_live) return;
+        if (!begun_) begun_ = steady_clock::now() - microseconds(frame.time_us);
+        const auto due = *begun_ + microseconds(frame.time_us);
+        while (!interrupted() && steady_clock::now() < due) {
+            constexpr steady_clock::duration kLongest = milliseconds(50);
+            std::this_thread::sleep_for(std::min(kLongest, due - steady_clock::now()));
+        }
+    }
+
+  private:
+    std::optional<std::chrono::steady_clock::time_point> begun_;  ///< when time 0 was due
+};
+
 /// Returns the number of frames that will be followed, or 0 if it is not known.
 std::int64_t length_of(const WatchArguments& arguments, const Sources& sources,
                        const capture::FrameSource& source) {
@@ -150,8 +181,10 @@ int follow(const WatchArguments& arguments, capture::FrameSource& source, std::i
         capture::Frame frame;
         bool is_warned = false;
         bool goes_on = true;
+        Pace pace;
         ProgressLine progress("following", arguments.outputs.lines.out);
         while (goes_on && source.next(frame)) {
+            if (arguments.is_realtime) pace.wait_for(frame);
             if (arguments.follower.is_inverted) invert(frame.image);
             const Reading reading = read(frame, follower);
             tell_once_in_a_while(reading, frame.image.view(), follower, source.bits_per_px(), hint,
@@ -201,6 +234,10 @@ int run(WatchArguments& arguments) {
     }
     if (arguments.outputs.messages.has_images && arguments.outputs.messages.mcap.empty()) {
         throw BadArgument("--mcap-images needs a file: --mcap FILE");
+    }
+    if (arguments.outputs.messages.has_images &&
+        arguments.save.format == capture::FrameFormat::pgm) {
+        throw BadArgument("--mcap-images records png or jpeg: --image-format jpeg is the faster");
     }
     Sources sources(arguments.sources);
     const RunFiles files = files_of(arguments, sources);
@@ -257,15 +294,28 @@ void add_output_options(Command& command, WatchArguments& arguments) {
     add_file("--record", outputs.screen.record, "Video with the overlay (.mp4: H.264, or .avi)");
     add_file("--packets", outputs.packets, "Send pose packets to a file or device");
     add_file("--mcap", outputs.messages.mcap, "Record messages of ROS 2 for ros2 bag and Foxglove");
-    command.add_flag("--mcap-images", outputs.messages.has_images,
-                     "Record the frames in it too (PNG)");
+    command.add_flag("--mcap-images", outputs.messages.has_images, "Record the frames in it too");
     command
         .add_option("--save", arguments.save.folder,
-                    "Save frames that show a new place, for dotpose calibrate (PNG)")
+                    "Save frames that show a new place, for dotpose calibrate")
         ->type_name("DIR");
     command.add_option("--save-every", arguments.save.every, "Save every N-th frame instead")
         ->type_name("N")
         ->check(Range(1, 2'000'000'000).description(""));
+    command
+        .add_option_function<std::string>(
+            "--image-format",
+            [&arguments](const std::string& name) {
+                arguments.save.format = kFrameFormats.at(name);
+                arguments.outputs.messages.image_format = arguments.save.format;
+            },
+            "Of the frames of --save and --mcap-images: png; jpeg, with small losses, or pgm, "
+            "uncompressed, for every frame of a fast camera")
+        ->type_name("NAME")
+        ->default_str("png")
+        ->check(one_of({"png", "jpeg", "pgm"}));
+    command.add_flag("--realtime", arguments.is_realtime,
+                     "Take recorded frames when their time has come, as from a camera");
     command.add_flag("--list-cameras", arguments.lists_cameras,
                      "Print the cameras of this computer with their sizes and rates, and end");
     command.add_flag("--no-window", arguments.has_no_window,

@@ -50,20 +50,13 @@ void PacketOutput::write(const Reading& reading, Profile profile) {
 
 namespace {
 
-/// Returns the message that the broker sends when the robot's connection breaks.
-RobotState lost_state(const std::string& robot) {
-    RobotState state;
-    state.robot = robot;
-    state.sent_us = system_us();
-    return state;
-}
-
-publish::MqttOptions with_will(const OutputOptions& options) {
+publish::MqttOptions with_presence(const OutputOptions& options) {
     publish::MqttOptions mqtt = *options.mqtt;
-    mqtt.will_topic = state_topic(options.robot);
-    RobotState will = lost_state(options.robot);
-    will.is_will = true;
-    mqtt.will = json_of(will);
+    mqtt.presence_topic = topic_of(options.robot, Subject::connection);
+    mqtt.presence = [robot = options.robot,
+                     messages = std::uint64_t{0}](publish::Presence presence) mutable {
+        return json_of(RobotConnection{robot, messages++, system_us(), presence});
+    };
     return mqtt;
 }
 
@@ -74,16 +67,14 @@ StateOutput::StateOutput(const OutputOptions& options)
       world_map_(options.world_map),
       period_us_(options.mqtt_rate_hz > 0 ? std::llround(1e6 / options.mqtt_rate_hz) : 0),
       next_us_(std::numeric_limits<std::int64_t>::min()),
-      publisher_(with_will(options)) {}
+      publisher_(with_presence(options)) {}
 
-StateOutput::~StateOutput() {
+void StateOutput::finish() {
     constexpr auto kPatience = std::chrono::seconds(2);
-    RobotState last = lost_state(robot_);
-    last.header_id = messages_;
-    publisher_.publish(state_topic(robot_), json_of(last));
     publisher_.flush(kPatience);
     fmt::print(stderr, "dotpose: {} states published, {} dropped\n", publisher_.sent(),
                publisher_.dropped() + publisher_.unsent());
+    publisher_.require_reached();
 }
 
 void StateOutput::take(const Reading& reading) {
@@ -94,7 +85,7 @@ void StateOutput::take(const Reading& reading) {
     next_us_ = reading.time_us + period_us_;
     RobotState state = state_of(reading, robot_, world_map_);
     state.header_id = messages_++;
-    publisher_.publish(state_topic(robot_), json_of(state));
+    publisher_.publish(topic_of(robot_, Subject::visualization), json_of(state));
 }
 
 WatchOutputs::WatchOutputs(const OutputOptions& options, const Follower& follower)
@@ -180,7 +171,11 @@ double WatchOutputs::rate() const {
 void WatchOutputs::finish() {
     screen_.finish();
     if (messages_) messages_->finish();
-    if (options_.map.empty()) return;
+    if (!options_.map.empty()) draw_path();
+    if (states_) states_->finish();
+}
+
+void WatchOutputs::draw_path() const {
     draw::Map map;
     map.title = fmt::format("{} frames, {} fixes", tally_.frames, tally_.fixes);
     map.y_up = follower_.is_in_world();

@@ -63,12 +63,12 @@ class StateOutput {
   public:
     /// Throws Error if the broker refuses the connection.
     explicit StateOutput(const OutputOptions& options);
-    /// Publishes that the robot is lost, and waits a short time until all messages are sent.
-    ~StateOutput();
-    StateOutput(const StateOutput&) = delete;
-    StateOutput& operator=(const StateOutput&) = delete;
 
     void take(const Reading& reading);
+
+    /// Waits a short time until all messages are sent, and reports how many were. Throws Error if
+    /// the broker was never reached.
+    void finish();
 
   private:
     std::string robot_;
@@ -88,7 +88,7 @@ class WatchOutputs {
     /// have lost their readers. Throws Error if an output cannot be written.
     bool take(const capture::Frame& frame, const Reading& reading, std::int64_t dropped);
 
-    /// Writes the map and closes the recording. Throws Error if that fails.
+    /// Writes the map, closes the recording and sends the last states. Throws Error if that fails.
     void finish();
 
     const WatchTally& tally() const { return tally_; }
@@ -100,6 +100,7 @@ class WatchOutputs {
     void write_line(const std::string& line);
     void write_packet(const Reading& reading);
     bool is_anything_left() const;
+    void draw_path() const;
 
     OutputOptions options_;
     const Follower& follower_;

@@ -76,6 +76,10 @@ std::unique_ptr<capture::FrameSource> open_live(const std::string& name,
     throw_missing("cannot read " + name + ": " + kSourcesNeed, ENOENT);
 }
 
+std::unique_ptr<VideoOutput> create_video(const std::string& path, double) {
+    throw_missing("cannot write " + path + ": videos need", ENOENT);
+}
+
 LensCalibration calibrate_live(const SourceArguments&, Sources&, const CalibrateOptions&,
                                const LiveCalibrationOptions&) {
     throw_missing("calibrate --live needs", become_live());

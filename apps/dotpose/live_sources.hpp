@@ -1,5 +1,5 @@
-/// Cameras and videos, which only the program in apps/dotpose-live reads: the libraries for them
-/// take a tenth of a second to load. Each of the two programs defines these functions.
+/// Cameras and videos, which only the program in apps/dotpose-live reads and writes: the libraries
+/// for them take a tenth of a second to load. Each of the two programs defines these functions.
 #pragma once
 
 #include <memory>
@@ -19,5 +19,19 @@ void hand_over_if_possible();
 /// Opens a camera or video. In `dotpose`, throws Error that says what is missing.
 std::unique_ptr<capture::FrameSource> open_live(const std::string& name,
                                                 const capture::SourceOptions& options);
+
+/// A video that is being written.
+class VideoOutput {
+  public:
+    virtual ~VideoOutput() = default;
+    /// Appends a frame. Throws Error, also if the frames differ in size.
+    virtual void write(const GreyImage& image) = 0;
+    /// Completes the file. Throws Error.
+    virtual void finish() = 0;
+};
+
+/// Creates a video: H.264 if the name ends in .mp4, Motion JPEG if it ends in .avi. In `dotpose`,
+/// throws Error that says what is missing.
+std::unique_ptr<VideoOutput> create_video(const std::string& path, double fps);
 
 }  // namespace dotpose::cli

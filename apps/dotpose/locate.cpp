@@ -1,7 +1,12 @@
+#include <algorithm>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include <fmt/core.h>
@@ -13,6 +18,7 @@
 #include "follower_arguments.hpp"
 #include "lines.hpp"
 #include "locate_record.hpp"
+#include "ordered_threads.hpp"
 #include "output_arguments.hpp"
 #include "picture_advice.hpp"
 #include "picture_folder.hpp"
@@ -35,7 +41,8 @@ constexpr const char* kExamples =
     "  dotpose locate --sheets sheets.json frame.png\n"
     "  dotpose locate --camera camera.yaml frame.png\n"
     "  find frames -name '*.png' | sort | dotpose locate --list -\n"
-    "  dotpose locate drive.mp4\n\n"
+    "  dotpose locate drive.mp4\n"
+    "  dotpose locate --threads 4 --code anoto frames > poses.jsonl\n\n"
     "One line per image or frame, also for those without a fix; frame N of a video is called\n"
     "drive.mp4#N. Exit status 1 if something could not be read, 2 for wrong usage.\n";
 
@@ -44,6 +51,7 @@ struct LocateArguments {
     LineArguments lines;
     std::string draw_folder;
     FollowerArguments follower;
+    int threads = 1;
 };
 
 /// Returns the sheet and the place on it in words, or an empty text if the fix is on no sheet.
@@ -151,6 +159,8 @@ class LocateRun {
           lines_(arguments.lines.out),
           format_(arguments.lines.format),
           units_(arguments.lines.units),
+          arguments_(arguments),
+          sources_(sources),
           frames_(sources.open(options_of(arguments))),
           images_(sources.number_of_images()),
           progress_("locating", arguments.lines.out) {
@@ -163,6 +173,7 @@ class LocateRun {
         if (format_ == RecordFormat::csv) {
             lines_.write(csv_header(locator_.has_sheets(), units_));
         }
+        if (arguments_.threads != 1) return in_threads();
         capture::Frame frame;
         for (std::int64_t done = 0; next(frame); ++done) {
             progress_.update(done, images_ > 0 ? images_ : frames_->length());
@@ -179,7 +190,16 @@ class LocateRun {
     }
 
   private:
+    /// The record of an image, or the reason why there is none.
+    using Outcome = std::variant<Record, Error>;
+
     capture::SourceOptions options_of(const LocateArguments& arguments) {
+        return options_of(arguments, [this](Outcome outcome) { return take(outcome); });
+    }
+
+    /// Options of the source, which passes on what becomes of images that cannot be read.
+    capture::SourceOptions options_of(const LocateArguments& arguments,
+                                      std::function<bool(Outcome)> pass_on) {
         capture::SourceOptions options = arguments.sources.options;
         // Images that are too large are reduced, unless a camera file gives their size.
         if (!arguments.follower.camera.camera) options.max_pixels = kDefaultImagePixels;
@@ -188,14 +208,54 @@ class LocateRun {
         options.before_reading = [this](const std::string& file) {
             files_.require_not_written(file);
         };
-        options.on_unreadable = [this](const std::string& file, const Error& error) {
-            if (const auto* large = dynamic_cast<const ImageTooLarge*>(&error)) {
-                write(locator_.too_large(file, *large));
-            } else {
-                fail(error);
-            }
+        options.on_unreadable = [this, pass_on = std::move(pass_on)](const std::string& file,
+                                                                     const Error& error) {
+            const auto* large = dynamic_cast<const ImageTooLarge*>(&error);
+            pass_on(large != nullptr ? Outcome(locator_.too_large(file, *large)) : Outcome(error));
         };
         return options;
+    }
+
+    bool take(const Outcome& outcome) {
+        if (const auto* error = std::get_if<Error>(&outcome)) {
+            fail(*error);
+        } else {
+            write(std::get<Record>(outcome));
+        }
+        return true;
+    }
+
+    /// Locates images in several threads, each of which has a source and a locator of its own.
+    int in_threads() {
+        const std::vector<std::string> images = sources_.all_images();
+        const std::size_t threads = arguments_.threads > 0
+                                        ? static_cast<std::size_t>(arguments_.threads)
+                                        : std::max(1U, std::thread::hardware_concurrency());
+        using Threads = OrderedThreads<Outcome>;
+        Threads outcomes(threads, [&](std::size_t thread, const Threads::Emit& emit) {
+            ImageLocator locator(arguments_, files_);
+            std::size_t at = thread;
+            const auto next_image = [&]() -> std::optional<std::string> {
+                if (at >= images.size()) return std::nullopt;
+                return images[std::exchange(at, at + threads)];
+            };
+            capture::SourceList frames(next_image, options_of(arguments_, emit));
+            capture::Frame frame;
+            for (bool goes_on = true; goes_on && frames.next(frame);) {
+                try {
+                    goes_on = emit(locator(frame.file, frame.image, frames.bits_per_px()));
+                } catch (const Error& error) {
+                    goes_on = emit(error);
+                }
+            }
+        });
+        std::int64_t done = 0;
+        while (const auto outcome = outcomes.next()) {
+            take(*outcome);
+            progress_.update(++done, static_cast<std::int64_t>(images.size()));
+        }
+        if (interrupted()) fail(Error("interrupted; the lines so far are complete"));
+        return exit_code_;
     }
 
     /// Gets the next frame of any source that can be read. Returns false after the last one.
@@ -234,6 +294,8 @@ class LocateRun {
     Lines lines_;
     RecordFormat format_;
     Units units_;
+    const LocateArguments& arguments_;
+    Sources& sources_;
     std::unique_ptr<capture::SourceList> frames_;
     std::int64_t images_;  ///< number of all frames; 0 if it is not known
     ProgressLine progress_;
@@ -241,6 +303,12 @@ class LocateRun {
 };
 
 int run(const LocateArguments& arguments) {
+    const bool has_code = arguments.follower.options.code || !arguments.follower.sheets.empty();
+    if (arguments.threads != 1 && !has_code) {
+        throw BadArgument(
+            "--threads needs --code NAME or --sheets FILE: without them, all frames together "
+            "decide which code they show");
+    }
     Sources sources(arguments.sources);
     return LocateRun(arguments, sources)();
 }
@@ -260,6 +328,15 @@ void add_locate(Command& app, int& exit_code) {
                      "Also write a picture (SVG) of what was seen in each image; the last "
                      "folder of the name is made if missing")
         ->type_name("DIR");
+    command
+        ->add_option(
+            "--threads", arguments->threads,
+            "Threads that locate images at the same time, 0: all cores; the lines keep their "
+            "order")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(Range(0, 256).description(""))
+        ->excludes(command->get_option("--draw"));
     command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }
 

@@ -5,11 +5,13 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <system_error>
 #include <utility>
 
 #include "choices.hpp"
 #include "dotpose/files/error.hpp"
+#include "print/lower_case.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
@@ -17,23 +19,36 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void add_out_option(Command& command, std::string& out, const std::string& help) {
-    command.add_option("-o,--out", out, help)->type_name("FILE|-");
+/// Adds -o. If the name has the ending and `format` is not given, `choose` chooses the format of
+/// the ending. -o is added after `format`, so that `format` is parsed first.
+void add_out_option(Command& command, std::string& out, const std::string& help,
+                    const Option* format, const char* ending, const std::function<void()>& choose) {
+    command
+        .add_option_function<std::string>(
+            "-o,--out",
+            [=, &out](const std::string& path) {
+                out = path;
+                const bool is_named = print::lower_case(path).ends_with(ending);
+                if (is_named && format->count() == 0) choose();
+            },
+            help)
+        ->type_name("FILE|-");
 }
 
 }  // namespace
 
 void add_line_options(Command& command, LineArguments& arguments) {
-    command
-        .add_option_function<std::string>(
-            "--format",
-            [&arguments](const std::string& name) {
-                arguments.format = name == "csv" ? RecordFormat::csv : RecordFormat::json;
-            },
-            "json (an object per line) or csv")
-        ->type_name("NAME")
-        ->default_str("json")
-        ->check(one_of({"json", "csv"}));
+    const Option* format = command
+                               .add_option_function<std::string>(
+                                   "--format",
+                                   [&arguments](const std::string& name) {
+                                       arguments.format =
+                                           name == "csv" ? RecordFormat::csv : RecordFormat::json;
+                                   },
+                                   "json (an object per line) or csv")
+                               ->type_name("NAME")
+                               ->default_str("json, or by the name of the output")
+                               ->check(one_of({"json", "csv"}));
     command
         .add_option_function<std::string>(
             "--units",
@@ -44,19 +59,22 @@ void add_line_options(Command& command, LineArguments& arguments) {
         ->type_name("NAME")
         ->default_str("mm")
         ->check(one_of({"mm", "ros"}));
-    add_out_option(command, arguments.out, "File to write instead of standard output");
+    add_out_option(command, arguments.out, "File to write instead of standard output", format,
+                   ".csv", [&arguments] { arguments.format = RecordFormat::csv; });
 }
 
 void add_report_options(Command& command, ReportArguments& arguments, const std::string& out_help) {
-    command
-        .add_option_function<std::string>(
-            "--format",
-            [&arguments](const std::string& name) { arguments.as_json = name == "json"; },
-            "Of the report: text or json (one object)")
-        ->type_name("NAME")
-        ->default_str("text")
-        ->check(one_of({"text", "json"}));
-    add_out_option(command, arguments.out, out_help);
+    const Option* format =
+        command
+            .add_option_function<std::string>(
+                "--format",
+                [&arguments](const std::string& name) { arguments.as_json = name == "json"; },
+                "Of the report: text or json (one object)")
+            ->type_name("NAME")
+            ->default_str("text, or by the name of the output")
+            ->check(one_of({"text", "json"}));
+    add_out_option(command, arguments.out, out_help, format, ".json",
+                   [&arguments] { arguments.as_json = true; });
 }
 
 void write_report(const ReportArguments& arguments, const std::string& report) {

@@ -19,7 +19,7 @@ struct LineArguments {
     Units units = Units::mm;
 };
 
-/// Adds --format json|csv, --units mm|ros and -o.
+/// Adds --format json|csv, --units mm|ros and -o. The ending .csv of -o chooses csv.
 void add_line_options(Command& command, LineArguments& arguments);
 
 /// The options of commands that write one report.
@@ -28,7 +28,7 @@ struct ReportArguments {
     bool as_json = false;
 };
 
-/// Adds --format text|json, and -o with `out_help`.
+/// Adds --format text|json, and -o with `out_help`. The ending .json of -o chooses json.
 void add_report_options(Command& command, ReportArguments& arguments,
                         const std::string& out_help = "File to write instead of standard output");
 

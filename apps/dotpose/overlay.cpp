@@ -32,9 +32,15 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  dotpose overlay form.pdf -o form-dots.pdf --origin 5000,0\n"
     "  dotpose overlay form.pdf -o form-dots.pdf --sheets sheets.json --name form\n"
-    "  dotpose overlay form.pdf -o form-dots.pdf --pages 1-3 --under --cmy-black\n\n"
+    "  dotpose overlay form.pdf -o form-dots.pdf --pages 1-3 --under --cmy-black\n"
+    "  dotpose overlay form.pdf -o class.pdf --copies 30 --sheets sheets.json --name form\n"
+    "  dotpose overlay card.pdf -o cards.pdf --copies 30 --paper A4\n\n"
     "Each page gets a region of its own, with --sheets one that no other sheet of the file has;\n"
-    "the sheet of page 3 then is called form-3.\n\n"
+    "the sheet of page 3 then is called form-3. The pages of further copies count on: of 30 "
+    "copies\n"
+    "of two pages, the last one is form-60. With --paper, small pages become cards: as many as "
+    "fit\n"
+    "are printed on one page, with marks to cut them apart; each card is a sheet of its own.\n\n"
     "Black ink hides dots from infrared cameras: --cmy-black prints the document's black from\n"
     "cyan, magenta and yellow, which they do not see.\n";
 
@@ -47,16 +53,16 @@ void require_apart(const OverlayArguments& arguments) {
 
 /// Returns how a page gets its dots, for its entry in the sheet file, which is no place for a
 /// password.
-SheetPrint print_of(const OverlayArguments& arguments, int page, int pages) {
+SheetPrint print_of(const OverlayArguments& arguments, int document_page, int pages) {
     std::set<std::string> left_out = SheetEntryArguments::options_of_entering();
-    left_out.insert("--password");
+    left_out.insert({"--password", "--copies", "--paper"});
     SheetPrint print;
     print.title = std::filesystem::path(arguments.out).stem().string();
     print.pages = pages;
     print.dpi = arguments.options.dpi;
     print.dots = drawing_name(arguments.options.drawing);
     print.has_labels = false;
-    print.command = fmt::format("{} --pages {}", command_line(left_out), page);
+    print.command = fmt::format("{} --pages {}", command_line(left_out), document_page);
     print.document = arguments.in;
     return print;
 }
@@ -71,10 +77,10 @@ void run(OverlayArguments& arguments) {
         if (arguments.out != kStandardOutput) base::require_writable(arguments.out);
         options.place = [&](std::span<OverlaidPage> pages) {
             const auto enter_all = [&](SheetFile& file) {
-                for (auto& [number, sheet] : pages)
+                for (auto& [number, sheet, document_page] : pages)
                     sheet = arguments.entries.enter(
                         file, sheet, {number, pages.size() == 1},
-                        print_of(arguments, number, static_cast<int>(pages.size())));
+                        print_of(arguments, document_page, static_cast<int>(pages.size())));
             };
             arguments.entries.reserve(enter_all, reservation);
         };
@@ -91,7 +97,11 @@ void run(OverlayArguments& arguments) {
     }
     output.finish();
     if (reservation) arguments.entries.confirm(*reservation, arguments.out);
-    for (const auto& [number, sheet] : report.pages)
+    if (report.card_pages > 0) {
+        fmt::print(output.report_stream(), "{}: {} cards on {} pages\n", printable(arguments.out),
+                   report.pages.size(), report.card_pages);
+    }
+    for (const auto& [number, sheet, document_page] : report.pages)
         fmt::print(output.report_stream(), "{} {}: {}{}\n", printable(arguments.out), number,
                    region_text(sheet),
                    printable(arguments.entries.summary({number, report.pages.size() == 1})));
@@ -127,6 +137,18 @@ void add_overlay(Command& app, int& /*exit_code*/) {
         ->add_option("--pages", options.pages, "Pages that get dots, such as 1-3,7; z is the last")
         ->type_name("RANGE")
         ->default_str("all");
+    command
+        ->add_option("--copies", options.copies, "Copies of the document, each with its own cells")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(Range(1, kMaxPages).description(""));
+    command
+        ->add_option_function<std::string>(
+            "--paper",
+            [&options](const std::string& name) { options.card_paper = paper_by_name(name); },
+            "Put pages side by side on paper of this size, as cards to cut apart: A4, Letter, "
+            "WIDTHxHEIGHT in mm")
+        ->type_name("SIZE");
     command->add_option("--password", options.password, "Of an encrypted document")
         ->type_name("TEXT");
     add_ink_options(*command, options);

@@ -27,6 +27,7 @@ constexpr const char* kExamples =
     "  dotpose sheets list\n"
     "  dotpose sheets show table --sheets lab.json\n"
     "  dotpose sheets place table --x 1250 --y -500 --yaw 90\n"
+    "  dotpose sheets scale table --measured 48.5 --of 50\n"
     "  dotpose sheets reprint table -o table.pdf\n"
     "  dotpose sheets map -o map.svg\n\n"
     "dotpose sheets COMMAND --help has the options of each.\n";
@@ -36,6 +37,15 @@ constexpr const char* kFrames =
     "upper edge runs from there, counter-clockwise: a page that lies straight has yaw 0.\n\n"
     "Example:\n"
     "  dotpose sheets place table --x 1250 --y -500 --yaw 90\n";
+
+constexpr const char* kScale =
+    "Measure a long distance on the printed page with a steel rule, such as the ruler in the\n"
+    "margin of a PDF, and give it with the distance that it should be. Printers scale x and y\n"
+    "differently: --along x or --along y sets one of them. Scans (check-print --fit) and frames\n"
+    "(calibrate --stitch) measure both more exactly.\n\n"
+    "Examples:\n"
+    "  dotpose sheets scale table --measured 48.5 --of 50\n"
+    "  dotpose sheets scale table --measured 199.2 --of 200 --along y\n";
 
 constexpr double kMmPerM = 1000;
 
@@ -49,6 +59,9 @@ struct SheetsArguments {
     std::optional<double> y_mm;
     std::optional<double> yaw_deg;
     bool is_unknown = false;
+    double measured_mm = 0;
+    double nominal_mm = 0;
+    std::string along = "both";
 
     SheetFileWait wait() const { return {wait_s, tell, interrupted}; }
 };
@@ -92,6 +105,17 @@ void place(const SheetsArguments& arguments) {
         }
         file.replace(entry);
         fmt::print("{}: {}\n", printable(entry.name), world_text(entry));
+    });
+}
+
+void scale(const SheetsArguments& arguments) {
+    const double scale = arguments.measured_mm / arguments.nominal_mm;
+    change_sheet(arguments, [&](SheetFile& file, SheetEntry entry) {
+        if (arguments.along != "y") entry.print_scale_x = scale;
+        if (arguments.along != "x") entry.print_scale_y = scale;
+        file.replace(entry);
+        fmt::print("{}: print scale x {:.6g}, y {:.6g}\n", printable(entry.name),
+                   entry.print_scale_x, entry.print_scale_y);
     });
 }
 
@@ -172,6 +196,25 @@ void add_wait_option(Command& command, const Arguments& arguments) {
         ->check(Range(0.0, 86'400.0));
 }
 
+void add_scale(Command& sheets, const Arguments& arguments) {
+    Command& command = add_command_of_one(sheets, arguments, "scale",
+                                          "Enter how long the printed page really is", scale);
+    command.footer(kScale);
+    add_wait_option(command, arguments);
+    const auto add = [&](const char* flag, double& length_mm, const char* help) {
+        command.add_option(flag, length_mm, help)
+            ->type_name("MM")
+            ->required()
+            ->check(Range(1e-3, 1e6).description(""));
+    };
+    add("--measured", arguments->measured_mm, "Length measured on the page");
+    add("--of", arguments->nominal_mm, "Length that it should be");
+    command.add_option("--along", arguments->along, "Direction: x, y or both")
+        ->type_name("NAME")
+        ->capture_default_str()
+        ->check(one_of({"x", "y", "both"}));
+}
+
 void add_place(Command& sheets, const Arguments& arguments) {
     Command& command = add_command_of_one(
         sheets, arguments, "place", "Enter where the page of a sheet lies in the world", place);
@@ -204,6 +247,7 @@ void add_sheets(Command& app, int& /*exit_code*/) {
             fmt::print("{}", sheet_text(named_sheet(sheets_of(given), given.name, given.sheets)));
         });
     add_place(*command, arguments);
+    add_scale(*command, arguments);
     Command& renaming =
         add_command_of_one(*command, arguments, "rename", "Give a sheet another name", rename);
     renaming.add_option("new_name", arguments->new_name, "Name that it gets")

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cmath>
 #include <exception>
-#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <numbers>
@@ -17,24 +16,28 @@
 
 #include "commands.hpp"
 #include "common.hpp"
-#include "dotpose/tools/image_file.hpp"
+#include "dotpose/files/sheet_file.hpp"
+#include "live_sources.hpp"
 #include "output_arguments.hpp"
 #include "progress.hpp"
+#include "simulate_output.hpp"
+#include "simulated_drive.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
 namespace {
 
 constexpr const char* kExamples =
-    "Writes frame_000000.pgm, frame_000001.pgm, ... to DIR, and their true poses to truth.csv "
-    "there.\n"
-    "Equal options give equal bytes. Angle, place, section and the imperfections of the preset "
-    "are\n"
-    "drawn anew for each frame unless an option fixes them.\n\n"
+    "Writes frame_000000.pgm, frame_000001.pgm, ... to DIR, and their true poses to truth.csv\n"
+    "there. Frames of an earlier run in DIR are removed. The true poses of drive.mp4 are in\n"
+    "drive-truth.csv, for dotpose evaluate --poses. Equal options give equal bytes. Angle, place,\n"
+    "section and the imperfections of the preset are drawn anew for each frame unless an option\n"
+    "fixes them; those of a drive are drawn once.\n\n"
     "Examples:\n"
     "  dotpose simulate -o frames --frames 100 --preset hard\n"
     "  dotpose simulate -o still --preset clean --angle 30 --at 5000.25,7000.5 --noise 3\n"
-    "  dotpose simulate -o foreign --scene plain_grid\n";
+    "  dotpose simulate -o foreign --scene plain_grid\n"
+    "  dotpose simulate -o drive.mp4 --drive --sheets sheets.json --speed 200 --size 320x240\n";
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
@@ -71,6 +74,9 @@ struct Pair {
 struct SimulateArguments {
     std::string out;
     int frames = 10;
+    bool drives = false;
+    std::string sheets;
+    DriveOptions drive;
     Setup setup;
     PatternArguments pattern;
     std::optional<Scene> scene;
@@ -133,46 +139,58 @@ Shot shot_of(const SimulateArguments& arguments, int index) {
     return shot;
 }
 
-constexpr const char* kTruthHeader =
-    "file,x_mm,y_mm,theta_deg,x_grid,y_grid,section_u,section_v,profile,spacing_mm,px_per_spacing,"
-    "preset,seed\n";
+/// What is known of a frame.
+struct Truth {
+    std::optional<CameraPose> pose;  ///< none for scenes and the table, which have no pose
+    Pattern pattern;
+};
 
-std::string file_name(int index) {
-    return fmt::format("frame_{:06}.pgm", index);
-}
-
-// Returns a row of truth.csv. Scenes without a pose leave its columns empty.
-std::string truth_row(const SimulateArguments& arguments, int index, const Shot& shot) {
-    const Pattern& pattern = shot.page.pattern;
+/// Returns a row of the true poses. A frame without a pose leaves its columns empty.
+std::string truth_row(const SimulateArguments& arguments, const std::string& file,
+                      const Truth& truth) {
+    const Pattern& pattern = truth.pattern;
     std::string pose = ",,,,,,";
-    if (!arguments.scene) {
-        const double x = x_grid(shot.pose);
-        const double y = y_grid(shot.pose);
+    if (truth.pose) {
+        const double x = x_grid(*truth.pose);
+        const double y = y_grid(*truth.pose);
         pose = fmt::format("{:.7f},{:.7f},{:.9f},{:.8f},{:.8f},{},{}", x * pattern.spacing_mm,
-                           y * pattern.spacing_mm, shot.pose.theta_rad * kDegrees, x, y,
+                           y * pattern.spacing_mm, truth.pose->theta_rad * kDegrees, x, y,
                            pattern.section.u, pattern.section.v);
     }
-    return fmt::format("{},{},{},{},{:.9g},{},{}\n", file_name(index), pose,
-                       profile_name(pattern.profile), pattern.spacing_mm,
-                       pattern.spacing_mm / shot.camera.mm_per_px, name(arguments.setup.preset),
-                       arguments.setup.seed);
+    return fmt::format("{},{},{},{},{:.9g},{},{}\n", file, pose, profile_name(pattern.profile),
+                       pattern.spacing_mm, pattern.spacing_mm / arguments.setup.camera.mm_per_px,
+                       name(arguments.setup.preset), arguments.setup.seed);
 }
 
-// Renders and writes frames `first` to `end` - 1 on all cores. Returns their rows of truth.csv.
-std::vector<std::string> write_frames(const SimulateArguments& arguments, int first, int end) {
-    std::vector<std::string> rows(static_cast<std::size_t>(end - first));
-    std::vector<std::exception_ptr> errors(rows.size());
+struct MadeFrame {
+    GreyImage image;
+    Truth truth;
+};
+
+MadeFrame make_frame(const SimulateArguments& arguments, const std::optional<SimulatedDrive>& drive,
+                     int index) {
+    if (drive) {
+        const PoseOnSheet place = drive->pose(index);
+        return {drive->image(index),
+                {place.is_on_page ? std::optional(place.pose) : std::nullopt,
+                 place.entry->sheet.pattern}};
+    }
+    const Shot shot = shot_of(arguments, index);
+    if (!arguments.scene) return {render(shot), {shot.pose, shot.page.pattern}};
+    return {render_scene(*arguments.scene, shot, arguments.density), {{}, shot.page.pattern}};
+}
+
+/// Renders frames `first` to `end` - 1 on all cores.
+std::vector<MadeFrame> make_frames(const SimulateArguments& arguments,
+                                   const std::optional<SimulatedDrive>& drive, int first, int end) {
+    std::vector<MadeFrame> frames(static_cast<std::size_t>(end - first));
+    std::vector<std::exception_ptr> errors(frames.size());
     std::atomic<int> next = first;
     const auto work = [&] {
         for (int index = next++; index < end; index = next++) {
             const auto slot = static_cast<std::size_t>(index - first);
             try {
-                const Shot shot = shot_of(arguments, index);
-                const GreyImage image =
-                    arguments.scene ? render_scene(*arguments.scene, shot, arguments.density)
-                                    : render(shot);
-                write_pgm(std::filesystem::path(arguments.out) / file_name(index), image.view());
-                rows[slot] = truth_row(arguments, index, shot);
+                frames[slot] = make_frame(arguments, drive, index);
             } catch (...) {
                 errors[slot] = std::current_exception();
             }
@@ -188,7 +206,19 @@ std::vector<std::string> write_frames(const SimulateArguments& arguments, int fi
     for (const std::exception_ptr& error : errors) {
         if (error) std::rethrow_exception(error);
     }
-    return rows;
+    return frames;
+}
+
+/// Returns the drive over the sheets of a file, or none if it is not asked for. The imperfections
+/// of all its frames are those of one shot.
+std::optional<SimulatedDrive> drive_of(SimulateArguments& arguments, bool has_length) {
+    if (!arguments.drives) return std::nullopt;
+    const std::vector<SheetEntry> sheets = read_sheets(arguments.sheets);
+    const Setup& setup = arguments.setup;
+    SimulatedDrive drive(sheets, arguments.drive, setup.camera, shot_of(arguments, 0).imperfections,
+                         setup.seed);
+    if (!has_length) arguments.frames = drive.frames_per_lap();
+    return drive;
 }
 
 void prepare(SimulateArguments& arguments, bool section_given) {
@@ -205,40 +235,40 @@ void prepare(SimulateArguments& arguments, bool section_given) {
     }
 }
 
-void run(SimulateArguments& arguments, bool section_given, int& exit_code) {
-    prepare(arguments, section_given);
-    const std::filesystem::path folder = arguments.out;
-    std::error_code failed;
-    std::filesystem::create_directories(folder, failed);
-    if (std::filesystem::exists(folder) && !std::filesystem::is_directory(folder))
-        throw Error(printable(arguments.out) + " is a file: name a folder for the frames");
-    const std::filesystem::path truth_path = folder / "truth.csv";
-    std::ofstream truth(truth_path);
+void run(SimulateArguments& arguments, const Command& command, int& exit_code) {
+    if (is_video_name(arguments.out)) hand_over();
+    prepare(arguments, command.count("--section") > 0);
+    const std::optional<SimulatedDrive> drive = drive_of(arguments, command.count("--frames") > 0);
+    const auto output = open_simulate_output(arguments.out, arguments.drive.fps);
+    std::ofstream truth(output->truth_path());
     truth << kTruthHeader;
 
     catch_interrupts();
     int done = 0;
     {
         ProgressLine line("simulating " + arguments.out);
-        // Frames are written in short batches, so that Ctrl-C works soon and truth.csv is up to
-        // date.
+        // Frames are written in short batches, so that Ctrl-C works soon and the true poses are up
+        // to date.
         const int batch = 4 * static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
         while (done < arguments.frames && truth && !interrupted()) {
             const int end = std::min(arguments.frames, done + batch);
-            for (const std::string& row : write_frames(arguments, done, end))
-                truth << row;
+            for (const MadeFrame& frame : make_frames(arguments, drive, done, end)) {
+                output->write(done, frame.image);
+                truth << truth_row(arguments, output->name(done), frame.truth);
+                ++done;
+            }
             truth.flush();
-            done = end;
             line.update(done, arguments.frames);
         }
     }
-    if (!truth) throw Error("cannot write " + truth_path.string());
-    fmt::print("{}: {} frames of {} x {} px, preset {}, seed {}, truth.csv\n",
-               printable(arguments.out), done, arguments.setup.camera.width_px,
-               arguments.setup.camera.height_px, name(arguments.setup.preset),
-               arguments.setup.seed);
+    output->finish();
+    if (!truth) throw Error("cannot write " + output->truth_path().string());
+    fmt::print("{}: {} frames of {} x {} px, preset {}, seed {}, {}\n", printable(arguments.out),
+               done, arguments.setup.camera.width_px, arguments.setup.camera.height_px,
+               name(arguments.setup.preset), arguments.setup.seed,
+               printable(output->truth_path().filename().string()));
     if (done < arguments.frames) {
-        fmt::print(stderr, "dotpose: interrupted; the frames in truth.csv are complete\n");
+        fmt::print(stderr, "dotpose: interrupted; the frames so far are complete\n");
         exit_code = kExitFailed;
     }
 }
@@ -290,6 +320,28 @@ void add_overrides(Command& command, SimulateArguments& arguments) {
         ->type_name("N");
 }
 
+void add_drive_options(Command& command, SimulateArguments& arguments) {
+    Option* drive =
+        command.add_flag("--drive", arguments.drives,
+                         "Drive over the sheets of a sheet file; --frames is one lap if not given");
+    Option* sheets = add_sheets_option(command, arguments.sheets, "Sheet file to drive over");
+    drive->needs(sheets);
+    sheets->needs(drive);
+    const auto add = [&](const char* flag, double& value, const char* unit, const char* help) {
+        command.add_option(flag, value, help)
+            ->type_name(unit)
+            ->capture_default_str()
+            ->check(Range(0.001, 1e6).description(""));
+    };
+    add("--speed", arguments.drive.speed_mm_s, "MM/S", "Of the robot");
+    add("--fps", arguments.drive.fps, "N", "Frames per second of the drive or video");
+    for (const char* fixed :
+         {"--at", "--angle", "--section", "--code", "--spacing", "--dot", "--displacement",
+          "--tilt", "--motion", "--readout", "--covered", "--islands", "--table", "--scene"}) {
+        drive->excludes(command.get_option(fixed));
+    }
+}
+
 }  // namespace
 
 void add_simulate(Command& app, int& exit_code) {
@@ -297,8 +349,10 @@ void add_simulate(Command& app, int& exit_code) {
     Command* command =
         app.add_subcommand("simulate", "Make camera frames whose pose is known exactly");
     command->footer(kExamples);
-    command->add_option("-o,--out", arguments->out, "Folder for the frames; made if missing")
-        ->type_name("DIR")
+    command
+        ->add_option("-o,--out", arguments->out,
+                     "Folder for the frames, made if missing, or a video: .mp4 or .avi")
+        ->type_name("FILE|-|DIR")
         ->required();
     command->add_option("--frames", arguments->frames, "How many")
         ->type_name("N")
@@ -318,9 +372,8 @@ void add_simulate(Command& app, int& exit_code) {
     command->add_option("--density", arguments->density, "Of scenes noise and scattered_dots")
         ->type_name("FRACTION")
         ->capture_default_str();
-    command->callback([arguments, command, &exit_code] {
-        run(*arguments, command->count("--section") > 0, exit_code);
-    });
+    add_drive_options(*command, *arguments);
+    command->callback([arguments, command, &exit_code] { run(*arguments, *command, exit_code); });
 }
 
 }  // namespace dotpose::cli

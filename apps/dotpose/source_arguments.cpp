@@ -114,6 +114,19 @@ std::vector<std::string> Sources::all_names() {
     return all;
 }
 
+std::vector<std::string> Sources::all_images() {
+    std::vector<std::string> images;
+    for (const std::string& name : all_names()) {
+        const capture::SourceKind kind = capture::kind_of(name);
+        if (kind != capture::SourceKind::image && kind != capture::SourceKind::images) {
+            throw BadArgument(name + ": --threads is for images, folders and globs");
+        }
+        const std::vector<std::string> files = capture::files_of(name);
+        images.insert(images.end(), files.begin(), files.end());
+    }
+    return images;
+}
+
 std::unique_ptr<capture::SourceList> Sources::open(capture::SourceOptions options) {
     options.open_live = open_live;
     return std::make_unique<capture::SourceList>([this] { return names_.next(); },

@@ -53,6 +53,10 @@ class Sources {
     /// Returns all names, those in a pipe too.
     std::vector<std::string> all_names();
 
+    /// Returns the paths of all images, those of names in a pipe too. Throws Error if a folder or
+    /// glob cannot be read, and BadArgument if there are other sources.
+    std::vector<std::string> all_images();
+
     /// Returns the number of all images, or 0 if there are other sources or names in a pipe.
     std::int64_t number_of_images() const;
 

@@ -8,6 +8,7 @@
 
 #include <magick/api.h>
 
+#include "capture/pnm.hpp"
 #include "dotpose/tools/image_file.hpp"
 
 namespace dotpose::capture {
@@ -162,7 +163,11 @@ std::optional<Resolution> decode_resolution(ImageFormat format,
     return Resolution{per_inch * image->x_resolution, per_inch * image->y_resolution};
 }
 
-std::vector<std::uint8_t> encode_png(const GreyImage& image) {
+namespace {
+
+constexpr unsigned long kJpegQuality = 95;
+
+std::vector<std::uint8_t> encode(ImageFormat format, const GreyImage& image) {
     start_library();
     Report report;
     const auto width = static_cast<unsigned long>(image.width_px);
@@ -172,13 +177,34 @@ std::vector<std::uint8_t> encode_png(const GreyImage& image) {
     std::size_t size = 0;
     std::unique_ptr<void, BlobDeleter> blob;
     if (magick) {
-        const InfoPointer info = make_info(ImageFormat::png);
+        const InfoPointer info = make_info(format);
+        if (format == ImageFormat::jpeg) info->quality = kJpegQuality;
         std::strncpy(magick->magick, info->magick, sizeof magick->magick);
         blob.reset(ImageToBlob(info.get(), magick.get(), &size, &report));
     }
-    if (!blob) throw Error(std::string("the PNG encoder failed: ") + report.reason);
+    if (!blob) {
+        throw Error(std::string("the ") + name(format) + " encoder failed: " + report.reason);
+    }
     const auto* first = static_cast<const std::uint8_t*>(blob.get());
     return {first, first + size};
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> encode_png(const GreyImage& image) {
+    return encode(ImageFormat::png, image);
+}
+
+std::vector<std::uint8_t> encode(FrameFormat format, const GreyImage& image) {
+    switch (format) {
+        case FrameFormat::png:
+            return encode(ImageFormat::png, image);
+        case FrameFormat::jpeg:
+            return encode(ImageFormat::jpeg, image);
+        case FrameFormat::pgm:
+            break;
+    }
+    return encode_pgm(image.view());
 }
 
 }  // namespace dotpose::capture

@@ -21,7 +21,15 @@ GreyImage decode_image(ImageFormat format, std::span<const std::uint8_t> bytes, 
 std::optional<Resolution> decode_resolution(ImageFormat format,
                                             std::span<const std::uint8_t> bytes);
 
-/// Encodes an image, which must not be empty. Throws Error if the encoder fails.
+/// Formats in which frames are saved. Of 1280 x 720 px, docs/live.md has their sizes and times.
+enum class FrameFormat : std::uint8_t {
+    png,   ///< without loss
+    jpeg,  ///< with a quality of 95; several times as fast as PNG
+    pgm,   ///< without loss and compression; the fastest
+};
+
+/// Encode an image, which must not be empty. Throw Error if the encoder fails.
 std::vector<std::uint8_t> encode_png(const GreyImage& image);
+std::vector<std::uint8_t> encode(FrameFormat format, const GreyImage& image);
 
 }  // namespace dotpose::capture

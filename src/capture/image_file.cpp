@@ -171,11 +171,8 @@ ImageOrigin read_origin(const std::filesystem::path& path) {
 
 void write_pgm(const std::filesystem::path& path, ImageView image) {
     with_name("write", path, [&] {
-        const std::string header = "P5\n" + std::to_string(image.width_px) + " " +
-                                   std::to_string(image.height_px) + "\n255\n";
-        Bytes bytes = packed_pixels(image);
-        bytes.insert(bytes.begin(), header.begin(), header.end());
-        write_file(path, bytes);
+        const GreyImage packed{packed_pixels(image), image.width_px, image.height_px};
+        write_file(path, capture::encode_pgm(packed.view()));
     });
 }
 

@@ -182,4 +182,13 @@ GreyImage decode_pnm(std::span<const std::uint8_t> bytes, int max_pixels) {
     return image;
 }
 
+std::vector<std::uint8_t> encode_pgm(ImageView image) {
+    const std::string header =
+        "P5\n" + std::to_string(image.width_px) + " " + std::to_string(image.height_px) + "\n255\n";
+    std::vector<std::uint8_t> bytes(header.begin(), header.end());
+    for (int v = 0; v < image.height_px; ++v)
+        bytes.insert(bytes.end(), image.row(v), image.row(v) + image.width_px);
+    return bytes;
+}
+
 }  // namespace dotpose::capture

@@ -1,4 +1,4 @@
-/// Reads PBM, PGM and PPM, text and binary (P1 to P6), as netpbm specifies them.
+/// Reads PBM, PGM and PPM, text and binary (P1 to P6), as netpbm specifies them, and writes PGM.
 ///
 /// The decoding library is not used for them, because it accepts damaged headers, for example with
 /// a negative width, and writes to standard error when a header has two comments.
@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "dotpose/tools/grey_image.hpp"
 
@@ -14,5 +15,8 @@ namespace dotpose::capture {
 /// Decodes an image. `bytes` must start with the magic number of a PNM format. Throws Error that
 /// has only the reason.
 GreyImage decode_pnm(std::span<const std::uint8_t> bytes, int max_pixels);
+
+/// Encodes an image as binary PGM (P5).
+std::vector<std::uint8_t> encode_pgm(ImageView image);
 
 }  // namespace dotpose::capture

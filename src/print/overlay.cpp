@@ -1,23 +1,26 @@
 #include "dotpose/tools/overlay.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <new>
 #include <set>
 #include <string>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
+#include <qpdf/QPDFAcroFormDocumentHelper.hh>
 #include <qpdf/QPDFPageDocumentHelper.hh>
 #include <qpdf/QPDFSystemError.hh>
-#include <qpdf/QUtil.hh>
 
+#include "pdf_cards.hpp"
 #include "pdf_colours.hpp"
 #include "pdf_cross_references.hpp"
 #include "pdf_file.hpp"
 #include "pdf_limits.hpp"
 #include "pdf_page_frame.hpp"
+#include "pdf_page_range.hpp"
 #include "pdf_scan.hpp"
 #include "regions.hpp"
 
@@ -95,31 +98,6 @@ void open(QPDF& pdf, const fs::path& path, const std::string& password,
     }
 }
 
-std::set<int> page_numbers(const std::string& range, int count) {
-    if (range.empty()) {
-        std::set<int> all;
-        for (int number = 1; number <= count; ++number)
-            all.insert(number);
-        return all;
-    }
-    try {
-        const std::vector<int> numbers = QUtil::parse_numrange(range.c_str(), count);
-        return {numbers.begin(), numbers.end()};
-    } catch (const std::runtime_error&) {
-        throw BadArgument(
-            fmt::format("pages '{}': give numbers from 1 to {} such as 1-3,7; z is the last page",
-                        range, count));
-    }
-}
-
-/// Lists page numbers as in "pages 1, 2, 5", but no more than the first few.
-std::string page_list(const std::vector<int>& numbers) {
-    constexpr std::size_t kShown = 8;
-    const auto shown = std::span(numbers).first(std::min(kShown, numbers.size()));
-    return fmt::format("page{} {}{}", numbers.size() > 1 ? "s" : "", fmt::join(shown, ", "),
-                       numbers.size() > kShown ? " ..." : "");
-}
-
 /// Runs `work` and reports what qpdf throws as damage of the document.
 template <typename Work>
 auto understood(const fs::path& path, const Work& work) {
@@ -169,15 +147,27 @@ class Overlay {
     }
 
     void add_dots() {
-        std::vector<QPDFPageObjectHelper> pages = all_pages();
-        if (pages.empty()) throw Error(fmt::format("{}: the document has no pages", in_.string()));
-        const auto page = [&](int number) { return pages[static_cast<std::size_t>(number - 1)]; };
-        for (const int number : page_numbers(options_.pages, static_cast<int>(pages.size()))) {
-            on_page(number, [&] { lay_out(number, page(number)); });
+        pages_ = all_pages();
+        if (pages_.empty()) throw Error(fmt::format("{}: the document has no pages", in_.string()));
+        const auto count = static_cast<int>(pages_.size());
+        const std::set<int> numbers = print::page_numbers(options_.pages, count);
+        if (numbers.size() * static_cast<std::size_t>(options_.copies) > kMaxPages) {
+            throw BadArgument(fmt::format("{} copies of {} pages: at most {} pages get dots",
+                                          options_.copies, numbers.size(), kMaxPages));
+        }
+        for (int copy = 0; copy < options_.copies; ++copy) {
+            for (const int number : numbers)
+                on_page(number, [&] { lay_out(copy * count + number, number); });
         }
         if (options_.place) options_.place(report_.pages);
-        for (const OverlaidPage& laid_out : report_.pages) {
-            on_page(laid_out.number, [&] { add_page(laid_out, page(laid_out.number)); });
+        for (const int number : numbers)
+            on_page(number, [&] { prepare(number); });
+        if (options_.card_paper) {
+            make_cards();
+        } else {
+            add_copies();
+            for (const OverlaidPage& laid_out : report_.pages)
+                on_page(laid_out.document_page, [&] { draw(laid_out); });
         }
         warn();
     }
@@ -205,78 +195,161 @@ class Overlay {
         with_name(fmt::format("{}, page {}", in_.string(), number), work);
     }
 
-    void lay_out(int number, const QPDFPageObjectHelper& page) {
+    QPDFPageObjectHelper page(int number) const {
+        return pages_[static_cast<std::size_t>(number - 1)];
+    }
+
+    void lay_out(int number, int document_page) {
         Sheet sheet = make_sheet({.pattern = options_.pattern,
                                   .origin = options_.origin,
-                                  .paper = print::page_frame(page).paper,
+                                  .paper = print::page_frame(page(document_page)).paper,
                                   .margin_mm = options_.margin_mm});
         validate_resolution(sheet, options_.dpi);
         require_few_dots(sheet);
         sheet.origin = regions_.take(sheet.columns, sheet.rows);
-        report_.pages.push_back({number, sheet});
+        report_.pages.push_back({number, sheet, document_page});
     }
 
-    void add_page(const OverlaidPage& laid_out, QPDFPageObjectHelper page) {
-        const auto& [number, sheet] = laid_out;
-        validate(sheet);
-        const print::PageFrame frame = print::page_frame(page);
-        const print::PageContent content = print::scan_page(page, unpacked_);
+    /// Scans a page of the document and changes its colours.
+    void prepare(int number) {
+        QPDFPageObjectHelper original = page(number);
+        if (print::has_dots(pdf_, original)) dotted_.push_back(number);
+        const print::PageContent content = print::scan_page(original, unpacked_);
         if (content.paints_black) black_.push_back(number);
         if (content.paints_images) images_.push_back(number);
         if (content.paints_areas) areas_.push_back(number);
-        if (!change_.is_none()) colours_.convert(page);
-        print::write_turn_as_integer(page);
-        draw(page, frame, sheet, content);
+        if (!change_.is_none()) colours_.convert(original);
+        print::write_turn_as_integer(original);
+        contents_[number] = content;
+    }
+
+    void add_copies() {
+        const std::vector<QPDFPageObjectHelper> originals = pages_;
+        QPDFPageDocumentHelper document(pdf_);
+        QPDFAcroFormDocumentHelper fields(pdf_);
+        for (int copy = 1; copy < options_.copies; ++copy) {
+            for (QPDFPageObjectHelper original : originals) {
+                QPDFPageObjectHelper& added = pages_.emplace_back(original.shallowCopyPage());
+                document.addPage(added, false);
+                fields.fixCopiedAnnotations(added.getObjectHandle(), original.getObjectHandle(),
+                                            fields);
+            }
+        }
     }
 
     /// Draws the dots over or under the page's own content, whose streams are kept. The operators q
     /// and Q around them restore the graphics state in which the page starts.
-    void draw(QPDFPageObjectHelper page, const print::PageFrame& frame, const Sheet& sheet,
-              const print::PageContent& content) {
-        std::string dots = "q " + frame.matrix + " cm\n";
-        for (const std::string& name : add_forms(page, sheet))
-            dots += name + " Do\n";
-        dots += "Q\n";
-        std::string before = "q\n";
-        std::string after = "\nQ\n";
-        for (int i = 0; i < content.extra_restores; ++i)
-            before += "q\n";
-        for (int i = 0; i < content.unclosed_saves; ++i)
-            after += "Q\n";
-        (options_.under ? before : after).insert(options_.under ? 0 : after.size(), dots);
-        page.addPageContents(QPDFObjectHandle::newStream(&pdf_, before), true);
-        page.addPageContents(QPDFObjectHandle::newStream(&pdf_, after), false);
+    void draw(const OverlaidPage& laid_out) {
+        const auto& [number, sheet, document_page] = laid_out;
+        validate(sheet);
+        QPDFPageObjectHelper drawn = page(number);
+        std::string dots = "q " + print::page_frame(drawn).matrix + " cm\n" +
+                           draw_forms(own_objects(drawn), sheet) + "Q\n";
+        const print::PageContent& content = contents_.at(document_page);
+        add_around(drawn, (options_.under ? dots : "") + content.before(),
+                   content.after() + (options_.under ? "" : dots));
     }
 
-    /// Adds the dots to the resources of the page as forms and returns the names of the forms.
-    std::vector<std::string> add_forms(QPDFPageObjectHelper page, const Sheet& sheet) {
-        QPDFObjectHandle resources = page.getAttribute("/Resources", true);
-        if (!resources.isDictionary()) {
-            resources = QPDFObjectHandle::newDictionary();
-            page.getObjectHandle().replaceKey("/Resources", resources);
-        }
-        // Pages may share the dictionary of objects even if they do not share the resources.
-        QPDFObjectHandle shared = resources.getKey("/XObject");
-        QPDFObjectHandle objects =
-            shared.isDictionary() ? shared.shallowCopy() : QPDFObjectHandle::newDictionary();
+    void add_around(QPDFPageObjectHelper drawn, const std::string& before,
+                    const std::string& after) {
+        drawn.addPageContents(QPDFObjectHandle::newStream(&pdf_, before), true);
+        drawn.addPageContents(QPDFObjectHandle::newStream(&pdf_, after), false);
+    }
+
+    /// Returns the dictionary of objects of a page. It becomes the page's own: pages may share it,
+    /// or the resources that it is in.
+    static QPDFObjectHandle own_objects(QPDFPageObjectHelper drawn) {
+        const auto copy = [](QPDFObjectHandle shared) {
+            return shared.isDictionary() ? shared.shallowCopy() : QPDFObjectHandle::newDictionary();
+        };
+        QPDFObjectHandle resources = copy(drawn.getAttribute("/Resources", false));
+        drawn.getObjectHandle().replaceKey("/Resources", resources);
+        QPDFObjectHandle objects = copy(resources.getKey("/XObject"));
         resources.replaceKey("/XObject", objects);
-        std::vector<std::string> names;
+        return objects;
+    }
+
+    /// Adds the dots to a dictionary of objects and returns the operators that draw them.
+    std::string draw_forms(QPDFObjectHandle objects, const Sheet& sheet) {
+        std::string content;
         int suffix = 1;
         for (const QPDFObjectHandle& form : dots_.forms(sheet)) {
-            names.push_back(resources.getUniqueResourceName("/Dots", suffix));
-            objects.replaceKey(names.back(), form);
+            std::string name;
+            do {
+                name = print::kDotsName + std::to_string(suffix++);
+            } while (objects.hasKey(name));
+            objects.replaceKey(name, form);
+            content += name + " Do\n";
         }
-        return names;
+        return content;
+    }
+
+    /// Replaces all pages by pages of cards.
+    void make_cards() {
+        const Paper card = card_size();
+        const print::CardGrid grid = print::card_grid(*options_.card_paper, card);
+        std::map<int, QPDFObjectHandle> forms;
+        for (const auto& [number, content] : contents_) {
+            QPDFPageObjectHelper original = page(number);
+            add_around(original, content.before(), content.after());
+            forms[number] = print::card_form(original);
+        }
+        print::remove_pages(pdf_);
+        const std::span<const OverlaidPage> all = report_.pages;
+        const auto per_page = static_cast<std::size_t>(grid.cards());
+        for (std::size_t first = 0; first < all.size(); first += per_page) {
+            add_card_page(grid, all.subspan(first, std::min(per_page, all.size() - first)), forms);
+        }
+    }
+
+    /// Returns the size of all cards.
+    Paper card_size() const {
+        constexpr double kTolerance_mm = 0.1;
+        const Sheet& first = report_.pages.front().sheet;
+        for (const auto& [number, sheet, document_page] : report_.pages) {
+            if (std::abs(sheet.width_mm - first.width_mm) > kTolerance_mm ||
+                std::abs(sheet.height_mm - first.height_mm) > kTolerance_mm) {
+                throw BadArgument(fmt::format(
+                    "{}: pages {} and {} differ in size; cards on one paper have the same size",
+                    in_.string(), report_.pages.front().document_page, document_page));
+            }
+        }
+        return {first.width_mm, first.height_mm};
+    }
+
+    void add_card_page(const print::CardGrid& grid, std::span<const OverlaidPage> cards,
+                       const std::map<int, QPDFObjectHandle>& forms) {
+        QPDFPageObjectHelper added = print::add_card_page(pdf_, grid);
+        QPDFObjectHandle objects = own_objects(added);
+        std::string content = print::cut_marks(grid);
+        for (int slot = 0; slot < static_cast<int>(cards.size()); ++slot) {
+            const auto& [number, sheet, document_page] = cards[static_cast<std::size_t>(slot)];
+            validate(sheet);
+            const std::string name = fmt::format("/Card{}", document_page);
+            objects.replaceKey(name, forms.at(document_page));
+            const std::string card =
+                print::place_card(added, grid, slot, forms.at(document_page), name);
+            const std::string dots = draw_forms(objects, print::on_page(grid, slot, sheet));
+            content += options_.under ? dots + card : card + dots;
+        }
+        add_around(added, content, "");
+        ++report_.card_pages;
     }
 
     void warn() {
         const auto add = [this](const std::vector<int>& numbers, const char* text) {
-            if (!numbers.empty()) report_.warnings.push_back(page_list(numbers) + ": " + text);
+            if (!numbers.empty())
+                report_.warnings.push_back(print::page_list(numbers) + ": " + text);
         };
         if (!change_.black_to_cmy) {
-            add(black_, "black text or drawings hide dots; black can be changed to a CMY mix");
+            add(black_,
+                "black text or drawings hide dots: black can be printed without black ink "
+                "(--cmy-black), or the document be lightened (--lighten 0.3)");
             add(images_, "images may hide dots where they are dark");
         }
+        add(dotted_,
+            "it has dots of dotpose already, and dots over dots cannot be read: lay them over the "
+            "document without dots");
         if (options_.under) add(areas_, "filled areas and images cover the dots below them");
         for (const std::string& kind : colours_.left_alone()) {
             report_.warnings.push_back(kind + " were not converted and may hide dots");
@@ -299,6 +372,9 @@ class Overlay {
     print::UnpackedBytes unpacked_;
     print::ColourConverter colours_;
     OverlayReport report_;
+    std::vector<QPDFPageObjectHelper> pages_;     ///< of the document, then those of its copies
+    std::map<int, print::PageContent> contents_;  ///< of the document's pages that get dots
+    std::vector<int> dotted_;
     std::vector<int> black_;
     std::vector<int> images_;
     std::vector<int> areas_;
@@ -310,6 +386,9 @@ OverlayReport overlay_pdf(const fs::path& in, const fs::path& out, const Overlay
     if (!(options.lighten >= 0 && options.lighten < 1)) {
         throw BadArgument(
             fmt::format("lighten by {:g}: it must be at least 0 and under 1", options.lighten));
+    }
+    if (options.copies < 1) {
+        throw BadArgument(fmt::format("{} copies: it must be 1 or more", options.copies));
     }
     std::error_code error;
     if (fs::equivalent(in, out, error)) {

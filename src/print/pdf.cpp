@@ -34,7 +34,7 @@ std::string mark_content(const PrintPage& page) {
 void set_information(QPDF& pdf, const std::string& title) {
     QPDFObjectHandle info = QPDFObjectHandle::newDictionary();
     if (!title.empty()) info.replaceKey("/Title", QPDFObjectHandle::newUnicodeString(title));
-    info.replaceKey("/Creator", QPDFObjectHandle::newString("dotpose"));
+    info.replaceKey("/Creator", QPDFObjectHandle::newString(kCreator));
     // A viewer must not offer to fit the page to the paper.
     pdf.getRoot().replaceKey("/ViewerPreferences",
                              QPDFObjectHandle::parse("<< /PrintScaling /None >>"));
@@ -49,6 +49,7 @@ void write_pdf(std::span<const Sheet> sheets, const PrintOptions& options, base:
     const auto rows = std::make_shared<RowCount>();
     rows->progress = options.progress;
     DotContent dots(pdf, options.dpi, options.drawing, rows);
+    ScriptText script(pdf);
     QPDFObjectHandle label_font;
     if (options.labels) {
         label_font = pdf.makeIndirectObject(QPDFObjectHandle::parse(
@@ -65,7 +66,8 @@ void write_pdf(std::span<const Sheet> sheets, const PrintOptions& options, base:
             PrintOptions of_page = options;
             if (!options.page_commands.empty()) of_page.command = options.page_commands.at(i);
             contents.push_back(
-                QPDFObjectHandle::newStream(&pdf, label_content(sheet, number, of_page)));
+                QPDFObjectHandle::newStream(&pdf, label_content(sheet, number, of_page, script)));
+            script.add_to(resources);
             if (!resources.hasKey("/Font")) {
                 resources.replaceKey("/Font", QPDFObjectHandle::newDictionary());
             }
@@ -89,7 +91,7 @@ void write_pdf_page(const PrintPage& page, const PrintOptions& options, base::Ou
     int count = 0;
     for (const Sheet& sheet : page.sheets) {
         for (const QPDFObjectHandle& form : dots.forms(sheet)) {
-            const std::string name = fmt::format("/Dots{}", ++count);
+            const std::string name = fmt::format("{}{}", kDotsName, ++count);
             forms.replaceKey(name, form);
             content += name + " Do\n";
         }

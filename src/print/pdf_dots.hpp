@@ -17,6 +17,11 @@ namespace dotpose::print {
 
 inline constexpr double kPointsPerMm = 72 / 25.4;
 
+/// The program that a document names as its creator, if dotpose printed it.
+inline constexpr const char* kCreator = "dotpose";
+/// Beginning of the names under which the resources of a page have its dots.
+inline constexpr const char* kDotsName = "/Dots";
+
 /// Counts the rows that have been written, over all pages, and keeps the first exception: qpdf asks
 /// for the rows while it writes the file, and would replace the exception's message by its own.
 struct RowCount {

@@ -11,6 +11,7 @@
 #include <qpdf/QPDFObjectHandle.hh>
 #include <qpdf/QUtil.hh>
 
+#include "base/printable.hpp"
 #include "geometry.hpp"
 #include "pdf_dots.hpp"
 
@@ -53,31 +54,51 @@ double width_mm(const std::string& text, double size_pt) {
     return thousandths * size_pt / 1000 / kPointsPerMm;
 }
 
-/// Breaks text between words into lines no wider than `widest_mm`; a word that is wider than that
-/// is cut.
-std::vector<std::string> wrap(const std::string& text, double widest_mm) {
+/// Number of bytes of the character that begins with this byte of UTF-8.
+std::size_t length_of(char first) {
+    const auto byte = static_cast<unsigned char>(first);
+    return byte < 0xC0 ? 1 : byte < 0xE0 ? 2 : byte < 0xF0 ? 3 : 4;
+}
+
+/// Returns the beginning of a text, cut between characters.
+std::string beginning(const std::string& utf8, std::size_t most_characters) {
+    std::size_t end = 0;
+    for (std::size_t i = 0; i < most_characters && end < utf8.size(); ++i)
+        end += length_of(utf8[end]);
+    return utf8.substr(0, end);
+}
+
+/// Returns the text in the encoding of Helvetica, or none if Helvetica lacks some letter.
+std::optional<std::string> in_helvetica(const std::string& utf8) {
+    std::string text;
+    if (QUtil::utf8_to_win_ansi(utf8, text)) return text;
+    return std::nullopt;
+}
+
+/// Breaks text between words into lines that `fits` accepts; a word that is wider is cut.
+template <typename Fits>
+std::vector<std::string> wrap(const std::string& text, const Fits& fits) {
     std::vector<std::string> lines = {""};
-    std::string word;
-    const auto fits = [&](const std::string& line) {
-        return width_mm(line, kText_pt) <= widest_mm;
-    };
-    const auto end_word = [&] {
-        if (!lines.back().empty() && !fits(lines.back() + " " + word)) lines.emplace_back();
-        if (!lines.back().empty()) lines.back() += ' ';
-        for (const char c : word) {
-            if (!lines.back().empty() && !fits(lines.back() + c)) lines.emplace_back();
-            lines.back() += c;
+    const auto add_word = [&](const std::string& word) {
+        std::string& line = lines.back();
+        const std::string longer = line.empty() ? word : line + " " + word;
+        if (fits(longer)) {
+            line = longer;
+            return;
         }
-        word.clear();
-    };
-    for (const char c : text) {
-        if (c == ' ') {
-            end_word();
-        } else {
-            word += c;
+        if (!line.empty()) lines.emplace_back();
+        for (std::size_t i = 0; i < word.size();) {
+            const std::string letter = word.substr(i, length_of(word[i]));
+            if (!lines.back().empty() && !fits(lines.back() + letter)) lines.emplace_back();
+            lines.back() += letter;
+            i += letter.size();
         }
+    };
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(' ', begin), text.size());
+        add_word(text.substr(begin, end - begin));
+        begin = end + 1;
     }
-    end_word();
     return lines;
 }
 
@@ -127,7 +148,7 @@ bool has_note_at_origin(const Sheet& sheet) {
 
 std::string description(const Sheet& sheet, PageNumber page, const PrintOptions& options) {
     const Pattern& pattern = sheet.pattern;
-    std::string text = options.name.substr(0, kLongestName);
+    std::string text = beginning(options.name, kLongestName);
     if (!text.empty()) text += ", ";
     return text + fmt::format(
                       "page {} of {}, cells {},{} to {},{}, section {},{}, spacing {:.6g} mm, for "
@@ -143,22 +164,25 @@ std::string shown(const std::string& win_ansi) {
 }
 
 /// Returns the PDF content of the text below the dots; the line nearest to the dots comes first.
-std::string text_content(const Sheet& sheet, PageNumber page, const PrintOptions& options) {
+std::string text_content(const Sheet& sheet, PageNumber page, const PrintOptions& options,
+                         ScriptText& script) {
     const double reach = reach_mm(sheet.pattern);
     const double ink_end_mm = dot_y_mm(sheet, sheet.rows - 1, 0) + reach;
     const double room_mm = sheet.height_mm - ink_end_mm - kGap_mm - kEdge_mm;
     const auto most_lines = static_cast<std::size_t>(std::max(0.0, room_mm / kLine_mm));
     const double widest_mm = (sheet.columns - 1) * sheet.pattern.spacing_mm + 2 * reach;
 
-    const auto wrapped = [&](const std::string& utf8) {
-        return wrap(QUtil::utf8_to_win_ansi(utf8), widest_mm);
+    const auto fits = [&](const std::string& utf8) {
+        const auto plain = in_helvetica(utf8);
+        return (plain ? width_mm(*plain, kText_pt)
+                      : script.width_pt(utf8, kText_pt) / kPointsPerMm) <= widest_mm;
     };
     std::string text = description(sheet, page, options);
     if (!has_note_at_origin(sheet)) {
         text += ", top left corner at " + corner_text(sheet);
     }
-    std::vector<std::string> lines = wrapped(text);
-    const std::vector<std::string> command = wrapped(options.command);
+    std::vector<std::string> lines = wrap(base::printable(text), fits);
+    const std::vector<std::string> command = wrap(base::printable(options.command), fits);
     // The command is left out unless all of it fits: a part of it would print another sheet.
     if (!options.command.empty() && lines.size() + command.size() <= most_lines) {
         lines.insert(lines.end(), command.begin(), command.end());
@@ -166,15 +190,21 @@ std::string text_content(const Sheet& sheet, PageNumber page, const PrintOptions
     lines.resize(std::min(lines.size(), most_lines));
 
     std::string content = fmt::format("BT /Label {} Tf\n", kText_pt);
+    std::string forms;
     double bottom_mm = sheet.height_mm - ink_end_mm - kGap_mm;
     for (const std::string& line : lines) {
         bottom_mm -= kLine_mm;
+        const double x_pt = (sheet.origin_x_mm - reach) * kPointsPerMm;
         // The baseline: a quarter of the line stays below it for g, p and commas.
-        fmt::format_to(std::back_inserter(content), "1 0 0 1 {:.3f} {:.3f} Tm {} Tj\n",
-                       (sheet.origin_x_mm - reach) * kPointsPerMm,
-                       (bottom_mm + kLine_mm / 4) * kPointsPerMm, shown(line));
+        const double y_pt = (bottom_mm + kLine_mm / 4) * kPointsPerMm;
+        if (const auto plain = in_helvetica(line)) {
+            fmt::format_to(std::back_inserter(content), "1 0 0 1 {:.3f} {:.3f} Tm {} Tj\n", x_pt,
+                           y_pt, shown(*plain));
+        } else {
+            forms += script.draw(line, kText_pt, x_pt, y_pt);
+        }
     }
-    return content + "ET\n";
+    return content + "ET\n" + forms;
 }
 
 /// Returns a point of the page as operands of PDF.
@@ -269,8 +299,9 @@ std::string origin_content(const Sheet& sheet) {
 
 }  // namespace
 
-std::string label_content(const Sheet& sheet, PageNumber page, const PrintOptions& options) {
-    return "q 0 0 0 1 k 0 0 0 1 K\n" + text_content(sheet, page, options) +
+std::string label_content(const Sheet& sheet, PageNumber page, const PrintOptions& options,
+                          ScriptText& script) {
+    return "q 0 0 0 1 k 0 0 0 1 K\n" + text_content(sheet, page, options, script) +
            ruler_content(sheet, Side::top) + ruler_content(sheet, Side::left) +
            origin_content(sheet) + "Q\n";
 }

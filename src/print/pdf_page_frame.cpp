@@ -56,6 +56,7 @@ PageFrame page_frame(QPDFPageObjectHelper page) {
     const double scale = 1 / unit;
     const int turns = quarter_turns(page);
     PageFrame frame;
+    frame.box = box;
     frame.paper.width_mm = (turns % 2 == 0 ? width : height) * unit / kPointsPerMm;
     frame.paper.height_mm = (turns % 2 == 0 ? height : width) * unit / kPointsPerMm;
     // PDF 32000-1, 8.3.3: the page is turned clockwise when it is shown.

@@ -11,7 +11,8 @@ namespace dotpose::print {
 
 /// The crop box of a page, turned as it is shown.
 struct PageFrame {
-    Paper paper;         ///< size as shown
+    Paper paper;                      ///< size as shown
+    QPDFObjectHandle::Rectangle box;  ///< crop box in the media box, in units of the content
     std::string matrix;  ///< operands of `cm`: from points, counted from the bottom left as shown,
                          ///< to content
 };

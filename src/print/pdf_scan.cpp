@@ -12,6 +12,7 @@
 #include <qpdf/Pl_QPDFTokenizer.hh>
 
 #include "dotpose/files/error.hpp"
+#include "pdf_dots.hpp"
 #include "pdf_ink.hpp"
 
 namespace dotpose::print {
@@ -241,6 +242,20 @@ void Scan::read(const std::vector<QPDFObjectHandle>& streams) {
 
 }  // namespace
 
+std::string PageContent::before() const {
+    std::string operators = "q\n";
+    for (int i = 0; i < extra_restores; ++i)
+        operators += "q\n";
+    return operators;
+}
+
+std::string PageContent::after() const {
+    std::string operators = "\nQ\n";
+    for (int i = 0; i < unclosed_saves; ++i)
+        operators += "Q\n";
+    return operators;
+}
+
 PageContent scan_page(QPDFPageObjectHelper page, UnpackedBytes& unpacked) {
     unpacked.start_page();
     PageScan all{unpacked, {}, {}};
@@ -249,6 +264,15 @@ PageContent scan_page(QPDFPageObjectHelper page, UnpackedBytes& unpacked) {
     all.found.unclosed_saves = scan.unclosed_saves();
     all.found.extra_restores = scan.extra_restores();
     return all.found;
+}
+
+bool has_dots(QPDF& pdf, QPDFPageObjectHelper page) {
+    QPDFObjectHandle creator = pdf.getTrailer().getKeyIfDict("/Info").getKeyIfDict("/Creator");
+    if (creator.isString() && creator.getUTF8Value() == kCreator) return true;
+    QPDFObjectHandle objects = page.getAttribute("/Resources", false).getKeyIfDict("/XObject");
+    if (!objects.isDictionary()) return false;
+    return std::ranges::any_of(objects.getKeys(),
+                               [](const std::string& name) { return name.starts_with(kDotsName); });
 }
 
 }  // namespace dotpose::print

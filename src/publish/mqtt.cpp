@@ -22,6 +22,8 @@ constexpr auto kPatience = 3s;
 constexpr auto kBetweenAttempts = 500ms;
 /// Most messages that libmosquitto has at a time; it sends them in their order.
 constexpr std::size_t kMostUnderWay = 20;
+/// Quality of service of messages about the presence: they arrive.
+constexpr int kPresenceQos = 1;
 /// Longest wait for something to send or to receive.
 constexpr int kWait_ms = 100;
 
@@ -123,6 +125,13 @@ bool MqttClient::is_connected() const {
     return is_connected_;
 }
 
+void MqttClient::require_reached() const {
+    const std::lock_guard lock(mutex_);
+    if (was_reached_) return;
+    const std::string& reason = refusal_.empty() ? failure_ : refusal_;
+    throw Error(place() + " was never reached" + (reason.empty() ? "" : ": " + reason));
+}
+
 void MqttClient::set_up_security() {
     if (!options_.user.empty()) {
         require(
@@ -141,17 +150,18 @@ void MqttClient::start() {
     set_up_security();
     // Without this, TCP may delay a small message by up to 40 ms to send it together with the next.
     require(mosquitto_int_option(mosquitto_, MOSQ_OPT_TCP_NODELAY, 1), "cannot set the connection");
-    if (!options_.will_topic.empty()) {
-        require(mosquitto_will_set(mosquitto_, options_.will_topic.c_str(),
-                                   static_cast<int>(options_.will.size()), options_.will.data(),
-                                   options_.qos, true),
+    if (!options_.presence_topic.empty()) {
+        const std::string will = options_.presence(Presence::broken);
+        require(mosquitto_will_set(mosquitto_, options_.presence_topic.c_str(),
+                                   static_cast<int>(will.size()), will.data(), kPresenceQos, true),
                 "cannot set the last will");
     }
     mosquitto_connect_callback_set(mosquitto_, Callbacks::on_connect);
     mosquitto_disconnect_callback_set(mosquitto_, Callbacks::on_disconnect);
     mosquitto_publish_callback_set(mosquitto_, Callbacks::on_publish);
     mosquitto_message_callback_set(mosquitto_, Callbacks::on_message);
-    mosquitto_max_inflight_messages_set(mosquitto_, static_cast<unsigned>(kMostUnderWay));
+    // One more than those of `publish`, so that the presence does not wait for them.
+    mosquitto_max_inflight_messages_set(mosquitto_, static_cast<unsigned>(kMostUnderWay + 1));
     // Messages are published from other threads than that of `run`.
     mosquitto_threaded_set(mosquitto_, true);
     constexpr int kKeepAlive_s = 10;
@@ -225,6 +235,7 @@ void MqttClient::answered(int code) {
     {
         const std::lock_guard lock(mutex_);
         is_connected_ = code == 0;
+        was_reached_ = was_reached_ || is_connected_;
         was_refused = !refusal_.empty();
         refusal_ = code == 0 ? "" : mosquitto_connack_string(code);
     }
@@ -252,7 +263,21 @@ MqttPublisher::MqttPublisher(MqttOptions options) : MqttClient(std::move(options
 }
 
 MqttPublisher::~MqttPublisher() {
+    if (is_connected()) send_presence(Presence::offline);
     stop();
+}
+
+void MqttPublisher::on_connected() {
+    send_presence(Presence::online);
+    send_waiting();
+}
+
+void MqttPublisher::send_presence(Presence presence) {
+    if (options_.presence_topic.empty()) return;
+    const std::lock_guard lock(mutex_);
+    const std::string message = options_.presence(presence);
+    mosquitto_publish(handle(), nullptr, options_.presence_topic.c_str(),
+                      static_cast<int>(message.size()), message.data(), kPresenceQos, true);
 }
 
 void MqttPublisher::publish(std::string topic, std::string payload) {
@@ -327,8 +352,8 @@ std::int64_t MqttPublisher::dropped() const {
     return dropped_;
 }
 
-MqttSubscriber::MqttSubscriber(MqttOptions options, std::string topic, Handler handle)
-    : MqttClient(std::move(options)), topic_(std::move(topic)), handle_(std::move(handle)) {
+MqttSubscriber::MqttSubscriber(MqttOptions options, std::vector<std::string> topics, Handler handle)
+    : MqttClient(std::move(options)), topics_(std::move(topics)), handle_(std::move(handle)) {
     start();
 }
 
@@ -337,7 +362,8 @@ MqttSubscriber::~MqttSubscriber() {
 }
 
 void MqttSubscriber::on_connected() {
-    mosquitto_subscribe(handle(), nullptr, topic_.c_str(), options_.qos);
+    for (const std::string& topic : topics_)
+        mosquitto_subscribe(handle(), nullptr, topic.c_str(), options_.qos);
 }
 
 void MqttSubscriber::on_message(std::string_view topic, std::string_view payload) {

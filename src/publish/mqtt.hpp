@@ -13,12 +13,20 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <vector>
 
 #include "dotpose/files/error.hpp"
 
 struct mosquitto;
 
 namespace dotpose::publish {
+
+/// Whether a publisher is connected to its broker.
+enum class Presence {
+    online,   ///< it is connected
+    offline,  ///< it has ended
+    broken,   ///< its connection broke
+};
 
 struct MqttOptions {
     std::string host = "localhost";
@@ -29,9 +37,11 @@ struct MqttOptions {
     std::string ca_file;    ///< certificates to trust; empty for those of the system
     int qos = 0;            ///< 0: at most once, 1: at least once
     std::string client_id;  ///< empty if the broker chooses
-    // The message that the broker sends when the connection breaks; an empty topic means none.
-    std::string will_topic;
-    std::string will;
+    /// Topic of messages about the presence of a publisher; empty for none. The broker retains the
+    /// newest of them for later subscribers. That of a broken connection is the last will.
+    std::string presence_topic;
+    /// Returns the message. Called by both threads, but not at the same time.
+    std::function<std::string(Presence)> presence;
     /// Most messages that are kept while there is no connection; beyond it, the oldest are dropped.
     std::size_t queue = 50;
     /// Called with messages for the user, for example that the connection is lost or back.
@@ -49,6 +59,9 @@ class MqttClient {
     MqttClient& operator=(const MqttClient&) = delete;
 
     bool is_connected() const;
+
+    /// Throws Error with the reason if the broker was never reached so far.
+    void require_reached() const;
 
   protected:
     explicit MqttClient(MqttOptions options);
@@ -86,6 +99,7 @@ class MqttClient {
     mosquitto* mosquitto_ = nullptr;
     std::condition_variable changed_;
     bool is_connected_ = false;
+    bool was_reached_ = false;
     std::string failure_;  ///< reason why the newest attempt to connect failed
     bool ends_ = false;
     std::chrono::steady_clock::time_point ends_by_;
@@ -118,10 +132,11 @@ class MqttPublisher : public MqttClient {
         std::string topic;
         std::string payload;
     };
-    void on_connected() override { send_waiting(); }
+    void on_connected() override;
     void on_disconnected() override;
     void on_published(int id) override;
     void send_waiting();
+    void send_presence(Presence presence);
 
     std::deque<Message> waiting_;
     std::set<int> under_way_;  ///< with libmosquitto, not yet sent (QoS 0) or acknowledged (QoS 1)
@@ -134,10 +149,13 @@ class MqttSubscriber : public MqttClient {
   public:
     using Handler = std::function<void(std::string_view topic, std::string_view payload)>;
 
-    /// Subscribes to a topic; `handle` is called by another thread. Throws Error like
+    /// Subscribes to topics; `handle` is called by another thread. Throws Error like
     /// MqttClient::start.
-    MqttSubscriber(MqttOptions options, std::string topic, Handler handle);
+    MqttSubscriber(MqttOptions options, std::vector<std::string> topics, Handler handle);
     ~MqttSubscriber() override;
+
+    /// Ends the connection. The handler is not called any more.
+    void disconnect() { stop(); }
 
   private:
     void on_connected() override;
@@ -146,7 +164,7 @@ class MqttSubscriber : public MqttClient {
     int receive_all();
     int send_all(int socket);
 
-    std::string topic_;
+    std::vector<std::string> topics_;
     Handler handle_;
     std::int64_t received_ = 0;  ///< number of messages
 };

@@ -93,6 +93,17 @@ TEST_F(Examples, FollowSheetsTellsSheetPlaceAndSpeed) {
     }
 }
 
+TEST_F(Examples, EndWithAMessageIfAFileIsMissing) {
+    ToolCommand::run("print -o table.svg --paper 80x60 --sheets s.json --name table");
+    for (const char* command :
+         {"locate_one missing.pgm", "follow_robot 200 missing.pgm missing.pgm",
+          "follow_sheets missing.json 100 missing.pgm", "follow_sheets s.json 100 missing.pgm",
+          "device_packets missing.pgm", "opencv_video missing.mp4"}) {
+        EXPECT_EQ(run_example(command), 1) << command;
+        EXPECT_THAT(errors_, HasSubstr("missing.")) << command;
+    }
+}
+
 TEST_F(Examples, DevicePacketsAreThoseThatListenReads) {
     for (int i = 0; i < 3; ++i) {
         write_pgm(directory_ / ("f" + std::to_string(i) + ".pgm"),

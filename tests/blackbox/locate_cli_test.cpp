@@ -387,5 +387,51 @@ TEST_F(LocateCommand, help_shows_an_example_and_all_options) {
     }
 }
 
+TEST_F(LocateCommand, threads_give_the_same_lines_in_the_same_order) {
+    fs::create_directory(directory_ / "frames");
+    for (std::uint64_t i = 0; i < 20; ++i)
+        write_frame("frames/" + std::to_string(100 + i) + ".pgm", i);
+    write("frames/105.pgm", "no image");
+    write_level("frames/107.pgm", 188, 120);
+    const auto lines_without_times = [&] {
+        std::vector<json> lines = records();
+        for (json& line : lines)
+            line.erase("elapsed_us");
+        return lines;
+    };
+    EXPECT_EQ(run("--code anoto frames"), 1);
+    const std::vector<json> one = lines_without_times();
+    const std::string errors_of_one = errors_;
+    ASSERT_EQ(one.size(), 19U);
+    for (const char* threads : {"2", "3", "50"}) {
+        EXPECT_EQ(run(std::string("--code anoto frames --threads ") + threads), 1);
+        EXPECT_EQ(lines_without_times(), one) << threads;
+        EXPECT_EQ(errors_, errors_of_one);
+    }
+    EXPECT_EQ(run("--threads 2 frames"), 2);
+    EXPECT_THAT(errors_, HasSubstr("--code"));
+    EXPECT_EQ(run("--threads 2 --code anoto - --size 188x120"), 2);
+    EXPECT_EQ(run("--threads 2 --code anoto --draw pictures frames"), 2);
+}
+
+TEST_F(LocateCommand, the_ending_of_the_output_chooses_the_format) {
+    write_frame("a.pgm", 1);
+    ASSERT_EQ(run("a.pgm --format csv"), 0) << errors_;
+    const std::string header = lines_of(output_)[0];
+    ASSERT_EQ(run("a.pgm -o out.csv"), 0) << errors_;
+    EXPECT_EQ(lines_of(file("out.csv"))[0], header);
+    ASSERT_EQ(run("a.pgm -o OUT.CSV"), 0) << errors_;
+    EXPECT_EQ(lines_of(file("OUT.CSV"))[0], header);
+    ASSERT_EQ(run("a.pgm -o out.csv --format json"), 0) << errors_;
+    EXPECT_THAT(file("out.csv"), StartsWith("{"));
+    ASSERT_EQ(run("a.pgm -o out.txt"), 0) << errors_;
+    EXPECT_THAT(file("out.txt"), StartsWith("{"));
+    ASSERT_EQ(ToolCommand::run("watch a.pgm -o watch.csv"), 0) << errors_;
+    EXPECT_THAT(file("watch.csv"), StartsWith("schema,"));
+    ASSERT_EQ(ToolCommand::run("simulate -o frames --frames 2"), 0) << errors_;
+    ASSERT_EQ(ToolCommand::run("evaluate frames -o report.json"), 0) << errors_;
+    EXPECT_TRUE(json::accept(file("report.json")));
+}
+
 }  // namespace
 }  // namespace dotpose::test

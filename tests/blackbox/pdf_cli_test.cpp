@@ -199,5 +199,51 @@ TEST_F(PdfCommands, overlay_help_shows_an_example) {
     EXPECT_THAT(output_, HasSubstr("dotpose overlay form.pdf -o form-dots.pdf"));
 }
 
+TEST_F(PdfCommands, copies_of_a_document_get_cells_of_their_own) {
+    run("$T print -o in.pdf --pages 2 --paper 80x60 --spacing 2 > /dev/null && qpdf --linearize "
+        "in.pdf plain.pdf && $T overlay plain.pdf -o out.pdf --copies 3 --pages 2 --sheets s.json "
+        "--name form && pdfinfo out.pdf && qpdf --check out.pdf");
+    ASSERT_EQ(exit_code_, 0) << output_;
+    EXPECT_THAT(output_, HasSubstr("Pages:           6"));
+    const nlohmann::json sheets = nlohmann::json::parse(file("s.json"))["sheets"];
+    ASSERT_EQ(sheets.size(), 3U);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(sheets[i]["name"], "form-" + std::to_string(2 * i + 2));
+        EXPECT_THAT(sheets[i]["print"]["command"], HasSubstr("overlay plain.pdf"));
+        EXPECT_THAT(sheets[i]["print"]["command"], HasSubstr(" --pages 2 --origin "));
+        EXPECT_THAT(sheets[i]["print"]["command"], Not(HasSubstr("--copies")));
+    }
+}
+
+TEST_F(PdfCommands, dots_over_dots_are_noticed) {
+    const std::string warning = "it has dots of dotpose already";
+    run("$T print -o in.pdf --paper 80x60 && printf '.pl 8c\\nText.\\n' > page.roff && "
+        "groff -P-p8c,6c -Tpdf page.roff > text.pdf && $T overlay text.pdf -o once.pdf");
+    ASSERT_EQ(exit_code_, 0) << output_;
+    EXPECT_THAT(output_, Not(HasSubstr(warning)));
+    EXPECT_THAT(output_, HasSubstr("--cmy-black"));
+    EXPECT_THAT(output_, HasSubstr("--lighten"));
+    for (const char* dotted : {"in.pdf", "once.pdf"}) {
+        run(std::string("$T overlay ") + dotted + " -o twice.pdf");
+        EXPECT_EQ(exit_code_, 0);
+        EXPECT_THAT(output_, HasSubstr("warning: page 1: " + warning)) << dotted;
+    }
+}
+
+TEST_F(PdfCommands, labels_are_in_any_script) {
+    const std::string names =
+        "\u0421\u0442\u043e\u043b \u03a4\u03c1\u03b1\u03c0\u03ad\u03b6\u03b9 "
+        "\u05e9\u05d5\u05dc\u05d7\u05df";
+    run("$T print -o a.pdf --paper 100x80 --sheets s.json --name '" + names + "'");
+    ASSERT_EQ(exit_code_, 0) << output_;
+    run("qpdf --check a.pdf && pdftotext a.pdf - && pdffonts a.pdf");
+    EXPECT_EQ(exit_code_, 0) << output_;
+    EXPECT_THAT(output_,
+                HasSubstr("\u0421\u0442\u043e\u043b \u03a4\u03c1\u03b1\u03c0\u03ad\u03b6\u03b9"));
+    EXPECT_THAT(output_, Not(HasSubstr("?")));
+    run("gs -q -sDEVICE=ink_cov -r600 -o - a.pdf");
+    EXPECT_THAT(output_, HasSubstr(" 0.00000  0.00000  0.00000 "));
+}
+
 }  // namespace
 }  // namespace dotpose::test

@@ -227,5 +227,23 @@ TEST_F(SheetsTool, changes_wait_for_others) {
     EXPECT_FALSE(sheets().at(0).contains("world"));
 }
 
+TEST_F(SheetsTool, a_measured_length_sets_the_print_scale) {
+    print_small("table");
+    ASSERT_EQ(sheets_tool("scale table --measured 48.5 --of 50"), 0) << errors_;
+    EXPECT_EQ(output_, "table: print scale x 0.97, y 0.97\n");
+    EXPECT_DOUBLE_EQ(sheets().at(0)["print_scale_x"], 0.97);
+    ASSERT_EQ(sheets_tool("scale table --measured 24 --of 25 --along y"), 0) << errors_;
+    EXPECT_EQ(output_, "table: print scale x 0.97, y 0.96\n");
+    EXPECT_DOUBLE_EQ(sheets().at(0)["print_scale_y"], 0.96);
+
+    const json before = sheets();
+    EXPECT_EQ(sheets_tool("scale table --measured 485 --of 50"), 2);
+    EXPECT_THAT(errors_, HasSubstr("0.5 to 2"));
+    EXPECT_EQ(sheets_tool("scale table --measured 48.5"), 2);
+    EXPECT_THAT(errors_, HasSubstr("--of"));
+    EXPECT_EQ(sheets_tool("scale table --measured 1 --of 0"), 2);
+    EXPECT_EQ(sheets(), before);
+}
+
 }  // namespace
 }  // namespace dotpose::test

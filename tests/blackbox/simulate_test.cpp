@@ -1,4 +1,9 @@
 // `dotpose simulate` as its user sees it.
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -6,7 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tool_command.hpp"
+#include "sheets_command.hpp"
 
 namespace dotpose::test {
 namespace {
@@ -84,6 +89,100 @@ TEST_F(SimulateCommand, WrongUsageIsNamed) {
     EXPECT_EQ(run("-o frames --missing 2"), 2);
     EXPECT_EQ(run("-o /proc/nowhere"), 1);
     EXPECT_THAT(errors_, HasSubstr("/proc/nowhere"));
+}
+
+std::set<std::string> names_in(const fs::path& folder) {
+    std::set<std::string> names;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+        names.insert(entry.path().filename().string());
+    return names;
+}
+
+TEST_F(SimulateCommand, NoFrameOfAnEarlierRunIsLeft) {
+    ASSERT_EQ(run("-o frames --frames 5"), 0);
+    std::ofstream(directory_ / "frames/notes.txt") << "mine";
+    ASSERT_EQ(run("-o frames --frames 2 --seed 9"), 0);
+    EXPECT_THAT(errors_, HasSubstr("removed 5 frames of an earlier run"));
+    EXPECT_THAT(
+        names_in(directory_ / "frames"),
+        testing::ElementsAre("frame_000000.pgm", "frame_000001.pgm", "notes.txt", "truth.csv"));
+    EXPECT_EQ(ToolCommand::run("evaluate frames"), 0) << errors_;
+}
+
+TEST_F(SimulateCommand, FramesOfACameraAreNotTouched) {
+    fs::create_directory(directory_ / "frames");
+    std::ofstream(directory_ / "frames/frame_000007.pgm") << "of a camera";
+    EXPECT_EQ(run("-o frames --frames 2"), 1);
+    EXPECT_THAT(errors_, HasSubstr("frame_000007.pgm: name another folder"));
+    EXPECT_THAT(names_in(directory_ / "frames"), testing::ElementsAre("frame_000007.pgm"));
+}
+
+class SimulateDrive : public SheetsCommand {
+  protected:
+    int simulate(const std::string& arguments) {
+        return ToolCommand::run("simulate --drive --sheets sheets.json --preset clean " +
+                                arguments);
+    }
+};
+
+TEST_F(SimulateDrive, RunsOverTheSeamOfTwoSheets) {
+    // The second page lies to the right of the first one, turned by 90 degrees.
+    ASSERT_EQ(print("-o a.svg --paper 60x40 --sheets sheets.json --name a"), 0) << errors_;
+    ASSERT_EQ(print("-o b.svg --paper 40x60 --sheets sheets.json --name b"), 0) << errors_;
+    ASSERT_EQ(ToolCommand::run("sheets place a --x 0 --y 0 --yaw 0"), 0);
+    ASSERT_EQ(ToolCommand::run("sheets place b --x 60 --y -40 --yaw 90"), 0);
+    ASSERT_EQ(simulate("-o frames --speed 200 --fps 10"), 0) << errors_;
+    ASSERT_EQ(ToolCommand::run("locate --sheets sheets.json frames"), 0) << errors_;
+    const std::vector<json> found = records();
+    ASSERT_GT(found.size(), 8U);
+    std::set<std::string> sheets;
+    std::vector<double> steps_mm;
+    std::optional<json> last;
+    for (const json& record : found) {
+        ASSERT_EQ(record["status"], "ok") << record;
+        sheets.insert(record["sheet"]);
+        // The eight of 120 x 40 mm, less the reach of the camera and 5 mm on each side.
+        EXPECT_GT(record["x_m"], 0.0095);
+        EXPECT_LT(record["x_m"], 0.1105);
+        if (last) {
+            steps_mm.push_back(
+                1000 * std::hypot(record["x_m"].get<double>() - (*last)["x_m"].get<double>(),
+                                  record["y_m"].get<double>() - (*last)["y_m"].get<double>()));
+        }
+        last = record;
+    }
+    EXPECT_THAT(sheets, testing::ElementsAre("a", "b"));
+    // 20 mm along a curve.
+    for (const double step_mm : steps_mm) {
+        EXPECT_LT(step_mm, 20.1);
+        EXPECT_GT(step_mm, 12);
+    }
+    ASSERT_EQ(ToolCommand::run("evaluate frames --format json"), 0) << errors_;
+    const json score = json::parse(output_);
+    EXPECT_EQ(score["frames"], found.size());
+    EXPECT_EQ(score["wrong"], 0);
+    EXPECT_LT(score["position_um"]["max"], 10);
+}
+
+TEST_F(SimulateDrive, MakesAVideoWithItsTruth) {
+    ASSERT_EQ(print("-o a.svg --paper 80x60 --sheets sheets.json --name a"), 0) << errors_;
+    ASSERT_EQ(simulate("-o drive.avi --frames 6 --size 320x240 --fps 25"), 0) << errors_;
+    EXPECT_THAT(output_, HasSubstr("drive.avi: 6 frames of 320 x 240 px"));
+    ASSERT_EQ(ToolCommand::run("evaluate drive.avi --poses drive-truth.csv --format json"), 0)
+        << errors_;
+    const json score = json::parse(output_);
+    EXPECT_EQ(score["frames"], 6);
+    EXPECT_EQ(score["located"], 6);
+    EXPECT_EQ(score["wrong"], 0);
+    EXPECT_EQ(ToolCommand::run("simulate -o odd.avi --size 189x120"), 1);
+    EXPECT_THAT(errors_, HasSubstr("even sizes"));
+}
+
+TEST_F(SimulateDrive, NeedsASheet) {
+    EXPECT_EQ(ToolCommand::run("simulate -o frames --drive"), 2);
+    EXPECT_EQ(simulate("-o frames --at 1,2"), 2);
+    write("sheets.json", R"({"version": 1, "sheets": []})");
+    EXPECT_NE(simulate("-o frames"), 0);
 }
 
 }  // namespace

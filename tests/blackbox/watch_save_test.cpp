@@ -1,5 +1,6 @@
 // What `dotpose watch` saves and says of frames: images for calibration, and why most frames fail.
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <string>
 
@@ -122,6 +123,27 @@ TEST_F(WatchHint, NamesCompression) {
     ASSERT_EQ(run("locate video.mp4"), 0);
     EXPECT_THAT(output_, Not(HasSubstr("compressed")));
     EXPECT_THAT(errors_, IsEmpty());
+}
+
+TEST_F(WatchSave, OtherFormatsAreForFastCameras) {
+    ASSERT_EQ(watch("--save saved --save-every 5 --image-format pgm"), 0) << errors_;
+    EXPECT_EQ(pixels("saved/frame_000001.pgm"), pixels("frames/frame_000001.pgm"));
+    ASSERT_EQ(watch("--save saved --save-every 5 --image-format jpeg"), 0) << errors_;
+    EXPECT_THAT(saved(), testing::Contains("frame_000005.jpg"));
+    ASSERT_EQ(run("locate --code anoto saved"), 0);
+    EXPECT_THAT(output_, Not(HasSubstr("no_grid")));
+    EXPECT_EQ(watch("--mcap run.mcap --mcap-images --image-format pgm"), 2);
+    EXPECT_THAT(errors_, HasSubstr("--image-format jpeg"));
+    ASSERT_EQ(watch("--mcap run.mcap --mcap-images --image-format jpeg"), 0) << errors_;
+    EXPECT_THAT(file("run.mcap"), HasSubstr("\xff\xd8\xff"));
+}
+
+TEST_F(WatchSave, RecordedFramesAreTakenInTheirOwnTime) {
+    using namespace std::chrono;
+    const auto begun = steady_clock::now();
+    ASSERT_EQ(watch("--realtime"), 0) << errors_;
+    // The last of 15 frames at 30 frames per second is due after 14 periods.
+    EXPECT_GE(steady_clock::now() - begun, milliseconds(14 * 1000 / 30));
 }
 
 }  // namespace

@@ -45,7 +45,8 @@ std::string tail_of(const cli::RobotState& state) {
 
 Robots::Robots(int first, int count) {
     for (int robot = first; robot < first + count; ++robot) {
-        topics_.push_back(cli::state_topic(fmt::format("robot{}", robot)));
+        topics_.push_back(
+            cli::topic_of(fmt::format("robot{}", robot), cli::Subject::visualization));
         auto& tails = tails_.emplace_back();
         for (int point = 0; point < kPoints; ++point)
             tails.push_back(tail_of(state_at(robot, point)));

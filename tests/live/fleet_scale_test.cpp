@@ -139,7 +139,7 @@ TEST_F(FleetScale, BridgedBrokersPassOnEachStateOnce) {
     const Broker west(folders[1]);
     const Broker east(folders[0], {}, false,
                       fmt::format("connection west\naddress 127.0.0.1:{}\n"
-                                  "topic uagv/v2/+/+/state both 1\ncleansession false\n"
+                                  "topic uagv/v2/dotpose/# both 1\ncleansession false\n"
                                   "restart_timeout 1\n",
                                   west.port()));
     WatchedFleet in_east(folders[0], "--qos 1 --log log.csv --mqtt " + east.url());
@@ -213,7 +213,7 @@ TEST_F(FleetScale, ARobotThatVanishesIsLost) {
     std::this_thread::sleep_for(500ms);
     const std::string table = fleet.table();
     EXPECT_THAT(table, HasSubstr("\nanna             lost  "));
-    EXPECT_THAT(table, HasSubstr("1 robots, 21 states, 0 bad, 0 missed, 0 late, 0 repeated"));
+    EXPECT_THAT(table, HasSubstr("1 robots, 20 states, 0 bad, 0 missed, 0 late, 0 repeated"));
     EXPECT_THAT(file("fleet.svg"), HasSubstr("anna (lost)"));  // and so it was located before
 }
 

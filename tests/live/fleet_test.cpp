@@ -37,19 +37,21 @@ struct Message {
     double y_m = 0;
 
     std::string json() const {
-        const nlohmann::json position = {
-            {"localized", is_localized}, {"mapId", "table"}, {"x", x_m}, {"y", y_m}, {"theta", 0},
-            {"deviationRange", 1e-6}};
-        return nlohmann::json{
-            {"headerId", header_id},   {"timestamp", time},
-            {"serialNumber", robot},   {"state", state},
-            {"agvPosition", position}, {"velocity", {{"vx", 0}, {"vy", 0.5}, {"omega", 0}}}}
-            .dump();
+        nlohmann::json message = {{"headerId", header_id},
+                                  {"timestamp", time},
+                                  {"serialNumber", robot},
+                                  {"state", state}};
+        if (is_localized) {
+            message["agvPosition"] = {
+                {"mapId", "table"}, {"x", x_m}, {"y", y_m}, {"theta", 0}, {"deviationRange", 1e-6}};
+            message["velocity"] = {{"vx", 0}, {"vy", 0.5}, {"omega", 0}};
+        }
+        return message.dump();
     }
 };
 
 std::string topic_of(const std::string& robot) {
-    return "uagv/v2/dotpose/" + robot + "/state";
+    return "uagv/v2/dotpose/" + robot + "/visualization";
 }
 
 /// This moment, as messages tell it.
@@ -75,12 +77,12 @@ TEST_F(Fleet, SeesAWatchedRobot) {
     WatchedFleet fleet(directory_, "--sheets table.json --mqtt " + broker.url());
     EXPECT_EQ(
         run("watch 'f*.pgm' --fps 200 --sheets table.json --robot anna --mqtt " + broker.url()), 0);
-    EXPECT_THAT(errors_, HasSubstr("21 states published, 0 dropped"));
+    EXPECT_THAT(errors_, HasSubstr("20 states published, 0 dropped"));
     std::this_thread::sleep_for(500ms);
     const std::string table = fleet.table();
-    EXPECT_THAT(table, HasSubstr("\nanna             lost  "));
-    EXPECT_THAT(table, testing::ContainsRegex(" 21 +0\n"));
-    EXPECT_THAT(table, HasSubstr("1 robots, 21 states, 0 bad"));
+    EXPECT_THAT(table, HasSubstr("\nanna             offline  "));
+    EXPECT_THAT(table, testing::ContainsRegex(" 20 +0\n"));
+    EXPECT_THAT(table, HasSubstr("1 robots, 20 states, 0 bad"));
     EXPECT_THAT(file("fleet.svg"), HasSubstr("anna (lost)"));
     EXPECT_THAT(file("fleet.svg"), HasSubstr(">left<"));
 }
@@ -213,6 +215,29 @@ TEST_F(Fleet, InventedNamesFillNoMemory) {
     EXPECT_TRUE(sender.flush(60s));
     std::this_thread::sleep_for(1s);
     EXPECT_THAT(fleet.table(), HasSubstr("10000 robots, 12000 states, 0 bad"));
+}
+
+TEST_F(Fleet, ShowsARobotThatLeftBeforeItCame) {
+    const Broker broker(directory_);
+    write_pgm(directory_ / "f.pgm", DriveCamera(188, 120).frame(Drive(), 240).view());
+    ASSERT_EQ(run("watch f.pgm --robot anna --mqtt " + broker.url()), 0) << errors_;
+    WatchedFleet fleet(directory_, "--mqtt " + broker.url());
+    std::this_thread::sleep_for(500ms);
+    EXPECT_THAT(fleet.table(), HasSubstr("\nanna             offline  "));
+}
+
+TEST_F(Fleet, ABrokerThatIsNeverReachedIsAFailure) {
+    const std::string nowhere = fmt::format(" --mqtt mqtt://127.0.0.1:{}", free_port());
+    const std::string reason = "was never reached: Connection refused";
+    EXPECT_EQ(run("fleet --seconds 0.2 --log log.csv" + nowhere), 1);
+    EXPECT_THAT(errors_, HasSubstr(reason));
+    EXPECT_THAT(output_, HasSubstr("0 robots"));
+    EXPECT_THAT(file("log.csv"), HasSubstr("robot,state"));
+    write_pgm(directory_ / "f.pgm", DriveCamera(188, 120).frame(Drive(), 240).view());
+    EXPECT_EQ(run("watch f.pgm --draw path.svg" + nowhere), 1);
+    EXPECT_THAT(errors_, HasSubstr(reason));
+    EXPECT_THAT(output_, HasSubstr("\"status\":\"ok\""));
+    EXPECT_TRUE(fs::exists(directory_ / "path.svg"));
 }
 
 TEST_F(Fleet, NeedsABroker) {

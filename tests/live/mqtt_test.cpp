@@ -104,7 +104,7 @@ TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
     std::atomic<int> taken = 0;
     Broker broker(directory_);
     const std::string reader = fmt::format("mosquitto_sub -p {} -c -i reader -q 1 -t '{}' ",
-                                           broker.port(), "uagv/v2/dotpose/anna/state");
+                                           broker.port(), "uagv/v2/dotpose/anna/visualization");
     shell(reader + "-E");
     shell("mkfifo frames");
     std::thread camera([&] {
@@ -142,7 +142,7 @@ TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
               2)
         << errors_;
     std::printf("%d states sent, %d dropped\n", sent, dropped);
-    EXPECT_EQ(sent + dropped, kFrames + 1);  // the last one says that the robot is lost
+    EXPECT_EQ(sent + dropped, kFrames);
     // Less the 50 states that are kept, and some until it is seen that the broker is gone.
     EXPECT_GT(dropped, kBack - kGone - 100);
 
@@ -216,47 +216,80 @@ TEST_F(Mqtt, TellsThatTheUserIsRefused) {
     EXPECT_THAT(errors_, HasSubstr("refuses the connection"));
 }
 
-TEST_F(Mqtt, LastWillIsSentWhenTheRobotVanishes) {
+/// Options of a publisher whose presence is a word on the topic `presence`.
+MqttOptions with_presence(MqttOptions options) {
+    options.presence_topic = "presence";
+    options.presence = [](publish::Presence presence) -> std::string {
+        switch (presence) {
+            case publish::Presence::online:
+                return "online";
+            case publish::Presence::offline:
+                return "offline";
+            case publish::Presence::broken:
+                break;
+        }
+        return "broken";
+    };
+    return options;
+}
+
+/// What a subscriber hears, one word after the other.
+class Heard {
+  public:
+    explicit Heard(const MqttOptions& options)
+        : subscriber_(options, {"presence"}, [this](std::string_view, std::string_view payload) {
+              const std::lock_guard lock(mutex_);
+              words_ += std::string(payload) + " ";
+          }) {}
+    std::string words() const {
+        const std::lock_guard lock(mutex_);
+        return words_;
+    }
+
+  private:
+    mutable std::mutex mutex_;
+    std::string words_;
+    MqttSubscriber subscriber_;
+};
+
+TEST_F(Mqtt, PresenceIsBrokenWhenTheRobotVanishes) {
     const Broker broker(directory_);
-    std::mutex mutex;
-    std::string heard;
-    MqttSubscriber subscriber(options(broker), "will", [&](const auto&, const auto& payload) {
-        const std::lock_guard lock(mutex);
-        heard = payload;
-    });
+    const Heard early(options(broker));
     const pid_t robot = fork();
     if (robot == 0) {
-        MqttOptions mqtt = options(broker);
-        mqtt.will_topic = "will";
-        mqtt.will = "lost";
-        MqttPublisher publisher(mqtt);
-        publisher.publish("will", "here");
+        MqttPublisher publisher(with_presence(options(broker)));
+        publisher.publish("t", "here");
         publisher.flush(5s);
         kill(getpid(), SIGKILL);
     }
     waitpid(robot, nullptr, 0);
-    wait_until([&] {
-        const std::lock_guard lock(mutex);
-        return heard == "lost";
-    });
+    wait_until([&] { return early.words() == "online broken "; });
+    const Heard late(options(broker));
+    wait_until([&] { return late.words() == "broken "; });
 }
 
-TEST_F(Mqtt, LastWillIsNotSentWhenTheRobotTakesItsLeave) {
+TEST_F(Mqtt, PresenceIsOfflineAfterACleanEnd) {
     const Broker broker(directory_);
-    std::atomic<bool> is_heard = false;
-    MqttSubscriber subscriber(options(broker), "will",
-                              [&](const auto&, const auto&) { is_heard = true; });
+    std::string expected;
+    const Heard early(options(broker));
     for (int i = 0; i < 20; ++i) {
-        MqttOptions mqtt = options(broker);
-        mqtt.will_topic = "will";
-        mqtt.will = "lost";
-        mqtt.qos = 1;
-        MqttPublisher publisher(mqtt);
-        publisher.publish("t", "here");
-        publisher.flush(5s);
+        MqttPublisher publisher(with_presence(options(broker)));
+        expected += "online offline ";
     }
-    std::this_thread::sleep_for(200ms);
-    EXPECT_FALSE(is_heard);
+    wait_until([&] { return early.words() == expected; });
+    const Heard late(options(broker));
+    wait_until([&] { return late.words() == "offline "; });
+}
+
+TEST_F(Mqtt, PresenceIsOnlineAgainWhenTheBrokerIsBack) {
+    Broker broker(directory_);
+    MqttPublisher publisher(with_presence(options(broker)));
+    broker.stop();
+    wait_until([&] { return !publisher.is_connected(); });
+    broker.start();
+    wait_until([&] { return publisher.is_connected(); });
+    const Heard late(options(broker));
+    wait_until([&] { return late.words() == "online "; });
 }
 
 }  // namespace

@@ -5,11 +5,12 @@
 ///     const dotpose::OverlayReport report = dotpose::overlay_pdf("in.pdf", "out.pdf", options);
 ///
 /// Pages keep their content and functions: text, links, forms, outlines, boxes, rotation. Each page
-/// that gets dots gets its own region of the code plane. Functions share no state.
+/// that gets dots gets its own region of the code plane, in each copy. Functions share no state.
 #pragma once
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,8 +23,11 @@ namespace dotpose {
 
 /// One page with dots. The frame of its sheet begins at the top left corner of the page as shown.
 struct OverlaidPage {
-    int number = 0;  ///< page number, from 1
+    /// Number of the page among those of all copies, from 1. The pages of the second copy follow
+    /// those of the first.
+    int number = 0;
     Sheet sheet;
+    int document_page = 0;  ///< number of the page in the document, from 1
 };
 
 /// What is laid over which pages.
@@ -35,6 +39,11 @@ struct OverlayOptions {
     DotDrawing drawing = DotDrawing::automatic;
     /// Pages that get dots, from 1, for example "1-3,7"; "z" is the last page. Empty: all.
     std::string pages;
+    int copies = 1;  ///< copies of the document, each with cells of its own
+    /// Paper on which several pages with dots are printed side by side, with cut marks. The pages
+    /// become cards: the sheet of each begins at the corner of its card. Cards have no links and
+    /// form fields, and pages without dots are left out. None: each page is a page of its own.
+    std::optional<Paper> card_paper;
     bool under = false;    ///< puts dots below the page's content instead of above
     std::string password;  ///< of an encrypted file, which stays encrypted
     bool black_to_cmy =
@@ -54,6 +63,7 @@ struct OverlayOptions {
 struct OverlayReport {
     std::vector<OverlaidPage> pages;
     std::vector<std::string> warnings;  ///< for the user: what may hide dots or was not converted
+    int card_pages = 0;                 ///< number of pages of cards; 0 without them
 };
 
 /// Writes `in` with dots to `out`, which appears complete or not at all.
@@ -62,7 +72,8 @@ struct OverlayReport {
 /// forms, fonts and appearances; and of images as far as their colour space allows. The report
 /// names what stays unchanged.
 ///
-/// Throws BadArgument: bad pattern, margin or page range; a page that is too small or whose region
+/// Throws BadArgument: bad pattern, margin, page range or number of copies; cards of different
+/// sizes, or larger than their paper; a page that is too small or whose region
 /// would run past the end of the code plane; `out` is `in`. Throws Error: `in` cannot be read, is
 /// damaged, needs another password, is nested too deeply or unpacks to too much; `out` cannot be
 /// written; `progress` returned false.

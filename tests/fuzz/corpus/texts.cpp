@@ -85,10 +85,12 @@ constexpr const char* kLog =
 
 constexpr const char* kStates =
     "\t{\"headerId\":7,\"timestamp\":\"2026-11-24T16:20:00.5Z\",\"state\":\"moving\","
-    "\"agvPosition\":{\"localized\":true,\"mapId\":\"hall\",\"x\":1.5,\"y\":-2,\"theta\":0.1,"
+    "\"agvPosition\":{\"mapId\":\"hall\",\"x\":1.5,\"y\":-2,\"theta\":0.1,"
     "\"deviationRange\":0.001},\"velocity\":{\"vx\":0.1,\"vy\":0,\"omega\":0}}\n"
-    "uagv/v2/dotpose/bob/state\t{\"headerId\":8,\"timestamp\":\"2026-11-24T16:20:01Z\",\"state\":"
-    "\"lost\",\"agvPosition\":{\"localized\":false,\"mapId\":\"pattern-1\"}}\n";
+    "uagv/v2/dotpose/bob/visualization\t{\"headerId\":8,\"timestamp\":\"2026-11-24T16:20:01Z\","
+    "\"state\":\"lost\"}\n"
+    "uagv/v2/dotpose/bob/connection\t{\"headerId\":1,\"timestamp\":\"2026-11-24T16:20:01Z\","
+    "\"connectionState\":\"OFFLINE\"}\n";
 
 constexpr const char* kOptions =
     "--origin\n1000,2000\n--section\n1,2\n--spacing\n0.5\n--dot=0.1\n--size\n188x120\n--code\n"

@@ -1,0 +1,93 @@
+/// Work on a list by several threads, whose results come in the order of the list.
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace dotpose::cli {
+
+/// Thread `i` of `n` works on the items i, i + n, i + 2n and so on, and gives one result for each.
+template <typename Result>
+class OrderedThreads {
+  public:
+    /// Passes on a result. Waits while the results before it have not been taken. Returns false if
+    /// nobody will take it, so that the thread ends.
+    using Emit = std::function<bool(Result)>;
+    using Work = std::function<void(std::size_t thread, const Emit& emit)>;
+
+    OrderedThreads(std::size_t threads, const Work& work) {
+        for (std::size_t i = 0; i < threads; ++i)
+            lanes_.push_back(std::make_unique<Lane>());
+        for (std::size_t i = 0; i < threads; ++i) {
+            Lane& lane = *lanes_[i];
+            lane.thread = std::jthread([&lane, work, i](const std::stop_token& stop) {
+                try {
+                    work(i, [&](Result result) { return lane.put(std::move(result), stop); });
+                } catch (...) {
+                    lane.failure = std::current_exception();
+                }
+                lane.end();
+            });
+        }
+    }
+
+    /// Returns the next result, or none after the last one. Throws what the thread threw.
+    std::optional<Result> next() {
+        Lane& lane = *lanes_[next_lane_++ % lanes_.size()];
+        std::optional<Result> result = lane.take();
+        if (!result && lane.failure) std::rethrow_exception(lane.failure);
+        return result;
+    }
+
+  private:
+    /// One thread and its results that have not been taken.
+    struct Lane {
+        static constexpr std::size_t kMaxResults = 16;
+
+        bool put(Result result, const std::stop_token& stop) {
+            std::unique_lock lock(mutex);
+            if (!changed.wait(lock, stop, [this] { return results.size() < kMaxResults; })) {
+                return false;
+            }
+            results.push_back(std::move(result));
+            changed.notify_all();
+            return true;
+        }
+        void end() {
+            const std::lock_guard lock(mutex);
+            has_ended = true;
+            changed.notify_all();
+        }
+        std::optional<Result> take() {
+            std::unique_lock lock(mutex);
+            changed.wait(lock, [this] { return !results.empty() || has_ended; });
+            if (results.empty()) return std::nullopt;
+            Result result = std::move(results.front());
+            results.pop_front();
+            changed.notify_all();
+            return result;
+        }
+
+        std::mutex mutex;
+        std::condition_variable_any changed;
+        std::deque<Result> results;
+        bool has_ended = false;
+        std::exception_ptr failure;  ///< written before `has_ended`
+        std::jthread thread;         ///< last, because it uses the other members
+    };
+
+    std::vector<std::unique_ptr<Lane>> lanes_;
+    std::size_t next_lane_ = 0;
+};
+
+}  // namespace dotpose::cli

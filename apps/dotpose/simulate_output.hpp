@@ -1,0 +1,38 @@
+/// Where `dotpose simulate` writes frames: images in a folder, or a video.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "dotpose/tools/grey_image.hpp"
+
+namespace dotpose::cli {
+
+/// First line of a file of true poses.
+inline constexpr const char* kTruthHeader =
+    "file,x_mm,y_mm,theta_deg,x_grid,y_grid,section_u,section_v,profile,spacing_mm,px_per_spacing,"
+    "preset,seed\n";
+
+class SimulateOutput {
+  public:
+    virtual ~SimulateOutput() = default;
+
+    /// File for the true poses.
+    virtual std::filesystem::path truth_path() const = 0;
+    /// Name of a frame in that file.
+    virtual std::string name(int index) const = 0;
+    /// Writes the next frame. Throws Error.
+    virtual void write(int index, const GreyImage& image) = 0;
+    /// Completes the output. Throws Error.
+    virtual void finish() = 0;
+};
+
+/// Whether a name is that of a video.
+bool is_video_name(const std::string& out);
+
+/// Opens a video, or makes a folder if there is none and removes the frames of an earlier run from
+/// it. Throws Error if the folder has frames of another origin.
+std::unique_ptr<SimulateOutput> open_simulate_output(const std::string& out, double fps);
+
+}  // namespace dotpose::cli

@@ -1,0 +1,126 @@
+#include "pdf_script_text.hpp"
+
+#include <memory>
+
+#include <cairo-pdf.h>
+#include <fmt/core.h>
+#include <librsvg/rsvg.h>
+#include <qpdf/QPDFPageDocumentHelper.hh>
+
+#include "dotpose/files/error.hpp"
+
+namespace dotpose::print {
+namespace {
+
+/// Room above and below the baseline, as part of the size: also for stacked marks.
+constexpr double kAscent = 1.5;
+constexpr double kDescent = 0.8;
+
+template <auto Free>
+struct Freed {
+    template <typename Object>
+    void operator()(Object* object) const {
+        Free(object);
+    }
+};
+using Drawing = std::unique_ptr<RsvgHandle, Freed<g_object_unref>>;
+using Surface = std::unique_ptr<cairo_surface_t, Freed<cairo_surface_destroy>>;
+using Context = std::unique_ptr<cairo_t, Freed<cairo_destroy>>;
+
+std::string escaped(const std::string& text) {
+    std::string escaped;
+    for (const char c : text) {
+        if (c == '&') {
+            escaped += "&amp;";
+        } else if (c == '<') {
+            escaped += "&lt;";
+        } else {
+            escaped += c;
+        }
+    }
+    return escaped;
+}
+
+[[noreturn]] void fail(const std::string& text) {
+    throw Error(fmt::format("the label '{}' cannot be set", text));
+}
+
+/// Returns a drawing of the text, whose units are points. The librsvg library chooses the fonts,
+/// joins letters and orders them by the rules of their script.
+Drawing drawing_of(const std::string& text, double size_pt, double width_pt) {
+    const std::string svg = fmt::format(
+        R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="{1}">)"
+        R"(<text id="t" x="0" y="{2}" font-family="Helvetica, sans-serif" font-size="{3}" )"
+        R"(xml:space="preserve">{4}</text></svg>)",
+        width_pt, (kAscent + kDescent) * size_pt, kAscent * size_pt, size_pt, escaped(text));
+    const auto* bytes = reinterpret_cast<const guint8*>(svg.data());
+    Drawing drawing(rsvg_handle_new_from_data(bytes, svg.size(), nullptr));
+    if (!drawing) fail(text);
+    return drawing;
+}
+
+cairo_status_t append(void* document, const unsigned char* data, unsigned size) {
+    static_cast<std::string*>(document)->append(reinterpret_cast<const char*>(data), size);
+    return CAIRO_STATUS_SUCCESS;
+}
+
+/// Returns a PDF document of one page with the text.
+std::string document_of(const std::string& text, double size_pt, double width_pt) {
+    const RsvgRectangle page{0, 0, width_pt, (kAscent + kDescent) * size_pt};
+    const Drawing drawing = drawing_of(text, size_pt, width_pt);
+    std::string document;
+    const Surface surface(
+        cairo_pdf_surface_create_for_stream(append, &document, page.width, page.height));
+    const Context context(cairo_create(surface.get()));
+    if (rsvg_handle_render_document(drawing.get(), context.get(), &page, nullptr) == 0) fail(text);
+    cairo_show_page(context.get());
+    cairo_surface_finish(surface.get());
+    if (cairo_surface_status(surface.get()) != CAIRO_STATUS_SUCCESS) fail(text);
+    return document;
+}
+
+}  // namespace
+
+double ScriptText::width_pt(const std::string& utf8, double size_pt) {
+    const std::string key = fmt::format("{} {}", size_pt, utf8);
+    const auto known = widths_pt_.find(key);
+    if (known != widths_pt_.end()) return known->second;
+    constexpr double kAny_pt = 1;
+    const Drawing drawing = drawing_of(utf8, size_pt, kAny_pt);
+    RsvgRectangle ink{};
+    if (rsvg_handle_get_geometry_for_element(drawing.get(), "#t", &ink, nullptr, nullptr) == 0) {
+        fail(utf8);
+    }
+    return widths_pt_[key] = ink.x + ink.width;
+}
+
+QPDFObjectHandle ScriptText::form_of(const std::string& utf8, double size_pt) {
+    const std::string key = fmt::format("{} {}", size_pt, utf8);
+    const auto known = forms_.find(key);
+    if (known != forms_.end()) return known->second;
+    const std::string document = document_of(utf8, size_pt, width_pt(utf8, size_pt) + 1);
+    QPDF& source = *sources_.emplace_back(std::make_unique<QPDF>());
+    // Streams are copied now, because `document` ends with this function.
+    source.setImmediateCopyFrom(true);
+    source.processMemoryFile("label", document.data(), document.size());
+    QPDFPageObjectHelper page = QPDFPageDocumentHelper(source).getAllPages().front();
+    return forms_[key] = pdf_.copyForeignObject(page.getFormXObjectForPage());
+}
+
+std::string ScriptText::draw(const std::string& utf8, double size_pt, double x_pt, double y_pt) {
+    const std::string name = fmt::format("/Text{}", drawn_.size() + 1);
+    drawn_[name] = form_of(utf8, size_pt);
+    return fmt::format("q 1 0 0 1 {:.3f} {:.3f} cm {} Do Q\n", x_pt, y_pt - kDescent * size_pt,
+                       name);
+}
+
+void ScriptText::add_to(QPDFObjectHandle resources) {
+    if (drawn_.empty()) return;
+    QPDFObjectHandle objects = QPDFObjectHandle::newDictionary();
+    for (const auto& [name, form] : drawn_)
+        objects.replaceKey(name, form);
+    resources.replaceKey("/XObject", objects);
+    drawn_.clear();
+}
+
+}  // namespace dotpose::print

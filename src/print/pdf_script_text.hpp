@@ -1,0 +1,41 @@
+/// Text in any script for the labels of a PDF page, set with the fonts of the computer. Helvetica,
+/// which is not embedded, has Latin letters only.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <qpdf/QPDF.hh>
+#include <qpdf/QPDFObjectHandle.hh>
+
+namespace dotpose::print {
+
+/// Lines of text as form objects with embedded fonts. A line that occurs on many pages is one
+/// object.
+class ScriptText {
+  public:
+    /// `pdf` must outlive this object, which must live until `pdf` is written.
+    explicit ScriptText(QPDF& pdf) : pdf_(pdf) {}
+
+    /// Returns the width of a line, in points. Throws Error if it cannot be set.
+    double width_pt(const std::string& utf8, double size_pt);
+
+    /// Returns the content that draws a line with its baseline at (x_pt, y_pt). Throws Error.
+    std::string draw(const std::string& utf8, double size_pt, double x_pt, double y_pt);
+
+    /// Adds the lines that were drawn since the last call to the resources of their page.
+    void add_to(QPDFObjectHandle resources);
+
+  private:
+    QPDFObjectHandle form_of(const std::string& utf8, double size_pt);
+
+    QPDF& pdf_;
+    std::map<std::string, double> widths_pt_;
+    std::map<std::string, QPDFObjectHandle> forms_;  ///< by size and text
+    std::map<std::string, QPDFObjectHandle> drawn_;  ///< on this page, by name
+    std::vector<std::unique_ptr<QPDF>> sources_;     ///< documents that the forms come from
+};
+
+}  // namespace dotpose::print

@@ -1,0 +1,44 @@
+// Writes pictures to a video file: H.264 or MPEG-4, or Motion JPEG if its name ends in .avi.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include <opencv2/core.hpp>
+#include <opencv2/videoio.hpp>
+
+#include "dotpose/image.hpp"
+#include "video/h264_file.hpp"
+
+namespace dotpose::video {
+
+class Recording {
+  public:
+    /// The file is created with the first picture. `tell` gets messages for the user.
+    Recording(std::string path, double fps, std::function<void(const std::string&)> tell);
+
+    /// Append a picture, which has blue, green and red, or is grey. Throw Error, as on a full disk
+    /// or if the pictures differ in size.
+    void write(const cv::Mat& picture);
+    void write(ImageView image);
+
+    /// Closes the file and counts its frames: OpenCV reports neither a full disk nor an incomplete
+    /// file. Throws Error if frames are missing.
+    void finish();
+
+  private:
+    bool is_disk_full() const;
+    void open(cv::Size size);
+
+    std::string path_;
+    double fps_;
+    std::function<void(const std::string&)> tell_;
+    std::unique_ptr<H264File> h264_;
+    cv::VideoWriter writer_;  ///< open if the recording is not H.264
+    cv::Size size_;
+    std::int64_t frames_ = 0;  ///< number of frames that were written
+};
+
+}  // namespace dotpose::video
