@@ -21,11 +21,11 @@ GreyImage decode_image(ImageFormat format, std::span<const std::uint8_t> bytes, 
 std::optional<Resolution> decode_resolution(ImageFormat format,
                                             std::span<const std::uint8_t> bytes);
 
-/// Formats in which frames are saved. Of 1280 x 720 px, docs/live.md has their sizes and times.
+/// Formats in which frames are saved.
 enum class FrameFormat : std::uint8_t {
     png,   ///< without loss
-    jpeg,  ///< with a quality of 95; several times as fast as PNG
-    pgm,   ///< without loss and compression; the fastest
+    jpeg,  ///< with a quality of 95
+    pgm,   ///< without loss and compression
 };
 
 /// Encode an image, which must not be empty. Throw Error if the encoder fails.
