@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -10,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <fmt/core.h>
@@ -120,15 +122,17 @@ RunFiles files_of(const WatchArguments& arguments, const Sources& sources) {
     return files;
 }
 
-/// Writes to standard error why most frames fail, and whether another code explains them.
+/// Writes to standard error why most frames fail, and the first warning of each kind.
 void tell_once_in_a_while(const Reading& reading, ImageView image, const Follower& follower,
-                          double bits_per_px, FailureHint& hint, bool& is_warned) {
+                          double bits_per_px, FailureHint& hint,
+                          std::array<bool, kWarnings>& was_told) {
     const std::string advice = hint.after(reading, image, follower.used_options(), bits_per_px);
     if (!advice.empty()) tell(advice);
-    const std::string doubt = is_warned ? std::string() : warning(reading.record);
-    if (doubt.empty()) return;
-    tell(fmt::format("frame {}: {}", reading.index, doubt));
-    is_warned = true;
+    const auto doubts = warnings(reading.record);
+    for (std::size_t i = 0; i < doubts.size(); ++i) {
+        if (doubts[i].empty() || std::exchange(was_told[i], true)) continue;
+        tell(fmt::format("frame {}: {}", reading.index, doubts[i]));
+    }
 }
 
 FollowerOptions options_of(const WatchArguments& arguments) {
@@ -164,6 +168,31 @@ class Pace {
     std::optional<std::chrono::steady_clock::time_point> begun_;  ///< when time 0 was due
 };
 
+/// Says on standard error which places the tracked poses have, if they are not in the world.
+void tell_frame_of_poses(const WatchArguments& arguments, const Follower& follower) {
+    const OutputOptions& outputs = arguments.outputs;
+    const bool is_published = outputs.mqtt || outputs.messages.is_wanted();
+    if (follower.sheets().empty()) {
+        if (!is_published) return;
+        tell(
+            "poses are published in the frame of the pattern (y down, angles clockwise): give "
+            "--sheets with sheets that have a place in the world (dotpose sheets place)");
+        return;
+    }
+    std::string unplaced;
+    for (const SheetEntry& entry : follower.sheets()) {
+        if (!entry.world) unplaced += (unplaced.empty() ? "" : ", ") + entry.name;
+    }
+    if (unplaced.empty()) return;
+    tell(
+        follower.is_in_world()
+            ? fmt::format("the robot counts as lost on sheets without a place in the world: {}; "
+                          "place them (dotpose sheets place, dotpose calibrate --stitch)",
+                          unplaced)
+            : "no sheet has a place in the world, so that the robot is tracked in the frame of the "
+              "pattern (y down, angles clockwise): place the sheets first (dotpose sheets place)");
+}
+
 /// Returns the number of frames that will be followed, or 0 if it is not known.
 std::int64_t length_of(const WatchArguments& arguments, const Sources& sources,
                        const capture::FrameSource& source) {
@@ -179,7 +208,7 @@ int follow(const WatchArguments& arguments, capture::FrameSource& source, std::i
            FailureHint& hint) {
     try {
         capture::Frame frame;
-        bool is_warned = false;
+        std::array<bool, kWarnings> was_told{};
         bool goes_on = true;
         Pace pace;
         ProgressLine progress("following", arguments.outputs.lines.out);
@@ -188,7 +217,7 @@ int follow(const WatchArguments& arguments, capture::FrameSource& source, std::i
             if (arguments.follower.is_inverted) invert(frame.image);
             const Reading reading = read(frame, follower);
             tell_once_in_a_while(reading, frame.image.view(), follower, source.bits_per_px(), hint,
-                                 is_warned);
+                                 was_told);
             if (saver) {
                 save(*saver, frame.image, reading.record.fix, arguments.follower.is_inverted);
             }
@@ -257,11 +286,12 @@ int run(WatchArguments& arguments) {
     const auto source = sources.open(source_options);
     source->open();
     Follower follower(options_of(arguments));
+    arguments.outputs.messages.dds = arguments.dds.publisher();
+    tell_frame_of_poses(arguments, follower);
     arguments.outputs.world_map = std::filesystem::path(arguments.follower.sheets).stem().string();
     if (source->rate() > 0) arguments.outputs.screen.fps = source->rate();
     arguments.outputs.screen.tell = tell;
     arguments.outputs.messages.robot = arguments.outputs.robot;
-    arguments.outputs.messages.dds = arguments.dds.publisher();
     arguments.outputs.messages.camera = arguments.follower.camera.camera;
     arguments.outputs.screen.has_window = !arguments.has_no_window && video::has_display();
     std::optional<FrameSaver> saver;

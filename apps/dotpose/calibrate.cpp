@@ -23,6 +23,7 @@
 #include "output_arguments.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"
+#include "sheet_text.hpp"
 #include "source_arguments.hpp"
 #include "terminal_text.hpp"
 
@@ -33,7 +34,7 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  dotpose calibrate --live 0 -o camera.yaml\n"
     "  dotpose calibrate frames/*.png -o camera.yaml --draw camera.svg\n"
-    "  dotpose calibrate video.mp4 -o camera.yaml\n"
+    "  dotpose calibrate video.mp4 --sheets sheets.json -o camera.yaml\n"
     "  dotpose calibrate --camera camera.yaml -o camera.yaml --spin turn/*.png --drive line/*.png\n"
     "  dotpose calibrate --stitch --sheets sheets.json --camera camera.yaml seams/*.png\n\n"
     "Take 5 to 50 frames of any printed sheet, some centimetres and any angle apart; 12 of the "
@@ -53,6 +54,7 @@ struct CalibrateArguments {
     bool stitch = false;
     ScaleReference reference;
     std::string sheets;
+    SpacingSource spacing = SpacingSource::assumed;
     CameraArgument camera;
     std::string out;
     std::string picture;
@@ -123,6 +125,27 @@ void write_result(const std::string& out, const Camera& camera) {
     output.finish();
 }
 
+/// Throws Error unless the frames have the size of the images of the camera file.
+void require_size(const Camera& file, const Camera& frames, const std::string& path) {
+    if (file.width_px == frames.width_px && file.height_px == frames.height_px) return;
+    throw Error(
+        fmt::format("{} is for images of {} x {} px, and the frames have {} x {} px: its mount "
+                    "cannot be kept; write another file with -o",
+                    path, file.width_px, file.height_px, frames.width_px, frames.height_px));
+}
+
+/// Copies mount, exposure and gain from another calibration of the same camera.
+void keep_mount(const Camera& from, Camera& to) {
+    to.reference_px = reference_in(to, from);
+    to.theta_offset_rad = from.theta_offset_rad;
+    to.exposure_us = from.exposure_us;
+    to.gain = from.gain;
+    for (const char* key : {"reference_u_px", "reference_v_px", "theta_offset_rad"}) {
+        const auto sigma = from.sigma.find(key);
+        if (sigma != from.sigma.end()) to.sigma[key] = sigma->second;
+    }
+}
+
 /// Calibrates the lens and then the mount, if frames for them are given. Returns a report.
 std::string calibrate_camera(const CalibrateArguments& arguments, Series& series) {
     std::string report;
@@ -134,13 +157,11 @@ std::string calibrate_camera(const CalibrateArguments& arguments, Series& series
                 ? calibrate_live(arguments.sources, *series.lens, arguments.options, arguments.live)
                 : with_progress(arguments, *series.lens, "calibrating the lens", calibrate_lens);
         if (camera) {
-            lens->camera.reference_px = reference_in(lens->camera, *camera);
-            lens->camera.theta_offset_rad = camera->theta_offset_rad;
-            lens->camera.exposure_us = camera->exposure_us;
-            lens->camera.gain = camera->gain;
+            require_size(*camera, lens->camera, arguments.camera.path);
+            keep_mount(*camera, lens->camera);
         }
         camera = lens->camera;
-        report += lens_report(*lens);
+        report += lens_report(*lens, arguments.spacing);
         if (arguments.is_live) report += corner_report(*camera);
     }
     const auto go_on = [&](std::optional<Sources>& sources, const char* what, auto calibrate,
@@ -196,12 +217,44 @@ std::string stitch(const CalibrateArguments& arguments, Sources& sources) {
     return stitching_report(stitching);
 }
 
+/// Without --camera, starts from the camera file that -o replaces: what is not calibrated now, such
+/// as the mount, is kept. Throws Error if that file is not a camera file.
+void keep_camera_of(const std::string& out, CameraArgument& camera) {
+    std::error_code failed;
+    if (!camera.path.empty() || !std::filesystem::is_regular_file(out, failed) ||
+        std::filesystem::file_size(out, failed) == 0) {
+        return;
+    }
+    try {
+        camera.camera = read_camera(out);
+    } catch (const Error& error) {
+        throw Error(
+            fmt::format("{}; -o replaces a camera file only: name another file", error.what()));
+    }
+    camera.path = out;
+    tell(fmt::format("{} exists: what is not calibrated now, such as the mount, is kept", out));
+}
+
+/// Uses the sheets of --sheets: code and spacing of the frames are theirs.
+void use_sheets(CalibrateArguments& arguments) {
+    if (arguments.sheets.empty() || arguments.stitch) return;
+    arguments.spacing = SpacingSource::sheets;
+    arguments.options.sheets = read_sheets(arguments.sheets);
+    const auto code = common_profile(arguments.sheets, arguments.options.sheets);
+    arguments.options.any_code = !code;
+    if (code) arguments.options.pattern.profile = *code;
+}
+
 void require_apart(const CalibrateArguments& arguments, const Series& series) {
     RunFiles files;
     for (const auto* sources : {&series.lens, &series.spin, &series.drive}) {
         if (*sources) (*sources)->add_files(files);
     }
-    files.updates("--sheets", arguments.sheets, Content::json);
+    if (arguments.stitch) {
+        files.updates("--sheets", arguments.sheets, Content::json);
+    } else {
+        files.reads("--sheets", arguments.sheets);
+    }
     // The output may be the camera file that is read: it keeps the values that are not calibrated
     // now.
     const auto camera = identity_of(arguments.camera.path);
@@ -219,13 +272,15 @@ void require_apart(const CalibrateArguments& arguments, const Series& series) {
 }
 
 /// Returns the exit status.
-int run(const CalibrateArguments& arguments) {
+int run(CalibrateArguments& arguments) {
     const bool has_mount = !arguments.spin.empty() || !arguments.drive.empty();
     if (!arguments.sources.is_given() && !has_mount) {
         throw BadArgument("no frames given: name 5 to 50 images, or a video or camera");
     }
     if (arguments.stitch && has_mount) throw BadArgument("--stitch is a job of its own");
     Series series = series_of(arguments);
+    keep_camera_of(arguments.out, arguments.camera);
+    use_sheets(arguments);
     require_apart(arguments, series);
     // Nobody should move a camera for minutes in vain.
     if (arguments.is_live && !arguments.out.empty()) base::require_writable(arguments.out);
@@ -272,7 +327,8 @@ void add_calibrate(Command& app, int& exit_code) {
                     "Also draw residuals and coverage of the image, with --spin the turn (beside "
                     "the other, as NAME-spin.svg), with --stitch the sheets before and after");
     add_camera_option(*command, arguments->camera,
-                      "Camera file to start from: its lens where no frames of a sheet are given");
+                      "Camera file to start from: what is not calibrated now is kept, the lens or "
+                      "the mount; without it, the file of -o if it exists");
     command
         ->add_option("--spin", arguments->spin,
                      "Frames of the robot turning on the spot: find its centre (reference_px)")
@@ -293,7 +349,10 @@ void add_calibrate(Command& app, int& exit_code) {
     Option* stitch = command->add_flag(
         "--stitch", arguments->stitch,
         "Find how the sheets of a sheet file lie, from frames that show two, and write it there");
-    Option* sheets = add_sheets_option(*command, arguments->sheets, "Sheet file to stitch");
+    Option* sheets = add_sheets_option(*command, arguments->sheets,
+                                            "Sheet file: the code and spacing of the frames are "
+                                            "those of the sheet that they show; with "
+                                            "--stitch, the sheets to stitch");
     command
         ->add_option_function<std::string>(
             "--true-scale",
@@ -304,14 +363,15 @@ void add_calibrate(Command& app, int& exit_code) {
         ->default_str("the mean of the first sheet")
         ->needs(stitch);
     stitch->needs(sheets);
-    sheets->needs(stitch);
     stitch->excludes(command->get_option("--out"));
     add_live_options(*command, *arguments);
     add_spacing_option(*command, arguments->options.pattern.spacing_mm);
     add_code_option(*command, arguments->code);
-    command->callback([arguments, &exit_code] {
+    sheets->excludes(command->get_option("--spacing"), command->get_option("--code"));
+    command->callback([arguments, command, &exit_code] {
         arguments->options.any_code = !arguments->code;
         arguments->options.pattern.profile = arguments->code.value_or(Profile::anoto);
+        if (command->count("--spacing") > 0) arguments->spacing = SpacingSource::option;
         exit_code = run(*arguments);
     });
 }

@@ -57,9 +57,22 @@ void add_view(std::string& text, const Camera& camera) {
     }
 }
 
+const char* spacing_remark(SpacingSource source) {
+    switch (source) {
+        case SpacingSource::sheets:
+            return ", of the sheet in the sheet file";
+        case SpacingSource::option:
+            return ", as given";
+        case SpacingSource::assumed:
+            break;
+    }
+    return ", ASSUMED: all lengths are wrong for a sheet with another one; give --sheets or "
+           "--spacing";
+}
+
 }  // namespace
 
-std::string lens_report(const LensCalibration& calibration) {
+std::string lens_report(const LensCalibration& calibration, SpacingSource source) {
     const Camera& camera = calibration.camera;
     std::string text;
     add(text, "frames      {} of {} located{}, {} dots, {} left out", calibration.located,
@@ -78,7 +91,15 @@ std::string lens_report(const LensCalibration& calibration) {
         calibration.px_per_spacing, 100 * calibration.dot_width, 100 * calibration.coverage);
     add(text, "residual    {:.4f} px before, {:.4f} px after (rms per axis)",
         calibration.residual_before_px, calibration.residual_px);
-    add(text, "verdict     {}: {}", name(calibration.verdict), calibration.advice);
+    // Without the view of a mounted camera, the calibration does not depend on the spacing.
+    const bool is_assumed = calibration.is_mounted && source == SpacingSource::assumed &&
+                            calibration.verdict == CalibrationVerdict::good;
+    if (calibration.is_mounted) {
+        add(text, "spacing     {:g} mm{}", calibration.spacing_mm, spacing_remark(source));
+    }
+    add(text, "verdict     {}{}: {}", name(calibration.verdict),
+        is_assumed ? fmt::format(" if the spacing is {:g} mm", calibration.spacing_mm) : "",
+        calibration.advice);
     return text;
 }
 

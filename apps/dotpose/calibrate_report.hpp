@@ -7,7 +7,10 @@
 
 namespace dotpose::cli {
 
-std::string lens_report(const LensCalibration& calibration);
+/// Where the spacing of a calibration comes from.
+enum class SpacingSource { assumed, option, sheets };
+
+std::string lens_report(const LensCalibration& calibration, SpacingSource source);
 /// How well the corner of the image is known after a live calibration.
 std::string corner_report(const Camera& camera);
 std::string spin_report(const SpinCalibration& calibration);

@@ -21,6 +21,7 @@
 #include "output_arguments.hpp"
 #include "progress.hpp"
 #include "run_files.hpp"
+#include "sheet_text.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
@@ -45,6 +46,7 @@ struct CheckPrintArguments {
     ReportArguments report;
     std::string picture;
     std::optional<double> dpi;
+    int page = 1;
     int max_megapixels = kDefaultImagePixels / 1'000'000;
     bool fit = false;
     std::string sheets;
@@ -96,6 +98,23 @@ void require_scan(const std::string& scan, const PrintCheck& check) {
     }
 }
 
+/// Returns a remark on the place of the dots on the page, which a scan does not show as long as the
+/// edges of the paper are not visible.
+std::string offset_remark(const SheetEntry& entry) {
+    const Sheet& sheet = entry.sheet;
+    // Usual drivers scale a page about its corner or its middle.
+    const auto shift_mm = [](double scale, double first_mm, double side_mm) {
+        return std::abs(1 - scale) * std::max(first_mm, std::abs(side_mm / 2 - first_mm));
+    };
+    return fmt::format(
+        "the place of its dots on the page is not fitted: scaling alone shifts it by up to {:.1f} "
+        "mm "
+        "along x and {:.1f} mm along y; distances on the sheet are right, and a ruler tells "
+        "first_x_mm and first_y_mm of the sheet file",
+        shift_mm(entry.print_scale_x, sheet.origin_x_mm, sheet.width_mm),
+        shift_mm(entry.print_scale_y, sheet.origin_y_mm, sheet.height_mm));
+}
+
 /// Writes the scale of every field of dots to the sheet that it belongs to, and returns a report.
 /// The fields refer to `sheets` by index.
 std::string fit_sheets(const std::string& path, const std::vector<SheetEntry>& sheets,
@@ -116,24 +135,14 @@ std::string fit_sheets(const std::string& path, const std::vector<SheetEntry>& s
         entry.print_scale_x = field.scale->scale_x;
         entry.print_scale_y = field.scale->scale_y;
         file.replace(entry);
-        done += fmt::format("sheet '{}' of {}: print scale x {:.5f}, y {:.5f}\n", entry.name, path,
-                            entry.print_scale_x, entry.print_scale_y);
+        done += fmt::format("sheet '{}' of {}: print scale x {:.5f}, y {:.5f}; {}\n", entry.name,
+                            path, entry.print_scale_x, entry.print_scale_y, offset_remark(entry));
     }
     if (done.empty()) {
         throw Error(fmt::format("{}: no sheet of it is on the scan with a known scale", path));
     }
     file.save();
     return done;
-}
-
-/// Returns the profile of all sheets, or none if they differ.
-std::optional<Profile> common_profile(const std::string& path,
-                                      const std::vector<SheetEntry>& sheets) {
-    if (sheets.empty()) throw Error(fmt::format("{} has no sheets", path));
-    const Profile profile = sheets.front().sheet.pattern.profile;
-    const bool is_common = std::ranges::all_of(
-        sheets, [&](const SheetEntry& entry) { return entry.sheet.pattern.profile == profile; });
-    return is_common ? std::optional(profile) : std::nullopt;
 }
 
 CheckPrintOptions options_of(const CheckPrintArguments& arguments,
@@ -152,7 +161,7 @@ CheckPrintOptions options_of(const CheckPrintArguments& arguments,
         options.resolution = Resolution{*arguments.dpi, *arguments.dpi};
         return options;
     }
-    const ImageOrigin origin = read_origin(arguments.scan);
+    const ImageOrigin origin = read_origin(arguments.scan, arguments.page);
     options.is_photo = origin.is_photo;
     options.resolution = origin.resolution;
     return options;
@@ -183,7 +192,9 @@ int run(const CheckPrintArguments& arguments) {
     std::vector<SheetEntry> sheets;
     if (!arguments.sheets.empty()) sheets = read_sheets(arguments.sheets);
     CheckPrintOptions options = options_of(arguments, sheets);
-    const GreyImage scan = read_image(arguments.scan, arguments.max_megapixels * 1'000'000);
+    const GreyImage scan =
+        read_image(arguments.scan, arguments.max_megapixels * 1'000'000, arguments.page);
+    const int pages = count_pages(arguments.scan);
     catch_interrupts();
     PrintCheck check;
     {
@@ -197,7 +208,8 @@ int run(const CheckPrintArguments& arguments) {
     if (!arguments.picture.empty() && !check.fields.empty()) {
         draw_distortion(arguments.picture, scan.view(), check);
     }
-    const CheckedScan checked{arguments.scan, scan.width_px, scan.height_px, sheets};
+    const CheckedScan checked{arguments.scan, arguments.page, pages,
+                              scan.width_px,  scan.height_px, sheets};
     write_report(arguments.report, arguments.report.as_json ? json_report(checked, check)
                                                             : text_report(checked, check));
     if (arguments.fit) {
@@ -221,6 +233,10 @@ void add_check_print(Command& app, int& exit_code) {
         ->type_name("N")
         ->default_str("as the file states")
         ->check(Range(1.0, 100'000.0));
+    command->add_option("--page", arguments->page, "Page of a TIFF file with several pages")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(Range(1, 1'000'000));
     command
         ->add_option("--max-pixels", arguments->max_megapixels,
                      "Largest scan, in millions; each takes 9 MB of memory")

@@ -181,6 +181,9 @@ std::string text_report(const CheckedScan& scan, const PrintCheck& check) {
     std::string text;
     add(text, "{}: {} x {} px{}", printable(scan.file), scan.width_px, scan.height_px,
         check.resolution ? fmt::format(", {:g} dpi", std::round(check.resolution->x_dpi)) : "");
+    if (scan.pages > 1) {
+        add(text, "page        {} of {}: --page N checks another one", scan.page, scan.pages);
+    }
     if (check.fields.empty()) {
         add(text, "no pattern was found in this image");
     } else {
@@ -207,6 +210,8 @@ std::string json_report(const CheckedScan& scan, const PrintCheck& check) {
         {"width_px", scan.width_px},
         {"height_px", scan.height_px},
         {"test_page", check.is_test_page},
+        {"page", scan.page},
+        {"pages", scan.pages},
     };
     if (!check.fields.empty()) {
         object["code"] = name(check.code);

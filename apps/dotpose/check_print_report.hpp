@@ -12,6 +12,8 @@ namespace dotpose::cli {
 /// The image that was checked.
 struct CheckedScan {
     std::string file;
+    int page = 1;   ///< number of the page that was checked
+    int pages = 1;  ///< number of pages of the file
     int width_px = 0;
     int height_px = 0;
     std::vector<SheetEntry> sheets;  ///< in the order of CheckPrintOptions::sheets

@@ -12,6 +12,7 @@
 #include "dotpose/files/profile_names.hpp"
 #include "dotpose/locate.hpp"
 #include "dotpose/tools/image_file.hpp"
+#include "dotpose/tools/mounted_pose.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -65,6 +66,15 @@ double mm(std::uint32_t cell, std::uint16_t fraction_q16, double spacing_mm) {
     return (cell + fraction_q16 / 65536.0) * spacing_mm;
 }
 
+std::string in_one_line(const std::array<std::string, kWarnings>& warnings) {
+    std::string line;
+    for (const std::string& warning : warnings) {
+        if (!line.empty() && !warning.empty()) line += "; ";
+        line += warning;
+    }
+    return line;
+}
+
 /// The fields of the profile and, if two profiles are possible, of the positions in both.
 std::vector<Field> code_fields(const Record& record, Units units) {
     const CodeReading& reading = record.reading;
@@ -95,7 +105,7 @@ std::vector<Field> code_fields(const Record& record, Units units) {
         {"other_code", if_other(name(reading.other_code)), true},
         {"other_x" + unit, other_x},
         {"other_y" + unit, other_y},
-        {"warning", warning(record), true},
+        {"warning", in_one_line(warnings(record)), true},
     };
 }
 
@@ -179,24 +189,7 @@ std::string plain_reason(const Record& record) {
     }
 }
 
-}  // namespace
-
-Record record_of(const Located& located, const Follower& follower) {
-    Record record;
-    record.fix = located.fix;
-    record.reading = located.reading;
-    record.code_is_given = located.code_is_given;
-    record.spacing_mm = located.spacing_mm;
-    record.has_sheets = !follower.sheets().empty();
-    record.place = located.place;
-    record.width_px = follower.image().width_px;
-    record.height_px = follower.image().height_px;
-    record.min_dots = follower.used_options().lattice.min_dots;
-    record.max_p_wrong_log2 = follower.used_options().integrity.max_p_wrong_log2;
-    return record;
-}
-
-std::string warning(const Record& record) {
+std::string code_warning(const Record& record) {
     const CodeReading& reading = record.reading;
     if (!record.code_is_given || !reading.has_other) return {};
     const std::string place =
@@ -207,6 +200,42 @@ std::string warning(const Record& record) {
         "code {} explains the dots {} without a contradiction; is the sheet of code "
         "{}?",
         name(reading.other_code), place, name(reading.other_code));
+}
+
+std::string sheet_warning(const Record& record) {
+    if (!record.has_sheets || record.fix.status != Status::ok || record.place) return {};
+    return "this place is on no sheet of the sheet file: is the page of another file?";
+}
+
+std::string spacing_warning(const Record& record) {
+    const double camera_mm = record.camera_spacing_mm;
+    if (!contradicts(camera_mm, record.spacing_mm)) return {};
+    return fmt::format(
+        "the camera file measures a spacing of {:.3f} mm, and lengths are computed with {:g} mm: "
+        "correct the spacing ({}), or calibrate the camera again",
+        camera_mm, record.spacing_mm, record.has_sheets ? "of the sheet file" : "--spacing");
+}
+
+}  // namespace
+
+Record record_of(const Located& located, const Follower& follower) {
+    Record record;
+    record.fix = located.fix;
+    record.reading = located.reading;
+    record.code_is_given = located.code_is_given;
+    record.spacing_mm = located.spacing_mm;
+    record.camera_spacing_mm = located.camera_spacing_mm;
+    record.has_sheets = !follower.sheets().empty();
+    record.place = located.place;
+    record.width_px = follower.image().width_px;
+    record.height_px = follower.image().height_px;
+    record.min_dots = follower.used_options().lattice.min_dots;
+    record.max_p_wrong_log2 = follower.used_options().integrity.max_p_wrong_log2;
+    return record;
+}
+
+std::array<std::string, kWarnings> warnings(const Record& record) {
+    return {code_warning(record), sheet_warning(record), spacing_warning(record)};
 }
 
 std::string reason(const Record& record) {

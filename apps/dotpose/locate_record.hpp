@@ -1,6 +1,8 @@
 /// The results for one image, which are one output line of `dotpose locate`.
 #pragma once
 
+#include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,7 +19,8 @@ struct Record {
     CodeReading reading;         ///< profile and other places; its fix is that of the image centre
     bool code_is_given = false;  ///< whether the user or the sheets determine the profile
     double spacing_mm = 0;       ///< NaN if it is not known; then there are no fields in mm
-    bool has_sheets = false;     ///< whether there is a sheet file, so that its fields are output
+    double camera_spacing_mm = std::numeric_limits<double>::quiet_NaN();  ///< as in Located
+    bool has_sheets = false;  ///< whether there is a sheet file, so that its fields are output
     std::optional<SheetPlace> place;  ///< the place on a sheet
     double elapsed_us = 0;            ///< time that `dotpose::locate` took
     std::string advice;               ///< what would help, if there is no fix; may be empty
@@ -30,8 +33,12 @@ struct Record {
 /// The record of an image that was just located; file name, time and advice are left open.
 Record record_of(const Located& located, const Follower& follower);
 
-/// Returns a warning if the user gave a profile and another one explains the frame; else empty.
-std::string warning(const Record& record);
+/// Number of warnings that a frame may have.
+inline constexpr std::size_t kWarnings = 3;
+/// Returns the warnings of a frame, each empty if there is no reason for it: the user gave a
+/// profile and another one explains the frame; the place is on no sheet of the sheet file; the
+/// camera file measures another spacing.
+std::array<std::string, kWarnings> warnings(const Record& record);
 
 /// Explains why there is no fix, with the relevant numbers; empty if there is one.
 std::string reason(const Record& record);

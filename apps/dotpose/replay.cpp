@@ -52,6 +52,16 @@ double share(std::int64_t part, std::int64_t whole) {
     return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0;
 }
 
+/// Returns the frames of the poses in words, with the remedy if they are not in the world.
+std::string frames_of_poses(const RunStatistics& run) {
+    std::string text;
+    for (const std::string& plane : run.planes)
+        text += (text.empty() ? "" : ", ") + printable(plane);
+    if (text.empty()) return "none";
+    if (!run.planes.contains("pattern")) return text;
+    return text + " (y down, angles clockwise); for the world, 'dotpose sheets place' before watch";
+}
+
 std::string text_report(const RunStatistics& run) {
     std::string text;
     const auto line = [&text](const char* what, const std::string& value) {
@@ -65,6 +75,7 @@ std::string text_report(const RunStatistics& run) {
     line("gaps", fmt::format("{}, the longest {:.3f} s", run.gaps, run.longest_gap_s));
     line("events", list_of(run.events));
     line("verdicts of the tracker", list_of(run.verdicts));
+    line("frame of the poses", frames_of_poses(run));
     line("distance driven", fmt::format("{:.3f} mm", run.distance_mm));
     line("stationary", fmt::format("{:.3f} s", run.stationary_s));
     line("speed while moving", fmt::format("mean {:.1f} mm/s, largest {:.1f} mm/s",
@@ -83,6 +94,7 @@ std::string json_report(const RunStatistics& run) {
                                          {"longest_gap_s", run.longest_gap_s},
                                          {"events", run.events},
                                          {"verdicts", run.verdicts},
+                                         {"planes", run.planes},
                                          {"distance_mm", run.distance_mm},
                                          {"stationary_s", run.stationary_s},
                                          {"mean_speed_mm_s", run.mean_speed_mm_s},

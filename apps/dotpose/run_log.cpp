@@ -146,6 +146,7 @@ RunStatistics statistics_of(const std::vector<LogRow>& rows) {
         const LogRow& row = rows[i];
         const LogRow& before = rows[i > 0 ? i - 1 : 0];
         ++run.verdicts[row.verdict];
+        if (!row.plane.empty()) run.planes.insert(row.plane);
         std::istringstream events(row.events);
         for (std::string name; events >> name;)
             ++run.events[name];

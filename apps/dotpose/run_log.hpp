@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -103,6 +104,7 @@ struct RunStatistics {
     double mean_speed_mm_s = 0;  ///< mean of the frames in which it moves
     double largest_speed_mm_s = 0;
     double largest_p_wrong = 0;
+    std::set<std::string> planes;  ///< frames of the poses: pattern, world
 };
 
 RunStatistics statistics_of(const std::vector<LogRow>& rows);

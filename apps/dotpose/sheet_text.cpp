@@ -60,6 +60,15 @@ const SheetEntry& named_sheet(const std::vector<SheetEntry>& sheets, const std::
                                   names.empty() ? "no sheets" : names));
 }
 
+std::optional<Profile> common_profile(const std::string& file,
+                                      const std::vector<SheetEntry>& sheets) {
+    if (sheets.empty()) throw Error(fmt::format("{} has no sheets", file));
+    const Profile profile = sheets.front().sheet.pattern.profile;
+    const bool is_common = std::ranges::all_of(
+        sheets, [&](const SheetEntry& entry) { return entry.sheet.pattern.profile == profile; });
+    return is_common ? std::optional(profile) : std::nullopt;
+}
+
 std::string world_text(const SheetEntry& entry) {
     if (!entry.world) return "where it lies in the world is not known";
     return fmt::format("its top left corner lies at x {} mm, y {} mm in the world, yaw {} deg",

@@ -1,6 +1,7 @@
 /// Describes the sheets of a sheet file in words, safe to show on a terminal.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,11 @@ namespace dotpose::cli {
 /// these are, if there is none.
 const SheetEntry& named_sheet(const std::vector<SheetEntry>& sheets, const std::string& name,
                               const std::string& file);
+
+/// Returns the profile of all sheets, or none if they differ. Throws Error if `file`, whose sheets
+/// these are, has none.
+std::optional<Profile> common_profile(const std::string& file,
+                                      const std::vector<SheetEntry>& sheets);
 
 /// Returns where the page lies in the world, in mm and degrees.
 std::string world_text(const SheetEntry& entry);

@@ -23,8 +23,8 @@ namespace {
 
 using namespace dotpose::calibrate;
 
-/// If a stated resolution makes the dots this many times too far apart, or too near, the image is a
-/// photo and the resolution is not believed.
+/// If a stated resolution makes the dots this many times too far apart, or too near, it is not
+/// used.
 constexpr double kUnbelievableScale = 2;
 constexpr std::size_t kLeastDots = 30;
 
@@ -126,6 +126,50 @@ std::optional<Resolution> believable(const std::optional<Resolution>& resolution
 
 }  // namespace
 
+const char* name(FindingKind kind) {
+    switch (kind) {
+        case FindingKind::good:
+            return "good";
+        case FindingKind::scaled:
+            return "scaled";
+        case FindingKind::uneven_scale:
+            return "uneven_scale";
+        case FindingKind::rotated:
+            return "rotated";
+        case FindingKind::skewed:
+            return "skewed";
+        case FindingKind::distorted:
+            return "distorted";
+        case FindingKind::swollen:
+            return "swollen";
+        case FindingKind::thin:
+            return "thin";
+        case FindingKind::missing:
+            return "missing";
+        case FindingKind::covered:
+            return "covered";
+        case FindingKind::bits_wrong:
+            return "bits_wrong";
+        case FindingKind::too_coarse:
+            return "too_coarse";
+        case FindingKind::pale:
+            return "pale";
+        case FindingKind::no_resolution:
+            return "no_resolution";
+        case FindingKind::contradiction:
+            return "contradiction";
+        case FindingKind::repeated:
+            return "repeated";
+        case FindingKind::unknown_sheet:
+            return "unknown_sheet";
+        case FindingKind::unresolved:
+            return "unresolved";
+        case FindingKind::best_settings:
+            return "best_settings";
+    }
+    return "";
+}
+
 double PrintField::bad_share() const {
     return std::min(covered_share() + missing_share() + merged_share() + wrong_share(), 1.0);
 }
@@ -183,6 +227,30 @@ std::vector<CollectedField> collect_fields(const ImageView& scan, const Tiling& 
     return collected;
 }
 
+/// Returns the number of cells that both fields show with a correct dot.
+int common_cells(const CellGrid& a, const CellGrid& b) {
+    int count = 0;
+    for (const SeenCell& cell : a.cells) {
+        const std::int64_t i = std::int64_t{cell.x} - b.origin.x;
+        const std::int64_t j = std::int64_t{cell.y} - b.origin.y;
+        if (i < 0 || j < 0 || i >= b.columns || j >= b.rows) continue;
+        count += cell.is_right() && b.at(static_cast<int>(i), static_cast<int>(j)).is_right();
+    }
+    return count;
+}
+
+/// Finds the fields, of which `parts` are given in the order of `check.fields`, that show the same
+/// cells.
+void find_repetitions(const std::vector<const CollectedField*>& parts, PrintCheck& check) {
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        for (std::size_t j = i + 1; j < parts.size(); ++j) {
+            if (parts[i]->field.code.section != parts[j]->field.code.section) continue;
+            const int cells = common_cells(parts[i]->grid, parts[j]->grid);
+            if (cells >= static_cast<int>(kLeastDots)) check.repeated.push_back({i, j, cells});
+        }
+    }
+}
+
 /// Measures all fields, as on a scan or as on a photo, depending on the largest of them.
 void measure_fields(const ImageView& scan, std::vector<CollectedField> collected,
                     const CheckPrintOptions& options, PrintCheck& check) {
@@ -196,13 +264,19 @@ void measure_fields(const ImageView& scan, std::vector<CollectedField> collected
         const Eigen::Vector2d middle_px(0.5 * (scan.width_px - 1), 0.5 * (scan.height_px - 1));
         check.camera = signs_of_camera(matches, middle_px);
     }
+    std::vector<const CollectedField*> measured;
     for (CollectedField& part : collected) {
         auto resolution = believable(options.resolution, part.result.pattern, part.field);
         if (!resolution || check.camera) check.resolution.reset();
         if (check.camera) resolution.reset();
         const Measuring measuring{scan, part.field, part.grid, resolution, options.ink_reflectance};
-        if (measure_field(measuring, kLeastDots, part.result)) check.fields.push_back(part.result);
+        if (measure_field(measuring, kLeastDots, part.result)) measured.push_back(&part);
     }
+    std::ranges::stable_sort(measured, std::ranges::greater{},
+                             [](const CollectedField* part) { return part->result.dots; });
+    for (const CollectedField* part : measured)
+        check.fields.push_back(part->result);
+    find_repetitions(measured, check);
 }
 
 }  // namespace
@@ -224,7 +298,6 @@ PrintCheck check_print(const ImageView& scan, const CheckPrintOptions& asked) {
         measure_fields(scan, collect_fields(scan, *tiling, anchors, options, done), options, check);
     }
     if (check.fields.empty()) check.resolution.reset();
-    std::ranges::stable_sort(check.fields, std::ranges::greater{}, &PrintField::dots);
     check.is_test_page = std::ranges::any_of(check.fields, &PrintField::is_patch);
     if (check.is_test_page) rank_patches(options.pattern.profile, check);
     add_findings(options, check);

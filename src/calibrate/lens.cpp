@@ -14,6 +14,7 @@
 #include "calibrate/lens_fit.hpp"
 #include "calibrate/located_frame.hpp"
 #include "calibrate/paper_view.hpp"
+#include "calibrate/sheet_spacing.hpp"
 #include "dotpose/tools/calibrate.hpp"
 #include "dotpose/tools/calibration_coverage.hpp"
 #include "dotpose/tools/print.hpp"
@@ -301,7 +302,11 @@ LensCalibration calibrate_lens(int frames, const FrameAt& frame_at,
     Series series(frames, frame_at, options);
     FrameReader reader(given_code(options));
     const auto first = read_first(frames, series, reader, result);
-    const FitSetting setting{series.width_px, series.height_px, options.pattern.spacing_mm};
+    std::vector<Place> places;
+    for (const LocatedFrame& frame : first)
+        places.push_back(frame.place);
+    result.spacing_mm = printed_spacing_mm(options, reader.profile(), places);
+    const FitSetting setting{series.width_px, series.height_px, result.spacing_mm};
     // Only with a known lens are dots found up to the corners.
     reader.use_lens(lens_of(camera_of(fit_all(first, setting).after, setting)));
     auto located = read_again(first, series, reader);

@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 
 #include "calibrate/least_squares.hpp"
+#include "calibrate/sheet_spacing.hpp"
 #include "dotpose/code_evidence.hpp"
 #include "dotpose/tools/calibrate.hpp"
 #include "dotpose/tools/heap_locator.hpp"
@@ -18,6 +19,7 @@ namespace dotpose {
 namespace {
 
 using calibrate::NormalEquations;
+using calibrate::printed_spacing_mm;
 using Eigen::Vector2d;
 
 constexpr int kLeastSpinFrames = 3;
@@ -41,6 +43,7 @@ struct Station {
 struct Stations {
     Camera camera;  ///< without reference point and offset
     std::vector<Station> stations;
+    double spacing_mm = 0;
     double mm_per_px = 0;  ///< mean
 };
 
@@ -67,12 +70,27 @@ Camera without_distortion(const GreyImage& image) {
     return camera;
 }
 
+/// Throws Error if the camera file measures another spacing than that of the sheet.
+void require_spacing(const std::vector<double>& measured_mm, double spacing_mm) {
+    double mean_mm = 0;
+    for (const double mm : measured_mm)
+        mean_mm += mm / static_cast<double>(measured_mm.size());
+    if (!contradicts(mean_mm, spacing_mm)) return;
+    throw Error(fmt::format(
+        "the camera file measures a spacing of {:.3f} mm, and the sheet is said to have "
+        "{:g} mm: give its --spacing or --sheets, or calibrate the lens again; nothing "
+        "was written",
+        mean_mm, spacing_mm));
+}
+
 Stations locate_stations(int frames, const FrameAt& frame_at, const std::optional<Camera>& camera,
                          const CalibrateOptions& options) {
     Stations result;
     HeapLocator locator;
     CodeReader reader(given_code(options));
-    std::optional<Cell> first;
+    std::vector<Fix> fixes;
+    std::vector<Place> places;
+    std::vector<double> measured_mm;
     for (int i = 0; i < frames; ++i) {
         const GreyImage image = frame_at(i);
         if (i == 0) result.camera = camera ? *camera : without_distortion(image);
@@ -87,15 +105,23 @@ Stations locate_stations(int frames, const FrameAt& frame_at, const std::optiona
             throw Error("stopped; nothing was written");
         }
         if (fix.status != Status::ok) continue;
-        if (!first) first = fix.cell;
-        const double mm = options.pattern.spacing_mm;
-        result.stations.push_back(
-            {mm * Vector2d(steps(first->x, fix.cell.x) + fix.fraction_x_q16 / 65536.0,
-                           steps(first->y, fix.cell.y) + fix.fraction_y_q16 / 65536.0),
-             fix.theta_rad()});
-        result.mm_per_px += mm / fix.spacing_px();
+        fixes.push_back(fix);
+        places.push_back({fix.cell, fix.section});
+        measured_mm.push_back(measured_spacing_mm(fix, result.camera));
     }
-    result.mm_per_px /= static_cast<double>(std::max<std::size_t>(result.stations.size(), 1));
+    if (fixes.empty()) return result;
+    result.spacing_mm = printed_spacing_mm(options, reader.code(), places);
+    require_spacing(measured_mm, result.spacing_mm);
+    const Cell first = fixes.front().cell;
+    for (const Fix& fix : fixes) {
+        result.stations.push_back(
+            {result.spacing_mm *
+                 Vector2d(steps(first.x, fix.cell.x) + fix.fraction_x_q16 / 65536.0,
+                          steps(first.y, fix.cell.y) + fix.fraction_y_q16 / 65536.0),
+             fix.theta_rad()});
+        result.mm_per_px +=
+            result.spacing_mm / fix.spacing_px() / static_cast<double>(fixes.size());
+    }
     return result;
 }
 
@@ -293,7 +319,7 @@ SpinCalibration calibrate_spin(int frames, const FrameAt& frame_at,
     result.camera = camera.value_or(found.camera);
     result.sigma_mm = std::hypot(result.residual_mm * std::sqrt(fitted.offset_share),
                                  result.drift_mm, sigma_of_lens_mm(result.camera, offset));
-    require_spin(result, options.pattern.spacing_mm);
+    require_spin(result, found.spacing_mm);
     result.camera.reference_px = pixel_of(offset, found);
     result.offset_mm = {offset.x(), offset.y()};
     result.camera.sigma["reference_u_px"] = result.sigma_mm / found.mm_per_px;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -83,6 +84,26 @@ void write_covariance(const PoseFit& fit, double x, double y, const AxisScale& p
 }
 
 }  // namespace
+
+double measured_spacing_mm(const Fix& fix, const Camera& camera, const AxisScale& print) {
+    if (fix.status != Status::ok || !camera.paper) return std::numeric_limits<double>::quiet_NaN();
+    const PixelPoint middle{(camera.width_px - 1) / 2.0, (camera.height_px - 1) / 2.0};
+    const PaperScale& paper = *camera.paper;
+    const double divisor = 1 + paper.perspective_u * (middle.u - camera.centre_px.u) +
+                           paper.perspective_v * (middle.v - camera.centre_px.v);
+    // The Jacobian determinant of a homography is its own determinant divided by divisor^3.
+    const double mm2_per_px2 = paper.mm_per_px_x * paper.mm_per_px_y / std::pow(divisor, 3);
+    const Vec du = fix.pattern_from_image.du_q24;
+    const Vec dv = fix.pattern_from_image.dv_q24;
+    constexpr double kQ24 = 1 << 24;
+    const double cells2_per_px2 =
+        std::abs(double(du.x) * dv.y - double(dv.x) * du.y) / (kQ24 * kQ24);
+    return std::sqrt(mm2_per_px2 / (cells2_per_px2 * print.x * print.y));
+}
+
+bool contradicts(double measured_mm, double spacing_mm) {
+    return std::abs(std::log(measured_mm / spacing_mm)) > std::log1p(kMaxSpacingDifference);
+}
 
 Fix with_camera(const Fix& fix, const Camera& camera, const Trace& trace, const AxisScale& print) {
     if (fix.status != Status::ok) return fix;

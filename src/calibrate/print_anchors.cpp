@@ -21,7 +21,8 @@ struct Probe {
     int side_px = 0;
     int zoom = 1;
 };
-constexpr std::array kProbes = {Probe{256, 1}, Probe{160, 2}, Probe{768, 1}};
+constexpr std::array kProbes = {Probe{256, 1}, Probe{160, 2}, Probe{768, 1},
+                                Probe{kLargestTile_px, 1}};
 
 }  // namespace
 

@@ -64,6 +64,7 @@ class Findings {
         for (std::size_t i = 0; i < check_.fields.size(); ++i) {
             const std::size_t before = findings_.size();
             field_ = i;
+            judge_place(check_.fields[i]);
             judge_scale(check_.fields[i]);
             judge_dots(check_.fields[i]);
             judge_as_a_whole(before);
@@ -96,8 +97,32 @@ class Findings {
         }
     }
 
+    /// Whether cells of the field are unique on the page, and known.
+    void judge_place(const PrintField& field) {
+        const auto is_part = [this](const RepeatedCells& cells) {
+            return cells.first == *field_ || cells.second == *field_;
+        };
+        const auto most = std::ranges::max_element(
+            check_.repeated, {},
+            [&](const RepeatedCells& cells) { return is_part(cells) ? cells.cells : 0; });
+        if (most != check_.repeated.end() && is_part(*most)) {
+            fault(FindingKind::repeated,
+                  fmt::format("{} of its cells are on this scan more than once, so that a place "
+                              "read there is not unique: print each copy with cells of its own "
+                              "(--sheets, or another --origin)",
+                              most->cells));
+        }
+        if (!options_.sheets.empty() && !field.sheet) {
+            fault(FindingKind::unknown_sheet,
+                  fmt::format("this page is on no sheet of the sheet file, and was judged by a "
+                              "spacing of {:g} mm: give the sheet file that it was printed with",
+                              field.pattern.spacing_mm));
+        }
+    }
+
     void judge_scale(const PrintField& field) {
         if (!field.scale) {
+            if (options_.resolution && !check_.camera) return contradict_resolution(field);
             remark(FindingKind::no_resolution, why_no_scale());
             judge_scale_ratio(field);
             return;
@@ -185,6 +210,14 @@ class Findings {
                 field.wrong_share() > kCoarseWrongShare || is_blurred_together);
     }
 
+    void contradict_resolution(const PrintField& field) {
+        const double dpi = std::sqrt(options_.resolution->x_dpi * options_.resolution->y_dpi);
+        fault(FindingKind::contradiction,
+              fmt::format("at {:.0f} dpi the dots are {:.3f} mm apart instead of {:g} mm: the "
+                          "resolution or the spacing is wrong; correct it with --dpi or --spacing",
+                          dpi, field.spacing_px * 25.4 / dpi, field.pattern.spacing_mm));
+    }
+
     std::string why_no_scale() const {
         if (const auto& camera = check_.camera) {
             return fmt::format(
@@ -198,10 +231,8 @@ class Findings {
                    "EXIF data have a camera's exposure; scan it on a flatbed, or give --dpi if the "
                    "page lies in the image as in a scan";
         }
-        return fmt::format(
-            "scale was not checked, because the image states no resolution{}: scan on a flatbed, "
-            "or give --dpi if the page lies in the image as in a scan",
-            options_.resolution ? " that can be true" : " of a scan");
+        return "scale was not checked, because the image states no resolution of a scan: scan on a "
+               "flatbed, or give --dpi if the page lies in the image as in a scan";
     }
 
     void judge_scale_ratio(const PrintField& field) {
@@ -353,45 +384,3 @@ void add_findings(const CheckPrintOptions& options, PrintCheck& check) {
 }
 
 }  // namespace dotpose::calibrate
-
-namespace dotpose {
-
-const char* name(FindingKind kind) {
-    switch (kind) {
-        case FindingKind::good:
-            return "good";
-        case FindingKind::scaled:
-            return "scaled";
-        case FindingKind::uneven_scale:
-            return "uneven_scale";
-        case FindingKind::rotated:
-            return "rotated";
-        case FindingKind::skewed:
-            return "skewed";
-        case FindingKind::distorted:
-            return "distorted";
-        case FindingKind::swollen:
-            return "swollen";
-        case FindingKind::thin:
-            return "thin";
-        case FindingKind::missing:
-            return "missing";
-        case FindingKind::covered:
-            return "covered";
-        case FindingKind::bits_wrong:
-            return "bits_wrong";
-        case FindingKind::too_coarse:
-            return "too_coarse";
-        case FindingKind::pale:
-            return "pale";
-        case FindingKind::no_resolution:
-            return "no_resolution";
-        case FindingKind::unresolved:
-            return "unresolved";
-        case FindingKind::best_settings:
-            return "best_settings";
-    }
-    return "";
-}
-
-}  // namespace dotpose

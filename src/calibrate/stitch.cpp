@@ -127,6 +127,20 @@ void require_reference(const ScaleReference& reference, const std::vector<SheetE
     }
 }
 
+/// Throws Error for a scale by the camera file that no printer produces: then its view or the
+/// spacing in the sheet file is wrong.
+void require_believable(const AxisScale& scale, const SheetEntry& entry) {
+    constexpr double kFarthest = 0.25;
+    const double mean = std::sqrt(scale.x * scale.y);
+    if (std::abs(mean - 1) <= kFarthest) return;
+    const double spacing_mm = entry.sheet.pattern.spacing_mm;
+    throw Error(
+        fmt::format("the camera file measures a spacing of {:.3f} mm on '{}', and the sheet file "
+                    "has {:g} mm: correct the spacing, or calibrate the lens again; nothing was "
+                    "written",
+                    mean * spacing_mm, entry.name, spacing_mm));
+}
+
 void describe_sheets(const SheetGraph& graph, std::size_t fixed, Stitching& result) {
     const WorldPose origin = result.sheets[fixed].world.value_or(WorldPose{});
     for (std::size_t i = 0; i < result.sheets.size(); ++i) {
@@ -148,6 +162,7 @@ void describe_sheets(const SheetGraph& graph, std::size_t fixed, Stitching& resu
         entry.print_scale_y = scale.y;
         result.stitched.push_back(
             {entry.name, graph.sigma_mm(i), graph.sigma_rad(i), i == fixed, sigma.x, sigma.y});
+        if (result.reference.by == ScaleReference::By::camera) require_believable(scale, entry);
     }
 }
 

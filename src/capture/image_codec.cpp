@@ -70,11 +70,11 @@ void start_library() {
     static const Library kLibrary;
 }
 
-InfoPointer make_info(ImageFormat format) {
+InfoPointer make_info(ImageFormat format, int page = 1) {
     InfoPointer info(CloneImageInfo(nullptr));
     // The format is set, so that the library does not guess among the many formats it knows.
     std::strncpy(info->magick, name(format), sizeof info->magick - 1);
-    info->subimage = 0;
+    info->subimage = static_cast<unsigned long>(page - 1);
     info->subrange = 1;
     return info;
 }
@@ -125,9 +125,9 @@ GreyImage to_grey(const Image& image, Report& report) {
 }
 
 /// Reads the header of an image without its pixels.
-ImagePointer read_header(ImageFormat format, std::span<const std::uint8_t> bytes) {
+ImagePointer read_header(ImageFormat format, std::span<const std::uint8_t> bytes, int page) {
     Report report;
-    const InfoPointer info = make_info(format);
+    const InfoPointer info = make_info(format, page);
     ImagePointer image(PingBlob(info.get(), bytes.data(), bytes.size(), &report));
     if (!image) fail(format, bytes, report);
     return image;
@@ -135,16 +135,19 @@ ImagePointer read_header(ImageFormat format, std::span<const std::uint8_t> bytes
 
 }  // namespace
 
-GreyImage decode_image(ImageFormat format, std::span<const std::uint8_t> bytes, int max_pixels) {
+GreyImage decode_image(ImageFormat format, std::span<const std::uint8_t> bytes, int max_pixels,
+                       int page) {
     start_library();
     Report report;
     // The library leaves the pixels of missing TIFF strips unset and reports nothing.
-    if (format == ImageFormat::tiff && is_cut_short(format, bytes)) fail(format, bytes, report);
+    if (format == ImageFormat::tiff && is_cut_short(format, bytes, page)) {
+        fail(format, bytes, report);
+    }
     {
-        const ImagePointer header = read_header(format, bytes);
+        const ImagePointer header = read_header(format, bytes, page);
         require_size(header->columns, header->rows, max_pixels);
     }
-    const InfoPointer info = make_info(format);
+    const InfoPointer info = make_info(format, page);
     const ImagePointer image(BlobToImage(info.get(), bytes.data(), bytes.size(), &report));
     if (!image || report.is_failure()) fail(format, bytes, report);
     if (image->colorspace == CMYKColorspace) TransformColorspace(image.get(), RGBColorspace);
@@ -153,10 +156,10 @@ GreyImage decode_image(ImageFormat format, std::span<const std::uint8_t> bytes, 
     return grey;
 }
 
-std::optional<Resolution> decode_resolution(ImageFormat format,
-                                            std::span<const std::uint8_t> bytes) {
+std::optional<Resolution> decode_resolution(ImageFormat format, std::span<const std::uint8_t> bytes,
+                                            int page) {
     start_library();
-    const ImagePointer image = read_header(format, bytes);
+    const ImagePointer image = read_header(format, bytes, page);
     const bool is_stated = image->x_resolution > 0 && image->y_resolution > 0;
     if (!is_stated || image->units == UndefinedResolution) return std::nullopt;
     const double per_inch = image->units == PixelsPerCentimeterResolution ? 2.54 : 1;

@@ -14,12 +14,13 @@ namespace dotpose::capture {
 
 /// Decodes an image of any format but PNM, with the conversions and limits that image_file.hpp
 /// describes. Throws Error that has only the reason; the caller adds the name of the file.
-GreyImage decode_image(ImageFormat format, std::span<const std::uint8_t> bytes, int max_pixels);
+GreyImage decode_image(ImageFormat format, std::span<const std::uint8_t> bytes, int max_pixels,
+                       int page = 1);
 
 /// Returns the resolution that the file states, without decoding the pixels. Throws Error that has
 /// only the reason.
-std::optional<Resolution> decode_resolution(ImageFormat format,
-                                            std::span<const std::uint8_t> bytes);
+std::optional<Resolution> decode_resolution(ImageFormat format, std::span<const std::uint8_t> bytes,
+                                            int page = 1);
 
 /// Formats in which frames are saved.
 enum class FrameFormat : std::uint8_t {

@@ -139,6 +139,15 @@ auto with_name(const char* verb, const std::filesystem::path& path, Action actio
     }
 }
 
+/// Throws Error, with the reason only, if there is no page of this number.
+void require_page(const Content& content, int page) {
+    if (page == 1) return;
+    const int pages = capture::pages_of(content.format, content.bytes);
+    if (page >= 1 && page <= pages) return;
+    throw Error("it has " + std::to_string(pages) + (pages == 1 ? " page" : " pages") +
+                ", and no page " + std::to_string(page));
+}
+
 /// Whether a resolution is one that cameras and programs state without knowing it.
 bool is_of_screen(const Resolution& resolution) {
     // PNG and BMP count whole pixels per metre.
@@ -150,20 +159,31 @@ bool is_of_screen(const Resolution& resolution) {
 
 }  // namespace
 
-GreyImage read_image(const std::filesystem::path& path, int max_pixels) {
+GreyImage read_image(const std::filesystem::path& path, int max_pixels, int page) {
     return with_name("read", path, [&] {
         const Content content = read_file(path, max_pixels);
+        require_page(content, page);
         return content.format == ImageFormat::pnm
                    ? capture::decode_pnm(content.bytes, max_pixels)
-                   : capture::decode_image(content.format, content.bytes, max_pixels);
+                   : capture::decode_image(content.format, content.bytes, max_pixels, page);
     });
 }
 
-ImageOrigin read_origin(const std::filesystem::path& path) {
+int count_pages(const std::filesystem::path& path) {
+    std::error_code failed;
+    if (!std::filesystem::is_regular_file(path, failed)) return 1;
+    return with_name("read", path, [&] {
+        const Content content = read_file(path, kMaxImagePixels);
+        return capture::pages_of(content.format, content.bytes);
+    });
+}
+
+ImageOrigin read_origin(const std::filesystem::path& path, int page) {
     return with_name("read", path, [&]() -> ImageOrigin {
         const Content content = read_file(path, kMaxImagePixels);
+        require_page(content, page);
         if (content.format == ImageFormat::pnm) return {};
-        const auto stated = capture::decode_resolution(content.format, content.bytes);
+        const auto stated = capture::decode_resolution(content.format, content.bytes, page);
         if (capture::is_from_camera(content.format, content.bytes)) return {true, std::nullopt};
         return {false, stated && is_of_screen(*stated) ? std::nullopt : stated};
     });

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <string_view>
+#include <vector>
 
 #include <fmt/core.h>
 
@@ -38,29 +40,33 @@ bool bmp_is_cut_short(Bytes bytes) {
     return bytes.size() < kFileHeader || integer(bytes, 2, 4, false) > bytes.size();
 }
 
-/// The first directory of a TIFF or BigTIFF file. The two differ in the widths of their numbers.
-class TiffDirectory {
+/// The directories of a TIFF or BigTIFF file, one for each page. The two kinds of file differ in
+/// the widths of their numbers.
+class TiffDirectories {
   public:
-    explicit TiffDirectory(Bytes bytes)
-        : bytes_(bytes), big_endian_(bytes[0] == 'M'), is_big_(bytes[big_endian_ ? 3 : 2] == 43) {}
-
-    bool is_cut_short() const {
+    explicit TiffDirectories(Bytes bytes)
+        : bytes_(bytes), big_endian_(bytes[0] == 'M'), is_big_(bytes[big_endian_ ? 3 : 2] == 43) {
         const std::size_t start = is_big_ ? 8 : 4;
-        const std::size_t count_size = is_big_ ? 8 : 2;
-        if (!holds(start, word())) return true;
-        const std::uint64_t offset = number(start, word());
-        if (!holds(offset, count_size)) return true;
-        const std::uint64_t entries = number(offset, count_size);
-        const std::uint64_t first = offset + count_size;
-        // The entries are followed by the offset of the next directory.
-        if (entries > bytes_.size() / entry_size() ||
-            !holds(first, entries * entry_size() + word())) {
-            return true;
+        std::set<std::uint64_t> offsets = {0};
+        std::uint64_t offset = holds(start, word()) ? number(start, word()) : 0;
+        // A damaged file may have a loop of directories.
+        while (offsets.insert(offset).second) {
+            const auto directory = directory_at(offset);
+            if (!directory) break;
+            pages_.push_back(*directory);
+            offset = number(directory->first + directory->count * entry_size(), word());
         }
+    }
+
+    int count() const { return static_cast<int>(pages_.size()); }
+
+    bool is_cut_short(int page) const {
+        if (page > count()) return true;
+        const Directory& directory = pages_[static_cast<std::size_t>(page - 1)];
         Values offsets;
         Values sizes;
-        for (std::uint64_t i = 0; i < entries; ++i) {
-            const std::uint64_t entry = first + i * entry_size();
+        for (std::uint64_t i = 0; i < directory.count; ++i) {
+            const std::uint64_t entry = directory.first + i * entry_size();
             const Values values = values_of(entry);
             if (values.count > bytes_.size() || !holds(values.offset, values.count * values.size)) {
                 return true;
@@ -73,6 +79,11 @@ class TiffDirectory {
     }
 
   private:
+    /// The entries of one directory.
+    struct Directory {
+        std::uint64_t first = 0;  ///< offset of the first entry
+        std::uint64_t count = 0;
+    };
     /// An array of integers in the file.
     struct Values {
         std::uint64_t offset = 0;
@@ -93,6 +104,17 @@ class TiffDirectory {
     }
     std::uint64_t number(std::uint64_t offset, std::uint64_t size) const {
         return integer(bytes_, offset, size, big_endian_);
+    }
+
+    /// Returns the directory at an offset; none if it reaches beyond the end of the file.
+    std::optional<Directory> directory_at(std::uint64_t offset) const {
+        const std::size_t count_size = is_big_ ? 8 : 2;
+        if (!holds(offset, count_size)) return std::nullopt;
+        const Directory directory{offset + count_size, number(offset, count_size)};
+        // The entries are followed by the offset of the next directory.
+        const bool is_whole = directory.count <= bytes_.size() / entry_size() &&
+                              holds(directory.first, directory.count * entry_size() + word());
+        return is_whole ? std::optional(directory) : std::nullopt;
     }
 
     Values values_of(std::uint64_t entry) const {
@@ -123,6 +145,7 @@ class TiffDirectory {
     Bytes bytes_;
     bool big_endian_;
     bool is_big_;
+    std::vector<Directory> pages_;
 };
 
 }  // namespace
@@ -180,7 +203,11 @@ const char* name(ImageFormat format) {
     return "";
 }
 
-bool is_cut_short(ImageFormat format, std::span<const std::uint8_t> bytes) {
+int pages_of(ImageFormat format, std::span<const std::uint8_t> bytes) {
+    return format == ImageFormat::tiff ? std::max(TiffDirectories(bytes).count(), 1) : 1;
+}
+
+bool is_cut_short(ImageFormat format, std::span<const std::uint8_t> bytes, int page) {
     switch (format) {
         case ImageFormat::pnm:
             return false;
@@ -191,7 +218,7 @@ bool is_cut_short(ImageFormat format, std::span<const std::uint8_t> bytes) {
         case ImageFormat::bmp:
             return bmp_is_cut_short(bytes);
         case ImageFormat::tiff:
-            return TiffDirectory(bytes).is_cut_short();
+            return TiffDirectories(bytes).is_cut_short(page);
     }
     return false;
 }

@@ -30,9 +30,13 @@ bool is_heif(std::span<const std::uint8_t> bytes);
 /// Returns "PNM", "PNG", "JPEG", "BMP" or "TIFF".
 const char* name(ImageFormat format);
 
-/// Whether the file's own structure (chunks, sizes, offsets, end marker) reaches beyond its end.
+/// Returns the number of pages: TIFF may have several, all others have one.
+int pages_of(ImageFormat format, std::span<const std::uint8_t> bytes);
+
+/// Whether the file's own structure (chunks, sizes, offsets, end marker) reaches beyond its end. Of
+/// a TIFF, one page is examined.
 /// PNM has no such structure: always false.
-bool is_cut_short(ImageFormat format, std::span<const std::uint8_t> bytes);
+bool is_cut_short(ImageFormat format, std::span<const std::uint8_t> bytes, int page = 1);
 
 /// Whether a PNG has a side above kMaxImageSide_px, which its decoder reports only as a bad header.
 /// Returns false for other formats.

@@ -1,5 +1,8 @@
 // Reads images one after the other.
+#include <filesystem>
 #include <utility>
+
+#include <fmt/core.h>
 
 #include "capture/frame_source.hpp"
 #include "dotpose/tools/image_file.hpp"
@@ -24,6 +27,7 @@ class ImageSource : public FrameSource {
             try {
                 options_.before_reading(*path);
                 frame.image = read_image(*path, options_.max_pixels);
+                tell_of_pages(*path);
                 return true;
             } catch (const Error& error) {
                 options_.on_unreadable(*path, error);
@@ -34,6 +38,15 @@ class ImageSource : public FrameSource {
     double rate() const override { return options_.fps.value_or(kDefaultFps); }
 
   private:
+    void tell_of_pages(const std::string& path) const {
+        // Only TIFF has pages, so that no other file is read twice.
+        const std::string ending = std::filesystem::path(path).extension().string();
+        if (!ending.starts_with(".t") && !ending.starts_with(".T")) return;
+        const int pages = count_pages(path);
+        if (pages == 1) return;
+        options_.tell(fmt::format("{} has {} pages, of which only the first is read", path, pages));
+    }
+
     std::function<std::optional<std::string>()> next_path_;
     SourceOptions options_;
     std::int64_t taken_ = 0;

@@ -67,6 +67,10 @@ Located Follower::located(const Found& found, const Fix& fix) const {
     result.reading = found.reading;
     result.place = find_sheet(options_.sheets, found.reading.code, fix);
     result.spacing_mm = spacing_mm(result.place);
+    if (options_.camera) {
+        const AxisScale print = result.place ? result.place->entry->print_scale() : AxisScale{};
+        result.camera_spacing_mm = measured_spacing_mm(fix, *options_.camera, print);
+    }
     result.fix.spacing_nm = std::isfinite(result.spacing_mm)
                                 ? static_cast<std::int32_t>(std::lround(result.spacing_mm * 1e6))
                                 : 0;

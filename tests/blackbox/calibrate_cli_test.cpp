@@ -111,6 +111,102 @@ TEST_F(CalibrateCommand, FindsReferenceAndHeading) {
     EXPECT_NEAR(json::parse(output_)["theta_deg"].get<double>(), 0, 0.2);
 }
 
+constexpr const char* kMountedCamera =
+    "{format: dotpose-camera, version: 1, width_px: 188, height_px: 120, k_per_px2: -8.7e-06, "
+    "centre_px: [93.5, 59.5], mm_per_px: [0.046, 0.046], reference_px: [500, 59.5], "
+    "theta_offset_rad: 0.25, gain: 3}";
+
+// The frames are of a sheet of 0.508 mm, as the camera file measures it.
+TEST_F(CalibrateCommand, ASpacingThatTheCameraFileContradictsIsReported) {
+    simulate("frames", 1);
+    std::ofstream(directory_ / "camera.yaml") << kMountedCamera;
+    const auto warning = [this](const std::string& spacing) {
+        run("locate --camera camera.yaml frames/frame_000000.pgm --spacing " + spacing);
+        return json::parse(output_).value("warning", "");
+    };
+    EXPECT_EQ(warning("0.508"), "");
+    EXPECT_EQ(warning("0.498"), "");
+    EXPECT_EQ(warning("0.518"), "");
+    EXPECT_THAT(warning("0.493"), HasSubstr("a spacing of 0.50"));  // printed at 97 %
+    EXPECT_THAT(warning("0.3"), HasSubstr("lengths are computed with 0.3 mm"));
+
+    const std::string before = file("camera.yaml");
+    std::string turn;
+    for (const int angle : {0, 90, 180, 270}) {
+        const std::string folder = "turn" + std::to_string(angle);
+        simulate(folder, 1, "--at 5000 5000 --angle " + std::to_string(angle));
+        turn += " " + folder + "/frame_000000.pgm";
+    }
+    EXPECT_EQ(run("calibrate --camera camera.yaml -o camera.yaml --spacing 0.3 --spin" + turn), 1);
+    EXPECT_THAT(errors_, HasSubstr("measures a spacing of 0.50"));
+    EXPECT_THAT(errors_, HasSubstr("is said to have 0.3 mm"));
+    EXPECT_EQ(file("camera.yaml"), before);
+}
+
+TEST_F(CalibrateCommand, TakesTheSpacingFromTheSheetFile) {
+    // The first sheet of a file begins at cell 1024,1024.
+    ASSERT_EQ(run("print -o fine.svg --spacing 0.3 --sheets sheets.json --name fine"), 0);
+    std::string frames;
+    for (const int at : {1100, 1130, 1160, 1190, 1220}) {
+        const std::string folder = "at" + std::to_string(at);
+        ASSERT_EQ(
+            run("simulate -o " + folder + " --spacing 0.3 --mm-per-px 0.027 --frames 1 --at " +
+                std::to_string(at) + " 1100 --seed " + std::to_string(at)),
+            0)
+            << errors_;
+        frames += " " + folder + "/frame_000000.pgm";
+    }
+    const auto scale_of = [this](const char* name) {
+        const std::string yaml = file(name);
+        double scale = 0;
+        EXPECT_EQ(std::sscanf(yaml.c_str() + yaml.find("mm_per_px: "), "mm_per_px: [%lf", &scale),
+                  1);
+        return scale;
+    };
+    ASSERT_EQ(run("calibrate --sheets sheets.json -o fine.yaml" + frames), 0) << errors_;
+    EXPECT_THAT(output_, HasSubstr("spacing     0.3 mm, of the sheet"));
+    EXPECT_NEAR(scale_of("fine.yaml"), 0.027, 0.0001);
+    ASSERT_EQ(run("calibrate -o assumed.yaml" + frames), 0) << errors_;
+    EXPECT_THAT(output_, HasSubstr("spacing     0.508 mm, ASSUMED"));
+    EXPECT_THAT(output_, HasSubstr("verdict     good if the spacing is 0.508 mm: "));
+    EXPECT_NEAR(scale_of("assumed.yaml"), 0.027 * 0.508 / 0.3, 0.0001);
+
+    ASSERT_EQ(run("print -o other.svg --sheets others.json --name other --origin 90000,1024"), 0);
+    EXPECT_EQ(run("calibrate --sheets others.json -o other.yaml" + frames), 1);
+    EXPECT_THAT(errors_, HasSubstr("no frame shows a sheet of the sheet file"));
+    EXPECT_FALSE(fs::exists(directory_ / "other.yaml"));
+}
+
+TEST_F(CalibrateCommand, KeepsTheMountOfTheFileThatItReplaces) {
+    simulate("frames", 6);
+    std::ofstream(directory_ / "camera.yaml") << kMountedCamera;
+    ASSERT_EQ(run("calibrate frames/*.pgm -o camera.yaml"), 0) << errors_;
+    EXPECT_THAT(errors_, HasSubstr("camera.yaml exists: what is not calibrated now"));
+    EXPECT_THAT(file("camera.yaml"), HasSubstr("theta_offset_rad: 0.25"));
+    EXPECT_THAT(file("camera.yaml"), HasSubstr("reference_px: ["));
+    EXPECT_THAT(file("camera.yaml"), HasSubstr("gain: 3"));
+
+    // And the lens, where only the heading is calibrated.
+    std::ofstream(directory_ / "camera.yaml") << kMountedCamera;
+    std::string drive;
+    for (const int at : {5000, 5040, 5080}) {
+        const std::string folder = "drive" + std::to_string(at);
+        simulate(folder, 1, "--at " + std::to_string(at) + " 5000 --angle -90");
+        drive += " " + folder + "/frame_000000.pgm";
+    }
+    ASSERT_EQ(run("calibrate -o camera.yaml --drive" + drive), 0) << errors_;
+    EXPECT_THAT(file("camera.yaml"), HasSubstr("k_per_px2: -8.7e-06"));
+    EXPECT_THAT(file("camera.yaml"), HasSubstr("reference_px: [500, 59.5]"));
+
+    // What cannot be kept is not lost.
+    for (const char* other : {kLargeCamera, "{format: another}"}) {
+        std::ofstream(directory_ / "camera.yaml") << other;
+        EXPECT_EQ(run("calibrate frames/*.pgm -o camera.yaml"), 1);
+        EXPECT_THAT(errors_, HasSubstr("another file"));
+        EXPECT_EQ(file("camera.yaml"), other);
+    }
+}
+
 TEST_F(CalibrateCommand, UselessInputIsRefusedAndNothingIsWritten) {
     simulate("one", 1);
     EXPECT_EQ(run("calibrate one/frame_000000.pgm -o camera.yaml"), 1);

@@ -10,6 +10,7 @@
 #include "../exif.hpp"
 #include "../jpeg.hpp"
 #include "../scanned_page.hpp"
+#include "../tiff_pages.hpp"
 #include "dotpose/files/sheet_file.hpp"
 #include "dotpose/tools/image_file.hpp"
 #include "dotpose/tools/print.hpp"
@@ -95,6 +96,7 @@ TEST_F(CheckPrintCommand, fit_makes_the_millimetres_of_the_sheet_file_true) {
     run("check-print scan.jpg --fit --sheets sheets.json");
     EXPECT_EQ(exit_code_, 0);
     EXPECT_THAT(errors_, StartsWith("sheet 'b' of sheets.json: print scale x 0.97"));
+    EXPECT_THAT(errors_, HasSubstr("the place of its dots on the page is not fitted"));
     EXPECT_NEAR(sheets()[1].print_scale_x, 0.97, 2e-4);
     EXPECT_NEAR(sheets()[1].print_scale_y, 0.98, 2e-4);
     EXPECT_EQ(sheets()[0].print_scale_x, 1);
@@ -237,6 +239,44 @@ TEST_F(CheckPrintCommand, a_scan_without_a_pattern_is_status_1) {
     run("check-print blank.pgm --format json");
     EXPECT_EQ(exit_code_, 1);
     EXPECT_EQ(json::parse(output_)["status"], "no_pattern");
+}
+
+TEST_F(CheckPrintCommand, a_resolution_that_cannot_be_true_is_refused) {
+    ScanSettings settings;
+    settings.dpi = 600;
+    const GreyImage scan = scan_of_60_x_50_mm(settings);
+    write_jpeg("scan.jpg", scan, 85);
+    run("check-print scan.jpg");
+    EXPECT_EQ(exit_code_, 3);
+    EXPECT_THAT(output_,
+                HasSubstr("FAULT: at 85 dpi the dots are 3.586 mm apart instead of 0.508"));
+    EXPECT_THAT(output_, Not(HasSubstr("can be used")));
+    EXPECT_EQ(run("check-print scan.jpg --dpi 600"), 0) << output_;
+    EXPECT_EQ(run("check-print scan.jpg --dpi 85"), 3);
+    EXPECT_EQ(run("check-print scan.jpg --dpi 85 --spacing 3.5857 --dot 0.6 --displacement 0.6"), 0)
+        << output_;
+}
+
+TEST_F(CheckPrintCommand, counts_pages_and_checks_the_one_that_is_named) {
+    ScanSettings settings;
+    settings.dpi = 300;
+    const GreyImage page = scan_of_60_x_50_mm(settings);
+    const GreyImage blank{std::vector<std::uint8_t>(400 * 300, 230), 400, 300};
+    std::ofstream(directory_ / "scan.tif", std::ios::binary)
+        << test::tiff_of_pages({blank, page}, 300);
+    run("check-print scan.tif");
+    EXPECT_EQ(exit_code_, 1);
+    EXPECT_THAT(output_, HasSubstr("page        1 of 2: --page N checks another one\n"));
+    run("check-print scan.tif --page 2");
+    EXPECT_EQ(exit_code_, 0) << output_;
+    EXPECT_THAT(output_, HasSubstr("page        2 of 2"));
+    EXPECT_THAT(output_, HasSubstr("cells 700,800 to "));
+    run("check-print scan.tif --page 2 --format json");
+    EXPECT_EQ(json::parse(output_)["pages"], 2);
+    EXPECT_EQ(run("check-print scan.tif --page 3"), 1);
+    EXPECT_THAT(errors_, HasSubstr("scan.tif: it has 2 pages, and no page 3"));
+    run("locate scan.tif");
+    EXPECT_THAT(errors_, HasSubstr("scan.tif has 2 pages, of which only the first is read"));
 }
 
 TEST_F(CheckPrintCommand, recognises_the_test_page) {

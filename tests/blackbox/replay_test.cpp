@@ -58,6 +58,7 @@ TEST_F(Replay, CountsARun) {
     EXPECT_NEAR(figures["mean_speed_mm_s"], 140, 1e-6);
     EXPECT_NEAR(figures["largest_speed_mm_s"], 200, 1e-9);
     EXPECT_DOUBLE_EQ(figures["largest_p_wrong"], 1e-12);
+    EXPECT_EQ(figures["planes"], json{"world"});
 }
 
 TEST_F(Replay, PrintsAndDraws) {
@@ -84,6 +85,9 @@ TEST_F(Replay, NumbersTheAxesOfAPathFarFromTheOrigin) {
         "1,0.1,,ok,150,1e-20,moving,,believed,pattern,59957088.5,9667954,0,0\n");
     ASSERT_EQ(run("replay run.csv --draw run.svg"), 0);
     const std::string picture = file("run.svg");
+    EXPECT_THAT(output_,
+                HasSubstr("frame of the poses          pattern (y down, angles clockwise); "
+                          "for the world, 'dotpose sheets place' before watch\n"));
     EXPECT_THAT(picture, HasSubstr(">y - 9667949 [mm]<"));
     EXPECT_THAT(picture, HasSubstr(R"(text-anchor="end" fill="#6b7885">-10<)"));
     EXPECT_THAT(picture, HasSubstr(R"(text-anchor="end" fill="#6b7885">10<)"));

@@ -69,6 +69,17 @@ TEST_F(SheetFiles, tell_sheet_place_and_world_pose) {
     }
 }
 
+TEST_F(SheetFiles, a_place_on_no_sheet_is_a_warning) {
+    ASSERT_EQ(print("-o table.svg --paper 80x60 --sheets sheets.json --name table"), 0) << errors_;
+    json sheet = sheets().at(0);
+    EXPECT_FALSE(locate_with_sheets(frame_of(sheet, 40, 30, 0, 1)).contains("warning"));
+    sheet["origin_x"] = sheet["origin_x"].get<int>() + 5000;
+    const json record = locate_with_sheets(frame_of(sheet, 40, 30, 0, 1));
+    EXPECT_EQ(record["status"], "ok");
+    EXPECT_FALSE(record.contains("sheet"));
+    EXPECT_THAT(record["warning"], HasSubstr("this place is on no sheet of the sheet file"));
+}
+
 /// What a camera above the printed page sees whose pixels are 2 x 2 of the printer's, its image
 /// centre on the corner between printer pixels (u, v): cut out of the printed file itself. The
 /// table around the page is white.

@@ -47,6 +47,26 @@ TEST_F(WatchSources, WarnsWhenAnotherCodeExplainsTheFrames) {
     EXPECT_THAT(errors_, Not(HasSubstr("explains the dots")));
 }
 
+TEST_F(WatchSources, SaysInWhichFrameTheRobotIsTracked) {
+    put_raw(1);
+    const auto messages_with = [&](const std::string& options) {
+        EXPECT_EQ(run("watch - <drive.raw " + options + " " + kRaw), 0) << errors_;
+        return errors_;
+    };
+    EXPECT_THAT(messages_with(kTrack), Not(HasSubstr("place in the world")));
+    ASSERT_EQ(run("sheets place right --unknown"), 0) << errors_;
+    EXPECT_THAT(
+        messages_with(kTrack),
+        HasSubstr("the robot counts as lost on sheets without a place in the world: right; "));
+    ASSERT_EQ(run("sheets place left --unknown"), 0) << errors_;
+    EXPECT_THAT(messages_with(kTrack),
+                HasSubstr("no sheet has a place in the world, so that the robot is tracked in the "
+                          "frame of the pattern (y down, angles clockwise)"));
+    EXPECT_THAT(messages_with("--mcap run.mcap"),
+                HasSubstr("poses are published in the frame of the pattern"));
+    EXPECT_THAT(messages_with(""), Not(HasSubstr("frame of the pattern")));
+}
+
 TEST_F(WatchSources, LooksAtAPartOfTheFrame) {
     put_video(2, "drive.avi");
     ASSERT_EQ(run(std::string("watch drive.avi --frames 1 --roi 60,60,200x120 ") + kTrack), 0);

@@ -40,6 +40,9 @@ struct CalibrateOptions {
     /// Whether to find the profile from the frames instead of taking that of `pattern`. Ignored
     /// when stitching, as sheets have their profile.
     bool any_code = false;
+    /// Sheets that the frames may show, such as those of a sheet file: the spacing is then that of
+    /// the sheet in most frames, as it was printed. Ignored when stitching.
+    std::vector<SheetEntry> sheets;
     /// Called after each part of the work; return false to stop (throws Error).
     std::function<bool(int done, int total)> progress;
 };
@@ -78,6 +81,7 @@ struct LensCalibration {
     /// known.
     bool is_mounted = true;
     Profile code = Profile::anoto;  ///< profile that was given or found
+    double spacing_mm = 0;          ///< spacing that was given, or that of the sheet
     int frames = 0;                 ///< number of frames given
     int located = 0;                ///< different frames of these that have a fix
     int duplicates = 0;             ///< frames that are the same image as an earlier one; left out
@@ -136,7 +140,8 @@ struct SpinCalibration {
 
 /// Finds where the camera sits from at least 3 frames over more than 30 degrees; a full turn in 12
 /// is good. `camera` gives lens and view; none: a camera without distortion. Throws Error: too few
-/// frames with a fix, too small a turn, frames of other sizes, a point farther off than a camera
+/// frames with a fix, too small a turn, frames of other sizes, a spacing that contradicts the
+/// camera's view, a point farther off than a camera
 /// file can say, a centre of rotation that varies by more than one spacing (rms per axis) or is
 /// uncertain by more than half a spacing.
 SpinCalibration calibrate_spin(int frames, const FrameAt& frame_at,
@@ -155,7 +160,8 @@ struct DriveCalibration {
 };
 
 /// Finds the camera's direction from at least 2 frames over more than 5 mm. Throws Error: too few
-/// frames with a fix, frames of other sizes, too short a drive, a robot that turned by more than 5
+/// frames with a fix, frames of other sizes, a spacing that contradicts the camera's view, too
+/// short a drive, a robot that turned by more than 5
 /// degrees off its mean direction, left the straight line by more than that, or went back.
 DriveCalibration calibrate_drive(int frames, const FrameAt& frame_at,
                                  const std::optional<Camera>& camera,
@@ -230,7 +236,8 @@ struct Stitching {
 /// it is fitted to each part of a frame: places are then less exact, and are right only if the
 /// fixed sheet was printed to the scales in the sheet file. Throws Error: no sheets, no frame shows
 /// two of them, none of those shown lies in the world though others do, the sheet of the reference
-/// is not among those joined; BadArgument: the reference does not exist.
+/// is not among those joined, a print scale by the camera that is more than 25 % off; BadArgument:
+/// the reference does not exist.
 Stitching stitch_sheets(int frames, const FrameAt& frame_at, std::vector<SheetEntry> sheets,
                         const std::optional<Camera>& camera, const CalibrateOptions& options,
                         const ScaleReference& reference = {});

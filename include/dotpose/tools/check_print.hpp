@@ -43,7 +43,8 @@ struct CheckPrintOptions {
     /// of them is judged by its pattern. Only sheets with the profile of `pattern` are found.
     std::vector<Sheet> sheets;
     /// Resolution of the scan. Without it the image counts as a photo, and so does one with a
-    /// camera's perspective or lens: both are then allowed for, and scale is not judged.
+    /// camera's perspective or lens: both are then allowed for, and scale is not judged. A
+    /// resolution that contradicts the spacing is a fault.
     std::optional<Resolution> resolution;
     /// Whether a camera took the image, as its file says; a resolution is then not used.
     bool is_photo = false;
@@ -140,6 +141,9 @@ enum class FindingKind {
     too_coarse,     ///< the scan has too few pixels per dot
     pale,           ///< the dots have little contrast
     no_resolution,  ///< the scale could not be checked
+    contradiction,  ///< resolution and spacing contradict each other
+    repeated,       ///< the same cells are on the page more than once
+    unknown_sheet,  ///< the cells are on no sheet that was given
     unresolved,     ///< the photo is too coarse to show some of the above
     best_settings,  ///< the best settings of a test page
 };
@@ -153,6 +157,13 @@ struct Finding {
     std::optional<std::size_t> field;  ///< index of the field concerned; none: the scan as a whole
     std::string text;  ///< one or two sentences for the user: the fault, the likely cause, the
                        ///< remedy
+};
+
+/// Two fields that show the same cells, so that a place read there is not unique.
+struct RepeatedCells {
+    std::size_t first = 0;  ///< indices of the fields
+    std::size_t second = 0;
+    int cells = 0;  ///< number of cells with a dot in both fields
 };
 
 /// Evidence in the image that a camera took it.
@@ -170,6 +181,7 @@ struct PrintCheck {
     std::optional<Resolution> resolution;  ///< resolution that was used; none for a photo
     bool is_photo = false;                 ///< as in the options
     std::optional<CameraSigns> camera;     ///< if the stated resolution was not used: the reason
+    std::vector<RepeatedCells> repeated;
     bool is_test_page = false;
     /// Patches of the usual test page (make_test_page's defaults) that are not among the fields.
     std::vector<Pattern> unread_patches;

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -53,6 +54,9 @@ struct Located {
     CodeReading reading;
     /// Spacing of the sheet, or of all sheets; not a number where sheets differ and none was found.
     double spacing_mm = 0;
+    /// Spacing as the camera file measures it; `contradicts` (mounted_pose.hpp) compares it with
+    /// `spacing_mm`. Not a number if it is not known.
+    double camera_spacing_mm = std::numeric_limits<double>::quiet_NaN();
     bool code_is_given = false;  ///< whether options or sheets gave the profile
     int reduced_by = 1;          ///< factor by which a too large image was reduced
 };

@@ -9,7 +9,7 @@
 ///    expanded; CMYK is converted without profiles; gamma and colour profiles are ignored
 ///  - 16 bits, and maximum values other than 255: scaled to 0..255 and rounded
 ///  - transparency: laid on white paper
-///  - several pages in one file: the first
+///  - several pages in one TIFF file: the first, or the one that is asked for
 /// EXIF orientation is ignored: the pixels come as the sensor delivered them, because a camera's
 /// calibration and mount refer to those.
 #pragma once
@@ -41,11 +41,17 @@ struct ImageTooLarge : Error {
 
 /// Reads one image. Reading needs 9 bytes of memory per pixel, besides the file, of which no more
 /// is read than an image of `max_pixels` takes.
-/// Throws Error, naming the file and the reason: no such file, a directory, no permission, empty,
-/// no known image format, cut short, damaged, too large, not enough memory. Throws ImageTooLarge
-/// for more than `max_pixels`, at most kMaxImagePixels.
-/// Thread-safe. The first call sets up the decoding library, which takes some milliseconds.
-GreyImage read_image(const std::filesystem::path& path, int max_pixels = kDefaultImagePixels);
+/// `page` is the number of a page of a TIFF file, from 1.
+/// Throws Error, naming the file and the reason: no such page, no such file, a directory, no
+/// permission, empty, no known image format, cut short, damaged, too large, not enough memory.
+/// Throws ImageTooLarge for more than `max_pixels`, at most kMaxImagePixels. Thread-safe. The first
+/// call sets up the decoding library, which takes some milliseconds.
+GreyImage read_image(const std::filesystem::path& path, int max_pixels = kDefaultImagePixels,
+                     int page = 1);
+
+/// Returns the number of pages in a file: TIFF may have several, all others have one. What is not a
+/// regular file, such as a pipe, is not read and counts as one page. Throws Error as `read_image`.
+int count_pages(const std::filesystem::path& path);
 
 /// Pixels per inch along both axes.
 struct Resolution {
@@ -65,7 +71,7 @@ struct ImageOrigin {
 };
 
 /// Returns the origin of an image, without decoding its pixels. Throws Error as `read_image`.
-ImageOrigin read_origin(const std::filesystem::path& path);
+ImageOrigin read_origin(const std::filesystem::path& path, int page = 1);
 
 /// Writes binary PGM (P5), replacing the file. Throws Error if the image is empty or the file
 /// cannot be written.

@@ -24,6 +24,18 @@ namespace dotpose {
 Fix with_camera(const Fix& fix, const Camera& camera, const Trace& trace,
                 const AxisScale& print = {});
 
+/// Returns the spacing of the pattern as the view of the camera file measures it, in nominal mm:
+/// divided by the print scale of the sheet. Not a number without a fix or without such a view.
+double measured_spacing_mm(const Fix& fix, const Camera& camera, const AxisScale& print = {});
+
+/// Greatest relative difference between the spacing of a sheet and the measured one. It is larger
+/// than the change of scale within the depth of field of a camera close to the paper, and smaller
+/// than the 3 % of a page that a printer driver scaled to 97 %.
+inline constexpr double kMaxSpacingDifference = 0.025;
+
+/// Whether a measured spacing contradicts that of the sheet. False if one is not a number.
+bool contradicts(double measured_mm, double spacing_mm);
+
 }  // namespace dotpose
 
 #pragma GCC visibility pop

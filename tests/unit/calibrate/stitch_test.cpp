@@ -122,6 +122,12 @@ TEST(StitchSheets, OnlyAReferenceMakesPrintScalesTrue) {
                                          {ScaleReference::By::camera, "", 0});
     expect_scale(by_camera, 0, 1.004, 1.002);
     expect_scale(by_camera, 1, 1.001, 1.003);
+    Camera wrong = true_camera(model);
+    wrong.paper->mm_per_px_x *= 1.5;
+    wrong.paper->mm_per_px_y *= 1.5;
+    EXPECT_THROW(stitch_sheets(25, frame_at, sheets_of_table(), wrong, {},
+                               {ScaleReference::By::camera, "", 0}),
+                 Error);
     const double width_mm = 1.001 * (kSide_cells - 1) * kDefaultSpacing_mm;
     const auto by_width = stitch_sheets(25, frame_at, sheets_of_table(), true_camera(model), {},
                                         {ScaleReference::By::width, "b", width_mm});

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "../../tiff_pages.hpp"
 #include "encoders.hpp"
 
 namespace dotpose::test {
@@ -136,6 +137,23 @@ TEST_F(ImageFileTest, reads_tiff) {
         EXPECT_EQ(read(encode_tiff(kRgba, big_endian)).pixels, kRgbaLevels);
         EXPECT_EQ(read(encode_tiff(kIndexed, big_endian, kPalette)).pixels, kIndexedLevels);
     }
+}
+
+TEST_F(ImageFileTest, reads_the_pages_of_tiff) {
+    const GreyImage dark{Bytes(12, 10), 4, 3};
+    const GreyImage light{Bytes(10, 200), 5, 2};
+    const auto path = write(text(test::tiff_of_pages({dark, light}, 300)));
+    EXPECT_EQ(count_pages(path), 2);
+    EXPECT_EQ(read_image(path).pixels, dark.pixels);
+    EXPECT_EQ(read_image(path, kDefaultImagePixels, 2).pixels, light.pixels);
+    EXPECT_EQ(read_origin(path, 2).resolution->x_dpi, 300);
+    EXPECT_THROW(read_image(path, kDefaultImagePixels, 3), Error);
+    EXPECT_EQ(count_pages(write(encode_png(kGrey))), 1);
+    // The directory of the second page names the first one as the next.
+    std::string loop = test::tiff_of_pages({dark, light}, 300);
+    const std::size_t second = loop.size() - 10 - 8 - 4 - 12 * 11 - 2;
+    loop[second + 2 + 12 * 11] = 8;
+    EXPECT_EQ(count_pages(write(text(loop))), 2);
 }
 
 /// The level of each block of 8 x 8 px; all its pixels must be alike.
