@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <chrono>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -179,18 +179,16 @@ void tell_frame_of_poses(const WatchArguments& arguments, const Follower& follow
             "--sheets with sheets that have a place in the world (dotpose sheets place)");
         return;
     }
-    std::string unplaced;
-    for (const SheetEntry& entry : follower.sheets()) {
-        if (!entry.world) unplaced += (unplaced.empty() ? "" : ", ") + entry.name;
-    }
-    if (unplaced.empty()) return;
-    tell(
-        follower.is_in_world()
-            ? fmt::format("the robot counts as lost on sheets without a place in the world: {}; "
-                          "place them (dotpose sheets place, dotpose calibrate --stitch)",
-                          unplaced)
-            : "no sheet has a place in the world, so that the robot is tracked in the frame of the "
-              "pattern (y down, angles clockwise): place the sheets first (dotpose sheets place)");
+    const auto unplaced = std::ranges::find_if(
+        follower.sheets(), [](const SheetEntry& entry) { return !entry.world; });
+    if (unplaced == follower.sheets().end()) return;
+    constexpr const char* kPartly =
+        "the robot counts as lost on sheets without a place in the world, such as '{}': place them "
+        "(dotpose sheets place, dotpose calibrate --stitch)";
+    constexpr const char* kPattern =
+        "no sheet has a place in the world, so that the robot is tracked in the frame of the "
+        "pattern (y down, angles clockwise): place the sheets first (dotpose sheets place)";
+    tell(follower.is_in_world() ? fmt::format(kPartly, unplaced->name) : kPattern);
 }
 
 /// Returns the number of frames that will be followed, or 0 if it is not known.

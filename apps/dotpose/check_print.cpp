@@ -107,10 +107,9 @@ std::string offset_remark(const SheetEntry& entry) {
         return std::abs(1 - scale) * std::max(first_mm, std::abs(side_mm / 2 - first_mm));
     };
     return fmt::format(
-        "the place of its dots on the page is not fitted: scaling alone shifts it by up to {:.1f} "
-        "mm "
-        "along x and {:.1f} mm along y; distances on the sheet are right, and a ruler tells "
-        "first_x_mm and first_y_mm of the sheet file",
+        "the place of its dots on the page is not fitted: scaling alone shifts it by up to "
+        "{:.1f} mm along x and {:.1f} mm along y; distances on the sheet are right; correct "
+        "first_x_mm and first_y_mm in the file by a ruler",
         shift_mm(entry.print_scale_x, sheet.origin_x_mm, sheet.width_mm),
         shift_mm(entry.print_scale_y, sheet.origin_y_mm, sheet.height_mm));
 }

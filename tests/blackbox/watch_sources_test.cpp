@@ -57,7 +57,7 @@ TEST_F(WatchSources, SaysInWhichFrameTheRobotIsTracked) {
     ASSERT_EQ(run("sheets place right --unknown"), 0) << errors_;
     EXPECT_THAT(
         messages_with(kTrack),
-        HasSubstr("the robot counts as lost on sheets without a place in the world: right; "));
+        HasSubstr("counts as lost on sheets without a place in the world, such as 'right'"));
     ASSERT_EQ(run("sheets place left --unknown"), 0) << errors_;
     EXPECT_THAT(messages_with(kTrack),
                 HasSubstr("no sheet has a place in the world, so that the robot is tracked in the "
