@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <span>
 
@@ -16,8 +17,10 @@ namespace {
 constexpr double kBeyondPage_mm = 400;
 /// Fewest dots of a view, so that the scale along both axes is meaningful.
 constexpr std::size_t kLeastDots = 30;
-/// Share of a frame's dots from which no more of its parts are located.
-constexpr double kNearlyAll = 0.9;
+constexpr int kFieldsPerSide = 8;
+/// Number of fields with dots of located sheets from which on no further parts of a frame are
+/// located. The number of dots that a fix reports cannot decide this: it counts one sheet only.
+constexpr int kNearlyAllFields = 58;
 
 /// A part of the image along one axis: begin and length, as shares of the side.
 struct Stretch {
@@ -45,6 +48,22 @@ Vec mean_step(const std::vector<LocatedDot>& dots) {
     sum /= static_cast<double>(std::max<std::size_t>(dots.size(), 1));
     return {static_cast<std::int32_t>(std::lround(sum.x())),
             static_cast<std::int32_t>(std::lround(sum.y()))};
+}
+
+/// Returns the fields of the image (`SheetView::fields`) that contain dots of a part.
+std::uint64_t fields_of(const GreyImage& image, const SeamLocator::Part& part,
+                        const std::vector<LocatedDot>& dots) {
+    const auto field = [](double pixel, int side_px) {
+        return std::clamp(static_cast<int>(kFieldsPerSide * pixel / side_px), 0,
+                          kFieldsPerSide - 1);
+    };
+    std::uint64_t fields = 0;
+    for (const LocatedDot& dot : dots) {
+        const int column = field(part.u + dot.pixel.u, image.width_px);
+        const int row = field(part.v + dot.pixel.v, image.height_px);
+        fields |= std::uint64_t{1} << (kFieldsPerSide * row + column);
+    }
+    return fields;
 }
 
 /// Place of a fix on a sheet as it was meant to be printed, in mm from its first intersection; it
@@ -154,11 +173,8 @@ std::vector<SheetView> SeamLocator::views(const GreyImage& image) {
 
 std::vector<SheetView> SeamLocator::views_with(const GreyImage& image, Effort effort) {
     std::vector<SheetView> views;
-    int dots_seen = 0;
     for (const Part& part : parts_of(image)) {
         const auto view = view_in(image, part, effort);
-        // The first part is the whole image, so from then on this is the number of all its dots.
-        dots_seen = std::max(dots_seen, locator_.trace().fix.dots_seen);
         if (!view) continue;
         const auto same = std::ranges::find(views, view->sheet, &SheetView::sheet);
         if (same == views.end()) {
@@ -166,10 +182,10 @@ std::vector<SheetView> SeamLocator::views_with(const GreyImage& image, Effort ef
         } else if (view->dots.size() > same->dots.size()) {
             *same = *view;
         }
-        std::size_t dots = 0;
+        std::uint64_t fields = 0;
         for (const SheetView& known : views)
-            dots += known.dots.size();
-        if (static_cast<double>(dots) > kNearlyAll * dots_seen) break;
+            fields |= known.fields;
+        if (std::popcount(fields) >= kNearlyAllFields) break;
     }
     return views;
 }
@@ -209,12 +225,13 @@ std::optional<SheetView> SeamLocator::view_in(const GreyImage& image, const Part
         locator_.set_options(options);
         const Fix fix = locator_.locate(pixels);
         if (fix.status != Status::ok) continue;
-        if (auto view = view_of(fix, camera, profile)) return view;
+        if (auto view = view_of(image, part, fix, camera, profile)) return view;
     }
     return std::nullopt;
 }
 
-std::optional<SheetView> SeamLocator::view_of(const Fix& fix, const Camera& camera,
+std::optional<SheetView> SeamLocator::view_of(const GreyImage& image, const Part& part,
+                                              const Fix& fix, const Camera& camera,
                                               Profile profile) const {
     const Trace trace = locator_.trace();
     std::vector<LocatedDot> dots = dots_read(trace);
@@ -233,6 +250,7 @@ std::optional<SheetView> SeamLocator::view_of(const Fix& fix, const Camera& came
         return !is_on;
     });
     if (dots.size() < kLeastDots) return std::nullopt;
+    view.fields = fields_of(image, part, dots);
     if (camera.paper) {
         const auto first = place_beyond(entry, profile, moved_to(fix, trace, {0, 0}));
         if (!first) return std::nullopt;

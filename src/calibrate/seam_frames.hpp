@@ -29,6 +29,9 @@ struct SheetView {
     Eigen::Matrix<double, 6, 6> whitening = Eigen::Matrix<double, 6, 6>::Zero();
     int rows = 0;
     std::vector<std::uint64_t> dots;  ///< cells of the dots
+    /// The fields of the image that show dots of the sheet: bit 8 j + i is that of column i, row j
+    /// of 8 x 8 fields.
+    std::uint64_t fields = 0;
 
     bool has_scale() const { return rows == 6; }
 };
@@ -41,18 +44,21 @@ class SeamLocator {
     /// Returns all sheets that are seen, each by the part that shows most of it. Throws Error.
     std::vector<SheetView> views(const GreyImage& image);
 
-  private:
+    /// A rectangle of the image, in px.
     struct Part {
         int u = 0;
         int v = 0;
         int width = 0;
         int height = 0;
     };
+
+  private:
     static std::vector<Part> parts_of(const GreyImage& image);
     Camera camera_of(const GreyImage& image, const Part& part) const;
     std::vector<SheetView> views_with(const GreyImage& image, Effort effort);
     std::optional<SheetView> view_in(const GreyImage& image, const Part& part, Effort effort);
-    std::optional<SheetView> view_of(const Fix& fix, const Camera& camera, Profile profile) const;
+    std::optional<SheetView> view_of(const GreyImage& image, const Part& part, const Fix& fix,
+                                     const Camera& camera, Profile profile) const;
 
     const std::vector<SheetEntry>& sheets_;
     std::optional<Camera> camera_;

@@ -96,6 +96,22 @@ TEST(StitchSheets, FindsHowFourSheetsLieAndHowLongTheyWerePrinted) {
     }
 }
 
+// The whole image reads one sheet, and its fix counts the dots of that sheet only.
+TEST(StitchSheets, FindsBothSheetsOfAPhotoWithWideMargins) {
+    CameraModel model = wide_camera();
+    model.width_px = 1000;
+    model.height_px = 750;
+    model.k = 0;
+    Table table = kTable;
+    table[1].x_mm += 8;
+    const auto photo = [&](int i) {
+        return table_frame(table, model, 66, i, kPage_mm + 7, 25 + 2.0 * i, 0.05 * i);
+    };
+    const auto stitching = stitch_sheets(4, photo, sheets_of_table(), true_camera(model), {});
+    EXPECT_EQ(stitching.used, 4);
+    EXPECT_LT(off_mm(stitching.sheets[1].world.value(), table[1]), 0.05);
+}
+
 /// Returns frames over the upper seam only: sheets a and b.
 FrameAt upper_seam(const Table& table, const CameraModel& model) {
     return [&](int i) {
