@@ -8,8 +8,8 @@
 
 namespace dotpose::cli {
 
-/// The format of output lines.
-enum class RecordFormat { json, csv };
+/// The format of output lines; only `locate` writes text.
+enum class RecordFormat { json, csv, text };
 
 /// The version of the JSON lines, which every line begins with. docs/schema/lines-VERSION.json
 /// describes it. Within a version keys may be added, but none goes away or changes its meaning.

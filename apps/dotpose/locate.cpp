@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -11,6 +12,7 @@
 
 #include <fmt/core.h>
 
+#include "choices.hpp"
 #include "commands.hpp"
 #include "common.hpp"
 #include "dotpose/tools/follower.hpp"
@@ -35,8 +37,10 @@ using std::chrono::steady_clock;
 constexpr const char* kExamples =
     "Examples:\n"
     "  dotpose locate frame.png\n"
+    "  dotpose locate --format text frame.png\n"
     "  dotpose locate --format csv frames/*.pgm > poses.csv\n"
-    "  dotpose locate --draw pictures frame.png\n"
+    "  dotpose locate --draw picture.svg frame.png\n"
+    "  dotpose locate --draw pictures frames/*.pgm\n"
     "  dotpose locate --units ros --sheets sheets.json frame.png\n"
     "  dotpose locate --sheets sheets.json frame.png\n"
     "  dotpose locate --camera camera.yaml frame.png\n"
@@ -49,24 +53,18 @@ constexpr const char* kExamples =
 struct LocateArguments {
     SourceArguments sources;
     LineArguments lines;
-    std::string draw_folder;
+    std::optional<Columns> columns;  ///< of CSV; none: not given
+    std::string draw;                ///< NAME.svg or a folder; empty for no pictures
     FollowerArguments follower;
     int threads = 1;
 };
-
-/// Returns the sheet and the place on it in words, or an empty text if the fix is on no sheet.
-std::string sheet_text(const Record& record) {
-    if (!record.place) return {};
-    return fmt::format("{}: x {:.3f} mm, y {:.3f} mm", record.place->entry->name,
-                       record.place->x_mm, record.place->y_mm);
-}
 
 /// Locates one image after the other.
 class ImageLocator {
   public:
     ImageLocator(const LocateArguments& arguments, const RunFiles& files)
         : arguments_(arguments), follower_(options_of(arguments)) {
-        if (!arguments.draw_folder.empty()) pictures_.emplace(arguments.draw_folder, files);
+        if (!arguments.draw.empty()) pictures_.emplace(arguments.draw, files);
     }
 
     bool has_sheets() const { return !follower_.sheets().empty(); }
@@ -89,8 +87,6 @@ class ImageLocator {
         record.height_px = image.height_px;
         record.elapsed_us = elapsed.count();
         record.advice = advice(record.fix.status, bits_per_px);
-        spacing_mm_ = record.spacing_mm;
-        sheet_ = sheet_text(record);
         return record;
     }
 
@@ -107,15 +103,19 @@ class ImageLocator {
     }
 
     /// Draws the image just located, if pictures are wanted. Throws Error.
-    void draw(const std::string& name) {
+    void draw(const Record& record) {
         if (!pictures_) return;
-        pictures_->add(name, follower_.image(), follower_.trace(), spacing_mm_, sheet_);
+        pictures_->add(record.file, follower_.image(), follower_.trace(),
+                       {.spacing_mm = record.spacing_mm,
+                        .fix = record.fix,
+                        .place = record.place,
+                        .reason = reason(record)});
     }
 
   private:
     static FollowerOptions options_of(const LocateArguments& arguments) {
         FollowerOptions options = arguments.follower.read();
-        options.locate.show_stages = !arguments.draw_folder.empty();
+        options.locate.show_stages = !arguments.draw.empty();
         return options;
     }
 
@@ -138,8 +138,6 @@ class ImageLocator {
     Follower follower_;
     std::unique_ptr<LargeMemory> scratch_;  ///< for a look at what could not be located
     std::optional<PictureFolder> pictures_;
-    double spacing_mm_ = 0;
-    std::string sheet_;  ///< the place on a sheet, in words; empty if the fix is on none
 };
 
 RunFiles files_of(const LocateArguments& arguments, const Sources& sources) {
@@ -147,6 +145,9 @@ RunFiles files_of(const LocateArguments& arguments, const Sources& sources) {
     arguments.follower.add_files(files);
     sources.add_files(files);
     files.writes_lines(arguments.lines.out, content_of(arguments.lines.format));
+    if (is_picture_name(arguments.draw) || !std::filesystem::exists(arguments.draw)) {
+        files.writes("--draw", arguments.draw, Content::svg);
+    }
     return files;
 }
 
@@ -158,6 +159,7 @@ class LocateRun {
           locator_(arguments, files_),
           lines_(arguments.lines.out),
           format_(arguments.lines.format),
+          columns_(arguments.columns.value_or(Columns::brief)),
           units_(arguments.lines.units),
           arguments_(arguments),
           sources_(sources),
@@ -171,7 +173,7 @@ class LocateRun {
     /// Returns the exit status. Throws Error if the lines cannot be written.
     int operator()() {
         if (format_ == RecordFormat::csv) {
-            lines_.write(csv_header(locator_.has_sheets(), units_));
+            lines_.write(csv_header(locator_.has_sheets(), units_, columns_));
         }
         if (arguments_.threads != 1) return in_threads();
         capture::Frame frame;
@@ -183,7 +185,7 @@ class LocateRun {
                 continue;
             }
             write(record);
-            if (!frame.image.pixels.empty()) attempt([&] { locator_.draw(name); });
+            if (!frame.image.pixels.empty()) attempt([&] { locator_.draw(record); });
         }
         if (interrupted()) fail(Error("interrupted; the lines so far are complete"));
         return exit_code_;
@@ -271,7 +273,11 @@ class LocateRun {
         }
     }
 
-    void write(const Record& record) { lines_.write(line_of(fields(record, units_), format_)); }
+    void write(const Record& record) {
+        if (format_ == RecordFormat::text) return lines_.write(text_line(record, units_));
+        const Columns columns = format_ == RecordFormat::csv ? columns_ : Columns::all;
+        lines_.write(line_of(columns_of(fields(record, units_), columns), format_));
+    }
 
     void fail(const Error& error) {
         tell(error.what());
@@ -293,6 +299,7 @@ class LocateRun {
     ImageLocator locator_;
     Lines lines_;
     RecordFormat format_;
+    Columns columns_;
     Units units_;
     const LocateArguments& arguments_;
     Sources& sources_;
@@ -309,7 +316,15 @@ int run(const LocateArguments& arguments) {
             "--threads needs --code NAME or --sheets FILE: without them, all frames together "
             "decide which code they show");
     }
+    if (arguments.columns && arguments.lines.format != RecordFormat::csv) {
+        throw BadArgument("--columns is for --format csv only");
+    }
     Sources sources(arguments.sources);
+    if (is_picture_name(arguments.draw) && sources.number_of_images() != 1) {
+        throw BadArgument(fmt::format(
+            "--draw {} is the picture of a single image: name a folder for those of several",
+            arguments.draw));
+    }
     return LocateRun(arguments, sources)();
 }
 
@@ -322,12 +337,23 @@ void add_locate(Command& app, int& exit_code) {
     arguments->sources.add_to(*command);
     add_follower_options(*command, arguments->follower,
                          "Sheet file: also tell the sheet, and the place on it and in the world");
-    add_line_options(*command, arguments->lines);
+    add_line_options(*command, arguments->lines, true);
     command
-        ->add_option("--draw", arguments->draw_folder,
-                     "Also write a picture (SVG) of what was seen in each image; the last "
-                     "folder of the name is made if missing")
-        ->type_name("DIR");
+        ->add_option_function<std::string>(
+            "--columns",
+            [arguments](const std::string& name) {
+                arguments->columns = name == "all" ? Columns::all : Columns::brief;
+            },
+            "Of CSV: brief (pose, standard deviations, p_wrong) or all")
+        ->type_name("NAME")
+        ->default_str("brief")
+        ->check(one_of({"brief", "all"}));
+    const Option* draw =
+        command
+            ->add_option("--draw", arguments->draw,
+                         "Also write a picture (SVG) of what was seen: NAME.svg of one image, or a "
+                         "folder for those of several, which is made if missing (not its parents)")
+            ->type_name("FILE|DIR");
     command
         ->add_option(
             "--threads", arguments->threads,
@@ -336,7 +362,7 @@ void add_locate(Command& app, int& exit_code) {
         ->type_name("N")
         ->capture_default_str()
         ->check(Range(0, 256).description(""))
-        ->excludes(command->get_option("--draw"));
+        ->excludes(draw);
     command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }
 

@@ -1,10 +1,13 @@
 #include "locate_record.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <numbers>
+#include <string_view>
 #include <vector>
 
 #include <fmt/core.h>
@@ -16,6 +19,14 @@
 
 namespace dotpose::cli {
 namespace {
+
+/// The pose in the pattern, which is a brief column only without sheets.
+constexpr std::array<std::string_view, 6> kPatternPose = {
+    "x_mm", "y_mm", "theta_deg", "x_pattern_m", "y_pattern_m", "yaw_pattern_rad"};
+constexpr std::array<std::string_view, 18> kBriefColumns = {
+    "file",    "status",          "message",    "sigma_x_mm", "sigma_y_mm",    "p_wrong",
+    "warning", "sheet",           "x_sheet_mm", "y_sheet_mm", "x_m",           "y_m",
+    "yaw_rad", "theta_sheet_deg", "x_sheet_m",  "y_sheet_m",  "yaw_sheet_rad", "sigma_theta_deg"};
 
 double sigma(const Fix& fix, std::size_t axis) {
     return std::sqrt(static_cast<double>(fix.covariance[axis][axis]));
@@ -265,10 +276,23 @@ std::vector<Field> fields(const Record& record, Units units) {
     return all;
 }
 
-std::string csv_header(bool has_sheets, Units units) {
+std::vector<Field> columns_of(std::vector<Field> fields, Columns columns) {
+    if (columns == Columns::all) return fields;
+    const auto has_sheet = std::ranges::find(fields, "sheet", &Field::name) != fields.end();
+    const auto is_among = [](const auto& names, const std::string& name) {
+        return std::ranges::find(names, name) != std::end(names);
+    };
+    std::erase_if(fields, [&](const Field& field) {
+        const bool is_pattern = is_among(kPatternPose, field.name);
+        return is_pattern ? has_sheet : !is_among(kBriefColumns, field.name);
+    });
+    return fields;
+}
+
+std::string csv_header(bool has_sheets, Units units, Columns columns) {
     Record record;
     record.has_sheets = has_sheets;
-    return csv_header(fields(record, units));
+    return csv_header(columns_of(fields(record, units), columns));
 }
 
 }  // namespace dotpose::cli

@@ -46,7 +46,21 @@ std::string reason(const Record& record);
 /// Returns the fields in the order of the output.
 std::vector<Field> fields(const Record& record, Units units);
 
+/// The columns of CSV.
+enum class Columns {
+    brief,  ///< pose with standard deviations and p_wrong; with sheets on the sheet and in the
+            ///< world
+    all,
+};
+
+/// Returns the fields that are columns, in their order.
+std::vector<Field> columns_of(std::vector<Field> fields, Columns columns);
+
 /// Returns the header line of a run with or without sheets, with its line break.
-std::string csv_header(bool has_sheets, Units units);
+std::string csv_header(bool has_sheets, Units units, Columns columns);
+
+/// Returns one line to read: file, sheet, x, y and angle, each with its standard deviation, and the
+/// place in the world; or why there is no fix.
+std::string text_line(const Record& record, Units units);
 
 }  // namespace dotpose::cli

@@ -37,18 +37,21 @@ void add_out_option(Command& command, std::string& out, const std::string& help,
 
 }  // namespace
 
-void add_line_options(Command& command, LineArguments& arguments) {
-    const Option* format = command
-                               .add_option_function<std::string>(
-                                   "--format",
-                                   [&arguments](const std::string& name) {
-                                       arguments.format =
-                                           name == "csv" ? RecordFormat::csv : RecordFormat::json;
-                                   },
-                                   "json (an object per line) or csv")
-                               ->type_name("NAME")
-                               ->default_str("json, or by the name of the output")
-                               ->check(one_of({"json", "csv"}));
+void add_line_options(Command& command, LineArguments& arguments, bool has_text) {
+    const Option* format =
+        command
+            .add_option_function<std::string>(
+                "--format",
+                [&arguments](const std::string& name) {
+                    arguments.format = name == "csv"    ? RecordFormat::csv
+                                       : name == "text" ? RecordFormat::text
+                                                        : RecordFormat::json;
+                },
+                has_text ? "json (an object per line), csv, or text (a line to read)"
+                         : "json (an object per line) or csv")
+            ->type_name("NAME")
+            ->default_str("json, or by the name of the output")
+            ->check(has_text ? one_of({"json", "csv", "text"}) : one_of({"json", "csv"}));
     command
         .add_option_function<std::string>(
             "--units",

@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 
 #include "dotpose/files/error.hpp"
-#include "dotpose/tools/draw.hpp"
+#include "print/lower_case.hpp"
 
 namespace dotpose::cli {
 
@@ -23,28 +23,35 @@ std::string stem_of(const std::string& name) {
 
 }  // namespace
 
-PictureFolder::PictureFolder(fs::path folder, const RunFiles& files)
-    : folder_(std::move(folder)), files_(files) {
+bool is_picture_name(const fs::path& path) {
+    return print::lower_case(path.extension().string()) == ".svg" && !fs::is_directory(path);
+}
+
+PictureFolder::PictureFolder(fs::path path, const RunFiles& files)
+    : path_(std::move(path)), files_(files) {
+    if (is_picture_name(path_)) return;
     std::error_code error;
     // Only the last folder of the path is created: if others are missing, the name is mistyped.
-    fs::create_directory(folder_, error);
-    if (!fs::is_directory(folder_)) {
-        throw Error(fmt::format("cannot create the folder {}: {}", folder_.string(),
+    fs::create_directory(path_, error);
+    if (!fs::is_directory(path_)) {
+        throw Error(fmt::format("cannot create the folder {}: {}", path_.string(),
                                 error ? error.message() : "a file has this name"));
     }
 }
 
 void PictureFolder::add(const std::string& image_name, ImageView image, const Trace& trace,
-                        double spacing_mm, const std::string& sheet) {
+                        DrawOptions options) {
+    options.title = fs::path(image_name).filename().string();
+    draw_frame(is_picture_name(path_) ? path_ : path_in_folder(image_name), image, trace, options);
+}
+
+fs::path PictureFolder::path_in_folder(const std::string& image_name) {
     const std::string stem = stem_of(image_name);
     std::string file = stem + ".svg";
     for (int n = 2; !used_.insert(file).second; ++n)
         file = fmt::format("{}-{}.svg", stem, n);
-    files_.require_free("--draw", (folder_ / file).string());
-    draw_frame(folder_ / file, image, trace,
-               {.spacing_mm = spacing_mm,
-                .title = fs::path(image_name).filename().string(),
-                .sheet = sheet});
+    files_.require_free("--draw", (path_ / file).string());
+    return path_ / file;
 }
 
 }  // namespace dotpose::cli

@@ -71,7 +71,9 @@ std::string input_path(const std::string& path) {
 }  // namespace
 
 Content content_of(RecordFormat format) {
-    return format == RecordFormat::csv ? Content::csv : Content::json;
+    return format == RecordFormat::csv    ? Content::csv
+           : format == RecordFormat::text ? Content::text
+                                          : Content::json;
 }
 
 Content content_of(const ReportArguments& report) {

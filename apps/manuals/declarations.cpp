@@ -11,7 +11,8 @@ namespace dotpose::manuals {
 namespace {
 
 ValueKind kind_of(const std::string& type) {
-    const std::set<std::string> files = {"FILE", "FILE|-", "FILE|-|DIR", "IMAGE", "SCAN", "SOURCE"};
+    const std::set<std::string> files = {"FILE",  "FILE|-", "FILE|-|DIR", "FILE|DIR",
+                                         "IMAGE", "SCAN",   "SOURCE"};
     if (type.empty()) return ValueKind::none;
     if (files.contains(type)) return ValueKind::file;
     return type == "DIR" ? ValueKind::folder : ValueKind::text;

@@ -1,7 +1,9 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "draw/frame_panels.hpp"
 
@@ -30,28 +32,45 @@ void draw_axis(Point from, Point to, std::string_view name, Svg& svg) {
              R"(stroke="#ffffff" stroke-width="7" paint-order="stroke")");
 }
 
-}  // namespace
-
-void draw_detection(const FrameView& view, Svg& svg) {
+void draw_connections(const FrameView& view, Svg& svg) {
     const Trace& trace = view.trace();
-    const double stroke = view.stroke();
     svg.add(R"(<g class="connections" stroke="{}" stroke-width="{:.2f}" )"
             R"(stroke-linecap="round" stroke-opacity="0.85">)",
-            colour::kEdge, 3.5 * stroke);
+            colour::kEdge, 3.5 * view.stroke());
     // If the dots were measured again, the edges refer to dots that are no longer in the list.
-    if (view.reached().edges && !trace.seeds.empty()) {
+    if (view.reached().edges && !trace.seeds.empty() && !view.is_dense()) {
         for (const Edge& edge : trace.edges) {
             svg.line(view.at_dot(dot_of_seed(trace, edge.from)),
                      view.at_dot(dot_of_seed(trace, edge.to)), {});
         }
     }
     svg.add("</g>");
+}
+
+void draw_dots(const FrameView& view, Svg& svg) {
+    const double stroke = view.stroke();
+    const std::span<const Dot> dots = view.trace().dots;
     svg.add(R"(<g class="dots" fill="none" stroke="{}" stroke-width="{:.2f}">)", colour::kDot,
             3.5 * stroke);
-    for (const Dot& dot : trace.dots) {
-        svg.circle(view.at_dot(dot), radius_of(dot, view) + 2 * stroke, {});
+    if (view.is_dense()) {
+        std::vector<Point> centres;
+        for (const Dot& dot : dots)
+            centres.push_back(view.at_dot(dot));
+        svg.discs(centres, view.spacing() / 2, R"(stroke-opacity="0.7")");
+    } else {
+        for (const Dot& dot : dots)
+            svg.circle(view.at_dot(dot), radius_of(dot, view) + 2 * stroke, {});
     }
     svg.add("</g>");
+}
+
+}  // namespace
+
+void draw_detection(const FrameView& view, Svg& svg) {
+    const Trace& trace = view.trace();
+    const double stroke = view.stroke();
+    draw_connections(view, svg);
+    draw_dots(view, svg);
     if (view.reached().axes) {
         svg.circle(view.at(from_q16(trace.lattice.origin_q16)), 0.42 * view.spacing(),
                    fmt::format(R"(class="origin" fill="none" stroke="{}" stroke-width="{:.2f}")",
@@ -76,7 +95,12 @@ void draw_edges(const FrameView& view, double side, Svg& svg) {
     const double scale = side / 2 / (1.7 * view.spacing() / view.scale());
     svg.add(R"(<g class="edges" fill="{0}" stroke="{0}" stroke-width="1" stroke-opacity="0.25">)",
             colour::kEdge);
-    for (const Edge& edge : view.trace().edges) {
+    // Of many edges, a part shows the same clusters.
+    constexpr std::size_t kMaxEdges = 1000;
+    const std::span<const Edge> edges = view.trace().edges;
+    const std::size_t step = 1 + edges.size() / kMaxEdges;
+    for (std::size_t i = 0; i < edges.size(); i += step) {
+        const Edge& edge = edges[i];
         const Point end = middle + scale * from_q8(edge.step_q8);
         if (end.x < 0 || end.x > side || end.y < 0 || end.y > side) continue;
         svg.line(middle, end, {});

@@ -1,13 +1,16 @@
 #include "draw/embedded_image.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <vector>
 
 #include <png.h>
 
 #include "dotpose/files/error.hpp"
+#include "dotpose/tools/grey_image.hpp"
 
 namespace dotpose::draw {
 namespace {
@@ -31,6 +34,24 @@ std::vector<std::uint8_t> encode_png(ImageView image) {
     return bytes;
 }
 
+/// Returns the means of blocks of `by` x `by` pixels, smaller at the right and lower edge. The grey
+/// levels are multiples of 4, because noise in the last bits does not compress.
+GreyImage reduced(ImageView image, int by) {
+    GreyImage result{{}, (image.width_px + by - 1) / by, (image.height_px + by - 1) / by};
+    for (int v = 0; v < image.height_px; v += by) {
+        for (int u = 0; u < image.width_px; u += by) {
+            const int right = std::min(u + by, image.width_px);
+            const int bottom = std::min(v + by, image.height_px);
+            int sum = 0;
+            for (int row = v; row < bottom; ++row)
+                sum += std::accumulate(image.row(row) + u, image.row(row) + right, 0);
+            const int mean = sum / ((right - u) * (bottom - v));
+            result.pixels.push_back(static_cast<std::uint8_t>(std::min((mean + 2) / 4 * 4, 255)));
+        }
+    }
+    return result;
+}
+
 std::string base64(std::span<const std::uint8_t> bytes) {
     constexpr const char* kDigits =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -51,9 +72,12 @@ std::string base64(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
-std::string data_uri(ImageView image) {
+std::string data_uri(ImageView image, int max_side_px) {
     if (image.pixels == nullptr || image.width_px <= 0 || image.height_px <= 0) return {};
-    return "data:image/png;base64," + base64(encode_png(image));
+    const int side_px = std::max(image.width_px, image.height_px);
+    const int by = (side_px + max_side_px - 1) / max_side_px;
+    if (by == 1) return "data:image/png;base64," + base64(encode_png(image));
+    return "data:image/png;base64," + base64(encode_png(reduced(image, by).view()));
 }
 
 }  // namespace dotpose::draw

@@ -7,8 +7,9 @@
 
 namespace dotpose::draw {
 
-/// Returns "data:image/png;base64,...", or an empty string for an image without pixels. Throws
-/// Error if the image cannot be encoded.
-std::string data_uri(ImageView image);
+/// Returns "data:image/png;base64,...", or an empty string for an image without pixels. An image
+/// whose sides are longer than `max_side_px` is reduced by a whole factor, and to 64 grey levels.
+/// Throws Error if the image cannot be encoded.
+std::string data_uri(ImageView image, int max_side_px);
 
 }  // namespace dotpose::draw

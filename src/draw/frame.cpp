@@ -60,7 +60,7 @@ class Sketch {
 
     /// Defines the image once in the SVG; both panels refer to it.
     void define_frame(ImageView image) {
-        const std::string uri = data_uri(image);
+        const std::string uri = data_uri(image, static_cast<int>(kPanelWidth));
         svg_.add("<defs>");
         if (!uri.empty()) {
             svg_.add(R"(<image id="frame" width="{:.2f}" height="{:.2f}" )"

@@ -94,6 +94,11 @@ FrameView::FrameView(ImageView image, const Trace& trace, double side)
     stroke_ = std::clamp(spacing() / 70, 0.2, 1.0);
 }
 
+bool FrameView::is_dense() const {
+    constexpr double kLegibleSpacing = 16;
+    return spacing() < kLegibleSpacing;
+}
+
 double FrameView::estimate_spacing_px() const {
     if (reached_.cells) return std::max(1.0, grid_.spacing_px());
     if (reached_.axes) {

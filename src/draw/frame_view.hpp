@@ -52,6 +52,9 @@ class FrameView {
     double height() const { return height_px_ * scale_; }
     /// Size of a pixel on the drawing.
     double scale() const { return scale_; }
+    /// Whether the dots are so close together on the drawing that letters and rings would not be
+    /// legible.
+    bool is_dense() const;
     /// Factor for the width of strokes: 1 if the grid spacing is at least 70 units on the drawing,
     /// less for a smaller spacing.
     double stroke() const { return stroke_; }

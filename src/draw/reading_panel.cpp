@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
+#include <functional>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -56,7 +58,16 @@ class Reading {
   private:
     Turn turn() const { return view_.reached().place ? trace_.decoding.pattern_from_grid : Turn{}; }
     void draw_axes() const;
+    Symbol read_in(const GridCell& cell) const {
+        return turned(make_symbol(cell.x > 0, cell.y > 0), turn());
+    }
+    bool is_error(int i, int j, const GridCell& cell) const;
     void draw_symbol(int i, int j, const GridCell& cell) const;
+    void draw_points() const;
+    /// Calls a function with column, row and cell of each dot that was read. Returns the centres of
+    /// the dots that were not: those near no intersection, or at one that another dot fits better.
+    std::vector<Point> for_each_read_dot(
+        const std::function<void(int, int, const GridCell&)>& draw) const;
     /// Draws a line of the grid as several strokes, because lens distortion may bend it.
     void draw_grid_line(double i, double j, int steps, Point step) const;
 
@@ -75,7 +86,7 @@ void Reading::draw_grid_line(double i, double j, int steps, Point step) const {
 }
 
 void Reading::draw_grid() const {
-    if (!view_.reached().cells) return;
+    if (!view_.reached().cells || view_.is_dense()) return;
     const Region& grid = trace_.grid.region;
     svg_.add(R"(<g class="grid" fill="none" stroke="#7f8c99" stroke-opacity="0.7" )"
              R"(stroke-width="{:.2f}">)",
@@ -89,22 +100,23 @@ void Reading::draw_grid() const {
     svg_.add("</g>");
 }
 
+bool Reading::is_error(int i, int j, const GridCell& cell) const {
+    if (!view_.reached().place) return false;
+    const Place place = place_of(trace_, {i, j});
+    return symbol_at(trace_.options.profile, place.cell, place.section) != read_in(cell);
+}
+
 void Reading::draw_symbol(int i, int j, const GridCell& cell) const {
     const Point at = view_.at_dot(trace_.dots[cell.dot]);
     const double radius = 0.27 * view_.spacing();
-    const Symbol read = turned(make_symbol(cell.x > 0, cell.y > 0), turn());
-    bool is_error = false;
-    if (view_.reached().place) {
-        const Place place = place_of(trace_, {i, j});
-        is_error = symbol_at(trace_.options.profile, place.cell, place.section) != read;
-    }
-    svg_.circle(at, radius,
-                fmt::format(R"(fill="{}"{})", quality_colour(quality(cell)),
-                            is_error ? fmt::format(R"( stroke="{}" stroke-width="{:.2f}")",
-                                                   colour::kError, 7 * view_.stroke())
-                                     : ""));
+    svg_.circle(
+        at, radius,
+        fmt::format(R"(fill="{}"{})", quality_colour(quality(cell)),
+                    is_error(i, j, cell) ? fmt::format(R"( stroke="{}" stroke-width="{:.2f}")",
+                                                       colour::kError, 7 * view_.stroke())
+                                         : ""));
     const bool is_legible = cell.x != 0 && cell.y != 0;
-    const char capital = static_cast<char>(letter(read) - 'a' + 'A');
+    const char capital = static_cast<char>(letter(read_in(cell)) - 'a' + 'A');
     const double size = 1.45 * radius;
     // Letters are upright on the pattern, so that they show its orientation.
     const double angle_deg =
@@ -123,7 +135,20 @@ void Reading::draw_symbols() const {
         svg_.add("</g>");
         return;
     }
+    if (view_.is_dense()) return draw_points();
     svg_.add(R"(<g class="symbols" font-weight="bold" fill="#ffffff" text-anchor="middle">)");
+    const std::vector<Point> unread =
+        for_each_read_dot([this](int i, int j, const GridCell& cell) { draw_symbol(i, j, cell); });
+    svg_.add("</g>");
+    svg_.add(R"(<g class="unread" fill="none" stroke="{}" stroke-width="{:.2f}">)", colour::kBad,
+             4 * view_.stroke());
+    for (const Point& centre : unread)
+        svg_.circle(centre, 0.2 * view_.spacing(), {});
+    svg_.add("</g>");
+}
+
+std::vector<Point> Reading::for_each_read_dot(
+    const std::function<void(int, int, const GridCell&)>& draw) const {
     std::vector<bool> is_read(trace_.dots.size(), false);
     const Region& grid = trace_.grid.region;
     for (int j = grid.j0; j < grid.j0 + grid.rows; ++j) {
@@ -131,17 +156,36 @@ void Reading::draw_symbols() const {
             const GridCell& cell = trace_.grid.at(i, j);
             if (cell.dot >= is_read.size()) continue;
             is_read[cell.dot] = true;
-            draw_symbol(i, j, cell);
+            draw(i, j, cell);
         }
     }
-    svg_.add("</g>");
-    // Dots that are near no intersection, or at an intersection that another dot fits better.
-    svg_.add(R"(<g class="unread" fill="none" stroke="{}" stroke-width="{:.2f}">)", colour::kBad,
-             4 * view_.stroke());
+    std::vector<Point> unread;
     for (std::size_t d = 0; d < is_read.size(); ++d) {
-        if (!is_read[d]) svg_.circle(view_.at_dot(trace_.dots[d]), 0.2 * view_.spacing(), {});
+        if (!is_read[d]) unread.push_back(view_.at_dot(trace_.dots[d]));
     }
-    svg_.add("</g>");
+    return unread;
+}
+
+/// Draws dots without letters, those of similar likelihood in one element.
+void Reading::draw_points() const {
+    constexpr std::size_t kColours = 8;
+    std::array<std::vector<Point>, kColours> points;
+    std::vector<Point> errors;
+    const std::vector<Point> unread = for_each_read_dot([&](int i, int j, const GridCell& cell) {
+        const Point at = view_.at_dot(trace_.dots[cell.dot]);
+        const auto colour = static_cast<std::size_t>(kColours * quality(cell));
+        points[std::min(colour, kColours - 1)].push_back(at);
+        if (is_error(i, j, cell)) errors.push_back(at);
+    });
+    const auto draw = [this](const std::vector<Point>& centres, double size, const char* what,
+                             const std::string& colour) {
+        svg_.discs(centres, size * view_.spacing(),
+                   fmt::format(R"(class="{}" stroke="{}")", what, colour));
+    };
+    draw(errors, 1.1, "errors", colour::kError);
+    draw(unread, 0.4, "unread", colour::kBad);
+    for (std::size_t i = 0; i < kColours; ++i)
+        draw(points[i], 0.54, "points", quality_colour((static_cast<double>(i) + 0.5) / kColours));
 }
 
 void Reading::draw_window() const {

@@ -84,6 +84,15 @@ void Svg::circle(Point centre, double radius, std::string_view attributes) {
         attributes);
 }
 
+void Svg::discs(std::span<const Point> centres, double diameter, std::string_view attributes) {
+    // A line of length 0 with round ends is a disc.
+    std::string path;
+    for (const Point& centre : centres)
+        path += fmt::format("M{:.1f} {:.1f}h0", centre.x, centre.y);
+    add(R"(<path d="{}" stroke-width="{:.2f}" stroke-linecap="round" fill="none" {}/>)", path,
+        diameter, attributes);
+}
+
 void Svg::arrow(Point from, Point to, double width, std::string_view colour,
                 std::string_view attributes) {
     const Point along = to - from;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <iosfwd>
 #include <iterator>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -55,6 +56,9 @@ class Svg {
     }
     void line(Point from, Point to, std::string_view attributes);
     void circle(Point centre, double radius, std::string_view attributes);
+    /// Draws filled discs of one size in a single element, whose attributes include the stroke
+    /// colour.
+    void discs(std::span<const Point> centres, double diameter, std::string_view attributes);
     /// Draws a line with a head at its end; `width` is the width of the line.
     void arrow(Point from, Point to, double width, std::string_view colour,
                std::string_view attributes = {});

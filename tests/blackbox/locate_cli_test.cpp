@@ -184,7 +184,7 @@ TEST_F(LocateCommand, csv_says_the_same_as_json) {
     const std::string names = "a.pgm 'b, \"flat\".pgm'";
     run(names);
     const std::vector<json> expected = records();
-    run("--format csv " + names);
+    run("--format csv --columns all " + names);
     EXPECT_EQ(exit_code_, 0);
     const std::vector<std::string> lines = lines_of(output_);
     ASSERT_EQ(lines.size(), 3U);
@@ -204,6 +204,78 @@ TEST_F(LocateCommand, csv_says_the_same_as_json) {
             }
         }
     }
+}
+
+TEST_F(LocateCommand, csv_is_brief_unless_all_columns_are_wanted) {
+    write_frame("a.pgm", 3);
+    run("a.pgm");
+    const json line = records().at(0);
+    run("--format csv a.pgm");
+    const std::vector<std::string> lines = lines_of(output_);
+    ASSERT_EQ(lines.size(), 2U);
+    EXPECT_EQ(lines[0],
+              "file,status,message,x_mm,y_mm,theta_deg,sigma_x_mm,sigma_y_mm,sigma_theta_deg,"
+              "p_wrong,warning");
+    const std::vector<std::string> cells = cells_of(lines[1]);
+    EXPECT_EQ(std::stod(cells.at(3)), line["x_mm"].get<double>());
+    EXPECT_EQ(std::stod(cells.at(9)), line["p_wrong"].get<double>());
+    run("--columns all a.pgm");
+    EXPECT_EQ(exit_code_, 2);
+    EXPECT_THAT(errors_, HasSubstr("--columns is for --format csv only"));
+}
+
+TEST_F(LocateCommand, text_is_a_line_to_read) {
+    const Shot truth = shot(3);
+    write_frame("a.pgm", 3);
+    write_level("flat.pgm", 64, 64);
+    run("a.pgm");
+    const json line = records().at(0);
+    run("--format text a.pgm flat.pgm");
+    EXPECT_EQ(exit_code_, 0);
+    const std::vector<std::string> lines = lines_of(output_);
+    ASSERT_EQ(lines.size(), 2U);
+    double x_mm = 0;
+    double sigma_x_mm = 0;
+    double y_mm = 0;
+    double sigma_y_mm = 0;
+    double angle_deg = 0;
+    double sigma_deg = 0;
+    ASSERT_EQ(
+        std::sscanf(lines[0].c_str(), "a.pgm: x %lf ± %lf mm, y %lf ± %lf mm, angle %lf ± %lf deg",
+                    &x_mm, &sigma_x_mm, &y_mm, &sigma_y_mm, &angle_deg, &sigma_deg),
+        6)
+        << lines[0];
+    EXPECT_NEAR(x_mm, x_grid(truth.pose) * kDefaultSpacing_mm, 0.015);
+    EXPECT_NEAR(y_mm, y_grid(truth.pose) * kDefaultSpacing_mm, 0.015);
+    EXPECT_NEAR(sigma_x_mm, line["sigma_x_mm"].get<double>(), 6e-5);
+    EXPECT_NEAR(sigma_y_mm, line["sigma_y_mm"].get<double>(), 6e-5);
+    EXPECT_NEAR(angle_deg, line["theta_deg"].get<double>(), 6e-4);
+    EXPECT_NEAR(sigma_deg, line["sigma_theta_deg"].get<double>(), 6e-4);
+    EXPECT_THAT(lines[1], StartsWith("flat.pgm: no fix (no_contrast): "));
+}
+
+TEST_F(LocateCommand, draws_one_image_into_a_file) {
+    write_frame("a.pgm", 0);
+    write_level("flat.pgm", 64, 64);
+    run("--draw picture.svg a.pgm");
+    EXPECT_EQ(exit_code_, 0) << errors_;
+    EXPECT_THAT(file("picture.svg"), HasSubstr("</svg>"));
+    run("--draw picture.svg flat.pgm");
+    EXPECT_THAT(file("picture.svg"), HasSubstr("no fix: no_contrast"));
+    // The picture names the advice of the line.
+    EXPECT_THAT(file("picture.svg"), HasSubstr(records().at(0)["message"].get<std::string>()));
+    run("--draw picture.svg a.pgm flat.pgm");
+    EXPECT_EQ(exit_code_, 2);
+    EXPECT_THAT(errors_, HasSubstr("is the picture of a single image: name a folder"));
+    run("--draw a.pgm.svg a.pgm -o a.pgm.svg");
+    EXPECT_EQ(exit_code_, 2);
+    run("--draw picture.png a.pgm");
+    EXPECT_EQ(exit_code_, 2);
+    EXPECT_THAT(errors_, HasSubstr("would hold an SVG picture"));
+    EXPECT_FALSE(fs::exists(directory_ / "picture.png"));
+    fs::create_directory(directory_ / "folder.svg");
+    run("--draw folder.svg a.pgm flat.pgm");
+    EXPECT_TRUE(fs::exists(directory_ / "folder.svg/flat.svg"));
 }
 
 TEST_F(LocateCommand, names_that_are_no_utf8_give_valid_json) {

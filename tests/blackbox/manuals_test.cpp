@@ -100,9 +100,11 @@ TEST_F(Completions, OfBashOfferCommandsOfACommand) {
 }
 
 TEST_F(Completions, OfBashOfferValues) {
-    EXPECT_EQ(bash_offers("dotpose locate --format \"\""), (Words{"+o", "default", "json", "csv"}));
+    EXPECT_EQ(bash_offers("dotpose locate --format \"\""),
+              (Words{"+o", "default", "json", "csv", "text"}));
     EXPECT_EQ(bash_offers("dotpose locate --format = c"), (Words{"+o", "default", "csv"}));
-    EXPECT_EQ(bash_offers("dotpose locate --format ="), (Words{"+o", "default", "json", "csv"}));
+    EXPECT_EQ(bash_offers("dotpose locate --format ="),
+              (Words{"+o", "default", "json", "csv", "text"}));
     EXPECT_EQ(bash_offers("dotpose watch 0 --code micro"), (Words{"+o", "default", "microdots"}));
     EXPECT_EQ(bash_offers("dotpose simulate -o \"\""), (Words{"+o", "default", "-o", "dirnames"}));
     EXPECT_THAT(bash_offers("dotpose locate --sheets \"\""), IsEmpty()) << "files are the default";
@@ -124,7 +126,7 @@ TEST_F(Completions, OfFish) {
     EXPECT_EQ(offers("dotpose sheets pl"), Words{"place"});
     EXPECT_EQ(offers("dotpose sheets place --ya"), Words{"--yaw"});
     EXPECT_EQ(offers("dotpose locate --forma"), Words{"--format"});
-    EXPECT_EQ(offers("dotpose locate --format "), (Words{"json", "csv"}));
+    EXPECT_EQ(offers("dotpose locate --format "), (Words{"json", "csv", "text"}));
     EXPECT_THAT(offers("dotpose locate dotpose.f"), Contains("dotpose.fish"));
     fs::create_directory(directory_ / "frames");
     EXPECT_EQ(offers("dotpose simulate -o "), Words{"frames/"});

@@ -212,6 +212,19 @@ TEST_F(SheetFiles, csv_has_the_same_columns_for_every_frame) {
     // All sheets have one spacing, so this one is taken to have it too.
     EXPECT_TRUE(expected[2].contains("x_mm"));
     run("--format csv " + arguments);
+    EXPECT_EQ(lines_of(output_).front(),
+              "file,status,message,sigma_x_mm,sigma_y_mm,sigma_theta_deg,p_wrong,warning,sheet,"
+              "x_sheet_mm,y_sheet_mm,theta_sheet_deg,x_m,y_m,yaw_rad");
+    run("--format text " + arguments);
+    EXPECT_THAT(
+        lines_of(output_).at(0),
+        testing::MatchesRegex("a\\.pgm: sheet a, b, x (19|20)\\.[0-9]{4} ± 0\\.00[0-9]{2} mm, "
+                              "y (19|20)\\.[0-9]{4} ± 0\\.00[0-9]{2} mm, angle .* deg"));
+    EXPECT_THAT(lines_of(output_).at(1),
+                testing::MatchesRegex("b\\.pgm: sheet b, .*; world x 0\\.0[0-9]{5} m, "
+                                      "y -0\\.0[0-9]{5} m, yaw .* deg"));
+    EXPECT_THAT(lines_of(output_).at(2), StartsWith("elsewhere.pgm: on no sheet, pattern x "));
+    run("--format csv --columns all " + arguments);
     const std::vector<std::string> lines = lines_of(output_);
     ASSERT_EQ(lines.size(), 5U);
     const std::vector<std::string> header = cells_of(lines[0]);

@@ -73,7 +73,7 @@ TEST_F(Usage, ValuesThatDoNotExist) {
                    "'microdots'?",
                    "dotpose locate --help");
     expect_refusal("locate --format CSV a.png",
-                   "--format: 'CSV' is not json or csv; did you mean 'csv'?",
+                   "--format: 'CSV' is not json, csv or text; did you mean 'csv'?",
                    "dotpose locate --help");
     expect_refusal("locate --effort wice a.png",
                    "--effort: 'wice' is not device, once or twice; did you mean 'twice'?",

@@ -11,11 +11,13 @@
 
 #include <filesystem>
 #include <iosfwd>
+#include <optional>
 #include <span>
 #include <string>
 
 #include "dotpose/files/error.hpp"
 #include "dotpose/files/sheet.hpp"
+#include "dotpose/files/sheet_place.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/trace.hpp"
 
@@ -26,7 +28,6 @@ namespace dotpose {
 struct LensCalibration;
 struct PrintCheck;
 struct Protocol;
-struct SheetEntry;
 struct SpinCalibration;
 struct Stitching;
 struct Sweep;
@@ -36,8 +37,16 @@ struct DrawOptions {
     /// Spacing of the printed grid, for the pose in mm. Not a number: unknown, the pose is in
     /// spacings.
     double spacing_mm = kDefaultSpacing_mm;
+    /// The fix as corrected by a camera file or refused after it was located; default: that of the
+    /// trace.
+    std::optional<Fix> fix{};
     std::string title{};  ///< for example the name of the file; default: none
-    std::string sheet{};  ///< the sheet of the fix and the place on it; default: none
+    /// Place of the fix on a sheet. The large numbers of the caption are then those of the world,
+    /// or of the sheet if its pose in the world is not known; default: those of the pattern.
+    std::optional<SheetPlace> place{};
+    /// Why there is no fix and what would help, for the caption; default: the message of the
+    /// status.
+    std::string reason{};
 };
 
 /// Draws the last frame of a Locator, whatever stage it reached; `image` must be the one it
@@ -51,6 +60,8 @@ struct DrawOptions {
 /// is none.
 ///
 /// With lens distortion everything is drawn where the image shows it, so grid lines are curved.
+/// Large images are embedded reduced, and dots too close together for letters are drawn as points,
+/// which keeps the picture of a photo below 1 MB.
 void draw_frame(std::ostream& out, ImageView image, const Trace& trace,
                 const DrawOptions& draw_options = {});
 void draw_frame(const std::filesystem::path& path, ImageView image, const Trace& trace,

@@ -228,9 +228,49 @@ TEST(DrawFrame, says_the_pose) {
 
 TEST(DrawFrame, names_the_sheet) {
     const Located located(render(clean_shot()));
-    EXPECT_THAT(located.drawn({.sheet = "table: x 1 mm, y 2 mm"}),
-                HasSubstr(">on sheet table: x 1 mm, y 2 mm</text>"));
     EXPECT_THAT(located.drawn(), Not(HasSubstr("on sheet")));
+    SheetEntry entry;
+    entry.name = "table";
+    const SheetPlace place{&entry, 12.5, 30.25, 0.5, {}};
+    const std::string on_sheet = located.drawn({.place = place});
+    EXPECT_THAT(on_sheet, HasSubstr(">x on the sheet<"));
+    EXPECT_THAT(on_sheet, HasSubstr("font-weight=\"bold\">12.500 mm<"));
+    EXPECT_THAT(on_sheet, HasSubstr(">on sheet table; in the pattern: x "));
+    // The world has y up: 1 m - 30.25 mm.
+    entry.world = WorldPose{2, 1, 0};
+    const std::string in_world = located.drawn({.place = place});
+    EXPECT_THAT(in_world, HasSubstr(">y in the world<"));
+    EXPECT_THAT(in_world, HasSubstr("font-weight=\"bold\">2.012500 m<"));
+    EXPECT_THAT(in_world, HasSubstr("font-weight=\"bold\">0.969750 m<"));
+    EXPECT_THAT(in_world, HasSubstr(">on sheet table: x 12.500 mm, y 30.250 mm, "));
+}
+
+TEST(DrawFrame, says_why_there_is_no_fix) {
+    const Located located(render(clean_shot()));
+    Fix refused = located.fix;
+    refused.status = Status::ambiguous_code;
+    std::string reason;
+    for (int i = 0; i < 40; ++i)
+        reason += "word" + std::to_string(i) + ' ';
+    const std::string svg = located.drawn({.fix = refused, .reason = reason});
+    EXPECT_THAT(svg, HasSubstr("no fix: ambiguous_code"));
+    EXPECT_THAT(svg, HasSubstr("word39<"));
+    EXPECT_GE(count(svg, "class=\"reason\""), 3U);
+    EXPECT_THAT(svg, Not(HasSubstr(" mm<")));
+}
+
+// A photo of a phone: 12 million pixels and thousands of dots.
+TEST(DrawFrame, a_photo_stays_below_a_megabyte) {
+    Setup setup;
+    setup.camera.width_px = 4032;
+    setup.camera.height_px = 3024;
+    Shot shot = draw_shot(setup, 1);
+    const Located located(render(shot));
+    ASSERT_EQ(located.fix.status, Status::ok);
+    const std::string svg = located.drawn();
+    EXPECT_THAT(XmlCheck(svg).problem(), IsEmpty());
+    EXPECT_LT(svg.size(), 1'000'000U);
+    EXPECT_GT(count(svg, "h0"), 2 * located.trace.dots.size() - 1);
 }
 
 TEST(DrawFrame, head_and_note_of_a_panel_do_not_overlap) {
