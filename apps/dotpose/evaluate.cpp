@@ -20,6 +20,7 @@
 #include "dotpose/tools/protocol.hpp"
 #include "dotpose/tools/score.hpp"
 #include "dotpose/tools/sweep.hpp"
+#include "evaluate_measured.hpp"
 #include "known_frames.hpp"
 #include "output_arguments.hpp"
 #include "progress.hpp"
@@ -36,6 +37,8 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  dotpose evaluate frames                  frames against the poses in frames/truth.csv\n"
     "  dotpose evaluate drive.mp4 --poses poses.csv\n"
+    "  dotpose evaluate frames --sheets sheets.json --poses measured.csv --draw figures\n"
+    "                                           places measured on a sheet or in the world\n"
     "  dotpose evaluate --preset hard           simulated frames; nothing is written\n"
     "  dotpose evaluate --sweep noise -o out    success and error over the noise: CSV and "
     "pictures\n"
@@ -69,6 +72,7 @@ struct EvaluateArguments {
     Setup setup;
     Options options;
     CameraArgument camera;
+    MeasuredArguments measured;
     TruthOf truth_of = TruthOf::image;
     double spacing_mm = kDefaultSpacing_mm;
     bool spacing_given = false;
@@ -197,10 +201,31 @@ std::string what_is_read(const SourceArguments& sources) {
     return "the frames";
 }
 
+void make_folder(const fs::path& folder) {
+    std::error_code failed;
+    fs::create_directories(folder, failed);
+    if (failed) throw Error("cannot create " + folder.string() + ": " + failed.message());
+}
+
+int evaluate_on_sheets(const EvaluateArguments& arguments, const KnownFrames& known) {
+    FollowerOptions options;
+    options.locate = arguments.options;
+    options.camera = arguments.camera.camera;
+    options.sheets = read_sheets(arguments.measured.sheets);
+    if (options.sheets.empty()) throw Error(arguments.measured.sheets + " has no sheets");
+    if (!arguments.measured.draw.empty()) make_folder(arguments.measured.draw);
+    return evaluate_measured(arguments.measured, options, known, arguments.report);
+}
+
 int evaluate_sources(const EvaluateArguments& arguments) {
     const auto spacing_mm =
         arguments.spacing_given ? std::optional(arguments.spacing_mm) : std::nullopt;
     const KnownFrames known = known_frames(arguments.sources, arguments.poses, spacing_mm);
+    if (!arguments.measured.sheets.empty()) return evaluate_on_sheets(arguments, known);
+    if (!known.rows.front().is_in_pattern) {
+        throw Error(
+            "the poses are places on sheets or in the world: name the sheet file, --sheets");
+    }
     FrameRun run;
     run.frames = static_cast<int>(known.rows.size());
     run.frame_at = known.frame_at;
@@ -224,6 +249,7 @@ void require_apart(const EvaluateArguments& arguments) {
     files.reads("--poses", arguments.poses);
     files.reads("--camera", arguments.camera.path);
     files.writes("-o", arguments.report.out, content_of(arguments.report));
+    arguments.measured.add_files(files);
 }
 
 int evaluate_preset(const EvaluateArguments& arguments) {
@@ -231,12 +257,6 @@ int evaluate_preset(const EvaluateArguments& arguments) {
     run.frames = arguments.frames.value_or(1000);
     run.frame_at = frames_of_setup(arguments.setup);
     return evaluate_run(arguments, fmt::format("preset {}", dotpose::name(*arguments.preset)), run);
-}
-
-void make_folder(const fs::path& folder) {
-    std::error_code failed;
-    fs::create_directories(folder, failed);
-    if (failed) throw Error("cannot create " + folder.string() + ": " + failed.message());
 }
 
 int evaluate_sweep(const EvaluateArguments& arguments) {
@@ -295,6 +315,10 @@ int run(EvaluateArguments& arguments) {
     }
     if (!writes) require_apart(arguments);
     if (!has_sources && !arguments.poses.empty()) throw BadArgument("--poses is for frames only");
+    arguments.measured.require_sheets();
+    if (!has_sources && !arguments.measured.sheets.empty()) {
+        throw BadArgument("--sheets is for frames only");
+    }
     if (has_sources && arguments.frames) throw BadArgument("--frames is for simulated frames only");
     if (auto& camera = arguments.camera.camera) {
         if (!has_sources) throw BadArgument("--camera is not for simulated frames");
@@ -363,6 +387,10 @@ void add_evaluate(Command& app, int& exit_code) {
               "of the camera file's reference_px and theta_offset_rad",
               [arguments](TruthOf truth) { arguments->truth_of = truth; })
         ->needs(camera);
+    arguments->measured.add_to(*command);
+    command->get_option("--sheets")
+        ->excludes(command->get_option("--spacing"))
+        ->excludes(command->get_option("--code"));
     command->get_option("--code")->default_str("as in truth.csv, or auto");
     command->get_option("--spacing")->default_str("as in truth.csv, or 0.508");
     command

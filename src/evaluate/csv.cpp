@@ -20,4 +20,14 @@ std::vector<std::string> cells_of(const std::string& line) {
     return cells;
 }
 
+std::string quoted(const std::string& text) {
+    if (text.find_first_of(",\"") == std::string::npos) return text;
+    std::string result = "\"";
+    for (const char c : text) {
+        if (c == '"') result += '"';
+        result += c;
+    }
+    return result + '"';
+}
+
 }  // namespace dotpose::csv

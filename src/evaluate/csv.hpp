@@ -1,4 +1,4 @@
-/// Reads tables of comma-separated values.
+/// Reads and writes tables of comma-separated values.
 #pragma once
 
 #include <string>
@@ -10,5 +10,8 @@ namespace dotpose::csv {
 /// commas and doubled quotes. Blanks are kept. The result has at least one cell, which may be
 /// empty.
 std::vector<std::string> cells_of(const std::string& line);
+
+/// Returns the text as a cell: in quotes if it contains a comma or a quote.
+std::string quoted(const std::string& text);
 
 }  // namespace dotpose::csv

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <iosfwd>
 #include <span>
 #include <vector>
 
@@ -37,5 +38,9 @@ struct Summary {
 };
 using SpreadOf = std::function<Spread(const Station&)>;
 Summary summary_of(std::span<const Station> stations, const SpreadOf& spread);
+
+/// Draws figure 13, 14 or 15 of the paper for measured poses, in one panel.
+void draw_measured_figure(std::ostream& out, int figure, std::span<const Station> stations,
+                          bool is_in_world);
 
 }  // namespace dotpose::evaluate_detail

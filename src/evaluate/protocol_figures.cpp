@@ -1,5 +1,5 @@
-// Draws figures 13, 14 and 15 of the paper, each for a perfect page on the left and for the printer
-// model on the right.
+// Draws figures 13, 14 and 15 of the paper: simulated for a perfect page on the left and for the
+// printer model on the right, or measured.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -19,14 +19,55 @@ constexpr double kPanel = 440;
 constexpr double kGap = 110;
 constexpr double kLeft = 80;
 constexpr double kTop = 150;
-constexpr double kWidth = 2 * kLeft + 2 * kPanel + kGap - 40;
 constexpr double kHeight = kTop + kPanel + 150;
+
+/// One page of a figure, with the spread of its stations in the unit of the figure.
+struct FigurePage {
+    std::string name;
+    std::span<const Station> stations;
+    int decimals;
+};
+
+/// Selects the spread of a station, in the unit of the figure.
+struct Coordinate {
+    int figure;
+    const char* name;
+    SpreadOf spread;
+    const char* unit;
+};
+
+/// The words of a figure.
+struct Words {
+    const char* how;       ///< how the poses were taken
+    std::string stations;  ///< how many there are
+    const char* y_label;
+    bool is_y_up = false;
+};
+
+/// The square of the page that a panel shows.
+struct Extent {
+    Vec2 middle_mm;
+    double side_mm = 1;
+};
+
+Extent extent_of(std::span<const Station> stations) {
+    constexpr double kWithMargin = 1.1;
+    constexpr double kLeastSide_mm = 1;
+    const auto [left, right] =
+        std::ranges::minmax(stations, {}, [](const Station& s) { return s.place_mm.x; });
+    const auto [top, bottom] =
+        std::ranges::minmax(stations, {}, [](const Station& s) { return s.place_mm.y; });
+    const double width_mm = right.place_mm.x - left.place_mm.x;
+    const double height_mm = bottom.place_mm.y - top.place_mm.y;
+    return {{(left.place_mm.x + right.place_mm.x) / 2, (top.place_mm.y + bottom.place_mm.y) / 2},
+            kWithMargin * std::max({width_mm, height_mm, kLeastSide_mm})};
+}
 
 struct Panel {
     Svg& svg;
     Point corner;
     std::span<const Station> stations;
-    SpreadOf spread;  ///< selects the spread, in the unit of the figure
+    SpreadOf spread;
     const char* unit;
 
     double scale() const {
@@ -69,13 +110,19 @@ double mark_radius(double bias, double scale) {
     return std::max(1.2, kLargestMark * std::sqrt(std::abs(bias) / scale));
 }
 
-Point on_page(Vec2 place_mm) {
-    const double side_mm = PrintModel::kSide_mm * 1.1;
-    return {kPanel * (place_mm.x / side_mm + 0.5), kPanel * (place_mm.y / side_mm + 0.5)};
-}
+/// The axes of a page, with y as its coordinates have it.
+struct PageScale {
+    Scale x;
+    Scale y;
+    PageScale(const Extent& extent, Point corner, bool is_y_up)
+        : x{extent.middle_mm.x - extent.side_mm / 2, extent.middle_mm.x + extent.side_mm / 2, false,
+            corner.x, corner.x + kPanel},
+          y{extent.middle_mm.y - extent.side_mm / 2, extent.middle_mm.y + extent.side_mm / 2, false,
+            is_y_up ? corner.y + kPanel : corner.y, is_y_up ? corner.y : corner.y + kPanel} {}
+    Point at(Vec2 place_mm) const { return {x.at(place_mm.x), y.at(place_mm.y)}; }
+};
 
-void draw_mark(const Panel& panel, const Station& station, double scale) {
-    const Point at = panel.corner + on_page(station.place_mm);
+void draw_mark(const Panel& panel, const Station& station, Point at, double scale) {
     if (station.located == 0) {
         const std::string pen =
             fmt::format(R"(stroke="{}" stroke-width="2.5")", draw::colour::kInk);
@@ -88,22 +135,24 @@ void draw_mark(const Panel& panel, const Station& station, double scale) {
                      fmt::format(R"(fill="{}" fill-opacity="0.82")", colour_of(bias)));
 }
 
-void draw_page_axes(const Panel& panel) {
+void draw_page_axes(const Panel& panel, const PageScale& page, const char* y_name) {
+    constexpr int kLeastTicks = 4;
     const Point corner = panel.corner;
     panel.svg.add(R"(<rect x="{:.2f}" y="{:.2f}" width="{:.2f}" height="{:.2f}" fill="#f7f9fb" )"
                   R"(stroke="{}"/>)",
                   corner.x, corner.y, kPanel, kPanel, draw::colour::kFrame);
-    for (int mm = -100; mm <= 100; mm += 50) {
-        const Point at = on_page({1.0 * mm, 1.0 * mm});
-        panel.svg.text({corner.x + at.x, corner.y + kPanel + 22}, style::kFont,
-                       fmt::format("{}", mm), text_in(draw::colour::kQuiet, "middle"));
-        panel.svg.text({corner.x - 10, corner.y + at.y + 5}, style::kFont, fmt::format("{}", mm),
+    for (const double mm : page.x.ticks(kLeastTicks)) {
+        panel.svg.text({page.x.at(mm), corner.y + kPanel + 22}, style::kFont, fmt::format("{}", mm),
+                       text_in(draw::colour::kQuiet, "middle"));
+    }
+    for (const double mm : page.y.ticks(kLeastTicks)) {
+        panel.svg.text({corner.x - 10, page.y.at(mm) + 5}, style::kFont, fmt::format("{}", mm),
                        text_in(draw::colour::kQuiet, "end"));
     }
     panel.svg.text({corner.x + kPanel / 2, corner.y + kPanel + 46}, style::kFont, "x, mm",
                    text_in(draw::colour::kInk, "middle"));
     const Point y_label = corner + Point{-54, kPanel / 2};
-    panel.svg.text(y_label, style::kFont, "y, mm (paper feed, down)",
+    panel.svg.text(y_label, style::kFont, y_name,
                    fmt::format(R"svg({} transform="rotate(-90 {:.2f} {:.2f})")svg",
                                text_in(draw::colour::kInk, "middle"), y_label.x, y_label.y));
 }
@@ -121,40 +170,21 @@ void draw_mark_legend(const Panel& panel, double scale) {
     }
 }
 
-void draw_map(const Panel& panel, std::string_view name, int decimals) {
-    draw_summary(panel, name, decimals);
-    draw_page_axes(panel);
+void draw_map(const Panel& panel, const FigurePage& page, const Words& words) {
+    draw_summary(panel, page.name, page.decimals);
+    const PageScale on_page(extent_of(panel.stations), panel.corner, words.is_y_up);
+    draw_page_axes(panel, on_page, words.y_label);
     std::string path;
     for (const Station& station : panel.stations) {
-        const Point at = panel.corner + on_page(station.place_mm);
+        const Point at = on_page.at(station.place_mm);
         path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? 'M' : 'L', at.x, at.y);
     }
     panel.svg.add(R"(<path d="{}" fill="none" stroke="{}" stroke-width="1"/>)", path,
                   draw::colour::kFrame);
     const double scale = panel.scale();
     for (const Station& station : panel.stations)
-        draw_mark(panel, station, scale);
+        draw_mark(panel, station, on_page.at(station.place_mm), scale);
     draw_mark_legend(panel, scale);
-}
-
-Spread scaled(Spread spread, double factor) {
-    return {factor * spread.bias, factor * spread.sigma};
-}
-
-void draw_position_figure(std::ostream& out, const Protocol& protocol, int figure,
-                          const char* coordinate, Spread Station::*spread_mm) {
-    const std::string title =
-        fmt::format("Accuracy of {} at rest, simulated (paper: Figure {})", coordinate, figure);
-    Svg svg(kWidth, kHeight, title);
-    draw_head(svg, title,
-              fmt::format("{} positions, {} samples each; a mark's area is the mean of found minus "
-                          "true, red above 0, blue below",
-                          protocol.perfect.positions.size(), protocol.samples));
-    const SpreadOf in_um = [spread_mm](const Station& s) { return scaled(s.*spread_mm, 1000); };
-    draw_map({svg, {kLeft, kTop}, protocol.perfect.positions, in_um, " µm"}, "Perfect page", 2);
-    draw_map({svg, {kLeft + kPanel + kGap, kTop}, protocol.printed.positions, in_um, " µm"},
-             "Page of the printer model", 1);
-    out << std::move(svg).finish();
 }
 
 // ---- Figure 15 ----
@@ -182,8 +212,8 @@ void draw_rings(const Panel& panel, Point centre, double scale) {
                    text_in(draw::colour::kInk, "middle"));
 }
 
-void draw_rose(const Panel& panel, std::string_view name) {
-    draw_summary(panel, name, 3);
+void draw_rose(const Panel& panel, const FigurePage& page) {
+    draw_summary(panel, page.name, page.decimals);
     const Point centre = panel.corner + Point{kPanel / 2, kPanel / 2 + 10};
     const double scale = panel.scale();
     draw_rings(panel, centre, scale);
@@ -203,28 +233,96 @@ void draw_rose(const Panel& panel, std::string_view name) {
     }
 }
 
+constexpr int kAngleFigure = 15;
+
+Spread scaled(Spread spread, double factor) {
+    return {factor * spread.bias, factor * spread.sigma};
+}
+
+Coordinate coordinate_of(int figure) {
+    if (figure == 13) {
+        return {13, "x", [](const Station& s) { return scaled(s.x_mm, 1000); }, " µm"};
+    }
+    if (figure == 14) {
+        return {14, "y", [](const Station& s) { return scaled(s.y_mm, 1000); }, " µm"};
+    }
+    return {kAngleFigure, "the angle", [](const Station& s) { return s.theta; }, "°"};
+}
+
+/// Draws the pages side by side.
+void draw_figure(std::ostream& out, const Coordinate& coordinate, const Words& words,
+                 std::span<const FigurePage> pages) {
+    const bool is_rose = coordinate.figure == kAngleFigure;
+    const auto count = static_cast<double>(pages.size());
+    constexpr double kLeastWidth = 800;
+    const double width =
+        std::max(2 * kLeft + count * kPanel + (count - 1) * kGap - 40, kLeastWidth);
+    const std::string title = fmt::format("Accuracy of {} at rest, {} (paper: Figure {})",
+                                          coordinate.name, words.how, coordinate.figure);
+    Svg svg(width, is_rose ? kHeight - 70 : kHeight, title);
+    draw_head(svg, title,
+              fmt::format("{}; a {} is the mean of found minus true, red above 0, blue below",
+                          words.stations, is_rose ? "bar" : "mark's area"));
+    double left = kLeft;
+    for (const FigurePage& page : pages) {
+        const Panel panel{svg, {left, kTop}, page.stations, coordinate.spread, coordinate.unit};
+        if (is_rose) {
+            draw_rose(panel, page);
+        } else {
+            draw_map(panel, page, words);
+        }
+        left += kPanel + kGap;
+    }
+    out << std::move(svg).finish();
+}
+
+void draw_simulated(std::ostream& out, const Protocol& protocol, int figure) {
+    const bool is_rose = figure == kAngleFigure;
+    const auto stations = [is_rose](const ProtocolResult& result) {
+        return std::span<const Station>(is_rose ? result.angles : result.positions);
+    };
+    const FigurePage pages[] = {
+        {"Perfect page", stations(protocol.perfect), is_rose ? 3 : 2},
+        {"Page of the printer model", stations(protocol.printed), is_rose ? 3 : 1}};
+    draw_figure(out, coordinate_of(figure),
+                {"simulated",
+                 fmt::format("{} {}, {} samples each", pages[0].stations.size(),
+                             is_rose ? "angles" : "positions", protocol.samples),
+                 "y, mm (paper feed, down)"},
+                pages);
+}
+
 }  // namespace
 
 void draw_figure_13(std::ostream& out, const Protocol& protocol) {
-    draw_position_figure(out, protocol, 13, "x", &Station::x_mm);
+    draw_simulated(out, protocol, 13);
 }
 
 void draw_figure_14(std::ostream& out, const Protocol& protocol) {
-    draw_position_figure(out, protocol, 14, "y", &Station::y_mm);
+    draw_simulated(out, protocol, 14);
 }
 
 void draw_figure_15(std::ostream& out, const Protocol& protocol) {
-    const std::string title = "Accuracy of the angle at rest, simulated (paper: Figure 15)";
-    Svg svg(kWidth, kHeight - 70, title);
-    draw_head(svg, title,
-              fmt::format("{} angles, {} samples each; a bar is the mean of found minus true, red "
-                          "above 0, blue below",
-                          protocol.perfect.angles.size(), protocol.samples));
-    const SpreadOf theta = [](const Station& s) { return s.theta; };
-    draw_rose({svg, {kLeft, kTop}, protocol.perfect.angles, theta, "°"}, "Perfect page");
-    draw_rose({svg, {kLeft + kPanel + kGap, kTop}, protocol.printed.angles, theta, "°"},
-              "Page of the printer model");
-    out << std::move(svg).finish();
+    draw_simulated(out, protocol, kAngleFigure);
 }
+
+namespace evaluate_detail {
+
+void draw_measured_figure(std::ostream& out, int figure, std::span<const Station> stations,
+                          bool is_in_world) {
+    int samples = 0;
+    for (const Station& station : stations)
+        samples += station.samples;
+    const bool is_rose = figure == kAngleFigure;
+    const FigurePage page{is_in_world ? "In the world" : "On the sheet", stations, is_rose ? 3 : 1};
+    draw_figure(out, coordinate_of(figure),
+                {"measured",
+                 fmt::format("{} {}, {} samples", stations.size(), is_rose ? "angles" : "positions",
+                             samples),
+                 is_in_world ? "y, mm (up)" : "y, mm (down)", is_in_world},
+                std::span(&page, 1));
+}
+
+}  // namespace evaluate_detail
 
 }  // namespace dotpose

@@ -67,12 +67,16 @@ class TruthReader {
             columns_.emplace(cells_[i], i);
         const bool in_grid = has("x_grid") && has("y_grid");
         in_mm_ = !in_grid;
-        if (!in_grid && !(has("x_mm") && has("y_mm"))) {
-            fail("the header names neither x_grid and y_grid nor x_mm and y_mm");
+        in_pattern_ = in_grid || (has("x_mm") && has("y_mm"));
+        in_world_ = has("x_m") && has("y_m");
+        on_sheet_ = has("x_sheet_mm") && has("y_sheet_mm");
+        if (!in_pattern_ && !in_world_ && !on_sheet_) {
+            fail(
+                "the header names no coordinates: x_grid and y_grid, x_mm and y_mm, x_sheet_mm and "
+                "y_sheet_mm, or x_m and y_m");
         }
-        for (const char* column : {"file", "theta_deg"}) {
-            if (!has(column)) fail(fmt::format("the header does not name {}", column));
-        }
+        if (!has("file")) fail("the header does not name file");
+        if (in_pattern_ && !has("theta_deg")) fail("the header does not name theta_deg");
     }
 
     bool has(const std::string& column) const { return columns_.contains(column); }
@@ -124,12 +128,35 @@ class TruthReader {
         return value;
     }
 
+    /// Returns the pose on a sheet or in the world; none if its cells are empty.
+    std::optional<TruePlace> place() const {
+        TruePlace place;
+        place.is_in_world = in_world_;
+        place.sheet = text("sheet");
+        const std::string x = in_world_ ? "x_m" : "x_sheet_mm";
+        const std::string y = in_world_ ? "y_m" : "y_sheet_mm";
+        if (text(x).empty() && text(y).empty()) return std::nullopt;
+        const double unit_mm = in_world_ ? 1000 : 1;
+        place.x_mm = number(x) * unit_mm;
+        place.y_mm = number(y) * unit_mm;
+        const std::string degrees = in_world_ ? "yaw_deg" : "theta_sheet_deg";
+        if (in_world_ && !text("yaw_rad").empty()) {
+            place.angle_rad = number("yaw_rad");
+        } else if (!text(degrees).empty()) {
+            place.angle_rad = number(degrees) * std::numbers::pi / 180;
+        }
+        return place;
+    }
+
     TruthRow row() const {
         TruthRow row;
         row.file = text("file");
         if (row.file.empty()) fail("file is empty");
         row.profile = profile();
+        row.is_in_pattern = in_pattern_;
+        if (in_world_ || on_sheet_) row.place = place();
         Truth& truth = row.truth;
+        if (!in_pattern_) return row;
         truth.spacing_mm = spacing_mm();
         const std::string x = in_mm_ ? "x_mm" : "x_grid";
         const std::string y = in_mm_ ? "y_mm" : "y_grid";
@@ -150,6 +177,9 @@ class TruthReader {
     std::vector<std::string> cells_;
     std::map<std::string, std::size_t> columns_;
     bool in_mm_ = false;
+    bool in_pattern_ = false;
+    bool in_world_ = false;
+    bool on_sheet_ = false;
 };
 
 }  // namespace

@@ -14,7 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "dotpose/tools/image_file.hpp"
-#include "tool_command.hpp"
+#include "sheets_command.hpp"
 
 namespace dotpose::test {
 namespace {
@@ -174,6 +174,67 @@ TEST_F(EvaluateCommand, TheProtocolWritesItsTableAndFigures) {
     }
     for (const char* name : {"figure-13.png", "figure-14.png", "figure-15.png"}) {
         EXPECT_TRUE(shows_something(read_image(directory_ / "out/deep" / name))) << name;
+    }
+}
+
+/// Frames on a sheet, whose places a stage has measured: its origin, direction and unit differ.
+class EvaluateMeasured : public EvaluateCommand {
+  protected:
+    void SetUp() override {
+        ASSERT_EQ(run("print -o a.svg --paper 60x60 --sheets sheets.json --name table"), 0);
+        const json sheet = json::parse(file("sheets.json"))["sheets"].at(0);
+        std::ofstream by_ruler(directory_ / "ruler.csv");
+        std::ofstream by_stage(directory_ / "stage.csv");
+        by_ruler << "file,sheet,x_sheet_mm,y_sheet_mm,theta_sheet_deg\n";
+        by_stage << "file,x_m,y_m,yaw_deg\n";
+        for (int i = 0; i < 9; ++i) {
+            const double x_mm = 15 + 15.0 * (i % 3);
+            const double y_mm = 15 + 15.0 * (i / 3);
+            const std::string name = "f" + std::to_string(i) + ".pgm";
+            write_pgm(directory_ / name,
+                      frame_of(sheet, x_mm, y_mm, 0.4 * i, static_cast<std::uint64_t>(i)).view());
+            by_ruler << name << ",table," << x_mm << ',' << y_mm << ',' << 0.4 * i * kDegrees
+                     << '\n';
+            // A stage with y up, turned by a quarter, with 0.3 % longer millimetres.
+            by_stage << name << ',' << 1.003 * y_mm / 1000 << ',' << 1.003 * x_mm / 1000 << ','
+                     << 90 - 0.4 * i * kDegrees << '\n';
+        }
+    }
+    static constexpr double kDegrees = 180 / std::numbers::pi;
+};
+
+TEST_F(EvaluateMeasured, OnTheSheetByARuler) {
+    ASSERT_EQ(run("evaluate . --sheets sheets.json --poses ruler.csv --align none --format json"),
+              0)
+        << errors_;
+    EXPECT_EQ(result()["located"], 9);
+    EXPECT_EQ(result()["frame"], "sheet");
+    EXPECT_FALSE(result().contains("alignment"));
+    EXPECT_LT(result()["position_um"]["max"], 10);
+    EXPECT_LT(result()["angle_deg"]["max"], 0.15);
+    EXPECT_EQ(run("evaluate . --poses ruler.csv"), 1);
+    EXPECT_THAT(errors_, HasSubstr("name the sheet file, --sheets"));
+    EXPECT_EQ(run("evaluate f0.pgm --poses ruler.csv --residuals r.csv"), 2);
+    EXPECT_THAT(errors_, HasSubstr("--residuals needs --sheets"));
+}
+
+TEST_F(EvaluateMeasured, InTheWorldByAStage) {
+    const std::string command = "evaluate . --sheets sheets.json --poses stage.csv ";
+    EXPECT_EQ(run(command), 1);
+    EXPECT_THAT(errors_, HasSubstr("'dotpose sheets place' first"));
+    ASSERT_EQ(run("sheets place table --x 2 --y 1 --yaw 0"), 0);
+    ASSERT_EQ(run(command + "--format json"), 0) << errors_;
+    EXPECT_EQ(result()["located"], 9);
+    const json by = result()["alignment"];
+    EXPECT_NEAR(by["scale"].get<double>(), 1.003, 3e-4);
+    EXPECT_NEAR(by["turn_rad"].get<double>(), std::numbers::pi / 2, 3e-4);
+    EXPECT_LT(result()["position_um"]["max"], 10);
+    ASSERT_EQ(run(command + "--residuals r.csv --draw figures"), 0) << errors_;
+    EXPECT_THAT(output_, HasSubstr("alignment: scale, %                         +0.3"));
+    EXPECT_THAT(file("r.csv"), testing::StartsWith("file,status,sheet,true_x_mm"));
+    EXPECT_THAT(file("r.csv"), HasSubstr("\n./f8.pgm,ok,table,"));
+    for (const char* figure : {"figure-13.png", "figure-14.png", "figure-15.png"}) {
+        EXPECT_TRUE(shows_something(read_image(directory_ / "figures" / figure))) << figure;
     }
 }
 

@@ -28,15 +28,29 @@ struct Truth {
 /// Returns the true pose of a simulated frame.
 Truth truth_of(const Shot& shot);
 
+/// The true pose of a frame in the frame of a sheet or of the world of a sheet file.
+struct TruePlace {
+    bool is_in_world = false;  ///< y up and angles counter-clockwise; else y down and clockwise
+    std::string sheet;         ///< name of the sheet; empty if not known
+    double x_mm = 0;
+    double y_mm = 0;
+    std::optional<double> angle_rad;
+};
+
 /// One line of truth.csv.
 struct TruthRow {
     std::string file;
-    Truth truth;
+    Truth truth;                     ///< valid if `is_in_pattern`
+    bool is_in_pattern = true;       ///< whether the file has poses in the pattern frame
     std::optional<Profile> profile;  ///< profile as printed, if the file has it
+    std::optional<TruePlace> place;  ///< place on a sheet or in the world, if the file has it
 };
 
-/// Reads truth.csv as `dotpose simulate` writes it. Columns are found by their names and may stand
-/// in any order; required are file, theta_deg, and x_grid, y_grid or x_mm, y_mm (grid units win).
+/// Reads truth.csv as `dotpose simulate` writes it, or poses measured on a sheet or in the world.
+/// Columns are found by their names and may stand in any order. Required are file and one of
+///   - x_grid, y_grid or x_mm, y_mm (grid units win), and theta_deg;
+///   - x_sheet_mm, y_sheet_mm; optional theta_sheet_deg, sheet;
+///   - x_m, y_m (they win over places on sheets); optional yaw_rad or yaw_deg, sheet.
 /// Optional are section_u, section_v, profile, spacing_mm. A row with an empty pose is a frame
 /// without a pose. `spacing_mm`, if given, replaces that of the file.
 /// Throws Error, naming file and line, if the file cannot be read or has invalid content.

@@ -41,6 +41,29 @@ class TruthFile : public testing::Test {
     fs::path directory_;
 };
 
+TEST_F(TruthFile, HasPlacesOnSheetsOrInTheWorld) {
+    const auto on_sheet = read(
+        "file,sheet,x_sheet_mm,y_sheet_mm,theta_sheet_deg\n"
+        "a.pgm,table,12.5,30,180\n"
+        "b.pgm,,,,\n");
+    EXPECT_FALSE(on_sheet[0].is_in_pattern);
+    ASSERT_TRUE(on_sheet[0].place);
+    EXPECT_FALSE(on_sheet[0].place->is_in_world);
+    EXPECT_EQ(on_sheet[0].place->sheet, "table");
+    EXPECT_EQ(on_sheet[0].place->x_mm, 12.5);
+    EXPECT_NEAR(on_sheet[0].place->angle_rad.value(), std::numbers::pi, 1e-12);
+    EXPECT_FALSE(on_sheet[1].place);
+    // Poses of the world win over places on sheets.
+    const auto in_world = read("file,x_sheet_mm,y_sheet_mm,x_m,y_m\na.pgm,1,2,0.25,-0.5\n");
+    EXPECT_TRUE(in_world[0].place->is_in_world);
+    EXPECT_EQ(in_world[0].place->x_mm, 250);
+    EXPECT_EQ(in_world[0].place->y_mm, -500);
+    EXPECT_FALSE(in_world[0].place->angle_rad);
+    EXPECT_NEAR(read("file,x_m,y_m,yaw_deg\na,1,2,90\n")[0].place->angle_rad.value(),
+                std::numbers::pi / 2, 1e-12);
+    EXPECT_THAT(error_of("file,x_m,y_sheet_mm\n"), HasSubstr("the header names no coordinates"));
+}
+
 TEST_F(TruthFile, IsReadAsSimulateWritesIt) {
     const auto rows = read(
         "file,x_mm,y_mm,theta_deg,x_grid,y_grid,section_u,section_v,profile,spacing_mm,"

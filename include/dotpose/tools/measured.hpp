@@ -1,0 +1,106 @@
+/// Measured: places of located frames on a sheet or in the world, compared with places that were
+/// measured by other means, for example by a motion stage.
+///
+///     std::vector<MeasuredFrame> frames = ...;
+///     const Similarity alignment = align(frames);
+///     const Measurement result = compare(std::move(frames), alignment);
+///     write_measurement("figures", result);
+///
+/// Lengths are in mm and angles in radians, in the frame of the true places: that of a sheet (y
+/// down, clockwise) or of the world (y up, counter-clockwise).
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dotpose/status.hpp"
+#include "dotpose/tools/protocol.hpp"
+#include "dotpose/tools/score.hpp"
+#include "dotpose/tools/truth.hpp"
+
+#pragma GCC visibility push(default)
+
+namespace dotpose {
+
+/// A place that was found in a frame.
+struct FoundPlace {
+    std::string sheet;
+    double x_mm = 0;
+    double y_mm = 0;
+    double angle_rad = 0;
+};
+
+/// One frame: what is known of it and what was found.
+struct MeasuredFrame {
+    std::string file;
+    std::optional<TruePlace> truth;  ///< none: the frame shows no readable pattern
+    Status status = Status::ok;
+    std::optional<FoundPlace> found;  ///< none: no fix, or one outside of the truth's frame
+    double spacing_mm = kDefaultSpacing_mm;
+};
+
+/// Map from the found to the true places: true = shift + middle + scale * turned(found - middle).
+struct Similarity {
+    double middle_x_mm = 0;  ///< mean of the found places
+    double middle_y_mm = 0;
+    double shift_x_mm = 0;  ///< at the middle
+    double shift_y_mm = 0;
+    double turn_rad = 0;  ///< in the sense of the frame's angles
+    double scale = 1;
+    /// Mean of true minus found angles after the turn: how the measured heading lies in the image.
+    double angle_offset_rad = 0;
+};
+
+/// Returns the similarity with the least squared residuals over the frames, without those that are
+/// far off the others. If all true places are equal, only the shift and the angle offset are
+/// determined. Throws Error if no frame has a true and a found place.
+Similarity align(std::span<const MeasuredFrame> frames);
+
+/// Found minus true, after the alignment.
+struct MeasuredError {
+    double x_mm = 0;
+    double y_mm = 0;
+    std::optional<double> angle_rad;  ///< none if the true angle is not known
+    /// Whether the fix is wrong: on another sheet, without a true place, or off by more than half a
+    /// spacing or 2 degrees and by more than ten times the median.
+    bool is_wrong = false;
+};
+
+/// All frames with their errors.
+struct Measurement {
+    std::vector<MeasuredFrame> frames;
+    std::vector<std::optional<MeasuredError>> errors;  ///< of each frame; none without a fix
+    std::optional<Similarity> alignment;               ///< none: places were compared as they are
+    bool is_in_world = false;
+
+    // Without wrong fixes.
+    int located = 0;
+    int wrong = 0;
+    Quantiles position_um;
+    Quantiles angle_deg;
+    Spread x_um;
+    Spread y_um;
+};
+
+/// Compares found with true places, after the alignment if there is one.
+Measurement compare(std::vector<MeasuredFrame> frames, const std::optional<Similarity>& alignment);
+
+/// Returns the result in words and numbers, for tables: (name, value).
+std::vector<std::pair<std::string, std::string>> described(const Measurement& measurement);
+
+/// Writes one line for each frame: true and found place, and the error.
+void write_errors_csv(std::ostream& out, const Measurement& measurement);
+
+/// Writes positions.csv, figure-13 and figure-14, and if true angles differ angles.csv and
+/// figure-15: the figures of the paper, each as .svg and .png. Frames at the same true place are
+/// samples of one position.
+void write_measurement(const std::filesystem::path& folder, const Measurement& measurement);
+
+}  // namespace dotpose
+
+#pragma GCC visibility pop
