@@ -20,7 +20,8 @@ constexpr std::size_t kMostFrames = 2000;
 std::string reason_with_advice(Record record, ImageView image, const Options& options,
                                double bits_per_px) {
     const auto scratch = std::make_unique<LargeMemory>();
-    record.advice = advice_on(image, record.fix.status, options, *scratch, bits_per_px);
+    record.advice =
+        advice_on(image, {record.fix.status, options, record.code_is_given, bits_per_px}, *scratch);
     return reason(record);
 }
 

@@ -189,7 +189,8 @@ std::string LiveCalibration::refusal(const capture::Frame& frame,
             failed_ = frame.image;
             failure_ = reader_.trace().fix.status;
         }
-        return "no pattern is located";
+        return reader_.trace().fix.status == Status::mirrored ? "mirrored: start with --flip"
+                                                              : "no pattern is located";
     }
     ++tally_.located;
     const bool holds_still = is_steady(frame);
@@ -306,8 +307,8 @@ std::string LiveCalibration::shortage() const {
     if (!coverage_) return text;
     if (tally_.located == 0) {
         const auto scratch = std::make_unique<LargeMemory>();
-        const std::string advice =
-            advice_on(failed_.view(), failure_, reader_.trace().options, *scratch, bits_per_px_);
+        const std::string advice = advice_on(
+            failed_.view(), {failure_, reader_.trace().options, true, bits_per_px_}, *scratch);
         if (!advice.empty()) return text + "; " + advice;
     }
     text += "; missing: ";

@@ -21,6 +21,7 @@
 #include "commands.hpp"
 #include "common.hpp"
 #include "dotpose/files/error.hpp"
+#include "dotpose/tools/flip.hpp"
 #include "dotpose/tools/image_file.hpp"
 #include "exit_codes.hpp"
 #include "failure_hint.hpp"
@@ -143,10 +144,14 @@ FollowerOptions options_of(const WatchArguments& arguments) {
 }
 
 /// Saves a frame as it came from its source.
-void save(FrameSaver& saver, GreyImage& image, const Fix& fix, bool is_inverted) {
-    if (is_inverted) invert(image);
+void save(FrameSaver& saver, GreyImage& image, const Fix& fix, const WatchArguments& arguments) {
+    const auto undo_or_redo = [&] {
+        if (arguments.follower.is_inverted) invert(image);
+        if (arguments.sources.options.flip) flip(image);
+    };
+    undo_or_redo();
     saver.take(image.view(), fix);
-    if (is_inverted) invert(image);
+    undo_or_redo();
 }
 
 /// Waits until recorded frames are due, by their times.
@@ -216,9 +221,7 @@ int follow(const WatchArguments& arguments, capture::FrameSource& source, std::i
             const Reading reading = read(frame, follower);
             tell_once_in_a_while(reading, frame.image.view(), follower, source.bits_per_px(), hint,
                                  was_told);
-            if (saver) {
-                save(*saver, frame.image, reading.record.fix, arguments.follower.is_inverted);
-            }
+            if (saver) save(*saver, frame.image, reading.record.fix, arguments);
             goes_on = outputs.take(frame, reading, source.dropped());
             progress.update(outputs.tally().frames, length);
             if (arguments.frames > 0 && outputs.tally().frames >= arguments.frames) break;
@@ -422,6 +425,7 @@ void add_watch(Command& app, int& exit_code) {
     add_dds_options(*command, arguments->dds);
     command->callback([arguments, &exit_code] {
         arguments->outputs.mqtt = arguments->mqtt.options();
+        arguments->follower.fit_to(arguments->sources);
         exit_code = run(*arguments);
     });
 }

@@ -103,8 +103,15 @@ auto with_progress(const CalibrateArguments& arguments, Sources& sources, const 
         line.update(done, total);
         return !interrupted();
     };
-    return work(
-        frames.count(), [&frames](int index) { return frames.at(index); }, options);
+    try {
+        return work(
+            frames.count(), [&frames](int index) { return frames.at(index); }, options);
+    } catch (const BadArgument&) {
+        throw;
+    } catch (const Error& error) {
+        if (interrupted() || !frames.are_mirrored(options)) throw;
+        throw Error(error.what() + std::string(kMirrored));
+    }
 }
 
 /// Returns the picture of the turn: that of --draw, or if it shows the lens, one beside it, with
@@ -182,6 +189,7 @@ std::string calibrate_camera(const CalibrateArguments& arguments, Series& series
     });
     go_on(series.drive, "calibrating the heading", calibrate_drive, drive_report);
     if (lens && !arguments.picture.empty()) draw_calibration(arguments.picture, *lens);
+    camera->flip = arguments.sources.options.flip;
     write_result(arguments.out, *camera);
     return report;
 }
@@ -369,6 +377,7 @@ void add_calibrate(Command& app, int& exit_code) {
     add_code_option(*command, arguments->code);
     sheets->excludes(command->get_option("--spacing"), command->get_option("--code"));
     command->callback([arguments, command, &exit_code] {
+        arguments->sources.flip_as(arguments->camera.camera);
         arguments->options.any_code = !arguments->code;
         arguments->options.pattern.profile = arguments->code.value_or(Profile::anoto);
         if (command->count("--spacing") > 0) arguments->spacing = SpacingSource::option;

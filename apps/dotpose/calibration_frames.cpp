@@ -1,11 +1,13 @@
 #include "calibration_frames.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
 #include <fmt/core.h>
 
 #include "capture/source_kind.hpp"
+#include "dotpose/tools/flip.hpp"
 #include "dotpose/tools/follower.hpp"
 #include "dotpose/tools/frame_file.hpp"
 #include "live_sources.hpp"
@@ -30,7 +32,7 @@ Follower follower_for(const CalibrateOptions& calibration) {
 
 CalibrationFrames::CalibrationFrames(const SourceArguments& arguments, Sources& sources,
                                      const CalibrateOptions& options)
-    : region_(arguments.options.region) {
+    : options_(arguments.options) {
     capture::SourceOptions source_options = arguments.options;
     source_options.stop = interrupted;
     source_options.tell = tell;
@@ -60,12 +62,14 @@ void CalibrationFrames::choose(const std::string& source, const capture::SourceO
     std::vector<GreyImage> chosen;
     std::int64_t frames = 0;
     std::int64_t located = 0;
+    std::int64_t mirrored = 0;
     capture::Frame frame;
     ProgressLine line("reading " + source);
     while (!(is_camera && chosen.size() == kMostChosen) && list.next(frame)) {
         const Located found = follower.locate(frame.image);
         line.update(++frames, list.length());
         located += found.fix.status == Status::ok;
+        mirrored += found.fix.status == Status::mirrored;
         if (found.reduced_by > 1 || !places.take(found.fix, frame.image.view())) continue;
         chosen.push_back(std::move(frame.image));
         if (chosen.size() <= kMostChosen) continue;
@@ -77,8 +81,8 @@ void CalibrationFrames::choose(const std::string& source, const capture::SourceO
     }
     if (interrupted()) throw Error("interrupted");
     if (located == 0) {
-        throw Error(fmt::format("{}: none of its {} frames shows a pattern that can be located",
-                                source, frames));
+        throw Error(fmt::format("{}: none of its {} frames shows a pattern that can be located{}",
+                                source, frames, mirrored > 0 ? kMirrored : ""));
     }
     tell(fmt::format("{}: {} of {} frames located; {} that show new places are used", source,
                      located, frames, chosen.size()));
@@ -86,11 +90,21 @@ void CalibrationFrames::choose(const std::string& source, const capture::SourceO
         frames_.push_back({{}, std::move(image)});
 }
 
+bool CalibrationFrames::are_mirrored(const CalibrateOptions& options) const {
+    constexpr int kTried = 3;
+    Follower follower = follower_for(options);
+    for (int i = 0; i < std::min(count(), kTried); ++i) {
+        if (follower.locate(flipped(at(i).view())).fix.status == Status::ok) return true;
+    }
+    return false;
+}
+
 GreyImage CalibrationFrames::at(int index) const {
     const Frame& frame = frames_[static_cast<std::size_t>(index)];
     if (frame.file.empty()) return frame.image;
-    const GreyImage image = read_frame(frame.file);
-    return region_ ? capture::cropped(image, *region_) : image;
+    GreyImage image = read_frame(frame.file);
+    capture::prepare(options_, frame.file, image);
+    return image;
 }
 
 }  // namespace dotpose::cli

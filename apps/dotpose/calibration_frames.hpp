@@ -9,6 +9,10 @@
 
 namespace dotpose::cli {
 
+/// What to add to the message about frames that show the pattern as in a mirror.
+inline constexpr const char* kMirrored =
+    "; they show it as in a mirror: use --flip, which the camera file then says as well";
+
 /// All images that are named, and of videos, cameras and raw frames at most 50 that show new
 /// places. Images stay on the disk; the chosen frames are kept in memory.
 class CalibrationFrames {
@@ -24,6 +28,9 @@ class CalibrationFrames {
     /// Throws Error if the image cannot be read.
     GreyImage at(int index) const;
 
+    /// Whether one of the first frames shows the pattern as in a mirror. Throws Error as `at`.
+    bool are_mirrored(const CalibrateOptions& options) const;
+
   private:
     struct Frame {
         std::string file;  ///< of an image; empty for a frame that is kept
@@ -34,7 +41,7 @@ class CalibrationFrames {
                 const CalibrateOptions& calibration);
 
     std::vector<Frame> frames_;
-    std::optional<capture::Region> region_;
+    capture::SourceOptions options_;
 };
 
 }  // namespace dotpose::cli

@@ -11,11 +11,13 @@
 
 #include <fmt/core.h>
 
+#include "capture/noted_image.hpp"
 #include "check_print_report.hpp"
 #include "commands.hpp"
 #include "common.hpp"
 #include "dotpose/files/sheet_file.hpp"
 #include "dotpose/tools/draw.hpp"
+#include "dotpose/tools/flip.hpp"
 #include "dotpose/tools/image_file.hpp"
 #include "exit_codes.hpp"
 #include "output_arguments.hpp"
@@ -48,6 +50,7 @@ struct CheckPrintArguments {
     std::optional<double> dpi;
     int page = 1;
     int max_megapixels = kDefaultImagePixels / 1'000'000;
+    bool flip = false;
     bool fit = false;
     std::string sheets;
     bool code_given = false;
@@ -184,6 +187,40 @@ void require_apart(const CheckPrintArguments& arguments) {
     files.writes("--draw", arguments.picture, Content::svg);
 }
 
+/// Returns what lets a scan be checked that has too many pixels.
+std::string remedy_for(const ImageTooLarge& scan, const std::optional<Resolution>& resolution,
+                       int max_megapixels) {
+    const double megapixels = 1e-6 * scan.width_px * scan.height_px;
+    const int needed = static_cast<int>(std::ceil(megapixels));
+    std::string remedy;
+    if (needed <= kMaxImagePixels / 1'000'000) {
+        remedy = fmt::format("; --max-pixels {} reads it, which takes {:.1f} GB of memory", needed,
+                             9e-3 * needed);
+    }
+    if (!resolution) return remedy + "; 600 dpi suffice, or 300 for large pages";
+    const double dpi = std::sqrt(resolution->x_dpi * resolution->y_dpi);
+    for (const int enough : {600, 400, 300}) {
+        const double share = enough / dpi;
+        if (enough >= dpi || megapixels * share * share > max_megapixels) continue;
+        return remedy + fmt::format("; {} dpi instead of {:.0f} suffice", enough, dpi);
+    }
+    return remedy + "; or scan the page in parts";
+}
+
+/// Reads the scan, and flips it if that is asked for. Throws Error.
+GreyImage read_scan(const CheckPrintArguments& arguments, const CheckPrintOptions& options) {
+    std::string note;
+    try {
+        GreyImage scan = capture::read_image(
+            arguments.scan, arguments.max_megapixels * 1'000'000, note, arguments.page);
+        if (!note.empty()) tell(note);
+        if (arguments.flip) flip(scan);
+        return scan;
+    } catch (const ImageTooLarge& error) {
+        throw Error(error.what() + remedy_for(error, options.resolution, arguments.max_megapixels));
+    }
+}
+
 /// Returns the exit status.
 int run(const CheckPrintArguments& arguments) {
     if (!arguments.picture.empty()) require_svg(arguments.picture);
@@ -191,8 +228,7 @@ int run(const CheckPrintArguments& arguments) {
     std::vector<SheetEntry> sheets;
     if (!arguments.sheets.empty()) sheets = read_sheets(arguments.sheets);
     CheckPrintOptions options = options_of(arguments, sheets);
-    const GreyImage scan =
-        read_image(arguments.scan, arguments.max_megapixels * 1'000'000, arguments.page);
+    const GreyImage scan = read_scan(arguments, options);
     const int pages = count_pages(arguments.scan);
     catch_interrupts();
     PrintCheck check;
@@ -242,6 +278,7 @@ void add_check_print(Command& app, int& exit_code) {
         ->type_name("N")
         ->capture_default_str()
         ->check(Range(1, kMaxImagePixels / 1'000'000));
+    add_flip_option(*command, arguments->flip);
     arguments->pattern.add_to(*command, PatternArguments::Use::expected);
     add_report_options(*command, arguments->report);
     add_draw_option(*command, arguments->picture, "Also draw a map of the distortion (.svg)");

@@ -175,6 +175,11 @@ std::string doubt_of_code(const PrintCheck& check) {
                        check.code_p_wrong);
 }
 
+const char* status_of(const PrintCheck& check) {
+    if (check.is_mirrored) return "mirrored";
+    return check.fields.empty() ? "no_pattern" : "ok";
+}
+
 }  // namespace
 
 std::string text_report(const CheckedScan& scan, const PrintCheck& check) {
@@ -185,7 +190,9 @@ std::string text_report(const CheckedScan& scan, const PrintCheck& check) {
         add(text, "page        {} of {}: --page N checks another one", scan.page, scan.pages);
     }
     if (check.fields.empty()) {
-        add(text, "no pattern was found in this image");
+        add(text, "{}",
+            check.is_mirrored ? "the pattern is mirrored: check it with --flip"
+                              : "no pattern was found in this image");
     } else {
         add(text, "code        {}{}", name(check.code), doubt_of_code(check));
     }
@@ -206,7 +213,7 @@ std::string text_report(const CheckedScan& scan, const PrintCheck& check) {
 std::string json_report(const CheckedScan& scan, const PrintCheck& check) {
     ordered_json object = {
         {"file", scan.file},
-        {"status", check.fields.empty() ? "no_pattern" : "ok"},
+        {"status", status_of(check)},
         {"width_px", scan.width_px},
         {"height_px", scan.height_px},
         {"test_page", check.is_test_page},

@@ -156,6 +156,11 @@ Option* add_lens_option(Command& command, Lens& lens) {
         ->default_str("0");
 }
 
+void add_flip_option(Command& command, bool& flip) {
+    command.add_flag("--flip", flip,
+                     "Flip the image first, left to right: for a mirror, or a camera that mirrors");
+}
+
 Option* add_camera_option(Command& command, CameraArgument& camera, const std::string& help) {
     return command
         .add_option_function<std::string>(

@@ -41,6 +41,9 @@ Option* add_sheets_option(Command& command, std::string& path, const std::string
 /// Adds --k, the lens distortion in 1/px^2 that `locate` corrects.
 Option* add_lens_option(Command& command, Lens& lens);
 
+/// Adds --flip, for frames that show the pattern as in a mirror.
+void add_flip_option(Command& command, bool& flip);
+
 /// A camera file and its contents.
 struct CameraArgument {
     std::string path;  ///< empty if no file was given

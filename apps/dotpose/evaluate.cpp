@@ -320,6 +320,7 @@ int run(EvaluateArguments& arguments) {
         throw BadArgument("--sheets is for frames only");
     }
     if (has_sources && arguments.frames) throw BadArgument("--frames is for simulated frames only");
+    arguments.sources.fit_to(arguments.camera.camera);
     if (auto& camera = arguments.camera.camera) {
         if (!has_sources) throw BadArgument("--camera is not for simulated frames");
         if (arguments.truth_of == TruthOf::image) {

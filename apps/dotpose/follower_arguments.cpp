@@ -29,6 +29,12 @@ PixelPoint parse_reference(const std::string& text) {
 
 }  // namespace
 
+void FollowerArguments::fit_to(SourceArguments& sources) {
+    if (!sources.fit_to(camera.camera) || !options.reference_px) return;
+    options.reference_px->u -= sources.options.region->left;
+    options.reference_px->v -= sources.options.region->top;
+}
+
 void FollowerArguments::add_files(RunFiles& files) const {
     files.reads("--sheets", sheets);
     files.reads("--camera", camera.path);

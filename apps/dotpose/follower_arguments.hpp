@@ -7,6 +7,7 @@
 #include "common.hpp"
 #include "dotpose/tools/follower.hpp"
 #include "run_files.hpp"
+#include "source_arguments.hpp"
 
 namespace dotpose::cli {
 
@@ -15,6 +16,10 @@ struct FollowerArguments {
     CameraArgument camera;
     bool is_inverted = false;
     FollowerOptions options;  ///< without the files
+
+    /// Makes the camera file fit the frames of `sources` (SourceArguments::fit_to). With a camera
+    /// file, --reference counts in whole frames.
+    void fit_to(SourceArguments& sources);
 
     /// Names the files that are read.
     void add_files(RunFiles& files) const;

@@ -72,7 +72,7 @@ class Poses {
 };
 
 KnownFrames known_images(const std::vector<std::string>& names,
-                         const std::optional<capture::Region>& region, Poses& poses) {
+                         const capture::SourceOptions& options, Poses& poses) {
     KnownFrames known;
     for (const std::string& name : names) {
         if (fs::is_directory(name)) {
@@ -85,11 +85,17 @@ KnownFrames known_images(const std::vector<std::string>& names,
         for (const std::string& image : capture::files_of(name))
             known.rows.push_back(poses.row_of(image));
     }
-    known.frame_at = frames_of_folder("", known.rows);
-    if (!region) return known;
-    known.frame_at = [region, read = known.frame_at](int index) {
+    known.frame_at = [options, rows = known.rows,
+                      read = frames_of_folder("", known.rows)](int index) {
         KnownFrame frame = read(index);
-        if (frame.problem.empty()) frame.image = capture::cropped(frame.image, *region);
+        if (!frame.problem.empty()) return frame;
+        try {
+            capture::prepare(options, rows[static_cast<std::size_t>(index)].file, frame.image);
+        } catch (const BadArgument&) {
+            throw;
+        } catch (const Error& error) {
+            frame.problem = error.what();
+        }
         return frame;
     };
     return known;
@@ -171,7 +177,7 @@ KnownFrames known_frames(const SourceArguments& arguments, const std::string& po
         const SourceKind kind = capture::kind_of(name);
         return kind == SourceKind::image || kind == SourceKind::images;
     });
-    if (are_images) return known_images(names, arguments.options.region, known);
+    if (are_images) return known_images(names, arguments.options, known);
     capture::SourceOptions options = arguments.options;
     options.stop = interrupted;
     options.tell = tell;

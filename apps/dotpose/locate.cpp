@@ -86,7 +86,7 @@ class ImageLocator {
         record.width_px = image.width_px;
         record.height_px = image.height_px;
         record.elapsed_us = elapsed.count();
-        record.advice = advice(record.fix.status, bits_per_px);
+        record.advice = advice(record, bits_per_px);
         return record;
     }
 
@@ -127,11 +127,13 @@ class ImageLocator {
         }
     }
 
-    std::string advice(Status status, double bits_per_px) {
-        if (status == Status::ok) return {};
+    std::string advice(const Record& record, double bits_per_px) {
+        if (record.fix.status == Status::ok) return {};
         if (!scratch_) scratch_ = std::make_unique<LargeMemory>();
-        return advice_on(follower_.image(), status, follower_.used_options(), *scratch_,
-                         bits_per_px);
+        return advice_on(
+            follower_.image(),
+            {record.fix.status, follower_.used_options(), record.code_is_given, bits_per_px},
+            *scratch_);
     }
 
     const LocateArguments& arguments_;
@@ -363,7 +365,10 @@ void add_locate(Command& app, int& exit_code) {
         ->capture_default_str()
         ->check(Range(0, 256).description(""))
         ->excludes(draw);
-    command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+    command->callback([arguments, &exit_code] {
+        arguments->follower.fit_to(arguments->sources);
+        exit_code = run(*arguments);
+    });
 }
 
 }  // namespace dotpose::cli

@@ -67,6 +67,7 @@ std::string doubt(const Record& record) {
         return fmt::format("{}; {} bits of {} dots contradict it", odds, fix.bit_errors,
                            fix.dots_seen);
     }
+    if (!record.advice.empty()) return fmt::format("{}; no bit contradicts it", odds);
     return fmt::format(
         "{}; no bit contradicts it, but of {} dots too few could be read for sure: "
         "show more of the sheet, larger, sharper or in better light",

@@ -11,8 +11,10 @@
 #include <fmt/core.h>
 
 #include "dotpose/files/camera.hpp"
+#include "dotpose/files/profile_names.hpp"
 #include "dotpose/locate.hpp"
 #include "dotpose/tools/grey_image.hpp"
+#include "fields.hpp"
 
 namespace dotpose::cli {
 namespace {
@@ -72,7 +74,7 @@ std::optional<double> too_small_spacing_px(ImageView image, const Options& optio
     Options once;
     once.profile = options.profile;
     once.effort = Effort::once;
-    for (const int by : {2, 3}) {
+    for (const int by : {2, 3, 4}) {
         const GreyImage large = enlarged_middle(image, kMiddle_px, by);
         const Fix fix = Locator(scratch, once).locate(large.view());
         if (fix.status != Status::ok) continue;
@@ -176,15 +178,133 @@ bool is_out_of_focus(ImageView image) {
     return detail > kLeastDetail && bend(image, 2) - noise < kFocused * detail;
 }
 
+/// Returns the image reduced by a factor: means of squares of pixels.
+GreyImage reduced_by(ImageView image, int by) {
+    GreyImage small{{}, image.width_px / by, image.height_px / by};
+    for (int v = 0; v < small.height_px; ++v) {
+        for (int u = 0; u < small.width_px; ++u) {
+            int sum = 0;
+            for (int k = 0; k < by * by; ++k)
+                sum += image.row(v * by + k / by)[u * by + k % by];
+            small.pixels.push_back(static_cast<std::uint8_t>(sum / (by * by)));
+        }
+    }
+    return small;
+}
+
+/// Returns the spacing in the image if its dots lie on a grid once the image is reduced.
+std::optional<double> too_large_spacing_px(ImageView image, const Options& options,
+                                           LargeMemory& scratch) {
+    constexpr double kMostSpacing_px = 60;
+    // The camera may be so near that few dots are left in view.
+    constexpr int kFewestDots = 16;
+    Options once;
+    once.profile = options.profile;
+    once.effort = Effort::once;
+    once.lattice.min_dots = kFewestDots;
+    for (const int by : {2, 4, 8, 16}) {
+        if (std::min(image.width_px, image.height_px) / by < kMinFrameSide_px) break;
+        const GreyImage small = reduced_by(image, by);
+        Locator locator(scratch, once);
+        const Fix fix = locator.locate(small.view());
+        const bool has_grid = fix.status == Status::ok || fix.status == Status::grid_too_small ||
+                              fix.status == Status::not_in_code ||
+                              fix.status == Status::ambiguous || fix.status == Status::not_certain;
+        if (!has_grid) continue;
+        const Vec u_q16 = locator.trace().lattice.u_q16;
+        const double spacing_px = fix.status == Status::ok
+                                      ? by * fix.spacing_px()
+                                      : by * std::hypot(u_q16.x, u_q16.y) / 65536.0;
+        if (spacing_px > kMostSpacing_px) return spacing_px;
+    }
+    return std::nullopt;
+}
+
+/// Whether the dots are white on black.
+bool is_inverted(ImageView image, const Options& options, LargeMemory& scratch) {
+    GreyImage inverted = reduced_by(image, 1);
+    for (std::uint8_t& grey : inverted.pixels)
+        grey = static_cast<std::uint8_t>(255 - grey);
+    Options once = options;
+    once.effort = Effort::once;
+    return Locator(scratch, once).locate(inverted.view()).status == Status::ok;
+}
+
+/// Advises on a position that is not certain because the code was not given: it is certain if the
+/// places in the other codes are left out.
+std::string advice_on_code(ImageView image, const Options& options, LargeMemory& scratch) {
+    for (const Profile code : {Profile::anoto, Profile::libdots, Profile::microdots}) {
+        Options given = options;
+        given.profile = code;
+        const Fix fix = Locator(scratch, given).locate(image);
+        if (fix.status != Status::ok) continue;
+        return fmt::format(
+            "the reason is that the code is not known: in {0} alone the position is certain "
+            "(p_wrong {1}), so name it with --code {0} if that was printed, or show more of the "
+            "sheet",
+            name(code), p_wrong_text(fix.p_wrong()));
+    }
+    return {};
+}
+
+/// Advises on the distance of the camera and its angle.
+std::string advice_on_view(ImageView image, const Options& options, LargeMemory& scratch) {
+    if (const auto spacing_px = too_small_spacing_px(image, options, scratch)) {
+        return fmt::format(
+            "the picture is too coarse, its dots are {:.1f} px apart and at least 6 "
+            "are needed: come closer, or take more pixels",
+            *spacing_px);
+    }
+    if (const auto spacing_px = too_large_spacing_px(image, options, scratch)) {
+        return fmt::format(
+            "the camera is too near, its dots are {:.0f} px apart and at most 60 can be read, of "
+            "which 8 x 8 must be in view: move it away, or make the picture smaller if it shows "
+            "that many",
+            *spacing_px);
+    }
+    if (const auto tilt_degrees = large_tilt_degrees(image, options, scratch)) {
+        return fmt::format(
+            "the sheet is tilted too much, by about {:.0f} degrees: look more straight down on it",
+            *tilt_degrees);
+    }
+    return {};
+}
+
+/// Advises on light, compression and focus.
+std::string advice_on_quality(ImageView image, const PictureFacts& facts) {
+    // H.264 and HEVC of sharp frames lose the first dots at 0.1 bits per px (docs/live.md).
+    constexpr double kTooFewBits_per_px = 0.15;
+    if (facts.bits_per_px > 0 && facts.bits_per_px < kTooFewBits_per_px) {
+        return fmt::format(
+            "the video is compressed too much, to {:.2g} bits per pixel, so that its dots are "
+            "blurred: record it with a higher quality, in H.264 with a CRF of 28 or less",
+            facts.bits_per_px);
+    }
+    if (is_out_of_focus(image)) {
+        return "the picture is out of focus, or shaken: focus, change the distance, or hold still";
+    }
+    if (facts.status != Status::no_grid) return {};
+    return "a sheet that is out of focus, too far away (under 6 px from dot to dot) or strongly "
+           "tilted looks so: focus, come closer, and look straight down";
+}
+
 }  // namespace
 
-std::string advice_on(ImageView image, Status status, const Options& options, LargeMemory& scratch,
-                      double bits_per_px) {
+std::string advice_on(ImageView image, const PictureFacts& facts, LargeMemory& scratch) {
+    const Status status = facts.status;
+    const Options& options = facts.options;
     if (status == Status::ok || status == Status::image_too_small ||
-        status == Status::image_too_large || status == Status::no_contrast ||
-        status == Status::ambiguous_code) {
+        status == Status::image_too_large || status == Status::ambiguous_code) {
         return {};
     }
+    if (status == Status::mirrored) {
+        return "a mirror, a projection from behind or a camera that mirrors its picture shows it "
+               "so: locate with --flip, or 'flip: true' in the camera file";
+    }
+    if (is_inverted(image, options, scratch)) {
+        return "the dots are white on black: locate with --inverted";
+    }
+    if (status == Status::no_contrast) return {};
     // Blur may reduce the contrast of dots to a quarter, which must still be min_contrast.
     const int darkest_paper = 4 * options.threshold.min_contrast;
     if (const int level = paper_level(image); level < darkest_paper) {
@@ -193,31 +313,13 @@ std::string advice_on(ImageView image, Status status, const Options& options, La
             "or a longer exposure, helps",
             level);
     }
-    if (const auto spacing_px = too_small_spacing_px(image, options, scratch)) {
-        return fmt::format(
-            "the picture is too coarse, its dots are {:.1f} px apart and at least 6 "
-            "are needed: come closer, or take more pixels",
-            *spacing_px);
+    if (status == Status::not_certain && !facts.code_is_given) {
+        if (std::string advice = advice_on_code(image, options, scratch); !advice.empty())
+            return advice;
     }
-    if (const auto tilt_degrees = large_tilt_degrees(image, options, scratch)) {
-        return fmt::format(
-            "the sheet is tilted too much, by about {:.0f} degrees: look more straight down on it",
-            *tilt_degrees);
-    }
-    // H.264 and HEVC of sharp frames lose the first dots at 0.1 bits per px (docs/live.md).
-    constexpr double kTooFewBits_per_px = 0.15;
-    if (bits_per_px > 0 && bits_per_px < kTooFewBits_per_px) {
-        return fmt::format(
-            "the video is compressed too much, to {:.2g} bits per pixel, so that its dots are "
-            "blurred: record it with a higher quality, in H.264 with a CRF of 28 or less",
-            bits_per_px);
-    }
-    if (is_out_of_focus(image)) {
-        return "the picture is out of focus, or shaken: focus, change the distance, or hold still";
-    }
-    if (status != Status::no_grid) return {};
-    return "a sheet that is out of focus, too far away (under 6 px from dot to dot) or strongly "
-           "tilted looks so: focus, come closer, and look straight down";
+    if (std::string advice = advice_on_view(image, options, scratch); !advice.empty())
+        return advice;
+    return advice_on_quality(image, facts);
 }
 
 }  // namespace dotpose::cli

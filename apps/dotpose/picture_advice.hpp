@@ -10,10 +10,18 @@
 
 namespace dotpose::cli {
 
+/// What is known of a picture besides its pixels.
+struct PictureFacts {
+    Status status = Status::ok;  ///< result of `locate` with `options`
+    Options options;
+    bool code_is_given = true;  ///< whether only one code was tried
+    /// Bits per pixel that a lossy compression of the video has left (capture/frame_source.hpp).
+    /// 0: not known.
+    double bits_per_px = 0;
+};
+
 /// Returns a sentence without a full stop, or an empty text if the picture gives no reason.
-/// `status` is the result of `locate` with `options`; `scratch` is overwritten. `bits_per_px` is
-/// what a lossy compression of the video has left (capture/frame_source.hpp), or 0.
-std::string advice_on(ImageView image, Status status, const Options& options, LargeMemory& scratch,
-                      double bits_per_px = 0);
+/// `scratch` is overwritten.
+std::string advice_on(ImageView image, const PictureFacts& facts, LargeMemory& scratch);
 
 }  // namespace dotpose::cli

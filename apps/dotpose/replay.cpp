@@ -25,6 +25,7 @@ constexpr const char* kExamples =
     "  dotpose watch run.mp4 --log run.csv\n"
     "  dotpose replay run.csv --draw run.svg\n"
     "  dotpose replay run.csv --format json -o run.json\n"
+    "  dotpose watch run.mp4 > run.jsonl        and then: dotpose replay run.jsonl\n"
     "  dotpose replay run.csv -o run.mcap       and then: ros2 bag play run.mcap, or Foxglove\n\n"
     "The picture shows the path, and speed, dots and certainty over time, with all gaps.\n";
 
@@ -141,9 +142,11 @@ void run(const ReplayArguments& arguments) {
 void add_replay(Command& app, int&) {
     const auto arguments = std::make_shared<ReplayArguments>();
     Command* command =
-        app.add_subcommand("replay", "Figures and a picture of a run that watch --log kept");
+        app.add_subcommand("replay", "Figures and a picture of a run that watch kept");
     command->footer(kExamples);
-    command->add_option("log", arguments->log, "CSV file of dotpose watch --log")
+    command
+        ->add_option("log", arguments->log,
+                     "What dotpose watch --log wrote (CSV), or its lines (JSON)")
         ->type_name("FILE")
         ->required();
     add_report_options(*command, arguments->report,

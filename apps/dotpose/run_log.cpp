@@ -1,12 +1,15 @@
 #include "run_log.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <sstream>
 
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include "dotpose/files/error.hpp"
 #include "evaluate/csv.hpp"
@@ -89,10 +92,13 @@ double LogCells::required(std::string_view column) const {
 
 LogReader::LogReader(const std::filesystem::path& path)
     : path_(path), file_(path, std::ios::binary) {
-    if (std::filesystem::is_directory(path) || !file_) {
-        throw Error("cannot read " + path.string() +
-                    ": name a file that 'dotpose watch --log' wrote");
+    const bool is_folder = std::filesystem::is_directory(path);
+    if (is_folder || !file_) {
+        throw Error(fmt::format("cannot read {}: {}; name a file that 'dotpose watch --log' wrote",
+                                path.string(), std::strerror(is_folder ? EISDIR : errno)));
     }
+    is_json_ = file_.peek() == '{';
+    if (is_json_) return;
     line_ = 1;
     try {
         std::string header;
@@ -109,11 +115,33 @@ std::optional<LogCells> LogReader::next_row() {
     if (!files::next_line(file_, line)) return std::nullopt;
     ++line_;
     if (file_.eof()) return std::nullopt;  // a last line without a line break was cut off
+    if (is_json_) return row_of_json(line);
     auto cells = cells_of(line);
     if (cells.size() != width_) {
         throw Error(fmt::format("{} values instead of {}", cells.size(), width_));
     }
     return LogCells(columns_, std::move(cells));
+}
+
+/// Returns the values of a JSON line as the cells of a CSV row. Elements of a matrix of 3 x 3
+/// become cells whose names end with row and column.
+LogCells LogReader::row_of_json(const std::string& line) {
+    const nlohmann::json object = files::parse_json(line);
+    if (!object.is_object()) throw Error("it is not an object");
+    if (object.contains("track_x_m")) throw Error("its lengths are in m; write it in --units mm");
+    columns_.clear();
+    std::vector<std::string> cells;
+    const auto add = [&](const std::string& name, const nlohmann::json& value) {
+        columns_[name] = cells.size();
+        cells.push_back(value.is_string() ? value.get<std::string>() : value.dump());
+    };
+    for (const auto& [name, value] : object.items()) {
+        if (!value.is_array()) add(name, value);
+        if (!value.is_array() || value.size() != 9) continue;
+        for (std::size_t i = 0; i < value.size(); ++i)
+            add(fmt::format("{}_{}{}", name, i / 3, i % 3), value[i]);
+    }
+    return {columns_, std::move(cells)};
 }
 
 void LogReader::refuse(const Error& error) const {

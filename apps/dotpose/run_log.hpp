@@ -1,4 +1,5 @@
-/// Reads a log of `dotpose watch --log`, which has one row for each frame, with a fix or without.
+/// Reads a log of `dotpose watch`: the CSV of `--log`, or its JSON lines. It has one row for each
+/// frame, with a fix or without.
 #pragma once
 
 #include <cstdint>
@@ -59,13 +60,15 @@ class LogReader {
 
   private:
     std::optional<LogCells> next_row();
+    LogCells row_of_json(const std::string& line);
     [[noreturn]] void refuse(const Error& error) const;
 
     std::filesystem::path path_;
     std::ifstream file_;
     int line_ = 0;
+    bool is_json_ = false;
     std::size_t width_ = 0;
-    LogCells::Columns columns_;
+    LogCells::Columns columns_;  ///< of JSON lines, those of the newest row
 };
 
 struct LogRow {

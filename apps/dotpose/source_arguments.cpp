@@ -63,11 +63,30 @@ void SourceArguments::add_frame_options(Command& command) {
     command.add_option("--exposure", options.exposure, "Of a camera, in its driver's unit")
         ->type_name("N");
     command.add_option("--gain", options.gain, "Of a camera, in its driver's unit")->type_name("N");
+    add_flip_option(command, options.flip);
     command
         .add_option_function<std::string>(
             "--roi", [this](const std::string& text) { options.region = parse_region(text); },
             "Part of the frame to look at")
         ->type_name("X,Y,WxH");
+}
+
+void SourceArguments::flip_as(std::optional<Camera>& camera) {
+    if (!camera) return;
+    options.flip = options.flip || camera->flip;
+    camera->flip = false;
+}
+
+bool SourceArguments::fit_to(std::optional<Camera>& camera) {
+    flip_as(camera);
+    if (!camera) return false;
+    const auto& part = options.region;
+    const bool is_of_part =
+        part && camera->width_px == part->width && camera->height_px == part->height;
+    if (!part || is_of_part) return false;
+    options.whole_size_px = {camera->width_px, camera->height_px};
+    camera = part_of(*camera, part->left, part->top, part->width, part->height);
+    return true;
 }
 
 Sources::Sources(const SourceArguments& arguments)

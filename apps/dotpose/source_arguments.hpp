@@ -9,6 +9,7 @@
 
 #include "capture/source_list.hpp"
 #include "command_line.hpp"
+#include "dotpose/files/camera.hpp"
 #include "run_files.hpp"
 #include "source_names.hpp"
 
@@ -31,8 +32,15 @@ struct SourceArguments {
     /// Adds the sources, --list and the options of cameras, videos and raw frames.
     void add_to(Command& command);
 
-    /// Adds --size, --fps, --exposure, --gain and --roi alone.
+    /// Adds --size, --fps, --exposure, --gain, --flip and --roi alone.
     void add_frame_options(Command& command);
+
+    /// Flips frames if the camera file says so, and clears its flag: its frames come flipped.
+    void flip_as(std::optional<Camera>& camera);
+
+    /// Does that, and with --roi makes the camera of whole frames that of the part. Returns whether
+    /// it did the latter. Throws BadArgument if the part leaves the camera's images.
+    bool fit_to(std::optional<Camera>& camera);
 };
 
 /// The sources of one run.

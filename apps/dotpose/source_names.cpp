@@ -1,5 +1,7 @@
 #include "source_names.hpp"
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <utility>
@@ -18,7 +20,7 @@ SourceNames::SourceNames(std::vector<std::string> names, const std::string& list
         return;
     }
     file_.open(list);
-    if (!file_) throw Error("cannot read the list " + list);
+    if (!file_) throw Error("cannot read the list " + list + ": " + std::strerror(errno));
     list_ = &file_;
     if (is_pipe_) return;
     while (const auto name = next_of_list())

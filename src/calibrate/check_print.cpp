@@ -16,6 +16,7 @@
 #include "calibrate/print_view.hpp"
 #include "dotpose/files/profile_names.hpp"
 #include "dotpose/files/sheet_file.hpp"
+#include "dotpose/tools/flip.hpp"
 #include "dotpose/tools/test_page.hpp"
 
 namespace dotpose {
@@ -192,6 +193,16 @@ void look_for_another_code(const ImageView& scan, const CropDone& done, PrintChe
                                           name(code), name(check.code), name(code))});
 }
 
+/// Whether the flipped image shows a pattern.
+bool is_mirrored(const ImageView& scan, const CheckPrintOptions& options, const CropDone& done) {
+    const GreyImage image = flipped(scan);
+    const ImageView view = image.view();
+    CropLocator locator(view,
+                        options.any_code ? std::nullopt : std::optional(options.pattern.profile));
+    const auto tiling = locator.choose_tiling(done);
+    return tiling && !locator.find_anchors(*tiling, done).empty();
+}
+
 /// A field with all its cells and the result for it.
 struct CollectedField {
     Field field;
@@ -297,7 +308,10 @@ PrintCheck check_print(const ImageView& scan, const CheckPrintOptions& asked) {
             check.code_p_wrong = double(locator.code().evidence().p_wrong(check.code));
         measure_fields(scan, collect_fields(scan, *tiling, anchors, options, done), options, check);
     }
-    if (check.fields.empty()) check.resolution.reset();
+    if (check.fields.empty()) {
+        check.resolution.reset();
+        check.is_mirrored = is_mirrored(scan, asked, done);
+    }
     check.is_test_page = std::ranges::any_of(check.fields, &PrintField::is_patch);
     if (check.is_test_page) rank_patches(options.pattern.profile, check);
     add_findings(options, check);

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "dotpose/files/error.hpp"
@@ -63,7 +64,10 @@ struct SourceOptions {
     std::optional<double> fps;
     std::optional<double> exposure;  ///< in the driver's own unit
     std::optional<double> gain;      ///< in the driver's own unit
+    bool flip = false;               ///< whether frames are flipped, left to right, before `region`
     std::optional<Region> region;    ///< the part of each frame that is kept
+    /// Size that whole frames must have where `region` is a part of a camera file's image.
+    std::optional<std::pair<int, int>> whole_size_px;
     /// Images with more pixels are not decoded: ImageTooLarge.
     int max_pixels = kMaxFrameSide_px * kMaxFrameSide_px;
     /// Called from time to time; when it returns true, the source ends.
@@ -83,6 +87,10 @@ struct SourceOptions {
 
 /// Returns a part of an image. Throws BadArgument if it extends beyond the image.
 GreyImage cropped(const GreyImage& image, const Region& region);
+
+/// Flips and crops a frame as the options say. Throws BadArgument if the region extends beyond the
+/// frame, Error with the name of the frame if it does not have its whole size.
+void prepare(const SourceOptions& options, const std::string& name, GreyImage& image);
 
 /// Returns the time of a frame in microseconds from its number and the frame rate.
 std::int64_t time_of(std::int64_t index, double fps);

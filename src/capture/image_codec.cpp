@@ -1,5 +1,6 @@
 #include "capture/image_codec.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <memory>
@@ -108,20 +109,64 @@ void convert_row(std::span<const std::uint16_t> rgba, std::uint8_t* grey) {
     }
 }
 
+/// Calls `use` with 16-bit red, green, blue and opacity of each row. Returns false if the library
+/// fails.
+template <typename Use>
+bool for_each_row(const Image& image, Report& report, Use use) {
+    std::vector<std::uint16_t> row(4 * image.columns);
+    for (unsigned long v = 0; v < image.rows; ++v) {
+        if (DispatchImage(&image, 0, static_cast<long>(v), image.columns, 1, "RGBA", ShortPixel,
+                          row.data(), &report) == MagickFail) {
+            return false;
+        }
+        use(v, row);
+    }
+    return true;
+}
+
+/// Returns the level of white: of an opaque image of 16 bits the largest of the bits in use.
+std::uint32_t white_of(const Image& image, Report& report) {
+    constexpr std::uint32_t kFull = 65'535;
+    if (image.depth <= 8 || image.matte != MagickFalse) return kFull;
+    std::uint32_t largest = 0;
+    for_each_row(image, report, [&largest](unsigned long, std::span<const std::uint16_t> rgba) {
+        for (std::size_t i = 0; i < rgba.size(); ++i) {
+            if (i % 4 != 3) largest = std::max<std::uint32_t>(largest, rgba[i]);
+        }
+    });
+    return white_level(largest);
+}
+
 GreyImage to_grey(const Image& image, Report& report) {
     GreyImage grey;
     grey.width_px = static_cast<int>(image.columns);
     grey.height_px = static_cast<int>(image.rows);
     grey.pixels.resize(image.columns * image.rows);
-    std::vector<std::uint16_t> row(4 * image.columns);
-    for (unsigned long v = 0; v < image.rows; ++v) {
-        if (DispatchImage(&image, 0, static_cast<long>(v), image.columns, 1, "RGBA", ShortPixel,
-                          row.data(), &report) == MagickFail) {
-            return {};
+    const std::uint32_t white = white_of(image, report);
+    const auto convert = [&](unsigned long v, std::span<std::uint16_t> rgba) {
+        constexpr std::uint32_t kFull = 65'535;
+        for (std::size_t i = 0; white < kFull && i < rgba.size(); ++i) {
+            if (i % 4 != 3) rgba[i] = static_cast<std::uint16_t>(rgba[i] * kFull / white);
         }
-        convert_row(row, grey.pixels.data() + v * image.columns);
-    }
-    return grey;
+        convert_row(rgba, grey.pixels.data() + v * image.columns);
+    };
+    return for_each_row(image, report, convert) ? grey : GreyImage();
+}
+
+/// Decodes an image; none if it is damaged.
+ImagePointer decode(ImageFormat format, std::span<const std::uint8_t> bytes, int page, Report& report) {
+    const InfoPointer info = make_info(format, page);
+    ImagePointer image(BlobToImage(info.get(), bytes.data(), bytes.size(), &report));
+    if (report.is_failure()) image.reset();
+    return image;
+}
+
+/// Returns a JPEG image with the marker that ends one. If pixels are missing before it, the decoder
+/// reports that.
+std::vector<std::uint8_t> with_end_marker(std::span<const std::uint8_t> bytes) {
+    std::vector<std::uint8_t> ended(bytes.begin(), bytes.end());
+    ended.insert(ended.end(), {0xFF, 0xD9});
+    return ended;
 }
 
 /// Reads the header of an image without its pixels.
@@ -136,7 +181,7 @@ ImagePointer read_header(ImageFormat format, std::span<const std::uint8_t> bytes
 }  // namespace
 
 GreyImage decode_image(ImageFormat format, std::span<const std::uint8_t> bytes, int max_pixels,
-                       int page) {
+                       std::string& note, int page) {
     start_library();
     Report report;
     // The library leaves the pixels of missing TIFF strips unset and reports nothing.
@@ -147,9 +192,13 @@ GreyImage decode_image(ImageFormat format, std::span<const std::uint8_t> bytes, 
         const ImagePointer header = read_header(format, bytes, page);
         require_size(header->columns, header->rows, max_pixels);
     }
-    const InfoPointer info = make_info(format, page);
-    const ImagePointer image(BlobToImage(info.get(), bytes.data(), bytes.size(), &report));
-    if (!image || report.is_failure()) fail(format, bytes, report);
+    ImagePointer image = decode(format, bytes, page, report);
+    if (!image && format == ImageFormat::jpeg) {
+        Report of_ended;
+        image = decode(format, with_end_marker(bytes), page, of_ended);
+        if (image) note = "the JPEG image lacks its end marker; its pixels are complete";
+    }
+    if (!image) fail(format, bytes, report);
     if (image->colorspace == CMYKColorspace) TransformColorspace(image.get(), RGBColorspace);
     GreyImage grey = to_grey(*image, report);
     if (grey.pixels.empty()) fail(format, bytes, report);

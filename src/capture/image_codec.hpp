@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "capture/image_format.hpp"
@@ -13,9 +14,10 @@
 namespace dotpose::capture {
 
 /// Decodes an image of any format but PNM, with the conversions and limits that image_file.hpp
-/// describes. Throws Error that has only the reason; the caller adds the name of the file.
+/// describes. `note` is set like that of `read_image`, without the name of the file. Throws Error
+/// that has only the reason; the caller adds the name of the file.
 GreyImage decode_image(ImageFormat format, std::span<const std::uint8_t> bytes, int max_pixels,
-                       int page = 1);
+                       std::string& note, int page = 1);
 
 /// Returns the resolution that the file states, without decoding the pixels. Throws Error that has
 /// only the reason.

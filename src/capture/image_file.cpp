@@ -14,6 +14,7 @@
 #include "capture/exif.hpp"
 #include "capture/image_codec.hpp"
 #include "capture/image_format.hpp"
+#include "capture/noted_image.hpp"
 #include "capture/pnm.hpp"
 
 namespace dotpose {
@@ -79,10 +80,10 @@ Content read_file(const std::filesystem::path& path, int max_pixels) {
     append(file.get(), capture::kMagicBytes, bytes);
     if (bytes.empty()) throw Error("the file is empty");
     const auto format = capture::sniff(bytes);
-    if (!format && capture::is_heif(bytes)) {
-        throw Error(
-            "a photo in HEIC or AVIF format, which is not read: make it a JPEG first, for "
-            "example with heif-convert PHOTO.heic PHOTO.jpg");
+    const auto other = format ? std::nullopt : capture::sniff_other(bytes);
+    if (other) {
+        throw Error(std::string(other->name) +
+                    ", which is not read: convert it first, for example with " + other->remedy);
     }
     if (!format) throw Error("not a PNM, PNG, JPEG, BMP or TIFF image" + advice_for(bytes));
     // The file is read to its end, because pipes have no size that could be asked for.
@@ -160,13 +161,22 @@ bool is_of_screen(const Resolution& resolution) {
 }  // namespace
 
 GreyImage read_image(const std::filesystem::path& path, int max_pixels, int page) {
-    return with_name("read", path, [&] {
+    std::string note;
+    return capture::read_image(path, max_pixels, note, page);
+}
+
+GreyImage capture::read_image(const std::filesystem::path& path, int max_pixels, std::string& note,
+                              int page) {
+    note.clear();
+    GreyImage image = with_name("read", path, [&] {
         const Content content = read_file(path, max_pixels);
         require_page(content, page);
         return content.format == ImageFormat::pnm
-                   ? capture::decode_pnm(content.bytes, max_pixels)
-                   : capture::decode_image(content.format, content.bytes, max_pixels, page);
+                   ? decode_pnm(content.bytes, max_pixels)
+                   : decode_image(content.format, content.bytes, max_pixels, note, page);
     });
+    if (!note.empty()) note = path.string() + ": " + note;
+    return image;
 }
 
 int count_pages(const std::filesystem::path& path) {

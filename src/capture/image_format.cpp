@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <set>
 #include <string_view>
 #include <vector>
@@ -177,14 +178,35 @@ std::optional<ImageFormat> sniff(std::span<const std::uint8_t> bytes) {
     return std::nullopt;
 }
 
-bool is_heif(std::span<const std::uint8_t> bytes) {
-    constexpr std::size_t kBrand = 8;
+std::uint32_t white_level(std::uint32_t largest) {
+    constexpr int kMostBits = 12;
+    const int bits = std::max(std::bit_width(largest), 8);
+    return (1U << (bits > kMostBits ? 16 : bits)) - 1;
+}
+
+std::optional<OtherFormat> sniff_other(std::span<const std::uint8_t> bytes) {
+    using namespace std::string_view_literals;
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    if (text.size() < kBrand || text.substr(4, 4) != "ftyp") return false;
-    const std::string_view brand = text.substr(kBrand, 4);
-    constexpr std::array<std::string_view, 8> kBrands = {"heic", "heix", "heim", "heis",
-                                                         "hevc", "mif1", "msf1", "avif"};
-    return std::ranges::find(kBrands, brand) != kBrands.end();
+    const auto has_at = [text](std::size_t offset, std::string_view magic) {
+        return text.size() >= offset && text.substr(offset).starts_with(magic);
+    };
+    constexpr std::array<std::string_view, 8> kHeif = {"heic", "heix", "heim", "heis",
+                                                       "hevc", "mif1", "msf1", "avif"};
+    const auto has_brand = [&](std::string_view brand) { return has_at(8, brand); };
+    if (has_at(4, "ftyp") && std::ranges::any_of(kHeif, has_brand)) {
+        return OtherFormat{"a photo in HEIC or AVIF format", "heif-convert PHOTO.heic PHOTO.jpg"};
+    }
+    if (has_at(0, "RIFF") && has_at(8, "WEBP")) {
+        return OtherFormat{"a WebP image", "dwebp IMAGE.webp -o IMAGE.png"};
+    }
+    if (has_at(0, "GIF8")) return OtherFormat{"a GIF image", "gm convert IMAGE.gif IMAGE.png"};
+    if (has_at(0, "\xFF\x0A"sv) || has_at(4, "JXL ")) {
+        return OtherFormat{"a JPEG XL image", "djxl IMAGE.jxl IMAGE.png"};
+    }
+    if (has_at(4, "jP  ")) {
+        return OtherFormat{"a JPEG 2000 image", "opj_decompress -i IMAGE.jp2 -o IMAGE.png"};
+    }
+    return std::nullopt;
 }
 
 const char* name(ImageFormat format) {

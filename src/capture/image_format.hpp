@@ -20,12 +20,20 @@ inline constexpr char kTooLarge[] =
 /// Throws Error if a side is beyond the limit, ImageTooLarge if there are too many pixels.
 void require_size(std::uint64_t width_px, std::uint64_t height_px, int max_pixels);
 
+/// Returns the level of white in an image of 16 bits whose largest level is `largest`: of 8 to 12
+/// bits, as sensors deliver them in the lower bits of 16, the largest of these bits.
+std::uint32_t white_level(std::uint32_t largest);
+
 /// Returns the format that the first bytes of a file indicate, or none.
 std::optional<ImageFormat> sniff(std::span<const std::uint8_t> bytes);
 
-/// Whether these are the first bytes of a HEIC or AVIF image, as phones store them, which are not
-/// supported.
-bool is_heif(std::span<const std::uint8_t> bytes);
+/// A kind of image that is not read.
+struct OtherFormat {
+    const char* name;    ///< such as "a WebP image"
+    const char* remedy;  ///< what makes it one that is read
+};
+/// Returns the format that is not read and that the first bytes of a file indicate, or none.
+std::optional<OtherFormat> sniff_other(std::span<const std::uint8_t> bytes);
 
 /// Returns "PNM", "PNG", "JPEG", "BMP" or "TIFF".
 const char* name(ImageFormat format);

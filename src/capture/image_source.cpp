@@ -5,7 +5,7 @@
 #include <fmt/core.h>
 
 #include "capture/frame_source.hpp"
-#include "dotpose/tools/image_file.hpp"
+#include "capture/noted_image.hpp"
 
 namespace dotpose::capture {
 namespace {
@@ -26,7 +26,9 @@ class ImageSource : public FrameSource {
             frame.file = *path;
             try {
                 options_.before_reading(*path);
-                frame.image = read_image(*path, options_.max_pixels);
+                std::string note;
+                frame.image = read_image(*path, options_.max_pixels, note);
+                if (!note.empty()) options_.tell(note);
                 tell_of_pages(*path);
                 return true;
             } catch (const Error& error) {

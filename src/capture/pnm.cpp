@@ -1,5 +1,6 @@
 #include "capture/pnm.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 
@@ -148,9 +149,19 @@ std::uint32_t read_level(Reader& reader, const Header& header) {
     return level;
 }
 
+/// Returns the level of white. The levels after the header are read once to find it.
+std::uint32_t white_of(Reader reader, const Header& header) {
+    if (header.max_level < kMaxLevel) return header.max_level;
+    std::uint32_t largest = 0;
+    const std::size_t samples = header.width_px * header.height_px * header.channels;
+    for (std::size_t i = 0; i < samples; ++i)
+        largest = std::max(largest, read_level(reader, header));
+    return white_level(largest);
+}
+
 void read_levels(Reader& reader, const Header& header, GreyImage& image) {
     constexpr std::uint64_t kLumaScale = 1000;  // sum of the Rec. 601 weights
-    const std::uint64_t scale = kLumaScale * header.max_level;
+    const std::uint64_t scale = kLumaScale * white_of(reader, header);
     for (std::uint8_t& pixel : image.pixels) {
         const std::uint64_t first = read_level(reader, header);
         std::uint64_t luma = kLumaScale * first;

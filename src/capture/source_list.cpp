@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include "capture/source_kind.hpp"
+#include "dotpose/tools/flip.hpp"
 
 namespace dotpose::capture {
 
@@ -84,9 +85,7 @@ bool SourceList::next(Frame& frame) {
         newest_ = {{}, frame.time_us, frame.index, frame.file, frame.is_live};
         bits_per_px_ = source_->bits_per_px();
         put_in_order(frame);
-        if (options_.region && !frame.image.pixels.empty()) {
-            frame.image = cropped(frame.image, *options_.region);
-        }
+        if (!frame.image.pixels.empty()) prepare(options_, name_of_frame(), frame.image);
         return true;
     }
     return false;
@@ -134,6 +133,18 @@ GreyImage cropped(const GreyImage& image, const Region& region) {
         part.pixels.insert(part.pixels.end(), first, first + region.width);
     }
     return part;
+}
+
+void prepare(const SourceOptions& options, const std::string& name, GreyImage& image) {
+    if (options.flip) flip(image);
+    if (!options.region) return;
+    if (const auto& whole = options.whole_size_px;
+        whole && *whole != std::pair(image.width_px, image.height_px)) {
+        throw Error(fmt::format("{}: the camera file is for images of {} x {} px, not {} x {} px",
+                                name, whole->first, whole->second, image.width_px,
+                                image.height_px));
+    }
+    image = cropped(image, *options.region);
 }
 
 }  // namespace dotpose::capture

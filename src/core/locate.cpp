@@ -12,11 +12,10 @@
 #include "dotpose/locate.hpp"
 
 namespace dotpose::core {
+namespace {
 
-Fix locate(const ImageView& image, const Options& options, Workspace& w) {
-    const Status status = check(image, options, w);
-    if (status != Status::ok) return refuse(status, w);
-    if (options.effort == Effort::device) return locate_as_device(image, options, w);
+/// Makes the attempts that desktops make.
+Fix locate_by_attempts(const ImageView& image, const Options& options, Workspace& w) {
     const bool may_try_twice = options.effort == Effort::twice && w.has_second_attempt;
     if (!may_try_twice) return *make_first_attempt(image, options, Rough::counted, w);
     const std::optional<Fix> first = make_first_attempt(image, options, Rough::left, w);
@@ -26,6 +25,24 @@ Fix locate(const ImageView& image, const Options& options, Workspace& w) {
     if (second.status == Status::ok || has_failed) return second;
     // The frame was left, or the workspace must match the rough fix that is returned.
     return *make_first_attempt(image, options, Rough::counted, w);
+}
+
+/// Gives a frame without a fix the status `mirrored` if an attempt saw the code as in a mirror. The
+/// steps after that attempt fail for other reasons, such as a grid that they do not find.
+void name_mirror_image(Fix& fix, Workspace& w) {
+    if (fix.status != Status::ok && w.is_mirrored) fix.status = w.fix.status = Status::mirrored;
+}
+
+}  // namespace
+
+Fix locate(const ImageView& image, const Options& options, Workspace& w) {
+    const Status status = check(image, options, w);
+    if (status != Status::ok) return refuse(status, w);
+    if (options.effort == Effort::device) return locate_as_device(image, options, w);
+    w.is_mirrored = false;
+    Fix fix = locate_by_attempts(image, options, w);
+    name_mirror_image(fix, w);
+    return fix;
 }
 
 Fix locate(const ImageView& image, const Options& options, const Prediction& prediction,
@@ -42,7 +59,10 @@ CodeReading locate_in_any_code(const ImageView& image, const Options& options,
                                Workspace& w) {
     const Status status = check(image, options, w);
     if (status != Status::ok) return {refuse(status, w), options.profile, evidence};
-    return read_in_any_code(image, options, prediction, evidence, w);
+    w.is_mirrored = false;
+    CodeReading reading = read_in_any_code(image, options, prediction, evidence, w);
+    name_mirror_image(reading.fix, w);
+    return reading;
 }
 
 CodeReading locate_in_code(const ImageView& image, const Options& options, Workspace& w) {

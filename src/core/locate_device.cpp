@@ -8,37 +8,15 @@
 #include "core/attempts/steps.hpp"
 #include "core/device_workspace.hpp"
 #include "core/locate.hpp"
+#include "core/option_ranges.hpp"
 #include "dotpose/locate.hpp"
 
 namespace dotpose::core {
 namespace {
 
-constexpr bool is_within(int value, int low, int high) {
-    return value >= low && value <= high;
-}
-
-/// Whether the options are such that no stage can overflow. Not checked, because no value does
-/// harm: the lens's k (see bend_q48), most_dots (clamped), show_stages.
 bool are_valid(const Options& options) {
-    constexpr int kFarthestReference_q8 = 16384 * 256;
-    constexpr int kFarthestLens_q8 = 1024 * 256;
-    constexpr int kMost = 1 << 20;  // 256 times this still fits into 32 bits, with a factor of two
-                                    // to spare
-    return options.profile <= Profile::microdots && options.effort <= Effort::twice &&
-           options.decoder <= Decoder::all && is_within(options.threshold.low_q8, 1, 256) &&
-           is_within(options.threshold.high_q8, 1, 256) &&
-           is_within(options.threshold.min_contrast, 1, 255) &&
-           is_within(options.blobs.min_area_px, 0, kMost) &&
-           is_within(options.blobs.min_mass_q8, 0, 256) &&
-           is_within(options.blobs.max_area_ratio, 1, 1024) &&
-           is_within(options.lattice.min_dots, 0, kMost) &&
-           is_within(options.lattice.max_offset_q16, 0, 32768) &&
-           is_within(options.integrity.max_p_wrong_log2, -kMost, 0) &&
-           is_within(options.integrity.max_bit_error_q8, 0, 256) &&
-           is_within(options.reference_dx_q8, -kFarthestReference_q8, kFarthestReference_q8) &&
-           is_within(options.reference_dy_q8, -kFarthestReference_q8, kFarthestReference_q8) &&
-           is_within(options.lens.centre_dx_q8, -kFarthestLens_q8, kFarthestLens_q8) &&
-           is_within(options.lens.centre_dy_q8, -kFarthestLens_q8, kFarthestLens_q8);
+    return all_options(options, [](const char*, std::int32_t value, std::int32_t low,
+                                   std::int32_t high) { return value >= low && value <= high; });
 }
 
 }  // namespace

@@ -1,5 +1,9 @@
 #include "dotpose/tools/option_names.hpp"
 
+#include <fmt/core.h>
+
+#include "dotpose/option_fault.hpp"
+
 namespace dotpose {
 
 const char* name(Decoder decoder) {
@@ -16,6 +20,13 @@ const char* name(Effort effort) {
             break;
     }
     return "twice";
+}
+
+std::string fault_text(const Options& options) {
+    const OptionFault fault = option_fault(options);
+    if (fault.name == nullptr) return {};
+    return fmt::format("the option {} is {}; it must be {} to {}", fault.name, fault.value,
+                       fault.low, fault.high);
 }
 
 }  // namespace dotpose

@@ -2,8 +2,10 @@
 #include "dotpose/tools/truth.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <map>
 #include <numbers>
@@ -30,7 +32,7 @@ class TruthReader {
   public:
     TruthReader(const std::filesystem::path& path, std::optional<double> spacing_mm)
         : name_(path.string()), spacing_mm_(spacing_mm), stream_(path) {
-        if (!stream_) throw Error("cannot read " + name_);
+        if (!stream_) throw Error("cannot read " + name_ + ": " + std::strerror(errno));
     }
 
     std::vector<TruthRow> rows() {

@@ -162,6 +162,30 @@ std::optional<PixelPoint> reference_in(const Camera& other, const Camera& camera
     return pixel_from_image_centre(other, from_image_centre(camera, *camera.reference_px));
 }
 
+Camera part_of(const Camera& camera, int left_px, int top_px, int width_px, int height_px) {
+    if (left_px < 0 || top_px < 0 || left_px > camera.width_px - width_px ||
+        top_px > camera.height_px - height_px) {
+        throw BadArgument(fmt::format("the part {},{} {}x{} leaves the camera's images of {}x{} px",
+                                      left_px, top_px, width_px, height_px, camera.width_px,
+                                      camera.height_px));
+    }
+    const auto moved = [&](PixelPoint pixel) {
+        return PixelPoint{pixel.u - left_px, pixel.v - top_px};
+    };
+    Camera part = camera;
+    part.width_px = width_px;
+    part.height_px = height_px;
+    part.centre_px = moved(camera.centre_px);
+    part.reference_px = moved(camera.reference_px.value_or(image_centre(camera)));
+    if (camera.paper) {
+        // The heading is told by the image x axis at the image centre, which is another point now.
+        part.theta_offset_rad +=
+            image_axis_rad(camera, image_centre(camera)) - image_axis_rad(part, image_centre(part));
+    }
+    validate(part);
+    return part;
+}
+
 void use_camera(const Camera& camera, int width_px, int height_px, Options& options) {
     if (camera.width_px != width_px || camera.height_px != height_px) {
         throw BadArgument(fmt::format("the camera file is for images of {} x {} px, not {} x {} px",

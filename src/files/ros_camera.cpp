@@ -29,6 +29,25 @@ std::vector<double> coefficients(const YamlMap& file, const char* nested, const 
     return file.numbers(file.has(lower) ? lower : file.has(upper) ? upper : nested, count);
 }
 
+/// The model that adds k4 to k6, a divisor, to plumb_bob; some drivers state it for every camera.
+constexpr const char* kRational = "rational_polynomial";
+
+/// Returns the coefficients of plumb_bob among those of a rational polynomial whose further terms,
+/// k4 to k6 and those of a prism and a tilted sensor, are all 0.
+std::vector<double> without_rational_terms(const YamlMap& file, std::vector<double> d) {
+    constexpr std::size_t kPlumbBob = 5;
+    const auto is_set = [](double k) { return k != 0; };
+    if (d.size() <= kPlumbBob) return d;
+    if (std::any_of(d.begin() + kPlumbBob, d.end(), is_set)) {
+        file.fail("distortion_model",
+                  fmt::format("is '{}' with k4 to k6 other than 0, which cannot be read: use "
+                              "'dotpose calibrate'",
+                              kRational));
+    }
+    d.resize(kPlumbBob);
+    return d;
+}
+
 }  // namespace
 
 bool is_camera_info(const YamlMap& file) {
@@ -41,8 +60,10 @@ Camera camera_from_camera_info(const YamlMap& file) {
     camera.width_px = file.integer(file.has("width") ? "width" : "image_width");
     camera.height_px = file.integer(file.has("height") ? "height" : "image_height");
     const std::string model = file.text("distortion_model");
-    if (model != "plumb_bob") {
-        file.fail("distortion_model", fmt::format("is '{}'; only plumb_bob can be read", model));
+    if (model != "plumb_bob" && model != kRational) {
+        file.fail(
+            "distortion_model",
+            fmt::format("is '{}'; only plumb_bob can be read: use 'dotpose calibrate'", model));
     }
     const auto matrix = coefficients(file, "camera_matrix", "k", "K", 9);
     const char* matrix_key = file.has("camera_matrix") ? "camera_matrix"
@@ -58,6 +79,7 @@ Camera camera_from_camera_info(const YamlMap& file) {
         file.fail(matrix_key, "has focal lengths, or a centre, that no camera has");
     }
     auto d = coefficients(file, "distortion_coefficients", "d", "D", 0);
+    if (model == kRational) d = without_rational_terms(file, std::move(d));
     if (d.size() != 4 && d.size() != 5) {
         file.fail("distortion_coefficients", "must be k1, k2, t1, t2 and k3");
     }

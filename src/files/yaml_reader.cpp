@@ -1,6 +1,7 @@
 #include "files/yaml_reader.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <utility>
 
@@ -8,6 +9,7 @@
 
 #include "dotpose/files/error.hpp"
 #include "files/input_file.hpp"
+#include "files/system_error.hpp"
 
 namespace dotpose::files {
 namespace {
@@ -16,7 +18,7 @@ constexpr std::size_t kMostBytes = 1 << 20;
 
 std::string text_of(const std::filesystem::path& path) {
     const auto text = files::text_of(path, kMostBytes);
-    if (!text) throw Error(fmt::format("cannot read {}", path.string()));
+    if (!text) base::throw_system("read", path, ENOENT);
     return *text;
 }
 
@@ -66,6 +68,15 @@ int YamlMap::integer(const std::string& key) const {
         fail(key, "must be a whole number");
     }
     return number;
+}
+
+bool YamlMap::boolean(const std::string& key) const {
+    bool is_true = false;
+    const YAML::Node node = value(key);
+    if (!node.IsScalar() || !YAML::convert<bool>::decode(node, is_true)) {
+        fail(key, "must be true or false");
+    }
+    return is_true;
 }
 
 double YamlMap::number(const std::string& key) const {

@@ -22,6 +22,7 @@ class YamlMap {
     bool has(const std::string& key) const { return static_cast<bool>(node_[key]); }
     std::string text(const std::string& key) const;
     int integer(const std::string& key) const;
+    bool boolean(const std::string& key) const;
     double number(const std::string& key) const;
     /// Returns a list of exactly `count` numbers; of any length if `count` is 0.
     std::vector<double> numbers(const std::string& key, std::size_t count) const;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "dotpose/tools/flip.hpp"
 #include "dotpose/tools/mounted_pose.hpp"
 
 namespace dotpose {
@@ -43,6 +44,14 @@ void Follower::use_options_for(int width_px, int height_px) {
         used_.reference_dx_q8 = from_centre_q8(options_.reference_px->u, width_px);
         used_.reference_dy_q8 = from_centre_q8(options_.reference_px->v, height_px);
     }
+}
+
+/// Returns the image, flipped if images are.
+ImageView Follower::as_located(ImageView image) {
+    const bool flips = options_.flip || (options_.camera && options_.camera->flip);
+    if (!flips || image.pixels == nullptr) return image;
+    flipped_ = flipped(image);
+    return flipped_.view();
 }
 
 Locator& Follower::locator(const Options& options) {

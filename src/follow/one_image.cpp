@@ -9,12 +9,12 @@ using namespace follow_detail;
 
 Located Follower::locate(const GreyImage& image) {
     use_options_for(image.width_px, image.height_px);
-    image_ = image.view();
+    image_ = as_located(image.view());
     // A camera file is for images of one size.
     const int by = options_.camera ? 1 : reduction_of(image.width_px, image.height_px);
     if (by > 1) {
-        used_ = reduced(used_, image, by);
-        reduced_ = reduced(image, by);
+        used_ = reduced(used_, image_, by);
+        reduced_ = reduced(image_, by);
         image_ = reduced_.view();
     }
     const Found found = read();

@@ -14,18 +14,17 @@ int reduction_of(int width_px, int height_px) {
     return by > 1 && std::min(width_px, height_px) / by >= kMinFrameSide_px ? by : 1;
 }
 
-GreyImage reduced(const GreyImage& image, int by) {
+GreyImage reduced(ImageView image, int by) {
     GreyImage result{{}, image.width_px / by, image.height_px / by};
     result.pixels.reserve(static_cast<std::size_t>(result.width_px) *
                           static_cast<std::size_t>(result.height_px));
-    const ImageView view = image.view();
     const int area = by * by;
     for (int v = 0; v < result.height_px; ++v) {
         for (int u = 0; u < result.width_px; ++u) {
             std::int64_t sum = area / 2;
             for (int row = v * by; row < (v + 1) * by; ++row) {
                 for (int column = u * by; column < (u + 1) * by; ++column)
-                    sum += view.row(row)[column];
+                    sum += image.row(row)[column];
             }
             result.pixels.push_back(static_cast<std::uint8_t>(sum / area));
         }
@@ -33,7 +32,7 @@ GreyImage reduced(const GreyImage& image, int by) {
     return result;
 }
 
-Options reduced(const Options& options, const GreyImage& image, int by) {
+Options reduced(const Options& options, ImageView image, int by) {
     // Positions are counted from the corner of the image here, not from the centre of its first
     // pixel, so that they only have to be divided. The image centre moves by half of what is cut
     // off.

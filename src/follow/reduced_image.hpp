@@ -14,11 +14,11 @@ int reduction_of(int width_px, int height_px);
 
 /// Returns the image whose pixels are the means of `by` x `by` pixels. Remaining pixels at the
 /// right and at the bottom are cut off.
-GreyImage reduced(const GreyImage& image, int by);
+GreyImage reduced(ImageView image, int by);
 
 /// Converts options for `image` to options for the image reduced by `by`: lens and reference point
 /// belong to the same points of the scene.
-Options reduced(const Options& options, const GreyImage& image, int by);
+Options reduced(const Options& options, ImageView image, int by);
 
 /// Converts the fix of an image reduced by `by` to pixels of the original image.
 Fix in_whole_pixels(const Fix& fix, int by);

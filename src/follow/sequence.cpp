@@ -24,7 +24,7 @@ std::int32_t bam(double angle_rad) {
 Followed Follower::follow(ImageView image, std::int64_t time_us) {
     use_options_for(image.width_px, image.height_px);
     if (seen_) used_.profile = seen_->profile;
-    image_ = image;
+    image_ = as_located(image);
     Found found = find(options_.track.max_p_wrong_log2, predict(time_us));
     const Fix strict = found.fix;
     if (strict.status == Status::not_certain && tracker_.has_prior()) {

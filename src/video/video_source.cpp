@@ -1,8 +1,10 @@
 // Reads video files with FFmpeg's libraries. Unlike OpenCV, they give the time of every frame and
 // report damaged frames.
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -89,7 +91,9 @@ class VideoFile : public capture::FrameSource {
         if (!std::filesystem::exists(name)) {
             throw Error("cannot read " + name + ": no such file or camera");
         }
-        if (!std::ifstream(name)) throw Error("cannot read " + name);
+        if (!std::ifstream(name)) {
+            throw Error("cannot read " + name + ": " + std::strerror(errno));
+        }
         // FFmpeg must not print its own messages: failures are reported as Error.
         av_log_set_level(AV_LOG_QUIET);
         if (!open()) throw Error(name + " is no video, or of a kind that is not known");

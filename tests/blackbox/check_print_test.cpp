@@ -12,6 +12,7 @@
 #include "../scanned_page.hpp"
 #include "../tiff_pages.hpp"
 #include "dotpose/files/sheet_file.hpp"
+#include "dotpose/tools/flip.hpp"
 #include "dotpose/tools/image_file.hpp"
 #include "dotpose/tools/print.hpp"
 #include "dotpose/tools/simulate.hpp"
@@ -277,6 +278,19 @@ TEST_F(CheckPrintCommand, counts_pages_and_checks_the_one_that_is_named) {
     EXPECT_THAT(errors_, HasSubstr("scan.tif: it has 2 pages, and no page 3"));
     run("locate scan.tif");
     EXPECT_THAT(errors_, HasSubstr("scan.tif has 2 pages, of which only the first is read"));
+}
+
+TEST_F(CheckPrintCommand, a_mirrored_page_is_told_and_checked_flipped) {
+    ScanSettings settings;
+    settings.dpi = 600;
+    write_jpeg("scan.jpg", flipped(scan_of_60_x_50_mm(settings).view()), 600);
+    run("check-print scan.jpg");
+    EXPECT_EQ(exit_code_, 1);
+    EXPECT_THAT(output_, HasSubstr("the pattern is mirrored: check it with --flip"));
+    run("check-print scan.jpg --format json");
+    EXPECT_EQ(json::parse(output_)["status"], "mirrored");
+    EXPECT_EQ(run("check-print scan.jpg --flip"), 0) << output_;
+    EXPECT_THAT(output_, HasSubstr("cells 700,800 to "));
 }
 
 TEST_F(CheckPrintCommand, recognises_the_test_page) {

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "dotpose/tools/flip.hpp"
 #include "locate_command.hpp"
 
 namespace dotpose::test {
@@ -112,6 +113,89 @@ TEST_F(LocateCommand, names_a_converter_for_photos_of_phones) {
     EXPECT_EQ(exit_code_, 1);
     EXPECT_THAT(errors_, HasSubstr("cannot read photo.heic: a photo in HEIC or AVIF format"));
     EXPECT_THAT(errors_, HasSubstr("heif-convert"));
+}
+
+TEST_F(LocateCommand, a_mirrored_view_says_how_to_go_on_and_is_located_flipped) {
+    write_frame("straight.pgm", 0);
+    write_pgm(directory_ / "mirrored.pgm", flipped(render(shot(0)).view()).view());
+    run("mirrored.pgm");
+    EXPECT_EQ(records().at(0)["status"], "mirrored");
+    EXPECT_THAT(records().at(0)["message"], HasSubstr("the pattern is mirrored; "));
+    EXPECT_THAT(records().at(0)["message"], HasSubstr("--flip"));
+    EXPECT_THAT(records().at(0)["message"], Not(HasSubstr("focus")));
+    write("camera.yaml",
+          "{format: dotpose-camera, version: 1, width_px: 188, height_px: 120, k_per_px2: 0, "
+          "centre_px: [93.5, 59.5], flip: true}");
+    run("straight.pgm");
+    const json straight = records().at(0);
+    // The flag of the camera file and the option mean the same, also together.
+    for (const char* how : {"--flip ", "--camera camera.yaml ", "--flip --camera camera.yaml "}) {
+        run(how + std::string("mirrored.pgm"));
+        const json record = records().at(0);
+        ASSERT_EQ(record["status"], "ok") << how;
+        EXPECT_EQ(record["x_mm"], straight["x_mm"]) << how;
+        EXPECT_EQ(record["y_mm"], straight["y_mm"]) << how;
+        EXPECT_EQ(record["theta_deg"], straight["theta_deg"]) << how;
+    }
+}
+
+TEST_F(LocateCommand, white_dots_suggest_the_option_for_them) {
+    GreyImage image = render(shot(0));
+    for (std::uint8_t& grey : image.pixels)
+        grey = static_cast<std::uint8_t>(255 - grey);
+    write_pgm(directory_ / "white.pgm", image.view());
+    run("white.pgm");
+    EXPECT_NE(records().at(0)["status"], "ok");
+    EXPECT_THAT(records().at(0)["message"], HasSubstr("white on black: locate with --inverted"));
+}
+
+TEST_F(LocateCommand, a_picture_from_too_near_says_so) {
+    for (const double px : {90.0, 181.0}) {
+        Shot near = clean_shot(px);
+        near.camera.width_px = 1920;
+        near.camera.height_px = 1080;
+        near.imperfections.blur_sigma_px = 2;
+        near.imperfections.noise_sigma = 2;
+        write_pgm(directory_ / "near.pgm", render(near).view());
+        run("near.pgm");
+        ASSERT_NE(records().at(0)["status"], "ok") << px;
+        const std::string message = records().at(0)["message"];
+        EXPECT_THAT(message, HasSubstr("the camera is too near, its dots are ")) << px;
+        const double told = std::stod(message.substr(message.find("its dots are ") + 13));
+        EXPECT_NEAR(told, px, 0.03 * px);
+        EXPECT_THAT(message, Not(HasSubstr("focus")));
+    }
+}
+
+// The dots are too few for all three codes together, and enough for one.
+TEST_F(LocateCommand, a_position_that_only_its_code_makes_certain_names_the_option) {
+    int found = 0;
+    for (int seed = 1; seed <= 12 && found == 0; ++seed) {
+        ASSERT_EQ(
+            ToolCommand::run("simulate -o few --size 88x88 --frames 1 --preset clean --seed " +
+                             std::to_string(seed)),
+            0);
+        run("--code anoto few/frame_000000.pgm");
+        const json known = records().at(0);
+        run("few/frame_000000.pgm");
+        const json record = records().at(0);
+        if (known["status"] != "ok" || record["status"] != "not_certain") continue;
+        ++found;
+        const std::string message = record["message"];
+        EXPECT_THAT(message, HasSubstr("in anoto alone the position is certain"));
+        EXPECT_THAT(message, HasSubstr("--code anoto"));
+        EXPECT_THAT(message, Not(HasSubstr("sharper")));
+    }
+    EXPECT_EQ(found, 1) << "no seed shows the case";
+}
+
+// Fewer pixels per dot than a lens resolves: there is no grid to be measured.
+TEST_F(LocateCommand, a_picture_of_a_screen_says_that_it_is_too_coarse) {
+    write_pgm(directory_ / "screen.pgm", render(clean_shot(1.92)).view());
+    run("screen.pgm");
+    EXPECT_NE(records().at(0)["status"], "ok");
+    EXPECT_THAT(records().at(0)["message"], HasSubstr("too coarse"));
+    EXPECT_THAT(records().at(0)["message"], Not(HasSubstr("out of focus, or shaken")));
 }
 
 }  // namespace

@@ -61,6 +61,41 @@ TEST_F(Replay, CountsARun) {
     EXPECT_EQ(figures["planes"], json{"world"});
 }
 
+// The lines of the same kind of run: lost, and put down elsewhere.
+TEST_F(Replay, ReadsTheJsonLinesOfWatch) {
+    put(R"({"schema":1,"frame":0,"t_s":0.0,"status":"ok","dots_seen":150,"p_wrong":1e-20,"state":"moving","events":"fix","verdict":"believed","plane":"pattern","x_mm":0.0,"y_mm":0.0,"theta_deg":0.0,"covariance_mm_deg":[1e-06,0,0,0,4e-06,0,0,0,9e-06],"track_x_mm":0.0,"track_y_mm":0.0,"track_theta_deg":0.0,"vx_mm_s":0.0,"vy_mm_s":0.0}
+{"schema":1,"frame":1,"t_s":0.1,"status":"ok","dots_seen":150,"p_wrong":1e-12,"state":"moving","verdict":"believed","plane":"pattern","track_x_mm":30.0,"track_y_mm":40.0,"vx_mm_s":300,"vy_mm_s":400}
+{"schema":1,"frame":2,"t_s":0.2,"status":"no_contrast","message":"the image has no dark marks on a lighter ground","dots_seen":0,"state":"lost","events":"lost","verdict":"none"}
+{"schema":1,"frame":3,"t_s":0.3,"sta)");
+    ASSERT_EQ(run("replay run.csv --format json"), 0) << errors_;
+    const json figures = json::parse(output_);
+    EXPECT_EQ(figures["frames"], 3);  // the last line was cut off
+    EXPECT_EQ(figures["fixes"], 2);
+    EXPECT_EQ(figures["without_fix"], (json{{"no_contrast", 1}}));
+    EXPECT_NEAR(figures["distance_mm"], 50, 1e-9);
+    EXPECT_NEAR(figures["largest_speed_mm_s"], 500, 1e-9);
+    EXPECT_DOUBLE_EQ(figures["largest_p_wrong"], 1e-12);
+    ASSERT_EQ(run("replay run.csv -o run.mcap"), 0) << errors_;
+    // The covariance of the first fix in m and rad, y up: 1e-12 and 4e-12 m^2, as doubles.
+    const std::string recording = file("run.mcap");
+    for (const double variance_m2 : {1e-6 * 1e-3 * 1e-3, 4e-6 * 1e-3 * 1e-3}) {
+        const std::string bytes(reinterpret_cast<const char*>(&variance_m2), sizeof variance_m2);
+        EXPECT_NE(recording.find(bytes), std::string::npos) << variance_m2;
+    }
+}
+
+TEST_F(Replay, RefusesJsonLinesThatAreNotOfWatchInMm) {
+    put("{\"schema\":1,\"file\":\"a.pgm\",\"status\":\"ok\"}\n");
+    EXPECT_EQ(run("replay run.csv"), 1);
+    EXPECT_THAT(errors_, HasSubstr("run.csv:1: no log of dotpose watch: frame is missing"));
+    put("{\"frame\":0,\"t_s\":0.0,\"status\":\"ok\",\"track_x_m\":1.5}\n");
+    EXPECT_EQ(run("replay run.csv"), 1);
+    EXPECT_THAT(errors_, HasSubstr("its lengths are in m; write it in --units mm"));
+    put("{broken\n");
+    EXPECT_EQ(run("replay run.csv"), 1);
+    EXPECT_THAT(errors_, HasSubstr("run.csv:1: no log of dotpose watch: "));
+}
+
 TEST_F(Replay, PrintsAndDraws) {
     put(std::string(kHeader) + kRows);
     ASSERT_EQ(run("replay run.csv --draw run.svg"), 0);

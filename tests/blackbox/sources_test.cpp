@@ -1,6 +1,7 @@
 // What frames are read from: all commands take the same sources, and give the same for the same
 // frames.
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -204,6 +205,61 @@ TEST_F(Sources, WrongOnesAreNamed) {
     EXPECT_THAT(errors_, HasSubstr("cannot read nowhere.png: no such file"));
     EXPECT_EQ(run("locate " + image(0) + " --roi 0,0,500x10"), 2);
     EXPECT_THAT(errors_, HasSubstr("leaves the frame of 188x120 px"));
+}
+
+// The camera file is for whole frames: the pose is that of the whole frame's reference.
+TEST_F(Sources, APartOfAFrameIsLocatedWithTheCameraFileOfTheWhole) {
+    std::ofstream(directory_ / "camera.yaml")
+        << "{format: dotpose-camera, version: 1, width_px: 188, height_px: 120, k_per_px2: 0, "
+           "centre_px: [93.5, 59.5], mm_per_px: [0.046, 0.046], reference_px: [40, 90], "
+           "theta_offset_rad: 0.5}";
+    const auto pose = [&](const std::string& options) {
+        EXPECT_EQ(run("locate --camera camera.yaml " + options + image(0)), 0) << errors_;
+        const json record = records().at(0);
+        EXPECT_EQ(record["status"], "ok") << record;
+        return record;
+    };
+    const json whole = pose("");
+    const json part = pose("--roi 20,10,150x100 ");
+    EXPECT_LT(part["dots_used"], whole["dots_used"]);
+    EXPECT_NEAR(part["x_mm"], whole["x_mm"], 0.01);
+    EXPECT_NEAR(part["y_mm"], whole["y_mm"], 0.01);
+    EXPECT_NEAR(part["theta_deg"], whole["theta_deg"], 0.2);
+    const json other = pose("--reference 93.5,59.5 ");
+    EXPECT_GT(std::abs(other["x_mm"].get<double>() - whole["x_mm"].get<double>()), 0.02);
+    const json other_part = pose("--reference 93.5,59.5 --roi 20,10,150x100 ");
+    EXPECT_NEAR(other_part["x_mm"], other["x_mm"], 0.01);
+    EXPECT_NEAR(other_part["y_mm"], other["y_mm"], 0.01);
+    // The frames must have the file's size, and the part must be inside.
+    ASSERT_EQ(run("simulate -o large --size 200x120 --frames 1"), 0);
+    EXPECT_EQ(run("locate --camera camera.yaml --roi 20,10,150x100 large"), 1);
+    EXPECT_THAT(errors_, HasSubstr("frame_000000.pgm: the camera file is for images of 188 x 120 "
+                                   "px, not 200 x 120 px"));
+    EXPECT_EQ(run("locate --camera camera.yaml --roi 100,10,150x100 " + image(0)), 2);
+    EXPECT_THAT(errors_, HasSubstr("leaves the camera's images of 188x120 px"));
+}
+
+TEST_F(Sources, AreFlippedForAllCommands) {
+    ASSERT_EQ(shell("mkdir mirrored && cp frames/truth.csv mirrored && for frame in "
+                    "frames/*.pgm; do ffmpeg -v error -i $frame -vf hflip "
+                    "mirrored/${frame##*/}; done"),
+              0)
+        << errors_;
+    for (const std::string command : {"locate", "watch"}) {
+        ASSERT_EQ(run(command + " frames"), 0);
+        const std::vector<json> straight = poses();
+        ASSERT_EQ(run(command + " --flip mirrored"), 0);
+        EXPECT_EQ(poses(), straight) << command;
+    }
+    ASSERT_EQ(run("evaluate --flip mirrored --format json"), 0);
+    EXPECT_EQ(json::parse(output_)["located"], kFrames);
+    EXPECT_EQ(run("calibrate mirrored -o camera.yaml"), 1);
+    EXPECT_THAT(errors_, HasSubstr("they show it as in a mirror: use --flip"));
+    ASSERT_EQ(run("calibrate --flip mirrored -o camera.yaml"), 0) << errors_;
+    EXPECT_THAT(file("camera.yaml"), HasSubstr("flip: true"));
+    ASSERT_EQ(run("locate --camera camera.yaml mirrored"), 0);
+    for (const json& record : records())
+        EXPECT_EQ(record["status"], "ok");
 }
 
 /// A number that the camera file states.

@@ -60,6 +60,10 @@ struct Camera {
     /// Heading of the robot minus the angle of the image x axis at the image centre.
     double theta_offset_rad = 0;
 
+    /// Whether the camera sees the paper as in a mirror: its frames are flipped, left to right,
+    /// before they are located. All pixels here are those of flipped frames.
+    bool flip = false;
+
     /// Settings of the sensor, for its users; dotpose itself does not use them.
     std::optional<double> exposure_us;
     std::optional<double> gain;
@@ -104,6 +108,11 @@ PixelPoint pixel_from_image_centre(const Camera& camera, CameraPoint point);
 /// Returns the reference point of `camera` as an undistorted pixel of `other`, another calibration
 /// of the same camera. If the view of either is not known, the pixel stays the same.
 std::optional<PixelPoint> reference_in(const Camera& other, const Camera& camera);
+
+/// Returns the camera of a part of its images: the rectangle of `width_px` x `height_px` whose top
+/// left pixel is (`left_px`, `top_px`). Reference point and heading stay the same, also where the
+/// camera names none. Throws BadArgument as `validate`, and if the part leaves the image.
+Camera part_of(const Camera& camera, int left_px, int top_px, int width_px, int height_px);
 
 /// Sets lens and reference point for images of this size and, if the camera's view is known, keeps
 /// the dots in the trace for `with_camera`. Throws BadArgument if the camera's images have another

@@ -176,6 +176,7 @@ struct CameraSigns {
 struct PrintCheck {
     /// All fields, the largest first. Empty if there is no pattern in the image.
     std::vector<PrintField> fields;
+    bool is_mirrored = false;       ///< whether there are none, but are in the flipped image
     Profile code = Profile::anoto;  ///< profile that was given or found
     double code_p_wrong = 0;  ///< if the profile was found: probability that it is another one
     std::optional<Resolution> resolution;  ///< resolution that was used; none for a photo

@@ -39,6 +39,9 @@ struct FollowerOptions {
     double spacing_mm = kDefaultSpacing_mm;
     /// Lens, view and mount of the camera. Images must have its size.
     std::optional<Camera> camera;
+    /// Whether images are flipped, left to right, before they are located, as they are if the
+    /// camera file says so. All pixels are then those of flipped images.
+    bool flip = false;
     /// The pixel whose pose is wanted, instead of the image centre or the camera file's.
     std::optional<PixelPoint> reference_px;
     TrackOptions track;
@@ -85,8 +88,8 @@ class Follower {
     bool is_in_world() const { return is_in_world_; }
     const std::vector<SheetEntry>& sheets() const { return options_.sheets; }
 
-    /// Return, for the newest image, the image as located (reduced, if it was too large), the
-    /// options used and the trace of the stages.
+    /// Return, for the newest image, the image as located (flipped if asked, and reduced if it was
+    /// too large), the options used and the trace of the stages.
     ImageView image() const { return image_; }
     const Options& used_options() const { return used_; }
     Trace trace() const { return locator_.trace(); }
@@ -107,6 +110,7 @@ class Follower {
 
     void use_sheets();
     void use_options_for(int width_px, int height_px);
+    ImageView as_located(ImageView image);
     Locator& locator(const Options& options);
     Fix by_camera_file(const Fix& seen, const std::optional<SheetPlace>& place) const;
     double spacing_mm(const std::optional<SheetPlace>& place) const;
@@ -134,6 +138,7 @@ class Follower {
     bool is_in_world_ = false;
     Options used_;
     ImageView image_;
+    GreyImage flipped_;
     GreyImage reduced_;
     HeapLocator locator_;
     Tracker tracker_;

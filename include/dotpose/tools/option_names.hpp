@@ -1,7 +1,8 @@
-/// Names of option values, as used on the command line and in tables.
+/// Names of option values, as used on the command line and in tables, and messages about them.
 #pragma once
 
 #include <array>
+#include <string>
 
 #include "dotpose/options.hpp"
 
@@ -15,6 +16,9 @@ inline constexpr std::array kEfforts = {Effort::device, Effort::once, Effort::tw
 /// Return the name of an option value, such as "window" and "twice".
 const char* name(Decoder decoder);
 const char* name(Effort effort);
+
+/// Returns which option is outside of its range, and the range, in a sentence; empty if none is.
+std::string fault_text(const Options& options);
 
 }  // namespace dotpose
 

@@ -72,6 +72,23 @@ bool read_hypothesis(const Kernels& kernels, const Options& options, const Patch
     return true;
 }
 
+/// Looks for the code as a mirror shows it, in the dots of a patch around the image centre. It
+/// counts only if lines in a row have no wrong bit. The dots are left mirrored.
+void look_for_mirror_image(const Kernels& kernels, const Options& options, Workspace& w) {
+    if (w.is_mirrored) return;
+    Patch& patch = *w.patch;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(patch.dots.count); ++i)
+        patch.dots.x[i] = -patch.dots.x[i];
+    PatchGrid grid;
+    if (!find_grid(kernels, patch, whole_view(patch), grid)) return;
+    BitBlock block;
+    kernels.read_cells(patch.dots, grid.grid_from_image, grid.displacement, block.columns,
+                       block.rows);
+    Place place;
+    w.is_mirrored =
+        find_place_exactly(options.profile, turned(likeliest_turn(kernels, block), block), place);
+}
+
 /// Whether one look at each dot may be enough: where the patch shows the whole image, the grid
 /// predicts all dots to a fraction of a pixel, as it has been fitted to them.
 bool may_need_one_look(const ImageView& image, const Patch& patch, const FloatPlane& plane) {
@@ -188,10 +205,13 @@ Confirmation locate_outwards(const Kernels& kernels, const ImageView& image, con
         }
         Hypothesis hypothesis;
         hypothesis.rough = rough;
-        if (!find_hypothesis(kernels, image, options, w, hypothesis)) continue;
-        const Confirmation confirmation = confirm(kernels, image, options, hypothesis, w);
-        w.fix.attempt = Attempt::first;
-        if (is_last(confirmation)) return confirmation;
+        auto confirmation = Confirmation::implausible;
+        if (find_hypothesis(kernels, image, options, w, hypothesis)) {
+            confirmation = confirm(kernels, image, options, hypothesis, w);
+            w.fix.attempt = Attempt::first;
+            if (is_last(confirmation)) return confirmation;
+        }
+        look_for_mirror_image(kernels, options, w);
         if (confirmation == Confirmation::uncertain) break;
     }
     return locate_elsewhere(kernels, image, options, rough, w);

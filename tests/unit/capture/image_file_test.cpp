@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "../../tiff_pages.hpp"
+#include "capture/noted_image.hpp"
 #include "encoders.hpp"
 
 namespace dotpose::test {
@@ -239,7 +240,18 @@ TEST_F(ImageFileTest, names_what_is_no_image_file) {
         const std::string error = error_of(text(other));
         EXPECT_THAT(error, StartsWith("cannot read ")) << other;
     }
-    EXPECT_THAT(error_of(text("GIF89a")), HasSubstr("not a PNM, PNG, JPEG, BMP or TIFF image"));
+    EXPECT_THAT(error_of(text("%!PS-Adobe")), HasSubstr("not a PNM, PNG, JPEG, BMP or TIFF image"));
+}
+
+TEST_F(ImageFileTest, names_formats_that_are_not_read_and_a_converter) {
+    using namespace std::string_literals;
+    EXPECT_THAT(
+        error_of(text("RIFF\x1a\0\0\0WEBPVP8 "s)),
+        HasSubstr("a WebP image, which is not read: convert it first, for example with dwebp"));
+    EXPECT_THAT(error_of(text("GIF89a")), HasSubstr("a GIF image"));
+    EXPECT_THAT(error_of(text("\0\0\0\x0cJXL \r\n\x87\n"s)), HasSubstr("a JPEG XL image"));
+    EXPECT_THAT(error_of(text("\0\0\0\x0cjP  \r\n\x87\n"s)), HasSubstr("a JPEG 2000 image"));
+    EXPECT_THAT(error_of(text("RIFF\x1a\0\0\0WAVE"s)), HasSubstr("not a PNM, PNG, JPEG"));
 }
 
 TEST_F(ImageFileTest, names_missing_permission) {
@@ -280,7 +292,9 @@ std::vector<Sample> samples() {
 TEST_F(ImageFileTest, refuses_files_cut_short) {
     for (const Sample& sample : samples()) {
         const std::size_t size = sample.bytes.size();
-        for (const std::size_t kept : {size / 2, size * 95 / 100, size - 1}) {
+        // A JPEG image ends with a marker of two bytes, and is read without it.
+        const std::size_t last = sample.format == std::string("JPEG") ? size - 3 : size - 1;
+        for (const std::size_t kept : {size / 2, size * 95 / 100, last}) {
             Bytes cut = sample.bytes;
             cut.resize(kept);
             EXPECT_THAT(error_of(cut),
@@ -288,6 +302,42 @@ TEST_F(ImageFileTest, refuses_files_cut_short) {
                 << kept << " of " << size << " bytes";
         }
     }
+}
+
+// Some cameras end the file with the last block of pixels.
+TEST_F(ImageFileTest, reads_a_jpeg_without_its_end_marker_and_says_so) {
+    const Bytes whole = encode_jpeg(kGrey);
+    std::string note = "of another image";
+    capture::read_image(write(whole), kDefaultImagePixels, note);
+    EXPECT_EQ(note, "");
+    for (const std::size_t missing : {1U, 2U}) {
+        const Bytes cut(whole.begin(), whole.end() - static_cast<std::ptrdiff_t>(missing));
+        const auto path = write(cut);
+        EXPECT_EQ(block_levels(capture::read_image(path, kDefaultImagePixels, note)), kGreyLevels);
+        EXPECT_EQ(note, path.string() +
+                            ": the JPEG image lacks its end marker; its pixels are "
+                            "complete");
+    }
+}
+
+// Sensors of 10 and 12 bits write them into the lower bits of 16.
+TEST_F(ImageFileTest, scales_few_bits_in_16_by_the_bits_in_use) {
+    const Raster ten{4, 1, 1, 16, {0, 512, 600, 1023}};
+    const Raster twelve{4, 1, 1, 16, {0, 2048, 4000, 4095}};
+    const Raster full{4, 1, 1, 16, {0, 2048, 4000, 4096}};
+    const Bytes of_ten{0, 128, 150, 255};
+    const Bytes of_twelve{0, 128, 249, 255};
+    const Bytes of_full{0, 8, 16, 16};
+    for (const auto& [raster, levels] :
+         {std::pair{ten, of_ten}, std::pair{twelve, of_twelve}, std::pair{full, of_full}}) {
+        EXPECT_EQ(read(encode_png(raster)).pixels, levels);
+        EXPECT_EQ(read(encode_tiff(raster, false)).pixels, levels);
+        EXPECT_EQ(read(encode_pnm(raster, false, 65535)).pixels, levels);
+        EXPECT_EQ(read(encode_pnm(raster, true, 65535)).pixels, levels);
+    }
+    // A largest value that the file states is believed.
+    EXPECT_EQ(read(encode_pnm(ten, false, 1023)).pixels, of_ten);
+    EXPECT_EQ(read(encode_pnm(ten, false, 40000)).pixels, (Bytes{0, 3, 4, 7}));
 }
 
 TEST_F(ImageFileTest, refuses_tiff_with_the_directory_cut) {

@@ -9,6 +9,7 @@
 #include "attempts/shots.hpp"
 #include "canvas.hpp"
 #include "dotpose/locate.hpp"
+#include "dotpose/tools/flip.hpp"
 
 namespace dotpose::core_test {
 namespace {
@@ -59,6 +60,27 @@ TEST(LocateRefuses, AFrameWithoutAPositionTellsWhy) {
             const Status status = Locator(memory).locate(frame.view()).status;
             EXPECT_TRUE(allowed.at(scene).contains(status))
                 << name(scene) << " gave " << name(status) << ", shot " << i << ", seed " << kSeed;
+        }
+    }
+}
+
+// With such displacements, the grid of a mirror image is beyond the steps that come last.
+TEST(LocateRefuses, AMirrorImageIsNamedWhateverTheDisplacement) {
+    const auto memory = std::make_unique<LargeMemory>();
+    for (const double displacement : {0.12, 1.0 / 6, 0.25, 0.30}) {
+        Setup setup;
+        setup.seed = kSeed;
+        setup.camera.width_px = 320;
+        setup.camera.height_px = 240;
+        setup.pattern.displacement_mm = displacement * setup.pattern.spacing_mm;
+        for (std::uint64_t i = 0; i < 5; ++i) {
+            const GreyImage frame = render(draw_shot(setup, i));
+            SCOPED_TRACE(testing::Message() << displacement << ", shot " << i);
+            EXPECT_EQ(Locator(*memory).locate(frame.view()).status, Status::ok);
+            const GreyImage mirrored = flipped(frame.view());
+            EXPECT_EQ(Locator(*memory).locate(mirrored.view()).status, Status::mirrored);
+            EXPECT_EQ(Locator(*memory).locate_in_any_code(mirrored.view(), {}).fix.status,
+                      Status::mirrored);
         }
     }
 }

@@ -9,6 +9,7 @@
 
 #include "canvas.hpp"
 #include "dotpose/locate.hpp"
+#include "dotpose/option_fault.hpp"
 #include "dotpose/tools/option_names.hpp"
 
 namespace dotpose::core_test {
@@ -63,6 +64,9 @@ void expect_refusal(const Options& options, bool is_refused, const char* field, 
         EXPECT_EQ(status == Status::bad_argument, is_refused)
             << way << ": " << field << " = " << value << " gave " << name(status);
     };
+    const OptionFault fault = option_fault(options);
+    EXPECT_STREQ(fault.name, is_refused ? field : nullptr) << value;
+    EXPECT_EQ(fault.value, is_refused ? value : 0) << field;
     const Prediction prediction = Prediction::like(Locator(*kMemory).locate(kFrame.view()));
     expect(Locator(*kMemory, options).locate(kFrame.view()).status, "locate");
     expect(Locator(*kMemory, options).locate(kFrame.view(), prediction).status, "tracked");
@@ -85,6 +89,13 @@ TEST(Options, EveryNumberIsTakenInItsRangeAndRefusedOutside) {
             }
         }
     }
+}
+
+TEST(Options, AFaultIsToldWithItsRange) {
+    Options options;
+    EXPECT_EQ(fault_text(options), "");
+    options.threshold.low_q8 = 300;
+    EXPECT_EQ(fault_text(options), "the option threshold.low_q8 is 300; it must be 1 to 256");
 }
 
 TEST(Options, EnumerationsAreTakenAsFarAsTheyHaveNames) {

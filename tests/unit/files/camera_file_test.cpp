@@ -254,6 +254,40 @@ TEST_F(CameraFile, APrintedMessageOfRosIsReadAsWell) {
     EXPECT_EQ(camera.centre_px.u, same.centre_px.u);
 }
 
+TEST_F(CameraFile, KeepsThatFramesAreMirrored) {
+    EXPECT_FALSE(read(kWhole).flip);
+    Camera camera = read(kWhole + "flip: true\n");
+    EXPECT_TRUE(camera.flip);
+    write_camera(path_, camera);
+    EXPECT_TRUE(read_camera(path_).flip);
+    EXPECT_THAT(refusal(kWhole + "flip: 3\n"), HasSubstr("flip must be true or false"));
+}
+
+TEST_F(CameraFile, AMissingFileIsToldWithTheReason) {
+    std::string error;
+    try {
+        read_camera("nothere.yaml");
+    } catch (const Error& thrown) {
+        error = thrown.what();
+    }
+    EXPECT_EQ(error, "cannot read nothere.yaml: No such file or directory");
+}
+
+// Drivers state this model for every camera; without its further terms it is plumb_bob.
+TEST_F(CameraFile, ARationalPolynomialWithoutItsOwnTermsIsPlumbBob) {
+    const auto rational = [](const std::string& coefficients) {
+        std::string text = kRos;
+        text.replace(text.find("plumb_bob"), 9, "rational_polynomial");
+        text.replace(text.find("[-0.25, 0.1, 0, 0, 0]"), 21, coefficients);
+        return text;
+    };
+    EXPECT_EQ(read(rational("[-0.25, 0.1, 0, 0, 0, 0, 0, 0]")).k_per_px2, read(kRos).k_per_px2);
+    EXPECT_EQ(read(rational("[-0.25, 0.1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]")).k_per_px2,
+              read(kRos).k_per_px2);
+    EXPECT_THAT(refusal(rational("[-0.25, 0.1, 0, 0, 0, 0.2, 0, 0]")),
+                HasSubstr("k4 to k6 other than 0, which cannot be read: use 'dotpose calibrate'"));
+}
+
 TEST_F(CameraFile, OtherLensesOfRosAreRefusedByKey) {
     const auto with = [&](const std::string& part, const std::string& other) {
         std::string text = kRos;
@@ -261,7 +295,8 @@ TEST_F(CameraFile, OtherLensesOfRosAreRefusedByKey) {
         return refusal(text);
     };
     EXPECT_THAT(with("plumb_bob", "equidistant"),
-                HasSubstr("distortion_model is 'equidistant'; only plumb_bob"));
+                HasSubstr("distortion_model is 'equidistant'; only plumb_bob can be read: use "
+                          "'dotpose calibrate'"));
     EXPECT_THAT(with("[600, 0,", "[0, 0,"), HasSubstr("camera_matrix has no focal lengths"));
     EXPECT_THAT(with("[-0.25, 0.1, 0, 0, 0]", "[-0.25, 0.05]"),
                 HasSubstr("distortion_coefficients must be"));
@@ -285,6 +320,33 @@ TEST(UseCamera, SetsLensAndReferenceForItsOwnSizeOnly) {
     EXPECT_EQ(options.reference_dx_q8, -100 * 256);
     EXPECT_EQ(options.reference_dy_q8, 2 * 256);
     EXPECT_THROW(use_camera(camera, 189, 120, options), BadArgument);
+}
+
+// A point of the paper, the reference point and the heading do not depend on the part of the image
+// that is read.
+TEST(PartOf, SeesTheSamePaper) {
+    Camera camera;
+    camera.width_px = 640;
+    camera.height_px = 480;
+    camera.k_per_px2 = -2e-7;
+    camera.centre_px = {325, 236};
+    camera.paper = PaperScale{0.046, 0.0461, 0.001, 1e-4, -2e-4};
+    camera.theta_offset_rad = 0.5;
+    const Camera part = part_of(camera, 100, 50, 400, 300);
+    EXPECT_EQ(part.width_px, 400);
+    EXPECT_EQ(part.height_px, 300);
+    const CameraPoint whole_at = on_paper(camera, undistorted(camera, {130, 90}));
+    const CameraPoint part_at = on_paper(part, undistorted(part, {30, 40}));
+    EXPECT_NEAR(part_at.x_mm, whole_at.x_mm, 1e-12);
+    EXPECT_NEAR(part_at.y_mm, whole_at.y_mm, 1e-12);
+    // Without a reference point it is the centre of the whole image.
+    EXPECT_NEAR(part.reference_px.value().u, 319.5 - 100, 1e-12);
+    EXPECT_NEAR(part.reference_px.value().v, 239.5 - 50, 1e-12);
+    // The heading is counted from the image x axis at the image centre, in the camera frame.
+    const double heading_rad = image_axis_rad(camera, {319.5, 239.5}) + camera.theta_offset_rad;
+    EXPECT_NEAR(image_axis_rad(part, {199.5, 149.5}) + part.theta_offset_rad, heading_rad, 1e-12);
+    EXPECT_THROW(part_of(camera, 300, 50, 400, 300), BadArgument);
+    EXPECT_THROW(part_of(camera, -1, 50, 400, 300), BadArgument);
 }
 
 }  // namespace

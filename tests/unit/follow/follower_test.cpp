@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "../calibrate/frames.hpp"
+#include "dotpose/tools/flip.hpp"
 
 namespace dotpose {
 namespace {
@@ -137,6 +138,38 @@ TEST(Follower, LargeImagesAreReduced) {
     EXPECT_EQ(follower.image().width_px, (kMaxFrameSide_px + 2) / 2);
     EXPECT_NEAR(located.fix.spacing_px(), 24, 0.3);
     EXPECT_NEAR(located.fix.x_grid() - shot.pose.cell.x, shot.pose.fraction_x, 0.05);
+}
+
+/// Returns the fixes of a frame by itself and in a sequence.
+std::vector<Fix> both_fixes(const FollowerOptions& options, const GreyImage& image) {
+    return {Follower(options).locate(image).fix,
+            Follower(options).follow(image.view(), 0).located.fix};
+}
+
+TEST(Follower, FlipsFramesIfItsOptionsOrTheCameraFileSaySo) {
+    const CameraModel model;
+    FollowerOptions options;
+    options.code = Profile::anoto;
+    options.camera = mounted_camera(model, 30 * kDegree_rad);
+    const GreyImage image = robot_frame(model, kSeed, 0, kPivot_x_mm, kPivot_y_mm, 0.3);
+    const GreyImage mirrored = flipped(image.view());
+    const std::vector<Fix> straight = both_fixes(options, image);
+    for (const Fix& fix : both_fixes(options, mirrored))
+        EXPECT_EQ(fix.status, Status::mirrored);
+    FollowerOptions by_option = options;
+    by_option.flip = true;
+    FollowerOptions by_camera = options;
+    by_camera.camera->flip = true;
+    for (const FollowerOptions& flipping : {by_option, by_camera}) {
+        const std::vector<Fix> fixes = both_fixes(flipping, mirrored);
+        for (std::size_t i = 0; i < fixes.size(); ++i) {
+            ASSERT_EQ(fixes[i].status, Status::ok);
+            EXPECT_EQ(fixes[i].cell, straight[i].cell);
+            EXPECT_EQ(fixes[i].fraction_x_q16, straight[i].fraction_x_q16);
+            EXPECT_EQ(fixes[i].fraction_y_q16, straight[i].fraction_y_q16);
+            EXPECT_EQ(fixes[i].theta_bam, straight[i].theta_bam);
+        }
+    }
 }
 
 }  // namespace

@@ -177,6 +177,7 @@ class Camera:
     tilt: Optional[Tilt]
     reference_px: Optional[Pixel]
     theta_offset_rad: float
+    flip: bool
     exposure_us: Optional[float]
     gain: Optional[float]
     sigma: dict[str, float]

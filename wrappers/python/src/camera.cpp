@@ -107,6 +107,9 @@ void define_camera(py::module_& module) {
             "Undistorted pixel (u, v) whose pose is wanted; None: the image centre.")
         .def_readwrite("theta_offset_rad", &Camera::theta_offset_rad,
                        "Heading of the robot minus the angle of the image x axis, in rad.")
+        .def_readwrite("flip", &Camera::flip,
+                       "Whether frames must be flipped, left to right, before they are located: "
+                       "image[:, ::-1].")
         .def_readwrite("exposure_us", &Camera::exposure_us, "Exposure, in us; for users.")
         .def_readwrite("gain", &Camera::gain, "Gain of the sensor; for users.")
         .def_readwrite("sigma", &Camera::sigma,

@@ -54,9 +54,13 @@ py::object other(const SeenFix& self) {
                           py::make_tuple(self.other->section.u, self.other->section.v));
 }
 
+std::string message_of(const SeenFix& self) {
+    return self.fault.empty() ? message(self.fix.status) : self.fault;
+}
+
 std::string text(const SeenFix& self) {
     const Fix& fix = self.fix;
-    if (!self.is_ok()) return fmt::format("<Fix {}: {}>", name(fix.status), message(fix.status));
+    if (!self.is_ok()) return fmt::format("<Fix {}: {}>", name(fix.status), message_of(self));
     return fmt::format("<Fix ok: x {:.4f} mm, y {:.4f} mm, theta {:.5f} rad, p_wrong {:.2g}>",
                        fix.x_mm(), fix.y_mm(), fix.theta_rad(), fix.p_wrong());
 }
@@ -100,9 +104,8 @@ void define_pose(py::class_<SeenFix>& fix) {
         .def_property_readonly(
             "status", [](const SeenFix& self) { return name(self.fix.status); },
             "Identifier of the result: \"ok\", \"too_few_dots\", ...")
-        .def_property_readonly(
-            "message", [](const SeenFix& self) { return message(self.fix.status); },
-            "The status in one sentence, without a full stop.")
+        .def_property_readonly("message", &message_of,
+                               "The status in one sentence, without a full stop.")
         .def_property_readonly("x_mm", if_ok([](const Fix& f) { return f.x_mm(); }),
                                "Pattern point under the reference point, to the right, in mm.")
         .def_property_readonly("y_mm", if_ok([](const Fix& f) { return f.y_mm(); }),

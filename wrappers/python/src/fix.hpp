@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "binding.hpp"
 #include "dotpose/code_evidence.hpp"
@@ -29,6 +30,7 @@ struct SeenFix {
     Vec reference_q8;
     std::shared_ptr<StageSource> source;   ///< who located the frame
     std::uint64_t number = 0;              ///< of the frame, among those of `source`
+    std::string fault;                     ///< option outside of its range; empty if none is
     std::shared_ptr<const Stages> stages;  ///< null: not asked for yet
 
     bool is_ok() const { return fix.status == Status::ok; }

@@ -6,6 +6,7 @@
 #include "dotpose/files/profile_names.hpp"
 #include "dotpose/files/sheet.hpp"
 #include "dotpose/tools/mounted_pose.hpp"
+#include "dotpose/tools/option_names.hpp"
 #include "image.hpp"
 #include "rounded.hpp"
 
@@ -85,6 +86,7 @@ SeenFix LocatorOfPython::locate_locked(const ImageView& image,
     if (!setup_.code) evidence_ = reading.evidence;
     SeenFix seen = seen_fix(reading);
     if (setup_.camera) seen.fix = with_camera(seen.fix, *setup_.camera, locator_.trace());
+    if (seen.fix.status == Status::bad_argument) seen.fault = fault_text(locator_.options());
     seen.reference_q8 = {options_.reference_dx_q8, options_.reference_dy_q8};
     seen.number = newest_.number;
     if (setup_.keep_stages) seen.stages = std::make_shared<Stages>(image, locator_.trace());

@@ -1,0 +1,25 @@
+/// OptionFault: which option makes a frame a bad argument.
+#pragma once
+
+#include <cstdint>
+
+#include "dotpose/options.hpp"
+
+#pragma GCC visibility push(default)
+
+namespace dotpose {
+
+/// An option outside of its range.
+struct OptionFault {
+    const char* name = nullptr;  ///< such as "lattice.min_dots"; null: all options are in range
+    std::int32_t value = 0;
+    std::int32_t low = 0;
+    std::int32_t high = 0;
+};
+
+/// Returns the first option outside of its range, for which frames get Status::bad_argument.
+OptionFault option_fault(const Options& options) noexcept;
+
+}  // namespace dotpose
+
+#pragma GCC visibility pop

@@ -1,0 +1,17 @@
+// Reads images with what their users should know of the files.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "dotpose/tools/grey_image.hpp"
+
+namespace dotpose::capture {
+
+/// Reads an image as `dotpose::read_image` does. Sets `note` to what the user should know of the
+/// file, such as a missing end marker, in a sentence that names the file; otherwise to an empty
+/// text.
+GreyImage read_image(const std::filesystem::path& path, int max_pixels, std::string& note,
+                     int page = 1);
+
+}  // namespace dotpose::capture
