@@ -320,13 +320,13 @@ int run(EvaluateArguments& arguments) {
         throw BadArgument("--sheets is for frames only");
     }
     if (has_sources && arguments.frames) throw BadArgument("--frames is for simulated frames only");
-    arguments.sources.fit_to(arguments.camera.camera);
     if (auto& camera = arguments.camera.camera) {
         if (!has_sources) throw BadArgument("--camera is not for simulated frames");
         if (arguments.truth_of == TruthOf::image) {
             camera->reference_px.reset();
             camera->theta_offset_rad = 0;
         }
+        arguments.sources.fit_to(camera);
         use_camera(*camera, camera->width_px, camera->height_px, arguments.options);
     }
     arguments.setup.preset = arguments.preset.value_or(Preset::nominal);
