@@ -2,12 +2,15 @@
 ///
 /// Formats: PNM (PBM, PGM and PPM, text and binary), PNG, JPEG, BMP, TIFF. The format is detected
 /// from the first bytes of a file, never from its name. A file that is cut short or damaged is an
-/// Error, even if part of the picture could be shown: made-up pixels are no measurement.
+/// Error, even if part of the picture could be shown: made-up pixels are no measurement. A JPEG
+/// that lacks nothing but its end marker is read.
 ///
 /// Every pixel becomes one grey level, 0 black to 255 white:
 ///  - colour: luma 0.299 R + 0.587 G + 0.114 B (Rec. 601) of the stored values; palettes are
 ///    expanded; CMYK is converted without profiles; gamma and colour profiles are ignored
-///  - 16 bits, and maximum values other than 255: scaled to 0..255 and rounded
+///  - 16 bits, and maximum values other than 255: scaled to 0..255 and rounded. Opaque images of 16
+///    bits without a value above 4095 are taken for 8 to 12 bits, in the lower ones, as sensors
+///    deliver them
 ///  - transparency: laid on white paper
 ///  - several pages in one TIFF file: the first, or the one that is asked for
 /// EXIF orientation is ignored: the pixels come as the sensor delivered them, because a camera's
