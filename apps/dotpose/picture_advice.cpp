@@ -247,8 +247,8 @@ std::string advice_on_code(ImageView image, const Options& options, LargeMemory&
     return {};
 }
 
-/// Advises on the distance of the camera and its angle.
-std::string advice_on_view(ImageView image, const Options& options, LargeMemory& scratch) {
+/// Advises on the distance of the camera.
+std::string advice_on_distance(ImageView image, const Options& options, LargeMemory& scratch) {
     if (const auto spacing_px = too_small_spacing_px(image, options, scratch)) {
         return fmt::format(
             "the picture is too coarse, its dots are {:.1f} px apart and at least 6 "
@@ -262,16 +262,16 @@ std::string advice_on_view(ImageView image, const Options& options, LargeMemory&
             "that many",
             *spacing_px);
     }
-    if (const auto tilt_degrees = large_tilt_degrees(image, options, scratch)) {
+    return {};
+}
+
+/// Advises on tilt, compression and focus.
+std::string advice_on_quality(ImageView image, const PictureFacts& facts, LargeMemory& scratch) {
+    if (const auto tilt_degrees = large_tilt_degrees(image, facts.options, scratch)) {
         return fmt::format(
             "the sheet is tilted too much, by about {:.0f} degrees: look more straight down on it",
             *tilt_degrees);
     }
-    return {};
-}
-
-/// Advises on light, compression and focus.
-std::string advice_on_quality(ImageView image, const PictureFacts& facts) {
     // H.264 and HEVC of sharp frames lose the first dots at 0.1 bits per px (docs/live.md).
     constexpr double kTooFewBits_per_px = 0.15;
     if (facts.bits_per_px > 0 && facts.bits_per_px < kTooFewBits_per_px) {
@@ -313,13 +313,13 @@ std::string advice_on(ImageView image, const PictureFacts& facts, LargeMemory& s
             "or a longer exposure, helps",
             level);
     }
+    if (std::string advice = advice_on_distance(image, options, scratch); !advice.empty())
+        return advice;
     if (status == Status::not_certain && !facts.code_is_given) {
         if (std::string advice = advice_on_code(image, options, scratch); !advice.empty())
             return advice;
     }
-    if (std::string advice = advice_on_view(image, options, scratch); !advice.empty())
-        return advice;
-    return advice_on_quality(image, facts);
+    return advice_on_quality(image, facts, scratch);
 }
 
 }  // namespace dotpose::cli
