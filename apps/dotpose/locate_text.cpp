@@ -64,7 +64,9 @@ std::string text_line(const Record& record, Units units) {
         record.fix.status == Status::ok
             ? place_text(record, units)
             : fmt::format("no fix ({}): {}", name(record.fix.status), reason(record));
-    if (const std::string doubt = warning(record); !doubt.empty()) text += "; warning: " + doubt;
+    for (const std::string& doubt : warnings(record)) {
+        if (!doubt.empty()) text += "; warning: " + doubt;
+    }
     return printable(record.file + ": " + text) + '\n';
 }
 

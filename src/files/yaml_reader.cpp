@@ -9,7 +9,7 @@
 
 #include "dotpose/files/error.hpp"
 #include "files/input_file.hpp"
-#include "files/system_error.hpp"
+#include "base/system_error.hpp"
 
 namespace dotpose::files {
 namespace {
