@@ -375,7 +375,8 @@ void add_calibrate(Command& app, int& exit_code) {
     add_live_options(*command, *arguments);
     add_spacing_option(*command, arguments->options.pattern.spacing_mm);
     add_code_option(*command, arguments->code);
-    sheets->excludes(command->get_option("--spacing"), command->get_option("--code"));
+    sheets->excludes(command->get_option("--spacing"));
+    sheets->excludes(command->get_option("--code"));
     command->callback([arguments, command, &exit_code] {
         arguments->sources.flip_as(arguments->camera.camera);
         arguments->options.any_code = !arguments->code;

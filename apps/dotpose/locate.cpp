@@ -350,7 +350,7 @@ void add_locate(Command& app, int& exit_code) {
         ->type_name("NAME")
         ->default_str("brief")
         ->check(one_of({"brief", "all"}));
-    const Option* draw =
+    Option* draw =
         command
             ->add_option("--draw", arguments->draw,
                          "Also write a picture (SVG) of what was seen: NAME.svg of one image, or a "

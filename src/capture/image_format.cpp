@@ -180,7 +180,7 @@ std::optional<ImageFormat> sniff(std::span<const std::uint8_t> bytes) {
 
 std::uint32_t white_level(std::uint32_t largest) {
     constexpr int kMostBits = 12;
-    const int bits = std::max(std::bit_width(largest), 8);
+    const int bits = std::max(static_cast<int>(std::bit_width(largest)), 8);
     return (1U << (bits > kMostBits ? 16 : bits)) - 1;
 }
 

@@ -6,6 +6,7 @@
 
 #include "capture/frame_source.hpp"
 #include "capture/noted_image.hpp"
+#include "dotpose/tools/image_file.hpp"
 
 namespace dotpose::capture {
 namespace {

@@ -48,7 +48,7 @@ bool begins_like_video(const std::string& name) {
     if (!file.read(head.data(), static_cast<std::streamsize>(head.size()))) return false;
     const std::string_view bytes = head;
     const bool is_mp4 = bytes.substr(4, 4) == "ftyp" &&
-                        !is_heif({reinterpret_cast<const std::uint8_t*>(head.data()), head.size()});
+                        !sniff_other({reinterpret_cast<const std::uint8_t*>(head.data()), head.size()});
     return is_mp4 || bytes.starts_with("\x1a\x45\xdf\xa3") ||
            (bytes.starts_with("RIFF") && bytes.substr(8, 4) == "AVI ");
 }

@@ -68,7 +68,7 @@ TEST(LocateRefuses, AFrameWithoutAPositionTellsWhy) {
 TEST(LocateRefuses, AMirrorImageIsNamedWhateverTheDisplacement) {
     const auto memory = std::make_unique<LargeMemory>();
     for (const double displacement : {0.12, 1.0 / 6, 0.25, 0.30}) {
-        Setup setup;
+        dotpose::Setup setup;
         setup.seed = kSeed;
         setup.camera.width_px = 320;
         setup.camera.height_px = 240;

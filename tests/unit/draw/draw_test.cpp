@@ -261,7 +261,7 @@ TEST(DrawFrame, says_why_there_is_no_fix) {
 
 // A photo of a phone: 12 million pixels and thousands of dots.
 TEST(DrawFrame, a_photo_stays_below_a_megabyte) {
-    Setup setup;
+    dotpose::Setup setup;
     setup.camera.width_px = 4032;
     setup.camera.height_px = 3024;
     Shot shot = draw_shot(setup, 1);

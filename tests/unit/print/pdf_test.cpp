@@ -12,6 +12,7 @@
 #include "dotpose/tools/print.hpp"
 #include "files.hpp"
 #include "print/pdf_labels.hpp"
+#include "print/pdf_script_text.hpp"
 
 namespace dotpose {
 namespace {
@@ -36,12 +37,20 @@ PrintOptions named() {
     return options;
 }
 
+std::string content_of_labels(const Sheet& sheet, print::PageNumber page,
+                              const PrintOptions& options) {
+    QPDF pdf;
+    pdf.emptyPDF();
+    print::ScriptText script(pdf);
+    return print::label_content(sheet, page, options, script);
+}
+
 TEST(labels, say_what_is_on_the_page) {
     SheetOptions options = small_page(10);
     options.origin = {300, 500};
     options.pattern.section = {4, 62};
     const Sheet sheet = make_sheet(options);
-    const std::string content = print::label_content(sheet, {2, 3}, named());
+    const std::string content = content_of_labels(sheet, {2, 3}, named());
     EXPECT_THAT(content, HasSubstr("door"));
     EXPECT_THAT(content, HasSubstr("page 2 of 3"));
     EXPECT_THAT(content, HasSubstr("cells 300,500 to"));
@@ -86,7 +95,7 @@ Marks marks_of(const std::string& content, double height_mm) {
 
 TEST(labels, rulers_count_from_the_corner_of_the_page) {
     const Sheet sheet = make_sheet(small_page(10));
-    const Marks marks = marks_of(print::label_content(sheet, {1, 1}, named()), sheet.height_mm);
+    const Marks marks = marks_of(content_of_labels(sheet, {1, 1}, named()), sheet.height_mm);
     // Above the dots to 89, beside them to 49: the last whole millimetres before they end. Between
     // 4 and 10 the rulers and arrows would cross.
     std::vector<double> expected_x = {1, 2, 3, 4};
@@ -109,7 +118,7 @@ TEST(labels, show_the_origin_and_its_pattern_coordinates) {
     options.margin_mm = 10;
     options.origin = {1000, 3};
     const Sheet sheet = make_sheet(options);
-    const std::string content = print::label_content(sheet, {1, 1}, named());
+    const std::string content = content_of_labels(sheet, {1, 1}, named());
     // The first intersection is at (1000, 3) spacings, and on the page as much right of the corner.
     const std::string corner =
         fmt::format("x_mm {:.3f}, y_mm {:.3f}", 508 - sheet.origin_x_mm, 1.524 - sheet.origin_y_mm);
@@ -121,7 +130,7 @@ TEST(labels, show_the_origin_and_its_pattern_coordinates) {
     EXPECT_GT(marks.texts_mm.at("y")[1], marks.texts_mm.at("x")[1] + 3);
     // On a narrow page the text below the dots says it.
     options.paper = {80, 60};
-    const std::string narrow = print::label_content(make_sheet(options), {1, 1}, named());
+    const std::string narrow = content_of_labels(make_sheet(options), {1, 1}, named());
     EXPECT_THAT(narrow, Not(HasSubstr("count from this")));
     EXPECT_THAT(narrow, HasSubstr("corner"));
     EXPECT_THAT(narrow, HasSubstr(fmt::format("{:.3f}", 508 - sheet.origin_x_mm)));
@@ -131,7 +140,7 @@ TEST(labels, show_the_origin_and_its_pattern_coordinates) {
 TEST(labels, stay_clear_of_the_dots) {
     for (const double margin_mm : {3.0, 5.0, 7.0, 10.0, 20.0}) {
         const Sheet sheet = make_sheet(small_page(margin_mm));
-        const std::string content = print::label_content(sheet, {1, 1}, named());
+        const std::string content = content_of_labels(sheet, {1, 1}, named());
         const double reach_mm = sheet.pattern.displacement_mm + sheet.pattern.dot_mm / 2;
         const double mm_per_pt = 25.4 / 72;
         const double left = sheet.origin_x_mm - reach_mm;
@@ -157,9 +166,9 @@ TEST(labels, stay_clear_of_the_dots) {
 
 TEST(labels, are_left_out_where_there_is_no_room) {
     const Sheet sheet = make_sheet(small_page(2));
-    EXPECT_THAT(print::label_content(sheet, {1, 1}, named()), Not(HasSubstr("Tj")));
+    EXPECT_THAT(content_of_labels(sheet, {1, 1}, named()), Not(HasSubstr("Tj")));
     const Sheet wider = make_sheet(small_page(5));  // one line, so no command
-    const std::string content = print::label_content(wider, {1, 1}, named());
+    const std::string content = content_of_labels(wider, {1, 1}, named());
     EXPECT_THAT(content, HasSubstr("page 1 of 1"));
     EXPECT_THAT(content, Not(HasSubstr("dotpose print")));
 }
@@ -167,7 +176,7 @@ TEST(labels, are_left_out_where_there_is_no_room) {
 TEST(labels, text_that_pdf_would_misread_is_escaped) {
     PrintOptions options = named();
     options.name = "a) Tj \\ \xc3\xa4";
-    const std::string content = print::label_content(make_sheet(small_page(10)), {1, 1}, options);
+    const std::string content = content_of_labels(make_sheet(small_page(10)), {1, 1}, options);
     EXPECT_THAT(content, HasSubstr("a\\) Tj \\\\"));
 }
 
