@@ -4,6 +4,7 @@
 #include <set>
 
 #include <CLI/CLI.hpp>
+#include <fmt/core.h>
 
 namespace dotpose::cli {
 namespace {
@@ -11,8 +12,13 @@ namespace {
 template <typename Number>
 Validator range(Number least, Number most) {
     const CLI::Range range(least, most);
-    return Validator([range](const std::string& value) { return range(value); },
-                     range.get_description());
+    // Versions of CLI11 word the refusal differently.
+    const auto refusal = [range, least, most](const std::string& value) -> std::string {
+        std::string tried = value;
+        if (range(tried).empty()) return {};
+        return fmt::format("Value {} not in range {} to {}", value, least, most);
+    };
+    return Validator(refusal, range.get_description());
 }
 
 /// Calls `parse` and turns what CLI11 throws into what Command::parse promises.

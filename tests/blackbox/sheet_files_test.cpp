@@ -223,7 +223,7 @@ TEST_F(SheetFiles, csv_has_the_same_columns_for_every_frame) {
     EXPECT_THAT(lines_of(output_).at(1),
                 testing::MatchesRegex("b\\.pgm: sheet b, .*; world x 0\\.0[0-9]{5} m, "
                                       "y -0\\.0[0-9]{5} m, yaw .* deg"));
-    EXPECT_THAT(lines_of(output_).at(2), StartsWith("elsewhere.pgm: on no sheet, pattern x "));
+    EXPECT_THAT(lines_of(output_).at(2), testing::StartsWith("elsewhere.pgm: on no sheet, pattern x "));
     run("--format csv --columns all " + arguments);
     const std::vector<std::string> lines = lines_of(output_);
     ASSERT_EQ(lines.size(), 5U);
