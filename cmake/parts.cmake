@@ -19,7 +19,7 @@ endmacro()
 #                  target                    Debian's package              how it is found
 dotpose_dependency(fmt::fmt                  libfmt-dev                    PACKAGE fmt)
 dotpose_dependency(nlohmann_json::nlohmann_json nlohmann-json3-dev         PACKAGE nlohmann_json)
-dotpose_dependency(yaml-cpp                  libyaml-cpp-dev               PACKAGE yaml-cpp)
+dotpose_dependency(PkgConfig::YamlCpp        libyaml-cpp-dev               MODULES yaml-cpp)
 dotpose_dependency(PNG::PNG                  libpng-dev                    PACKAGE PNG)
 dotpose_dependency(TIFF::TIFF                libtiff-dev                   PACKAGE TIFF)
 dotpose_dependency(JPEG::JPEG                libjpeg-dev                   PACKAGE JPEG)
@@ -105,7 +105,7 @@ dotpose_part(SIMULATE  "the simulated camera" SETUP core)
 dotpose_part(PRINT     "printing: PNG, SVG, text" SETUP core PARTS BASE NEEDS PNG::PNG)
 dotpose_part(DRAW      "pictures of what was read" SETUP core PARTS BASE NEEDS PNG::PNG)
 dotpose_part(FILES     "sheet and camera files" SETUP tools
-             PARTS BASE NEEDS yaml-cpp nlohmann_json::nlohmann_json)
+             PARTS BASE NEEDS PkgConfig::YamlCpp nlohmann_json::nlohmann_json)
 dotpose_part(TIFF      "printing: TIFF" SETUP tools PARTS PRINT NEEDS TIFF::TIFF)
 dotpose_part(PDF       "printing: PDF, and dots over PDF documents" SETUP tools
              PARTS PRINT NEEDS PkgConfig::Qpdf PkgConfig::Rsvg nlohmann_json::nlohmann_json)

@@ -287,9 +287,9 @@ int run(CalibrateArguments& arguments) {
     }
     if (arguments.stitch && has_mount) throw BadArgument("--stitch is a job of its own");
     Series series = series_of(arguments);
+    require_apart(arguments, series);
     keep_camera_of(arguments.out, arguments.camera);
     use_sheets(arguments);
-    require_apart(arguments, series);
     // Nobody should move a camera for minutes in vain.
     if (arguments.is_live && !arguments.out.empty()) base::require_writable(arguments.out);
     catch_interrupts();
@@ -358,9 +358,9 @@ void add_calibrate(Command& app, int& exit_code) {
         "--stitch", arguments->stitch,
         "Find how the sheets of a sheet file lie, from frames that show two, and write it there");
     Option* sheets = add_sheets_option(*command, arguments->sheets,
-                                            "Sheet file: the code and spacing of the frames are "
-                                            "those of the sheet that they show; with "
-                                            "--stitch, the sheets to stitch");
+                                       "Sheet file: the code and spacing of the frames are "
+                                       "those of the sheet that they show; with "
+                                       "--stitch, the sheets to stitch");
     command
         ->add_option_function<std::string>(
             "--true-scale",

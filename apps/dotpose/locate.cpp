@@ -46,7 +46,7 @@ constexpr const char* kExamples =
     "  dotpose locate --camera camera.yaml frame.png\n"
     "  find frames -name '*.png' | sort | dotpose locate --list -\n"
     "  dotpose locate drive.mp4\n"
-    "  dotpose locate --threads 4 --code anoto frames > poses.jsonl\n\n"
+    "  dotpose locate --threads 4 --code anoto frames > poses.json\n\n"
     "One line per image or frame, also for those without a fix; frame N of a video is called\n"
     "drive.mp4#N. Exit status 1 if something could not be read, 2 for wrong usage.\n";
 

@@ -25,7 +25,7 @@ constexpr const char* kExamples =
     "  dotpose watch run.mp4 --log run.csv\n"
     "  dotpose replay run.csv --draw run.svg\n"
     "  dotpose replay run.csv --format json -o run.json\n"
-    "  dotpose watch run.mp4 > run.jsonl        and then: dotpose replay run.jsonl\n"
+    "  dotpose watch run.mp4 > run.json         and then: dotpose replay run.json\n"
     "  dotpose replay run.csv -o run.mcap       and then: ros2 bag play run.mcap, or Foxglove\n\n"
     "The picture shows the path, and speed, dots and certainty over time, with all gaps.\n";
 

@@ -47,8 +47,9 @@ bool begins_like_video(const std::string& name) {
     std::ifstream file(name, std::ios::binary);
     if (!file.read(head.data(), static_cast<std::streamsize>(head.size()))) return false;
     const std::string_view bytes = head;
-    const bool is_mp4 = bytes.substr(4, 4) == "ftyp" &&
-                        !sniff_other({reinterpret_cast<const std::uint8_t*>(head.data()), head.size()});
+    const bool is_mp4 =
+        bytes.substr(4, 4) == "ftyp" &&
+        !sniff_other({reinterpret_cast<const std::uint8_t*>(head.data()), head.size()});
     return is_mp4 || bytes.starts_with("\x1a\x45\xdf\xa3") ||
            (bytes.starts_with("RIFF") && bytes.substr(8, 4) == "AVI ");
 }

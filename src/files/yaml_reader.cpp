@@ -7,9 +7,9 @@
 
 #include <fmt/core.h>
 
+#include "base/system_error.hpp"
 #include "dotpose/files/error.hpp"
 #include "files/input_file.hpp"
-#include "base/system_error.hpp"
 
 namespace dotpose::files {
 namespace {

@@ -1,10 +1,12 @@
 #include "pdf_script_text.hpp"
 
 #include <memory>
+#include <string_view>
 
 #include <cairo-pdf.h>
 #include <fmt/core.h>
 #include <librsvg/rsvg.h>
+#include <qpdf/Buffer.hh>
 #include <qpdf/QPDFPageDocumentHelper.hh>
 
 #include "dotpose/files/error.hpp"
@@ -79,6 +81,21 @@ std::string document_of(const std::string& text, double size_pt, double width_pt
     return document;
 }
 
+/// Sets the text of a form in black ink alone. The cairo library writes the black of screens, which
+/// printers mix of all inks.
+void use_black_ink(QPDFObjectHandle form) {
+    constexpr std::string_view kOfScreens = "0 0 0 rg";
+    constexpr std::string_view kInk = "0 0 0 1 k";
+    const auto data = form.getStreamData();
+    std::string content(reinterpret_cast<const char*>(data->getBuffer()), data->getSize());
+    for (std::size_t at = content.find(kOfScreens); at != std::string::npos;
+         at = content.find(kOfScreens, at)) {
+        content.replace(at, kOfScreens.size(), kInk);
+    }
+    form.replaceStreamData(content, QPDFObjectHandle::newNull(), QPDFObjectHandle::newNull());
+    form.getDict().removeKey("/Group");
+}
+
 }  // namespace
 
 double ScriptText::width_pt(const std::string& utf8, double size_pt) {
@@ -104,7 +121,9 @@ QPDFObjectHandle ScriptText::form_of(const std::string& utf8, double size_pt) {
     source.setImmediateCopyFrom(true);
     source.processMemoryFile("label", document.data(), document.size());
     QPDFPageObjectHelper page = QPDFPageDocumentHelper(source).getAllPages().front();
-    return forms_[key] = pdf_.copyForeignObject(page.getFormXObjectForPage());
+    QPDFObjectHandle form = page.getFormXObjectForPage();
+    use_black_ink(form);
+    return forms_[key] = pdf_.copyForeignObject(form);
 }
 
 std::string ScriptText::draw(const std::string& utf8, double size_pt, double x_pt, double y_pt) {

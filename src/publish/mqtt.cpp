@@ -263,12 +263,31 @@ MqttPublisher::MqttPublisher(MqttOptions options) : MqttClient(std::move(options
 }
 
 MqttPublisher::~MqttPublisher() {
-    if (is_connected()) send_presence(Presence::offline);
+    if (!options_.presence_topic.empty()) say_goodbye();
     stop();
+}
+
+// The connection must not be closed before the broker has acknowledged everything: it would see a
+// connection that breaks, and send the last will.
+void MqttPublisher::say_goodbye() {
+    constexpr std::chrono::seconds kPatience(1);
+    {
+        std::unique_lock lock(mutex_);
+        done_.wait_for(lock, kPatience, [this] { return said_online_ || has_failed(); });
+        if (!said_online_) return;
+    }
+    send_presence(Presence::offline);
+    std::unique_lock lock(mutex_);
+    done_.wait_for(lock, kPatience, [this] { return presence_under_way_.empty(); });
 }
 
 void MqttPublisher::on_connected() {
     send_presence(Presence::online);
+    {
+        const std::lock_guard lock(mutex_);
+        said_online_ = true;
+    }
+    done_.notify_all();
     send_waiting();
 }
 
@@ -276,8 +295,11 @@ void MqttPublisher::send_presence(Presence presence) {
     if (options_.presence_topic.empty()) return;
     const std::lock_guard lock(mutex_);
     const std::string message = options_.presence(presence);
-    mosquitto_publish(handle(), nullptr, options_.presence_topic.c_str(),
-                      static_cast<int>(message.size()), message.data(), kPresenceQos, true);
+    int id = 0;
+    const int code =
+        mosquitto_publish(handle(), &id, options_.presence_topic.c_str(),
+                          static_cast<int>(message.size()), message.data(), kPresenceQos, true);
+    if (code == MOSQ_ERR_SUCCESS) presence_under_way_.insert(id);
 }
 
 void MqttPublisher::publish(std::string topic, std::string payload) {
@@ -318,12 +340,17 @@ void MqttPublisher::on_published(int id) {
     {
         const std::lock_guard lock(mutex_);
         sent_ += static_cast<std::int64_t>(under_way_.erase(id));
+        presence_under_way_.erase(id);
     }
     done_.notify_all();
     send_waiting();
 }
 
 void MqttPublisher::on_disconnected() {
+    {
+        const std::lock_guard lock(mutex_);
+        said_online_ = false;
+    }
     // libmosquitto sends messages of QoS 1 again after it reconnects, and forgets those of QoS 0.
     if (options_.qos > 0) return;
     const std::lock_guard lock(mutex_);

@@ -83,6 +83,10 @@ class MqttClient {
     /// do. Returns an error of libmosquitto.
     virtual int work();
 
+    /// Whether the newest attempt to connect failed, or the connection is lost. Needs the lock.
+    bool has_failed() const {
+        return (was_reached_ && !is_connected_) || !failure_.empty() || !refusal_.empty();
+    }
     mosquitto* handle() const { return mosquitto_; }
     std::string place() const;
 
@@ -137,9 +141,12 @@ class MqttPublisher : public MqttClient {
     void on_published(int id) override;
     void send_waiting();
     void send_presence(Presence presence);
+    void say_goodbye();
 
     std::deque<Message> waiting_;
     std::set<int> under_way_;  ///< with libmosquitto, not yet sent (QoS 0) or acknowledged (QoS 1)
+    std::set<int> presence_under_way_;  ///< not yet acknowledged
+    bool said_online_ = false;          ///< on this connection
     std::condition_variable done_;
     std::int64_t sent_ = 0;
     std::int64_t dropped_ = 0;

@@ -63,7 +63,7 @@ TEST_F(Feedback, LongWorkShowsProgressAndTheTimeLeft) {
         "</dev/null >/dev/null",
         "grep -q left seen");
     EXPECT_THAT(file("seen"), ContainsRegex("simulating frames: [0-9]+ %, .*[0-9]+ (min|s) left"));
-    EXPECT_THAT(file("seen"), HasSubstr("interrupted; the frames in truth.csv are complete"));
+    EXPECT_THAT(file("seen"), HasSubstr("interrupted; the frames so far are complete"));
 }
 
 TEST_F(Feedback, CtrlCKeepsTheLinesOfLocate) {

@@ -150,7 +150,7 @@ TEST_F(LocateCommand, white_dots_suggest_the_option_for_them) {
 }
 
 TEST_F(LocateCommand, a_picture_from_too_near_says_so) {
-    for (const double px : {90.0, 181.0}) {
+    for (const double px : {181.0, 230.0}) {
         Shot near = clean_shot(px);
         near.camera.width_px = 1920;
         near.camera.height_px = 1080;
@@ -172,7 +172,7 @@ TEST_F(LocateCommand, a_position_that_only_its_code_makes_certain_names_the_opti
     int found = 0;
     for (int seed = 1; seed <= 12 && found == 0; ++seed) {
         ASSERT_EQ(
-            ToolCommand::run("simulate -o few --size 88x88 --frames 1 --preset clean --seed " +
+            ToolCommand::run("simulate -o few --size 104x104 --frames 1 --preset clean --seed " +
                              std::to_string(seed)),
             0);
         run("--code anoto few/frame_000000.pgm");

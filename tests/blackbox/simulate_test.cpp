@@ -138,8 +138,14 @@ TEST_F(SimulateDrive, RunsOverTheSeamOfTwoSheets) {
     std::set<std::string> sheets;
     std::vector<double> steps_mm;
     std::optional<json> last;
+    int between_sheets = 0;
     for (const json& record : found) {
-        ASSERT_EQ(record["status"], "ok") << record;
+        // Where the path crosses the margins of both pages, the camera may see no dots.
+        if (record["status"] != "ok") {
+            ++between_sheets;
+            last.reset();
+            continue;
+        }
         sheets.insert(record["sheet"]);
         // The eight of 120 x 40 mm, less the reach of the camera and 5 mm on each side.
         EXPECT_GT(record["x_m"], 0.0095);
@@ -151,6 +157,7 @@ TEST_F(SimulateDrive, RunsOverTheSeamOfTwoSheets) {
         }
         last = record;
     }
+    EXPECT_LE(between_sheets, 2);
     EXPECT_THAT(sheets, testing::ElementsAre("a", "b"));
     // 20 mm along a curve.
     for (const double step_mm : steps_mm) {

@@ -277,6 +277,7 @@ TEST_F(Mqtt, PresenceIsOfflineAfterACleanEnd) {
         expected += "online offline ";
     }
     wait_until([&] { return early.words() == expected; });
+    EXPECT_EQ(early.words(), expected);
     const Heard late(options(broker));
     wait_until([&] { return late.words() == "offline "; });
 }

@@ -41,6 +41,7 @@ FloatVec middle_of(const Patch& patch, const ImageView& image) {
 
 /// Finds the dots of the patch. Returns false if it has no contrast.
 bool find_patch_dots(const Kernels& kernels, const ImageView& image, Patch& patch) {
+    patch.dots.count = 0;
     kernels.fill_patch(image, patch);
     kernels.smooth_patch(patch);
     if (!measure_contrast(patch)) return false;

@@ -64,6 +64,16 @@ TEST(LocateRefuses, AFrameWithoutAPositionTellsWhy) {
     }
 }
 
+TEST(LocateRefuses, AFrameWithoutDotsIsNotNamedByTheDotsOfTheFrameBefore) {
+    const auto memory = std::make_unique<LargeMemory>();
+    dotpose::Setup setup;
+    setup.seed = kSeed;
+    const GreyImage frame = render(draw_shot(setup, 1));
+    ASSERT_EQ(Locator(*memory).locate(frame.view()).status, Status::ok);
+    const GreyImage black = blank(188, 120);
+    EXPECT_EQ(Locator(*memory).locate(black.view()).status, Status::no_contrast);
+}
+
 // With such displacements, the grid of a mirror image is beyond the steps that come last.
 TEST(LocateRefuses, AMirrorImageIsNamedWhateverTheDisplacement) {
     const auto memory = std::make_unique<LargeMemory>();

@@ -49,7 +49,7 @@ TEST(Measured, AlignsByASimilarityInSpiteOfOutliers) {
     const Similarity by = align(all);
     EXPECT_NEAR(by.scale, kScale, 1e-4);
     EXPECT_NEAR(by.turn_rad, kTurn_rad, 1e-4);
-    EXPECT_NEAR(by.angle_offset_rad, kOffset_rad, 1e-6);
+    EXPECT_NEAR(by.angle_offset_rad, kOffset_rad, 1e-5);
     const Measurement result = compare(all, by);
     EXPECT_EQ(result.located, 23);
     EXPECT_EQ(result.wrong, 2);

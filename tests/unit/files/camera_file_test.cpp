@@ -135,7 +135,7 @@ TEST_F(CameraFile, ForeignFilesAreRefused) {
         read_camera("/no/such/file.yaml");
         FAIL() << "not refused";
     } catch (const Error& error) {
-        EXPECT_STREQ(error.what(), "cannot read /no/such/file.yaml");
+        EXPECT_STREQ(error.what(), "cannot read /no/such/file.yaml: No such file or directory");
     }
 }
 
