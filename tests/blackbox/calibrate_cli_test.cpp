@@ -149,10 +149,10 @@ TEST_F(CalibrateCommand, TakesTheSpacingFromTheSheetFile) {
     std::string frames;
     for (const int at : {1100, 1130, 1160, 1190, 1220}) {
         const std::string folder = "at" + std::to_string(at);
-        ASSERT_EQ(
-            run("simulate -o " + folder + " --spacing 0.3 --mm-per-px 0.027 --frames 1 --at " +
-                std::to_string(at) + " 1100 --seed " + std::to_string(at)),
-            0)
+        ASSERT_EQ(run("simulate -o " + folder +
+                      " --spacing 0.3 --section 0,0 --mm-per-px 0.027 --frames 1 --at " +
+                      std::to_string(at) + " 1100 --seed " + std::to_string(at)),
+                  0)
             << errors_;
         frames += " " + folder + "/frame_000000.pgm";
     }
