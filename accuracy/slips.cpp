@@ -5,29 +5,20 @@
 //   dotpose_slips [--frames N] [--seed S] [--threads N]
 //
 // There are N frames for each condition. The exit status is 1 if any fix is wrong.
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <functional>
-#include <numbers>
-#include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <fmt/core.h>
 
 #include "../tests/slipped_frames.hpp"
-#include "dotpose/tools/score.hpp"
-#include "evaluate_all.hpp"
+#include "uneven_table.hpp"
 
 namespace {
 
 using namespace dotpose;
-
-/// Fixes whose errors are above this number of their standard deviations are counted.
-constexpr double kMostSigmas = 4;
 
 struct Arguments {
     Counting counting;
@@ -55,56 +46,9 @@ KnownFrame frame_of(const Condition& condition, std::uint64_t seed, int index) {
     return {render(shot), truth_of(shot), {}, {}};
 }
 
-/// Returns the largest error of x, y and theta in units of their standard deviations.
-double sigmas_off(const Outcome& outcome) {
-    const Deviation off = deviation_of(outcome.fix, outcome.truth);
-    const double errors[] = {off.x_grid, off.y_grid, off.theta_rad};
-    double most = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const auto variance = static_cast<double>(outcome.fix.covariance[i][i]);
-        most = std::max(most, std::abs(errors[i]) / std::sqrt(variance));
-    }
-    return most;
-}
-
-double share(std::span<const Outcome> outcomes, const std::function<bool(const Outcome&)>& holds) {
-    return outcomes.empty() ? 0
-                            : 100.0 * static_cast<double>(std::ranges::count_if(outcomes, holds)) /
-                                  static_cast<double>(outcomes.size());
-}
-
-/// Prints the row of one condition and returns the number of wrong fixes.
-int print_row(const Condition& condition, const Arguments& arguments) {
-    FrameRun run;
-    run.frames = static_cast<int>(arguments.frames);
-    run.frame_at = [&](int index) { return frame_of(condition, arguments.counting.seed, index); };
-    run.options.front().effort = condition.effort;
-    const std::string view = condition.is_large ? "640 x 480" : "188 x 120";
-    std::vector<Outcome> fixes =
-        evaluate_all(condition.what + ", " + view, std::move(run), arguments.counting).front();
-    const Score score = score_of(fixes);
-    std::erase_if(fixes, [](const Outcome& outcome) { return !outcome.is_fix(); });
-    const double within =
-        share(fixes, [](const Outcome& outcome) { return sigmas_off(outcome) <= kMostSigmas; });
-    const auto share_that_is = [&](Surface surface) {
-        return share(fixes, [=](const Outcome& outcome) { return outcome.fix.surface == surface; });
-    };
-    std::vector<double> sigmas_um;
-    for (const Outcome& fix : fixes) {
-        sigmas_um.push_back(1000 * fix.truth.spacing_mm *
-                            std::sqrt(static_cast<double>(fix.fix.covariance[0][0])));
-    }
-    fmt::print(
-        "| {} | {} | {} | {:.1f} | {:.1f} / {:.1f} | {:.2f} | {:.2f} / {:.2f} / {:.1f} | {:.2f} / "
-        "{:.2f} | {:.3f} / {:.2f} | {} |\n",
-        condition.what, view, score.frames,
-        100.0 * static_cast<double>(fixes.size()) / std::max(score.frames, 1),
-        share_that_is(Surface::divided), share_that_is(Surface::uneven), within,
-        score.position_um.median, score.position_um.p95, score.position_um.max,
-        quantiles_of(sigmas_um).median, quantiles_of(sigmas_um).p95, score.angle_deg.median,
-        score.angle_deg.max, score.wrong);
-    std::fflush(stdout);
-    return score.wrong;
+SheetFrames frames_of(const Condition& condition, std::uint64_t seed) {
+    return {condition.what, condition.is_large ? "640 x 480" : "188 x 120",
+            [=](int index) { return frame_of(condition, seed, index); }, condition.effort};
 }
 
 std::vector<Condition> all_conditions() {
@@ -126,14 +70,11 @@ std::vector<Condition> all_conditions() {
 }
 
 int run(const Arguments& arguments) {
-    fmt::print(
-        "| sheet | view | frames | located, % | divided / uneven, % "
-        "| within 4 sigma, % | error, µm: median / 95 % / max | sigma, µm: median / 95 % | angle, "
-        "degrees: median / max "
-        "| wrong |\n|---|---|--:|--:|---|--:|---|---|---|--:|\n");
+    print_uneven_head();
     int wrong = 0;
     for (const Condition& condition : all_conditions())
-        wrong += print_row(condition, arguments);
+        wrong += print_uneven_row(frames_of(condition, arguments.counting.seed),
+                                  static_cast<int>(arguments.frames), arguments.counting);
     return wrong == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 

@@ -55,17 +55,17 @@ std::string doubt(const Record& record) {
     const Fix& fix = record.fix;
     if (fix.p_wrong_log2 <= record.max_p_wrong_log2) {
         return fmt::format(
-            "{} bits of {} dots contradict it, and the dots lie too far from where it "
+            "{} of the bits read contradict it, and the dots lie too far from where it "
             "has them; paper that is bent, or two patterns, look so",
-            fix.bit_errors, fix.dots_seen);
+            fix.bit_errors);
     }
     const std::string odds =
         fix.p_wrong_log2 >= 0 ? "others are as likely"
                               : fmt::format("{} instead of at most {}", p_wrong_text(fix.p_wrong()),
                                             p_wrong_text(std::ldexp(1.0, record.max_p_wrong_log2)));
+    // Bits are read in all cells, also in those where no dot was found: not two for each dot seen.
     if (fix.bit_errors > 0) {
-        return fmt::format("{}; {} bits of {} dots contradict it", odds, fix.bit_errors,
-                           fix.dots_seen);
+        return fmt::format("{}; {} of the bits read contradict it", odds, fix.bit_errors);
     }
     if (!record.advice.empty()) return fmt::format("{}; no bit contradicts it", odds);
     return fmt::format(

@@ -56,7 +56,7 @@ struct Fix {
 
     int dots_seen = 0;     ///< blobs that have the size of a dot
     int dots_used = 0;     ///< dots that the pose was fitted to
-    int bit_errors = 0;    ///< bits, two for each dot read, that contradict the position found
+    int bit_errors = 0;    ///< bits, two for each cell read, that contradict the position found
     int p_wrong_log2 = 0;  ///< the position is wrong with probability at most 2^p_wrong_log2
     /// Root mean square distance of the dots from their fitted places, per axis.
     float residual_px = 0;

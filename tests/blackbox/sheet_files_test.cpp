@@ -218,8 +218,8 @@ TEST_F(SheetFiles, csv_has_the_same_columns_for_every_frame) {
     run("--format text " + arguments);
     EXPECT_THAT(
         lines_of(output_).at(0),
-        testing::MatchesRegex("a\\.pgm: sheet a, b, x (19|20)\\.[0-9]{4} ± 0\\.00[0-9]{2} mm, "
-                              "y (19|20)\\.[0-9]{4} ± 0\\.00[0-9]{2} mm, angle .* deg"));
+        testing::MatchesRegex("a\\.pgm: sheet a, b, x (19|20)\\.[0-9]{4} ± 0\\.00[0-9]+ mm, "
+                              "y (19|20)\\.[0-9]{4} ± 0\\.00[0-9]+ mm, angle .* deg"));
     EXPECT_THAT(lines_of(output_).at(1),
                 testing::MatchesRegex("b\\.pgm: sheet b, .*; world x 0\\.0[0-9]{5} m, "
                                       "y -0\\.0[0-9]{5} m, yaw .* deg"));
