@@ -1,5 +1,5 @@
-/// Frames of two sheets that are butted at a straight seam, by a renderer of their own: it shares no
-/// code with the simulator, whose errors it therefore cannot repeat. Each dot is a disc that is
+/// Frames of two sheets that are butted at a straight seam, by a renderer of their own: it shares
+/// no code with the simulator, whose errors it therefore cannot repeat. Each dot is a disc that is
 /// sampled within each pixel and cut off at the seam, then blurred, lit and given noise.
 #pragma once
 
@@ -29,11 +29,11 @@ struct SeamShot {
     double fraction_y = 0;
     double theta_rad = 0;
 
-    double seam_px = 0;         ///< distance from the image centre to the seam
-    double direction_rad = 0;   ///< direction of the seam from there, in the image
-    double along_px = 0;        ///< place on the seam about which the far side is turned
-    double turn_rad = 0;        ///< turn of the far side
-    double shift_x_px = 0;      ///< shift of the far side
+    double seam_px = 0;        ///< distance from the image centre to the seam
+    double direction_rad = 0;  ///< direction of the seam from there, in the image
+    double along_px = 0;       ///< place on the seam about which the far side is turned
+    double turn_rad = 0;       ///< turn of the far side
+    double shift_x_px = 0;     ///< shift of the far side
     double shift_y_px = 0;
 
     double paper_level = 190;
@@ -183,7 +183,7 @@ inline GreyImage render(const SeamShot& shot) {
     return image;
 }
 
-/// Draws a view with a seam at most `max_distance` px from the image centre: in any direction, the
+/// Draws a view with a seam at most `max_distance_px` from the image centre: in any direction, the
 /// far side shifted by up to half a spacing and turned by up to one degree about any point of the
 /// seam in view.
 inline SeamShot draw_seam_shot(int width_px, int height_px, double max_distance_px,
@@ -193,7 +193,8 @@ inline SeamShot draw_seam_shot(int width_px, int height_px, double max_distance_
     shot.width_px = width_px;
     shot.height_px = height_px;
     shot.spacing_px = rng.uniform(10, 12);
-    shot.cell = {rng.below(kPositionsPerAxis - 200) + 100, rng.below(kPositionsPerAxis - 200) + 100};
+    shot.cell = {rng.below(kPositionsPerAxis - 200) + 100,
+                 rng.below(kPositionsPerAxis - 200) + 100};
     shot.section = {static_cast<std::uint8_t>(rng.below(kSections)),
                     static_cast<std::uint8_t>(rng.below(kSections))};
     shot.fraction_x = rng.uniform();

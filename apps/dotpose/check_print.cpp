@@ -211,8 +211,8 @@ std::string remedy_for(const ImageTooLarge& scan, const std::optional<Resolution
 GreyImage read_scan(const CheckPrintArguments& arguments, const CheckPrintOptions& options) {
     std::string note;
     try {
-        GreyImage scan = capture::read_image(
-            arguments.scan, arguments.max_megapixels * 1'000'000, note, arguments.page);
+        GreyImage scan = capture::read_image(arguments.scan, arguments.max_megapixels * 1'000'000,
+                                             note, arguments.page);
         if (!note.empty()) tell(note);
         if (arguments.flip) flip(scan);
         return scan;

@@ -15,8 +15,7 @@ constexpr double kDegrees = 180 / std::numbers::pi;
 
 /// Formats a value and its standard deviation, which is left out if it is 0: not known.
 std::string with_deviation(double value, double sigma, int decimals, const std::string& unit) {
-    const std::string deviation =
-        sigma > 0 ? fmt::format(" ± {:.2g}", sigma) : std::string();
+    const std::string deviation = sigma > 0 ? fmt::format(" ± {:.2g}", sigma) : std::string();
     return fmt::format("{}{} {}", decimal(value, decimals), deviation, unit);
 }
 

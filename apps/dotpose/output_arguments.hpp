@@ -19,8 +19,8 @@ struct LineArguments {
     Units units = Units::mm;
 };
 
-/// Adds --format json|csv, --units mm|ros and -o; with `has_text` also --format text. The ending .csv of -o
-/// chooses csv.
+/// Adds --format json|csv, --units mm|ros and -o; with `has_text` also --format text. The ending
+/// .csv of -o chooses csv.
 void add_line_options(Command& command, LineArguments& arguments, bool has_text = false);
 
 /// The options of commands that write one report.

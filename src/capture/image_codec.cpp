@@ -154,7 +154,8 @@ GreyImage to_grey(const Image& image, Report& report) {
 }
 
 /// Decodes an image; none if it is damaged.
-ImagePointer decode(ImageFormat format, std::span<const std::uint8_t> bytes, int page, Report& report) {
+ImagePointer decode(ImageFormat format, std::span<const std::uint8_t> bytes, int page,
+                    Report& report) {
     const InfoPointer info = make_info(format, page);
     ImagePointer image(BlobToImage(info.get(), bytes.data(), bytes.size(), &report));
     if (report.is_failure()) image.reset();

@@ -30,7 +30,7 @@ struct Workspace {
     bool has_second_attempt = false;  ///< whether it has the memory for the second attempt
     bool keeps_every_stage = false;  ///< whether each stage has its own memory, so that all of them
                                      ///< can be shown
-    bool is_mirrored = false;  ///< whether an attempt saw the code as in a mirror
+    bool is_mirrored = false;        ///< whether an attempt saw the code as in a mirror
     // detect
     Smoothing smoothing;
     Tracking tracking;
