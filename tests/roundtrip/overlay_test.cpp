@@ -4,7 +4,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <fmt/core.h>
 #include <gmock/gmock.h>
@@ -76,6 +78,17 @@ class Documents : public testing::Test {
     test::TemporaryDirectory directory_;
 };
 
+/// Renderers that draw a document as it was. The mutool of Debian 13 refuses what it has converted
+/// itself, as it forgets a resource.
+std::vector<const char*> renderers_of(const fs::path& pdf) {
+    try {
+        render("mutool", pdf, 72);
+        return {"pdftoppm", "mutool"};
+    } catch (const std::runtime_error&) {
+        return {"pdftoppm"};
+    }
+}
+
 class OverlaidDocument : public Documents, public testing::WithParamInterface<Producer> {};
 
 TEST_P(OverlaidDocument, looks_as_before_with_dots_and_keeps_its_text) {
@@ -90,7 +103,7 @@ TEST_P(OverlaidDocument, looks_as_before_with_dots_and_keeps_its_text) {
     for (std::size_t i = 0; i < report.pages.size(); ++i) {
         write_blank(report, i);
         const auto page = static_cast<int>(i + 1);
-        for (const char* renderer : {"pdftoppm", "mutool"}) {
+        for (const char* renderer : renderers_of(path("in.pdf"))) {
             const GreyPage before = render(renderer, path("in.pdf"), kResolution_dpi, page);
             const GreyPage dots = render(renderer, path("dots.pdf"), kResolution_dpi);
             const GreyPage after = render(renderer, path("out.pdf"), kResolution_dpi, page);
