@@ -9,7 +9,7 @@
 
 namespace dotpose::cli {
 
-/// What to add to the message about frames that show the pattern as in a mirror.
+/// Advice appended to the error for frames in which the pattern is mirrored.
 inline constexpr const char* kMirrored =
     "; they show it as in a mirror: use --flip, which the camera file then says as well";
 

@@ -21,7 +21,7 @@ template <typename Result>
 class OrderedThreads {
   public:
     /// Passes on a result. Waits while the results before it have not been taken. Returns false if
-    /// nobody will take it, so that the thread ends.
+    /// no more results are wanted; the thread then ends.
     using Emit = std::function<bool(Result)>;
     using Work = std::function<void(std::size_t thread, const Emit& emit)>;
 

@@ -282,8 +282,8 @@ std::string advice_on_quality(ImageView image, const PictureFacts& facts, LargeM
     }
     if (is_out_of_focus(image)) {
         return "the picture is out of focus, shaken, or too coarse (under 6 px from dot to dot, as "
-               "of a "
-               "page on a screen): focus, change the distance, hold still, or enlarge the page";
+               "of a page on a screen): focus, change the distance, hold still, or enlarge the "
+               "page";
     }
     if (facts.status != Status::no_grid) return {};
     return "a sheet that is out of focus, too far away (under 6 px from dot to dot) or strongly "

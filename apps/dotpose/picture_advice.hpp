@@ -10,7 +10,7 @@
 
 namespace dotpose::cli {
 
-/// What is known of a picture besides its pixels.
+/// The result for a picture and how it was obtained, as far as advice depends on it.
 struct PictureFacts {
     Status status = Status::ok;  ///< result of `locate` with `options`
     Options options;

@@ -139,7 +139,7 @@ Shot shot_of(const SimulateArguments& arguments, int index) {
     return shot;
 }
 
-/// What is known of a frame.
+/// The true pose and the pattern of a simulated frame.
 struct Truth {
     std::optional<CameraPose> pose;  ///< none for scenes and the table, which have no pose
     Pattern pattern;

@@ -95,7 +95,7 @@ void draw_edges(const FrameView& view, double side, Svg& svg) {
     const double scale = side / 2 / (1.7 * view.spacing() / view.scale());
     svg.add(R"(<g class="edges" fill="{0}" stroke="{0}" stroke-width="1" stroke-opacity="0.25">)",
             colour::kEdge);
-    // Of many edges, a part shows the same clusters.
+    // A subset of many edges shows the same clusters.
     constexpr std::size_t kMaxEdges = 1000;
     const std::span<const Edge> edges = view.trace().edges;
     const std::size_t step = 1 + edges.size() / kMaxEdges;

@@ -178,7 +178,8 @@ Camera part_of(const Camera& camera, int left_px, int top_px, int width_px, int 
     part.centre_px = moved(camera.centre_px);
     part.reference_px = moved(camera.reference_px.value_or(image_centre(camera)));
     if (camera.paper) {
-        // The heading is told by the image x axis at the image centre, which is another point now.
+        // The heading is defined by the image x axis at the image centre, which differs in the
+        // part.
         part.theta_offset_rad +=
             image_axis_rad(camera, image_centre(camera)) - image_axis_rad(part, image_centre(part));
     }

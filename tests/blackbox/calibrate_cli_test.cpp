@@ -198,7 +198,7 @@ TEST_F(CalibrateCommand, KeepsTheMountOfTheFileThatItReplaces) {
     EXPECT_THAT(file("camera.yaml"), HasSubstr("k_per_px2: -8.7e-06"));
     EXPECT_THAT(file("camera.yaml"), HasSubstr("reference_px: [500, 59.5]"));
 
-    // What cannot be kept is not lost.
+    // A file whose mount cannot be kept is not overwritten.
     for (const char* other : {kLargeCamera, "{format: another}"}) {
         std::ofstream(directory_ / "camera.yaml") << other;
         EXPECT_EQ(run("calibrate frames/*.pgm -o camera.yaml"), 1);

@@ -233,7 +233,7 @@ MqttOptions with_presence(MqttOptions options) {
     return options;
 }
 
-/// What a subscriber hears, one word after the other.
+/// A subscriber that joins the payloads it receives, each followed by a space.
 class Heard {
   public:
     explicit Heard(const MqttOptions& options)

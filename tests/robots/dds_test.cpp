@@ -72,7 +72,7 @@ class Dds : public WatchCommand {
 TEST_F(Dds, HasThePosesOfTheLines) {
     DOTPOSE_NEEDS_DDS();
     put_raw(drive_.frames());
-    // As fast as they are read: nothing is lost then either.
+    // Frames without pacing: no message may be lost.
     const auto messages = read_drive("cat drive.raw", "reliable", "--dds-reliable");
     expect_messages_of(parsed(file("lines")), messages, "anna", kAsWatched);
 }

@@ -100,10 +100,11 @@ TEST_P(OverlaidDocument, looks_as_before_with_dots_and_keeps_its_text) {
                 HasSubstr("No syntax or stream encoding errors"));
     EXPECT_EQ(text("out.pdf"), text("in.pdf"));
     constexpr int kResolution_dpi = 300;
+    const std::vector<const char*> renderers = renderers_of(path("in.pdf"));
     for (std::size_t i = 0; i < report.pages.size(); ++i) {
         write_blank(report, i);
         const auto page = static_cast<int>(i + 1);
-        for (const char* renderer : renderers_of(path("in.pdf"))) {
+        for (const char* renderer : renderers) {
             const GreyPage before = render(renderer, path("in.pdf"), kResolution_dpi, page);
             const GreyPage dots = render(renderer, path("dots.pdf"), kResolution_dpi);
             const GreyPage after = render(renderer, path("out.pdf"), kResolution_dpi, page);

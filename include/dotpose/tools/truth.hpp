@@ -47,7 +47,7 @@ struct TruthRow {
 };
 
 /// Reads truth.csv as `dotpose simulate` writes it, or poses measured on a sheet or in the world.
-/// Columns are found by their names and may stand in any order. Required are file and one of
+/// Columns are identified by name and may be in any order. Required: file, and one of
 ///   - x_grid, y_grid or x_mm, y_mm (grid units win), and theta_deg;
 ///   - x_sheet_mm, y_sheet_mm; optional theta_sheet_deg, sheet;
 ///   - x_m, y_m (they win over places on sheets); optional yaw_rad or yaw_deg, sheet.

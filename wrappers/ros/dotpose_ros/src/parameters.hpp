@@ -25,7 +25,7 @@ struct Parameter {
 /// Returns all parameters of the node, which are read once, at its start.
 std::span<const Parameter> parameters();
 
-/// What the parameters say.
+/// The values of the parameters.
 struct Settings {
     dotpose::FollowerOptions follower;
     dotpose::ros::RobotFrames frames;

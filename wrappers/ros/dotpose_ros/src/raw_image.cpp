@@ -26,7 +26,7 @@ constexpr Weights kSecond = {0, kWhole, 0, 0};
 constexpr Weights kRgb = {299, 587, 114, 0};
 constexpr Weights kBgr = {114, 587, 299, 0};
 
-/// Of nv12 and the like, the first plane is the luma.
+/// In nv12 and similar planar encodings, the first plane is the luma.
 constexpr std::array kEncodings = {
     Encoding{"mono8", 1, 1, kFirst},
     Encoding{"8UC1", 1, 1, kFirst},

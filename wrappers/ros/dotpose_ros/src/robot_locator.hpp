@@ -50,7 +50,7 @@ class RobotLocator {
     /// Takes the next image, which has a stamp of its camera and came at `arrival_ns` by a clock
     /// that is never set. An image that is not newer than those before is left out. If the stamps
     /// after it increase from there, time was set back (a bag that begins again, a simulation), and
-    /// the robot is looked for anew.
+    /// tracking starts again.
     Answer take(const RawImage& image, std::int64_t stamp_ns, std::int64_t arrival_ns);
 
     /// Takes the lens of the camera, unless a camera file or an earlier call gave it. Returns, for
