@@ -1,7 +1,8 @@
 # With ccache, a second checkout, or the same one after `make clean`, does not compile the same again: paths count
-# from the checkout, and so do precompiled headers.
+# from the checkout, and so do precompiled headers. A launcher that is plain ccache (CMAKE_CXX_COMPILER_LAUNCHER in the
+# environment) is replaced: without these settings ccache refuses every source that has precompiled headers.
 find_program(DOTPOSE_CCACHE ccache)
-if(DOTPOSE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+if(DOTPOSE_CCACHE AND (NOT CMAKE_CXX_COMPILER_LAUNCHER OR CMAKE_CXX_COMPILER_LAUNCHER MATCHES "(^|/)ccache$"))
     set(launcher ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1
                  CCACHE_SLOPPINESS=pch_defines,time_macros ${DOTPOSE_CCACHE})
     set(CMAKE_C_COMPILER_LAUNCHER ${launcher})

@@ -24,6 +24,8 @@ function(dotpose_layer name)
         target_link_libraries(${target} PUBLIC $<TARGET_NAME_IF_EXISTS:${used}>)
     endforeach()
     if(arg_PURE)
+        # One source is compiled again in seconds, after a change to it.
+        set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)
         target_compile_options(${target} PRIVATE -fno-exceptions -fno-rtti -fno-threadsafe-statics
                                                  -ffunction-sections -fdata-sections)
         if(DOTPOSE_SANITIZE MATCHES "fuzzer")

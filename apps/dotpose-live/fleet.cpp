@@ -22,7 +22,7 @@ namespace {
 
 using std::chrono::steady_clock;
 
-constexpr const char* kExamples =
+constexpr const char* kFleetExamples =
     "Examples:\n"
     "  dotpose fleet --mqtt mqtt://broker --sheets table.json --draw fleet.svg\n"
     "  dotpose fleet --mqtt mqtts://me@broker --mqtt-ca ca.pem --seconds 60\n"
@@ -122,7 +122,7 @@ void run(const FleetArguments& arguments) {
 void add_fleet(Command& app, int&) {
     const auto arguments = std::make_shared<FleetArguments>();
     Command* command = app.add_subcommand("fleet", "Show all robots that publish to a broker");
-    command->footer(kExamples);
+    command->footer(kFleetExamples);
     arguments->mqtt.add_to(*command)->required();
     add_sheets_option(*command, arguments->sheets, "Sheet file: draw its sheets on the map");
     add_draw_option(*command, arguments->map, "Map to draw (SVG), again and again");

@@ -3,10 +3,10 @@
 #include <cerrno>
 #include <cstdio>
 #include <iterator>
-#include <numbers>
 
 #include <fmt/core.h>
 
+#include "base/degrees.hpp"
 #include "fields.hpp"
 
 namespace dotpose::cli {
@@ -16,7 +16,6 @@ constexpr const char* kHeader =
     "robot,state,map,number,t_s,latency_ms,x_mm,y_mm,theta_deg,deviation_mm,vx_mm_s,vy_mm_s,"
     "turn_deg_s\n";
 constexpr double kMm_per_m = 1000;
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 }  // namespace
 

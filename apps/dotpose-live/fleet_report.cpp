@@ -2,17 +2,15 @@
 
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <utility>
 
 #include <fmt/core.h>
 
+#include "base/degrees.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
 namespace {
-
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 void add_row(std::string& table, const std::string& name, const FleetRobot& robot, Gets gets,
              std::int64_t now_us) {

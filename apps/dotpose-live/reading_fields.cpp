@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <utility>
 
 #include <fmt/core.h>
 
+#include "base/degrees.hpp"
 #include "dotpose/tools/track_names.hpp"
 
 namespace dotpose::cli {
@@ -30,7 +30,6 @@ PlanePose plane_pose(const TrackedPose& pose) {
 /// Returns the fields of velocities and deviations. Where `is_flipped`, y points up in the output
 /// and down in the track.
 std::vector<Field> motion_fields(const TrackedPose& pose, Units units, bool is_flipped) {
-    constexpr double kDegrees = 180 / std::numbers::pi;
     const double sign = is_flipped ? -1 : 1;
     const double vx_mm_s = static_cast<double>(pose.vx_mm_s);
     const double vy_mm_s = sign * static_cast<double>(pose.vy_mm_s);

@@ -40,7 +40,7 @@
 namespace dotpose::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kWatchExamples =
     "Examples:\n"
     "  dotpose watch --list-cameras\n"
     "  dotpose watch 0 --size 640x480 --exposure 50\n"
@@ -415,7 +415,7 @@ void add_watch(Command& app, int& exit_code) {
     const auto arguments = std::make_shared<WatchArguments>();
     Command* command =
         app.add_subcommand("watch", "Follow a camera live, or a video frame by frame");
-    command->footer(kExamples);
+    command->footer(kWatchExamples);
     arguments->sources.add_to(*command);
     add_follower_options(*command, arguments->follower,
                          "Sheet file: also tell the sheet, and track the robot in the world");

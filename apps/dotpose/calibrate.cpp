@@ -30,7 +30,7 @@
 namespace dotpose::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kCalibrateExamples =
     "Examples:\n"
     "  dotpose calibrate --live 0 -o camera.yaml\n"
     "  dotpose calibrate frames/*.png -o camera.yaml --draw camera.svg\n"
@@ -195,7 +195,7 @@ std::string calibrate_camera(const CalibrateArguments& arguments, Series& series
 }
 
 /// Parses "camera" or "SHEET=MM".
-ScaleReference parse_reference(const std::string& text) {
+ScaleReference parse_scale_reference(const std::string& text) {
     if (text == "camera") return {ScaleReference::By::camera, "", 0};
     const std::size_t sign = text.rfind('=');
     ScaleReference reference{ScaleReference::By::width, text.substr(0, sign), 0};
@@ -325,7 +325,7 @@ void add_calibrate(Command& app, int& exit_code) {
     const auto arguments = std::make_shared<CalibrateArguments>();
     Command* command =
         app.add_subcommand("calibrate", "Find lens and mount of a camera from frames of a sheet");
-    command->footer(kExamples);
+    command->footer(kCalibrateExamples);
     arguments->sources.add_to(*command);
     command
         ->add_option("-o,--out", arguments->out,
@@ -364,7 +364,9 @@ void add_calibrate(Command& app, int& exit_code) {
     command
         ->add_option_function<std::string>(
             "--true-scale",
-            [arguments](const std::string& text) { arguments->reference = parse_reference(text); },
+            [arguments](const std::string& text) {
+                arguments->reference = parse_scale_reference(text);
+            },
             "What print scales are measured by: the mm_per_px of the camera file, or the true "
             "distance of the first from the last column of dots of a sheet")
         ->type_name("camera|SHEET=MM")

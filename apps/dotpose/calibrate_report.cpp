@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/core.h>
 
+#include "base/degrees.hpp"
 #include "dotpose/files/profile_names.hpp"
 #include "dotpose/tools/calibration_coverage.hpp"
 #include "draw/deviation.hpp"
@@ -19,10 +19,6 @@ template <typename... Values>
 void add(std::string& text, fmt::format_string<Values...> format, Values&&... values) {
     fmt::format_to(std::back_inserter(text), format, std::forward<Values>(values)...);
     text += '\n';
-}
-
-double degrees(double rad) {
-    return rad * 180 / std::numbers::pi;
 }
 
 /// Returns how far lens distortion moves the farthest corner, in percent of its distance from the
@@ -47,8 +43,8 @@ void add_view(std::string& text, const Camera& camera) {
     }
     if (camera.tilt) {
         add(text, "tilt        {:.3f}{} and {:.3f}{} degrees about x and y",
-            degrees(camera.tilt->x_rad), plus_minus(degrees(sigma("tilt_x_rad")), 3),
-            degrees(camera.tilt->y_rad), plus_minus(degrees(sigma("tilt_y_rad")), 3));
+            camera.tilt->x_rad * kDegrees, plus_minus(sigma("tilt_x_rad") * kDegrees, 3),
+            camera.tilt->y_rad * kDegrees, plus_minus(sigma("tilt_y_rad") * kDegrees, 3));
     }
     if (camera.focal_px) {
         add(text, "focal       {:.2f}{} px", *camera.focal_px, plus_minus(sigma("focal_px"), 2));
@@ -114,7 +110,7 @@ std::string spin_report(const SpinCalibration& calibration) {
     const PixelPoint reference = calibration.camera.reference_px.value();
     std::string text;
     add(text, "spin        {} of {} frames located, over {:.0f} degrees", calibration.located,
-        calibration.frames, degrees(calibration.turn_rad));
+        calibration.frames, calibration.turn_rad * kDegrees);
     add(text, "reference   {:+.4f}, {:+.4f}{} mm from the image centre ({:.2f}, {:.2f} px)",
         calibration.offset_mm.x_mm, calibration.offset_mm.y_mm, plus_minus(calibration.sigma_mm, 4),
         reference.u, reference.v);
@@ -134,8 +130,8 @@ std::string drive_report(const DriveCalibration& calibration) {
     add(text, "drive       {} of {} frames located, over {:.1f} mm", calibration.located,
         calibration.frames, calibration.length_mm);
     add(text, "heading     image x axis {:+.3f}{} degrees",
-        degrees(calibration.camera.theta_offset_rad),
-        plus_minus(degrees(calibration.sigma_rad), 3));
+        calibration.camera.theta_offset_rad * kDegrees,
+        plus_minus(calibration.sigma_rad * kDegrees, 3));
     add(text, "residual    {:.4f} mm (rms): so straight was the drive", calibration.residual_mm);
     add(text, "verdict     good: straight ahead, in order");
     return text;
@@ -189,14 +185,14 @@ std::string stitching_report(const Stitching& stitching) {
     add(text, "frames      {} of {} show two sheets", stitching.used, stitching.frames);
     for (const Seam& seam : stitching.seams) {
         add(text, "seam        {} - {}: {} frames, residual {:.4f} mm, {:.3f} degrees (rms)",
-            seam.first, seam.second, seam.frames, seam.residual_mm, degrees(seam.residual_rad));
+            seam.first, seam.second, seam.frames, seam.residual_mm, seam.residual_rad * kDegrees);
     }
     for (const StitchedSheet& sheet : stitching.stitched) {
         if (sheet.is_fixed) {
             add(text, "sheet       {}: stays where it is", sheet.name);
         } else {
             add(text, "sheet       {}:{} mm,{} degrees", sheet.name, plus_minus(sheet.sigma_mm, 4),
-                plus_minus(degrees(sheet.sigma_rad), 4));
+                plus_minus(sheet.sigma_rad * kDegrees, 4));
         }
     }
     add_print_scales(text, stitching);

@@ -29,7 +29,7 @@
 namespace dotpose::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kCheckPrintExamples =
     "Examples:\n"
     "  dotpose check-print scan.png\n"
     "  dotpose check-print scan.jpg --dpi 600 --spacing 0.508 --dot 0.085 --draw map.svg\n"
@@ -260,7 +260,7 @@ void add_check_print(Command& app, int& exit_code) {
     const auto arguments = std::make_shared<CheckPrintArguments>();
     Command* command =
         app.add_subcommand("check-print", "Judge a printed sheet by a scan or photo of it");
-    command->footer(kExamples);
+    command->footer(kCheckPrintExamples);
     command->add_option("scan", arguments->scan, "PNG, TIFF, JPEG, BMP or PGM file")
         ->type_name("SCAN")
         ->required();

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <optional>
 #include <vector>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include "base/degrees.hpp"
 #include "dotpose/files/profile_names.hpp"
 #include "terminal_text.hpp"
 
@@ -17,10 +17,6 @@ namespace dotpose::cli {
 namespace {
 
 using nlohmann::ordered_json;
-
-double degrees(double angle_rad) {
-    return angle_rad * 180 / std::numbers::pi;
-}
 
 /// Rounds a number to this many decimals for output.
 double rounded(double value, int decimals) {
@@ -50,7 +46,7 @@ void add_field(std::string& text, const CheckedScan& scan, const PrintField& fie
         const PrintScale& scale = *field.scale;
         add(text, "scale       x {:.3f} %, y {:.3f} %", 100 * scale.scale_x, 100 * scale.scale_y);
         add(text, "rotation    {:.3f} degrees, skew {:.3f} degrees",
-            rounded(degrees(scale.rotation_rad), 3), rounded(degrees(scale.skew_rad), 3));
+            rounded(scale.rotation_rad * kDegrees, 3), rounded(scale.skew_rad * kDegrees, 3));
     }
     if (const auto& ratio = field.scale_ratio) {
         add(text, "scale x/y   {:.2f} %, give or take {:.2f} %", 100 * ratio->x_over_y,
@@ -136,8 +132,8 @@ ordered_json json_of(const CheckedScan& scan, const PrintField& field) {
     if (field.scale) {
         object["scale_x"] = rounded(field.scale->scale_x, 7);
         object["scale_y"] = rounded(field.scale->scale_y, 7);
-        object["rotation_deg"] = rounded(degrees(field.scale->rotation_rad), 5);
-        object["skew_deg"] = rounded(degrees(field.scale->skew_rad), 5);
+        object["rotation_deg"] = rounded(field.scale->rotation_rad * kDegrees, 5);
+        object["skew_deg"] = rounded(field.scale->skew_rad * kDegrees, 5);
     }
     if (field.scale_ratio) {
         object["scale_x_over_y"] = rounded(field.scale_ratio->x_over_y, 5);

@@ -33,7 +33,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kExamples =
+constexpr const char* kEvaluateExamples =
     "Examples:\n"
     "  dotpose evaluate frames                  frames against the poses in frames/truth.csv\n"
     "  dotpose evaluate drive.mp4 --poses poses.csv\n"
@@ -88,10 +88,6 @@ Progress progress_on(ProgressLine& line) {
     };
 }
 
-nlohmann::ordered_json json_of(const Quantiles& quantiles) {
-    return {{"median", quantiles.median}, {"p95", quantiles.p95}, {"max", quantiles.max}};
-}
-
 /// Returns the score as JSON. Statistics without any frame are NaN and become null.
 nlohmann::ordered_json json_of(const Score& score) {
     nlohmann::ordered_json statuses = nlohmann::ordered_json::object();
@@ -107,12 +103,12 @@ nlohmann::ordered_json json_of(const Score& score) {
         {"located_share", score.located_share()},
         {"wrong", score.wrong},
         {"not_located", statuses},
-        {"position_um", json_of(score.position_um)},
-        {"angle_deg", json_of(score.angle_deg)},
+        {"position_um", quantiles_json(score.position_um)},
+        {"angle_deg", quantiles_json(score.angle_deg)},
         {"normalised_squared_error",
          {{"x", score.normalised[0]}, {"y", score.normalised[1]}, {"theta", score.normalised[2]}}},
         {"largest_p_wrong", score.largest_p_wrong},
-        {"elapsed_us", json_of(score.elapsed_us)}};
+        {"elapsed_us", quantiles_json(score.elapsed_us)}};
 }
 
 std::string report_of(const Score& score, bool as_json) {
@@ -374,7 +370,7 @@ void add_evaluate(Command& app, int& exit_code) {
     const auto arguments = std::make_shared<EvaluateArguments>();
     Command* command =
         app.add_subcommand("evaluate", "Measure how often and how well frames are located");
-    command->footer(kExamples);
+    command->footer(kEvaluateExamples);
     add_jobs(*command, arguments);
     add_attempt_options(*command, arguments->options);
     add_code_option(*command, arguments->code);

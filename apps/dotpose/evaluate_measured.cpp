@@ -63,10 +63,6 @@ bool require_one_frame(const std::vector<TruthRow>& rows, const std::vector<Shee
     return is_in_world;
 }
 
-nlohmann::ordered_json json_of(const Quantiles& quantiles) {
-    return {{"median", quantiles.median}, {"p95", quantiles.p95}, {"max", quantiles.max}};
-}
-
 nlohmann::ordered_json json_of(const Spread& spread) {
     return {{"mean", spread.bias}, {"standard_deviation", spread.sigma}};
 }
@@ -83,10 +79,10 @@ nlohmann::ordered_json json_of(const Measurement& measurement) {
                              {"scale", by->scale},
                              {"angle_offset_rad", by->angle_offset_rad}};
     }
-    json["position_um"] = json_of(measurement.position_um);
+    json["position_um"] = quantiles_json(measurement.position_um);
     json["x_um"] = json_of(measurement.x_um);
     json["y_um"] = json_of(measurement.y_um);
-    json["angle_deg"] = json_of(measurement.angle_deg);
+    json["angle_deg"] = quantiles_json(measurement.angle_deg);
     return json;
 }
 
@@ -99,6 +95,10 @@ std::string report_of(const Measurement& measurement, bool as_json) {
 }
 
 }  // namespace
+
+nlohmann::ordered_json quantiles_json(const Quantiles& quantiles) {
+    return {{"median", quantiles.median}, {"p95", quantiles.p95}, {"max", quantiles.max}};
+}
 
 void MeasuredArguments::add_to(Command& command) {
     add_sheets_option(command, sheets,

@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "common.hpp"
 #include "dotpose/tools/measured.hpp"
 #include "follower_arguments.hpp"
@@ -26,6 +28,9 @@ struct MeasuredArguments {
     /// Throws BadArgument for options that need --sheets if it is missing.
     void require_sheets() const;
 };
+
+/// Returns {"median": ..., "p95": ..., "max": ...}; what is NaN becomes null.
+nlohmann::ordered_json quantiles_json(const Quantiles& quantiles);
 
 /// Locates the frames one after the other, compares them and writes the report. Returns the exit
 /// status.

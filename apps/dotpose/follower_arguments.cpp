@@ -11,7 +11,7 @@ namespace {
 /// within the range of the fixed-point pose.
 constexpr double kFarthestReference_px = 10'000;
 
-PixelPoint parse_reference(const std::string& text) {
+PixelPoint parse_reference_px(const std::string& text) {
     PixelPoint point;
     const std::size_t comma = text.find(',');
     const auto parse = [](const std::string& number, double& value) {
@@ -64,7 +64,9 @@ void add_follower_options(Command& command, FollowerArguments& arguments,
     command
         .add_option_function<std::string>(
             "--reference",
-            [&options](const std::string& text) { options.reference_px = parse_reference(text); },
+            [&options](const std::string& text) {
+                options.reference_px = parse_reference_px(text);
+            },
             "Pixel whose place is wanted; (0, 0) is the centre of the first pixel, undistorted")
         ->type_name("U,V")
         ->default_str("image centre");

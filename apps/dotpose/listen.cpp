@@ -28,7 +28,7 @@
 namespace dotpose::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kListenExamples =
     "Examples:\n"
     "  dotpose listen /dev/ttyUSB0 --baud 115200\n"
     "  dotpose listen packets.bin --format csv -o poses.csv\n"
@@ -227,7 +227,7 @@ void add_listen(Command& app, int&) {
     const auto arguments = std::make_shared<ListenArguments>();
     Command* command =
         app.add_subcommand("listen", "Print the poses that a device sends as packets");
-    command->footer(kExamples);
+    command->footer(kListenExamples);
     command->add_option("source", arguments->source, "Serial device, file, or - (standard input)")
         ->type_name("SOURCE")
         ->required();

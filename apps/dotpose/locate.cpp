@@ -34,7 +34,7 @@ namespace {
 
 using std::chrono::steady_clock;
 
-constexpr const char* kExamples =
+constexpr const char* kLocateExamples =
     "Examples:\n"
     "  dotpose locate frame.png\n"
     "  dotpose locate --format text frame.png\n"
@@ -335,7 +335,7 @@ int run(const LocateArguments& arguments) {
 void add_locate(Command& app, int& exit_code) {
     const auto arguments = std::make_shared<LocateArguments>();
     Command* command = app.add_subcommand("locate", "Find where images look on the pattern");
-    command->footer(kExamples);
+    command->footer(kLocateExamples);
     arguments->sources.add_to(*command);
     add_follower_options(*command, arguments->follower,
                          "Sheet file: also tell the sheet, and the place on it and in the world");

@@ -1,17 +1,15 @@
 // The line of `locate --format text`.
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include <fmt/core.h>
 
+#include "base/degrees.hpp"
 #include "locate_record.hpp"
 #include "terminal_text.hpp"
 
 namespace dotpose::cli {
 namespace {
-
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 /// Formats a value and its standard deviation, which is left out if it is 0: not known.
 std::string with_deviation(double value, double sigma, int decimals, const std::string& unit) {

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <numbers>
 #include <string>
 
 #include <fmt/core.h>
 
+#include "base/degrees.hpp"
 #include "commands.hpp"
 #include "common.hpp"
 #include "terminal_text.hpp"
@@ -15,7 +15,7 @@
 namespace dotpose::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kOpticsExamples =
     "Examples:\n"
     "  dotpose optics --device paper\n"
     "  dotpose optics --size 640x480 --pixel 3 --focal 4 --distance 25 --speed 500 --turn 120\n\n"
@@ -46,7 +46,6 @@ int run(OpticsArguments& arguments) {
     if (arguments.is_paper) arguments.optics = paper_optics();
     const Optics& o = arguments.optics;
     const OpticsReport r = design_optics(o);
-    constexpr double kDegrees = 180 / std::numbers::pi;
     fmt::print(
         "field         {:.2f} x {:.2f} mm, diagonal {:.2f} mm ({:.0f} degrees), {:.0f} dots\n",
         r.field_width_mm, r.field_height_mm, r.field_diagonal_mm, r.field_angle_rad * kDegrees,
@@ -82,7 +81,7 @@ void add_optics(Command& app, int& exit_code) {
     Optics& optics = arguments->optics;
     Command* command =
         app.add_subcommand("optics", "What a camera of given parts would see, and what to change");
-    command->footer(kExamples);
+    command->footer(kOpticsExamples);
     const auto add = [command](const char* flag, auto& value, const char* unit, const char* help) {
         return command->add_option(flag, value, help)->type_name(unit)->capture_default_str();
     };

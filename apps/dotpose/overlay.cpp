@@ -28,7 +28,7 @@ struct OverlayArguments {
     SheetEntryArguments entries;
 };
 
-constexpr const char* kExamples =
+constexpr const char* kOverlayExamples =
     "Examples:\n"
     "  dotpose overlay form.pdf -o form-dots.pdf --origin 5000,0\n"
     "  dotpose overlay form.pdf -o form-dots.pdf --sheets sheets.json --name form\n"
@@ -126,7 +126,7 @@ void add_overlay(Command& app, int& /*exit_code*/) {
     const auto arguments = std::make_shared<OverlayArguments>();
     OverlayOptions& options = arguments->options;
     Command* command = app.add_subcommand("overlay", "Lay dots over the pages of a PDF");
-    command->footer(kExamples);
+    command->footer(kOverlayExamples);
     command->add_option("pdf", arguments->in, "Document that gets dots")
         ->type_name("FILE")
         ->required();

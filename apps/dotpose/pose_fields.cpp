@@ -8,10 +8,10 @@
 
 #include <fmt/core.h>
 
+#include "base/degrees.hpp"
+
 namespace dotpose::cli {
 namespace {
-
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 /// Formats an element of a covariance, whose magnitude differs by many powers of ten; -0 becomes 0.
 std::string significant(double value) {

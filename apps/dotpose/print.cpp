@@ -37,7 +37,7 @@ struct PrintArguments {
     PrintOptions print;
 };
 
-constexpr const char* kExamples =
+constexpr const char* kPrintExamples =
     "Examples:\n"
     "  dotpose print -o sheet.pdf\n"
     "  dotpose print -o sheet.svg\n"
@@ -189,7 +189,7 @@ void run(const PrintArguments& arguments) {
 void add_print(Command& app, int& /*exit_code*/) {
     const auto arguments = std::make_shared<PrintArguments>();
     Command* command = app.add_subcommand("print", "Make a sheet of dots to print");
-    command->footer(kExamples);
+    command->footer(kPrintExamples);
     command
         ->add_option("-o,--out", arguments->out,
                      "File to write: .pdf, .svg, .png, .tif or .txt, or - for standard output")

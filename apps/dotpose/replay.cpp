@@ -20,7 +20,7 @@
 namespace dotpose::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kReplayExamples =
     "Examples:\n"
     "  dotpose watch run.mp4 --log run.csv\n"
     "  dotpose replay run.csv --draw run.svg\n"
@@ -143,7 +143,7 @@ void add_replay(Command& app, int&) {
     const auto arguments = std::make_shared<ReplayArguments>();
     Command* command =
         app.add_subcommand("replay", "Figures and a picture of a run that watch kept");
-    command->footer(kExamples);
+    command->footer(kReplayExamples);
     command
         ->add_option("log", arguments->log,
                      "What dotpose watch --log wrote (CSV), or its lines (JSON)")

@@ -22,7 +22,7 @@
 namespace dotpose::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kSheetsExamples =
     "Examples:\n"
     "  dotpose sheets list\n"
     "  dotpose sheets show table --sheets lab.json\n"
@@ -236,7 +236,7 @@ void add_place(Command& sheets, const Arguments& arguments) {
 void add_sheets(Command& app, int& /*exit_code*/) {
     const auto arguments = std::make_shared<SheetsArguments>();
     Command* command = app.add_subcommand("sheets", "Show and change a sheet file");
-    command->footer(kExamples);
+    command->footer(kSheetsExamples);
     command->require_subcommand(1);
     add_command(*command, arguments, "list", "List all sheets", [](const SheetsArguments& given) {
         fmt::print("{}", list_text(sheets_of(given)));

@@ -6,7 +6,6 @@
 #include <exception>
 #include <fstream>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <thread>
@@ -14,6 +13,7 @@
 
 #include <fmt/core.h>
 
+#include "base/degrees.hpp"
 #include "commands.hpp"
 #include "common.hpp"
 #include "dotpose/files/sheet_file.hpp"
@@ -27,7 +27,7 @@
 namespace dotpose::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kSimulateExamples =
     "Writes frame_000000.pgm, frame_000001.pgm, ... to DIR, and their true poses to truth.csv\n"
     "there. Frames of an earlier run in DIR are removed. The true poses of drive.mp4 are in\n"
     "drive-truth.csv, for dotpose evaluate --poses. Equal options give equal bytes. Angle, place,\n"
@@ -38,8 +38,6 @@ constexpr const char* kExamples =
     "  dotpose simulate -o still --preset clean --angle 30 --at 5000.25,7000.5 --noise 3\n"
     "  dotpose simulate -o foreign --scene plain_grid\n"
     "  dotpose simulate -o drive.mp4 --drive --sheets sheets.json --speed 200 --size 320x240\n";
-
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 // An imperfection that is a single number and has an option of its own.
 struct NumberOption {
@@ -348,7 +346,7 @@ void add_simulate(Command& app, int& exit_code) {
     const auto arguments = std::make_shared<SimulateArguments>();
     Command* command =
         app.add_subcommand("simulate", "Make camera frames whose pose is known exactly");
-    command->footer(kExamples);
+    command->footer(kSimulateExamples);
     command
         ->add_option("-o,--out", arguments->out,
                      "Folder for the frames, made if missing, or a video: .mp4 or .avi")

@@ -15,7 +15,7 @@ std::string quoted(const std::string& text) {
     return result + "'";
 }
 
-std::string offer(const OptionText& option) {
+std::string completion_of(const OptionText& option) {
     if (!option.choices.empty()) {
         std::string words;
         for (const std::string& choice : option.choices)
@@ -37,9 +37,9 @@ std::string offer(const OptionText& option) {
 
 std::string line(const std::string& condition, const OptionText& option) {
     std::string text = "complete -c dotpose -n " + quoted(condition);
-    if (!option.argument.empty()) return text + offer(option) + "\n";
+    if (!option.argument.empty()) return text + completion_of(option) + "\n";
     if (!option.short_name.empty()) text += " -s " + option.short_name.substr(1);
-    return text + " -l " + option.long_name.substr(2) + offer(option) + " -d " +
+    return text + " -l " + option.long_name.substr(2) + completion_of(option) + " -d " +
            quoted(option.help) + "\n";
 }
 

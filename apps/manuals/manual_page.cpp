@@ -68,7 +68,7 @@ std::string values_of(const OptionText& option) {
     return text;
 }
 
-std::string names_of(const OptionText& option) {
+std::string name_list(const OptionText& option) {
     if (option.long_name.empty()) return italic(option.argument);
     std::string text;
     if (!option.short_name.empty()) text = bold(option.short_name) + ", ";
@@ -77,7 +77,7 @@ std::string names_of(const OptionText& option) {
 }
 
 std::string entry(const OptionText& option) {
-    std::string text = ".TP\n" + names_of(option) + "\n" + escaped(option.help) + ".";
+    std::string text = ".TP\n" + name_list(option) + "\n" + escaped(option.help) + ".";
     if (option.is_required) text += " Required.";
     if (!option.default_text.empty()) text += " Default: " + escaped(option.default_text) + ".";
     if (!option.needs.empty()) text += " Only with " + joined(option.needs) + ".";

@@ -27,7 +27,7 @@ using namespace dotpose::calibrate;
 /// If a stated resolution makes the dots this many times too far apart, or too near, it is not
 /// used.
 constexpr double kUnbelievableScale = 2;
-constexpr std::size_t kLeastDots = 30;
+constexpr std::size_t kLeastFieldDots = 30;
 
 /// Reports progress. The amount of work is not known before, so each part reduces the rest by a
 /// share.
@@ -257,7 +257,7 @@ void find_repetitions(const std::vector<const CollectedField*>& parts, PrintChec
         for (std::size_t j = i + 1; j < parts.size(); ++j) {
             if (parts[i]->field.code.section != parts[j]->field.code.section) continue;
             const int cells = common_cells(parts[i]->grid, parts[j]->grid);
-            if (cells >= static_cast<int>(kLeastDots)) check.repeated.push_back({i, j, cells});
+            if (cells >= static_cast<int>(kLeastFieldDots)) check.repeated.push_back({i, j, cells});
         }
     }
 }
@@ -271,7 +271,7 @@ void measure_fields(const ImageView& scan, std::vector<CollectedField> collected
         if (its.size() > matches.size()) matches = std::move(its);
     }
     check.resolution = options.resolution;
-    if (options.resolution && matches.size() >= kLeastDots) {
+    if (options.resolution && matches.size() >= kLeastFieldDots) {
         const Eigen::Vector2d middle_px(0.5 * (scan.width_px - 1), 0.5 * (scan.height_px - 1));
         check.camera = signs_of_camera(matches, middle_px);
     }
@@ -281,7 +281,7 @@ void measure_fields(const ImageView& scan, std::vector<CollectedField> collected
         if (!resolution || check.camera) check.resolution.reset();
         if (check.camera) resolution.reset();
         const Measuring measuring{scan, part.field, part.grid, resolution, options.ink_reflectance};
-        if (measure_field(measuring, kLeastDots, part.result)) measured.push_back(&part);
+        if (measure_field(measuring, kLeastFieldDots, part.result)) measured.push_back(&part);
     }
     std::ranges::stable_sort(measured, std::ranges::greater{},
                              [](const CollectedField* part) { return part->result.dots; });

@@ -11,7 +11,7 @@
 namespace dotpose::calibrate {
 namespace {
 
-constexpr int kRounds = 3;
+constexpr int kLensRounds = 3;
 constexpr double kOutlier_sigmas = 4;
 /// Standard deviation of the residuals that is assumed before any is known.
 constexpr double kFirstSigma_px = 0.3;
@@ -199,7 +199,7 @@ class Fitter {
 
     void run() {
         double sigma_px = kFirstSigma_px;
-        for (int round = 0; round < kRounds; ++round) {
+        for (int round = 0; round < kLensRounds; ++round) {
             ceres::Problem problem;
             build(problem, round == 0, sigma_px);
             ceres::Solver::Options options;
@@ -210,7 +210,7 @@ class Fitter {
             ceres::Solver::Summary summary;
             ceres::Solve(options, &problem, &summary);
             evaluate();
-            if (round == kRounds - 1) estimate_sigmas(problem);
+            if (round == kLensRounds - 1) estimate_sigmas(problem);
             // The median of the squared distances of a plane Gaussian is 1.39 sigma^2.
             sigma_px = mark_outliers();
         }

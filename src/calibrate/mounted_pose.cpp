@@ -18,7 +18,7 @@ namespace {
 
 using namespace dotpose::calibrate;
 
-constexpr std::size_t kLeastDots = 12;
+constexpr std::size_t kLeastPoseDots = 12;
 
 /// The equation of a dot: printed + displacement * displaced = place + (c, -s; s, c) (x, y). All
 /// lengths are in spacings of true length, except (x, y), in mm from `middle`. The parameters are
@@ -113,7 +113,7 @@ Fix with_camera(const Fix& fix, const Camera& camera, const Trace& trace, const 
     double theta_rad =
         std::atan2(std::sin(fix.theta_rad()) * print.y, std::cos(fix.theta_rad()) * print.x);
     const auto dots = dots_read(trace);
-    if (camera.paper && dots.size() >= kLeastDots) {
+    if (camera.paper && dots.size() >= kLeastPoseDots) {
         const PoseFit pose = fit_pose(dots, camera, print);
         const PixelPoint reference{
             (camera.width_px - 1) / 2.0 + trace.options.reference_dx_q8 / 256.0,

@@ -14,7 +14,7 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-constexpr int kRounds = 2;
+constexpr int kPrintRounds = 2;
 constexpr int kSteps = 6;
 constexpr double kOutlier_sigmas = 4;
 /// Indices of the parameters: offset, rows of `linear`, perspective, lens.
@@ -118,7 +118,7 @@ PlaneFit fit_plane(const std::vector<Match>& matches, ViewModel model,
         reach.seen += (match.seen - lens_centre).norm() / count;
     }
     double limit = std::numeric_limits<double>::infinity();
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kPrintRounds; ++round) {
         // The first steps fix perspective and lens, which need a start that is nearly right.
         for (int i = 0; i < kSteps; ++i) {
             const bool has_start = round > 0 || i > 0;

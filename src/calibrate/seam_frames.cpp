@@ -16,7 +16,7 @@ namespace {
 /// Greatest distance of a fix beyond the page whose dots it was read from: a frame.
 constexpr double kBeyondPage_mm = 400;
 /// Fewest dots of a view, so that the scale along both axes is meaningful.
-constexpr std::size_t kLeastDots = 30;
+constexpr std::size_t kLeastViewDots = 30;
 constexpr int kFieldsPerSide = 8;
 /// Number of fields with dots of located sheets from which on no further parts of a frame are
 /// located. The number of dots that a fix reports cannot decide this: it counts one sheet only.
@@ -249,7 +249,7 @@ std::optional<SheetView> SeamLocator::view_of(const GreyImage& image, const Part
         if (is_on) view.dots.push_back(std::uint64_t{cell.x} << 32 | cell.y);
         return !is_on;
     });
-    if (dots.size() < kLeastDots) return std::nullopt;
+    if (dots.size() < kLeastViewDots) return std::nullopt;
     view.fields = fields_of(image, part, dots);
     if (camera.paper) {
         const auto first = place_beyond(entry, profile, moved_to(fix, trace, {0, 0}));

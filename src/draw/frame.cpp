@@ -13,12 +13,12 @@ namespace {
 
 using namespace dotpose::draw;
 
-constexpr double kMargin = 36;
+constexpr double kFrameMargin = 36;
 constexpr double kPanelWidth = 1200;
 constexpr double kLeastPanelHeight = 240;
-constexpr double kHeadHeight = 64;
+constexpr double kFrameHead = 64;
 constexpr double kStripHeight = 360;
-constexpr double kWidth = 2 * kPanelWidth + 3 * kMargin;
+constexpr double kWidth = 2 * kPanelWidth + 3 * kFrameMargin;
 
 /// Estimates the width of a text, in the widest of the fonts that viewers may have.
 double text_width(std::string_view text, double size) {
@@ -36,10 +36,10 @@ class Sketch {
     }
 
     std::string draw() && {
-        begin_panel(kMargin, "Dots and their neighbours", draw_options_.title, 1);
+        begin_panel(kFrameMargin, "Dots and their neighbours", draw_options_.title, 1);
         draw_detection(view_, svg_);
         end_panel();
-        begin_panel(2 * kMargin + kPanelWidth, "The code read from them", reading_note(), 0.3);
+        begin_panel(2 * kFrameMargin + kPanelWidth, "The code read from them", reading_note(), 0.3);
         draw_reading(view_, svg_);
         end_panel();
         draw_strip();
@@ -47,7 +47,7 @@ class Sketch {
     }
 
   private:
-    double height() const { return 3 * kMargin + kHeadHeight + panel_height_ + kStripHeight; }
+    double height() const { return 3 * kFrameMargin + kFrameHead + panel_height_ + kStripHeight; }
 
     std::string reading_note() const {
         if (view_.reached().place) {
@@ -78,12 +78,12 @@ class Sketch {
     void begin_panel(double x, std::string_view head, std::string_view note, double opacity) {
         constexpr double kHeadSize = 38;
         constexpr double kNoteSize = 30;
-        const double room = kPanelWidth - text_width(head, kHeadSize) - kMargin;
-        svg_.text({x, kMargin + 38}, kHeadSize, head, R"(font-weight="bold" fill="#17202a")");
-        svg_.text({x + kPanelWidth, kMargin + 38},
+        const double room = kPanelWidth - text_width(head, kHeadSize) - kFrameMargin;
+        svg_.text({x, kFrameMargin + 38}, kHeadSize, head, R"(font-weight="bold" fill="#17202a")");
+        svg_.text({x + kPanelWidth, kFrameMargin + 38},
                   std::min(kNoteSize, kNoteSize * room / text_width(note, kNoteSize)), note,
                   R"(text-anchor="end" fill="#6b7885")");
-        const double y = kMargin + kHeadHeight;
+        const double y = kFrameMargin + kFrameHead;
         svg_.add(R"svg(<g transform="translate({:.2f} {:.2f})">)svg",
                  x + (kPanelWidth - view_.width()) / 2, y);
         svg_.add(R"svg(<g clip-path="url(#panel)"><use xlink:href="#frame" opacity="{}"/>)svg",
@@ -96,12 +96,12 @@ class Sketch {
     }
 
     void draw_strip() {
-        const double y = 2 * kMargin + kHeadHeight + panel_height_;
-        svg_.add(R"svg(<g transform="translate({:.2f} {:.2f})">)svg", kMargin, y);
+        const double y = 2 * kFrameMargin + kFrameHead + panel_height_;
+        svg_.add(R"svg(<g transform="translate({:.2f} {:.2f})">)svg", kFrameMargin, y);
         draw_edges(view_, kStripHeight, svg_);
         svg_.add("</g>");
-        const double x = 2.5 * kMargin + kStripHeight;
-        const double width = kWidth - kMargin - x;
+        const double x = 2.5 * kFrameMargin + kStripHeight;
+        const double width = kWidth - kFrameMargin - x;
         svg_.add(R"svg(<g transform="translate({:.2f} {:.2f})">)svg", x, y);
         draw_caption(view_, draw_options_, width, svg_);
         svg_.add("</g>");

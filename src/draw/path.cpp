@@ -13,8 +13,8 @@ namespace {
 
 using namespace dotpose::draw;
 
-constexpr double kMargin = 40;
-constexpr double kHeadHeight = 70;
+constexpr double kPathMargin = 40;
+constexpr double kPathHead = 70;
 constexpr double kPageHeight = 1000;
 constexpr double kPlotWidth = 760;
 constexpr double kScatterSide = 500;
@@ -56,23 +56,24 @@ class PathSketch {
         for (const Error_um& error : errors_) {
             worst_um_ = std::max(worst_um_, length(error.offset));
         }
-        svg_.text({kMargin, kMargin + 36}, 38, title, R"(font-weight="bold" fill="#17202a")");
+        svg_.text({kPathMargin, kPathMargin + 36}, 38, title,
+                  R"(font-weight="bold" fill="#17202a")");
     }
 
     std::string draw() && {
         draw_page();
-        const double x = 2.5 * kMargin + sheet_.width_mm * scale_;
-        const double y = kMargin + kHeadHeight;
+        const double x = 2.5 * kPathMargin + sheet_.width_mm * scale_;
+        const double y = kPathMargin + kPathHead;
         draw_scatter(x, y);
-        draw_errors(x, y + kScatterSide + 2.4 * kMargin, plot_height());
+        draw_errors(x, y + kScatterSide + 2.4 * kPathMargin, plot_height());
         return std::move(svg_).finish();
     }
 
   private:
     double page_height() const { return std::max(sheet_.height_mm * scale_, 860.0); }
-    double plot_height() const { return page_height() - kScatterSide - 3.6 * kMargin; }
-    double width() const { return sheet_.width_mm * scale_ + kPlotWidth + 3.5 * kMargin; }
-    double height() const { return page_height() + kHeadHeight + 2 * kMargin; }
+    double plot_height() const { return page_height() - kScatterSide - 3.6 * kPathMargin; }
+    double width() const { return sheet_.width_mm * scale_ + kPlotWidth + 3.5 * kPathMargin; }
+    double height() const { return page_height() + kPathHead + 2 * kPathMargin; }
 
     void draw_page();
     void draw_scatter(double x, double y);
@@ -100,7 +101,8 @@ std::string PathSketch::path_data() const {
 void PathSketch::draw_page() {
     const double page_width = sheet_.width_mm * scale_;
     const double page_height = sheet_.height_mm * scale_;
-    svg_.add(R"svg(<g transform="translate({:.2f} {:.2f})">)svg", kMargin, kMargin + kHeadHeight);
+    svg_.add(R"svg(<g transform="translate({:.2f} {:.2f})">)svg", kPathMargin,
+             kPathMargin + kPathHead);
     svg_.add(R"(<rect width="{:.2f}" height="{:.2f}" fill="#fdfcf7" stroke="#b8c0c8" )"
              R"(stroke-width="2"/>)",
              page_width, page_height);

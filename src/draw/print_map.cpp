@@ -13,16 +13,16 @@ namespace {
 
 using namespace dotpose::draw;
 
-constexpr double kMargin = 40;
-constexpr double kHead = 110;
-constexpr double kLongestSide = 1000;
+constexpr double kMapMargin = 40;
+constexpr double kMapHead = 110;
+constexpr double kLongestMapSide = 1000;
 /// Length of the longest arrow in units of the drawing; it is shorter where arrows are closer
 /// together than this.
 constexpr double kLongestArrow = 45;
 constexpr double kLongestStep = 0.95;
 /// Arrows are not enlarged beyond the scale at which this distortion has the longest arrow, so that
 /// noise looks small.
-constexpr double kLeastFullScale_mm = 0.01;
+constexpr double kLeastMapScale_mm = 0.01;
 
 /// Returns the largest number of the form 1, 2 or 5 times a power of ten that is at most `value`.
 double round_down(double value) {
@@ -37,12 +37,12 @@ class PrintMap {
   public:
     PrintMap(const ImageView& scan, const PrintCheck& check)
         : check_(check),
-          scale_(kLongestSide / std::max(scan.width_px, scan.height_px)),
+          scale_(kLongestMapSide / std::max(scan.width_px, scan.height_px)),
           width_(scan.width_px * scale_),
           height_(scan.height_px * scale_),
-          svg_(std::max(width_, 560.0) + 2 * kMargin, height_ + kHead + 2 * kMargin,
+          svg_(std::max(width_, 560.0) + 2 * kMapMargin, height_ + kMapHead + 2 * kMapMargin,
                "Distortion of a print") {
-        full_mm_ = kLeastFullScale_mm;
+        full_mm_ = kLeastMapScale_mm;
         double longest = kLongestArrow;
         for (const PrintField& field : check.fields) {
             full_mm_ = std::max(full_mm_, field.largest_distortion_mm);
@@ -56,7 +56,7 @@ class PrintMap {
         draw_head();
         svg_.add(R"(<rect x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}" fill="none" )"
                  R"(stroke="{}" stroke-width="2"/>)",
-                 kMargin, kMargin + kHead, width_, height_, colour::kFrame);
+                 kMapMargin, kMapMargin + kMapHead, width_, height_, colour::kFrame);
         for (const PrintField& field : check_.fields) {
             for (const DistortionBin& bin : field.distortion)
                 draw_bin(bin);
@@ -67,19 +67,19 @@ class PrintMap {
   private:
     void draw_head() {
         const double shown_mm = round_down(full_mm_);
-        const double y = kMargin + 80;
-        svg_.text({kMargin, kMargin + 28}, 30, "Where dots stand, against the fitted page",
+        const double y = kMapMargin + 80;
+        svg_.text({kMapMargin, kMapMargin + 28}, 30, "Where dots stand, against the fitted page",
                   R"(font-weight="bold" fill="#17202a")");
-        svg_.arrow({kMargin, y}, {kMargin + shown_mm * per_mm_, y}, 2.5, colour::kEdge);
-        svg_.text({kMargin + shown_mm * per_mm_ + 14, y + 7}, 20,
+        svg_.arrow({kMapMargin, y}, {kMapMargin + shown_mm * per_mm_, y}, 2.5, colour::kEdge);
+        svg_.text({kMapMargin + shown_mm * per_mm_ + 14, y + 7}, 20,
                   fmt::format("{:g} mm; largest {:.3f} mm, one arrow for about {} x {} dots",
                               shown_mm, full_mm_, kDistortionCells, kDistortionCells),
                   R"(fill="#6b7885")");
     }
 
     void draw_bin(const DistortionBin& bin) {
-        const Point at{kMargin + (bin.u_px + 0.5) * scale_,
-                       kMargin + kHead + (bin.v_px + 0.5) * scale_};
+        const Point at{kMapMargin + (bin.u_px + 0.5) * scale_,
+                       kMapMargin + kMapHead + (bin.v_px + 0.5) * scale_};
         const Point tip = at + per_mm_ * Point{bin.du_mm, bin.dv_mm};
         const double share = std::min(std::hypot(bin.du_mm, bin.dv_mm) / full_mm_, 1.0);
         // The colour goes from blue for small to red for large distortions.

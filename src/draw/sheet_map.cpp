@@ -19,8 +19,8 @@ namespace {
 using namespace dotpose::draw;
 
 constexpr double kSide = 900;
-constexpr double kMargin = 50;
-constexpr double kHead = 70;
+constexpr double kSheetMargin = 50;
+constexpr double kSheetHead = 70;
 constexpr double kFoot = 60;
 constexpr double kBox = 190;  // the longest side of a sheet without a pose
 constexpr double kBoxPitch_x = 230;
@@ -80,13 +80,13 @@ class SheetMap {
               std::ranges::count_if(sheets, [](const SheetEntry& e) { return bool(e.world); }))),
           bounds_(world_bounds(sheets)),
           per_m_(placed_ > 0 ? kSide / bounds_.extent() : 1),
-          svg_(width(), kSide + 2 * kMargin + kHead + kFoot, "Sheets") {}
+          svg_(width(), kSide + 2 * kSheetMargin + kSheetHead + kFoot, "Sheets") {}
 
     std::string draw() && {
-        svg_.text({kMargin, kMargin + 24}, 28, "Sheets in the world",
+        svg_.text({kSheetMargin, kSheetMargin + 24}, 28, "Sheets in the world",
                   R"(font-weight="bold" fill="#17202a")");
         if (placed_ == 0) {
-            svg_.text({kMargin, kMargin + kHead + 30}, 20,
+            svg_.text({kSheetMargin, kSheetMargin + kSheetHead + 30}, 20,
                       "No sheet has a pose in the world: dotpose sheets place NAME ...",
                       R"(fill="#6b7885")");
         } else {
@@ -105,12 +105,12 @@ class SheetMap {
         const std::size_t rest = sheets_.size() - placed_;
         const std::size_t columns = (rest + kBoxRows - 1) / kBoxRows;
         const double right = std::max(static_cast<double>(columns) * kBoxPitch_x, 330.0);
-        return kSide + 2 * kMargin + (rest > 0 ? kMargin + right : 0);
+        return kSide + 2 * kSheetMargin + (rest > 0 ? kSheetMargin + right : 0);
     }
 
     Point at(Point world_m) const {
-        return {kMargin + (world_m.x - bounds_.low.x) * per_m_,
-                kMargin + kHead + (bounds_.high.y - world_m.y) * per_m_};
+        return {kSheetMargin + (world_m.x - bounds_.low.x) * per_m_,
+                kSheetMargin + kSheetHead + (bounds_.high.y - world_m.y) * per_m_};
     }
 
     void draw_outline(std::span<const Point> corners) {
@@ -144,9 +144,10 @@ class SheetMap {
     void draw_origin() {
         const Point origin = at({0, 0});
         const double reach = 70;
-        const bool is_shown = origin.x >= kMargin - 1 && origin.x <= kMargin + kSide + 1 &&
-                              origin.y >= kMargin + kHead - 1 &&
-                              origin.y <= kMargin + kHead + kSide + 1;
+        const bool is_shown = origin.x >= kSheetMargin - 1 &&
+                              origin.x <= kSheetMargin + kSide + 1 &&
+                              origin.y >= kSheetMargin + kSheetHead - 1 &&
+                              origin.y <= kSheetMargin + kSheetHead + kSide + 1;
         if (!is_shown) return;
         svg_.arrow(origin, origin + Point{reach, 0}, 3, colour::kGood, R"(class="axis")");
         svg_.arrow(origin, origin - Point{0, reach}, 3, colour::kGood, R"(class="axis")");
@@ -157,9 +158,10 @@ class SheetMap {
 
     void draw_scale() {
         const double length_m = round_length_m(0.4 * bounds_.extent());
-        const double y = kMargin + kHead + (bounds_.high.y - bounds_.low.y) * per_m_ + kFoot;
-        const Point end{kMargin + length_m * per_m_, y};
-        svg_.line({kMargin, y}, end, R"(class="scale" stroke="#17202a" stroke-width="3")");
+        const double y =
+            kSheetMargin + kSheetHead + (bounds_.high.y - bounds_.low.y) * per_m_ + kFoot;
+        const Point end{kSheetMargin + length_m * per_m_, y};
+        svg_.line({kSheetMargin, y}, end, R"(class="scale" stroke="#17202a" stroke-width="3")");
         svg_.text(end + Point{10, 6}, 18,
                   length_m < 1 ? fmt::format("{:g} mm", 1000 * length_m)
                                : fmt::format("{:g} m", length_m),
@@ -168,16 +170,17 @@ class SheetMap {
 
     void draw_unplaced() {
         if (placed_ == sheets_.size()) return;
-        const double left = kSide + 2 * kMargin;
-        svg_.text({left, kMargin + 24}, 28, "Without a pose",
+        const double left = kSide + 2 * kSheetMargin;
+        svg_.text({left, kSheetMargin + 24}, 28, "Without a pose",
                   R"(font-weight="bold" fill="#17202a")");
-        svg_.text({left, kMargin + 50}, 17, "not to scale", R"(fill="#6b7885")");
+        svg_.text({left, kSheetMargin + 50}, 17, "not to scale", R"(fill="#6b7885")");
         std::size_t index = 0;
         for (const SheetEntry& entry : sheets_) {
             if (entry.world) continue;
             const auto column = static_cast<double>(index / kBoxRows);
             const auto row = static_cast<double>(index % kBoxRows);
-            draw_box(entry, {left + column * kBoxPitch_x, kMargin + kHead + row * kBoxPitch_y});
+            draw_box(entry,
+                     {left + column * kBoxPitch_x, kSheetMargin + kSheetHead + row * kBoxPitch_y});
             ++index;
         }
     }

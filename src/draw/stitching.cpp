@@ -21,7 +21,7 @@ using namespace dotpose::draw;
 constexpr double kLongestArrow = 70;
 /// Arrows are not enlarged beyond the scale at which this disagreement has the longest arrow, so
 /// that noise looks small.
-constexpr double kLeastFullScale_mm = 0.002;
+constexpr double kLeastArrowScale_mm = 0.002;
 
 /// The image centre of one frame, in world mm with y DOWN, and the difference between its positions
 /// by the two sheets.
@@ -95,7 +95,7 @@ class StitchingPicture {
             if (entry.world) draw_sheet(panel, entry);
         }
         const std::vector<Disagreement> all = disagreements(sheets, stitching_);
-        double full_mm = kLeastFullScale_mm;
+        double full_mm = kLeastArrowScale_mm;
         double squares = 0;
         for (const Disagreement& one : all) {
             full_mm = std::max(full_mm, length(one.off));

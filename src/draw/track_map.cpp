@@ -10,8 +10,8 @@ namespace dotpose::draw {
 namespace {
 
 constexpr double kSide = 1000;
-constexpr double kMargin = 40;
-constexpr double kHead = 60;
+constexpr double kTrackMargin = 40;
+constexpr double kTrackHead = 60;
 
 constexpr std::array kColours = {"#1565c0", "#c62828", "#2e7d32", "#6a1b9a",
                                  "#ef6c00", "#00838f", "#4e342e", "#ad1457"};
@@ -41,11 +41,13 @@ class MapSketch {
           bounds_(bounds_of(map)),
           scale_(kSide /
                  std::max({bounds_.high.x - bounds_.low.x, bounds_.high.y - bounds_.low.y, 1.0})),
-          svg_(std::max((bounds_.high.x - bounds_.low.x) * scale_, 400.0) + 2 * kMargin,
-               (bounds_.high.y - bounds_.low.y) * scale_ + 2 * kMargin + kHead, map.title) {}
+          svg_(std::max((bounds_.high.x - bounds_.low.x) * scale_, 400.0) + 2 * kTrackMargin,
+               (bounds_.high.y - bounds_.low.y) * scale_ + 2 * kTrackMargin + kTrackHead,
+               map.title) {}
 
     std::string draw() && {
-        svg_.text({kMargin, kMargin + 10}, 28, map_.title, R"(font-weight="bold" fill="#17202a")");
+        svg_.text({kTrackMargin, kTrackMargin + 10}, 28, map_.title,
+                  R"(font-weight="bold" fill="#17202a")");
         for (const MapSheet& sheet : map_.sheets)
             draw_sheet(sheet);
         for (std::size_t i = 0; i < map_.robots.size(); ++i)
@@ -56,7 +58,8 @@ class MapSketch {
   private:
     Point at(Point p_mm) const {
         const double y = map_.y_up ? bounds_.high.y - p_mm.y : p_mm.y - bounds_.low.y;
-        return {kMargin + (p_mm.x - bounds_.low.x) * scale_, kMargin + kHead + y * scale_};
+        return {kTrackMargin + (p_mm.x - bounds_.low.x) * scale_,
+                kTrackMargin + kTrackHead + y * scale_};
     }
 
     void draw_sheet(const MapSheet& sheet) {

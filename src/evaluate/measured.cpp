@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/degrees.hpp"
 #include "evaluate/protocol.hpp"
 
 namespace dotpose {
@@ -17,8 +18,6 @@ namespace {
 
 using evaluate_detail::spread_of;
 using Complex = std::complex<double>;
-
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 /// A found and a true place, as complex numbers.
 struct Pair {

@@ -2,11 +2,11 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <numbers>
 #include <ostream>
 
 #include <fmt/core.h>
 
+#include "base/degrees.hpp"
 #include "dotpose/tools/measured.hpp"
 #include "draw/svg.hpp"
 #include "evaluate/csv.hpp"
@@ -17,8 +17,6 @@ namespace dotpose {
 namespace {
 
 using namespace evaluate_detail;
-
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 std::string number(double value, int decimals) {
     return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "-";

@@ -3,12 +3,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/degrees.hpp"
+
 namespace dotpose {
-namespace {
-
-constexpr double kDegrees = 180 / std::numbers::pi;
-
-}  // namespace
+namespace {}  // namespace
 
 Deviation deviation_of(const Fix& fix, const Truth& truth) {
     return {fix.x_grid() - truth.x_grid, fix.y_grid() - truth.y_grid,

@@ -5,12 +5,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/degrees.hpp"
+
 namespace dotpose {
 namespace {
 
 using namespace evaluate_detail;
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 /// The cell in the middle of the area; the choice is arbitrary.
 constexpr Cell kMiddle{10'000, 20'000};
 

@@ -4,14 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <fmt/core.h>
 
+#include "base/degrees.hpp"
+
 namespace dotpose {
 namespace {
-
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 double nearest_rank(const std::vector<double>& sorted, double share) {
     const double rank = std::ceil(share * static_cast<double>(sorted.size()));

@@ -12,7 +12,7 @@ namespace dotpose::files {
 namespace {
 
 /// Greatest undistorted coordinate; larger ones come from an iteration that does not converge.
-constexpr double kMostPx = 1e6;
+constexpr double kMostUndistorted_px = 1e6;
 
 /// Number of parameters: k, the centre, and an affine map, as the fit of every pose contains one;
 /// lengths are in units of half the image diagonal.
@@ -146,7 +146,8 @@ double fit_division_model(const PlumbBob& lens, Camera& camera) {
             const PixelPoint pixel{(camera.width_px - 1.0) * i / kSteps,
                                    (camera.height_px - 1.0) * j / kSteps};
             const PixelPoint wanted = lens.undistorted(pixel);
-            if (!(std::abs(wanted.u) <= kMostPx && std::abs(wanted.v) <= kMostPx)) {
+            if (!(std::abs(wanted.u) <= kMostUndistorted_px &&
+                  std::abs(wanted.v) <= kMostUndistorted_px)) {
                 return std::numeric_limits<double>::infinity();
             }
             pairs.push_back({{pixel.u / reach_px, pixel.v / reach_px},

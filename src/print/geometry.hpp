@@ -6,6 +6,7 @@
 namespace dotpose::print {
 
 inline constexpr double kInch_mm = 25.4;
+inline constexpr double kPixelAt300Dpi_mm = kInch_mm / 300;
 
 /// x of the centre of a dot in column `i` of the sheet, displaced by `dx` (-1, 0 or 1).
 inline double dot_x_mm(const Sheet& sheet, int i, int dx) {

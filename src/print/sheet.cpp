@@ -12,13 +12,11 @@
 namespace dotpose {
 namespace {
 
-constexpr double kPixelAt300Dpi_mm = print::kInch_mm / 300;
-
 /// Returns the first position at or after `mm` at which a dot fills whole printer pixels at 300
 /// dpi.
 double snap_up_mm(double mm) {
-    return (std::ceil((mm - base::kTolerance_mm) / kPixelAt300Dpi_mm - 0.5) + 0.5) *
-           kPixelAt300Dpi_mm;
+    return (std::ceil((mm - base::kTolerance_mm) / print::kPixelAt300Dpi_mm - 0.5) + 0.5) *
+           print::kPixelAt300Dpi_mm;
 }
 
 /// Number of intersections from `first_mm` to `last_mm`, both included.

@@ -11,8 +11,6 @@ constexpr int kLargestSetting = 80;
 constexpr double kLabelHeight_mm = 2.5;
 /// Width of the blank paper around a label and between patches.
 constexpr double kGap_mm = 2;
-constexpr double kPixelAt300Dpi_mm = 25.4 / 300;
-
 void validate(const std::vector<int>& settings) {
     if (settings.empty()) throw BadArgument("a test page needs spacings and dot sizes");
     for (const int setting : settings) {
@@ -54,7 +52,7 @@ int setting_at(std::uint32_t coordinate) {
 /// Rounds a length to whole printer pixels, so that the dots of every patch have the same position
 /// relative to the printer's pixels.
 double snapped_mm(double mm) {
-    return std::round(mm / kPixelAt300Dpi_mm) * kPixelAt300Dpi_mm;
+    return std::round(mm / print::kPixelAt300Dpi_mm) * print::kPixelAt300Dpi_mm;
 }
 
 }  // namespace

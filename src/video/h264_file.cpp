@@ -26,19 +26,6 @@ const AVCodec* h264_encoder() {
     return nullptr;
 }
 
-struct Release {
-    void operator()(AVFormatContext* file) const {
-        avio_closep(&file->pb);
-        avformat_free_context(file);
-    }
-    void operator()(AVCodecContext* encoder) const { avcodec_free_context(&encoder); }
-    void operator()(AVPacket* packet) const { av_packet_free(&packet); }
-    void operator()(AVFrame* frame) const { av_frame_free(&frame); }
-    void operator()(SwsContext* converter) const { sws_freeContext(converter); }
-};
-template <typename T>
-using Owned = std::unique_ptr<T, Release>;
-
 }  // namespace
 
 class H264File::Encoder {
@@ -87,6 +74,19 @@ class H264File::Encoder {
     }
 
   private:
+    struct Release {
+        void operator()(AVFormatContext* file) const {
+            avio_closep(&file->pb);
+            avformat_free_context(file);
+        }
+        void operator()(AVCodecContext* encoder) const { avcodec_free_context(&encoder); }
+        void operator()(AVPacket* packet) const { av_packet_free(&packet); }
+        void operator()(AVFrame* frame) const { av_frame_free(&frame); }
+        void operator()(SwsContext* converter) const { sws_freeContext(converter); }
+    };
+    template <typename T>
+    using Owned = std::unique_ptr<T, Release>;
+
     void open_encoder(double fps, cv::Size size) {
         const AVCodec* codec = h264_encoder();
         encoder_.reset(codec != nullptr ? avcodec_alloc_context3(codec) : nullptr);

@@ -14,27 +14,27 @@ namespace dotpose::test {
 namespace {
 
 constexpr std::uint64_t kSeed = 223;
-constexpr int kFrames = 60;
+constexpr int kFramesOfCase = 60;
 
-struct Case {
+struct AlikeCase {
     AlikeDots dots;
     double most_px;  ///< median error
 };
 
-void PrintTo(const Case& of, std::ostream* out) {
+void PrintTo(const AlikeCase& of, std::ostream* out) {
     *out << of.dots.spacing_px << " px, " << of.dots.angle_deg << " degrees, dots of "
          << of.dots.dot << ", blur " << of.dots.blur_px << " px";
 }
 
-class DotsAlike : public testing::TestWithParam<Case> {};
+class DotsAlike : public testing::TestWithParam<AlikeCase> {};
 
 TEST_P(DotsAlike, ErrorsAreAsLargeAsTheyAreSaidToBe) {
     SCOPED_TRACE(testing::Message() << "seed " << kSeed);
     const auto memory = std::make_unique<LargeMemory>();
     Options options;
     options.effort = Effort::once;
-    std::vector<Outcome> outcomes(kFrames);
-    for (int i = 0; i < kFrames; ++i) {
+    std::vector<Outcome> outcomes(kFramesOfCase);
+    for (int i = 0; i < kFramesOfCase; ++i) {
         const Shot shot = shot_of(GetParam().dots, kSeed, i);
         const GreyImage image = render(shot);
         Outcome& outcome = outcomes[static_cast<std::size_t>(i)];
@@ -43,7 +43,7 @@ TEST_P(DotsAlike, ErrorsAreAsLargeAsTheyAreSaidToBe) {
     }
     const Score score = score_of(outcomes);
     EXPECT_EQ(score.wrong, 0);
-    EXPECT_GE(score.located, kFrames * 9 / 10);
+    EXPECT_GE(score.located, kFramesOfCase * 9 / 10);
     // Means of so many squares of a normal distribution of deviation 1 lie below this but for one
     // in 20,000.
     for (const double normalised : score.normalised)
@@ -54,27 +54,28 @@ TEST_P(DotsAlike, ErrorsAreAsLargeAsTheyAreSaidToBe) {
 
 INSTANTIATE_TEST_SUITE_P(
     Spacings, DotsAlike,
-    testing::Values(Case{{.spacing_px = 8, .blur_px = 0.7, .angle_deg = 0}, 0.006},
-                    Case{{.spacing_px = 10, .blur_px = 0.7, .angle_deg = 90}, 0.006},
-                    Case{{.spacing_px = 11, .blur_px = 0.7, .angle_deg = 0}, 0.006},
-                    Case{{.spacing_px = 11, .blur_px = 0.7, .angle_deg = 45}, 0.006},
-                    Case{{.spacing_px = 12, .blur_px = 0.7, .angle_deg = 0}, 0.006},
-                    Case{{.spacing_px = 12, .blur_px = 0.7, .angle_deg = 90}, 0.006}));
+    testing::Values(AlikeCase{{.spacing_px = 8, .blur_px = 0.7, .angle_deg = 0}, 0.006},
+                    AlikeCase{{.spacing_px = 10, .blur_px = 0.7, .angle_deg = 90}, 0.006},
+                    AlikeCase{{.spacing_px = 11, .blur_px = 0.7, .angle_deg = 0}, 0.006},
+                    AlikeCase{{.spacing_px = 11, .blur_px = 0.7, .angle_deg = 45}, 0.006},
+                    AlikeCase{{.spacing_px = 12, .blur_px = 0.7, .angle_deg = 0}, 0.006},
+                    AlikeCase{{.spacing_px = 12, .blur_px = 0.7, .angle_deg = 90}, 0.006}));
 
 // Dots with details finer than pixels: 0.0100 px at 12 px per spacing if their bias is left.
 INSTANTIATE_TEST_SUITE_P(
     HardlyBlurred, DotsAlike,
-    testing::Values(Case{{.spacing_px = 8, .blur_px = 0.3, .angle_deg = 0}, 0.004},
-                    Case{{.spacing_px = 11, .blur_px = 0.3, .angle_deg = 90}, 0.0035},
-                    Case{{.spacing_px = 12, .blur_px = 0.3, .angle_deg = 0}, 0.0035},
-                    Case{{.spacing_px = 12, .blur_px = 0.3, .angle_deg = 90}, 0.0035}));
+    testing::Values(AlikeCase{{.spacing_px = 8, .blur_px = 0.3, .angle_deg = 0}, 0.004},
+                    AlikeCase{{.spacing_px = 11, .blur_px = 0.3, .angle_deg = 90}, 0.0035},
+                    AlikeCase{{.spacing_px = 12, .blur_px = 0.3, .angle_deg = 0}, 0.0035},
+                    AlikeCase{{.spacing_px = 12, .blur_px = 0.3, .angle_deg = 90}, 0.0035}));
 
 // Dots hardly darker than noise, of which a threshold leaves a pixel or two: 0.030 px, and more
 // than two variances, if only centres near those pixels are trusted.
 INSTANTIATE_TEST_SUITE_P(
     Pale, DotsAlike,
-    testing::Values(Case{{.spacing_px = 8, .dot = 0.1, .blur_px = 1, .angle_deg = 0}, 0.024},
-                    Case{{.spacing_px = 8, .dot = 0.1, .blur_px = 1, .angle_deg = 90}, 0.024}));
+    testing::Values(AlikeCase{{.spacing_px = 8, .dot = 0.1, .blur_px = 1, .angle_deg = 0}, 0.024},
+                    AlikeCase{{.spacing_px = 8, .dot = 0.1, .blur_px = 1, .angle_deg = 90},
+                              0.024}));
 
 }  // namespace
 }  // namespace dotpose::test

@@ -15,7 +15,7 @@
 namespace dotpose {
 namespace {
 
-constexpr std::uint64_t kSeed = 2026;
+constexpr std::uint64_t kFramesSeed = 2026;
 
 std::uint64_t frames_of(std::uint64_t usual, std::uint64_t many) {
     return std::getenv("DOTPOSE_LONG_TESTS") != nullptr ? many : usual;
@@ -71,7 +71,7 @@ Tally run(const Setup& setup, std::uint64_t frames, const Options& options = {})
     return tally;
 }
 
-Setup setup_of(Preset preset, std::uint64_t seed = kSeed) {
+Setup setup_of(Preset preset, std::uint64_t seed = kFramesSeed) {
     Setup setup;
     setup.preset = preset;
     setup.seed = seed;
@@ -80,16 +80,16 @@ Setup setup_of(Preset preset, std::uint64_t seed = kSeed) {
 
 TEST(SimulatedFrames, NominalFramesAreLocated) {
     const Tally tally = run(setup_of(Preset::nominal), frames_of(300, 2000));
-    EXPECT_GE(tally.located_share(), 0.995) << "seed " << kSeed;
+    EXPECT_GE(tally.located_share(), 0.995) << "seed " << kFramesSeed;
     EXPECT_EQ(tally.wrong, 0u);
-    EXPECT_LE(tally.median_um(), 1.2) << "seed " << kSeed;
+    EXPECT_LE(tally.median_um(), 1.2) << "seed " << kFramesSeed;
     // The camera sees 8.6 mm: 3 um at its border are 0.7 mrad.
     EXPECT_LE(tally.percentile(tally.errors_mrad, 0.5), 1);
 }
 
 TEST(SimulatedFrames, CleanFramesAreAllLocated) {
     const Tally tally = run(setup_of(Preset::clean), frames_of(200, 2000));
-    EXPECT_EQ(tally.located, tally.frames) << "seed " << kSeed;
+    EXPECT_EQ(tally.located, tally.frames) << "seed " << kFramesSeed;
     EXPECT_EQ(tally.wrong, 0u);
     EXPECT_LE(tally.median_um(), 1);
 }
@@ -97,8 +97,8 @@ TEST(SimulatedFrames, CleanFramesAreAllLocated) {
 TEST(SimulatedFrames, HardFramesAreLocated) {
     const Tally tally = run(setup_of(Preset::hard), frames_of(300, 5000));
     EXPECT_EQ(tally.wrong, 0u);
-    EXPECT_GE(tally.located_share(), 0.98) << "seed " << kSeed;
-    EXPECT_LE(tally.median_um(), 2.6) << "seed " << kSeed;
+    EXPECT_GE(tally.located_share(), 0.98) << "seed " << kFramesSeed;
+    EXPECT_LE(tally.median_um(), 2.6) << "seed " << kFramesSeed;
 }
 
 TEST(SimulatedFrames, FramesInDoubtAreLookedAtOnceMore) {
@@ -116,7 +116,7 @@ TEST(SimulatedFrames, FramesInDoubtAreLookedAtOnceMore) {
 
 TEST(SimulatedFrames, AllProfilesAreRead) {
     for (const Profile profile : {Profile::libdots, Profile::microdots}) {
-        dotpose::Setup setup = setup_of(Preset::nominal, kSeed + 1);
+        dotpose::Setup setup = setup_of(Preset::nominal, kFramesSeed + 1);
         setup.pattern.profile = profile;
         Options options;
         options.profile = profile;
@@ -128,7 +128,7 @@ TEST(SimulatedFrames, AllProfilesAreRead) {
 
 TEST(SimulatedFrames, OtherProfilesAreNotTakenForOnesOwn) {
     for (const Profile profile : {Profile::anoto, Profile::microdots}) {
-        dotpose::Setup setup = setup_of(Preset::nominal, kSeed + 2);
+        dotpose::Setup setup = setup_of(Preset::nominal, kFramesSeed + 2);
         setup.pattern.profile = profile;
         Options options;
         options.profile = profile == Profile::anoto ? Profile::microdots : Profile::anoto;
@@ -147,12 +147,12 @@ TEST(SimulatedFrames, BothEndsOfTheCodeAreReadAsTheMiddle) {
     for (std::uint64_t n = 0; n < frames_of(10, 100); ++n) {
         for (const Cell cell : {Cell{kNear, kNear}, Cell{kNear, kFar}, Cell{kFar, kNear},
                                 Cell{kFar, kFar}, Cell{kFar, kPositionsPerAxis / 2}}) {
-            Shot shot = draw_shot(setup_of(Preset::nominal, kSeed + 3), index++);
+            Shot shot = draw_shot(setup_of(Preset::nominal, kFramesSeed + 3), index++);
             shot.pose.cell = cell;
             judge(Locator(*memory).locate(render(shot).view()), shot, tally);
         }
     }
-    EXPECT_GE(tally.located_share(), 0.98) << "seed " << kSeed + 3;
+    EXPECT_GE(tally.located_share(), 0.98) << "seed " << kFramesSeed + 3;
     EXPECT_EQ(tally.wrong, 0u);
 }
 
@@ -160,12 +160,12 @@ TEST(SimulatedFrames, EveryDirectionIsRead) {
     const auto memory = std::make_unique<LargeMemory>();
     Tally tally;
     for (int degrees = -180; degrees < 180; degrees += 3) {
-        Shot shot = draw_shot(setup_of(Preset::clean, kSeed + 4),
+        Shot shot = draw_shot(setup_of(Preset::clean, kFramesSeed + 4),
                               static_cast<std::uint64_t>(degrees + 180));
         shot.pose.theta_rad = degrees * std::numbers::pi / 180;
         judge(Locator(*memory).locate(render(shot).view()), shot, tally);
     }
-    EXPECT_EQ(tally.located, tally.frames) << "seed " << kSeed + 4;
+    EXPECT_EQ(tally.located, tally.frames) << "seed " << kFramesSeed + 4;
     EXPECT_EQ(tally.wrong, 0u);
 }
 
@@ -178,7 +178,7 @@ TEST(SimulatedFrames, CamerasOfManySizesAndSpacingsAreRead) {
          {Camera{96, 96, 8}, Camera{188, 120, 8}, Camera{188, 120, 12}, Camera{320, 240, 10},
           Camera{240, 320, 22}, Camera{640, 480, 12}, Camera{640, 480, 30}, Camera{1280, 720, 60},
           Camera{1600, 1200, 9}}) {
-        dotpose::Setup setup = setup_of(Preset::nominal, kSeed + 5);
+        dotpose::Setup setup = setup_of(Preset::nominal, kFramesSeed + 5);
         setup.camera.width_px = width;
         setup.camera.height_px = height;
         setup.camera.mm_per_px = setup.pattern.spacing_mm / spacing;

@@ -30,7 +30,7 @@ constexpr double kPageWidth_mm = 60;
 constexpr double kPageHeight_mm = 80;
 // Nothing but the document's own margin lies within; frames reach 5.2 mm around their centre.
 constexpr double kEdge_mm = 8;
-constexpr int kResolution_dpi = 1200;
+constexpr int kPrinter_dpi = 1200;
 // A renderer may move all dots by one of its pixels (0.021 mm); a fix adds 0.002 mm.
 constexpr double kTolerance_mm = 0.03;
 
@@ -93,12 +93,11 @@ class OverlaidBook : public testing::TestWithParam<Camera> {
             const TakenFrame& frame = taken[i];
             if (i == 0 || frame.page != taken[i - 1].page) {
                 const fs::path pdf = directory_.path() / "out.pdf";
-                page = GetParam().is_infrared
-                           ? render_black(pdf, kResolution_dpi, frame.page)
-                           : render("pdftoppm", pdf, kResolution_dpi, frame.page);
+                page = GetParam().is_infrared ? render_black(pdf, kPrinter_dpi, frame.page)
+                                              : render("pdftoppm", pdf, kPrinter_dpi, frame.page);
             }
             const ImageView view{page.grey.data(), page.width_px, page.height_px, page.width_px};
-            const PageImage seen{view, 25.4 / kResolution_dpi, frame.at_mm};
+            const PageImage seen{view, 25.4 / kPrinter_dpi, frame.at_mm};
             CameraPose pose;
             pose.theta_rad = frame.theta_rad;
             const std::string name = fmt::format("{}.pgm", i);

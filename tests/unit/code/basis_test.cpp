@@ -5,7 +5,7 @@
 
 #include "reference.hpp"
 
-namespace dotpose::code_test {
+namespace dotpose::code_test::basis_test {
 namespace {
 
 TEST(PositionAt, IsThePositionThatLeavesTheseRemainders) {
@@ -21,4 +21,4 @@ TEST(PositionAt, IsThePositionThatLeavesTheseRemainders) {
 }
 
 }  // namespace
-}  // namespace dotpose::code_test
+}  // namespace dotpose::code_test::basis_test

@@ -13,7 +13,7 @@
 #include "reference.hpp"
 #include "vectors.hpp"
 
-namespace dotpose::code_test {
+namespace dotpose::code_test::decode_test {
 namespace {
 
 constexpr std::uint32_t kSeed = 7998798;
@@ -339,4 +339,4 @@ TEST(Decode, TheOtherProfileReadsSomeWindowsWrong) {
 }
 
 }  // namespace
-}  // namespace dotpose::code_test
+}  // namespace dotpose::code_test::decode_test

@@ -14,7 +14,7 @@
 #include "reference.hpp"
 #include "vectors.hpp"
 
-namespace dotpose::code_test {
+namespace dotpose::code_test::encode_test {
 namespace {
 
 constexpr std::uint32_t kSeed = 20130;
@@ -201,4 +201,4 @@ TEST(Encode, PublishedAndRestoredDifferInFewColumns) {
 }
 
 }  // namespace
-}  // namespace dotpose::code_test
+}  // namespace dotpose::code_test::encode_test

@@ -6,7 +6,7 @@
 
 #include "reference.hpp"
 
-namespace dotpose::code_test {
+namespace dotpose::code_test::rolls_test {
 namespace {
 
 constexpr std::uint32_t kSeed = 50;
@@ -107,4 +107,4 @@ TEST(RollFurther, IsTheDifferenceOfTheRolls) {
 }
 
 }  // namespace
-}  // namespace dotpose::code_test
+}  // namespace dotpose::code_test::rolls_test

@@ -12,7 +12,7 @@
 #include "gtest/gtest.h"
 #include "reference.hpp"
 
-namespace dotpose::code_test {
+namespace dotpose::code_test::sequences_test {
 namespace {
 
 /// Returns all strings of `length` of a cyclic sequence, by place.
@@ -209,4 +209,4 @@ TEST(A4, OnlyOneInsertedDigitRestoresThePatents) {
 }
 
 }  // namespace
-}  // namespace dotpose::code_test
+}  // namespace dotpose::code_test::sequences_test

@@ -14,7 +14,7 @@
 #include "dotpose/pose_packet.hpp"
 #include "gtest/gtest.h"
 
-namespace dotpose::code_test {
+namespace dotpose::code_test::status_test {
 namespace {
 
 #define NAMED(status) \
@@ -90,4 +90,4 @@ TEST(Status, EveryMessageIsItsOwnPlainSentence) {
 }
 
 }  // namespace
-}  // namespace dotpose::code_test
+}  // namespace dotpose::code_test::status_test

@@ -6,7 +6,7 @@
 #include "code/basis.hpp"
 #include "reference.hpp"
 
-namespace dotpose::code_test {
+namespace dotpose::code_test::tables_test {
 namespace {
 
 constexpr std::uint32_t kSeed = 61;
@@ -60,4 +60,4 @@ TEST(Secondary, RollsAndPlacesOfDigitsGoOnBeyondTheEnd) {
 }
 
 }  // namespace
-}  // namespace dotpose::code_test
+}  // namespace dotpose::code_test::tables_test

@@ -9,7 +9,7 @@
 
 #include "reference.hpp"
 
-namespace dotpose::code_test {
+namespace dotpose::code_test::unshared_codes_test {
 namespace {
 
 /// Returns what the digits of a4 before each line from `place` on add to the roll.
@@ -68,4 +68,4 @@ TEST(UnsharedInOther, TheSamePlaceHasTheSameRollsInAnotoAndLibdots) {
 }
 
 }  // namespace
-}  // namespace dotpose::code_test
+}  // namespace dotpose::code_test::unshared_codes_test

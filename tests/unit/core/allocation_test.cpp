@@ -47,7 +47,7 @@ void* counted(std::size_t size, std::size_t alignment) {
     std::free(memory);
 }
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::allocation_test {
 namespace {
 
 /// Returns frames with every outcome: read at once, read at the second attempt, refused.
@@ -112,6 +112,6 @@ TEST(Allocation, NoneInLargeFrames) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::allocation_test
 
 #endif

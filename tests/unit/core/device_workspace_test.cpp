@@ -13,7 +13,7 @@
 #include "dotpose/tools/random.hpp"
 #include "dotpose/tools/simulate.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::device_workspace_test {
 namespace {
 
 /// A size of frames, and what is expected of it.
@@ -169,4 +169,4 @@ TEST(DeviceMemories, HaveTheSizesThatAreStated) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::device_workspace_test

@@ -11,7 +11,7 @@
 #include "dotpose/locate.hpp"
 #include "dotpose/tools/flip.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::locate_refuses_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 34;
@@ -137,4 +137,4 @@ TEST(LocateRefuses, EveryStageCanRefuse) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::locate_refuses_test

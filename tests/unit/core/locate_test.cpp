@@ -12,7 +12,7 @@
 #include "attempts/shots.hpp"
 #include "canvas.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::locate_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 34;
@@ -337,4 +337,4 @@ TEST(Locate, UsesNoMoreDotsThanItSaw) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::locate_test

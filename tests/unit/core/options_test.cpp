@@ -12,7 +12,7 @@
 #include "dotpose/option_fault.hpp"
 #include "dotpose/tools/option_names.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::options_test {
 namespace {
 
 GreyImage a_frame() {
@@ -114,4 +114,4 @@ TEST(Options, EnumerationsAreTakenAsFarAsTheyHaveNames) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::options_test

@@ -5,7 +5,7 @@
 
 #include "planes.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::prediction_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 73;
@@ -89,4 +89,4 @@ TEST(Prediction, AttemptsHaveNames) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::prediction_test

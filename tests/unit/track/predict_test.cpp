@@ -9,7 +9,7 @@
 
 #include "dotpose/track.hpp"
 
-namespace dotpose {
+namespace dotpose::predict_test {
 namespace {
 
 constexpr std::int64_t kFrame_us = 5000;
@@ -268,4 +268,4 @@ TEST(TrackerPredict, SurvivesAnyInput) {
 }
 
 }  // namespace
-}  // namespace dotpose
+}  // namespace dotpose::predict_test

@@ -10,7 +10,7 @@
 
 #include "dotpose/tools/random.hpp"
 
-namespace dotpose {
+namespace dotpose::track_test {
 namespace {
 
 constexpr std::int64_t kFrame_us = 5000;
@@ -281,4 +281,4 @@ TEST(Tracker, TakesAFixInTheUnitsOfThePattern) {
 }
 
 }  // namespace
-}  // namespace dotpose
+}  // namespace dotpose::track_test

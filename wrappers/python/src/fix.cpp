@@ -58,7 +58,7 @@ std::string message_of(const SeenFix& self) {
     return self.fault.empty() ? message(self.fix.status) : self.fault;
 }
 
-std::string text(const SeenFix& self) {
+std::string text_of_fix(const SeenFix& self) {
     const Fix& fix = self.fix;
     if (!self.is_ok()) return fmt::format("<Fix {}: {}>", name(fix.status), message_of(self));
     return fmt::format("<Fix ok: x {:.4f} mm, y {:.4f} mm, theta {:.5f} rad, p_wrong {:.2g}>",
@@ -275,7 +275,7 @@ void define_fix(py::module_& module) {
              "Return a picture (SVG) of what was seen in the frame: dots, grid, bits and pose, or "
              "how far it came; also write it to path. Only of a locator's newest fix, unless it "
              "keeps stages.")
-        .def("__repr__", &text);
+        .def("__repr__", &text_of_fix);
     define_prediction(module);
 }
 

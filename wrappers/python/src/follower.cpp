@@ -84,7 +84,7 @@ std::unique_ptr<FollowerOfPython> new_follower(
     return std::make_unique<FollowerOfPython>(all, keep_stages);
 }
 
-std::string text(const SeenLocated& self) {
+std::string text_of_located(const SeenLocated& self) {
     std::string words = self.fix.is_ok() ? "ok" : name(self.fix.fix.status);
     if (self.place) words += " on '" + self.place->entry.name + "'";
     return "<Located " + words + ">";
@@ -104,7 +104,7 @@ void define_follower(py::module_& module) {
         .def_readonly("reduced_by", &SeenLocated::reduced_by,
                       "Factor by which a too large image was reduced.")
         .def("__bool__", [](const SeenLocated& self) { return self.fix.is_ok(); })
-        .def("__repr__", &text);
+        .def("__repr__", &text_of_located);
     py::class_<FollowerOfPython>(
         module, "Follower",
         "Locates images on the sheets of a sheet file and follows a robot over them.\n\n"

@@ -131,7 +131,7 @@ auto if_seen(Get get) {
     return [get](const Track& self) { return self.is_lost ? kNaN : double{get(self.pose)}; };
 }
 
-std::string text(const Track& track) {
+std::string text_of_track(const Track& track) {
     if (track.is_lost) return "<Track lost>";
     return fmt::format("<Track x {:.3f} mm, y {:.3f} mm, theta {:.4f} rad, {:.1f} and {:.1f} mm/s>",
                        track.pose.x_mm(), track.pose.y_mm(), track.pose.theta_rad(),
@@ -175,7 +175,7 @@ void define_track(py::module_& module) {
         .def_property_readonly("covariance", &covariance,
                                "Covariance of (x, y, theta, their velocities): 6 x 6, in mm, rad "
                                "and s.")
-        .def("__repr__", &text);
+        .def("__repr__", &text_of_track);
 }
 
 }  // namespace

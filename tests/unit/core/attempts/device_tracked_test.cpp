@@ -16,7 +16,7 @@
 #include "dotpose/tools/random.hpp"
 #include "dotpose/tools/simulate.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::device_tracked_test {
 namespace {
 
 constexpr double kBamPerDegree = 4294967296.0 / 360;
@@ -262,4 +262,4 @@ TEST_F(DeviceTracked, RefusesFramesThatEndTooSoonOrHaveNoRoom) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::device_tracked_test

@@ -7,7 +7,7 @@
 #include "core/locate.hpp"
 #include "shots.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::first_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 81;
@@ -216,4 +216,4 @@ TEST(LocateOutwards, ALensThatFoldsTheImageBreaksNothing) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::first_test

@@ -9,7 +9,7 @@
 #include "core/locate.hpp"
 #include "shots.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::second_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 93;
@@ -85,4 +85,4 @@ TEST(SecondAttempt, GetsRoughFramesWhoseBitsLeaveDoubts) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::second_test

@@ -6,7 +6,7 @@
 #include "../planes.hpp"
 #include "shots.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::tracked_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 71;
@@ -309,4 +309,4 @@ TEST(LocateTracked, RefusesPlacesThatTheCodeDoesNotHave) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::tracked_test

@@ -9,7 +9,7 @@
 #include "core/kernels/select.hpp"
 #include "core/math/fixed.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::bit_lines_test {
 namespace {
 
 using core::BitBlock;
@@ -263,4 +263,4 @@ TEST(BitLines, MoreLinesThanThereIsRoomForAreThoseAroundTheMiddle) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::bit_lines_test

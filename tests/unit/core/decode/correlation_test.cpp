@@ -6,7 +6,7 @@
 #include "../../code/reference.hpp"
 #include "../geometry.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::correlation_test {
 namespace {
 
 using namespace core;
@@ -95,4 +95,4 @@ TEST(Correlation, TheLeadIsThatOverTheSecondBest) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::correlation_test

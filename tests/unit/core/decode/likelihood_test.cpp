@@ -6,7 +6,7 @@
 #include "../geometry.hpp"
 #include "core/math/plane.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::likelihood_test {
 namespace {
 
 using namespace core;
@@ -142,4 +142,4 @@ TEST(Likelihood, EightByEightCellsAreTheLeast) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::likelihood_test

@@ -6,7 +6,7 @@
 #include "../../code/reference.hpp"
 #include "../geometry.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::nominal_test {
 namespace {
 
 using namespace core;
@@ -111,4 +111,4 @@ TEST(Nominal, HoldsForTheLargestGrid) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::nominal_test

@@ -7,7 +7,7 @@
 #include "core/decode/correlation.hpp"
 #include "core/decode/orientation.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::position_test {
 namespace {
 
 using namespace core;
@@ -143,4 +143,4 @@ TEST(Position, TheWindowNeedsItsDots) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::position_test

@@ -11,7 +11,7 @@
 #include "core/lattice/predicted.hpp"
 #include "dotpose/tools/random.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::read_dots_test {
 namespace {
 
 using namespace core;
@@ -83,4 +83,4 @@ TEST(ReadDots, LooksAtAllCellsInView) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::read_dots_test

@@ -8,7 +8,7 @@
 #include "core/decode/upright.hpp"
 #include "core/detect/paper.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::sample_cells_test {
 namespace {
 
 using namespace core;
@@ -169,4 +169,4 @@ TEST(SampleCells, CellsUnderABlackStrokeSayNothing) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::sample_cells_test

@@ -9,7 +9,7 @@
 #include "../../code/reference.hpp"
 #include "../geometry.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::search_test {
 namespace {
 
 using namespace core;
@@ -183,4 +183,4 @@ TEST(FindAxis, FewerLinesThanCarryAPositionAreNotInTheCode) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::search_test

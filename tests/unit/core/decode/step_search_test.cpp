@@ -5,7 +5,7 @@
 
 #include "../integrity/ratios_case.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::step_search_test {
 namespace {
 
 using namespace core;
@@ -85,4 +85,4 @@ TEST(SearchBySteps, KeepsWhatIsAsGood) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::step_search_test

@@ -5,7 +5,7 @@
 
 #include "../geometry.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::window_test {
 namespace {
 
 using namespace core;
@@ -79,4 +79,4 @@ TEST(Window, ItsMeanQualityIsThatOfItsCells) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::window_test

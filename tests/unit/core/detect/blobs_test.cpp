@@ -8,7 +8,7 @@
 
 #include "../canvas.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::blobs_test {
 namespace {
 
 using namespace core;
@@ -396,4 +396,4 @@ TEST(Blobs, SaltAndPepperIsSiftedOut) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::blobs_test

@@ -6,7 +6,7 @@
 #include "../canvas.hpp"
 #include "dotpose/tools/random.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::level_sums_test {
 namespace {
 
 using namespace core;
@@ -52,4 +52,4 @@ TEST(PixelBox, HasNothingOutsideTheImage) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::level_sums_test

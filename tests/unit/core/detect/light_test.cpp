@@ -5,7 +5,7 @@
 
 #include "../canvas.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::light_test {
 namespace {
 
 using namespace core;
@@ -223,4 +223,4 @@ TEST(Light, ThresholdsFollowAShadow) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::light_test

@@ -7,7 +7,7 @@
 
 #include "../canvas.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::paper_test {
 namespace {
 
 using namespace core;
@@ -52,4 +52,4 @@ TEST(Paper, OfABlackImageIsNotZero) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::paper_test

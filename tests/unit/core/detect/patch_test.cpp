@@ -11,7 +11,7 @@
 
 #include "../canvas.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::patch_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 74;
@@ -127,4 +127,4 @@ TEST(KeepIsolated, DropsMinimaThatHaveNoFinitePlace) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::patch_test

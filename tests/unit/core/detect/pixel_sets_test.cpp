@@ -6,7 +6,7 @@
 
 #include "../canvas.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::pixel_sets_test {
 namespace {
 
 using namespace core;
@@ -156,4 +156,4 @@ TEST(PixelSets, RunsBeginAndEndAtAnyColumn) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::pixel_sets_test

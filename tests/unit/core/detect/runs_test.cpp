@@ -9,7 +9,7 @@
 #include "../canvas.hpp"
 #include "dotpose/locate.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::runs_test {
 namespace {
 
 using namespace core;
@@ -119,4 +119,4 @@ TEST(Runs, AreTheFirstOnesWhereThereIsNoRoomForAll) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::runs_test

@@ -5,7 +5,7 @@
 
 #include "../canvas.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::smooth_test {
 namespace {
 
 using namespace core;
@@ -111,4 +111,4 @@ TEST(Smooth, TheNextImageBeginsAfresh) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::smooth_test

@@ -7,7 +7,7 @@
 
 #include "../canvas.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::tiles_test {
 namespace {
 
 using namespace core;
@@ -63,4 +63,4 @@ TEST(Tiles, AreMeasuredInPairsOfPixels) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::tiles_test

@@ -5,7 +5,7 @@
 
 #include "../geometry.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::undistort_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 23;
@@ -99,4 +99,4 @@ TEST(Undistort, NoLensMovesNothing) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::undistort_test

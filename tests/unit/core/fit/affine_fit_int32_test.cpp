@@ -8,7 +8,7 @@
 #include "core/fit/affine_fit_int64.hpp"
 #include "core/math/plane.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::affine_fit_int32_test {
 namespace {
 
 using namespace core;
@@ -212,4 +212,4 @@ TEST(AffineFitInt32, TwoPointsDetermineNothing) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::affine_fit_int32_test

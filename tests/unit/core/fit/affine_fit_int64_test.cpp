@@ -8,7 +8,7 @@
 
 #include "../geometry.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::affine_fit_int64_test {
 namespace {
 
 using namespace core;
@@ -244,4 +244,4 @@ TEST(Affine, ScaledQuotientsAreRounded) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::affine_fit_int64_test

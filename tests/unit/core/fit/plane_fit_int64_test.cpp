@@ -6,7 +6,7 @@
 #include "../geometry.hpp"
 #include "dotpose/options.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::plane_fit_int64_test {
 namespace {
 
 using namespace core;
@@ -249,4 +249,4 @@ TEST(PlaneFitInt64, HoldsForTheLargestImageAndMostPoints) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::plane_fit_int64_test

@@ -9,7 +9,7 @@
 #include "../float_planes.hpp"
 #include "core/math/plane.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::plane_normal_float_test {
 namespace {
 
 using namespace core;
@@ -296,4 +296,4 @@ TEST(PlaneNormalFloat, NeedsPoints) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::plane_normal_float_test

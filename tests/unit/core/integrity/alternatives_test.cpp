@@ -7,7 +7,7 @@
 #include "../geometry.hpp"
 #include "core/integrity/expected_alternatives.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::alternatives_test {
 namespace {
 
 using namespace core;
@@ -193,4 +193,4 @@ TEST(ExpectedAlternatives, ThoseThatShareMoreLinesAreLeftToOthers) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::alternatives_test

@@ -11,7 +11,7 @@
 #include "core/kernels/select.hpp"
 #include "dotpose/tools/random.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::certainty_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 79;
@@ -202,4 +202,4 @@ TEST(IsCertain, AgreesWithVerify) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::certainty_test

@@ -8,7 +8,7 @@
 #include "code/rolls.hpp"
 #include "dotpose/tools/random.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::coded_block_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 4021;
@@ -109,4 +109,4 @@ TEST(CodedBlock, KeepsTheLongestStretchOfLinesWithGapsUnlessABitIsWrong) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::coded_block_test

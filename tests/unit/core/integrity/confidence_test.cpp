@@ -6,7 +6,7 @@
 #include "chance.hpp"
 #include "dotpose/tools/random.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::confidence_test {
 namespace {
 
 using namespace core;
@@ -208,4 +208,4 @@ TEST(Chance, ChanceHoldsForRandomBits) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::confidence_test

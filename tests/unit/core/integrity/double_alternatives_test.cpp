@@ -8,7 +8,7 @@
 #include "core/integrity/expected_double_alternatives.hpp"
 #include "dotpose/tools/random.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::double_alternatives_test {
 namespace {
 
 using namespace core;
@@ -139,4 +139,4 @@ TEST(DoubleAlternatives, AreNotLookedAtWhereTheExpectationIsTooMuch) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::double_alternatives_test

@@ -6,7 +6,7 @@
 
 #include "ratios_case.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::expected_double_alternatives_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 53;
@@ -92,4 +92,4 @@ TEST(ExpectedDoubleAlternatives, AreNeverNothing) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::expected_double_alternatives_test

@@ -5,7 +5,7 @@
 
 #include "ratios_case.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::least_losses_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 77;
@@ -96,4 +96,4 @@ TEST(LeastLosses, ABorderSeparatesTwoPatterns) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::least_losses_test

@@ -18,7 +18,7 @@
 #include "core/workspace.hpp"
 #include "dotpose/tools/random.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::likelihood_ratios_of_bits_test {
 namespace {
 
 using namespace core;
@@ -233,4 +233,4 @@ TEST(UnsharedLines, AreNotSharedByAnyAlternative) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::likelihood_ratios_of_bits_test

@@ -6,7 +6,7 @@
 #include "code/basis.hpp"
 #include "ratios_case.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::near_alternatives_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 52;
@@ -75,4 +75,4 @@ TEST(NearAlternatives, AreSummedOneByOne) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::near_alternatives_test

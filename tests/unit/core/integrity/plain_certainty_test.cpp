@@ -9,7 +9,7 @@
 #include "core/kernels/select.hpp"
 #include "dotpose/tools/random.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::plain_certainty_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 79;
@@ -136,4 +136,4 @@ TEST(IsPlainlyCertain, RefusesWhatASeamExplainsBetter) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::plain_certainty_test

@@ -6,7 +6,7 @@
 #include "core/integrity/alternatives.hpp"
 #include "ratios_case.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::quick_alternatives_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 51;
@@ -154,4 +154,4 @@ TEST(QuickAlternatives, FewLinesOrWeakOddsDoNotTell) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::quick_alternatives_test

@@ -10,7 +10,7 @@
 #include "core/kernels/select.hpp"
 #include "ratios_case.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::seam_alternatives_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 57;
@@ -195,4 +195,4 @@ TEST(SeamAlternatives, WhatTheLinesShowBetterIsDoubt) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::seam_alternatives_test

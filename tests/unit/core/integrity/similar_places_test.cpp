@@ -8,7 +8,7 @@
 
 #include "ratios_case.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::similar_places_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 53;
@@ -93,4 +93,4 @@ TEST(SimilarPlaces, AreVisitedAtTheFirstLine) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::similar_places_test

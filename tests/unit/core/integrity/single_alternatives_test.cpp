@@ -5,7 +5,7 @@
 
 #include "ratios_case.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::single_alternatives_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 51;
@@ -41,4 +41,4 @@ TEST(SingleAlternatives, AreSummedOneByOne) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::single_alternatives_test

@@ -14,7 +14,7 @@
 #include "core/kernels/select.hpp"
 #include "ratios_case.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::tabled_alternatives_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 83;
@@ -157,4 +157,4 @@ TEST(TabledAlternatives, AreNotToldOfFewLines) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::tabled_alternatives_test

@@ -9,7 +9,7 @@
 #include "core/integrity/alternatives.hpp"
 #include "core/integrity/confidence.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::verify_test {
 namespace {
 
 using namespace core;
@@ -338,4 +338,4 @@ TEST(Verify, ACloserLookCertifiesWhatAQuickOneCannot) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::verify_test

@@ -7,7 +7,7 @@
 #include "core/kernels/select.hpp"
 #include "ratios_case.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::weigh_codes_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 83;
@@ -153,4 +153,4 @@ TEST(WeighOtherCode, FindsThePlaceThatTheDecoderFinds) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::weigh_codes_test

@@ -8,7 +8,7 @@
 #include "core/kernels/kernels.hpp"
 #include "random_inputs.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::kernels_alternatives_test {
 namespace {
 
 using namespace core;
@@ -135,4 +135,4 @@ TEST(KernelsAlternatives, LeastLossesAreThoseOfSortedLosses) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::kernels_alternatives_test

@@ -10,7 +10,7 @@
 #include "core/kernels/kernels.hpp"
 #include "random_inputs.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::kernels_plain_test {
 namespace {
 
 using namespace core;
@@ -238,4 +238,4 @@ TEST(KernelsPlain, FitIsSummedOverDotsNearTheirPlaces) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::kernels_plain_test

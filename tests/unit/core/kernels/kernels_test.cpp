@@ -8,7 +8,7 @@
 #include "core/detect/patch.hpp"
 #include "random_inputs.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::kernels_test {
 namespace {
 
 using namespace core;
@@ -355,4 +355,4 @@ TEST_F(KernelsTest, FarAlternativesAreTheSame) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::kernels_test

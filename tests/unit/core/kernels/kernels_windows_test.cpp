@@ -7,7 +7,7 @@
 #include "core/kernels/kernels.hpp"
 #include "random_inputs.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::kernels_windows_test {
 namespace {
 
 using namespace core;
@@ -308,4 +308,4 @@ TEST(KernelsWindows, PredictedDotsAreReadByTheDarkestPlace) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::kernels_windows_test

@@ -7,7 +7,7 @@
 #include "core/lattice/neighbours.hpp"
 #include "core/math/plane.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::axes_test {
 namespace {
 
 using namespace core;
@@ -156,4 +156,4 @@ TEST(Axes, BlobsFarApartDoNotOverflow) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::axes_test

@@ -5,7 +5,7 @@
 
 #include "grids.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::grow_test {
 namespace {
 
 using namespace core;
@@ -118,4 +118,4 @@ TEST(GrowGrid, RefusesWhatDoesNotSpanAPlane) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::grow_test

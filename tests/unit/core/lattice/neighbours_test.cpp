@@ -8,7 +8,7 @@
 
 #include "../geometry.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::neighbours_test {
 namespace {
 
 using namespace core;
@@ -183,4 +183,4 @@ TEST(Neighbours, AMixedUpCrowdAtTheCentreStillGivesSeeds) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::neighbours_test

@@ -7,7 +7,7 @@
 
 #include "../geometry.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::origin_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 26;
@@ -131,4 +131,4 @@ TEST(Origin, WithoutDotsIsThePointItself) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::origin_test

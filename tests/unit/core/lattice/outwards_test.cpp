@@ -8,7 +8,7 @@
 #include "../float_planes.hpp"
 #include "core/kernels/select.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::outwards_test {
 namespace {
 
 using core::FloatPlane;
@@ -190,4 +190,4 @@ TEST(FindGrid, AllFormsOfTheKernelsGiveTheSame) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::outwards_test

@@ -6,7 +6,7 @@
 #include "../geometry.hpp"
 #include "core/lattice/neighbours.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::periodogram_search_test {
 namespace {
 
 using namespace core;
@@ -107,4 +107,4 @@ TEST(SearchPeriodogram, LeavesAGoodEstimateGood) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::periodogram_search_test

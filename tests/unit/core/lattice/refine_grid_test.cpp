@@ -5,7 +5,7 @@
 
 #include "grids.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::refine_grid_test {
 namespace {
 
 using namespace core;
@@ -68,4 +68,4 @@ TEST(RefineGrid, LeavesOutWhatLiesBetweenIntersections) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::refine_grid_test

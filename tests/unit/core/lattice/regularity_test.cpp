@@ -10,7 +10,7 @@
 #include "core/lattice/refine_grid.hpp"
 #include "grids.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::regularity_test {
 namespace {
 
 using namespace core;
@@ -112,4 +112,4 @@ TEST(Regularity, JudgesByItsBounds) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::regularity_test

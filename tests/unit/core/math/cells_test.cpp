@@ -5,7 +5,7 @@
 
 #include "../planes.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::cells_test {
 namespace {
 
 using namespace core;
@@ -64,4 +64,4 @@ TEST(Cells, PlanePointsAreThoseOfTheFormula) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::cells_test

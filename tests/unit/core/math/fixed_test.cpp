@@ -9,7 +9,7 @@
 
 #include "../geometry.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::fixed_test {
 namespace {
 
 using namespace core;
@@ -219,4 +219,4 @@ TEST(Fixed, UnitVectorsAreCosineAndSine) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::fixed_test

@@ -8,7 +8,7 @@
 #include "../float_planes.hpp"
 #include "../planes.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::float_plane_test {
 namespace {
 
 using core::FloatPlane;
@@ -137,4 +137,4 @@ TEST(FloatPlane, TellsWhatACameraMaySee) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::float_plane_test

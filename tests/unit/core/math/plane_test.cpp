@@ -7,7 +7,7 @@
 #include "../planes.hpp"
 #include "dotpose/options.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::plane_test {
 namespace {
 
 using namespace core;
@@ -145,4 +145,4 @@ TEST(Plane, TheTangentOfAnAffinePlaneIsThePlane) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::plane_test

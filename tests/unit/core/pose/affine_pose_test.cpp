@@ -6,7 +6,7 @@
 #include "core/pose/subgrid.hpp"
 #include "poses.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::affine_pose_test {
 namespace {
 
 using namespace core;
@@ -112,4 +112,4 @@ TEST(AffinePose, DotsOnOneLineDetermineNone) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::affine_pose_test

@@ -7,7 +7,7 @@
 
 #include "drawn_dot.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::dot_model_test {
 namespace {
 
 using core::DotImages;
@@ -73,4 +73,4 @@ TEST(DotModel, KnowsItsDerivatives) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::dot_model_test

@@ -9,7 +9,7 @@
 #include "../float_planes.hpp"
 #include "owned_dots.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::facing_dots_test {
 namespace {
 
 using core::FloatPlane;
@@ -116,4 +116,4 @@ TEST(FacingDots, AreNotNeededAmongFewDots) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::facing_dots_test

@@ -8,7 +8,7 @@
 #include "core/pose/covariance.hpp"
 #include "owned_dots.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::float_fit_test {
 namespace {
 
 using core::FloatPlane;
@@ -190,4 +190,4 @@ TEST(FitPlane, NeedsTwentyDots) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::float_fit_test

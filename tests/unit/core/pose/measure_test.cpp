@@ -7,7 +7,7 @@
 #include "../reading.hpp"
 #include "core/pose/subgrid.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::measure_test {
 namespace {
 
 using namespace core;
@@ -178,4 +178,4 @@ TEST(MeasureDots, StopsWhereTheirMemoryEnds) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::measure_test

@@ -8,7 +8,7 @@
 #include "drawn_dot.hpp"
 #include "owned_dots.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::pixel_bias_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 91;
@@ -162,4 +162,4 @@ TEST(PixelBias, IsNotMadeWorseByOtherShapes) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::pixel_bias_test

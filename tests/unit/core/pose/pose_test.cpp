@@ -8,7 +8,7 @@
 #include "core/pose/subgrid.hpp"
 #include "poses.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::pose_test {
 namespace {
 
 using namespace core;
@@ -271,4 +271,4 @@ TEST(Pose, DotsInTheDarkCountLess) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::pose_test

@@ -7,7 +7,7 @@
 
 #include "dotpose/tools/random.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::posterior_test {
 namespace {
 
 using namespace core;
@@ -146,4 +146,4 @@ TEST(Posterior, TermsThatNothingTellsAreNone) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::posterior_test

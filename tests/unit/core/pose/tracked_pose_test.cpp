@@ -9,7 +9,7 @@
 #include "core/lattice/predicted.hpp"
 #include "dotpose/tools/random.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::tracked_pose_test {
 namespace {
 
 using namespace core;
@@ -127,4 +127,4 @@ TEST(TrackedPose, IsNoneWithoutDotsOrOfDotsOnALine) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::tracked_pose_test

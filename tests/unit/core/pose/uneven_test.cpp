@@ -13,7 +13,7 @@
 #include "core/pose/float_fit.hpp"
 #include "owned_dots.hpp"
 
-namespace dotpose::core_test {
+namespace dotpose::core_test::uneven_test {
 namespace {
 
 using core::FloatPlane;
@@ -147,4 +147,4 @@ TEST(FitUneven, WidensTheCovarianceOnWrinkledPaper) {
 }
 
 }  // namespace
-}  // namespace dotpose::core_test
+}  // namespace dotpose::core_test::uneven_test
