@@ -61,7 +61,7 @@ if(TARGET dotpose_cli)
     install(DIRECTORY docs/schema DESTINATION ${CMAKE_INSTALL_DATADIR}/dotpose)
 endif()
 if(TARGET dotpose_live_cli)
-    install(TARGETS dotpose_live_cli DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/dotpose)
+    install(TARGETS dotpose_live_cli dotpose_video_module DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/dotpose)
 endif()
 
 # The documents link to each other, so they lie there as in the source.

@@ -27,4 +27,7 @@ foreach(suite IN LISTS suites)
     add_test(${prefix}.${name} ${program} "--gtest_filter=${suite}*${excluded}")
     set_tests_properties(${prefix}.${name} PROPERTIES WORKING_DIRECTORY ${directory} LABELS "${all_labels}"
                          FIXTURES_REQUIRED "${fixture}")
+    if(name IN_LIST first)
+        set_tests_properties(${prefix}.${name} PROPERTIES COST 100)
+    endif()
 endforeach()

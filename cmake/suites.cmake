@@ -4,7 +4,7 @@
 # dotpose_discover_suites(TARGET PREFIX [FILTER filter] [LABELS label...] [FIXTURE name]): tests PREFIX.SUITE. The suites are
 # listed when ctest runs, as a program that crashes while it lists them must not fail the build. Suites of
 # DOTPOSE_SLOW_SUITES have the label `slow` too, and those named ...AtLength `nightly`: cases that take seconds,
-# of which shorter ones test the same code by day.
+# of which shorter ones test the same code by day. The longest suites run first, so that none is left over at the end.
 function(dotpose_discover_suites target prefix)
     cmake_parse_arguments(PARSE_ARGV 2 arg "" "FILTER;FIXTURE" "LABELS")
     set(script ${CMAKE_CURRENT_BINARY_DIR}/${target}_suites.cmake)
@@ -16,6 +16,7 @@ set(directory [==[${PROJECT_SOURCE_DIR}]==])
 set(labels [==[${arg_LABELS}]==])
 set(fixture [==[${arg_FIXTURE}]==])
 set(slow [==[${DOTPOSE_SLOW_SUITES}]==])
+set(first [==[Dds;Watch;Recording;Mqtt;FleetScale;Hostile;GstreamerDrive]==])
 include([==[${PROJECT_SOURCE_DIR}/cmake/list_suites.cmake]==])
 ")
     set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${script})

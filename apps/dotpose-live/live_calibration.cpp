@@ -29,7 +29,7 @@ namespace {
 using namespace std::chrono_literals;
 
 /// Most frames that are taken: more take longer and tell no more.
-constexpr std::size_t kMostFrames = 50;
+constexpr std::size_t kMostLiveFrames = 50;
 /// A camera that moves less in the image, in px per s, is steady: less than a pixel during an
 /// exposure, or while a rolling shutter passes.
 constexpr double kSteady_px_s = 30;
@@ -92,7 +92,7 @@ class LiveCalibration {
     void take_all(capture::FrameSource& source) {
         try {
             capture::Frame frame;
-            while (!is_enough() && taken_.size() < kMostFrames && source.next(frame)) {
+            while (!is_enough() && taken_.size() < kMostLiveFrames && source.next(frame)) {
                 bits_per_px_ = source.bits_per_px();
                 if (!look(frame) || !go_on_calibrating()) break;
             }

@@ -76,7 +76,7 @@ std::unique_ptr<capture::FrameSource> open_live(const std::string& name,
     throw_missing("cannot read " + name + ": " + kSourcesNeed, ENOENT);
 }
 
-std::unique_ptr<VideoOutput> create_video(const std::string& path, double) {
+std::unique_ptr<video::GreyVideo> create_video(const std::string& path, double) {
     throw_missing("cannot write " + path + ": videos need", ENOENT);
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "capture/frame_source.hpp"
+#include "video/module.hpp"
 
 namespace dotpose::cli {
 
@@ -20,18 +21,8 @@ void hand_over_if_possible();
 std::unique_ptr<capture::FrameSource> open_live(const std::string& name,
                                                 const capture::SourceOptions& options);
 
-/// A video that is being written.
-class VideoOutput {
-  public:
-    virtual ~VideoOutput() = default;
-    /// Appends a frame. Throws Error, also if the frames differ in size.
-    virtual void write(const GreyImage& image) = 0;
-    /// Completes the file. Throws Error.
-    virtual void finish() = 0;
-};
-
 /// Creates a video: H.264 if the name ends in .mp4, Motion JPEG if it ends in .avi. In `dotpose`,
 /// throws Error that says what is missing.
-std::unique_ptr<VideoOutput> create_video(const std::string& path, double fps);
+std::unique_ptr<video::GreyVideo> create_video(const std::string& path, double fps);
 
 }  // namespace dotpose::cli

@@ -71,12 +71,12 @@ class FrameVideo : public SimulateOutput {
     std::string name(int index) const override {
         return fmt::format("{}#{}", path_.filename().string(), index);
     }
-    void write(int /*index*/, const GreyImage& image) override { video_->write(image); }
+    void write(int /*index*/, const GreyImage& image) override { video_->write(image.view()); }
     void finish() override { video_->finish(); }
 
   private:
     fs::path path_;
-    std::unique_ptr<VideoOutput> video_;
+    std::unique_ptr<video::GreyVideo> video_;
 };
 
 }  // namespace

@@ -80,7 +80,7 @@ struct SourceOptions {
     /// Called for an image that cannot be read; the source goes on with the next one.
     std::function<void(const std::string& file, const Error&)> on_unreadable =
         [](const std::string&, const Error&) {};
-    /// Opens cameras and video files (video/sources.hpp), or throws Error.
+    /// Opens cameras and video files (video/module.hpp), or throws Error.
     std::function<std::unique_ptr<FrameSource>(const std::string& name, const SourceOptions&)>
         open_live;
 };

@@ -1,80 +1,29 @@
 #include "video/screen.hpp"
 
-#include <optional>
-
 #include <dlfcn.h>
-#include <opencv2/highgui.hpp>
 
-#include "video/overlay.hpp"
-#include "video/recording.hpp"
+#include "video/module.hpp"
 
 namespace dotpose::video {
-namespace {
 
-constexpr const char* kWindow = "dotpose";
-
-}  // namespace
-
-class Screen::Output {
-  public:
-    explicit Output(const ScreenOptions& options) : options_(options) {
-        if (!options.record.empty()) recording_.emplace(options.record, options.fps, options.tell);
-    }
-
-    bool is_on() const { return options_.has_window || recording_; }
-
-    bool show(const Scene& scene) {
-        try {
-            const cv::Mat picture = overlay(scene);
-            if (recording_) recording_->write(picture);
-            if (options_.has_window) display(picture);
-            return is_wanted();
-        } catch (const cv::Exception& problem) {
-            throw Error("cannot show the frame: " + problem.err);
-        }
-    }
-
-    bool is_wanted() const {
-        if (!is_shown_) return true;
-        constexpr int kEscape = 27;
-        const int key = cv::waitKey(1);
-        return key != 'q' && key != kEscape &&
-               cv::getWindowProperty(kWindow, cv::WND_PROP_VISIBLE) >= 1;
-    }
-
-    void finish() {
-        if (recording_) recording_->finish();
-    }
-
-  private:
-    void display(const cv::Mat& picture) {
-        if (!is_shown_) cv::namedWindow(kWindow, cv::WINDOW_AUTOSIZE | cv::WINDOW_GUI_NORMAL);
-        is_shown_ = true;
-        cv::imshow(kWindow, picture);
-    }
-
-    ScreenOptions options_;
-    std::optional<Recording> recording_;
-    bool is_shown_ = false;
-};
-
-Screen::Screen(const ScreenOptions& options) : output_(std::make_unique<Output>(options)) {}
-Screen::~Screen() = default;
+Screen::Screen(const ScreenOptions& options) {
+    if (options.has_window || !options.record.empty()) output_ = module().open_screen(options);
+}
 
 bool Screen::is_on() const {
-    return output_->is_on();
+    return output_ != nullptr;
 }
 
 bool Screen::show(const Scene& scene) {
-    return output_->show(scene);
+    return output_ == nullptr || output_->show(scene);
 }
 
 void Screen::finish() {
-    output_->finish();
+    if (output_) output_->finish();
 }
 
 bool Screen::is_wanted() {
-    return output_->is_wanted();
+    return output_ == nullptr || output_->is_wanted();
 }
 
 bool has_display() {

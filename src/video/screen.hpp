@@ -65,19 +65,26 @@ struct ScreenOptions {
     std::function<void(const std::string&)> tell = [](const std::string&) {};
 };
 
+/// The window and the file themselves.
+class ScreenOutput {
+  public:
+    virtual ~ScreenOutput() = default;
+    /// As the functions of Screen.
+    virtual bool show(const Scene& scene) = 0;
+    virtual void finish() = 0;
+    virtual bool is_wanted() = 0;
+};
+
 class Screen {
   public:
     /// Throws Error if the window or file cannot be opened. They are opened with the first scene.
     explicit Screen(const ScreenOptions& options);
-    ~Screen();
-    Screen(const Screen&) = delete;
-    Screen& operator=(const Screen&) = delete;
 
     /// Whether there is a window or a recording.
     bool is_on() const;
 
-    /// Draws, shows and records a scene. Returns false if the user closed the window or pressed q
-    /// or Escape in it. Throws Error if this fails.
+    /// Draws, shows and records a scene, if the screen is on. Returns false if the user closed the
+    /// window or pressed q or Escape in it. Throws Error if this fails.
     bool show(const Scene& scene);
 
     /// Closes the recording. Throws Error if it is not complete, as on a full disk.
@@ -87,8 +94,7 @@ class Screen {
     bool is_wanted();
 
   private:
-    class Output;
-    std::unique_ptr<Output> output_;
+    std::unique_ptr<ScreenOutput> output_;  ///< null if there is nothing to show
 };
 
 /// Whether a window can be opened: an X server answers, which may be that of a Wayland session.

@@ -1,4 +1,4 @@
-#include "video/latest.hpp"
+#include "video/opencv/latest.hpp"
 
 #include <thread>
 

@@ -8,3 +8,13 @@ if(DOTPOSE_CCACHE AND (NOT CMAKE_CXX_COMPILER_LAUNCHER OR CMAKE_CXX_COMPILER_LAU
     set(CMAKE_C_COMPILER_LAUNCHER ${launcher})
     set(CMAKE_CXX_COMPILER_LAUNCHER ${launcher})
 endif()
+
+# Links in a fifth of the time.
+find_program(DOTPOSE_MOLD mold)
+if(DOTPOSE_MOLD AND NOT CMAKE_CROSSCOMPILING AND NOT EMSCRIPTEN)
+    include(CheckLinkerFlag)
+    check_linker_flag(CXX -fuse-ld=mold DOTPOSE_LINKS_WITH_MOLD)
+    if(DOTPOSE_LINKS_WITH_MOLD)
+        add_link_options(-fuse-ld=mold)
+    endif()
+endif()

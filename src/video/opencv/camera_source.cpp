@@ -15,8 +15,8 @@
 
 #include "capture/source_kind.hpp"
 #include "video/camera_list.hpp"
-#include "video/latest.hpp"
-#include "video/sources.hpp"
+#include "video/opencv/latest.hpp"
+#include "video/opencv/offers.hpp"
 
 namespace dotpose::video {
 namespace {

@@ -1,11 +1,11 @@
-#include "video/calibration_overlay.hpp"
+#include "video/opencv/calibration_overlay.hpp"
 
 #include <algorithm>
 #include <numbers>
 
 #include <opencv2/imgproc.hpp>
 
-#include "video/ink.hpp"
+#include "video/opencv/ink.hpp"
 
 namespace dotpose::video {
 namespace {

@@ -1,4 +1,4 @@
-#include "video/recording.hpp"
+#include "video/opencv/recording.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -6,6 +6,8 @@
 
 #include <fmt/core.h>
 #include <opencv2/imgproc.hpp>
+
+#include "video/opencv/offers.hpp"
 
 namespace dotpose::video {
 namespace {
@@ -22,7 +24,7 @@ int codec_of(const std::string& path) {
 
 }  // namespace
 
-Recording::Recording(std::string path, double fps, std::function<void(const std::string&)> tell)
+Recording::Recording(std::string path, double fps, Tell tell)
     : path_(std::move(path)), fps_(fps), tell_(std::move(tell)) {}
 
 bool Recording::is_disk_full() const {
@@ -89,6 +91,10 @@ void Recording::finish() {
     throw Error(fmt::format("{} is not complete: {} of {} frames{}", path_,
                             recorded.isOpened() ? std::max<std::int64_t>(frames, 0) : 0, frames_,
                             is_disk_full() ? "; the disk is full" : ""));
+}
+
+std::unique_ptr<GreyVideo> create_video(const std::string& path, double fps, const Tell& tell) {
+    return std::make_unique<Recording>(path, fps, tell);
 }
 
 }  // namespace dotpose::video

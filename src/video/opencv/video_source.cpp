@@ -19,7 +19,7 @@ extern "C" {
 #include <libswscale/swscale.h>
 }
 
-#include "video/sources.hpp"
+#include "video/opencv/offers.hpp"
 
 namespace dotpose::video {
 namespace {

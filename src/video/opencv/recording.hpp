@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 
@@ -10,23 +9,24 @@
 #include <opencv2/videoio.hpp>
 
 #include "dotpose/image.hpp"
-#include "video/h264_file.hpp"
+#include "video/module.hpp"
+#include "video/opencv/h264_file.hpp"
 
 namespace dotpose::video {
 
-class Recording {
+class Recording : public GreyVideo {
   public:
     /// The file is created with the first picture. `tell` gets messages for the user.
-    Recording(std::string path, double fps, std::function<void(const std::string&)> tell);
+    Recording(std::string path, double fps, Tell tell);
 
     /// Append a picture, which has blue, green and red, or is grey. Throw Error, as on a full disk
     /// or if the pictures differ in size.
     void write(const cv::Mat& picture);
-    void write(ImageView image);
+    void write(ImageView image) override;
 
     /// Closes the file and counts its frames: OpenCV reports neither a full disk nor an incomplete
     /// file. Throws Error if frames are missing.
-    void finish();
+    void finish() override;
 
   private:
     bool is_disk_full() const;
@@ -34,7 +34,7 @@ class Recording {
 
     std::string path_;
     double fps_;
-    std::function<void(const std::string&)> tell_;
+    Tell tell_;
     std::unique_ptr<H264File> h264_;
     cv::VideoWriter writer_;  ///< open if the recording is not H.264
     cv::Size size_;

@@ -1,4 +1,4 @@
-#include "video/overlay.hpp"
+#include "video/opencv/overlay.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 
 #include "draw/bounds.hpp"
 #include "draw/frame_view.hpp"
-#include "video/calibration_overlay.hpp"
-#include "video/ink.hpp"
+#include "video/opencv/calibration_overlay.hpp"
+#include "video/opencv/ink.hpp"
 
 namespace dotpose::video {
 namespace {

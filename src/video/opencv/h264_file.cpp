@@ -1,4 +1,4 @@
-#include "video/h264_file.hpp"
+#include "video/opencv/h264_file.hpp"
 
 #include <cstdint>
 #include <utility>

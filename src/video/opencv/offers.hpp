@@ -1,0 +1,22 @@
+// What the module offers: see video/module.hpp.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "video/module.hpp"
+
+namespace dotpose::video {
+
+std::unique_ptr<capture::FrameSource> open_camera(const std::string& name,
+                                                  const capture::SourceOptions& options);
+
+std::unique_ptr<capture::FrameSource> open_video(const std::string& name,
+                                                 const capture::SourceOptions& options);
+
+/// H.264 if the name ends in .mp4, Motion JPEG if it ends in .avi.
+std::unique_ptr<GreyVideo> create_video(const std::string& path, double fps, const Tell& tell);
+
+std::unique_ptr<ScreenOutput> open_screen(const ScreenOptions& options);
+
+}  // namespace dotpose::video
