@@ -49,7 +49,7 @@ int run(const Counting& counting, int frames) {
 int main(int argc, char** argv) {
     Counting counting;
     std::uint64_t frames = 1000;
-    CLI::App app(
+    cli::Command app(
         "Does a fix say how exact it is where two sheets are butted? Status 1 if any is wrong.",
         "dotpose_seams");
     add_count(app, "--frames", frames, "How many of each condition");

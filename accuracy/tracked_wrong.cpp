@@ -67,7 +67,7 @@ constexpr std::array<WrongClass, kind_count> kClasses{{
     {"right, but the pattern is seen from behind"},
 }};
 
-LargeMemory& memory() {
+LargeMemory& memory_of_looks() {
     thread_local const auto kMemory = std::make_unique<LargeMemory>();
     return *kMemory;
 }
@@ -159,18 +159,19 @@ void try_all(const Counting& counting, std::uint64_t index, TrackedTallies& tall
     const Shot other = draw_shot(setup, 2 * index + 1);
     views.image = render(views.shot);
     const GreyImage other_image = render(other);
-    views.fix = Locator(memory()).locate(views.image.view());
-    views.other_fix = Locator(memory()).locate(other_image.view());
+    views.fix = Locator(memory_of_looks()).locate(views.image.view());
+    views.other_fix = Locator(memory_of_looks()).locate(other_image.view());
     if (views.fix.status != Status::ok || views.other_fix.status != Status::ok) return;
     Rng rng(views.shot.seed, 79);
     for (std::size_t kind = 0; kind < kind_count; ++kind) {
         const Prediction prediction = predicted(kind, views, rng);
         if (kind < blank) {
-            tallies[kind].count(Locator(memory()).locate(views.image.view(), prediction),
+            tallies[kind].count(Locator(memory_of_looks()).locate(views.image.view(), prediction),
                                 TrueView::of(views.shot));
         } else {
             const GreyImage image = without_code(kind, views.shot, rng);
-            tallies[kind].count(Locator(memory()).locate(image.view(), prediction), std::nullopt);
+            tallies[kind].count(Locator(memory_of_looks()).locate(image.view(), prediction),
+                                std::nullopt);
         }
     }
 }

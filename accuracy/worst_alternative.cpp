@@ -51,7 +51,7 @@ Places worst_places(const code::Basis& basis, const Places& places, int lines) {
     return worst;
 }
 
-std::uint8_t section(int value) {
+std::uint8_t section_of(int value) {
     return static_cast<std::uint8_t>((value % kSections + kSections) % kSections);
 }
 
@@ -62,7 +62,7 @@ std::uint8_t likest_section(Profile profile, std::uint32_t position, std::uint32
     code::follow_rolls(profile, position, code::roll_from(profile, position, 0, cross), there);
     std::array<int, kSections> counts{};
     for (std::size_t i = 0; i < rolls.size(); ++i)
-        ++counts[section(rolls[i] - there[i])];
+        ++counts[section_of(rolls[i] - there[i])];
     return static_cast<std::uint8_t>(std::ranges::max_element(counts) - counts.begin());
 }
 
@@ -83,8 +83,8 @@ Along worst(Profile profile, const Along& true_place, int lines) {
     const auto residue = [](std::uint32_t position) {
         return static_cast<int>(position % static_cast<std::uint32_t>(kSections));
     };
-    alternative.cross_section = section(true_place.cross_section + residue(true_place.position) -
-                                        residue(alternative.position));
+    alternative.cross_section = section_of(true_place.cross_section + residue(true_place.position) -
+                                           residue(alternative.position));
     return alternative;
 }
 
