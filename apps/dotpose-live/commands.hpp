@@ -1,5 +1,4 @@
-/// The subcommands that need a camera or a network. They are in a separate program, which `dotpose`
-/// starts, because the libraries for video take a tenth of a second to load.
+/// The subcommands that need a camera or a network, in a separate program, which `dotpose` starts.
 #pragma once
 
 #include "command_line.hpp"

@@ -1,5 +1,5 @@
-/// Cameras and videos, which only the program in apps/dotpose-live reads and writes: the libraries
-/// for them take a tenth of a second to load. Each of the two programs defines these functions.
+/// Cameras and videos, which the program in apps/dotpose-live reads and writes, as it loads the
+/// module for them. Each of the two programs defines these functions.
 #pragma once
 
 #include <memory>
