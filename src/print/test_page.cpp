@@ -4,6 +4,8 @@
 
 #include <fmt/core.h>
 
+#include "geometry.hpp"
+
 namespace dotpose {
 namespace {
 
