@@ -24,7 +24,7 @@ class GreyVideo {
     virtual void finish() = 0;
 };
 
-/// What the module offers.
+/// The functions of the module. Each throws Error if it fails.
 struct Module {
     using OpenSource = std::unique_ptr<capture::FrameSource>(const std::string& name,
                                                              const capture::SourceOptions& options);

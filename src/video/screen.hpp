@@ -65,11 +65,11 @@ struct ScreenOptions {
     std::function<void(const std::string&)> tell = [](const std::string&) {};
 };
 
-/// The window and the file themselves.
+/// Draws into the window and writes the file. The module implements it.
 class ScreenOutput {
   public:
     virtual ~ScreenOutput() = default;
-    /// As the functions of Screen.
+    /// Each as the function of Screen with the same name.
     virtual bool show(const Scene& scene) = 0;
     virtual void finish() = 0;
     virtual bool is_wanted() = 0;

@@ -12,6 +12,8 @@ extern "C" {
 #include <libswscale/swscale.h>
 }
 
+#include "video/opencv/release.hpp"
+
 namespace dotpose::video {
 namespace {
 
@@ -74,18 +76,15 @@ class H264File::Encoder {
     }
 
   private:
-    struct Release {
+    struct ReleaseWritten : Release {
+        using Release::operator();
         void operator()(AVFormatContext* file) const {
             avio_closep(&file->pb);
             avformat_free_context(file);
         }
-        void operator()(AVCodecContext* encoder) const { avcodec_free_context(&encoder); }
-        void operator()(AVPacket* packet) const { av_packet_free(&packet); }
-        void operator()(AVFrame* frame) const { av_frame_free(&frame); }
-        void operator()(SwsContext* converter) const { sws_freeContext(converter); }
     };
     template <typename T>
-    using Owned = std::unique_ptr<T, Release>;
+    using Owned = std::unique_ptr<T, ReleaseWritten>;
 
     void open_encoder(double fps, cv::Size size) {
         const AVCodec* codec = h264_encoder();

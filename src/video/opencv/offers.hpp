@@ -1,4 +1,4 @@
-// What the module offers: see video/module.hpp.
+// The functions that dotpose-video.so exports through the table in module_table.cpp.
 #pragma once
 
 #include <memory>

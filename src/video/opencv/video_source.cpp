@@ -20,6 +20,7 @@ extern "C" {
 }
 
 #include "video/opencv/offers.hpp"
+#include "video/opencv/release.hpp"
 
 namespace dotpose::video {
 namespace {
@@ -27,16 +28,12 @@ namespace {
 using capture::Frame;
 using capture::SourceOptions;
 
-/// Frees objects of FFmpeg's libraries.
-struct Release {
+struct ReleaseRead : Release {
+    using Release::operator();
     void operator()(AVFormatContext* file) const { avformat_close_input(&file); }
-    void operator()(AVCodecContext* decoder) const { avcodec_free_context(&decoder); }
-    void operator()(AVPacket* packet) const { av_packet_free(&packet); }
-    void operator()(AVFrame* frame) const { av_frame_free(&frame); }
-    void operator()(SwsContext* converter) const { sws_freeContext(converter); }
 };
 template <typename T>
-using Owned = std::unique_ptr<T, Release>;
+using Owned = std::unique_ptr<T, ReleaseRead>;
 
 template <typename T>
 Owned<T> owned(T* pointer) {

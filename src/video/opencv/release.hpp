@@ -1,0 +1,20 @@
+// Frees what FFmpeg's libraries allocate.
+#pragma once
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libswscale/swscale.h>
+}
+
+namespace dotpose::video {
+
+/// Deleter for what reading and writing have in common. Files are closed differently: a class
+/// derived from this adds how.
+struct Release {
+    void operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }
+    void operator()(AVPacket* packet) const { av_packet_free(&packet); }
+    void operator()(AVFrame* frame) const { av_frame_free(&frame); }
+    void operator()(SwsContext* converter) const { sws_freeContext(converter); }
+};
+
+}  // namespace dotpose::video
