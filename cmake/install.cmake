@@ -17,7 +17,7 @@ foreach(part IN LISTS DOTPOSE_LIBRARIES)
 endforeach()
 if(NOT BUILD_SHARED_LIBS)
     set(DOTPOSE_PC_FILES ", yaml-cpp, fmt")
-    set(DOTPOSE_PC_TOOLS ", libpng, libtiff-4, GraphicsMagick, librsvg-2.0, libqpdf")
+    set(DOTPOSE_PC_TOOLS ", libpng, libjpeg, libtiff-4, librsvg-2.0, libqpdf")
     string(APPEND DOTPOSE_PC_TOOLS_LIBS " -lceres -lglog -pthread")
 endif()
 

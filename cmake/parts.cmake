@@ -24,7 +24,6 @@ dotpose_dependency(PNG::PNG                  libpng-dev                    PACKA
 dotpose_dependency(TIFF::TIFF                libtiff-dev                   PACKAGE TIFF)
 dotpose_dependency(JPEG::JPEG                libjpeg-dev                   PACKAGE JPEG)
 dotpose_dependency(PkgConfig::Qpdf           libqpdf-dev                   MODULES libqpdf)
-dotpose_dependency(PkgConfig::GraphicsMagick libgraphicsmagick1-dev        MODULES GraphicsMagick)
 dotpose_dependency(PkgConfig::Rsvg           librsvg2-dev                  MODULES librsvg-2.0)
 dotpose_dependency(Eigen3::Eigen             libeigen3-dev                 PACKAGE Eigen3)
 dotpose_dependency(Ceres::ceres              libceres-dev                  PACKAGE Ceres)
@@ -109,7 +108,8 @@ dotpose_part(FILES     "sheet and camera files" SETUP tools
 dotpose_part(TIFF      "printing: TIFF" SETUP tools PARTS PRINT NEEDS TIFF::TIFF)
 dotpose_part(PDF       "printing: PDF, and dots over PDF documents" SETUP tools
              PARTS PRINT NEEDS PkgConfig::Qpdf PkgConfig::Rsvg nlohmann_json::nlohmann_json)
-dotpose_part(IMAGES    "image files" SETUP tools PARTS BASE NEEDS PkgConfig::GraphicsMagick)
+dotpose_part(IMAGES    "image files" SETUP tools
+             PARTS BASE NEEDS PNG::PNG JPEG::JPEG TIFF::TIFF)
 dotpose_part(EVALUATE  "evaluation" SETUP tools PARTS DRAW IMAGES SIMULATE NEEDS PkgConfig::Rsvg)
 dotpose_part(CALIBRATE "calibration and the check of prints" SETUP tools
              PARTS FILES PRINT NEEDS Eigen3::Eigen Ceres::ceres)
@@ -130,7 +130,7 @@ if(DOTPOSE_SANITIZE MATCHES "fuzzer")
     dotpose_find(simdjson::simdjson)
 endif()
 dotpose_part(TESTS     "the tests" SETUP tests
-             PARTS ${tested} NEEDS GTest::gmock_main JPEG::JPEG)
+             PARTS ${tested} NEEDS GTest::gmock_main)
 dotpose_part(BENCH     "the benchmarks" SETUP bench
              PARTS TOOL NEEDS benchmark::benchmark PkgConfig::Apriltag)
 

@@ -89,10 +89,7 @@ bool FrameSaver::is_wanted(ImageView image, const Fix& fix) {
 
 void FrameSaver::take(ImageView image, const Fix& fix) {
     if (image.width_px == 0 || !is_wanted(image, fix)) return;
-    GreyImage copy{{}, image.width_px, image.height_px};
-    for (int v = 0; v < image.height_px; ++v)
-        copy.pixels.insert(copy.pixels.end(), image.row(v), image.row(v) + image.width_px);
-    const std::vector<std::uint8_t> bytes = capture::encode(options_.format, copy);
+    const std::vector<std::uint8_t> bytes = capture::encode(options_.format, image);
     const auto path = [this] {
         return fs::path(options_.folder) /
                fmt::format("{}{:06}{}", kPrefix, next_number_, ending_of(options_.format));

@@ -57,7 +57,7 @@ void RobotOutput::take(const capture::Frame& frame, const Reading& reading) {
     if (!options_.has_images || frame.image.pixels.empty()) return;
     recording_->take_image({{ros::ros_time(stamp_ns), messenger_.frames().camera},
                             options_.image_format == capture::FrameFormat::jpeg ? "jpeg" : "png",
-                            capture::encode(options_.image_format, frame.image)},
+                            capture::encode(options_.image_format, frame.image.view())},
                            stamp_ns);
 }
 

@@ -1,28 +1,31 @@
-/// Converts between file contents and grey images. Only this file uses the decoding library.
+/// Converts between the contents of image files and grey images. The conversions and limits are
+/// those that image_file.hpp describes.
 #pragma once
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
+#include "capture/bytes.hpp"
 #include "capture/image_format.hpp"
 #include "dotpose/tools/grey_image.hpp"
 #include "dotpose/tools/image_file.hpp"
 
 namespace dotpose::capture {
 
-/// Decodes an image of any format but PNM, with the conversions and limits that image_file.hpp
-/// describes. `note` is set like that of `read_image`, without the name of the file. Throws Error
-/// that has only the reason; the caller adds the name of the file.
-GreyImage decode_image(ImageFormat format, std::span<const std::uint8_t> bytes, int max_pixels,
-                       std::string& note, int page = 1);
+/// Decodes an image. `note` is set like that of `read_image`, without the name of the file. Throws
+/// Error that has only the reason; the caller adds the name of the file.
+GreyImage decode_image(ImageFormat format, Bytes file, int max_pixels, std::string& note,
+                       int page = 1);
 
 /// Returns the resolution that the file states, without decoding the pixels. Throws Error that has
 /// only the reason.
-std::optional<Resolution> decode_resolution(ImageFormat format, std::span<const std::uint8_t> bytes,
-                                            int page = 1);
+std::optional<Resolution> decode_resolution(ImageFormat format, Bytes file, int page = 1);
+
+/// Returns the number of pages: TIFF may have several, all others have one. Throws Error that has
+/// only the reason.
+int pages_of(ImageFormat format, Bytes file);
 
 /// Formats in which frames are saved.
 enum class FrameFormat : std::uint8_t {
@@ -31,8 +34,7 @@ enum class FrameFormat : std::uint8_t {
     pgm,   ///< without loss and compression
 };
 
-/// Encode an image, which must not be empty. Throw Error if the encoder fails.
-std::vector<std::uint8_t> encode_png(const GreyImage& image);
-std::vector<std::uint8_t> encode(FrameFormat format, const GreyImage& image);
+/// Encodes an image, which must not be empty. Throws Error if the encoder fails.
+std::vector<std::uint8_t> encode(FrameFormat format, ImageView image);
 
 }  // namespace dotpose::capture

@@ -15,7 +15,6 @@
 #include "capture/image_codec.hpp"
 #include "capture/image_format.hpp"
 #include "capture/noted_image.hpp"
-#include "capture/pnm.hpp"
 
 namespace dotpose {
 namespace {
@@ -109,18 +108,9 @@ void write_file(const std::filesystem::path& path, const Bytes& bytes) {
     if (!written || !closed) throw Error(system_reason());
 }
 
-/// Returns the pixels without padding between rows.
-Bytes packed_pixels(ImageView image) {
-    if (image.pixels == nullptr || image.width_px <= 0 || image.height_px <= 0) {
+void require_pixels(ImageView image) {
+    if (image.pixels == nullptr || image.width_px <= 0 || image.height_px <= 0)
         throw Error("the image is empty");
-    }
-    Bytes pixels;
-    const auto width = static_cast<std::size_t>(image.width_px);
-    pixels.reserve(width * static_cast<std::size_t>(image.height_px));
-    for (int v = 0; v < image.height_px; ++v) {
-        pixels.insert(pixels.end(), image.row(v), image.row(v) + width);
-    }
-    return pixels;
 }
 
 /// Runs `action` and adds the name of the file to its errors, which have only the reason.
@@ -171,9 +161,7 @@ GreyImage capture::read_image(const std::filesystem::path& path, int max_pixels,
     GreyImage image = with_name("read", path, [&] {
         const Content content = read_file(path, max_pixels);
         require_page(content, page);
-        return content.format == ImageFormat::pnm
-                   ? decode_pnm(content.bytes, max_pixels)
-                   : decode_image(content.format, content.bytes, max_pixels, note, page);
+        return decode_image(content.format, content.bytes, max_pixels, note, page);
     });
     if (!note.empty()) note = path.string() + ": " + note;
     return image;
@@ -192,7 +180,6 @@ ImageOrigin read_origin(const std::filesystem::path& path, int page) {
     return with_name("read", path, [&]() -> ImageOrigin {
         const Content content = read_file(path, kMaxImagePixels);
         require_page(content, page);
-        if (content.format == ImageFormat::pnm) return {};
         const auto stated = capture::decode_resolution(content.format, content.bytes, page);
         if (capture::is_from_camera(content.format, content.bytes)) return {true, std::nullopt};
         return {false, stated && is_of_screen(*stated) ? std::nullopt : stated};
@@ -201,15 +188,15 @@ ImageOrigin read_origin(const std::filesystem::path& path, int page) {
 
 void write_pgm(const std::filesystem::path& path, ImageView image) {
     with_name("write", path, [&] {
-        const GreyImage packed{packed_pixels(image), image.width_px, image.height_px};
-        write_file(path, capture::encode_pgm(packed.view()));
+        require_pixels(image);
+        write_file(path, capture::encode(capture::FrameFormat::pgm, image));
     });
 }
 
 void write_png(const std::filesystem::path& path, ImageView image) {
     with_name("write", path, [&] {
-        const GreyImage packed{packed_pixels(image), image.width_px, image.height_px};
-        write_file(path, capture::encode_png(packed));
+        require_pixels(image);
+        write_file(path, capture::encode(capture::FrameFormat::png, image));
     });
 }
 

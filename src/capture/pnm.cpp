@@ -5,6 +5,7 @@
 #include <string>
 
 #include "capture/image_format.hpp"
+#include "capture/samples.hpp"
 #include "dotpose/files/error.hpp"
 #include "dotpose/tools/image_file.hpp"
 

@@ -1,7 +1,4 @@
 /// Reads PBM, PGM and PPM, text and binary (P1 to P6), as netpbm specifies them, and writes PGM.
-///
-/// The decoding library is not used for them, because it accepts damaged headers, for example with
-/// a negative width, and writes to standard error when a header has two comments.
 #pragma once
 
 #include <cstdint>

@@ -248,8 +248,8 @@ TEST_F(Watch, BelievesWeakFramesThatThePriorSupports) {
 // At 250 mm/s, where a frame with the time of its neighbour is 1 mm off.
 TEST_F(Watch, KeepsTimesWhateverTheContainer) {
     constexpr int kFirst = 200;
-    constexpr int kFrames = 60;
-    put_raw(kFrames, kFirst);
+    constexpr int kLength = 60;
+    put_raw(kLength, kFirst);
     const auto watch = [&](const std::string& name) {
         exit_code_ = run("watch " + name + " " + kTrack);
         const auto lines = parsed(output_);
@@ -261,8 +261,8 @@ TEST_F(Watch, KeepsTimesWhateverTheContainer) {
     // Frames of H.264 leave the decoder in another order than they enter it.
     encode("-c:v libx264 -crf 12", "ordered.mp4");
     encode("-c:v libx264 -crf 12", "ordered.avi");
-    EXPECT_EQ(watch("ordered.mp4"), std::size_t{kFrames});
-    EXPECT_EQ(watch("ordered.avi"), std::size_t{kFrames});
+    EXPECT_EQ(watch("ordered.mp4"), std::size_t{kLength});
+    EXPECT_EQ(watch("ordered.avi"), std::size_t{kLength});
     EXPECT_EQ(exit_code_, 0);
 
     encode("-c:v mjpeg -q:v 2", "whole.mp4");
@@ -274,8 +274,8 @@ TEST_F(Watch, KeepsTimesWhateverTheContainer) {
         std::fill_n(video.begin() + static_cast<std::ptrdiff_t>(video.size() / 2),
                     video.size() / 50, '\0');
         std::ofstream(directory_ / name, std::ios::binary) << video;
-        EXPECT_LT(watch(name), std::size_t{kFrames});
-        EXPECT_GT(parsed(output_).size(), std::size_t{kFrames} * 8 / 10) << name;
+        EXPECT_LT(watch(name), std::size_t{kLength});
+        EXPECT_GT(parsed(output_).size(), std::size_t{kLength} * 8 / 10) << name;
         EXPECT_GT(parsed(output_).back()["t_s"], 0.29) << name;
         // Matroska does not say how many frames there are; some may never have been recorded.
         const bool is_counted = name != "hole.mkv";

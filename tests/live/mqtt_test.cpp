@@ -48,7 +48,7 @@ TEST_F(Mqtt, BrokerThatIsStoppedInMidRun) {
     Broker broker(directory_);
     // A session that the broker keeps, so that nothing it accepts is lost, and the order is seen.
     const std::string reader =
-        fmt::format("mosquitto_sub -p {} -c -i reader -q 1 -t t ", broker.port());
+        fmt::format("mosquitto_sub -h 127.0.0.1 -p {} -c -i reader -q 1 -t t ", broker.port());
     shell(reader + "-E");
     MqttOptions mqtt = options(broker);
     mqtt.qos = 1;
@@ -103,8 +103,9 @@ TEST_F(Mqtt, WatchGoesOnWhileItsBrokerIsGoneForTenSeconds) {
     constexpr int kBack = 600;
     std::atomic<int> taken = 0;
     Broker broker(directory_);
-    const std::string reader = fmt::format("mosquitto_sub -p {} -c -i reader -q 1 -t '{}' ",
-                                           broker.port(), "uagv/v2/dotpose/anna/visualization");
+    const std::string reader =
+        fmt::format("mosquitto_sub -h 127.0.0.1 -p {} -c -i reader -q 1 -t '{}' ", broker.port(),
+                    "uagv/v2/dotpose/anna/visualization");
     shell(reader + "-E");
     shell("mkfifo frames");
     std::thread camera([&] {

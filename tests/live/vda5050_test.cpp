@@ -77,8 +77,8 @@ class Vda5050 : public Mqtt {
 TEST_F(Vda5050, MessagesAreValid) {
     const Broker broker(directory_);
     // A session that the broker keeps.
-    const std::string reader =
-        fmt::format("mosquitto_sub -p {} -c -i reader -q 1 -v -t 'uagv/v2/#' ", broker.port());
+    const std::string reader = fmt::format(
+        "mosquitto_sub -h 127.0.0.1 -p {} -c -i reader -q 1 -v -t 'uagv/v2/#' ", broker.port());
     shell(reader + "-E");
     watch(broker);
     int poses = 0;
@@ -107,8 +107,8 @@ TEST_F(Vda5050, MessagesAreValid) {
 TEST_F(Vda5050, ASubscriberThatComesLateLearnsThatTheRobotHasLeft) {
     const Broker broker(directory_);
     watch(broker);
-    const json message = json::parse(
-        shell(fmt::format("mosquitto_sub -p {} -t 'uagv/v2/#' -C 1 -W 5", broker.port())));
+    const json message = json::parse(shell(
+        fmt::format("mosquitto_sub -h 127.0.0.1 -p {} -t 'uagv/v2/#' -C 1 -W 5", broker.port())));
     EXPECT_EQ(message["connectionState"], "OFFLINE");
     EXPECT_EQ(message["headerId"], 2);  // after the last will and ONLINE
 }

@@ -42,13 +42,11 @@ struct ImageTooLarge : Error {
     int height_px;
 };
 
-/// Reads one image. Reading needs 9 bytes of memory per pixel, besides the file, of which no more
-/// is read than an image of `max_pixels` takes.
-/// `page` is the number of a page of a TIFF file, from 1.
-/// Throws Error, naming the file and the reason: no such page, no such file, a directory, no
-/// permission, empty, no known image format, cut short, damaged, too large, not enough memory.
-/// Throws ImageTooLarge for more than `max_pixels`, at most kMaxImagePixels. Thread-safe. The first
-/// call sets up the decoding library, which takes some milliseconds.
+/// Reads one image. Reading needs up to 15 bytes of memory per pixel, besides the file, of which no
+/// more is read than an image of `max_pixels` takes. `page` is the number of a page of a TIFF file,
+/// from 1. Throws Error, naming the file and the reason: no such page, no such file, a directory,
+/// no permission, empty, no known image format, cut short, damaged, too large, not enough memory.
+/// Throws ImageTooLarge for more than `max_pixels`, at most kMaxImagePixels. Thread-safe.
 GreyImage read_image(const std::filesystem::path& path, int max_pixels = kDefaultImagePixels,
                      int page = 1);
 

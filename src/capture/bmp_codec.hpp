@@ -1,0 +1,17 @@
+/// Reads BMP: the headers of Windows 3 to 5 and of OS/2, palettes of 1, 4 and 8 bits, 16, 24 and 32
+/// bits, not compressed. The layout is that of Microsoft's documentation of BITMAPV5HEADER.
+#pragma once
+
+#include <optional>
+
+#include "capture/bytes.hpp"
+#include "dotpose/tools/grey_image.hpp"
+#include "dotpose/tools/image_file.hpp"
+
+namespace dotpose::capture {
+
+/// Throw Error that has only the reason.
+GreyImage decode_bmp(Bytes file, int max_pixels);
+std::optional<Resolution> bmp_resolution(Bytes file);
+
+}  // namespace dotpose::capture

@@ -1,0 +1,22 @@
+/// Reads and writes JPEG by libjpeg.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "capture/bytes.hpp"
+#include "dotpose/tools/grey_image.hpp"
+#include "dotpose/tools/image_file.hpp"
+
+namespace dotpose::capture {
+
+/// Throw Error that has only the reason. `note` is set for a file that lacks its end marker only.
+GreyImage decode_jpeg(Bytes file, int max_pixels, std::string& note);
+std::optional<Resolution> jpeg_resolution(Bytes file);
+
+/// Encodes an image, which must not be empty, in grey with a quality of 95.
+std::vector<std::uint8_t> encode_jpeg(ImageView image);
+
+}  // namespace dotpose::capture

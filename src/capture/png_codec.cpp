@@ -1,0 +1,183 @@
+#include "capture/png_codec.hpp"
+
+#include <bit>
+#include <csetjmp>
+#include <cstddef>
+#include <cstring>
+#include <limits>
+#include <new>
+#include <string>
+
+#include <png.h>
+
+#include "capture/image_format.hpp"
+#include "capture/samples.hpp"
+
+namespace dotpose::capture {
+namespace {
+
+// Frames with noise hardly get smaller by more.
+constexpr int kCompressionLevel = 3;
+
+/// Reads a PNG file. libpng leaves its functions by longjmp on an error, so only `guarded` calls
+/// them, with no object in its scope that has a destructor.
+class PngReader {
+  public:
+    explicit PngReader(Bytes file)
+        : rest_(file),
+          png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, this, on_error, on_warning)),
+          info_(png_ != nullptr ? png_create_info_struct(png_) : nullptr) {}
+    ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
+    PngReader(const PngReader&) = delete;
+    PngReader& operator=(const PngReader&) = delete;
+
+    void read_header() {
+        if (info_ == nullptr) throw std::bad_alloc();
+        png_set_read_fn(png_, this, on_read);
+        guarded([&] {
+            // Beyond libpng's own limits, so that the size is known and named.
+            png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+            png_read_info(png_, info_);
+        });
+    }
+
+    std::optional<Resolution> resolution() const {
+        constexpr double kMetresPerInch = 0.0254;
+        png_uint_32 x_per_metre = 0;
+        png_uint_32 y_per_metre = 0;
+        int unit = PNG_RESOLUTION_UNKNOWN;
+        png_get_pHYs(png_, info_, &x_per_metre, &y_per_metre, &unit);
+        if (unit != PNG_RESOLUTION_METER || x_per_metre == 0 || y_per_metre == 0)
+            return std::nullopt;
+        return Resolution{x_per_metre * kMetresPerInch, y_per_metre * kMetresPerInch};
+    }
+
+    GreyImage read_pixels(int max_pixels) {
+        const png_uint_32 width = png_get_image_width(png_, info_);
+        const png_uint_32 height = png_get_image_height(png_, info_);
+        require_size(width, height, max_pixels);
+        guarded([&] {
+            png_set_expand(png_);  // palettes, levels of less than 8 bits, a transparent colour
+            if (std::endian::native == std::endian::little) png_set_swap(png_);
+            png_set_interlace_handling(png_);
+            png_read_update_info(png_, info_);
+        });
+        return png_get_bit_depth(png_, info_) == 16 ? read_samples<std::uint16_t>()
+                                                    : read_samples<std::uint8_t>();
+    }
+
+  private:
+    template <typename Sample>
+    GreyImage read_samples() {
+        Samples<Sample> samples;
+        samples.width_px = static_cast<int>(png_get_image_width(png_, info_));
+        samples.height_px = static_cast<int>(png_get_image_height(png_, info_));
+        samples.channels = png_get_channels(png_, info_);
+        const std::size_t row_bytes = png_get_rowbytes(png_, info_);
+        const auto height = static_cast<std::size_t>(samples.height_px);
+        samples.values.resize(row_bytes / sizeof(Sample) * height);
+        std::vector<png_bytep> rows(height);
+        for (std::size_t v = 0; v < height; ++v)
+            rows[v] = reinterpret_cast<png_bytep>(samples.values.data()) + v * row_bytes;
+        guarded([&] {
+            png_read_image(png_, rows.data());
+            png_read_end(png_, nullptr);
+        });
+        return to_grey(std::move(samples));
+    }
+
+    template <typename Calls>
+    void guarded(const Calls& calls) {
+        if (setjmp(png_jmpbuf(png_)) != 0) {
+            throw Error(is_short_
+                            ? "the PNG image is cut short"
+                            : "the PNG image is damaged or of an unknown kind (" + message_ + ")");
+        }
+        calls();
+    }
+
+    static void on_error(png_structp png, png_const_charp message) {
+        static_cast<PngReader*>(png_get_error_ptr(png))->message_ = message;
+        png_longjmp(png, 1);
+    }
+    static void on_warning(png_structp, png_const_charp) {}
+    static void on_read(png_structp png, png_bytep to, png_size_t size_bytes) {
+        auto& reader = *static_cast<PngReader*>(png_get_io_ptr(png));
+        if (size_bytes > reader.rest_.size()) {
+            reader.is_short_ = true;
+            png_error(png, "end of file");
+        }
+        std::memcpy(to, reader.rest_.data(), size_bytes);
+        reader.rest_ = reader.rest_.subspan(size_bytes);
+    }
+
+    Bytes rest_;
+    bool is_short_ = false;
+    std::string message_;
+    png_structp png_;
+    png_infop info_;
+};
+
+/// Writes a PNG file, with the same care.
+class PngWriter {
+  public:
+    PngWriter()
+        : png_(png_create_write_struct(PNG_LIBPNG_VER_STRING, this, on_error, on_warning)),
+          info_(png_ != nullptr ? png_create_info_struct(png_) : nullptr) {}
+    ~PngWriter() { png_destroy_write_struct(&png_, &info_); }
+    PngWriter(const PngWriter&) = delete;
+    PngWriter& operator=(const PngWriter&) = delete;
+
+    std::vector<std::uint8_t> write(ImageView image) {
+        if (info_ == nullptr) throw std::bad_alloc();
+        png_set_write_fn(png_, this, on_write, on_flush);
+        if (setjmp(png_jmpbuf(png_)) != 0) throw Error("the PNG encoder failed: " + message_);
+        png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+        png_set_IHDR(png_, info_, static_cast<png_uint_32>(image.width_px),
+                     static_cast<png_uint_32>(image.height_px), 8, PNG_COLOR_TYPE_GRAY,
+                     PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+        png_set_compression_level(png_, kCompressionLevel);
+        png_write_info(png_, info_);
+        for (int v = 0; v < image.height_px; ++v)
+            png_write_row(png_, image.row(v));
+        png_write_end(png_, info_);
+        return std::move(bytes_);
+    }
+
+  private:
+    static void on_error(png_structp png, png_const_charp message) {
+        static_cast<PngWriter*>(png_get_error_ptr(png))->message_ = message;
+        png_longjmp(png, 1);
+    }
+    static void on_warning(png_structp, png_const_charp) {}
+    static void on_write(png_structp png, png_bytep data, png_size_t size_bytes) {
+        auto& bytes = static_cast<PngWriter*>(png_get_io_ptr(png))->bytes_;
+        bytes.insert(bytes.end(), data, data + size_bytes);
+    }
+    static void on_flush(png_structp) {}
+
+    std::vector<std::uint8_t> bytes_;
+    std::string message_;
+    png_structp png_;
+    png_infop info_;
+};
+
+}  // namespace
+
+GreyImage decode_png(Bytes file, int max_pixels) {
+    PngReader png(file);
+    png.read_header();
+    return png.read_pixels(max_pixels);
+}
+
+std::optional<Resolution> png_resolution(Bytes file) {
+    PngReader png(file);
+    png.read_header();
+    return png.resolution();
+}
+
+std::vector<std::uint8_t> encode_png(ImageView image) {
+    return PngWriter().write(image);
+}
+
+}  // namespace dotpose::capture

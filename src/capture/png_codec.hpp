@@ -1,0 +1,21 @@
+/// Reads and writes PNG by libpng.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "capture/bytes.hpp"
+#include "dotpose/tools/grey_image.hpp"
+#include "dotpose/tools/image_file.hpp"
+
+namespace dotpose::capture {
+
+/// Throw Error that has only the reason.
+GreyImage decode_png(Bytes file, int max_pixels);
+std::optional<Resolution> png_resolution(Bytes file);
+
+/// Encodes an image, which must not be empty, in 8-bit grey. Equal images give equal bytes.
+std::vector<std::uint8_t> encode_png(ImageView image);
+
+}  // namespace dotpose::capture

@@ -1,0 +1,260 @@
+// Kinds of image files that are rarer than those of image_file_test.cpp.
+#include <algorithm>
+#include <cstdio>  // jpeglib.h needs it before
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <jpeglib.h>
+#include <tiffio.h>
+
+#include "../../temporary_directory.hpp"
+#include "capture/image_codec.hpp"
+#include "encoders.hpp"
+
+namespace dotpose::test {
+namespace {
+
+using capture::ImageFormat;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+Bytes pixels_of(ImageFormat format, const Bytes& file) {
+    std::string note;
+    return capture::decode_image(format, file, kDefaultImagePixels, note).pixels;
+}
+
+std::string error_of(ImageFormat format, const Bytes& file) {
+    try {
+        pixels_of(format, file);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+/// A BMP of 2 x 1 px whose header has 124 bytes, the masks of four channels among them.
+Bytes bmp_with_masks(std::uint64_t bits, std::uint64_t compression,
+                     std::initializer_list<std::uint64_t> masks,
+                     std::initializer_list<std::uint64_t> pixels, std::int32_t height = 1) {
+    Writer bmp(false);
+    bmp.text("BM").integers(4, {0, 0, 14 + 124, 124, 2, static_cast<std::uint32_t>(height)});
+    bmp.integers(2, {1, bits}).integers(4, {compression, 0, 11811, 11811, 0, 0});
+    bmp.integers(4, masks).bytes(Bytes(124 - 40 - 16, 0));
+    return bmp.integers(static_cast<int>(bits / 8), pixels).data;
+}
+
+TEST(BmpKinds, HaveFieldsOfBits) {
+    // As GIMP and ImageMagick write pictures with opacity: red, and black of which half shows.
+    EXPECT_THAT(
+        pixels_of(ImageFormat::bmp, bmp_with_masks(32, 3, {0xFF0000, 0xFF00, 0xFF, 0xFF000000},
+                                                   {0xFFFF0000, 0x80000000})),
+        ElementsAre(76, 127));
+    // Five, six and five bits: white, and green alone.
+    EXPECT_THAT(pixels_of(ImageFormat::bmp,
+                          bmp_with_masks(16, 3, {0xF800, 0x07E0, 0x001F, 0}, {0xFFFF, 0x07E0})),
+                ElementsAre(255, 150));
+    // Without fields the fourth byte has no meaning.
+    EXPECT_THAT(
+        pixels_of(ImageFormat::bmp, bmp_with_masks(32, 0, {0, 0, 0, 0}, {0x00FFFFFF, 0x000000FF})),
+        ElementsAre(255, 29));
+}
+
+TEST(BmpKinds, StartAtTheTopWhenTheHeightIsNegative) {
+    const Bytes file = bmp_with_masks(32, 0, {0, 0, 0, 0}, {0, 0x010101, 0x020202, 0x030303}, -2);
+    EXPECT_THAT(pixels_of(ImageFormat::bmp, file), ElementsAre(0, 1, 2, 3));
+}
+
+TEST(BmpKinds, HaveFewBitsAndTheHeaderOfOs2) {
+    // 3 x 1 px, two colours of three bytes each: blue, and white.
+    const Bytes file = Writer(false)
+                           .text("BM")
+                           .integers(4, {0, 0, 14 + 12 + 6, 12})
+                           .integers(2, {3, 1, 1, 1})
+                           .integers(1, {255, 0, 0, 255, 255, 255})
+                           .integers(1, {0xA0, 0, 0, 0})
+                           .data;
+    EXPECT_THAT(pixels_of(ImageFormat::bmp, file), ElementsAre(255, 29, 255));
+}
+
+TEST(BmpKinds, SayWhatIsNotRead) {
+    EXPECT_THAT(error_of(ImageFormat::bmp, bmp_with_masks(8, 1, {0, 0, 0, 0}, {0, 0, 0, 0})),
+                HasSubstr("compressed pixels are not read"));
+    EXPECT_THAT(error_of(ImageFormat::bmp, bmp_with_masks(24, 0, {0, 0, 0, 0}, {0})),
+                HasSubstr("cut short"));
+}
+
+TEST(BmpKinds, StateTheirResolution) {
+    const auto resolution =
+        capture::decode_resolution(ImageFormat::bmp, bmp_with_masks(32, 0, {0, 0, 0, 0}, {0, 0}));
+    ASSERT_TRUE(resolution);
+    EXPECT_NEAR(resolution->x_dpi, 300, 0.01);
+}
+
+/// Writes a TIFF of 48 x 20 px whose levels grow by `step` from pixel to pixel.
+class TiffKinds : public testing::Test {
+  protected:
+    static constexpr std::uint32_t kWidth = 48;
+    static constexpr std::uint32_t kHeight = 20;
+
+    template <typename SetTags>
+    Bytes file_of(const SetTags& set_tags, const std::vector<std::uint16_t>& levels) const {
+        const std::string path = folder_.path() / "image.tif";
+        TIFF* tiff = TIFFOpen(path.c_str(), "w");
+        TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, kWidth);
+        TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, kHeight);
+        TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 16);
+        TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
+        TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
+        set_tags(tiff);
+        if (TIFFIsTiled(tiff) != 0) {
+            write_tiles(tiff, levels);
+        } else {
+            const std::size_t per_row = levels.size() / kHeight;
+            for (std::uint32_t v = 0; v < kHeight; ++v) {
+                std::vector<std::uint16_t> row(levels.begin() + v * per_row,
+                                               levels.begin() + (v + 1) * per_row);
+                EXPECT_EQ(TIFFWriteScanline(tiff, row.data(), v, 0), 1);
+            }
+        }
+        TIFFClose(tiff);
+        std::ifstream file(path, std::ios::binary);
+        return {std::istreambuf_iterator<char>(file), {}};
+    }
+
+    static void write_tiles(TIFF* tiff, const std::vector<std::uint16_t>& levels) {
+        constexpr std::uint32_t kTile = 32;
+        for (std::uint32_t v = 0; v < kHeight; v += kTile) {
+            for (std::uint32_t u = 0; u < kWidth; u += kTile) {
+                std::vector<std::uint16_t> tile(kTile * kTile, 0);
+                for (std::uint32_t i = 0; i < kTile * kTile; ++i) {
+                    const std::uint32_t row = v + i / kTile;
+                    const std::uint32_t column = u + i % kTile;
+                    if (row < kHeight && column < kWidth) tile[i] = levels[row * kWidth + column];
+                }
+                EXPECT_GE(TIFFWriteTile(tiff, tile.data(), u, v, 0, 0), 0);
+            }
+        }
+    }
+
+    TemporaryDirectory folder_;
+};
+
+TEST_F(TiffKinds, HaveTilesAndStripsOf16BitsAndCompression) {
+    std::vector<std::uint16_t> levels(kWidth * kHeight);
+    std::iota(levels.begin(), levels.end(), std::uint16_t{64});  // below 1024: of 10 bits
+    Bytes expected;
+    for (const std::uint16_t level : levels)
+        expected.push_back(static_cast<std::uint8_t>((level * 255 + 511) / 1023));
+    const auto tiles = [](TIFF* tiff) {
+        TIFFSetField(tiff, TIFFTAG_TILEWIDTH, 32);
+        TIFFSetField(tiff, TIFFTAG_TILELENGTH, 32);
+    };
+    const auto strips = [](TIFF* tiff) {
+        TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, 7);
+        TIFFSetField(tiff, TIFFTAG_COMPRESSION, COMPRESSION_LZW);
+        TIFFSetField(tiff, TIFFTAG_ORIENTATION, ORIENTATION_BOTRIGHT);  // is not followed
+    };
+    for (const Bytes& file : {file_of(tiles, levels), file_of(strips, levels)}) {
+        const Bytes pixels = pixels_of(ImageFormat::tiff, file);
+        ASSERT_EQ(pixels.size(), expected.size());
+        for (std::size_t i = 0; i < pixels.size(); ++i)
+            ASSERT_NEAR(pixels[i], expected[i], 1) << i;
+        Bytes cut = file;
+        cut.resize(file.size() / 2);
+        EXPECT_NE(error_of(ImageFormat::tiff, cut), "");
+    }
+}
+
+TEST_F(TiffKinds, HaveColoursThatAreMultipliedByTheirOpacity) {
+    std::vector<std::uint16_t> levels;
+    for (std::uint32_t i = 0; i < kWidth * kHeight; ++i) {
+        levels.push_back(13107);  // a fifth of white, in a pixel that is two fifths opaque
+        levels.push_back(26214);
+    }
+    const auto opacity = [](TIFF* tiff) {
+        const std::uint16_t kind = EXTRASAMPLE_ASSOCALPHA;
+        TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 2);
+        TIFFSetField(tiff, TIFFTAG_EXTRASAMPLES, 1, &kind);
+    };
+    const Bytes pixels = pixels_of(ImageFormat::tiff, file_of(opacity, levels));
+    EXPECT_THAT(pixels, testing::Each(204));  // a fifth, and three fifths of white paper
+}
+
+TEST_F(TiffKinds, HaveFewBits) {
+    // Rows of bits, 1 is black in fax.
+    const std::vector<std::uint16_t> bits(kHeight * kWidth / 16, 0xFF00);
+    const auto fax = [](TIFF* tiff) {
+        TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 1);
+        TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISWHITE);
+        TIFFSetField(tiff, TIFFTAG_COMPRESSION, COMPRESSION_CCITTFAX4);
+    };
+    const Bytes pixels = pixels_of(ImageFormat::tiff, file_of(fax, bits));
+    ASSERT_EQ(pixels.size(), kWidth * kHeight);
+    EXPECT_EQ(pixels[0], 255);
+    EXPECT_EQ(pixels[8], 0);
+}
+
+/// A progressive JPEG of 64 x 64 px whose levels differ.
+Bytes progressive_jpeg() {
+    jpeg_compress_struct jpeg{};
+    jpeg_error_mgr errors{};
+    jpeg.err = jpeg_std_error(&errors);
+    jpeg_create_compress(&jpeg);
+    unsigned char* bytes = nullptr;
+    unsigned long count = 0;
+    jpeg_mem_dest(&jpeg, &bytes, &count);
+    jpeg.image_width = jpeg.image_height = 64;
+    jpeg.input_components = 1;
+    jpeg.in_color_space = JCS_GRAYSCALE;
+    jpeg_set_defaults(&jpeg);
+    jpeg_simple_progression(&jpeg);
+    jpeg_start_compress(&jpeg, TRUE);
+    for (int v = 0; v < 64; ++v) {
+        std::vector<JSAMPLE> row(64);
+        for (std::size_t u = 0; u < row.size(); ++u)
+            row[u] = static_cast<JSAMPLE>(v * 3 + static_cast<int>(u * u % 61));
+        JSAMPROW pointer = row.data();
+        jpeg_write_scanlines(&jpeg, &pointer, 1);
+    }
+    jpeg_finish_compress(&jpeg);
+    const Bytes file(bytes, bytes + count);
+    jpeg_destroy_compress(&jpeg);
+    std::free(bytes);
+    return file;
+}
+
+TEST(JpegKinds, AreProgressive) {
+    const Bytes file = progressive_jpeg();
+    EXPECT_EQ(pixels_of(ImageFormat::jpeg, file).size(), 64U * 64U);
+}
+
+// Scans that refine the pixels may be missing without a trace.
+TEST(JpegKinds, AreRefusedWhereAScanIsMissing) {
+    const Bytes file = progressive_jpeg();
+    int refused = 0;
+    for (std::size_t size = file.size() / 4; size < file.size(); ++size) {
+        const Bytes cut(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(size));
+        refused += error_of(ImageFormat::jpeg, cut).find("cut short") != std::string::npos ? 1 : 0;
+    }
+    EXPECT_EQ(refused, static_cast<int>(file.size() - file.size() / 4));
+}
+
+// A file of some kilobytes with thousands of scans would occupy the decoder for hours.
+TEST(JpegKinds, AreRefusedWithTooManyScans) {
+    Bytes file = progressive_jpeg();
+    const Bytes marker{0xFF, 0xDA};
+    const auto last = std::find_end(file.begin(), file.end(), marker.begin(), marker.end());
+    const Bytes scan(last, file.end() - 2);
+    for (int i = 0; i < 200; ++i)
+        file.insert(file.end() - 2, scan.begin(), scan.end());
+    EXPECT_THAT(error_of(ImageFormat::jpeg, file), HasSubstr("too many scans"));
+}
+
+}  // namespace
+}  // namespace dotpose::test
