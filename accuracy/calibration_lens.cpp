@@ -11,7 +11,7 @@
 #include "calibration_bound.hpp"
 #include "calibration_measures.hpp"
 #include "calibration_tally.hpp"
-#include "dotpose/tools/heap_locator.hpp"
+#include "dotpose/locate.hpp"
 #include "dotpose/tools/mounted_pose.hpp"
 #include "dotpose/tools/outcome.hpp"
 
@@ -174,7 +174,7 @@ void judge_parameters(const Series& series, const LensCalibration& found,
 
 void judge_residual(const LensCalibration& found, const std::vector<Shot>& shots,
                     const std::vector<TrueDot>& dots, Tally& tally) {
-    HeapLocator locator;
+    Locator locator;
     // In the unit of the calibration: px at the middle of each frame.
     std::vector<double> mm_per_px(shots.size(), NAN);
     for (std::size_t i = 0; i < shots.size(); ++i) {
@@ -197,8 +197,8 @@ void judge_residual(const LensCalibration& found, const std::vector<Shot>& shots
 
 /// Locates more frames with the calibrated camera, and frames of a lens without distortion.
 void judge_positions(const Series& series, const Camera& camera, Tally& tally) {
-    HeapLocator locator;
-    HeapLocator undistorted;
+    Locator locator;
+    Locator undistorted;
     for (int i = kFrames; i < 2 * kFrames; ++i) {
         Shot shot = series.shot(i);
         const Truth truth = truth_of(shot);

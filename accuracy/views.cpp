@@ -25,7 +25,7 @@
 #include "counting.hpp"
 #include "dotpose/files/error.hpp"
 #include "dotpose/files/profile_names.hpp"
-#include "dotpose/tools/heap_locator.hpp"
+#include "dotpose/locate.hpp"
 #include "dotpose/tools/image_file.hpp"
 #include "dotpose/tools/outcome.hpp"
 #include "dotpose/tools/random.hpp"
@@ -206,9 +206,9 @@ class Reader {
     }
 
     const Profile profile_;
-    HeapLocator given_;
-    HeapLocator any_;
-    HeapLocator stream_;
+    Locator given_;
+    Locator any_;
+    Locator stream_;
     CodeEvidence evidence_;
 };
 

@@ -12,8 +12,8 @@
 
 #include <fmt/core.h>
 
+#include <dotpose/locate.hpp>
 #include <dotpose/tools/draw.hpp>
-#include <dotpose/tools/heap_locator.hpp>
 #include <dotpose/tools/print.hpp>
 #include <dotpose/tools/simulate.hpp>
 
@@ -167,7 +167,7 @@ bool run(const fs::path& folder) {
     fs::create_directories(folder);
     Options options;
     options.show_stages = true;
-    HeapLocator locator(options);
+    Locator locator(options);
     const Sheet sheet = print_sheet(folder);
     const Drive drive = drive_over(sheet, folder, locator);
     const fs::path picture = folder / "path.svg";

@@ -5,14 +5,14 @@
 #include <cstdlib>
 #include <exception>
 
-#include <dotpose/tools/heap_locator.hpp>
+#include <dotpose/locate.hpp>
 #include <dotpose/tools/image_file.hpp>
 #include <dotpose/track.hpp>
 
 int main(int argc, char** argv) try {
     using namespace dotpose;
     if (argc < 3) return 2;
-    HeapLocator locator;
+    Locator locator;
     Tracker tracker;
     Fix seen;  // The newest fix and the sighting that the tracker got from it.
     Sighting sighting;

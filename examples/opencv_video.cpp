@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
-#include <dotpose/tools/heap_locator.hpp>
+#include <dotpose/locate.hpp>
 
 namespace {
 
@@ -27,7 +27,7 @@ int main(int argc, char** argv) try {
         std::fprintf(stderr, "cannot open %s\n", argv[1]);
         return 1;
     }
-    dotpose::HeapLocator locator;
+    dotpose::Locator locator;
     cv::Mat frame;
     cv::Mat grey;
     while (capture.read(frame)) {

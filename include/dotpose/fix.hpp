@@ -73,6 +73,9 @@ struct Fix {
     /// Whether the covariance is known; a DeviceLocator gives neither covariance nor residual.
     bool has_covariance() const { return covariance[0][0] > 0; }
 
+    /// Whether there is a pose.
+    explicit operator bool() const { return status == Status::ok; }
+
     // Double precision is used only in these functions, which are not part of the core's object
     // code.
     double x_grid() const { return cell.x + fraction_x_q16 / 65536.0; }

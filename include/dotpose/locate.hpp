@@ -1,4 +1,7 @@
-/// dotpose in one object: `Locator locator(memory, options); Fix fix = locator.locate(image);`
+/// dotpose in one object:
+///
+///     dotpose::Locator locator;
+///     if (const dotpose::Fix fix = locator.locate(image)) use(fix.x_mm(), fix.y_mm());
 ///
 /// An image can also be pushed row by row, as a camera delivers it, without a frame buffer:
 /// `begin`, then `push_row` for every row from the top, then `finish`.
@@ -7,9 +10,9 @@
 ///
 ///     for (std::uint8_t& grey : pixels) grey = 255 - grey;
 ///
-/// Memory: the caller gives one for each Locator (LargeMemory is 1.7 MB: make it static or let a
-/// HeapLocator of the tools own it). Nothing is allocated, printed or thrown; there are no globals.
-/// Different locators may work at the same time.
+/// Memory: a Locator allocates its own once, when it is made, or uses what the caller gives it. For
+/// a frame nothing is allocated, printed or thrown; there are no globals. Different locators may
+/// work at the same time.
 #pragma once
 
 #include "dotpose/code_evidence.hpp"
@@ -77,8 +80,10 @@ class RowLocator {
 /// Finds where the pattern is seen in an image.
 class Locator : public RowLocator {
   public:
-    /// The memory must outlive the locator, and no other locator may use it meanwhile. Options
-    /// outside of their ranges give every frame the status bad_argument.
+    /// Owns a LargeMemory on the heap. Options outside of their ranges give every frame the status
+    /// bad_argument.
+    explicit Locator(const Options& options = {}) : Locator(new LargeMemory, options) {}
+    /// The memory must outlive the locator, and no other locator may use it meanwhile.
     explicit Locator(SmallMemory& memory, const Options& options = {});
     explicit Locator(LargeMemory& memory, const Options& options = {});
 
@@ -110,9 +115,16 @@ class Locator : public RowLocator {
     /// set. Without a frame that was begun: bad_argument.
     Fix finish();
 
+    ~Locator() { delete owned_; }
+
   private:
+    explicit Locator(LargeMemory* owned, const Options& options) : Locator(*owned, options) {
+        owned_ = owned;
+    }
     CodeReading shown(CodeReading reading);
     using RowLocator::shown;
+
+    LargeMemory* owned_ = nullptr;
 };
 
 /// A locator for microcontrollers, for a camera that looks straight at the paper: integers only, in

@@ -7,7 +7,7 @@
 #include "dotpose/code_evidence.hpp"
 #include "dotpose/files/camera.hpp"
 #include "dotpose/image.hpp"
-#include "dotpose/tools/heap_locator.hpp"
+#include "dotpose/locate.hpp"
 
 namespace dotpose::calibrate {
 
@@ -58,7 +58,7 @@ class FrameReader {
     CodeReader reader_;
     Lens lens_;
     bool is_known_ = false;
-    HeapLocator locator_;
+    Locator locator_;
 };
 
 }  // namespace dotpose::calibrate

@@ -11,8 +11,8 @@
 #include "calibrate/least_squares.hpp"
 #include "calibrate/sheet_spacing.hpp"
 #include "dotpose/code_evidence.hpp"
+#include "dotpose/locate.hpp"
 #include "dotpose/tools/calibrate.hpp"
-#include "dotpose/tools/heap_locator.hpp"
 #include "dotpose/tools/mounted_pose.hpp"
 
 namespace dotpose {
@@ -86,7 +86,7 @@ void require_spacing(const std::vector<double>& measured_mm, double spacing_mm) 
 Stations locate_stations(int frames, const FrameAt& frame_at, const std::optional<Camera>& camera,
                          const CalibrateOptions& options) {
     Stations result;
-    HeapLocator locator;
+    Locator locator;
     CodeReader reader(given_code(options));
     std::vector<Fix> fixes;
     std::vector<Place> places;

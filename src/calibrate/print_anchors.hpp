@@ -8,7 +8,7 @@
 #include "calibrate/print_map.hpp"
 #include "dotpose/code_evidence.hpp"
 #include "dotpose/image.hpp"
-#include "dotpose/tools/heap_locator.hpp"
+#include "dotpose/locate.hpp"
 
 namespace dotpose::calibrate {
 
@@ -47,7 +47,7 @@ class CropLocator {
     ImageView scan_;
     CodeReader reader_;
     int zoom_ = 1;
-    HeapLocator locator_;
+    Locator locator_;
     std::vector<std::uint8_t> magnified_;
 };
 

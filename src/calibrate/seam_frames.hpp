@@ -8,8 +8,8 @@
 #include <Eigen/Core>
 
 #include "calibrate/located_frame.hpp"
+#include "dotpose/locate.hpp"
 #include "dotpose/tools/calibrate.hpp"
-#include "dotpose/tools/heap_locator.hpp"
 
 namespace dotpose::calibrate {
 
@@ -63,7 +63,7 @@ class SeamLocator {
     const std::vector<SheetEntry>& sheets_;
     std::optional<Camera> camera_;
     std::vector<Profile> profiles_;
-    HeapLocator locator_;
+    Locator locator_;
 };
 
 }  // namespace dotpose::calibrate

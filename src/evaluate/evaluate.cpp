@@ -8,8 +8,8 @@
 #include <thread>
 
 #include "dotpose/code_evidence.hpp"
+#include "dotpose/locate.hpp"
 #include "dotpose/tools/frame_file.hpp"
-#include "dotpose/tools/heap_locator.hpp"
 
 namespace dotpose {
 namespace {
@@ -23,7 +23,7 @@ class Crew {
         : run_(run), outcomes_(outcomes), errors_(static_cast<std::size_t>(run.frames)) {}
 
     void work(bool reports) {
-        HeapLocator locator;
+        Locator locator;
         for (int index = next_++; index < run_.frames && !stopped_; index = next_++) {
             try {
                 locate_frame(index, locator);

@@ -19,8 +19,8 @@
 #include "dotpose/code_evidence.hpp"
 #include "dotpose/files/camera.hpp"
 #include "dotpose/files/sheet_place.hpp"
+#include "dotpose/locate.hpp"
 #include "dotpose/tools/grey_image.hpp"
-#include "dotpose/tools/heap_locator.hpp"
 #include "dotpose/track.hpp"
 
 #pragma GCC visibility push(default)
@@ -140,7 +140,7 @@ class Follower {
     ImageView image_;
     GreyImage flipped_;
     GreyImage reduced_;
-    HeapLocator locator_;
+    Locator locator_;
     Tracker tracker_;
     std::optional<Seen> seen_;  ///< none if it is too long ago to predict from
 };

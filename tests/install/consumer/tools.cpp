@@ -2,9 +2,9 @@
 #include <filesystem>
 
 #include <dotpose/files/camera_file.hpp>
+#include <dotpose/locate.hpp>
 #include <dotpose/tools/calibrate.hpp>
 #include <dotpose/tools/draw.hpp>
-#include <dotpose/tools/heap_locator.hpp>
 #include <dotpose/tools/image_file.hpp>
 #include <dotpose/tools/overlay.hpp>
 #include <dotpose/tools/print.hpp>
@@ -30,7 +30,7 @@ bool locate_simulated(const std::filesystem::path& folder) {
     const Shot shot = draw_shot(Setup{}, 0);
     write_png(folder / "frame.png", render(shot).view());
     const GreyImage image = read_image(folder / "frame.png");
-    HeapLocator locator;
+    Locator locator;
     const Fix fix = locator.locate(image.view());
     draw_frame(folder / "drawn.png", image.view(), locator.trace());
     std::printf("%s: %s\n", name(fix.status), message(fix.status));

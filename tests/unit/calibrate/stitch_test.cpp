@@ -10,9 +10,9 @@
 #include "../../temporary_directory.hpp"
 #include "../../xml_check.hpp"
 #include "dotpose/files/sheet_place.hpp"
+#include "dotpose/locate.hpp"
 #include "dotpose/tools/calibrate.hpp"
 #include "dotpose/tools/draw.hpp"
-#include "dotpose/tools/heap_locator.hpp"
 #include "dotpose/tools/mounted_pose.hpp"
 #include "frames.hpp"
 
@@ -72,7 +72,7 @@ TEST(StitchSheets, FindsHowFourSheetsLieAndHowLongTheyWerePrinted) {
         EXPECT_LT(seam.residual_mm, 0.02) << seam.first << seam.second;
 
     // All places are in one world: on both sides of a seam, and as far from it as possible.
-    HeapLocator locator;
+    Locator locator;
     Camera camera = true_camera(model);
     // The reference is 20 mm to the right of the image, so that a wrong scale would show.
     camera.reference_px =

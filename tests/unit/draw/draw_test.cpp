@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "../../xml_check.hpp"
-#include "dotpose/tools/heap_locator.hpp"
+#include "dotpose/locate.hpp"
 #include "dotpose/tools/simulate.hpp"
 
 namespace dotpose {
@@ -27,7 +27,7 @@ using testing::Not;
 /// A frame, located.
 struct Located {
     explicit Located(const GreyImage& frame, const Options& with = {})
-        : image(frame), locator(std::make_unique<HeapLocator>(showing(with))) {
+        : image(frame), locator(std::make_unique<Locator>(showing(with))) {
         fix = locator->locate(image.view());
         trace = locator->trace();
     }
@@ -38,7 +38,7 @@ struct Located {
     }
 
     GreyImage image;
-    std::unique_ptr<HeapLocator> locator;
+    std::unique_ptr<Locator> locator;
     Fix fix;
     Trace trace;
 

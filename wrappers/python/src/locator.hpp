@@ -8,7 +8,7 @@
 
 #include "binding.hpp"
 #include "dotpose/files/camera.hpp"
-#include "dotpose/tools/heap_locator.hpp"
+#include "dotpose/locate.hpp"
 #include "fix.hpp"
 
 namespace dotpose::python {
@@ -57,7 +57,7 @@ class LocatorOfPython : public StageSource, public std::enable_shared_from_this<
 
     LocatorSetup setup_;
     std::mutex mutex_;  ///< of all below but the image
-    HeapLocator locator_;
+    Locator locator_;
     Options options_;  ///< for images of the newest size
     int width_px_ = 0;
     int height_px_ = 0;

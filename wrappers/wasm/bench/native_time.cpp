@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/kernels/select.hpp"
+#include "dotpose/locate.hpp"
 #include "dotpose/tools/grey_image.hpp"
-#include "dotpose/tools/heap_locator.hpp"
 
 namespace dotpose::core {
 
@@ -72,7 +72,7 @@ void measure(Locator& locator, const std::vector<GreyImage>& images, bool prints
 }  // namespace
 
 int main(int argc, char** argv) {
-    HeapLocator locator;
+    Locator locator;
     for (int i = 1; i < argc; ++i) {
         const std::vector<GreyImage> images = images_of(argv[i]);
         if (images.empty()) return 1;
