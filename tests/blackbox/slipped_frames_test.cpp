@@ -1,4 +1,5 @@
 // Sheets that are not one plane, seen through `locate` and through the tool.
+#include "../seam_frames.hpp"
 #include "../slipped_frames.hpp"
 
 #include <algorithm>
@@ -23,13 +24,37 @@ Shot nominal_shot(std::uint64_t index) {
 }
 
 /// The largest error of x, y and theta in units of their sigmas.
-double sigmas_off(const Fix& fix, const Shot& shot) {
-    const Deviation off = deviation_of(fix, truth_of(shot));
+double sigmas_off(const Fix& fix, const Truth& truth) {
+    const Deviation off = deviation_of(fix, truth);
     const double errors[] = {off.x_grid, off.y_grid, off.theta_rad};
     double most = 0;
     for (std::size_t i = 0; i < 3; ++i)
         most = std::max(most, std::abs(errors[i]) / std::sqrt(double{fix.covariance[i][i]}));
     return most;
+}
+
+double sigmas_off(const Fix& fix, const Shot& shot) {
+    return sigmas_off(fix, truth_of(shot));
+}
+
+// 96 % were within 4 sigmas, the others up to 24 off, while small steps near the middle were not
+// seen.
+TEST(SeamedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {
+    constexpr int kFrames = 250;
+    const auto memory = std::make_unique<LargeMemory>();
+    int fixes = 0;
+    int claim_too_much = 0;
+    for (std::uint64_t i = 0; i < kFrames; ++i) {
+        const SeamShot shot = draw_seam_shot(188, 120, 3, kSeed, i);
+        const GreyImage image = render(shot);
+        const Fix fix = Locator(*memory).locate(image.view());
+        if (fix.status != Status::ok) continue;
+        ++fixes;
+        claim_too_much += sigmas_off(fix, shot.truth()) > 4 ? 1 : 0;
+    }
+    EXPECT_GE(fixes, kFrames * 8 / 10);
+    // So few frames exceed 2 % by chance once in 20 runs where 1 % is true.
+    EXPECT_LE(claim_too_much, fixes * 2 / 100);
 }
 
 TEST(SlippedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {

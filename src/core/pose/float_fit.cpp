@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/pose/group_scatter.hpp"
 #include "core/pose/tuning.hpp"
 
 namespace dotpose::core {
@@ -20,17 +19,6 @@ float settled(const FloatPlane& p, float reach) {
                       tuned::kMostSettled);
 }
 
-/// Returns whether neighbouring dots are off independently of each other, as on flat paper. If not,
-/// blocks of dots tell more (pose/uneven).
-bool is_plainly_even(const FitSums& sums, const PoseFit& fit) {
-    if (sums.outliers > 3 + sums.points / 50) return false;
-    // Residuals that the fitted step takes away are common to the dots of a run, and say nothing of
-    // uneven paper.
-    const GroupScatter runs{fit.squares, sums.squares_of_runs - (sums.squares - fit.squares),
-                            static_cast<float>(sums.points), sums.runs};
-    return runs.excess() <= tuning::uneven::kSuspectRuns;
-}
-
 /// Returns whether the same dots count within another limit, or nearly so.
 bool keeps_dots(const FitSums& sums, float limit, float other) {
     return (sums.outliers == 0 && sums.farthest <= other) ||
@@ -44,7 +32,6 @@ bool fit_plane(const Kernels& kernels, const MeasuredDots& dots, int reach_px, f
     constexpr float kExact = 6e-8F;
     const auto reach = static_cast<float>(reach_px);
     fit.reach_px = reach_px;
-    fit.is_plainly_even = false;
     for (int round = 0; round < tuned::kMostRoundsOfFloats; ++round) {
         const ScaledPlane scaled(plane, reach);
         const FitSums sums = kernels.sum_fit(dots, plane, displacement, scaled.scale(), limit);
@@ -54,7 +41,6 @@ bool fit_plane(const Kernels& kernels, const MeasuredDots& dots, int reach_px, f
         float moved = 0;
         if (!solve(scaled.distortions(), scaled.scale(), fit, step, moved)) return false;
         fit.displacement = sums.projected / static_cast<float>(sums.points);
-        fit.is_plainly_even = is_plainly_even(sums, fit);
         const float bent_before = settled(plane, reach);
         plane = scaled.changed(step);
         const bool is_settled = moved < std::min(bent_before, settled(plane, reach));

@@ -21,8 +21,6 @@ struct PoseFit {
     float displacement = 0;   ///< of the typical dot from its intersection, spacings
     PlaneNormalFloat normal;  ///< of the parameters of `jacobian`, decomposed
     std::array<Parameters, kPoseParameters> covariance;  ///< of the whitened parameters
-    /// Whether a quick test found no residuals that neighbouring dots share.
-    bool is_plainly_even = false;
     Surface surface = Surface::even;
     /// What an uneven sheet adds to the covariance of x, y and theta.
     std::array<std::array<float, 3>, 3> uneven{};

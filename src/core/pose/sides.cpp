@@ -67,14 +67,21 @@ OneSide::~OneSide() {
 bool fit_this_side(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                    Sides& sides) {
     const float displacement = sides.fit.displacement;
+    sides.slip = find_slip(dots, sides.plane, sides.fit, reference_px);
+    const float gain = sides.slip.gain;
+    if (gain < Slip::kPossible) return false;
     for (int round = 0; round < tuned::kRounds; ++round) {
-        sides.slip = find_slip(dots, sides.plane, sides.fit, reference_px);
-        if (sides.slip.gain < Slip::kPossible) return false;
         const OneSide only(OneSide::Side::here, dots, sides.plane, reference_px, sides.slip);
         if (!fit_plane(kernels, dots, sides.fit.reach_px, tuned::kFarOff, displacement, sides.plane,
                        sides.fit))
             return false;
+        if (round + 1 == tuned::kRounds) break;
+        // The line is seen more clearly from the plane of one side. Whether there is one is not:
+        // the dots beyond had no say in this plane.
+        const Slip slip = find_slip(dots, sides.plane, sides.fit, reference_px);
+        if (slip.gain > 0) sides.slip = slip;
     }
+    sides.slip.gain = gain;
     return true;
 }
 

@@ -14,7 +14,6 @@ namespace {
 namespace tuned = tuning::slip;
 
 constexpr float kOnPlane = tuned::kOnPlane;
-constexpr float kOffPlane = tuned::kOffPlane;
 constexpr std::size_t kMostDots = 1024;
 constexpr std::size_t kLines = 48;  ///< tried in each direction
 constexpr auto kLastLine = static_cast<std::int32_t>(kLines) - 1;
@@ -25,34 +24,116 @@ constexpr float kBehind = tuned::kBehind;
 struct PartSums {
     Four counts;   ///< dots, log odds of the plane as it is; dots together, squared residuals
     Four places;   ///< of dots together: x, y, residuals along x and y
-    Four squares;  ///< of dots together: squared distances from the reference point, turning
+    Four moments;  ///< of dots together: xx, xy, yy from the reference point, turning
 
     PartSums& operator+=(const PartSums& o) {
         counts += o.counts;
         places += o.places;
-        squares += o.squares;
+        moments += o.moments;
         return *this;
     }
     PartSums less(const PartSums& o) const {
-        return {counts - o.counts, places - o.places, squares - o.squares};
+        return {counts - o.counts, places - o.places, moments - o.moments};
     }
     float seen() const { return counts[0]; }
     float on_plane() const { return counts[1]; }
     float dots() const { return counts[2]; }
+    float squares() const { return counts[3]; }
 
     /// Returns the squared residuals that are left if the part was moved and turned as a whole.
     float left() const {
-        if (dots() < 3) return counts[3];
+        if (dots() < 3) return squares();
         const float by = 1 / dots();
         const float x = places[0];
         const float y = places[1];
         const float off_x = places[2];
         const float off_y = places[3];
-        const float spread = squares[0] - by * (x * x + y * y);
-        const float turned = squares[1] - by * (x * off_y - y * off_x);
+        const float spread = moments[0] + moments[2] - by * (x * x + y * y);
+        const float turned = moments[3] - by * (x * off_y - y * off_x);
         const float by_turn = spread > 1e-3F ? turned * turned / spread : 0;
-        return counts[3] - by * (off_x * off_x + off_y * off_y) - by_turn;
+        return squares() - by * (off_x * off_x + off_y * off_y) - by_turn;
     }
+};
+
+using Triple = std::array<float, 3>;
+
+float inner_product(const Triple& a, const Triple& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// A symmetric matrix of 3 x 3: xx, xy, xz, yy, yz, zz.
+struct Symmetric3 {
+    float xx, xy, xz, yy, yz, zz;
+
+    Triple operator*(const Triple& a) const {
+        return {xx * a[0] + xy * a[1] + xz * a[2], xy * a[0] + yy * a[1] + yz * a[2],
+                xz * a[0] + yz * a[1] + zz * a[2]};
+    }
+    /// Returns the adjugate, which is the inverse times the determinant.
+    Symmetric3 adjugate() const {
+        return {yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy,
+                xx * zz - xz * xz, xy * xz - xx * yz, xx * yy - xy * xy};
+    }
+    Symmetric3 times(float by) const {
+        return {by * xx, by * xy, by * xz, by * yy, by * yz, by * zz};
+    }
+    /// Returns the inverse, 0 if there is none.
+    Symmetric3 inverse() const {
+        const Symmetric3 a = adjugate();
+        const float determinant = xx * a.xx + xy * a.xy + xz * a.xz;
+        return a.times(determinant > 0 ? 1 / determinant : 0);
+    }
+};
+
+/// The affine map of least squares of all dots that are together. A step at a line explains only
+/// what such a map does not: one without the step takes up most of what a step in the middle does.
+class AffineFit {
+  public:
+    AffineFit() = default;
+    /// `x_off` and `y_off` are the residuals along x and y, times 1, x and y.
+    AffineFit(const PartSums& all, const Triple& x_off, const Triple& y_off)
+        : inverse_(Symmetric3{all.dots(), all.places[0], all.places[1], all.moments[0],
+                              all.moments[1], all.moments[2]}
+                       .inverse()),
+          x_(inverse_ * x_off),
+          y_(inverse_ * y_off),
+          squares_(all.squares() - inner_product(x_, x_off) - inner_product(y_, y_off)) {}
+
+    /// Returns the squared residuals of all dots.
+    float squares() const { return squares_; }
+    /// Returns by how much these become less if the part beyond a line is displaced and turned.
+    float explained_by_step(const PartSums& beyond) const {
+        const float xx = beyond.moments[0];
+        const float xy = beyond.moments[1];
+        const float yy = beyond.moments[2];
+        const float x = beyond.places[0];
+        const float y = beyond.places[1];
+        const Triple step{beyond.dots(), x, y};
+        const Triple turn_x{-y, -xy, -yy};
+        const Triple turn_y{x, xx, xy};
+        const Triple by_step = inverse_ * step;
+        const Triple seen{
+            beyond.places[2] - inner_product(step, x_), beyond.places[3] - inner_product(step, y_),
+            beyond.moments[3] - inner_product(turn_x, x_) - inner_product(turn_y, y_)};
+        const float spread = step[0] - inner_product(step, by_step);
+        const Symmetric3 normal{spread,
+                                0,
+                                -y - inner_product(turn_x, by_step),
+                                spread,
+                                x - inner_product(turn_y, by_step),
+                                xx + yy - inner_product(turn_x, inverse_ * turn_x) -
+                                    inner_product(turn_y, inverse_ * turn_y)};
+        // A part with hardly a dot more or less than all of them determines no step.
+        constexpr float kLeastSpread = 1;
+        if (!(spread > kLeastSpread)) return 0;
+        return inner_product(seen, normal.inverse() * seen);
+    }
+
+  private:
+    Symmetric3 inverse_{};
+    Triple x_{};
+    Triple y_{};
+    float squares_ = 0;
 };
 
 class Search {
@@ -64,36 +145,42 @@ class Search {
         const auto count = static_cast<std::size_t>(all.count);
         const std::size_t every = count / kMostDots + 1;
         weight_ = static_cast<float>(every);
+        float outliers = 0;
         for (std::size_t k = 0; k < count; k += every) {
             if (all.x[k] >= kNoDot_px) continue;
             DotOffset dot = dot_offset(all, k, plane, fit.displacement);
             dot.at.x -= reference.x;
             dot.at.y -= reference.y;
             reach_ = std::max(reach_, dot.at.x * dot.at.x + dot.at.y * dot.at.y);
-            places_[count_] = dot.at;
-            sums_[count_++] = sums_of(dot);
+            if (dot.squared() > tuning::fit::kOutlier * variance_) outliers += 1;
+            dots_[count_++] = dot;
         }
         reach_ = std::sqrt(reach_) + 0.1F;
+        // Where many dots are off, as among words, some more of them beyond a line say little.
+        off_plane_ = std::log((outliers + 1) / static_cast<float>(count_ + 1));
+        for (std::size_t k = 0; k < count_; ++k)
+            sums_[k] = sums_of(dots_[k]);
+        fit_affine();
     }
 
     /// Replaces `best` by the best line at right angles to a direction, if that has a larger gain.
     void try_direction(FloatVec direction, Slip& best) const {
         std::array<PartSums, kLines> strips{};
         const float per_spacing = static_cast<float>(kLines) / (reach_ + kBehind);
-        PartSums all{};
         for (std::size_t k = 0; k < count_; ++k) {
-            const float t = places_[k].x * direction.x + places_[k].y * direction.y + kBehind;
+            const FloatVec at = dots_[k].at;
+            const float t = at.x * direction.x + at.y * direction.y + kBehind;
             const auto strip = static_cast<std::int32_t>(std::max(t, 0.0F) * per_spacing);
             strips[static_cast<std::size_t>(std::min(strip, kLastLine))] += sums_[k];
         }
-        for (const PartSums& strip : strips)
-            all += strip;
         PartSums beyond{};
         for (std::size_t line = kLines; --line > 0;) {
             beyond += strips[line];
             if (beyond.seen() < tuned::kFewestBeyond) continue;
-            if (most_gain_of(beyond, all.less(beyond)) <= best.gain) continue;
-            const float gain = gain_of(beyond, all.less(beyond));
+            const PartSums here = all_.less(beyond);
+            float gain = gain_of_step(beyond, best.gain);
+            if (most_gain_of(beyond, here) > std::max(best.gain, gain))
+                gain = std::max(gain, gain_of(beyond, here));
             if (gain <= best.gain) continue;
             best = {direction, static_cast<float>(line) / per_spacing - kBehind, gain};
         }
@@ -102,23 +189,49 @@ class Search {
   private:
     PartSums sums_of(const DotOffset& dot) const {
         const float squared = dot.squared();
-        const float on_plane = std::max(kOnPlane - squared / (2 * variance_), kOffPlane);
+        const float on_plane = std::max(kOnPlane - squared / (2 * variance_), off_plane_);
         if (squared > tuned::kTogether * variance_) return {Four{1, on_plane}, Four{}, Four{}};
         const auto& [x, y] = dot.at;
         return {Four{1, on_plane, 1, squared}, Four{x, y, dot.off.x, dot.off.y},
-                Four{x * x + y * y, x * dot.off.y - y * dot.off.x}};
+                Four{x * x, x * y, y * y, x * dot.off.y - y * dot.off.x}};
+    }
+
+    void fit_affine() {
+        Triple x_off{};
+        Triple y_off{};
+        for (std::size_t k = 0; k < count_; ++k) {
+            all_ += sums_[k];
+            if (sums_[k].dots() == 0) continue;
+            const auto& [at, off] = dots_[k];
+            const Triple place{1, at.x, at.y};
+            for (std::size_t i = 0; i < 3; ++i) {
+                x_off[i] += place[i] * off.x;
+                y_off[i] += place[i] * off.y;
+            }
+        }
+        affine_ = AffineFit(all_, x_off, y_off);
+    }
+
+    /// Returns by how much a step at the line explains the dots better than any affine map, as a
+    /// log likelihood ratio; something smaller if that is below `least`.
+    float gain_of_step(const PartSums& beyond, float least) const {
+        const float explained = affine_.explained_by_step(beyond);
+        const float left = affine_.squares() - explained;
+        const float dots = weight_ * all_.dots();
+        if (!(dots * explained > least * left)) return 0;
+        return dots * std::log(affine_.squares() / left);
     }
 
     /// Returns the log odds of the part's dots for a plane of its own.
     float on_own_plane(const PartSums& part) const {
         return kOnPlane * part.dots() - part.left() / (2 * variance_) +
-               kOffPlane * (part.seen() - part.dots());
+               off_plane_ * (part.seen() - part.dots());
     }
 
     /// Returns what `gain_of` is at most, for the least residuals that are conceivable.
     float most_gain_of(const PartSums& beyond, const PartSums& here) const {
-        const auto most_of = [](const PartSums& part) {
-            return kOnPlane * part.dots() + kOffPlane * (part.seen() - part.dots());
+        const auto most_of = [this](const PartSums& part) {
+            return kOnPlane * part.dots() + off_plane_ * (part.seen() - part.dots());
         };
         return weight_ * (std::max(most_of(beyond), 0.0F) - beyond.on_plane() +
                           std::max(most_of(here) - here.on_plane(), 0.0F));
@@ -132,10 +245,13 @@ class Search {
                           std::max(on_own_plane(here) - here.on_plane(), 0.0F));
     }
 
-    std::array<FloatVec, kMostDots> places_;
+    std::array<DotOffset, kMostDots> dots_;
     std::array<PartSums, kMostDots> sums_;
     std::size_t count_ = 0;
+    PartSums all_{};
+    AffineFit affine_;
     float variance_;
+    float off_plane_;  ///< log odds of a dot that is not on the plane
     float weight_ = 1;
     float reach_ = 0;
 };

@@ -9,10 +9,10 @@ namespace dotpose::core {
 
 /// A line in the pattern that divides the sheet.
 struct Slip {
-    /// Gains below kPossible are chance, those above kCertain are not. They are high because many
-    /// lines are tried, each with three parameters for the part beyond, and sheets that slipped are
-    /// rare.
-    static constexpr float kPossible = 8;
+    /// Gains below kPossible are chance: 1 in 100 flat sheets exceeds it. Those above kCertain are
+    /// not. Both are high because many lines are tried, each with three parameters for the part
+    /// beyond, and sheets that slipped are rare.
+    static constexpr float kPossible = 12;
     static constexpr float kCertain = 23;
 
     FloatVec direction{1, 0};  ///< unit vector from the reference point towards the line

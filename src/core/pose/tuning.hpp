@@ -53,7 +53,7 @@ inline constexpr float kMostByNoise = 0.9F;
 inline constexpr int kFewestDots = 20;
 /// A step below this, in squared deviations of the pose, needs no other round: kBentSettled over
 /// the square of how much the plane bends (a fifth of a deviation left), but at least kLeastSettled
-/// and at most kMostSettled, so that what the step explains is hardly within runs of dots.
+/// and at most kMostSettled.
 inline constexpr float kLeastSettled = 0.2F;
 inline constexpr float kMostSettled = 30;
 inline constexpr float kBentSettled = 0.04F;
@@ -104,14 +104,13 @@ inline constexpr float kSlopes = 0.03F;
 
 /// Whether dots are off alike (pose/uneven, pose/float_fit).
 namespace uneven {
-/// Blocks are looked at if runs of dots share residuals by more deviations than this; one in ten
-/// frames of flat sheets exceeds it.
-inline constexpr float kSuspectRuns = 1.2F;
-/// Deviations by which blocks share residuals: one in ten frames of flat sheets exceeds kShared,
-/// from where on what blocks share widens the covariance; few exceed kSuspect, from where on a line
-/// is looked for, which takes long, and hardly one in 1,000 exceeds
-/// kUneven. `dotpose_slips` measures it.
-inline constexpr float kShared = 1.5F;
+/// Deviations by which blocks share residuals. A line is looked for beyond kMaybeLine, which one in
+/// six frames of flat sheets exceeds; a step at a line may leave hardly more, as the plane takes up
+/// most of it. One in twenty exceeds kShared, from where on what blocks share widens the covariance.
+/// One side of a line is not even beyond kSuspect, and without a line, a sheet is not beyond
+/// kUneven, which hardly one flat sheet in 1,000 exceeds. `dotpose_slips` measures it.
+inline constexpr float kMaybeLine = 0.9F;
+inline constexpr float kShared = 2.1F;
 inline constexpr float kSuspect = 3.5F;
 inline constexpr float kUneven = 5;
 /// Number of outliers that chance explains, plus a share of the dots.
@@ -134,10 +133,9 @@ inline constexpr float kNearLine = 1.2F;
 
 /// The line that divides a sheet (pose/slip, pose/sides).
 namespace slip {
-/// Most that a dot says for a plane that it lies on, and against one that it does not lie on:
-/// natural log odds against dots anywhere in their cells.
+/// Most that a dot says for a plane that it lies on: natural log odds against dots anywhere in
+/// their cells.
 inline constexpr float kOnPlane = 5;
-inline constexpr float kOffPlane = -4.5F;
 /// Dots of one part may lie so many deviations (squared) from where the other part has them, for
 /// its displacement to be found.
 inline constexpr float kTogether = 36;

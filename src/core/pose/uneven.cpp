@@ -129,9 +129,7 @@ void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
         if (is_divided || excess > tuned::kUneven) fit.surface = Surface::uneven;
         if (is_divided || excess > tuned::kShared) widen_by_blocks(blocks, fit);
         if (!has_line) return;
-        const float weight =
-            (sides.slip.gain - Slip::kPossible) / (Slip::kCertain - Slip::kPossible);
-        add_difference(plane, sides.plane, reference_px, std::min(weight, 1.0F), fit);
+        add_difference(plane, sides.plane, reference_px, 1, fit);
     }
     if (is_divided) widen_near_line(kernels, dots, reference_px, sides, fit);
 }
@@ -142,10 +140,9 @@ void fit_uneven(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_p
                 FloatPlane& plane, PoseFit& fit) {
     fit.surface = Surface::even;
     fit.uneven = {};
-    if (fit.is_plainly_even) return;
     const Blocks blocks(kernels, dots, plane, fit);
     const float excess = blocks.scatter().excess();
-    if (excess > tuned::kSuspect || has_outliers(blocks))
+    if (excess > tuned::kMaybeLine || has_outliers(blocks))
         consider_line(kernels, dots, reference_px, blocks, plane, fit);
     else if (excess > tuned::kShared)
         widen_by_blocks(blocks, fit);

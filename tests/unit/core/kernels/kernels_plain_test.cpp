@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <vector>
 
@@ -183,8 +182,6 @@ TEST(KernelsPlain, FitIsSummedOverDotsNearTheirPlaces) {
         std::array<double, 16> places{};
         std::array<double, 9> residuals{};
         int seen = 0;
-        std::map<std::size_t, std::array<double, 3>> runs;  // number of dots, and sums of their
-                                                            // residuals
         for (std::size_t k = 0; k < static_cast<std::size_t>(table.dots.count); ++k) {
             const auto x = static_cast<double>(table.dots.x[k]);
             const auto y = static_cast<double>(table.dots.y[k]);
@@ -213,23 +210,14 @@ TEST(KernelsPlain, FitIsSummedOverDotsNearTheirPlaces) {
             add({left_x, left_y, left_x * u, left_y * v, left_y * u, left_x * v, a * u, a * v,
                  a * q},
                 residuals);
-            auto& [of_run, off_x, off_y] = runs[k / 4];
-            of_run += 1;
-            off_x += left_x;
-            off_y += left_y;
         }
-        double squares_of_runs = 0;
-        for (const auto& [index, run] : runs)
-            squares_of_runs += (run[1] * run[1] + run[2] * run[2]) / run[0];
         const FitSums sums =
             kernels.sum_fit(table.dots, plane, 0.167F, kScale, static_cast<float>(limit));
         EXPECT_EQ(sums.points, points);
         EXPECT_EQ(sums.outliers, seen - points);
-        EXPECT_EQ(sums.runs, static_cast<float>(runs.size()));
         EXPECT_NEAR(sums.squares, squares, 1e-4);
         EXPECT_NEAR(sums.farthest, farthest, 1e-6);
         EXPECT_NEAR(sums.projected, projected, 1e-3);
-        EXPECT_NEAR(sums.squares_of_runs, squares_of_runs, 1e-4);
         for (std::size_t k = 0; k < places.size(); ++k)
             EXPECT_NEAR(sums.places[k], places[k], 1e-3) << k;
         for (std::size_t k = 0; k < residuals.size(); ++k)

@@ -129,33 +129,6 @@ TEST(FitPlane, FollowsTiltsOfTwentyDegreesAndALens) {
     }
 }
 
-TEST(FitPlane, TellsWhetherNeighboursAreOffAlike) {
-    Rng rng(kSeed);
-    int even = 0;
-    int divided = 0;
-    constexpr int kTrials = 200;
-    for (int i = 0; i < kTrials; ++i) {
-        const FloatPlane truth = random_float_plane(11, 2e-4, rng);
-        OwnedDots owned;
-        show_dots(truth, 0.1, 0, rng, owned);
-        const auto is_even = [&] {
-            FloatPlane plane = guess_of(truth, rng);
-            core::PoseFit fit;
-            EXPECT_TRUE(core::fit_plane(core::kernels(), owned.dots, kReach_px, kFirstLimit,
-                                        static_cast<float>(kDisplacement), plane, fit));
-            return fit.is_plainly_even;
-        };
-        even += is_even() ? 1 : 0;
-        for (std::size_t k = 0; k < static_cast<std::size_t>(owned.dots.count); ++k)
-            owned.dots.column[k] += owned.dots.x[k] > 20 ? 0.06F : 0;
-        divided += is_even() ? 0 : 1;
-    }
-    // By chance, the dots of one even sheet in ten share residuals by 1.2 deviations or more.
-    EXPECT_GT(even, kTrials * 8 / 10);
-    EXPECT_LT(even, kTrials * 97 / 100);
-    EXPECT_GT(divided, kTrials * 9 / 10);
-}
-
 TEST(FitPlane, LeavesOutWhatIsFarOff) {
     Rng rng(kSeed);
     for (int i = 0; i < 40; ++i) {
