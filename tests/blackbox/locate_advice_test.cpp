@@ -25,6 +25,25 @@ TEST_F(LocateCommand, a_position_that_is_not_certain_says_what_was_missing) {
     EXPECT_THAT(records().at(0)["message"], HasSubstr("show more of the sheet"));
 }
 
+// Bits are read in all cells, also where no dot is found, so they are not two for each dot.
+TEST_F(LocateCommand, bits_that_contradict_a_position_are_not_counted_by_dots) {
+    Setup setup;
+    setup.seed = 3;
+    setup.preset = Preset::hard;
+    bool is_doubted = false;
+    for (std::uint64_t i = 0; i < 20 && !is_doubted; ++i) {
+        Shot shot = draw_shot(setup, i);
+        shot.imperfections.missing = 0.6;
+        write_pgm(directory_ / "gaps.pgm", render(shot).view());
+        run("gaps.pgm");
+        const json record = records().at(0);
+        if (record["status"] != "not_certain") continue;
+        is_doubted = true;
+        EXPECT_THAT(record["message"], HasSubstr(" of the bits read contradict it"));
+    }
+    EXPECT_TRUE(is_doubted);
+}
+
 /// Without blur and noise.
 Shot clean_shot(double px_per_spacing) {
     Setup setup;
