@@ -110,6 +110,8 @@ namespace uneven {
 /// One side of a line is not even beyond kSuspect, and without a line, a sheet is not beyond
 /// kUneven, which hardly one flat sheet in 1,000 exceeds. `dotpose_slips` measures it.
 inline constexpr float kMaybeLine = 0.9F;
+/// Dots up to which kMaybeLine holds; of more, what they share on any sheet shows more.
+inline constexpr float kMaybeLineDots = 200;
 inline constexpr float kShared = 2.1F;
 inline constexpr float kSuspect = 3.5F;
 inline constexpr float kUneven = 5;

@@ -134,6 +134,15 @@ void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
     if (is_divided) widen_near_line(kernels, dots, reference_px, sides, fit);
 }
 
+/// Whether blocks share so much that there may be a line, or dots are off for another reason. What
+/// dots share on any sheet, as by the bias of pixels, shows the more the more dots there are; so do
+/// lines.
+bool may_have_line(const Blocks& blocks) {
+    const GroupScatter scatter = blocks.scatter();
+    const float many = std::max(scatter.dots / tuned::kMaybeLineDots, 1.0F);
+    return scatter.excess() > tuned::kMaybeLine * std::sqrt(many) || has_outliers(blocks);
+}
+
 }  // namespace
 
 void fit_uneven(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
@@ -141,10 +150,9 @@ void fit_uneven(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_p
     fit.surface = Surface::even;
     fit.uneven = {};
     const Blocks blocks(kernels, dots, plane, fit);
-    const float excess = blocks.scatter().excess();
-    if (excess > tuned::kMaybeLine || has_outliers(blocks))
+    if (may_have_line(blocks))
         consider_line(kernels, dots, reference_px, blocks, plane, fit);
-    else if (excess > tuned::kShared)
+    else if (blocks.scatter().excess() > tuned::kShared)
         widen_by_blocks(blocks, fit);
 }
 
