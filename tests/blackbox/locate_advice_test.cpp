@@ -27,7 +27,7 @@ TEST_F(LocateCommand, a_position_that_is_not_certain_says_what_was_missing) {
 
 // Bits are read in all cells, also where no dot is found, so they are not two for each dot.
 TEST_F(LocateCommand, bits_that_contradict_a_position_are_not_counted_by_dots) {
-    Setup setup;
+    dotpose::Setup setup;
     setup.seed = 3;
     setup.preset = Preset::hard;
     bool is_doubted = false;

@@ -91,11 +91,11 @@ inline constexpr float kPredictedBellReach_px = 3.65F;
 /// Sums over dots for the fit of nine parameters; see PlaneNormalFloat. Places (u, v) are where a
 /// plane has the dots, from its `at`, in units of its scale; residuals (x, y) are in spacings.
 struct FitSums {
-    int points = 0;             ///< dots that count
-    int outliers = 0;           ///< dots that lie too far off
-    float farthest = 0;         ///< largest squared residual of a dot that counts
-    float projected = 0;        ///< offset . direction of displacement
-    float squares = 0;          ///< squared residuals
+    int points = 0;       ///< dots that count
+    int outliers = 0;     ///< dots that lie too far off
+    float farthest = 0;   ///< largest squared residual of a dot that counts
+    float projected = 0;  ///< offset . direction of displacement
+    float squares = 0;    ///< squared residuals
     /// 1, u, v, uu, uv, vv, uuu, uuv, uvv, vvv, quu, quv, qvv, qqu, qqv, qqq; q = uu + vv.
     std::array<float, 16> places{};
     std::array<float, 9> residuals{};  ///< x, y, xu, yv, yu, xv, au, av, aq; a = xu + yv

@@ -139,8 +139,8 @@ TEST(FitUneven, SeesASmallStepInTheMiddle) {
         const double by = rng.uniform(0.06, 0.13);
         const double moves_rad = rng.uniform(0, 6.283);
         const Sheet sheet(
-            upright,
-            slip(0.1, across_rows, {by * std::cos(moves_rad), by * std::sin(moves_rad)}), rng);
+            upright, slip(0.1, across_rows, {by * std::cos(moves_rad), by * std::sin(moves_rad)}),
+            rng);
         ASSERT_TRUE(sheet.is_fitted);
         EXPECT_LT(sheet.sigmas_off(), 4);
     }
