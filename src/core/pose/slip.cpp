@@ -15,8 +15,8 @@ namespace tuned = tuning::slip;
 
 constexpr float kOnPlane = tuned::kOnPlane;
 constexpr std::size_t kMostDots = 1024;
-constexpr std::size_t kLines = 48;  ///< tried in each direction
-constexpr auto kLastLine = static_cast<std::int32_t>(kLines) - 1;
+constexpr std::size_t kLines = 48;  ///< at most, in each direction
+constexpr float kLinesPerSpacing = 2;
 constexpr int kDirections = 8;
 constexpr float kBehind = tuned::kBehind;
 
@@ -101,6 +101,15 @@ class AffineFit {
 
     /// Returns the squared residuals of all dots.
     float squares() const { return squares_; }
+    /// Returns by how much these become less if the part beyond a line is displaced.
+    float explained_by_displacement(const PartSums& beyond) const {
+        const Triple step{beyond.dots(), beyond.places[0], beyond.places[1]};
+        const float spread = step[0] - inner_product(step, inverse_ * step);
+        if (!(spread > kLeastSpread)) return 0;
+        const float x = beyond.places[2] - inner_product(step, x_);
+        const float y = beyond.places[3] - inner_product(step, y_);
+        return (x * x + y * y) / spread;
+    }
     /// Returns by how much these become less if the part beyond a line is displaced and turned.
     float explained_by_step(const PartSums& beyond) const {
         const float xx = beyond.moments[0];
@@ -123,13 +132,14 @@ class AffineFit {
                                 x - inner_product(turn_y, by_step),
                                 xx + yy - inner_product(turn_x, inverse_ * turn_x) -
                                     inner_product(turn_y, inverse_ * turn_y)};
-        // A part with hardly a dot more or less than all of them determines no step.
-        constexpr float kLeastSpread = 1;
         if (!(spread > kLeastSpread)) return 0;
         return inner_product(seen, normal.inverse() * seen);
     }
 
   private:
+    /// A part with hardly a dot more or less than all of them determines no step.
+    static constexpr float kLeastSpread = 1;
+
     Symmetric3 inverse_{};
     Triple x_{};
     Triple y_{};
@@ -146,16 +156,20 @@ class Search {
         const std::size_t every = count / kMostDots + 1;
         weight_ = static_cast<float>(every);
         float outliers = 0;
+        float reach = 0;  // squared, of the farthest dot
         for (std::size_t k = 0; k < count; k += every) {
             if (all.x[k] >= kNoDot_px) continue;
             DotOffset dot = dot_offset(all, k, plane, fit.displacement);
             dot.at.x -= reference.x;
             dot.at.y -= reference.y;
-            reach_ = std::max(reach_, dot.at.x * dot.at.x + dot.at.y * dot.at.y);
+            reach = std::max(reach, dot.at.x * dot.at.x + dot.at.y * dot.at.y);
             if (dot.squared() > tuning::fit::kOutlier * variance_) outliers += 1;
             dots_[count_++] = dot;
         }
-        reach_ = std::sqrt(reach_) + 0.1F;
+        const float length = std::sqrt(reach) + 0.1F + kBehind;
+        const auto wanted = static_cast<std::size_t>(kLinesPerSpacing * length);
+        lines_ = std::clamp(wanted, std::size_t{4}, kLines);
+        per_spacing_ = static_cast<float>(lines_) / length;
         // Where many dots are off, as among words, some more of them beyond a line say little.
         off_plane_ = std::log((outliers + 1) / static_cast<float>(count_ + 1));
         for (std::size_t k = 0; k < count_; ++k)
@@ -165,28 +179,48 @@ class Search {
 
     /// Replaces `best` by the best line at right angles to a direction, if that has a larger gain.
     void try_direction(FloatVec direction, Slip& best) const {
-        std::array<PartSums, kLines> strips{};
-        const float per_spacing = static_cast<float>(kLines) / (reach_ + kBehind);
-        for (std::size_t k = 0; k < count_; ++k) {
-            const FloatVec at = dots_[k].at;
-            const float t = at.x * direction.x + at.y * direction.y + kBehind;
-            const auto strip = static_cast<std::int32_t>(std::max(t, 0.0F) * per_spacing);
-            strips[static_cast<std::size_t>(std::min(strip, kLastLine))] += sums_[k];
+        std::array<PartSums, kLines> beyond = strips_along(direction);
+        const auto consider = [&](std::size_t line, float gain) {
+            if (gain <= best.gain) return;
+            best = {direction, static_cast<float>(line) / per_spacing_ - kBehind, gain};
+        };
+        std::size_t likeliest = 0;
+        float most_explained = 0;
+        for (std::size_t line = lines_; --line > 0;) {
+            if (line + 1 < lines_) beyond[line] += beyond[line + 1];
+            const PartSums& part = beyond[line];
+            if (part.seen() < tuned::kFewestBeyond) continue;
+            const float explained = affine_.explained_by_displacement(part);
+            if (explained > most_explained) likeliest = line;
+            most_explained = std::max(most_explained, explained);
+            const PartSums here = all_.less(part);
+            if (most_gain_of(part, here) > best.gain) consider(line, gain_of(part, here));
         }
-        PartSums beyond{};
-        for (std::size_t line = kLines; --line > 0;) {
-            beyond += strips[line];
-            if (beyond.seen() < tuned::kFewestBeyond) continue;
-            const PartSums here = all_.less(beyond);
-            float gain = gain_of_step(beyond, best.gain);
-            if (most_gain_of(beyond, here) > std::max(best.gain, gain))
-                gain = std::max(gain, gain_of(beyond, here));
-            if (gain <= best.gain) continue;
-            best = {direction, static_cast<float>(line) / per_spacing - kBehind, gain};
+        if (likeliest == 0) return;
+        // Whether the part is turned as well is asked near the line that its displacement alone
+        // explains most.
+        constexpr std::size_t kNear = 2;
+        const std::size_t last = std::min(likeliest + kNear, lines_ - 1);
+        for (std::size_t line = std::max(likeliest, kNear + 1) - kNear; line <= last; ++line) {
+            if (beyond[line].seen() >= tuned::kFewestBeyond)
+                consider(line, gain_of_step(beyond[line], best.gain));
         }
     }
 
   private:
+    /// Returns the sums of dots in strips at right angles to a direction.
+    std::array<PartSums, kLines> strips_along(FloatVec direction) const {
+        std::array<PartSums, kLines> strips{};
+        const auto last = static_cast<std::int32_t>(lines_) - 1;
+        for (std::size_t k = 0; k < count_; ++k) {
+            const FloatVec at = dots_[k].at;
+            const float t = at.x * direction.x + at.y * direction.y + kBehind;
+            const auto strip = static_cast<std::int32_t>(std::max(t, 0.0F) * per_spacing_);
+            strips[static_cast<std::size_t>(std::min(strip, last))] += sums_[k];
+        }
+        return strips;
+    }
+
     PartSums sums_of(const DotOffset& dot) const {
         const float squared = dot.squared();
         const float on_plane = std::max(kOnPlane - squared / (2 * variance_), off_plane_);
@@ -253,7 +287,8 @@ class Search {
     float variance_;
     float off_plane_;  ///< log odds of a dot that is not on the plane
     float weight_ = 1;
-    float reach_ = 0;
+    std::size_t lines_ = 0;
+    float per_spacing_ = 0;  ///< lines in a spacing
 };
 
 FloatVec turned(FloatVec v, float c, float s) {
@@ -272,8 +307,8 @@ Slip find_slip(const MeasuredDots& dots, const FloatPlane& plane, const PoseFit&
         search.try_direction(direction, best);
         direction = turned(direction, kSin, kSin);
     }
-    // A line turned a little may explain more than the best one, but not four times as much.
-    if (best.gain < Slip::kPossible / 4) return best;
+    // A line turned a little may explain more than the best one, but hardly twice as much.
+    if (best.gain < Slip::kPossible / 2) return best;
     float s = kSin;
     for (int halving = 0; halving < 5; ++halving) {
         s /= 2;

@@ -104,15 +104,16 @@ inline constexpr float kSlopes = 0.03F;
 
 /// Whether dots are off alike (pose/uneven, pose/float_fit).
 namespace uneven {
-/// Deviations by which blocks share residuals. A line is looked for beyond kMaybeLine, which one in
-/// six frames of flat sheets exceeds; a step at a line may leave hardly more, as the plane takes up
-/// most of it. One in twenty exceeds kShared, from where on what blocks share widens the
-/// covariance. One side of a line is not even beyond kSuspect, and without a line, a sheet is not
-/// beyond kUneven, which hardly one flat sheet in 1,000 exceeds. `dotpose_slips` measures it.
+/// Deviations by which blocks share residuals. Attempts that must be fast look for a line beyond
+/// kSuspect; the second attempt, whose dots are noisier, beyond kMaybeLine: a step at a line may
+/// leave hardly more, as the plane takes up most of it. One flat sheet in five exceeds kShared,
+/// from where on what blocks share widens the covariance. One side of a line is not even beyond
+/// kSuspect, and without a line, a sheet is not beyond kUneven, which hardly one flat sheet in
+/// 1,000 exceeds. `dotpose_slips` measures it.
 inline constexpr float kMaybeLine = 0.9F;
 /// Dots up to which kMaybeLine holds; of more, what they share on any sheet shows more.
 inline constexpr float kMaybeLineDots = 200;
-inline constexpr float kShared = 2.1F;
+inline constexpr float kShared = 1.2F;
 inline constexpr float kSuspect = 3.5F;
 inline constexpr float kUneven = 5;
 /// Number of outliers that chance explains, plus a share of the dots.

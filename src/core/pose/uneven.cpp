@@ -134,13 +134,22 @@ void consider_line(const Kernels& kernels, MeasuredDots& dots, FloatVec referenc
     if (is_divided) widen_near_line(kernels, dots, reference_px, sides, fit);
 }
 
-/// Whether blocks share so much that there may be a line, or dots are off for another reason. What
-/// dots share on any sheet, as by the bias of pixels, shows the more the more dots there are; so do
-/// lines.
-bool may_have_line(const Blocks& blocks) {
-    const GroupScatter scatter = blocks.scatter();
-    const float many = std::max(scatter.dots / tuned::kMaybeLineDots, 1.0F);
-    return scatter.excess() > tuned::kMaybeLine * std::sqrt(many) || has_outliers(blocks);
+/// Looks for a line if blocks share residuals by more than `least` deviations, or dots are off for
+/// another reason.
+void fit_uneven_from(float least, const Kernels& kernels, MeasuredDots& dots, const Blocks& blocks,
+                     FloatVec reference_px, FloatPlane& plane, PoseFit& fit) {
+    const float excess = blocks.scatter().excess();
+    if (excess > least || has_outliers(blocks))
+        consider_line(kernels, dots, reference_px, blocks, plane, fit);
+    else if (excess > tuned::kShared)
+        widen_by_blocks(blocks, fit);
+}
+
+/// Returns from how many deviations on a patient attempt looks for a line. What dots share on any
+/// sheet, as by the bias of pixels, shows the more the more dots there are; so do lines.
+float patient_excess(const Blocks& blocks) {
+    return tuned::kMaybeLine *
+           std::sqrt(std::max(blocks.scatter().dots / tuned::kMaybeLineDots, 1.0F));
 }
 
 }  // namespace
@@ -150,10 +159,7 @@ void fit_uneven(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_p
     fit.surface = Surface::even;
     fit.uneven = {};
     const Blocks blocks(kernels, dots, plane, fit);
-    if (may_have_line(blocks))
-        consider_line(kernels, dots, reference_px, blocks, plane, fit);
-    else if (blocks.scatter().excess() > tuned::kShared)
-        widen_by_blocks(blocks, fit);
+    fit_uneven_from(tuned::kSuspect, kernels, dots, blocks, reference_px, plane, fit);
 }
 
 void fit_uneven(const Kernels& kernels, const Observations& observations, Vec reference_q8,
@@ -179,7 +185,9 @@ void fit_uneven(const Kernels& kernels, const Observations& observations, Vec re
     for (std::size_t k = 0; k < 8; ++k)
         dots.x[static_cast<std::size_t>(dots.count) + k] = kNoDot_px;
     FloatPlane better = float_plane(plane);
-    fit_uneven(kernels, dots, from_centre_px(reference_q8), better, fit);
+    const Blocks blocks(kernels, dots, better, fit);
+    fit_uneven_from(patient_excess(blocks), kernels, dots, blocks, from_centre_px(reference_q8),
+                    better, fit);
     if (fit.surface == Surface::divided) plane = fixed_plane(better, plane.centre_q8);
 }
 
