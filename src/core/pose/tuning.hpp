@@ -113,7 +113,7 @@ namespace uneven {
 inline constexpr float kMaybeLine = 0.9F;
 /// Dots up to which kMaybeLine holds; of more, what they share on any sheet shows more.
 inline constexpr float kMaybeLineDots = 200;
-inline constexpr float kShared = 1.2F;
+inline constexpr float kShared = 2.1F;
 inline constexpr float kSuspect = 3.5F;
 inline constexpr float kUneven = 5;
 /// Number of outliers that chance explains, plus a share of the dots.
