@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include <gtest/gtest.h>
@@ -37,15 +38,15 @@ double sigmas_off(const Fix& fix, const Shot& shot) {
     return sigmas_off(fix, truth_of(shot));
 }
 
-// 96 % were within 4 sigmas, the others up to 24 off, while small steps near the middle were not
-// seen.
+// 97.6 % were within 4 sigmas while small steps in the middle were not seen, and 99.8 % are.
 TEST(SeamedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {
     constexpr int kFrames = 400;
+    constexpr double kAnywhere_px = std::numeric_limits<double>::infinity();
     const auto memory = std::make_unique<LargeMemory>();
     int fixes = 0;
     int claim_too_much = 0;
     for (std::uint64_t i = 0; i < kFrames; ++i) {
-        const SeamShot shot = draw_seam_shot(188, 120, 3, kSeed, i);
+        const SeamShot shot = draw_seam_shot(188, 120, kAnywhere_px, kSeed, i);
         const GreyImage image = render(shot);
         const Fix fix = Locator(*memory).locate(image.view());
         if (fix.status != Status::ok) continue;
@@ -53,8 +54,7 @@ TEST(SeamedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {
         claim_too_much += sigmas_off(fix, shot.truth()) > 4 ? 1 : 0;
     }
     EXPECT_GE(fixes, kFrames * 8 / 10);
-    // Where 1 % is true, 2 % are exceeded by chance once in 50 runs.
-    EXPECT_LE(claim_too_much, fixes * 2 / 100);
+    EXPECT_LE(claim_too_much, fixes / 100);
 }
 
 TEST(SlippedSheet, ErrorsAreAsLargeAsTheyAreSaidToBe) {
