@@ -12,8 +12,9 @@
 
 namespace dotpose::test {
 
-/// A grey baseline JPEG. `dpi` 0: without a density.
-inline std::string jpeg_of(const GreyImage& image, int quality, int dpi = 0) {
+/// A grey JPEG, baseline or progressive. `dpi` 0: without a density.
+inline std::string jpeg_of(const GreyImage& image, int quality, int dpi = 0,
+                           bool is_progressive = false) {
     jpeg_compress_struct jpeg{};
     jpeg_error_mgr errors{};
     jpeg.err = jpeg_std_error(&errors);
@@ -27,6 +28,7 @@ inline std::string jpeg_of(const GreyImage& image, int quality, int dpi = 0) {
     jpeg.in_color_space = JCS_GRAYSCALE;
     jpeg_set_defaults(&jpeg);
     jpeg_set_quality(&jpeg, quality, TRUE);
+    if (is_progressive) jpeg_simple_progression(&jpeg);
     if (dpi > 0) {
         jpeg.density_unit = 1;
         jpeg.X_density = jpeg.Y_density = static_cast<UINT16>(dpi);

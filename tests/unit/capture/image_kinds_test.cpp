@@ -1,7 +1,5 @@
 // Kinds of image files that are rarer than those of image_file_test.cpp.
 #include <algorithm>
-#include <cstdio>  // jpeglib.h needs it before
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <numeric>
@@ -10,9 +8,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <jpeglib.h>
 #include <tiffio.h>
 
+#include "../../jpeg.hpp"
 #include "../../temporary_directory.hpp"
 #include "capture/image_codec.hpp"
 #include "encoders.hpp"
@@ -202,31 +200,13 @@ TEST_F(TiffKinds, HaveFewBits) {
 
 /// A progressive JPEG of 64 x 64 px whose levels differ.
 Bytes progressive_jpeg() {
-    jpeg_compress_struct jpeg{};
-    jpeg_error_mgr errors{};
-    jpeg.err = jpeg_std_error(&errors);
-    jpeg_create_compress(&jpeg);
-    unsigned char* bytes = nullptr;
-    unsigned long count = 0;
-    jpeg_mem_dest(&jpeg, &bytes, &count);
-    jpeg.image_width = jpeg.image_height = 64;
-    jpeg.input_components = 1;
-    jpeg.in_color_space = JCS_GRAYSCALE;
-    jpeg_set_defaults(&jpeg);
-    jpeg_simple_progression(&jpeg);
-    jpeg_start_compress(&jpeg, TRUE);
+    GreyImage image{{}, 64, 64};
     for (int v = 0; v < 64; ++v) {
-        std::vector<JSAMPLE> row(64);
-        for (std::size_t u = 0; u < row.size(); ++u)
-            row[u] = static_cast<JSAMPLE>(v * 3 + static_cast<int>(u * u % 61));
-        JSAMPROW pointer = row.data();
-        jpeg_write_scanlines(&jpeg, &pointer, 1);
+        for (int u = 0; u < 64; ++u)
+            image.pixels.push_back(static_cast<std::uint8_t>(v * 3 + u * u % 61));
     }
-    jpeg_finish_compress(&jpeg);
-    const Bytes file(bytes, bytes + count);
-    jpeg_destroy_compress(&jpeg);
-    std::free(bytes);
-    return file;
+    const std::string file = jpeg_of(image, 75, 0, true);
+    return {file.begin(), file.end()};
 }
 
 TEST(JpegKinds, AreProgressive) {
