@@ -186,13 +186,10 @@ GreyImage decode_bmp(Bytes file, int max_pixels) {
 }
 
 std::optional<Resolution> bmp_resolution(Bytes file) {
-    constexpr double kMetresPerInch = 0.0254;
     if (number(file, Offset::header_size, 4) < 40) return std::nullopt;
-    const std::int64_t x = signed_number(file, Offset::x_per_metre);
-    const std::int64_t y = signed_number(file, Offset::y_per_metre);
-    if (x <= 0 || y <= 0) return std::nullopt;
-    return Resolution{static_cast<double>(x) * kMetresPerInch,
-                      static_cast<double>(y) * kMetresPerInch};
+    return resolution_from(static_cast<double>(signed_number(file, Offset::x_per_metre)),
+                           static_cast<double>(signed_number(file, Offset::y_per_metre)),
+                           kMetresPerInch);
 }
 
 }  // namespace dotpose::capture

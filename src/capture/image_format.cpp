@@ -6,9 +6,12 @@
 
 #include <fmt/core.h>
 
-#include "dotpose/tools/image_file.hpp"
-
 namespace dotpose::capture {
+
+std::optional<Resolution> resolution_from(double x, double y, double units_per_inch) {
+    if (!(x > 0 && y > 0)) return std::nullopt;
+    return Resolution{x * units_per_inch, y * units_per_inch};
+}
 
 void require_size(std::uint64_t width_px, std::uint64_t height_px, int max_pixels) {
     if (width_px > kMaxImageSide_px || height_px > kMaxImageSide_px) {

@@ -6,12 +6,21 @@
 #include <optional>
 #include <span>
 
+#include "dotpose/tools/image_file.hpp"
+
 namespace dotpose::capture {
 
 enum class ImageFormat : std::uint8_t { pnm, png, jpeg, bmp, tiff };
 
 /// Number of bytes that `sniff` needs.
 inline constexpr std::size_t kMagicBytes = 12;
+
+inline constexpr double kMetresPerInch = 0.0254;
+inline constexpr double kCentimetresPerInch = 2.54;
+
+/// Returns a resolution in dots per inch from one in `units_per_inch`; none if it is not stated, as
+/// 0 or less.
+std::optional<Resolution> resolution_from(double x, double y, double units_per_inch);
 
 /// Throws Error if a side is beyond the limit, ImageTooLarge if there are too many pixels.
 void require_size(std::uint64_t width_px, std::uint64_t height_px, int max_pixels);

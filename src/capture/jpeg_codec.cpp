@@ -21,8 +21,9 @@ constexpr int kQuality = 95;
 // file could occupy the decoder for hours.
 constexpr int kMaxScans = 100;
 
-/// What libjpeg reports. On an error it must not return, so `leave` is where it goes; only calls
-/// behind setjmp(leave) may fail, with no object in their scope that has a destructor.
+/// Collects the messages of libjpeg. Its error handler must not return: it jumps to `leave`. So
+/// setjmp(leave) comes before every call that can fail, and the code in between must have no object
+/// with a destructor.
 struct Report : jpeg_error_mgr {
     std::jmp_buf leave;
     std::array<char, JMSG_LENGTH_MAX> message{};
@@ -101,12 +102,9 @@ class JpegReader {
 
     std::optional<Resolution> resolution() const {
         constexpr int kPerCentimetre = 2;
-        if (jpeg_.saw_JFIF_marker == FALSE || jpeg_.density_unit == 0 || jpeg_.X_density == 0 ||
-            jpeg_.Y_density == 0) {
-            return std::nullopt;
-        }
-        const double per_inch = jpeg_.density_unit == kPerCentimetre ? 2.54 : 1;
-        return Resolution{per_inch * jpeg_.X_density, per_inch * jpeg_.Y_density};
+        if (jpeg_.saw_JFIF_marker == FALSE || jpeg_.density_unit == 0) return std::nullopt;
+        return resolution_from(jpeg_.X_density, jpeg_.Y_density,
+                               jpeg_.density_unit == kPerCentimetre ? kCentimetresPerInch : 1);
     }
 
     GreyImage read_pixels(int max_pixels, std::string& note) {

@@ -16,9 +16,6 @@
 namespace dotpose::capture {
 namespace {
 
-// Frames with noise hardly get smaller by more.
-constexpr int kCompressionLevel = 3;
-
 /// Reads a PNG file. libpng leaves its functions by longjmp on an error, so only `guarded` calls
 /// them, with no object in its scope that has a destructor.
 class PngReader {
@@ -42,14 +39,12 @@ class PngReader {
     }
 
     std::optional<Resolution> resolution() const {
-        constexpr double kMetresPerInch = 0.0254;
         png_uint_32 x_per_metre = 0;
         png_uint_32 y_per_metre = 0;
         int unit = PNG_RESOLUTION_UNKNOWN;
         png_get_pHYs(png_, info_, &x_per_metre, &y_per_metre, &unit);
-        if (unit != PNG_RESOLUTION_METER || x_per_metre == 0 || y_per_metre == 0)
-            return std::nullopt;
-        return Resolution{x_per_metre * kMetresPerInch, y_per_metre * kMetresPerInch};
+        if (unit != PNG_RESOLUTION_METER) return std::nullopt;
+        return resolution_from(x_per_metre, y_per_metre, kMetresPerInch);
     }
 
     GreyImage read_pixels(int max_pixels) {
@@ -118,50 +113,6 @@ class PngReader {
     png_infop info_;
 };
 
-/// Writes a PNG file, with the same care.
-class PngWriter {
-  public:
-    PngWriter()
-        : png_(png_create_write_struct(PNG_LIBPNG_VER_STRING, this, on_error, on_warning)),
-          info_(png_ != nullptr ? png_create_info_struct(png_) : nullptr) {}
-    ~PngWriter() { png_destroy_write_struct(&png_, &info_); }
-    PngWriter(const PngWriter&) = delete;
-    PngWriter& operator=(const PngWriter&) = delete;
-
-    std::vector<std::uint8_t> write(ImageView image) {
-        if (info_ == nullptr) throw std::bad_alloc();
-        png_set_write_fn(png_, this, on_write, on_flush);
-        if (setjmp(png_jmpbuf(png_)) != 0) throw Error("the PNG encoder failed: " + message_);
-        png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
-        png_set_IHDR(png_, info_, static_cast<png_uint_32>(image.width_px),
-                     static_cast<png_uint_32>(image.height_px), 8, PNG_COLOR_TYPE_GRAY,
-                     PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-        png_set_compression_level(png_, kCompressionLevel);
-        png_write_info(png_, info_);
-        for (int v = 0; v < image.height_px; ++v)
-            png_write_row(png_, image.row(v));
-        png_write_end(png_, info_);
-        return std::move(bytes_);
-    }
-
-  private:
-    static void on_error(png_structp png, png_const_charp message) {
-        static_cast<PngWriter*>(png_get_error_ptr(png))->message_ = message;
-        png_longjmp(png, 1);
-    }
-    static void on_warning(png_structp, png_const_charp) {}
-    static void on_write(png_structp png, png_bytep data, png_size_t size_bytes) {
-        auto& bytes = static_cast<PngWriter*>(png_get_io_ptr(png))->bytes_;
-        bytes.insert(bytes.end(), data, data + size_bytes);
-    }
-    static void on_flush(png_structp) {}
-
-    std::vector<std::uint8_t> bytes_;
-    std::string message_;
-    png_structp png_;
-    png_infop info_;
-};
-
 }  // namespace
 
 GreyImage decode_png(Bytes file, int max_pixels) {
@@ -177,7 +128,22 @@ std::optional<Resolution> png_resolution(Bytes file) {
 }
 
 std::vector<std::uint8_t> encode_png(ImageView image) {
-    return PngWriter().write(image);
+    // The simplified interface of libpng returns errors instead of leaving by longjmp.
+    png_image png{};
+    png.version = PNG_IMAGE_VERSION;
+    png.width = static_cast<png_uint_32>(image.width_px);
+    png.height = static_cast<png_uint_32>(image.height_px);
+    png.format = PNG_FORMAT_GRAY;
+    png.flags = PNG_IMAGE_FLAG_FAST;  // frames with noise hardly get smaller by more
+    png_alloc_size_t size_bytes = PNG_IMAGE_PNG_SIZE_MAX(png);
+    std::vector<std::uint8_t> bytes(size_bytes);
+    const auto stride_bytes = static_cast<png_int_32>(image.stride_bytes);
+    if (png_image_write_to_memory(&png, bytes.data(), &size_bytes, 0, image.pixels, stride_bytes,
+                                  nullptr) == 0) {
+        throw Error(std::string("the PNG encoder failed: ") + png.message);
+    }
+    bytes.resize(size_bytes);
+    return bytes;
 }
 
 }  // namespace dotpose::capture

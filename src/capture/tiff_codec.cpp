@@ -95,10 +95,9 @@ class TiffReader {
         TIFFGetField(tiff_.get(), TIFFTAG_XRESOLUTION, &x);
         TIFFGetField(tiff_.get(), TIFFTAG_YRESOLUTION, &y);
         TIFFGetFieldDefaulted(tiff_.get(), TIFFTAG_RESOLUTIONUNIT, &unit);
-        if (!(x > 0 && y > 0) || (unit != RESUNIT_INCH && unit != RESUNIT_CENTIMETER))
-            return std::nullopt;
-        const double per_inch = unit == RESUNIT_CENTIMETER ? 2.54 : 1;
-        return Resolution{per_inch * double{x}, per_inch * double{y}};
+        if (unit != RESUNIT_INCH && unit != RESUNIT_CENTIMETER) return std::nullopt;
+        return resolution_from(double{x}, double{y},
+                               unit == RESUNIT_CENTIMETER ? kCentimetresPerInch : 1);
     }
 
     GreyImage read_pixels(int max_pixels) {

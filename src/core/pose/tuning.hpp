@@ -106,7 +106,7 @@ inline constexpr float kSlopes = 0.03F;
 namespace uneven {
 /// Deviations by which blocks share residuals. Attempts that must be fast look for a line beyond
 /// kSuspect; the second attempt, whose dots are noisier, beyond kMaybeLine: a step at a line may
-/// leave hardly more, as the plane takes up most of it. One flat sheet in five exceeds kShared,
+/// leave hardly more, as the plane takes up most of it. One flat sheet in twenty exceeds kShared,
 /// from where on what blocks share widens the covariance. One side of a line is not even beyond
 /// kSuspect, and without a line, a sheet is not beyond kUneven, which hardly one flat sheet in
 /// 1,000 exceeds. `dotpose_slips` measures it.

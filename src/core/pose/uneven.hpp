@@ -13,9 +13,9 @@ namespace dotpose::core {
 void fit_uneven(const Kernels& kernels, MeasuredDots& dots, FloatVec reference_px,
                 FloatPlane& plane, PoseFit& fit);
 
-/// Does the same for a plane that was fitted to observations, more patiently: lines that blocks
-/// hardly show are looked for, too. `dots` is memory for as many dots; if
-/// it is too small, the surface counts as even.
+/// Does the same for a plane that was fitted to observations, and searches for a line at a much
+/// lower scatter of the blocks, which takes longer. `dots` is memory for as many dots; if it is too
+/// small, the surface counts as even.
 void fit_uneven(const Kernels& kernels, const Observations& observations, Vec reference_q8,
                 MeasuredDots& dots, PlaneFromImage& plane, PoseFit& fit);
 

@@ -48,7 +48,8 @@ Bytes bmp_with_masks(std::uint64_t bits, std::uint64_t compression,
 }
 
 TEST(BmpKinds, HaveFieldsOfBits) {
-    // As GIMP and ImageMagick write pictures with opacity: red, and black of which half shows.
+    // Pictures with opacity, as GIMP and ImageMagick write them: opaque red, and half transparent
+    // black.
     EXPECT_THAT(
         pixels_of(ImageFormat::bmp, bmp_with_masks(32, 3, {0xFF0000, 0xFF00, 0xFF, 0xFF000000},
                                                    {0xFFFF0000, 0x80000000})),
@@ -94,7 +95,7 @@ TEST(BmpKinds, StateTheirResolution) {
     EXPECT_NEAR(resolution->x_dpi, 300, 0.01);
 }
 
-/// Writes a TIFF of 48 x 20 px whose levels grow by `step` from pixel to pixel.
+/// Writes TIFF files of 48 x 20 px.
 class TiffKinds : public testing::Test {
   protected:
     static constexpr std::uint32_t kWidth = 48;

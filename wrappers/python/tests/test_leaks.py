@@ -48,13 +48,18 @@ def test_no_leak_over_many_frames():
     run(0, 1000)  # What is allocated once.
     gc.collect()
     references = sum(sys.getrefcount(image) for image in images)
-    before = resident_kb()
-    run(1000, FRAMES)
-    locator.locate(images[-1])
-    gc.collect()
-    grown = resident_kb() - before
+
+    def growth_kb():
+        before = resident_kb()
+        run(1000, FRAMES)
+        locator.locate(images[-1])
+        gc.collect()
+        return resident_kb() - before
+
+    # The heap may settle in the first round; a leak shows in both.
+    grown = min(growth_kb(), growth_kb())
     print(f"{FRAMES} frames: {grown} KB more")
     # A leaked Fix has 400 bytes, an image 22 KB.
-    assert grown < 1024 + FRAMES * 0.05
+    assert grown < 512 + FRAMES * 0.05
     # A locator holds its newest image.
     assert sum(sys.getrefcount(image) for image in images) <= references + 1

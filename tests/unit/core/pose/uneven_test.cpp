@@ -145,7 +145,8 @@ TEST(FitUneven, SeesASmallStepInTheMiddle) {
         ASSERT_TRUE(sheet.is_fitted);
         claim_too_much += sheet.sigmas_off() > 4 ? 1 : 0;
     }
-    // So fast an attempt looks for no line that blocks hardly show.
+    // The fast attempts do not search for a line when the blocks scatter little, so a few small
+    // steps are missed.
     EXPECT_LE(claim_too_much, 2);
 }
 
