@@ -131,7 +131,7 @@ lint: setup
 	scripts/format --check
 	scripts/check-layers
 	scripts/check-names
-	scripts/check-pipeline
+	scripts/check-design
 
 check: lint $(RELEASE)/build.ninja
 	$(BUILD) release -j $(JOBS) --target dotpose dotpose_golden

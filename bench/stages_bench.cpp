@@ -1,6 +1,6 @@
 // Benchmarks of each stage of the pipeline, with the results of the earlier stages for a nominal
-// frame of 188 x 120 px as input. docs/pipeline.md describes the stages; src/core/attempts calls
-// them.
+// frame of 188 x 120 px as input. docs/pipeline.md describes the stages; src/locate and src/device
+// call them.
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -18,16 +18,16 @@
 #include "core/detect/light.hpp"
 #include "core/integrity/verify.hpp"
 #include "core/lattice/axes.hpp"
-#include "core/lattice/grow.hpp"
 #include "core/lattice/neighbours.hpp"
-#include "core/lattice/origin.hpp"
-#include "core/locate.hpp"
-#include "core/pose/affine_pose.hpp"
 #include "core/pose/covariance.hpp"
 #include "core/pose/refine_pose.hpp"
 #include "core/pose/subgrid.hpp"
-#include "core/workspace.hpp"
+#include "device/affine_pose.hpp"
+#include "device/grow.hpp"
+#include "device/origin.hpp"
 #include "frames.hpp"
+#include "locate/locate.hpp"
+#include "locate/workspace.hpp"
 
 namespace dotpose::bench {
 namespace {

@@ -16,10 +16,10 @@
 #include <dotpose/tools/random.hpp>
 
 #include "apriltag.hpp"
-#include "core/attempts/first.hpp"
-#include "core/workspace.hpp"
 #include "floor.hpp"
 #include "frames.hpp"
+#include "locate/first.hpp"
+#include "locate/workspace.hpp"
 
 namespace dotpose::bench {
 namespace {

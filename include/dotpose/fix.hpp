@@ -14,7 +14,7 @@
 
 namespace dotpose {
 
-/// The attempt of `locate` that made a fix; src/core/attempts has one file for each.
+/// The attempt of `locate` that made a fix; src/locate and src/device have one file for each.
 enum class Attempt : std::uint8_t {
     tracked,  ///< dots were measured where a prediction expected them
     first,    ///< without a prediction, from patches of the image

@@ -3,8 +3,8 @@
 ///     dotpose::Locator locator;
 ///     if (const dotpose::Fix fix = locator.locate(image)) use(fix.x_mm(), fix.y_mm());
 ///
-/// An image can also be pushed row by row, as a camera delivers it, without a frame buffer:
-/// `begin`, then `push_row` for every row from the top, then `finish`.
+/// An image can also be pushed row by row, as a camera delivers it: `begin`, then `push_row` for
+/// every row from the top, then `finish`. A DeviceLocator needs no frame buffer for that.
 ///
 /// Dots are dark on light paper. For white dots on black, invert the pixels first:
 ///
@@ -27,7 +27,8 @@
 
 namespace dotpose {
 
-/// Base of Locator and DeviceLocator: it holds options and memory, and takes images row by row.
+/// Base of Locator and DeviceLocator: options, memory and the state of a frame whose rows are
+/// pushed.
 class RowLocator {
   public:
     RowLocator(const RowLocator&) = delete;
@@ -38,20 +39,6 @@ class RowLocator {
     /// Sets the options of the frames to come. A frame that was begun and not finished is dropped.
     void set_options(const Options& options);
 
-    /// Starts a frame whose rows are pushed. Errors: bad_argument, image_too_small, image_too_large
-    /// (too large for the memory).
-    Status begin(int width_px, int height_px);
-
-    /// Starts a frame whose dots are measured where the prediction expects them, as their rows come
-    /// in. If the prediction cannot be used or the frame does not confirm it, the status returned,
-    /// or that of `finish`, is not_tracked; a caller that still has the rows can then push them
-    /// again without a prediction.
-    Status begin(int width_px, int height_px, const Prediction& prediction);
-
-    /// Takes the next row of `width_px` pixels, which need not stay valid afterwards. Rows beyond
-    /// the height of the frame are ignored.
-    void push_row(const std::uint8_t* pixels);
-
     /// Returns the results of each stage for the last frame. A DeviceLocator's stages use the same
     /// memory one after the other, so only what the last one left is whole.
     Trace trace() const;
@@ -61,18 +48,19 @@ class RowLocator {
         : workspace_(workspace), options_(options) {}
     ~RowLocator() = default;
 
-    /// Whether a frame was begun; if not, sets the status of the fix.
+    /// Notes whether there is a frame whose rows are pushed, and how many it has. Returns `status`.
+    Status note_begin(Status status, int height_px);
+    /// Counts a row. Returns false if the frame has no more rows.
+    bool takes_row();
+    /// Returns true if a frame was begun; if not, sets the status of the fix.
     bool has_rows();
     /// Ends the frame and returns its fix, with the spacing in millimetres.
-    Fix shown();
+    Fix finished();
 
     core::Workspace* workspace_;
     Options options_;
 
   private:
-    /// Notes whether there is a frame whose rows are pushed, and how many it has.
-    void note_begin(Status status, int height_px);
-
     Status begun_ = Status::bad_argument;  ///< status of the frame whose rows are pushed
     int rows_left_ = 0;
 };
@@ -86,6 +74,7 @@ class Locator : public RowLocator {
     /// The memory must outlive the locator, and no other locator may use it meanwhile.
     explicit Locator(SmallMemory& memory, const Options& options = {});
     explicit Locator(LargeMemory& memory, const Options& options = {});
+    ~Locator() { delete owned_; }
 
     /// Returns the pose of an image; see Fix. The same image gives the same bits on every
     /// processor, except in the covariance and the residual.
@@ -111,18 +100,24 @@ class Locator : public RowLocator {
     /// where `options().profile` has none.
     CodeReading locate_in_code(const ImageView& image);
 
-    /// Locates the frame whose rows were pushed, in one attempt: in integers if Effort::device is
-    /// set. Without a frame that was begun: bad_argument.
+    /// Starts an image that arrives row by row, with a prediction or without. The locator keeps the
+    /// rows. Errors: bad_argument; image_too_small; image_too_large (more pixels than the memory
+    /// keeps: 188 x 188 for a SmallMemory, 4096 x 4096 for a LargeMemory).
+    Status begin(int width_px, int height_px);
+    Status begin(int width_px, int height_px, const Prediction& prediction);
+    /// Takes the next row of `width_px` pixels. Further rows than the image has are ignored.
+    void push_row(const std::uint8_t* pixels);
+    /// Locates the image whose rows were pushed, as `locate` does. Missing rows count as white
+    /// paper. Without an image that was begun: bad_argument.
     Fix finish();
-
-    ~Locator() { delete owned_; }
 
   private:
     explicit Locator(LargeMemory* owned, const Options& options) : Locator(*owned, options) {
         owned_ = owned;
     }
-    CodeReading shown(CodeReading reading);
-    using RowLocator::shown;
+    core::DesktopWorkspace& workspace();
+    CodeReading finished(CodeReading reading);
+    using RowLocator::finished;
 
     LargeMemory* owned_ = nullptr;
 };
@@ -139,6 +134,22 @@ class DeviceLocator : public RowLocator {
     /// Locates as the functions of Locator with the same names do.
     Fix locate(const ImageView& image);
     Fix locate(const ImageView& image, const Prediction& prediction);
+
+    /// Starts a frame whose rows are pushed; their dots are detected as they come. Errors:
+    /// bad_argument, image_too_small, image_too_large (too large for the memory).
+    Status begin(int width_px, int height_px);
+
+    /// Starts a frame whose dots are measured where the prediction expects them, as their rows come
+    /// in. If the prediction cannot be used or the frame does not confirm it, the status returned,
+    /// or that of `finish`, is not_tracked; a caller that still has the rows can then push them
+    /// again without a prediction.
+    Status begin(int width_px, int height_px, const Prediction& prediction);
+
+    /// Takes the next row of `width_px` pixels, which need not stay valid afterwards. Rows beyond
+    /// the height of the frame are ignored.
+    void push_row(const std::uint8_t* pixels);
+
+    /// Locates the frame whose rows were pushed. Without a frame that was begun: bad_argument.
     Fix finish();
 };
 

@@ -14,7 +14,8 @@ namespace dotpose {
 
 namespace core {
 struct Workspace;
-}
+struct DesktopWorkspace;
+}  // namespace core
 
 /// Memory of a DeviceLocator, for frames of any size.
 class AnyDeviceMemory {
@@ -55,7 +56,7 @@ class DeviceMemoryFor : public AnyDeviceMemory {
     alignas(8) std::array<std::byte, kBytes> bytes_;
 };
 
-/// Memory of a Locator for images up to 188 px wide, as those of the paper's sensor: about 250 KB.
+/// Memory of a Locator for images up to 188 px wide, as those of the paper's sensor: about 290 KB.
 class SmallMemory {
   public:
     SmallMemory();
@@ -64,12 +65,13 @@ class SmallMemory {
 
   private:
     friend class Locator;
-    static constexpr std::size_t kBytes = 248 * 1024;
-    core::Workspace* workspace_;
+    static constexpr std::size_t kBytes = 284 * 1024;
+    core::DesktopWorkspace* workspace_;
     alignas(64) std::array<std::byte, kBytes> bytes_;
 };
 
-/// Memory of a Locator for images up to 4096 x 4096 px: about 1.7 MB.
+/// Memory of a Locator for images up to 4096 x 4096 px: about 1.7 MB, and 16 MB that are touched
+/// only where images are pushed row by row.
 class LargeMemory {
   public:
     LargeMemory();
@@ -78,8 +80,8 @@ class LargeMemory {
 
   private:
     friend class Locator;
-    static constexpr std::size_t kBytes = 1720 * 1024;
-    core::Workspace* workspace_;
+    static constexpr std::size_t kBytes = (1720 + 16 * 1024) * 1024;
+    core::DesktopWorkspace* workspace_;
     alignas(64) std::array<std::byte, kBytes> bytes_;
 };
 

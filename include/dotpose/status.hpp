@@ -34,7 +34,7 @@ enum class [[nodiscard]] Status : std::uint8_t{
     ambiguous,
     // Found in src/core/integrity.
     not_certain,
-    // Found in src/core/attempts.
+    // Found in src/device and src/locate.
     not_tracked,
     ambiguous_code,
 };

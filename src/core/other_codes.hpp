@@ -33,8 +33,9 @@ struct OtherCode {
 /// The likelihood ratios of all other profiles.
 struct OtherCodes {
     bool are_wanted = false;
-    /// log2 of the number of profiles that are possible, each weighted by its odds, in 2^-8; -1:
-    /// the profile is given.
+    /// Value of `log2_in_question_q8` if the profile is given.
+    static constexpr int kNoneInQuestion = -1;
+    /// log2 of the number of profiles that are possible, each weighted by its odds, in 2^-8.
     int log2_in_question_q8 = 0;
     /// Positions, in the profile read, of the first column and row that were compared.
     Cell first;

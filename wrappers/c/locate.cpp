@@ -48,7 +48,7 @@ dotpose_status dotpose_set_options(dotpose_locator* locator, const dotpose_optio
     const Options before = locator->locator->options();
     c::drop_frame(*locator);
     locator->locator->set_options(options);
-    if (c::are_good_options(*locator->locator)) return DOTPOSE_OK;
+    if (c::are_good_options(*locator)) return DOTPOSE_OK;
     locator->locator->set_options(before);
     return DOTPOSE_BAD_ARGUMENT;
 }
@@ -76,10 +76,8 @@ dotpose_status dotpose_begin(dotpose_locator* locator, int32_t width_px, int32_t
     c::Frame frame;
     status = c::read_prediction(prediction, frame);
     if (status != DOTPOSE_OK) return status;
-    RowLocator& rows = *locator->locator;
-    const Status begun = frame.expected == nullptr
-                             ? rows.begin(width_px, height_px)
-                             : rows.begin(width_px, height_px, *frame.expected);
+    const Status begun =
+        locator->actions->begin(*locator->locator, width_px, height_px, frame.expected);
     locator->has_begun = true;
     if (begun == Status::ok) locator->rows_left = height_px;
     return static_cast<dotpose_status>(begun);
@@ -91,7 +89,7 @@ dotpose_status dotpose_push_row(dotpose_locator* locator, const uint8_t* pixels)
     if (pixels == nullptr) return DOTPOSE_NULL_POINTER;
     if (locator->rows_left == 0) return DOTPOSE_NO_FRAME;
     --locator->rows_left;
-    locator->locator->push_row(pixels);
+    locator->actions->push_row(*locator->locator, pixels);
     return DOTPOSE_OK;
 }
 

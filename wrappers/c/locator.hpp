@@ -16,6 +16,8 @@ namespace dotpose::c {
 /// it makes. Devices do not have the last two.
 struct Actions {
     Fix (*locate)(RowLocator& locator, const ImageView& image, const Prediction* prediction);
+    Status (*begin)(RowLocator& locator, int width_px, int height_px, const Prediction* prediction);
+    void (*push_row)(RowLocator& locator, const std::uint8_t* pixels);
     Fix (*finish)(RowLocator& locator);
     CodeReading (*locate_in_any_code)(RowLocator& locator, const ImageView& image,
                                       const Prediction* prediction, const CodeEvidence& evidence);
@@ -29,6 +31,15 @@ constexpr Actions actions_of() {
     actions.locate = [](RowLocator& locator, const ImageView& image, const Prediction* prediction) {
         auto& it = static_cast<Kind&>(locator);
         return prediction == nullptr ? it.locate(image) : it.locate(image, *prediction);
+    };
+    actions.begin = [](RowLocator& locator, int width_px, int height_px,
+                       const Prediction* prediction) {
+        auto& it = static_cast<Kind&>(locator);
+        return prediction == nullptr ? it.begin(width_px, height_px)
+                                     : it.begin(width_px, height_px, *prediction);
+    };
+    actions.push_row = [](RowLocator& locator, const std::uint8_t* pixels) {
+        static_cast<Kind&>(locator).push_row(pixels);
     };
     actions.finish = [](RowLocator& locator) { return static_cast<Kind&>(locator).finish(); };
     if constexpr (std::is_same_v<Kind, Locator>) {
@@ -112,10 +123,11 @@ inline dotpose_status check_memory(const void* memory, std::size_t bytes, std::s
 }
 
 /// Whether no option is out of its range, which the core says when a frame begins.
-inline bool are_good_options(RowLocator& locator) {
-    const bool are_good = locator.begin(kMinFrameSide_px, kMinFrameSide_px) == Status::ok;
-    locator.set_options(Options{locator.options()});  // drops the frame
-    return are_good;
+inline bool are_good_options(dotpose_locator& locator) {
+    RowLocator& it = *locator.locator;
+    const Status begun = locator.actions->begin(it, kMinFrameSide_px, kMinFrameSide_px, nullptr);
+    it.set_options(Options{it.options()});  // drops the frame
+    return begun == Status::ok;
 }
 
 /// Makes a T, which is a LocatorOf, in memory that a caller gives.
@@ -131,7 +143,7 @@ dotpose_status init(void* memory, std::size_t bytes, const dotpose_options* give
     if (status != DOTPOSE_OK) return status;
     const std::size_t skipped = (0 - reinterpret_cast<std::uintptr_t>(memory)) % alignof(T);
     T* made = ::new (static_cast<void*>(static_cast<std::byte*>(memory) + skipped)) T(options);
-    if (!are_good_options(*made->locator)) return DOTPOSE_BAD_ARGUMENT;
+    if (!are_good_options(*made)) return DOTPOSE_BAD_ARGUMENT;
     *result = made;
     return DOTPOSE_OK;
 }

@@ -308,25 +308,6 @@ void cover_image(const ImageView& image, const Lens& lens, const PlaneFromImage&
     lay_out(least, most, grid);
 }
 
-/// Calls `set_bits(index, cell, ink, sample)` for all cells. Returns whether few of them show two
-/// dots.
-template <typename SetBits>
-bool read_cells(const CellSampler& sampler, Grid& grid, SetBits set_bits) {
-    int cells = 0;
-    int crowded = 0;
-    const Ink ink(sampler, grid);
-    sampler.visit(grid, [&](Vec at, CellView& view) {
-        GridCell& cell = grid.at(at.x, at.y);
-        sampler.sample(view);
-        const Ink::Sample sample = ink.sample(view, cell);
-        set_bits(at, cell, ink, sample);
-        if (view.places_seen() < 4 || cell.is_hidden()) return;
-        ++cells;
-        crowded += ink.is_crowded(sample);
-    });
-    return 8 * crowded <= tuned::kMostCrowded_8ths * cells;
-}
-
 std::int8_t x_weight(const Ink& ink, const Ink::Sample& sample) {
     const auto [up, left, right, down] = sample.darkness_q8;
     return ink.weight(sample, std::max(left, down), std::max(up, right));
@@ -342,32 +323,21 @@ std::int8_t y_weight(const Ink& ink, const Ink::Sample& sample) {
 bool sample_cells(const ImageView& image, const PaperMap& paper, const Lens& lens,
                   const PlaneFromImage& plane, Grid& grid) {
     cover_image(image, lens, plane, grid);
-    return read_cells(CellSampler(image, paper, lens, plane), grid,
-                      [](Vec, GridCell& cell, const Ink& ink, const Ink::Sample& sample) {
-                          cell.x = x_weight(ink, sample);
-                          cell.y = y_weight(ink, sample);
-                      });
-}
-
-void resample_cells_given_axis(Axis known, Profile profile, const Decoding& decoding,
-                               const ImageView& image, const PaperMap& paper, const Lens& lens,
-                               const PlaneFromImage& plane, Grid& grid) {
-    cover_image(image, lens, plane, grid);
-    const Nominal nominal(grid, profile, decoding);
-    read_cells(CellSampler(image, paper, lens, plane), grid,
-               [&](Vec at, GridCell& cell, const Ink& ink, const Ink::Sample& sample) {
-                   const auto [up, left, right, down] = sample.darkness_q8;
-                   const Symbol symbol = nominal.symbol(nominal.pattern_step(at));
-                   if (known == Axis::x) {
-                       cell.x = x_weight(ink, sample);
-                       cell.y = x_bit(symbol) == 1 ? ink.weight(sample, down, left)
-                                                   : ink.weight(sample, right, up);
-                   } else {
-                       cell.x = y_bit(symbol) == 1 ? ink.weight(sample, down, right)
-                                                   : ink.weight(sample, left, up);
-                       cell.y = y_weight(ink, sample);
-                   }
-               });
+    const CellSampler sampler(image, paper, lens, plane);
+    const Ink ink(sampler, grid);
+    int cells = 0;
+    int crowded = 0;
+    sampler.visit(grid, [&](Vec at, CellView& view) {
+        GridCell& cell = grid.at(at.x, at.y);
+        sampler.sample(view);
+        const Ink::Sample sample = ink.sample(view, cell);
+        cell.x = x_weight(ink, sample);
+        cell.y = y_weight(ink, sample);
+        if (view.places_seen() < 4 || cell.is_hidden()) return;
+        ++cells;
+        crowded += ink.is_crowded(sample);
+    });
+    return 8 * crowded <= tuned::kMostCrowded_8ths * cells;
 }
 
 }  // namespace dotpose::core

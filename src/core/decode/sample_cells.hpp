@@ -3,7 +3,6 @@
 // second attempt. differs: docs/differs-from-paper.md.
 #pragma once
 
-#include "core/decode/lines.hpp"
 #include "core/stages.hpp"
 #include "dotpose/image.hpp"
 #include "dotpose/options.hpp"
@@ -16,12 +15,5 @@ namespace dotpose::core {
 /// weigh less. Returns false if many cells show two dots: the image shows two patterns.
 bool sample_cells(const ImageView& image, const PaperMap& paper, const Lens& lens,
                   const PlaneFromImage& grid_from_image, Grid& grid);
-
-/// Sets the weights again once one axis is beyond doubt. Its bits say which two of a cell's places
-/// the dot can have, and only these are compared for the bits of the other axis. The grid must
-/// stand upright, as `decoding` has it.
-void resample_cells_given_axis(Axis known, Profile profile, const Decoding& decoding,
-                               const ImageView& image, const PaperMap& paper, const Lens& lens,
-                               const PlaneFromImage& grid_from_image, Grid& grid);
 
 }  // namespace dotpose::core

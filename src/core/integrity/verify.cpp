@@ -150,20 +150,6 @@ std::array<int, 2> estimate_quickly(const Grid& grid, Profile profile, const Dec
 
 }  // namespace
 
-bool share_line(Axis axis, Profile profile, const Place& a, const Place& b) {
-    const AxisReading at_a = reading_of(profile, a, axis);
-    const AxisReading at_b = reading_of(profile, b, axis);
-    return at_a.position == at_b.position && at_a.roll == at_b.roll;
-}
-
-std::optional<Axis> sure_axis(const Decoding& decoding, const IntegrityOptions& options) {
-    const auto [x_q8, y_q8] = decoding.p_wrong_log2_q8;
-    const int surer_q8 = std::min(x_q8, y_q8);
-    // 0 means that nothing is known, whatever the limit is.
-    if (surer_q8 == 0 || surer_q8 > 256 * options.max_p_wrong_log2) return {};
-    return x_q8 <= y_q8 ? Axis::x : Axis::y;
-}
-
 Status verify_quickly(const Grid& grid, Profile profile, Decoding& decoding,
                       const IntegrityOptions& options, std::span<ScoredLine> storage, Fix& fix) {
     decoding.p_wrong_log2_q8 = {};

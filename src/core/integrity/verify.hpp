@@ -2,8 +2,6 @@
 // accepts whatever decodes; see docs/differs-from-paper.md.
 #pragma once
 
-#include <optional>
-
 #include "core/decode/lines.hpp"
 #include "core/kernels/kernels.hpp"
 #include "core/other_codes.hpp"
@@ -38,11 +36,5 @@ Status verify_tracked(Profile profile, const Tracking& tracking, const Integrity
 /// read in.
 void weigh_other_codes(const Kernels& kernels, const Grid& grid, Profile profile,
                        const Decoding& decoding, std::span<ScoredLine> storage, OtherCodes* others);
-
-/// Returns whether the bits of this axis around two places are the same.
-bool share_line(Axis axis, Profile profile, const Place& a, const Place& b);
-
-/// Returns the less doubtful axis of a refused decoding, if it alone is beyond doubt.
-std::optional<Axis> sure_axis(const Decoding& decoding, const IntegrityOptions& options);
 
 }  // namespace dotpose::core

@@ -8,9 +8,9 @@
 
 #include "core/detect/blobs.hpp"
 #include "core/detect/light.hpp"
-#include "core/workspace.hpp"
 #include "dotpose/tools/grey_image.hpp"
 #include "geometry.hpp"
+#include "locate/workspace.hpp"
 
 namespace dotpose::core_test {
 

@@ -1,7 +1,7 @@
 // Takes the place of the attempts of microcontrollers, which JavaScript cannot choose and would
-// download: without src/core/attempts/device*.cpp the linker leaves out what only these call.
-#include "core/attempts/device.hpp"
-#include "core/attempts/device_tracked.hpp"
+// download: without src/device/{attempt,tracked}.cpp the linker leaves out what only these call.
+#include "device/attempt.hpp"
+#include "device/tracked.hpp"
 
 namespace dotpose::core {
 

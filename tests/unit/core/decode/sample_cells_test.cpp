@@ -24,7 +24,7 @@ GreyImage drawn(const View& view) {
 
 /// The view's cells as sampled from an image.
 struct Sampled {
-    Sampled(const View& view_, Turn turn_, const GreyImage& image, std::optional<Axis> known = {})
+    Sampled(const View& view_, Turn turn_, const GreyImage& image)
         : view(view_), turn(turn_), owned(64) {
         zero = {static_cast<int>(std::lround(view.at_centre.x)),
                 static_cast<int>(std::lround(view.at_centre.y))};
@@ -36,15 +36,7 @@ struct Sampled {
         measure_paper(image.view(), paper);
         const PlaneFromImage plane = plane_from_lattice(lattice_of(view.mesh_turned(turn, zero)),
                                                         fixed(view.centre_px(), 8));
-        if (!known) {
-            sample_cells(image.view(), paper, Lens{}, plane, owned.grid);
-        } else {
-            Decoding decoding;
-            decoding.pattern_from_grid = turn;
-            decoding.place = moved(view.profile, view.place, zero.x, zero.y);
-            resample_cells_given_axis(*known, view.profile, decoding, image.view(), paper, Lens{},
-                                      plane, owned.grid);
-        }
+        sample_cells(image.view(), paper, Lens{}, plane, owned.grid);
     }
     const Grid& grid() const { return owned.grid; }
     /// Calls `use(cell, its place in px, its bits on the pattern, the code's symbol)` for all
@@ -102,39 +94,6 @@ TEST(SampleCells, ReadsTheBitsOfACleanFrame) {
             EXPECT_FALSE(cell.is_hidden());
         });
         EXPECT_GE(inside, 40);
-    }
-}
-
-// Every cell has a second, darker dot opposite to its own, which contradicts both of its bits.
-TEST(SampleCells, KnowingOneAxisItLooksForTheOtherWhereTheDotCanBe) {
-    Rng rng(kSeed);
-    for (int i = 0; i < 20; ++i) {
-        View view = random_view(rng);
-        view.spacing_px = rng.uniform(10, 16);
-        GreyImage image = drawn(view);
-        for (const PlacedDot& dot : pattern_dots(view)) {
-            const Vec2 middle = view.mesh().at(dot.cell.x, dot.cell.y);
-            darken(image, 2.0 * middle - dot.centre_px, 0.13 * view.spacing_px, 0.9);
-        }
-        for (const Axis known : {Axis::x, Axis::y}) {
-            const Sampled sampled(view, Turn{0}, image, known);
-            int inside = 0;
-            sampled.visit([&](const GridCell&, Vec2 at, Bits bits, Symbol symbol) {
-                SCOPED_TRACE(testing::Message() << "view " << i << " at " << at.x << ", " << at.y
-                                                << ", seed " << kSeed);
-                const double margin = view.spacing_px / 6 + 5;
-                if (at.x < margin || at.y < margin || at.x > view.image_px.x - 1 - margin ||
-                    at.y > view.image_px.y - 1 - margin) {
-                    return;
-                }
-                ++inside;
-                const bool is_x_right = (bits.x > 0) == (x_bit(symbol) == 1);
-                const bool is_y_right = (bits.y > 0) == (y_bit(symbol) == 1);
-                EXPECT_EQ(is_x_right, known == Axis::y);
-                EXPECT_EQ(is_y_right, known == Axis::x);
-            });
-            EXPECT_GE(inside, 30);
-        }
     }
 }
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "../canvas.hpp"
+#include "locate/workspace.hpp"
 
 namespace dotpose::core_test::blobs_test {
 namespace {

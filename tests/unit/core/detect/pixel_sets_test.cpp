@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "../canvas.hpp"
+#include "locate/workspace.hpp"
 
 namespace dotpose::core_test::pixel_sets_test {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "../canvas.hpp"
 #include "dotpose/locate.hpp"
+#include "locate/workspace.hpp"
 
 namespace dotpose::core_test::runs_test {
 namespace {

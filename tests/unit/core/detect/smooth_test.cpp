@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "../canvas.hpp"
+#include "locate/workspace.hpp"
 
 namespace dotpose::core_test::smooth_test {
 namespace {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "../canvas.hpp"
+#include "locate/workspace.hpp"
 
 namespace dotpose::core_test::tiles_test {
 namespace {

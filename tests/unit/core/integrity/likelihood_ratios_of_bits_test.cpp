@@ -15,8 +15,8 @@
 #include "core/integrity/quick_alternatives.hpp"
 #include "core/integrity/unshared_lines.hpp"
 #include "core/math/fixed.hpp"
-#include "core/workspace.hpp"
 #include "dotpose/tools/random.hpp"
+#include "locate/workspace.hpp"
 
 namespace dotpose::core_test::likelihood_ratios_of_bits_test {
 namespace {

@@ -165,57 +165,6 @@ TEST(Verify, RefusesTwoPatternsWhateverTheLimit) {
             EXPECT_EQ(verdict.status, Status::not_certain);
             EXPECT_EQ(verdict.fix.p_wrong_log2, 0);
         }
-        EXPECT_EQ(sure_axis(Decoding{}, any), std::nullopt);
-    }
-}
-
-TEST(Verify, TellsWhichAxisIsBeyondDoubt) {
-    Rng rng(kSeed);
-    for (int i = 0; i < 40; ++i) {
-        SCOPED_TRACE(testing::Message() << "view " << i << ", seed " << kSeed);
-        const Turn turn{i % 4};
-        Reading reading(random_view(rng), turn);
-        const Axis clear = i / 4 % 2 == 0 ? Axis::x : Axis::y;
-        // Only a few bits of the other axis are left. In a grid that was found sideways these are
-        // the other bits of its cells.
-        const bool is_y_lost = (clear == Axis::x) == (turn.quarters % 2 == 0);
-        int kept = 30;
-        for (GridCell& cell : reading.owned.cells) {
-            if (cell.dot == GridCell::kNoDot || kept-- > 0) continue;
-            (is_y_lost ? cell.y : cell.x) = 0;
-        }
-        Storage storage;
-        Decoding decoding = reading.truth();
-        Fix fix;
-        EXPECT_EQ(verify(reading.grid(), Profile::anoto, decoding, {}, storage, fix),
-                  Status::not_certain);
-        EXPECT_EQ(sure_axis(decoding, {}), clear);
-        IntegrityOptions strict;
-        strict.max_p_wrong_log2 = -500;
-        EXPECT_EQ(sure_axis(decoding, strict), std::nullopt);
-    }
-}
-
-TEST(Verify, PlacesShareALineIfTheCodeSaysSo) {
-    Rng rng(kSeed);
-    for (int i = 0; i < 200; ++i) {
-        SCOPED_TRACE(testing::Message() << "place " << i << ", seed " << kSeed);
-        const Place a = random_place(rng);
-        Place b = random_place(rng);
-        if (i % 2 == 0) b.cell.x = a.cell.x;
-        if (i % 4 == 0) b.section.u = a.section.u;
-        // The x bits down the column of a place are compared; no two rolls of the sequence are
-        // equal for so long.
-        bool is_alike = a.cell.x == b.cell.x;
-        for (int j = 0; j < 63; ++j) {
-            const auto bit = [&](const Place& place) {
-                const Place at = moved(Profile::anoto, place, 0, j);
-                return x_bit(symbol_at(Profile::anoto, at.cell, at.section));
-            };
-            is_alike = is_alike && bit(a) == bit(b);
-        }
-        EXPECT_EQ(share_line(Axis::x, Profile::anoto, a, b), is_alike);
-        EXPECT_TRUE(share_line(Axis::y, Profile::anoto, a, a));
     }
 }
 

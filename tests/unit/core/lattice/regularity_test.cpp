@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/lattice/grow.hpp"
 #include "core/lattice/refine_grid.hpp"
+#include "device/grow.hpp"
 #include "grids.hpp"
 
 namespace dotpose::core_test::regularity_test {

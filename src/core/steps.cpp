@@ -1,0 +1,117 @@
+#include "core/steps.hpp"
+
+#include "core/decode/orientation.hpp"
+#include "core/decode/window.hpp"
+#include "core/detect/undistort.hpp"
+#include "core/lattice/axes.hpp"
+#include "core/lattice/neighbours.hpp"
+#include "core/math/fixed.hpp"
+#include "core/option_ranges.hpp"
+
+namespace dotpose::core {
+namespace {
+
+DotList dot_list(Workspace& w) {
+    return {w.dots, w.dot_count, w.dots_kept_within_px};
+}
+
+bool are_valid(const Options& options) {
+    return all_options(options, [](const char*, std::int32_t value, std::int32_t low,
+                                   std::int32_t high) { return value >= low && value <= high; });
+}
+
+}  // namespace
+
+Status check(int width_px, int height_px, const Options& options, const Workspace& w) {
+    if (!are_valid(options)) return Status::bad_argument;
+    if (width_px < kMinFrameSide_px || height_px < kMinFrameSide_px) {
+        return Status::image_too_small;
+    }
+    if (width_px > w.max_width_px || height_px > w.max_height_px) return Status::image_too_large;
+    return Status::ok;
+}
+
+Status check(const ImageView& image, const Options& options, const Workspace& w) {
+    const Status status = check(image.width_px, image.height_px, options, w);
+    return status == Status::ok && image.pixels == nullptr ? Status::bad_argument : status;
+}
+
+const Fix& refuse(Status reason, Workspace& w) {
+    forget_frame(w);
+    w.fix.status = reason;
+    return w.fix;
+}
+
+Vec image_centre_q8(const Light& light) {
+    return {(light.width_px - 1) * 128, (light.height_px - 1) * 128};
+}
+
+Vec reference_q8(Vec centre_q8, const Options& options) {
+    return centre_q8 + Vec{options.reference_dx_q8, options.reference_dy_q8};
+}
+
+void forget_frame(Workspace& w) {
+    w.fix = Fix{};
+    w.dot_count = w.seed_count = w.edge_count = 0;
+    w.lattice = {};
+    w.decoding = {};
+    w.grid.columns = w.grid.rows = 0;
+    w.tracking.is_on = false;
+}
+
+void begin_frame(int width_px, int height_px, Workspace& w) {
+    forget_frame(w);
+    begin_light(width_px, height_px, w.light);
+    begin_blobs(w.light, w.open, dot_list(w));
+}
+
+void threshold_bands(int ready, const Options& options, Workspace& w) {
+    const int newest = (w.light.rows_taken - 1) >> w.light.band_shift;
+    const bool is_last = w.light.rows_taken == w.light.height_px;
+    for (int band = newest - ready + (is_last ? 1 : 0); ready > 0; --ready, ++band) {
+        const int before = w.light.greatest_contrast;
+        measure_levels(band, options.threshold, w.light);
+        // No row above showed dots: what was taken for some was noise.
+        if (before < least_contrast(options.threshold, w.light)) w.dot_count = 0;
+        for (int v = band_begin(w.light, band); v < band_end(w.light, band); ++v) {
+            grow_blobs(v, w.light, w.open, dot_list(w));
+        }
+    }
+}
+
+void detect_image(const ImageView& image, const Options& options, Workspace& w) {
+    begin_frame(image.width_px, image.height_px, w);
+    for (int v = 0; v < image.height_px; ++v)
+        detect_row(image.row(v), options, w);
+}
+
+Status find_dots(const Options& options, Workspace& w) {
+    sift_dots(options.blobs, dot_list(w));
+    w.fix.dots_seen = w.dot_count;
+    if (!w.light.has_contrast) return Status::no_contrast;
+    // Options may allow no dots at all, but the stages that follow take means over them.
+    if (w.dot_count < std::max(options.lattice.min_dots, 1)) return Status::too_few_dots;
+    undistort(options.lens, image_centre_q8(w.light), first(w.dots, w.dot_count));  // eq. 1-2
+    return Status::ok;
+}
+
+Status find_axes(Vec start_q8, int most_seeds, Workspace& w) {
+    const auto dots = w.found_dots();
+    const int room = std::min(most_seeds, static_cast<int>(w.seeds.size()));
+    w.seed_count = choose_seeds(dots, start_q8, first(w.seeds, room));
+    const std::span<const std::uint16_t> seeds = first(w.seeds, w.seed_count);
+    find_neighbours(dots, seeds, w.buckets, w.neighbours);  // II-B.2, Fig. 3
+    w.edge_count = connect_symmetric(dots, seeds, w.neighbours, w.edges);
+    return estimate_axes(first(w.edges, w.edge_count), w.edge_values, w.lattice);  // Fig. 4-5
+}
+
+void choose_region(Workspace& w) {
+    w.decoding.region = choose_window(w.grid, static_cast<int>(w.line_scores.size() / 2));
+}
+
+Status refused(Status reason, const Workspace& w) {
+    const Decoding& decoding = w.decoding;
+    return is_mirrored(w.grid, decoding.region, decoding.agreement) ? Status::mirrored : reason;
+}
+
+}  // namespace dotpose::core

@@ -1,0 +1,70 @@
+#include "device/affine_fit_int32.hpp"
+
+#include <bit>
+
+#include "core/math/symmetric2.hpp"
+
+namespace dotpose::core {
+namespace {
+
+/// Returns by how many bits a value >= 0 has to be shifted right to fit into `bits` bits.
+int excess_bits(std::int64_t value, int bits) {
+    return std::max(static_cast<int>(std::bit_width(static_cast<std::uint64_t>(value))) - bits, 0);
+}
+
+/// Returns n / d. Small numbers are divided in 32 bits, which takes a fifth of the time.
+std::int64_t quotient(std::int64_t n, std::int32_t d) {
+    const auto small = static_cast<std::int32_t>(n);
+    return small == n ? small / d : n / d;
+}
+
+}  // namespace
+
+[[gnu::noinline]] void AffineFitInt32::carry_over() {
+    all_.xx += recent_.xx;
+    all_.xy += recent_.xy;
+    all_.yy += recent_.yy;
+    all_.ix += recent_.ix;
+    all_.iy += recent_.iy;
+    all_.jx += recent_.jx;
+    all_.jy += recent_.jy;
+    recent_ = {};
+}
+
+[[gnu::noinline]] std::int64_t AffineFitInt32::moment(std::int64_t products, std::int32_t a,
+                                                      std::int32_t b) const {
+    return count() * products - std::int64_t{a} * b;
+}
+
+bool AffineFitInt32::solve(int bits, PlaneFromImage& plane) {
+    carry_over();
+    if (count() < 3) return false;
+    const std::int64_t mxx = moment(all_.xx, p_.x, p_.x);
+    const std::int64_t myy = moment(all_.yy, p_.y, p_.y);
+    const int shift = excess_bits(std::max(mxx, myy), 30);
+    const Symmetric2<std::int64_t> spread{mxx >> shift, moment(all_.xy, p_.x, p_.y) >> shift,
+                                          myy >> shift};
+    const std::int64_t determinant = spread.determinant();
+    const std::int64_t trace = spread.xx + spread.yy;
+    // Dots that spread less than a 16th as far across as along count as a line.
+    if (determinant <= 0 || determinant >> 8 < trace * trace >> 18) return false;
+
+    const auto solve_one = [&](std::int32_t sum, std::int64_t of_x, std::int64_t of_y,
+                               std::int32_t& du_q24, std::int32_t& dv_q24) {
+        const std::int64_t mx = moment(of_x, sum, p_.x);
+        const std::int64_t my = moment(of_y, sum, p_.y);
+        const int own = excess_bits(std::max(magnitude(mx), magnitude(my)), 29);
+        const auto [x, y] = spread.solve_scaled(mx >> own, my >> own);
+        const int scale = 24 + 3 + own - shift - bits;
+        du_q24 = scaled_quotient(x, determinant, scale);
+        dv_q24 = scaled_quotient(y, determinant, scale);
+        const std::int64_t slope = std::int64_t{du_q24} * p_.x + std::int64_t{dv_q24} * p_.y;
+        return static_cast<std::int32_t>(
+            quotient((sum * 65536LL >> bits) - (slope >> 11), count()));
+    };
+    plane.at_centre_q16.x = solve_one(target_.x, all_.ix, all_.iy, plane.du_q24.x, plane.dv_q24.x);
+    plane.at_centre_q16.y = solve_one(target_.y, all_.jx, all_.jy, plane.du_q24.y, plane.dv_q24.y);
+    return true;
+}
+
+}  // namespace dotpose::core

@@ -1,0 +1,183 @@
+#include "device/grow.hpp"
+
+#include <array>
+
+#include "core/lattice/axes.hpp"
+#include "core/lattice/regularity.hpp"
+#include "core/math/cells.hpp"
+#include "core/noinline.hpp"
+#include "device/affine_fit_int32.hpp"
+
+namespace dotpose::core {
+namespace {
+
+/// A set of vectors: both components lie between `least` and `least` + `extent`, modulo 2^32.
+struct Square {
+    std::uint32_t least;
+    std::uint32_t extent;
+
+    bool holds(std::uint32_t x, std::uint32_t y) const {
+        return x - least <= extent && y - least <= extent;
+    }
+    bool holds(Vec a) const {
+        return holds(static_cast<std::uint32_t>(a.x), static_cast<std::uint32_t>(a.y));
+    }
+};
+
+/// Returns the points, in spacings, that truncation puts into cells up to `limit` from the middle
+/// one.
+Square cells_within(int limit) {
+    return {static_cast<std::uint32_t>(-limit * 65536),
+            static_cast<std::uint32_t>((2 * limit + 1) * 65536 - 1)};
+}
+
+/// Returns the points, by their fractions times 2^16, whose rounded offset is at most `limit` on
+/// both axes.
+Square offsets_within(std::int32_t limit_q16) {
+    return {static_cast<std::uint32_t>(32768 - limit_q16) << 16,
+            static_cast<std::uint32_t>(std::min<std::int32_t>(2 * limit_q16, 65535)) << 16};
+}
+bool is_near(Vec rounding_q16, const Square& offsets) {
+    return offsets.holds(static_cast<std::uint32_t>(rounding_q16.x) << 16,
+                         static_cast<std::uint32_t>(rounding_q16.y) << 16);
+}
+
+/// Farthest cell of a dot that may belong to the grid.
+constexpr int kFarthest_cells = 500;
+
+/// Calls `use(dot, c, is_within_reach)` for each dot, where c is its place in the plane, which
+/// truncated gives the nearest cell. `near_intersections` of the result is not set.
+template <typename Use>
+Regularity visit_cells(std::span<const Dot> dots, int reach_cells, const Cells& cells, Use use) {
+    int farthest_cell = 0;
+    int beyond = 0;
+    const Square reach = cells_within(reach_cells);
+    // Most dots are within reach, and no farther than dots before them, so this is tested first.
+    Square common = cells_within(0);
+    for (const Dot& dot : dots) {
+        const Vec c = cells.rounding_plane_point_q16(cells.from_centre_q3(dot.centre_q8));
+        bool is_within_reach = common.holds(c);
+        if (!is_within_reach) {
+            const int distance = larger_component({c.x >> 16, c.y >> 16});
+            if (distance <= kFarthest_cells && distance > farthest_cell) {
+                farthest_cell = distance;
+                common = cells_within(std::min(distance, reach_cells));
+            }
+            is_within_reach = distance <= kFarthest_cells && reach.holds(c);
+            if (!is_within_reach) ++beyond;
+        }
+        use(dot, c, is_within_reach);
+    }
+    Regularity found;
+    found.dots = static_cast<int>(dots.size()) - beyond;
+    found.farthest_cell = farthest_cell;
+    return found;
+}
+
+/// The cell of a dot that a fit uses, packed into one word; `no` if it is not used.
+enum class Used : std::uint32_t { no = 0x80808080 };
+
+Used used(Vec rounding_q16) {
+    return Used{(static_cast<std::uint32_t>(rounding_q16.x) & 0xFFFF0000) |
+                static_cast<std::uint32_t>(rounding_q16.y) >> 16};
+}
+Vec cell_of(Used used) {
+    const auto both = static_cast<std::uint32_t>(used);
+    return {static_cast<std::int16_t>(both >> 16), static_cast<std::int16_t>(both & 0xFFFF)};
+}
+
+/// Returns the mean square of the offsets of dots, from the sum of `squared_offset_q14`.
+std::int64_t mean_square_q20(std::int32_t squared_offsets_q14, int dots) {
+    return squared_offsets_q14 / std::max(dots, 1) * 64;
+}
+/// Returns the square of one dot's offset from its intersection, in 2^-14 spacing^2.
+std::int32_t squared_offset_q14(Vec rounding_q16) {
+    const Vec offset_q8{(rounding_q16.x >> 8 & 255) - 128, (rounding_q16.y >> 8 & 255) - 128};
+    return (offset_q8.x * offset_q8.x + offset_q8.y * offset_q8.y) >> 2;
+}
+
+/// Successive fits of the grid. Most dots count in each of them, in the same cells, so only changes
+/// are added up.
+class Fits {
+  public:
+    Fits(std::span<const Dot> dots, std::int32_t max_offset_q16)
+        : dots_(dots), near_(offsets_within(max_offset_q16)) {
+        if (remembers()) std::fill_n(before_.begin(), dots.size(), Used::no);
+    }
+
+    /// Fits the plane to the dots within reach. Returns false if they do not determine one.
+    bool operator()(int reach_cells, Regularity& found, PlaneFromImage& plane) {
+        const Cells cells(plane);
+        found = remembers() ? sum_up_changes(reach_cells, cells) : sum_up(reach_cells, cells);
+        found.near_intersections = sums_.count();
+        return sums_.solve(0, plane) && is_nearly_square(plane);
+    }
+
+    /// Checks that the dots lie on a grid and are displaced. Errors: no_grid, no_displacement.
+    Status judge(int reach_cells, const PlaneFromImage& plane) const {
+        const Square near = near_;
+        std::int32_t squared_offsets_q14 = 0;
+        int near_intersections = 0;
+        Regularity found =
+            visit_cells(dots_, reach_cells, Cells(plane), [&](const Dot&, Vec c, bool is_within) {
+                if (!is_within) return;
+                squared_offsets_q14 += squared_offset_q14(c);
+                near_intersections += is_near(c, near) ? 1 : 0;
+            });
+        found.near_intersections = near_intersections;
+        return found.verdict(mean_square_q20(squared_offsets_q14, found.dots));
+    }
+
+  private:
+    bool remembers() const { return dots_.size() <= before_.size(); }
+
+    Regularity sum_up(int reach_cells, const Cells& cells) {
+        AffineFitInt32 sums;
+        const Square near = near_;
+        const Regularity found =
+            visit_cells(dots_, reach_cells, cells, [&](const Dot& dot, Vec c, bool is_within) {
+                if (!is_within || !is_near(c, near)) return;
+                sums.add(cells.from_centre_q3(dot.centre_q8), {c.x >> 16, c.y >> 16});
+            });
+        sums_ = sums;
+        return found;
+    }
+    Regularity sum_up_changes(int reach_cells, const Cells& cells) {
+        Used* before = before_.data();
+        const Square near = near_;
+        return visit_cells(dots_, reach_cells, cells, [&](const Dot& dot, Vec c, bool is_within) {
+            const Used now = is_within && is_near(c, near) ? used(c) : Used::no;
+            if (now != *before) {
+                const Vec p = cells.from_centre_q3(dot.centre_q8);
+                if (*before != Used::no) count(p, *before, -1);
+                if (now != Used::no) count(p, now, 1);
+                *before = now;
+            }
+            ++before;
+        });
+    }
+    DOTPOSE_NOINLINE void count(Vec p, Used used, int weight) {
+        sums_.count(p, cell_of(used), weight);
+    }
+
+    std::span<const Dot> dots_;
+    Square near_;
+    AffineFitInt32 sums_;
+    std::array<Used, 384> before_;  ///< cell of each dot in the fit before; not used if there are
+                                    ///< too many dots
+};
+
+}  // namespace
+
+Status grow_grid(std::span<const Dot> dots, const LatticeOptions& options, Vec image_centre_q8,
+                 const Lattice& first, PlaneFromImage& plane) {
+    plane = plane_from_lattice(first, image_centre_q8);
+    Fits fits(dots, options.max_offset_q16);
+    Regularity found;
+    constexpr int kMostRounds = 3;
+    const auto fit = [&](int reach_cells) { return fits(reach_cells, found, plane); };
+    if (!fit_outwards(kMostRounds, found, fit)) return Status::no_grid;
+    return fits.judge(found.farthest_cell, plane);
+}
+
+}  // namespace dotpose::core

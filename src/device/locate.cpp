@@ -1,0 +1,100 @@
+// The classes and functions of devices: they use nothing of the attempts of desktops, so
+// scripts/export-device leaves those out.
+#include "device/locate.hpp"
+
+#include "core/steps.hpp"
+#include "device/attempt.hpp"
+#include "device/tracked.hpp"
+#include "device/workspace.hpp"
+#include "dotpose/locate.hpp"
+
+namespace dotpose::core {
+Fix locate_as_device(const ImageView& image, const Options& options, Workspace& w) {
+    const Status status = check(image, options, w);
+    if (status != Status::ok) return refuse(status, w);
+    detect_image(image, options, w);
+    return finish_device_attempt(options, w);
+}
+
+Fix locate_as_device(const ImageView& image, const Options& options, const Prediction& prediction,
+                     Workspace& w) {
+    Status status = check(image, options, w);
+    if (status != Status::ok) return refuse(status, w);
+    status = begin_device_tracked(image.width_px, image.height_px, options, prediction, w);
+    for (int v = 0; v < image.height_px && status == Status::ok; ++v)
+        status = push_tracked_row(image.row(v), w);
+    const bool is_tracked =
+        status == Status::ok && finish_device_tracked(options, w).status == Status::ok;
+    return is_tracked ? w.fix : locate_as_device(image, options, w);
+}
+
+Status begin(int width_px, int height_px, const Options& options, Workspace& w) {
+    const Status status = check(width_px, height_px, options, w);
+    if (status != Status::ok) return refuse(status, w).status;
+    begin_frame(width_px, height_px, w);
+    return Status::ok;
+}
+
+Status begin(int width_px, int height_px, const Options& options, const Prediction& prediction,
+             Workspace& w) {
+    const Status status = check(width_px, height_px, options, w);
+    if (status != Status::ok) return refuse(status, w).status;
+    return begin_device_tracked(width_px, height_px, options, prediction, w);
+}
+
+void push_row(const std::uint8_t* pixels, const Options& options, Workspace& w) {
+    if (w.tracking.is_on) {
+        static_cast<void>(push_tracked_row(pixels, w));
+    } else {
+        detect_row(pixels, options, w);
+    }
+}
+
+const Fix& finish_as_device(const Options& options, Workspace& w) {
+    return w.tracking.is_on ? finish_device_tracked(options, w) : finish_device_attempt(options, w);
+}
+
+}  // namespace dotpose::core
+
+namespace dotpose {
+
+template <int Width, int Height>
+DeviceMemoryFor<Width, Height>::DeviceMemoryFor() {
+    workspace_ = core::make_workspace<core::DeviceWorkspaceFor<Width, Height>>(bytes_);
+}
+template class DeviceMemoryFor<160, 120>;
+template class DeviceMemoryFor<188, 120>;
+template class DeviceMemoryFor<320, 240>;
+
+DeviceLocator::DeviceLocator(AnyDeviceMemory& memory, const Options& options)
+    : RowLocator(memory.workspace_, options) {}
+
+Fix DeviceLocator::locate(const ImageView& image) {
+    core::locate_as_device(image, options_, *workspace_);
+    return finished();
+}
+
+Fix DeviceLocator::locate(const ImageView& image, const Prediction& prediction) {
+    core::locate_as_device(image, options_, prediction, *workspace_);
+    return finished();
+}
+
+Status DeviceLocator::begin(int width_px, int height_px) {
+    return note_begin(core::begin(width_px, height_px, options_, *workspace_), height_px);
+}
+
+Status DeviceLocator::begin(int width_px, int height_px, const Prediction& prediction) {
+    return note_begin(core::begin(width_px, height_px, options_, prediction, *workspace_),
+                      height_px);
+}
+
+void DeviceLocator::push_row(const std::uint8_t* pixels) {
+    if (takes_row()) core::push_row(pixels, options_, *workspace_);
+}
+
+Fix DeviceLocator::finish() {
+    if (has_rows()) core::finish_as_device(options_, *workspace_);
+    return finished();
+}
+
+}  // namespace dotpose

@@ -1,0 +1,126 @@
+// Near dot: measures the dot of an intersection whose place in the image is known. It does not use
+// the code, so that its result can confirm or contradict the code. Most of it is inline: calls
+// would take a third of what small processors spend on a dot.
+#pragma once
+
+#include <array>
+
+#include "core/detect/inverses.hpp"
+#include "core/kernels/portable/dark_sums.hpp"
+#include "core/noinline.hpp"
+#include "core/stages.hpp"
+#include "device/newest_rows.hpp"
+#include "dotpose/code.hpp"
+
+namespace dotpose::core {
+
+/// Half the side of the square around an intersection that contains its dot, and of the square
+/// around the dot's centre that contains the dot; for spacings of 7 to 13 px.
+inline constexpr int kHalf_px = 4;
+inline constexpr int kDotHalf_px = 2;
+
+/// Returns the pixel nearest to a place.
+constexpr Vec pixel_at(Vec place_q16) {
+    return {(place_q16.x + 32768) >> 16, (place_q16.y + 32768) >> 16};
+}
+
+/// Whether all pixels of a square around `pixel` are kept.
+[[gnu::always_inline]] inline bool is_kept(const Tracking& tracking, Vec pixel, int half) {
+    return static_cast<unsigned>(pixel.x - half) <
+               static_cast<unsigned>(tracking.width_px - 2 * half) &&
+           static_cast<unsigned>(pixel.y - half - tracking.first_kept) <
+               static_cast<unsigned>(tracking.rows_taken - tracking.first_kept - 2 * half);
+}
+
+/// Returns the level of the paper around a pixel, from the corners of its square, which no dot
+/// reaches.
+[[gnu::always_inline]] inline std::int32_t paper_around(const Tracking& tracking,
+                                                        const std::uint8_t* at) {
+    constexpr int kSide_px = 2 * kHalf_px;
+    const std::uint8_t* const top = at - kHalf_px * tracking.stride_px - kHalf_px;
+    const std::uint8_t* const bottom = top + kSide_px * tracking.stride_px;
+    return (top[0] + top[kSide_px] + bottom[0] + bottom[kSide_px]) >> 2;
+}
+
+/// Sets the pixels that `read_symbol` reads. Returns false if they lie beyond the squares.
+bool lay_dot_pixels(Tracking& tracking);
+
+/// The reading of a dot, in one register.
+class ReadSymbol {
+  public:
+    static constexpr ReadSymbol unclear() { return ReadSymbol(-1); }
+    /// A clear reading: the symbol, and the level from 0 to 255 below which pixels belong to the
+    /// dot.
+    constexpr ReadSymbol(int symbol, std::int32_t level) : bits_(level * 4 + symbol) {}
+
+    /// Whether one of the four places was clearly the darkest.
+    bool is_clear() const { return bits_ >= 0; }
+    int symbol() const { return bits_ & 3; }
+    std::int32_t level() const { return bits_ >> 2; }
+
+  private:
+    constexpr explicit ReadSymbol(std::int32_t bits) : bits_(bits) {}
+    std::int32_t bits_;
+};
+
+/// Reads the four places around an intersection. Its square, and a pixel around that, must be kept.
+/// It is a function of its own so that small processors can keep all it needs in registers.
+DOTPOSE_NOINLINE inline ReadSymbol read_symbol(const Tracking& tracking,
+                                               const Vec& intersection_q16) {
+    const std::int32_t stride = tracking.stride_px;
+    const std::uint8_t* const at =
+        kept_row(tracking, intersection_q16.y >> 16) + (intersection_q16.x >> 16);
+    const int quarter = (intersection_q16.x >> 15 & 1) + (intersection_q16.y >> 14 & 2);
+    const std::int16_t* offset = tracking.dot_pixels[static_cast<std::size_t>(quarter)].data();
+    // Each value is a sum of four pixels, times 4, plus the symbol.
+    std::int32_t darkest = INT32_MAX;
+    std::int32_t second = INT32_MAX;
+#pragma GCC unroll 4
+    for (int s = 0; s < 4; ++s) {
+        const std::uint8_t* const above = at + *offset++;
+        const std::uint8_t* const below = above + stride;
+        const std::int32_t sum = above[0] + above[1] + below[0] + below[1];
+        const std::int32_t here = sum * 4 + s;
+        if (here < darkest) {
+            second = darkest;
+            darkest = here;
+        } else if (here < second) {
+            second = here;
+        }
+    }
+    const std::int32_t paper = paper_around(tracking, at);
+    const std::int32_t depth = (paper * tracking.cut_q8) >> 8;
+    // A dot darkens its four pixels by about 6 depths, and the places beside it by 2.
+    const bool is_clear =
+        paper * 4 - (darkest >> 2) >= 2 * depth && (second >> 2) - (darkest >> 2) >= depth;
+    return is_clear ? ReadSymbol(darkest & 3, paper - depth) : ReadSymbol::unclear();
+}
+
+/// The measurement of one dot.
+struct NearDot {
+    Vec off_q8;  ///< distance of its centroid from the expected place, px
+    std::int32_t mass = 0;
+};
+
+/// Measures the centroid of pixels darker than `level` in the square of 2 Half + 1 px around a
+/// place. Returns false if its mass is not that of a dot, or the square leaves the kept pixels.
+template <int Half>
+[[gnu::always_inline]] inline bool measure_square(const Tracking& tracking, Vec place_q16,
+                                                  std::int32_t level, NearDot& dot) {
+    const Vec pixel = pixel_at(place_q16);
+    if (!is_kept(tracking, pixel, Half)) return false;
+    const std::uint8_t* const first = kept_row(tracking, pixel.y - Half) + pixel.x - Half;
+    const DarkSums sums = dark_sums<Half>(first, tracking.stride_px, level);
+    if (sums.mass < tracking.least_mass || sums.mass > tracking.most_mass) return false;
+    dot.mass = sums.mass;
+    const Inverse inverse(sums.mass);
+    dot.off_q8 = {inverse.quotient_q8(sums.x) + pixel.x * 256 - (place_q16.x >> 8),
+                  inverse.quotient_q8(sums.y) + pixel.y * 256 - (place_q16.y >> 8)};
+    return true;
+}
+
+/// Measures the dot in the whole square around an intersection, with the cut of the tracking.
+/// Returns false as `measure_square`.
+bool measure_around(const Tracking& tracking, Vec intersection_q16, NearDot& dot);
+
+}  // namespace dotpose::core

@@ -1,0 +1,158 @@
+#include "device/predicted.hpp"
+
+#include "core/math/plane.hpp"
+#include "device/near_dot.hpp"
+#include "device/newest_rows.hpp"
+#include "dotpose/image.hpp"
+
+namespace dotpose::core {
+namespace {
+
+/// Range of spacings in the image that can be tracked, so that dots fit the squares that are read.
+constexpr int kFinest_px = 7;
+constexpr int kCoarsest_px = 13;
+/// Range of displacements: a twelfth to a third of the spacing.
+constexpr std::int32_t kLeastDisplacement_q16 = 65536 / 12;
+constexpr std::int32_t kMostDisplacement_q16 = 65536 / 3;
+
+/// Whether the prediction is such that no stage can overflow.
+bool is_sane(const Prediction& prediction) {
+    const PlaneFromImage& plane = prediction.pattern_from_image;
+    constexpr std::int32_t kFarthest_q8 = 1 << 21;
+    constexpr std::int32_t kFarthest_q16 = 1 << 28;
+    constexpr std::int32_t kSteepest_q24 = (1 << 24) / 4;
+    constexpr std::int32_t kSteepest_q30 = 1 << 24;
+    const Place& place = prediction.place;
+    return is_within(plane.centre_q8, kFarthest_q8) &&
+           is_within(plane.at_centre_q16, kFarthest_q16) &&
+           is_within(plane.du_q24, kSteepest_q24) && is_within(plane.dv_q24, kSteepest_q24) &&
+           is_within(plane.perspective_q30, kSteepest_q30) && place.cell.x < kPositionsPerAxis &&
+           place.cell.y < kPositionsPerAxis && place.section.u < kSections &&
+           place.section.v < kSections && prediction.displacement_q16 >= kLeastDisplacement_q16 &&
+           prediction.displacement_q16 <= kMostDisplacement_q16;
+}
+
+/// Sets the cells of a plane whose centre is at cell (0, 0) + at_q16. Returns false if their
+/// spacing cannot be tracked, or they are not nearly square and upright.
+bool invert(const PlaneFromImage& plane, Vec at_q16, CellMap& cells) {
+    const Vec du = plane.du_q24;
+    const Vec dv = plane.dv_q24;
+    const std::int64_t det_q24 = cross(du, dv) >> 24;
+    constexpr std::int64_t kOne_q24 = 1 << 24;
+    if (det_q24 < kOne_q24 / (kCoarsest_px * kCoarsest_px) ||
+        det_q24 > kOne_q24 / (kFinest_px * kFinest_px))
+        return false;
+    const std::int64_t skew_q24 = dot(du, dv) >> 24;
+    const std::int64_t stretch_q24 = (squared(du) - squared(dv)) >> 24;
+    if (4 * magnitude(skew_q24) > det_q24 || 4 * magnitude(stretch_q24) > det_q24) return false;
+    const auto step_q16 = [&](std::int32_t a_q24) {
+        return short_quotient(std::int64_t{a_q24} << 16, det_q24);
+    };
+    cells.along_x_q16 = {step_q16(dv.y), step_q16(-du.y)};
+    cells.along_y_q16 = {step_q16(-dv.x), step_q16(du.x)};
+    const auto origin_q16 = [&](std::int32_t centre_q8, std::int32_t x_q16, std::int32_t y_q16) {
+        const std::int64_t from_centre_q32 =
+            std::int64_t{at_q16.x} * x_q16 + std::int64_t{at_q16.y} * y_q16;
+        return centre_q8 * 256 - static_cast<std::int32_t>(from_centre_q32 >> 16);
+    };
+    cells.origin_q16 = {origin_q16(plane.centre_q8.x, cells.along_x_q16.x, cells.along_y_q16.x),
+                        origin_q16(plane.centre_q8.y, cells.along_x_q16.y, cells.along_y_q16.y)};
+    return true;
+}
+
+/// Leaves out the edges of a frame that shows more cells than there is room for. Returns the
+/// greatest distance of a cell in the rest from its middle.
+int leave_out_edges(std::int32_t spacing_q8, Tracking& tracking) {
+    int width_px = tracking.width_px;
+    int height_px = tracking.height_px;
+    for (;;) {
+        const auto squared_px =
+            static_cast<std::uint32_t>(width_px * width_px + height_px * height_px);
+        const int cells = static_cast<int>(square_root(squared_px)) * 128 / spacing_q8 + 3;
+        if (cells <= kMostTracked / 2) {
+            // As many pixels are left out on either side, so that the centre stays where it is.
+            tracking.left_out_px = static_cast<std::int16_t>((tracking.width_px - width_px) >> 1);
+            tracking.rows_above = static_cast<std::int16_t>((tracking.height_px - height_px) >> 1);
+            tracking.height_px = height_px;
+            return cells;
+        }
+        width_px -= width_px >> 4 << 1;
+        height_px -= height_px >> 4 << 1;
+    }
+}
+
+/// Sets what depends on the spacing. Returns false if the memory is too small for it.
+bool lay_out_memory(std::int32_t spacing_q8, Tracking& tracking) {
+    const int cells = leave_out_edges(spacing_q8, tracking);
+    const int width_px = tracking.width_px - 2 * tracking.left_out_px;
+    if (std::min(width_px, tracking.height_px) < kMinFrameSide_px) return false;
+    tracking.first_cell = kMostTracked / 2 - cells;
+    tracking.last_cell = kMostTracked / 2 + cells - 1;
+    tracking.stride_px = stride_of(tracking.width_px);
+    tracking.rows_kept = static_cast<int>(tracking.rows.size()) / tracking.stride_px;
+    tracking.rows_needed = 2 * kHalf_px + 3;
+    if (2 * tracking.rows_needed + kRowsAtOnce > tracking.rows_kept) return false;
+    tracking.first_rows = std::min<std::int32_t>(
+        {13 * spacing_q8 / (4 * 256), tracking.rows_kept, tracking.height_px});
+    return tracking.first_rows * 256 >= 5 * spacing_q8 / 2;
+}
+
+/// Returns the greatest error of the prediction in the middle of the image.
+int reach_px(const Prediction& prediction, std::int32_t spacing_q8) {
+    const std::int64_t wanted_q16 = 3 * std::int64_t{prediction.sigma_q16};
+    const auto shift_q16 =
+        static_cast<std::int32_t>(std::clamp<std::int64_t>(wanted_q16, 0, 65536 * 3 / 5));
+    return ((shift_q16 >> 8) * spacing_q8) >> 16;
+}
+
+}  // namespace
+
+Vec middle_cell(const Tracking& tracking) {
+    const Vec middle_q8{(tracking.width_px - 1) * 128, (tracking.first_rows - 1) * 128};
+    const Vec p_q8 =
+        middle_q8 - Vec{tracking.cells.origin_q16.x >> 8, tracking.cells.origin_q16.y >> 8};
+    const auto cell = [&](std::int32_t du_q20, std::int32_t dv_q20) {
+        return shift_rounded(std::int64_t{du_q20} * p_q8.x + std::int64_t{dv_q20} * p_q8.y, 28);
+    };
+    return {cell(tracking.du_q20.x, tracking.dv_q20.x), cell(tracking.du_q20.y, tracking.dv_q20.y)};
+}
+
+void set_displacement(std::int32_t displacement_q12, Tracking& tracking) {
+    tracking.displacement_q12 = displacement_q12;
+    const auto displaced = [&](Vec along_q16) {
+        return Vec{((along_q16.x >> 4) * displacement_q12) >> 8,
+                   ((along_q16.y >> 4) * displacement_q12) >> 8};
+    };
+    const Vec x = displaced(tracking.cells.along_x_q16);
+    const Vec y = displaced(tracking.cells.along_y_q16);
+    for (std::size_t s = 0; s < tracking.displaced_q16.size(); ++s) {
+        const auto symbol = static_cast<Symbol>(s);
+        tracking.displaced_q16[s] = {dx(symbol) * x.x + dy(symbol) * y.x,
+                                     dx(symbol) * x.y + dy(symbol) * y.y};
+    }
+}
+
+Status lay_predicted_cells(const Prediction& prediction, Profile profile, Tracking& tracking) {
+    if (!is_sane(prediction)) return Status::not_tracked;
+    const Vec centre_q8{(tracking.width_px - 1) * 128, (tracking.height_px - 1) * 128};
+    const PlaneFromImage plane = tangent(prediction.pattern_from_image, centre_q8);
+    // The cells are counted so that the middle of the image is in the middle of them.
+    const Vec at = plane.at_centre_q16;
+    const Vec first{(at.x >> 16) - kMostTracked / 2, (at.y >> 16) - kMostTracked / 2};
+    tracking.corner = moved(profile, prediction.place, first.x, first.y);
+    const Vec at_q16{at.x - first.x * 65536, at.y - first.y * 65536};
+    if (!invert(plane, at_q16, tracking.cells)) return Status::not_tracked;
+    const Vec along = tracking.cells.along_x_q16;
+    const auto spacing_q8 =
+        static_cast<std::int32_t>(square_root(static_cast<std::uint64_t>(squared(along))) >> 8);
+    if (!lay_out_memory(spacing_q8, tracking)) return Status::not_tracked;
+    tracking.cells.origin_q16.y -= tracking.rows_above * 65536;
+    tracking.du_q20 = {plane.du_q24.x >> 4, plane.du_q24.y >> 4};
+    tracking.dv_q20 = {plane.dv_q24.x >> 4, plane.dv_q24.y >> 4};
+    tracking.spacing_q8 = spacing_q8;
+    tracking.reach_px = reach_px(prediction, spacing_q8);
+    set_displacement(prediction.displacement_q16 >> 4, tracking);
+    return Status::ok;
+}
+
+}  // namespace dotpose::core

@@ -1,0 +1,113 @@
+#include "device/tracked.hpp"
+
+#include "core/integrity/verify.hpp"
+#include "core/math/fixed.hpp"
+#include "core/pose/subgrid.hpp"
+#include "core/steps.hpp"
+#include "device/coded_cells.hpp"
+#include "device/newest_rows.hpp"
+#include "device/predicted.hpp"
+#include "device/read_dots.hpp"
+#include "device/shift.hpp"
+#include "device/tracked_pose.hpp"
+#include "device/turn.hpp"
+
+namespace dotpose::core {
+namespace {
+
+/// Number of shifts that are tried: the true one is hardly ever beyond the second.
+constexpr int kMostShifts = 4;
+
+/// Moves the cells to where the first rows show their dots. Errors: not_tracked.
+Status settle(Tracking& tracking) {
+    Shifts shifts(tracking);
+    const int paper = shifts.paper_level();
+    if (paper == 0) return Status::not_tracked;
+    const Vec predicted_q16 = tracking.cells.origin_q16;
+    for (int tried = 0; tried < kMostShifts; ++tried) {
+        Vec shift_q8;
+        if (!shifts.next(shift_q8)) return Status::not_tracked;
+        tracking.cells.origin_q16 = predicted_q16 + Vec{shift_q8.x * 256, shift_q8.y * 256};
+        // Until the size of dots is known, any blob half way between paper and ink may be a dot.
+        tracking.cut_q8 = 128 * shifts.depth() / paper;
+        tracking.least_mass = paper / 8 + 16;
+        tracking.most_mass = INT16_MAX;
+        if (find_turn(tracking)) return Status::ok;
+    }
+    return Status::not_tracked;
+}
+
+Status read_rows(Workspace& w) {
+    Tracking& t = w.tracking;
+    if (t.rows_taken < t.first_rows) return Status::ok;
+    if (t.rows_taken == t.first_rows) {
+        const Status status = settle(t);
+        if (status != Status::ok) return status;
+        if (!begin_reading(t)) return Status::not_tracked;
+    } else if (t.rows_taken < t.next_reading && t.rows_taken != t.height_px) {
+        return Status::ok;
+    }
+    t.next_reading = t.rows_taken + kRowsAtOnce;
+    read_ready_dots(t);
+    make_room(kRowsAtOnce, t);
+    return Status::ok;
+}
+
+/// Finds from bits and dots whether the place is certain, and fits the pose. Errors: not_tracked.
+Status confirm(const Options& options, Workspace& w) {
+    Tracking& t = w.tracking;
+    if (t.status != Status::ok) return t.status;
+    w.fix.dots_seen = dots_seen(t);
+    w.decoding.place = t.corner;
+    const Status status = verify_tracked(options.profile, t, options.integrity, w.decoding, w.fix);
+    if (status != Status::ok) return Status::not_tracked;
+    w.fix.dots_used = fit_tracked_pose(t, w.pattern_from_image, w.fix.displacement_q16);
+    if (w.fix.dots_used == 0) return Status::not_tracked;
+    w.pattern_from_image.centre_q8.y += t.rows_above * 256;
+    write_affine_pose(w.pattern_from_image, reference_q8(w.pattern_from_image.centre_q8, options),
+                      options.profile, t.corner, w.fix);
+    return Status::ok;
+}
+
+}  // namespace
+
+Status begin_device_tracked(int width_px, int height_px, const Options& options,
+                            const Prediction& prediction, Workspace& w) {
+    forget_frame(w);
+    w.fix.attempt = Attempt::tracked;
+    Tracking& t = w.tracking;
+    t.is_on = true;
+    t.width_px = width_px;
+    t.height_px = height_px;
+    t.first_kept = 0;
+    t.dots_measured = 0;
+    t.off_q8 = {};
+    // Frames of a bent lens are not tracked, but located without a prediction.
+    t.status = options.lens.k_q40 == 0 ? lay_predicted_cells(prediction, options.profile, t)
+                                       : Status::not_tracked;
+    // Where there is time for a fresh fix of the whole frame, that is more exact than its middle.
+    if (w.keeps_every_stage && t.left_out_px > 0) t.status = Status::not_tracked;
+    t.rows_taken = -t.rows_above;
+    if (t.status == Status::ok) lay_tracked_lines(options.profile, t);
+    return w.fix.status = t.status;
+}
+
+Status push_tracked_row(const std::uint8_t* pixels, Workspace& w) {
+    Tracking& t = w.tracking;
+    const bool is_tracked =
+        static_cast<unsigned>(t.rows_taken) < static_cast<unsigned>(t.height_px);
+    if (t.status != Status::ok || !is_tracked) {
+        // A row above the part that is tracked, or below.
+        if (t.rows_taken < 0) ++t.rows_taken;
+        return t.status;
+    }
+    keep_row(pixels, t);
+    return t.status = read_rows(w);
+}
+
+const Fix& finish_device_tracked(const Options& options, Workspace& w) {
+    w.fix.status = confirm(options, w);
+    return w.fix;
+}
+
+}  // namespace dotpose::core

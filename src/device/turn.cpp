@@ -1,0 +1,203 @@
+#include "device/turn.hpp"
+
+#include <algorithm>
+
+#include "core/math/fixed.hpp"
+#include "device/coded_cells.hpp"
+#include "device/near_dot.hpp"
+#include "device/predicted.hpp"
+
+namespace dotpose::core {
+namespace {
+
+/// Number of rings of cells around the middle one.
+constexpr int kRounds = 4;
+/// Fewest dots that must be as in the code, and their least share, in 1/8, of the dots measured.
+constexpr int kLeastDots = 12;
+constexpr int kLeastShare_q3 = 6;
+/// Number of dots from which their share is judged.
+constexpr int kTelling = 8;
+
+/// Least squares of a shift, a turn and a stretch: offset = shift + stretch p + turn J p, where J
+/// is a quarter turn.
+class SimilarityFit {
+  public:
+    /// Adds a dot by its place in px from the middle and its offset in 2^-8 px.
+    void add(Vec p, Vec offset_q8) {
+        ++count_;
+        p_ = p_ + p;
+        offset_ = offset_ + offset_q8;
+        squares_ += p.x * p.x + p.y * p.y;
+        along_ += p.x * offset_q8.x + p.y * offset_q8.y;
+        across_ += p.x * offset_q8.y - p.y * offset_q8.x;
+    }
+    int count() const { return count_; }
+
+    struct Similarity {
+        std::int32_t stretch_q20 = 0;
+        std::int32_t turn_q20 = 0;
+        Vec shift_q8;  ///< at the middle
+    };
+    Similarity solve() const {
+        const std::int64_t spread = std::int64_t{count_} * squares_ - squared(p_);
+        Similarity s;
+        if (spread <= 0) return s;
+        const std::int64_t along = std::int64_t{count_} * along_ - dot(p_, offset_);
+        const std::int64_t across = std::int64_t{count_} * across_ - cross(p_, offset_);
+        s.stretch_q20 = short_quotient(along << 12, spread);
+        s.turn_q20 = short_quotient(across << 12, spread);
+        s.shift_q8 = {(offset_.x - ((s.stretch_q20 * p_.x - s.turn_q20 * p_.y) >> 12)) / count_,
+                      (offset_.y - ((s.stretch_q20 * p_.y + s.turn_q20 * p_.x) >> 12)) / count_};
+        return s;
+    }
+
+  private:
+    std::int32_t count_ = 0;
+    Vec p_;
+    Vec offset_;
+    std::int32_t squares_ = 0;
+    std::int32_t along_ = 0;
+    std::int32_t across_ = 0;
+};
+
+/// Returns v stretched and turned, minus v.
+/// It is not inlined, because products of 64 bits take much code.
+[[gnu::noinline]] Vec change(const SimilarityFit::Similarity& s, Vec v) {
+    const auto part = [](std::int64_t a_q20) { return static_cast<std::int32_t>(a_q20 >> 20); };
+    return {part(std::int64_t{s.stretch_q20} * v.x - std::int64_t{s.turn_q20} * v.y),
+            part(std::int64_t{s.stretch_q20} * v.y + std::int64_t{s.turn_q20} * v.x)};
+}
+
+CellMap changed(const CellMap& cells, Vec middle_q16, const SimilarityFit::Similarity& s) {
+    return {cells.origin_q16 + change(s, cells.origin_q16 - middle_q16) +
+                Vec{s.shift_q8.x * 256, s.shift_q8.y * 256},
+            cells.along_x_q16 + change(s, cells.along_x_q16),
+            cells.along_y_q16 + change(s, cells.along_y_q16)};
+}
+
+/// The dots measured, and the fit to those that are as in the code.
+class Rounds {
+  public:
+    Rounds(Tracking& tracking, Vec middle_q16)
+        : tracking_(tracking), before_(tracking.cells), middle_q16_(middle_q16) {}
+
+    /// Shifts the cells by the mean distance of the dots nearest the middle from their places,
+    /// whether they agree with the code or not.
+    void recentre(Vec middle);
+    /// Measures the dot of a cell and, if it agrees with the code, adds it to the fit.
+    void measure(int i, int j);
+    /// Moves the cells by the fit.
+    void lay_cells() {
+        similarity_ = fit_.solve();
+        tracking_.cells = changed(before_, middle_q16_, similarity_);
+    }
+    void lay_cells_as_before() { tracking_.cells = before_; }
+
+    int seen() const { return seen_; }
+    int agreeing() const { return fit_.count(); }
+    const SimilarityFit::Similarity& similarity() const { return similarity_; }
+    std::int32_t mean_mass() const { return masses_ / agreeing(); }
+    std::int32_t mean_displacement_q12() const { return projections_q12_ / (2 * agreeing()); }
+
+  private:
+    Tracking& tracking_;
+    CellMap before_;
+    const Vec middle_q16_;
+    SimilarityFit fit_;
+    SimilarityFit::Similarity similarity_;
+    int seen_ = 0;
+    std::int32_t masses_ = 0;
+    std::int32_t projections_q12_ = 0;
+};
+
+void Rounds::recentre(Vec middle) {
+    Vec sum_q8;
+    std::int32_t count = 0;
+    for (const Vec step : {Vec{0, 0}, Vec{1, 0}, Vec{0, 1}, Vec{-1, 0}, Vec{0, -1}}) {
+        const Vec cell = middle + step;
+        NearDot dot;
+        if (!measure_around(tracking_, place_q16(tracking_.cells, cell.x, cell.y), dot)) continue;
+        const Symbol symbol = coded_symbol(tracking_, cell.x, cell.y);
+        const Vec displaced_q16 = tracking_.displaced_q16[static_cast<std::size_t>(symbol)];
+        sum_q8 = sum_q8 + dot.off_q8 - Vec{displaced_q16.x >> 8, displaced_q16.y >> 8};
+        ++count;
+    }
+    if (count == 0) return;
+    before_.origin_q16 = before_.origin_q16 + Vec{sum_q8.x / count * 256, sum_q8.y / count * 256};
+    tracking_.cells = before_;
+}
+
+void Rounds::measure(int i, int j) {
+    const Vec at_q16 = place_q16(tracking_.cells, i, j);
+    // Most cells around lie beyond the first rows.
+    if (!is_kept(tracking_, pixel_at(at_q16), kHalf_px)) return;
+    NearDot dot;
+    if (!measure_around(tracking_, at_q16, dot)) return;
+    ++seen_;
+    const Projections p = projections(tracking_, dot.off_q8);
+    const Symbol symbol = coded_symbol(tracking_, i, j);
+    if (symbol_of(p) != symbol) return;
+    const Vec displaced_q16 = tracking_.displaced_q16[static_cast<std::size_t>(symbol)];
+    const Vec was_q16 = place_q16(before_, i, j);
+    const Vec p_q16 = was_q16 - middle_q16_;
+    const Vec moved_q16 = at_q16 - was_q16 - displaced_q16;
+    fit_.add({p_q16.x >> 16, p_q16.y >> 16}, dot.off_q8 + Vec{moved_q16.x >> 8, moved_q16.y >> 8});
+    masses_ += dot.mass;
+    projections_q12_ += magnitude(p.x_q12) + magnitude(p.y_q12);
+}
+
+/// Calls `use` for the cells in the ring `round` around the middle one.
+template <typename Use>
+void visit_round(const Tracking& tracking, Vec middle, int round, Use use) {
+    const auto is_in = [&](int cell) {
+        return cell >= tracking.first_cell && cell <= tracking.last_cell;
+    };
+    for (int j = middle.y - round; j <= middle.y + round; ++j) {
+        if (!is_in(j)) continue;
+        const bool is_end = round == 0 || magnitude(j - middle.y) == round;
+        for (int i = middle.x - round; i <= middle.x + round; i += is_end ? 1 : 2 * round) {
+            if (is_in(i)) use(i, j);
+        }
+    }
+}
+
+/// Applies a small turn and stretch of the cells to the slopes of the plane. In each coordinate,
+/// the pair (dv, du) is stretched and turned like a vector.
+void turn_back(const SimilarityFit::Similarity& s, Tracking& tracking) {
+    Vec& du = tracking.du_q20;
+    Vec& dv = tracking.dv_q20;
+    const Vec of_x = change(s, {dv.x, du.x});
+    const Vec of_y = change(s, {dv.y, du.y});
+    du = du - Vec{of_x.y, of_y.y};
+    dv = dv - Vec{of_x.x, of_y.x};
+}
+
+}  // namespace
+
+bool find_turn(Tracking& tracking) {
+    const Vec middle_q16{(tracking.width_px - 1) * 32768, (tracking.first_rows - 1) * 32768};
+    const Vec middle = middle_cell(tracking);
+    Rounds rounds(tracking, middle_q16);
+    rounds.recentre(middle);
+    bool agree = true;
+    for (int round = 0; round <= kRounds && agree; ++round) {
+        const int before = rounds.agreeing();
+        visit_round(tracking, middle, round, [&](int i, int j) { rounds.measure(i, j); });
+        agree = rounds.seen() < kTelling || 8 * rounds.agreeing() >= kLeastShare_q3 * rounds.seen();
+        // The cells move only after some rounds: the middle dot alone adds nothing to `recentre`,
+        // and the third round little to the second.
+        const bool tells = round % 2 == 0 ? round > 0 : round == 1;
+        if (tells && rounds.agreeing() > before) rounds.lay_cells();
+    }
+    if (!agree || rounds.agreeing() < kLeastDots) {
+        rounds.lay_cells_as_before();
+        return false;
+    }
+    turn_back(rounds.similarity(), tracking);
+    set_displacement(rounds.mean_displacement_q12(), tracking);
+    tracking.least_mass = rounds.mean_mass() * 3 / 8;
+    tracking.most_mass = rounds.mean_mass() * 5 / 2;
+    return true;
+}
+
+}  // namespace dotpose::core

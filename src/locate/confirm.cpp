@@ -1,0 +1,350 @@
+#include "locate/confirm.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/decode/bit_lines.hpp"
+#include "core/decode/window.hpp"
+#include "core/integrity/certainty.hpp"
+#include "core/integrity/coded_block.hpp"
+#include "core/integrity/codes_in_view.hpp"
+#include "core/pose/covariance.hpp"
+#include "core/pose/float_fit.hpp"
+#include "core/pose/subgrid.hpp"
+#include "core/pose/tuning.hpp"
+#include "core/pose/uneven.hpp"
+#include "core/steps.hpp"
+#include "locate/dot_reader.hpp"
+#include "locate/fitted_pose.hpp"
+#include "locate/tuning.hpp"
+
+namespace dotpose::core {
+namespace {
+
+namespace tuned = tuning::confirm;
+
+float half_side_px(const ImageView& image) {
+    return std::max(static_cast<float>(image.width_px), static_cast<float>(image.height_px)) / 2;
+}
+
+/// Whether the dots measured agree with the expected bits on the whole.
+bool is_plausible(const BitsRead& bits, const MeasuredDots& dots, const Options& options,
+                  bool shows_part) {
+    const bool is_full = 4 * bits.seen >= dots.count || shows_part;
+    const auto share_is_wrong = [&](int wrong) {
+        return 256 * wrong > bits.read * options.integrity.max_bit_error_q8;
+    };
+    return bits.read >= options.lattice.min_dots && is_full && 2 * bits.read >= bits.seen &&
+           !share_is_wrong(bits.wrong_x) && !share_is_wrong(bits.wrong_y);
+}
+
+/// Whether nearly all dots are clear and hardly a bit is wrong.
+bool is_clean(const BitsRead& bits) {
+    return 100 * bits.read >= tuned::kClear_percent * bits.seen &&
+           bits.wrong_x + bits.wrong_y <=
+               std::max(tuned::kMostWrong, bits.read / tuned::kDotsPerWrong);
+}
+
+/// Returns the confidence in one axis of which `bits` bits were read, `wrong` of them wrongly.
+Confidence confidence_in(int bits, int wrong) {
+    constexpr int kWeight = 127;
+    Confidence confidence;
+    confidence.add(kWeight, false, bits - wrong);
+    confidence.add(kWeight, true, wrong);
+    return confidence;
+}
+
+std::array<Confidence, 2> confidences_in(const BitsRead& bits) {
+    return {confidence_in(bits.read, bits.wrong_x), confidence_in(bits.read, bits.wrong_y)};
+}
+
+bool is_rough(float residual_px, float spacing_px) {
+    return residual_px >= std::max(tuned::kRough_px, tuned::kRough * spacing_px);
+}
+
+/// Judges the place by the bits of all dots near the centre: ok, uncertain or rough.
+Confirmation confirm_place(const Kernels& kernels, const Options& options,
+                           const Hypothesis& hypothesis, const CellsInView& view,
+                           const BitBlock& block, const BitsRead& bits, const PoseFit& fit,
+                           DesktopWorkspace& w) {
+    w.decoding.bits = 2 * bits.read;
+    const auto confidences = confidences_in(bits);
+    OtherCodes* others = wanted_codes(w);
+    const CodedBlock coded(options.profile, hypothesis.place, view, block);
+    if (is_plainly_certain(
+            kernels, {coded.axis(Axis::x, confidences[0]), coded.axis(Axis::y, confidences[1])},
+            options.profile, options.integrity, w.fix, others)) {
+        return Confirmation::ok;
+    }
+    const float spacing = spacing_px(hypothesis.pattern_from_image);
+    if (hypothesis.defers_if_rough && is_rough(std::sqrt(fit.variance) * spacing, spacing))
+        return Confirmation::rough;
+    const Evidence evidence =
+        evidence_of(kernels, options.profile, hypothesis.place, block, confidences, w.line_scores);
+    return is_certain(kernels, evidence, options.profile, options.integrity, w.fix, others)
+               ? Confirmation::ok
+               : Confirmation::uncertain;
+}
+
+/// Writes the dots and the bits read from them into the workspace, for the trace.
+void show(const Hypothesis& hypothesis, DesktopWorkspace& w) {
+    const MeasuredDots& dots = w.measured;
+    const auto side = std::min(w.grid.side, kMaxGridSide);
+    Vec least{INT32_MAX, INT32_MAX};
+    Vec most{INT32_MIN, INT32_MIN};
+    w.dot_count = 0;
+    const auto cell_of = [&](std::size_t k) {
+        return Vec{static_cast<std::int32_t>(dots.column[k]),
+                   static_cast<std::int32_t>(dots.row[k])};
+    };
+    const auto is_near = [&](Vec cell) { return is_within(cell, (side - 1) / 2); };
+    for (std::size_t k = 0; k < static_cast<std::size_t>(dots.count); ++k) {
+        const Vec cell = cell_of(k);
+        if (!is_near(cell) || dots.x[k] >= kNoDot_px) continue;
+        least = {std::min(least.x, cell.x), std::min(least.y, cell.y)};
+        most = {std::max(most.x, cell.x), std::max(most.y, cell.y)};
+    }
+    Grid& grid = w.grid;
+    grid.i0 = least.x;
+    grid.j0 = least.y;
+    grid.columns = most.x - least.x + 1;
+    grid.rows = most.y - least.y + 1;
+    std::fill_n(grid.storage.begin(), grid.columns * grid.rows, GridCell{});
+    const Vec centre_q8 = w.pattern_from_image.centre_q8;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(dots.count); ++k) {
+        const Vec cell = cell_of(k);
+        if (!is_near(cell) || dots.x[k] >= kNoDot_px ||
+            w.dot_count >= static_cast<int>(w.dots.size()))
+            continue;
+        Dot& dot = w.dots[static_cast<std::size_t>(w.dot_count)];
+        dot.centre_q8 =
+            centre_q8 + Vec{static_cast<std::int32_t>(std::floor(dots.x[k] * 256 + 0.5F)),
+                            static_cast<std::int32_t>(std::floor(dots.y[k] * 256 + 0.5F))};
+        dot.mass = static_cast<std::uint16_t>(std::min<std::int32_t>(dots.mass[k], 65535));
+        dot.area_px = 0;
+        const FloatVec at = plane_point(hypothesis.pattern_from_image, {dots.x[k], dots.y[k]});
+        const float off_x = at.x - dots.column[k];
+        const float off_y = at.y - dots.row[k];
+        const auto weight = [&](float clear) {
+            return static_cast<std::int8_t>(
+                std::clamp(127 * clear / hypothesis.displacement, -127.0F, 127.0F));
+        };
+        GridCell& here = grid.at(cell.x, cell.y);
+        here = {weight(off_y - off_x), weight(off_y + off_x),
+                static_cast<std::uint16_t>(w.dot_count)};
+        ++w.dot_count;
+    }
+    Decoding& decoding = w.decoding;
+    decoding.region = {grid.i0, grid.j0, grid.columns, grid.rows};
+    decoding.window = choose_window(grid, kWindowSide);
+    w.grid_from_image = w.pattern_from_image;
+}
+
+/// Fits the plane together with the displacement.
+bool fit_to_dots(const Kernels& kernels, const MeasuredDots& dots, const BitsRead& bits,
+                 const ImageView& image, Hypothesis& hypothesis, PoseFit& fit) {
+    if (bits.right == 0) return false;
+    const auto right = static_cast<float>(bits.right);
+    hypothesis.displacement = bits.projected / right;
+    const float limit = tuned::kOutlier * bits.squares / right + 1e-6F;
+    return fit_plane(kernels, dots, static_cast<int>(half_side_px(image)) + 1, limit,
+                     hypothesis.displacement, hypothesis.pattern_from_image, fit);
+}
+
+/// Fits the plane and the displacement once more if the dots' centres are biased alike, or drawn
+/// together. Returns the variance that is left of the bias along u and v, px^2.
+FloatVec fit_without_bias(const Kernels& kernels, const DotReader& reader, const CellsInView& view,
+                          const ImageView& image, Hypothesis& hypothesis, PoseFit& fit) {
+    FloatVec left_px2;
+    const bool was_biased = reader.take_bias(view, hypothesis, fit, left_px2);
+    if (!reader.take_pull(hypothesis, fit) && !was_biased) return {};
+    FloatPlane better = hypothesis.pattern_from_image;
+    PoseFit better_fit;
+    // Too few dots may be left without those at the border.
+    if (!fit_plane(kernels, reader.dots(), static_cast<int>(half_side_px(image)) + 1,
+                   tuning::fit::kOutlier * fit.variance, fit.displacement, better, better_fit)) {
+        return {};
+    }
+    hypothesis.pattern_from_image = better;
+    hypothesis.displacement = fit.displacement;
+    fit = better_fit;
+    return left_px2;
+}
+
+/// Adds a variance of the place in the image, along u and v, to the covariance.
+void add_variance(FloatVec px2, const FloatPlane& plane, PoseFit& fit) {
+    const std::array<float, 2> by_u{plane.du_x, plane.du_y};
+    const std::array<float, 2> by_v{plane.dv_x, plane.dv_y};
+    for (std::size_t i = 0; i < 2; ++i) {
+        for (std::size_t j = 0; j < 2; ++j)
+            fit.uneven[i][j] += px2.x * by_u[i] * by_u[j] + px2.y * by_v[i] * by_v[j];
+    }
+}
+
+void write_fix(const ImageView& image, const Options& options, const Hypothesis& hypothesis,
+               const BitsRead& bits, const PoseFit& fit, DesktopWorkspace& w) {
+    w.fix.dots_seen = bits.seen;
+    w.fix.bit_errors = bits.wrong_x + bits.wrong_y;
+    w.fix.displacement_q16 = static_cast<std::int32_t>(fit.displacement * 65536);
+    const Vec centre_q8{(image.width_px - 1) * 128, (image.height_px - 1) * 128};
+    const FloatVec from = hypothesis.from_centre;
+    const Vec from_q8{static_cast<std::int32_t>(from.x * 256),
+                      static_cast<std::int32_t>(from.y * 256)};
+    w.pattern_from_image = fixed_plane(hypothesis.pattern_from_image, centre_q8 + from_q8);
+    w.decoding.place = hypothesis.place;
+    w.decoding.pattern_from_grid = {};
+    const Vec reference = reference_q8(centre_q8, options);
+    write_pose(w.pattern_from_image, reference, options.profile, hypothesis.place, w.fix);
+    estimate_covariance(fit, w.pattern_from_image, reference, w.fix);
+    if (!(from_q8 == Vec{})) {
+        // The next prediction is made from the fix, and counts from the image centre.
+        w.fix.pattern_from_image =
+            fixed_plane(recentred(hypothesis.pattern_from_image, {-from.x, -from.y}), centre_q8);
+    }
+    w.fix.status = Status::ok;
+}
+
+/// Whether the fitted plane is so far, within reach, from where dots were looked for that quick
+/// bells miss a part of that distance.
+bool is_far_from(const FloatPlane& before, const FloatPlane& now, const ImageView& image,
+                 float reach_px) {
+    const FloatVec centre = centre_px(image);
+    const FloatVec half{std::min(centre.x, reach_px), std::min(centre.y, reach_px)};
+    for (const FloatVec corner : {FloatVec{-half.x, -half.y}, FloatVec{half.x, -half.y},
+                                  FloatVec{-half.x, half.y}, FloatVec{half.x, half.y}}) {
+        const FloatVec was = plane_point(before, corner);
+        const FloatVec is = plane_point(now, corner);
+        if (std::max(std::abs(was.x - is.x), std::abs(was.y - is.y)) > tuned::kFar) return true;
+    }
+    return false;
+}
+
+/// Returns the point whose pose is wanted, in px from the hypothesis's `from_centre`.
+FloatVec reference_px(const Options& options, const Hypothesis& hypothesis) {
+    return {static_cast<float>(options.reference_dx_q8) / 256 - hypothesis.from_centre.x,
+            static_cast<float>(options.reference_dy_q8) / 256 - hypothesis.from_centre.y};
+}
+
+/// Distance in px within which dots are read; it grows from round to round.
+struct Reach {
+    float full;      ///< reaches over the whole image
+    float deciding;  ///< bits within it must make the position certain; farther ones add nothing
+    float now;       ///< distance of this round
+
+    Reach(const ImageView& image, const Hypothesis& hypothesis, float spacing_px)
+        : full(half_side_px(image) +
+               std::max(std::abs(hypothesis.from_centre.x), std::abs(hypothesis.from_centre.y)) +
+               1),
+          deciding(full <= tuned::kDenseAtMost * spacing_px ? full : tuned::kDense * spacing_px),
+          now(deciding) {
+        if (!hypothesis.shows_part) return;
+        // The first round is smaller than usual, because the pattern may end anywhere. The deciding
+        // reach is larger, because one island may not make the position certain.
+        deciding = std::min(full, tuned::kDecidingOfPart * spacing_px);
+        now = std::min(full, tuned::kDenseOfPart * spacing_px);
+    }
+    bool decides() const { return now == deciding; }
+    void grow() { now = std::min(now * tuned::kFarther, now < deciding ? deciding : full); }
+};
+
+}  // namespace
+
+bool is_rough(const Fix& fix) {
+    return is_rough(fix.residual_px, static_cast<float>(fix.spacing_px_q16) / 65536.0F);
+}
+
+bool is_plausible(const ImageView& image, const FloatPlane& plane) {
+    return is_within_reason(plane, static_cast<float>(image.width_px) / 2,
+                            static_cast<float>(image.height_px) / 2);
+}
+
+namespace {
+
+/// Measures and compares the dots of the hypothesis and fits the pose. An exact hypothesis is
+/// implausible if its bits are not clean, or if kMostLooks looks do not bring it to its dots.
+Confirmation measure_and_compare(const Kernels& kernels, const ImageView& image,
+                                 const Options& options, Hypothesis hypothesis,
+                                 DesktopWorkspace& w) {
+    FloatPlane& plane = hypothesis.pattern_from_image;
+    MeasuredDots& dots = w.measured;
+    const float spacing = spacing_px(plane);
+    const int most_dots = std::min(std::max(options.most_dots, 64), dots.capacity());
+    OtherCodes* const codes = hypothesis.is_certain ? nullptr : wanted_codes(w);
+    DotReader reader(kernels, image, spacing, dots);
+    PoseFit fit;
+    BitsRead bits;
+    int looks = 0;
+    FloatVec bias_px2;  // Variance of the pixel bias that is left, along u and v.
+    for (Reach reach(image, hypothesis, spacing);;) {
+        const bool decides = reach.decides();
+        if (!is_plausible(image, plane)) return Confirmation::implausible;
+        count_from_centre(options.profile, hypothesis);
+        CellsInView view = cells_in_view(image, options, hypothesis, reach.now,
+                                         decides ? dots.capacity() : most_dots, w);
+        if (hypothesis.is_exact) view.windows = Windows::none;
+        kernels.list_cells(view, dots);
+        const bool is_last = reach.now >= reach.full;
+        BitBlock block;
+        bits = reader.read(view, hypothesis,
+                           decides || (is_last && codes != nullptr) ? &block : nullptr);
+        if (!is_plausible(bits, dots, options, hypothesis.shows_part))
+            return Confirmation::implausible;
+        if (!is_clean(bits)) {
+            if (hypothesis.is_exact) return Confirmation::implausible;
+            // Fewer bits are misread through a plane that is fitted to all dots.
+            if (decides && !fit_to_dots(kernels, dots, bits, image, hypothesis, fit))
+                return Confirmation::implausible;
+            if (decides) bits = reader.read_again(hypothesis, block);
+        }
+        const FloatPlane before = plane;
+        reader.find_centres(view, hypothesis, is_last, bits);
+        if (!fit_to_dots(kernels, dots, bits, image, hypothesis, fit))
+            return Confirmation::implausible;
+        if (hypothesis.is_exact && is_far_from(before, plane, image, reach.now)) {
+            if (++looks == tuned::kMostLooks) return Confirmation::implausible;
+            continue;
+        }
+        if (decides && !hypothesis.is_certain) {
+            const Confirmation place =
+                confirm_place(kernels, options, hypothesis, view, block, bits, fit, w);
+            if (place != Confirmation::ok) return place;
+        }
+        if (is_last && codes != nullptr) {
+            weigh_codes_in_view(kernels, options.profile, hypothesis.place, block,
+                                confidences_in(bits), !decides, w.line_scores, *codes);
+        }
+        if (is_last) {
+            bias_px2 = fit_without_bias(kernels, reader, view, image, hypothesis, fit);
+            break;
+        }
+        reach.grow();
+    }
+    fit_uneven(kernels, dots, reference_px(options, hypothesis), plane, fit);
+    add_variance(bias_px2, plane, fit);
+    if (!is_plausible(image, plane)) return Confirmation::implausible;
+    if (is_implausible(fit, 2 * bits.read, bits.wrong_x + bits.wrong_y))
+        return Confirmation::uncertain;
+    write_fix(image, options, hypothesis, bits, fit, w);
+    if (options.show_stages) show(hypothesis, w);
+    return Confirmation::ok;
+}
+
+}  // namespace
+
+Confirmation confirm(const Kernels& kernels, const ImageView& image, const Options& options,
+                     Hypothesis hypothesis, DesktopWorkspace& w) {
+    if (hypothesis.is_predicted && suits_one_pass(hypothesis)) {
+        OtherCodes* const codes = wanted_codes(w);
+        const OtherCodes before = codes != nullptr ? *codes : OtherCodes{};
+        hypothesis.is_exact = true;
+        if (measure_and_compare(kernels, image, options, hypothesis, w) == Confirmation::ok)
+            return Confirmation::ok;
+        hypothesis.is_exact = false;
+        if (codes != nullptr)
+            *codes = before;  // A look that did not count gives no evidence about
+                              // other codes.
+    }
+    return measure_and_compare(kernels, image, options, hypothesis, w);
+}
+
+}  // namespace dotpose::core

@@ -1,0 +1,232 @@
+#include "locate/first.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "core/decode/bit_lines.hpp"
+#include "core/decode/exact_lines.hpp"
+#include "core/detect/patch.hpp"
+#include "core/lattice/outwards.hpp"
+#include "core/steps.hpp"
+#include "locate/confirm.hpp"
+#include "locate/tuning.hpp"
+
+namespace dotpose::core {
+namespace {
+
+namespace tuned = tuning::first;
+
+constexpr int kPatchWidth_px = tuned::kPatchWidth_px;
+constexpr int kPatchHeight_px = tuned::kPatchHeight_px;
+
+/// Moves dots to where a camera without distortion would see them.
+void straighten(const Lens& lens, FloatVec middle, PatchDots& dots) {
+    const FloatLens l = float_lens(lens);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(dots.count); ++i) {
+        const float x = dots.x[i] + middle.x - l.centre_x;
+        const float y = dots.y[i] + middle.y - l.centre_y;
+        const float by = 1 / (1 + l.k * (x * x + y * y));
+        dots.x[i] = x * by + l.centre_x - middle.x;
+        dots.y[i] = y * by + l.centre_y - middle.y;
+    }
+}
+
+/// Returns the middle of a patch, in px from the image centre.
+FloatVec middle_of(const Patch& patch, const ImageView& image) {
+    return {middle_u_px(patch) - static_cast<float>(image.width_px - 1) / 2,
+            middle_v_px(patch) - static_cast<float>(image.height_px - 1) / 2};
+}
+
+/// Finds the dots of the patch. Returns false if it has no contrast. Sets the status of a frame
+/// whose patches show no grid.
+bool find_patch_dots(const Kernels& kernels, const ImageView& image, const Options& options,
+                     DesktopWorkspace& w) {
+    Patch& patch = *w.patch;
+    patch.dots.count = 0;
+    kernels.fill_patch(image, patch);
+    kernels.smooth_patch(patch);
+    if (!measure_contrast(patch)) return false;
+    kernels.find_minima(patch);
+    w.fix.dots_seen = std::max(w.fix.dots_seen, patch.dots.count);
+    const bool are_few = w.fix.dots_seen < std::max(options.lattice.min_dots, 1);
+    w.fix.status = are_few ? Status::too_few_dots : Status::no_grid;
+    return true;
+}
+
+/// Finds a place in the code from the dots of a patch, counted from `from_centre`. Returns false if
+/// there is none.
+bool read_hypothesis(const Kernels& kernels, const Options& options, const PatchView& view,
+                     FloatVec from_centre, DesktopWorkspace& w, Hypothesis& hypothesis) {
+    Patch& patch = *w.patch;
+    PatchGrid grid;
+    if (!find_grid(kernels, patch, view, grid)) return false;
+    BitBlock block;
+    kernels.read_cells(patch.dots, grid.grid_from_image, grid.displacement, block.columns,
+                       block.rows);
+    const int quarters = likeliest_turn(kernels, block);
+    const BitBlock upright = turned(quarters, block);
+    if (!find_place_exactly(options.profile, upright, hypothesis.place) &&
+        !find_place(options.profile, score_block(kernels, upright, w.line_scores),
+                    hypothesis.place)) {
+        return false;
+    }
+    hypothesis.pattern_from_image = turned(quarters, grid.grid_from_image);
+    hypothesis.from_centre = from_centre;
+    hypothesis.displacement = grid.displacement;
+    hypothesis.depth_q8 = patch.depth_q8;
+    return true;
+}
+
+/// Looks for the code as a mirror shows it, in the dots of a patch around the image centre. It
+/// counts only if lines in a row have no wrong bit. The dots are left mirrored.
+void look_for_mirror_image(const Kernels& kernels, const Options& options, DesktopWorkspace& w) {
+    if (w.is_mirrored) return;
+    Patch& patch = *w.patch;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(patch.dots.count); ++i)
+        patch.dots.x[i] = -patch.dots.x[i];
+    PatchGrid grid;
+    if (!find_grid(kernels, patch, whole_view(patch), grid)) return;
+    BitBlock block;
+    kernels.read_cells(patch.dots, grid.grid_from_image, grid.displacement, block.columns,
+                       block.rows);
+    Place place;
+    w.is_mirrored =
+        find_place_exactly(options.profile, turned(likeliest_turn(kernels, block), block), place);
+}
+
+/// Whether one look at each dot may be enough: where the patch shows the whole image, the grid
+/// predicts all dots to a fraction of a pixel, as it has been fitted to them.
+bool may_need_one_look(const ImageView& image, const Patch& patch, const FloatPlane& plane) {
+    return patch.width_px == image.width_px && patch.height_px == image.height_px &&
+           spacing_px(plane) >= tuned::kFinestOneLook_px;
+}
+
+/// Finds a hypothesis in the patch at the image centre. Returns false if it shows no place in the
+/// code.
+bool find_hypothesis(const Kernels& kernels, const ImageView& image, const Options& options,
+                     DesktopWorkspace& w, Hypothesis& hypothesis) {
+    Patch& patch = *w.patch;
+    if (!find_patch_dots(kernels, image, options, w)) return false;
+    const FloatVec middle = middle_of(patch, image);
+    if (options.lens.k_q40 != 0) straighten(options.lens, middle, patch.dots);
+    if (!read_hypothesis(kernels, options, whole_view(patch), middle, w, hypothesis)) return false;
+    hypothesis.pattern_from_image =
+        recentred(hypothesis.pattern_from_image, {-middle.x, -middle.y});
+    hypothesis.from_centre = {};
+    hypothesis.is_predicted = may_need_one_look(image, patch, hypothesis.pattern_from_image);
+    return true;
+}
+
+/// Finds a hypothesis in a patch around a point of the image, in px, counted from where its dots
+/// are densest, which is returned in `densest_px`. Returns false if it shows no place in the code.
+bool find_hypothesis_around(const Kernels& kernels, const ImageView& image, const Options& options,
+                            Vec around_px, int scale, DesktopWorkspace& w, Vec& densest_px,
+                            Hypothesis& hypothesis) {
+    Patch& patch = *w.patch;
+    PatchView view;
+    FloatVec from_middle;
+    if (!place_patch(image, around_px.x, around_px.y, kPatchWidth_px * scale,
+                     kPatchHeight_px * scale, scale, patch) ||
+        !find_patch_dots(kernels, image, options, w)) {
+        return false;
+    }
+    keep_isolated(patch);
+    if (!count_from_densest(patch, view, from_middle)) return false;
+    densest_px = {static_cast<std::int32_t>(middle_u_px(patch) + from_middle.x),
+                  static_cast<std::int32_t>(middle_v_px(patch) + from_middle.y)};
+    const FloatVec middle = middle_of(patch, image);
+    const FloatVec from_centre{middle.x + from_middle.x, middle.y + from_middle.y};
+    if (options.lens.k_q40 != 0) straighten(options.lens, from_centre, patch.dots);
+    hypothesis.shows_part = true;
+    for (const float central_dots : tuned::kCentralDots) {
+        for (const float by : tuned::kSpacings) {
+            const PatchView other{by * view.spacing_px, view.full_reach_px, central_dots};
+            if (read_hypothesis(kernels, options, other, from_centre, w, hypothesis)) return true;
+        }
+    }
+    return false;
+}
+
+/// Whether no other hypothesis is looked for.
+bool is_last(Confirmation confirmation) {
+    return confirmation == Confirmation::ok || confirmation == Confirmation::rough;
+}
+
+/// Searches a patch around a point of the image, and once more around the point where its dots are
+/// densest, if that lies elsewhere. Every hypothesis whose bits contradict it is one more chance of
+/// a wrong fix; `tries_left` counts how many more are allowed.
+Confirmation locate_around(const Kernels& kernels, const ImageView& image, const Options& options,
+                           Vec around_px, int scale, int& tries_left, DesktopWorkspace& w) {
+    for (int round = 0; round < 2 && tries_left > 0; ++round) {
+        Hypothesis hypothesis;
+        hypothesis.defers_if_rough = options.effort == Effort::twice;
+        Vec densest_px = around_px;
+        if (find_hypothesis_around(kernels, image, options, around_px, scale, w, densest_px,
+                                   hypothesis)) {
+            const auto confirmation = confirm(kernels, image, options, hypothesis, w);
+            tries_left -= confirmation == Confirmation::uncertain ? 1 : 0;
+            return confirmation;
+        }
+        const bool is_other_patch =
+            4 * std::abs(densest_px.x - around_px.x) > kPatchWidth_px * scale ||
+            4 * std::abs(densest_px.y - around_px.y) > kPatchHeight_px * scale;
+        if (!is_other_patch) break;
+        around_px = densest_px;
+    }
+    return Confirmation::implausible;
+}
+
+/// Searches the whole image for dots, in patches that grow.
+Confirmation locate_elsewhere(const Kernels& kernels, const ImageView& image,
+                              const Options& options, DesktopWorkspace& w) {
+    int tries_left = tuned::kMostTries;
+    for (const int scale : {1, 2, 4}) {
+        const int width = kPatchWidth_px * scale;
+        const int height = kPatchHeight_px * scale;
+        for (int v = height / 2; v < image.height_px + height / 2; v += height) {
+            for (int u = width / 2; u < image.width_px + width / 2; u += width) {
+                const Confirmation confirmation =
+                    locate_around(kernels, image, options, {u, v}, scale, tries_left, w);
+                if (is_last(confirmation)) return confirmation;
+            }
+        }
+    }
+    return tries_left < tuned::kMostTries ? Confirmation::uncertain : Confirmation::implausible;
+}
+
+/// Searches patches around the image centre, which grow, and then the whole image.
+Confirmation locate_outwards(const Kernels& kernels, const ImageView& image, const Options& options,
+                             DesktopWorkspace& w) {
+    for (const int scale : {1, 2, 4}) {
+        if (!place_patch(image, image.width_px / 2, image.height_px / 2, kPatchWidth_px * scale,
+                         kPatchHeight_px * scale, scale, *w.patch)) {
+            break;
+        }
+        Hypothesis hypothesis;
+        hypothesis.defers_if_rough = options.effort == Effort::twice;
+        auto confirmation = Confirmation::implausible;
+        if (find_hypothesis(kernels, image, options, w, hypothesis)) {
+            confirmation = confirm(kernels, image, options, hypothesis, w);
+            if (is_last(confirmation)) return confirmation;
+        }
+        look_for_mirror_image(kernels, options, w);
+        if (confirmation == Confirmation::uncertain) break;
+    }
+    return locate_elsewhere(kernels, image, options, w);
+}
+
+}  // namespace
+
+bool locate_first(const Kernels& kernels, const ImageView& image, const Options& options,
+                  DesktopWorkspace& w) {
+    forget_frame(w);
+    w.fix.status = Status::no_contrast;
+    const Confirmation confirmation = locate_outwards(kernels, image, options, w);
+    w.fix.attempt = Attempt::first;
+    if (confirmation == Confirmation::uncertain || confirmation == Confirmation::rough)
+        w.fix.status = Status::not_certain;
+    return confirmation == Confirmation::ok;
+}
+
+}  // namespace dotpose::core

@@ -1,0 +1,137 @@
+#include "locate/hypothesis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "code/rolls.hpp"
+
+namespace dotpose::core {
+namespace {
+
+struct Extent {
+    int first = 0;
+    int count = 0;
+};
+
+/// Returns the whole numbers from `least` to `most`: at most `room` of them, those around 0.
+Extent extent(float least, float most, int room) {
+    const int half = room / 2;
+    const int first = std::max(static_cast<int>(std::floor(std::max(least, -4096.0F))) - 1, -half);
+    const int last =
+        std::min(static_cast<int>(std::ceil(std::min(most, 4096.0F))) + 1, room - half - 1);
+    return {first, std::max(last - first + 1, 0)};
+}
+
+/// Fills the workspace's rolls with those of the code along the lines of a view, which gets them.
+void follow_code(Profile profile, const Place& place, CellsInView& view, DesktopWorkspace& w) {
+    const Place corner = moved(profile, place, view.first_column, view.first_row);
+    const auto follow = [&](std::uint32_t position, int section, std::uint32_t cross, int count,
+                            std::span<std::uint8_t> rolls) {
+        code::follow_rolls(profile, position, code::roll_from(profile, position, section, cross),
+                           rolls.first(static_cast<std::size_t>(count)));
+    };
+    follow(corner.cell.x, corner.section.u, corner.cell.y, view.columns, w.column_rolls);
+    follow(corner.cell.y, corner.section.v, corner.cell.x, view.rows, w.row_rolls);
+    view.column_rolls = w.column_rolls.data();
+    view.row_rolls = w.row_rolls.data();
+}
+
+}  // namespace
+
+FloatVec centre_px(const ImageView& image) {
+    return {static_cast<float>(image.width_px - 1) / 2,
+            static_cast<float>(image.height_px - 1) / 2};
+}
+
+FloatLens float_lens(const Lens& lens) {
+    constexpr float kQ40 = 1099511627776.0F;
+    return {static_cast<float>(lens.k_q40) / kQ40, static_cast<float>(lens.centre_dx_q8) / 256,
+            static_cast<float>(lens.centre_dy_q8) / 256};
+}
+
+CellsInView cells_in_view(const ImageView& image, const Options& options,
+                          const Hypothesis& hypothesis, float reach_px, int most_cells,
+                          DesktopWorkspace& w) {
+    const FloatVec centre = centre_px(image);
+    CellsInView view;
+    view.plane = hypothesis.pattern_from_image;
+    view.lens = float_lens(options.lens);
+    view.lens.centre_x -= hypothesis.from_centre.x;
+    view.lens.centre_y -= hypothesis.from_centre.y;
+    view.centre_x = centre.x + hypothesis.from_centre.x;
+    view.centre_y = centre.y + hypothesis.from_centre.y;
+    view.width_px = static_cast<float>(image.width_px);
+    view.height_px = static_cast<float>(image.height_px);
+    view.reach_px = reach_px;
+    view.displacement = hypothesis.displacement;
+    // A dot that touches the border of the image is not seen completely.
+    view.margin_px = std::max(1.7F, 0.15F * spacing_px(hypothesis.pattern_from_image));
+    const float half_width = std::min(centre.x + std::abs(hypothesis.from_centre.x) + 1, reach_px);
+    const float half_height = std::min(centre.y + std::abs(hypothesis.from_centre.y) + 1, reach_px);
+    float least_x = 0, least_y = 0, most_x = 0, most_y = 0;
+    for (const FloatVec corner :
+         {FloatVec{-half_width, -half_height}, FloatVec{half_width, -half_height},
+          FloatVec{-half_width, half_height}, FloatVec{half_width, half_height}}) {
+        const FloatVec at = plane_point(view.plane, corner);
+        least_x = std::min(least_x, at.x);
+        least_y = std::min(least_y, at.y);
+        most_x = std::max(most_x, at.x);
+        most_y = std::max(most_y, at.y);
+    }
+    const Extent columns = extent(least_x, most_x, static_cast<int>(w.column_rolls.size()));
+    const Extent rows = extent(least_y, most_y, static_cast<int>(w.row_rolls.size()));
+    view.first_column = columns.first;
+    view.columns = columns.count;
+    view.first_row = rows.first;
+    view.rows = rows.count;
+    const float spacing = spacing_px(view.plane);
+    const float cells = 4 * half_width * half_height / (spacing * spacing);
+    view.step = 1 + static_cast<int>(std::min(cells / static_cast<float>(most_cells), 65535.0F));
+    follow_code(options.profile, hypothesis.place, view, w);
+    return view;
+}
+
+void count_from_centre(Profile profile, Hypothesis& hypothesis) {
+    FloatPlane& plane = hypothesis.pattern_from_image;
+    const float column = std::floor(plane.at_x + 0.5F);
+    const float row = std::floor(plane.at_y + 0.5F);
+    plane.at_x -= column;
+    plane.at_y -= row;
+    hypothesis.place = moved(profile, hypothesis.place, static_cast<std::int32_t>(column),
+                             static_cast<std::int32_t>(row));
+}
+
+Similarity similarity_of(const DotOffsets& found) {
+    // Offset = shift + turn * place, as complex numbers: least squares in closed form.
+    const float share = 1 / static_cast<float>(found.points);
+    const float u = found.u * share;  // the mean place
+    const float v = found.v * share;
+    const float spread = found.squares - static_cast<float>(found.points) * (u * u + v * v);
+    Similarity fit{{found.off_u * share, found.off_v * share}, 0, 0, 0};
+    const float squares_of_shift = found.off_u * fit.shift_px.x + found.off_v * fit.shift_px.y;
+    float explained = 0;
+    if (spread > 0) {
+        const float along = found.along - found.off_u * u - found.off_v * v;
+        const float across = found.across - found.off_v * u + found.off_u * v;
+        fit.scale = along / spread;
+        fit.turn_rad = across / spread;
+        explained = fit.scale * along + fit.turn_rad * across;
+        fit.shift_px.x -= fit.scale * u - fit.turn_rad * v;
+        fit.shift_px.y -= fit.scale * v + fit.turn_rad * u;
+    }
+    fit.squares_px2 = std::max(found.squared - explained - squares_of_shift, 0.0F);
+    return fit;
+}
+
+FloatPlane moved(const FloatPlane& plane, const Similarity& by) {
+    FloatPlane p = recentred(plane, {-by.shift_px.x, -by.shift_px.y});
+    const float du_x = p.du_x - p.du_x * by.scale - p.dv_x * by.turn_rad;
+    const float du_y = p.du_y - p.du_y * by.scale - p.dv_y * by.turn_rad;
+    p.dv_x += p.du_x * by.turn_rad - p.dv_x * by.scale;
+    p.dv_y += p.du_y * by.turn_rad - p.dv_y * by.scale;
+    p.du_x = du_x;
+    p.du_y = du_y;
+    return p;
+}
+
+}  // namespace dotpose::core

@@ -1,0 +1,363 @@
+// Locates a frame on a desktop: which attempts are made, in which codes, and when a fix is
+// accepted.
+//
+//   tracked    measures the dots where a prediction expects them    attempts/tracked.hpp
+//   first      finds the grid in a part of the image                attempts/first.hpp
+//   second     filters the image and uses all its dots              attempts/second.hpp
+//
+// A frame whose code is known is a frame with one possible code.
+#include "locate/locate.hpp"
+
+#include <initializer_list>
+#include <limits>
+#include <optional>
+#include <span>
+
+#include "core/integrity/possible_codes.hpp"
+#include "core/integrity/verify.hpp"
+#include "core/kernels/select.hpp"
+#include "core/math/odds.hpp"
+#include "core/steps.hpp"
+#include "device/locate.hpp"
+#include "dotpose/locate.hpp"
+#include "locate/confirm.hpp"
+#include "locate/first.hpp"
+#include "locate/other_place.hpp"
+#include "locate/second.hpp"
+#include "locate/tracked.hpp"
+#include "locate/tuning.hpp"
+
+namespace dotpose::core {
+namespace {
+
+namespace tuned = tuning::cascade;
+
+/// What is tried. `resampled` is the second attempt that also samples doubtful bits again, which
+/// takes three times as long.
+enum class Step : std::uint8_t { tracked, first, second, resampled, device };
+
+/// Returns true if the dots lie on a grid but this code does not read them, so that another may.
+bool leaves_code_open(Status status) {
+    return status == Status::not_in_code || status == Status::ambiguous ||
+           status == Status::not_certain;
+}
+
+/// Locates one frame in one of the possible codes.
+class Cascade {
+  public:
+    Cascade(const ImageView& image, const Options& options, const PossibleCodes& codes,
+            const CodeEvidence& evidence, DesktopWorkspace& w)
+        : image_(image),
+          options_(options),
+          codes_(codes),
+          evidence_(evidence),
+          w_(w),
+          second_(image, w) {}
+
+    /// Returns the fix; the workspace matches it.
+    CodeReading locate(const Prediction* prediction) {
+        if (options_.effort == Effort::device) return make({Step::device});
+        prediction_ = prediction;
+        const Profile predicted = options_.profile;
+        if (prediction != nullptr && attempt(Step::tracked, predicted)) {
+            const Judgement judgement = judge(predicted);
+            if (judgement.is_certain) return accept(predicted, judgement);
+        }
+        CodeReading reading = locate_afresh();
+        if (leaves_code_open(reading.fix.status)) learn_of_another_sheet(reading);
+        return reading;
+    }
+
+  private:
+    bool may_try_twice() const { return options_.effort == Effort::twice; }
+
+    CodeReading locate_afresh() {
+        const bool is_paper = options_.decoder == Decoder::window;
+        if (!may_try_twice()) return make({is_paper ? Step::second : Step::first});
+        if (is_paper) return make({Step::second, Step::resampled});
+        if (codes_.is_known()) return make({Step::first, Step::resampled});
+        return make({Step::first, Step::second, Step::resampled});
+    }
+
+    /// Makes the steps in order until a code gives a certain fix. Otherwise returns the first
+    /// doubtful fix, or the failure in the likeliest code.
+    CodeReading make(std::initializer_list<Step> steps) {
+        std::optional<CodeReading> doubtful;
+        std::optional<Fix> failure;
+        for (const Step step : steps) {
+            for (const Profile code : worth_trying(step)) {
+                if (!attempt(step, code)) {
+                    if (code == codes_.likeliest()) failure = w_.fix;
+                    if (step != Step::first && !leaves_code_open(w_.fix.status)) break;
+                    continue;
+                }
+                const Judgement judgement = judge(code);
+                if (judgement.is_certain) return best_of(step, code, judgement);
+                if (!doubtful) doubtful = in_doubt(code, judgement);
+            }
+            if (doubtful && doubtful->fix.status == Status::ambiguous_code) break;
+        }
+        if (!doubtful)
+            doubtful = CodeReading{failure.value_or(Fix{}), codes_.likeliest(), evidence_};
+        w_.fix = doubtful->fix;
+        return *doubtful;
+    }
+
+    /// Returns the codes in which a step is tried.
+    std::span<const Profile> worth_trying(Step step) const {
+        if (step == Step::resampled && !codes_.is_known())
+            return {&worth_resampling_, fewest_errors_ == kMaxErrors ? 0U : 1U};
+        return codes_.in_order();
+    }
+
+    /// Makes one step in one code. Returns true if there is a fix; the workspace has it, with the
+    /// odds of other codes.
+    bool attempt(Step step, Profile code) {
+        options_.profile = code;
+        OtherCodes& others = w_.other_codes;
+        others.of = {};
+        // Alternatives that do not depend on the place are equally likely in each code.
+        if (!codes_.is_known()) others.log2_in_question_q8 = log2_of_odds_q8(codes_.number(code));
+        switch (step) {
+            case Step::tracked:
+                return locate_tracked(kernels(), image_, options_, *prediction_, w_);
+            case Step::first:
+                return locate_first(kernels(), image_, options_, w_);
+            case Step::second:
+                return attempt_second(code);
+            case Step::resampled:
+                return second_.read(options_, SecondAttempt::Resampling::if_doubtful);
+            case Step::device:
+                return attempt_as_device(code);
+        }
+        return false;
+    }
+
+    bool attempt_second(Profile code) {
+        if (second_.read(options_, SecondAttempt::Resampling::never)) return true;
+        if (w_.fix.status == Status::not_certain && w_.fix.bit_errors < fewest_errors_) {
+            fewest_errors_ = w_.fix.bit_errors;
+            worth_resampling_ = code;
+        }
+        return false;
+    }
+
+    bool attempt_as_device(Profile code) {
+        if (locate_as_device(image_, options_, w_).status != Status::ok) return false;
+        w_.fix.p_wrong_log2 = PossibleCodes::rounded_up(w_.fix.p_wrong_log2, codes_.number(code));
+        weigh_other_codes(kernels(), w_.grid, code, w_.decoding, w_.line_scores, &w_.other_codes);
+        return true;
+    }
+
+    Judgement judge(Profile read) const {
+        return codes_.judge(read, w_.other_codes, w_.fix, options_.integrity.max_p_wrong_log2);
+    }
+
+    /// Returns the certain fix or a better one: of a code that explains the same place better, or
+    /// of the second attempt.
+    CodeReading best_of(Step step, Profile code, Judgement judgement) {
+        const auto remake = [&](Step other_step, Profile other) {
+            if (!attempt(other_step, other)) return false;
+            code = other;
+            judgement = judge(other);
+            return judgement.is_certain;
+        };
+        const Profile read = code;
+        if (judgement.other_odds > tuned::kBetterOdds && !remake(step, judgement.other))
+            remake(step, read);
+        if (step == Step::first && is_rough(w_.fix) && may_try_twice()) {
+            const Profile best = code;
+            if (!remake(Step::resampled, best)) remake(step, best);
+        }
+        return accept(code, judgement);
+    }
+
+    CodeReading accept(Profile code, const Judgement& judgement) {
+        w_.fix.p_wrong_log2 = judgement.p_wrong_log2;
+        CodeReading reading{w_.fix, code, evidence_};
+        if (!codes_.is_known())
+            reading.evidence.add(w_.fix.cell, likelihoods(code, w_.other_codes));
+        return reading;
+    }
+
+    CodeReading in_doubt(Profile code, const Judgement& judgement) {
+        CodeReading reading{w_.fix, code, evidence_};
+        reading.fix.p_wrong_log2 = judgement.p_wrong_log2;
+        reading.fix.status = judgement.is_ambiguous ? Status::ambiguous_code : Status::not_certain;
+        if (judgement.is_ambiguous)
+            name_other_place(code, judgement.other, w_.other_codes, reading);
+        return reading;
+    }
+
+    /// Adds evidence from a frame of another sheet. The evidence for one code can be so strong that
+    /// no frame of another code is certain; such a frame must still be able to overturn it.
+    void learn_of_another_sheet(CodeReading& reading) {
+        if (options_.effort == Effort::device || codes_.is_known() || codes_.are_equal()) return;
+        const PossibleCodes before = codes_;
+        codes_ = PossibleCodes(CodeEvidence{});
+        for (const Profile code : codes_.in_order()) {
+            if (code == before.likeliest() || !attempt(Step::first, code) ||
+                !judge(code).is_certain)
+                continue;
+            reading.evidence.add(w_.fix.cell, likelihoods(code, w_.other_codes));
+            break;
+        }
+        codes_ = before;
+        w_.fix = reading.fix;
+    }
+
+    static constexpr int kMaxErrors = std::numeric_limits<int>::max();
+
+    const ImageView& image_;
+    Options options_;
+    PossibleCodes codes_;
+    const CodeEvidence& evidence_;
+    DesktopWorkspace& w_;
+    const Prediction* prediction_ = nullptr;
+    SecondAttempt second_;
+    Profile worth_resampling_ = Profile::anoto;  ///< code with `fewest_errors_` bit errors
+    int fewest_errors_ = kMaxErrors;
+};
+
+/// Locates a frame whose arguments were checked.
+CodeReading locate_checked(const ImageView& image, const Options& options,
+                           const Prediction* prediction, const PossibleCodes& codes,
+                           const CodeEvidence& evidence, DesktopWorkspace& w) {
+    w.is_mirrored = false;
+    CodeReading reading = Cascade(image, options, codes, evidence, w).locate(prediction);
+    // An attempt may have seen the code as in a mirror, and those after it failed for other
+    // reasons.
+    if (reading.fix.status != Status::ok && w.is_mirrored)
+        reading.fix.status = w.fix.status = Status::mirrored;
+    return reading;
+}
+
+/// Notes a place in another code that explains the frame without a contradiction, apart from
+/// misread bits.
+void note_other_reading(const CodeReading& any, CodeReading& reading) {
+    const bool is_read = any.fix.status == Status::ok || any.fix.status == Status::ambiguous_code;
+    if (!is_read || tuned::kBitsPerError * any.fix.bit_errors > any.fix.dots_seen) return;
+    const bool is_first = any.code != reading.code;
+    reading.has_other = is_first || any.has_other;
+    reading.other_code = is_first ? any.code : any.other_code;
+    reading.other_cell = is_first ? any.fix.cell : any.other_cell;
+    reading.other_section = is_first ? any.fix.section : any.other_section;
+}
+
+}  // namespace
+
+Fix locate(const ImageView& image, const Options& options, const Prediction* prediction,
+           DesktopWorkspace& w) {
+    const Status status = check(image, options, w);
+    if (status != Status::ok) return refuse(status, w);
+    if (options.effort == Effort::device) {
+        return prediction != nullptr ? locate_as_device(image, options, *prediction, w)
+                                     : locate_as_device(image, options, w);
+    }
+    w.other_codes.are_wanted = false;
+    return locate_checked(image, options, prediction, PossibleCodes(options.profile), {}, w).fix;
+}
+
+Status begin_image(int width_px, int height_px, const Options& options, DesktopWorkspace& w) {
+    Status status = check(width_px, height_px, options, w);
+    if (status == Status::ok && !w.pushed.begin(width_px, height_px))
+        status = Status::image_too_large;
+    return status == Status::ok ? status : refuse(status, w).status;
+}
+
+CodeReading locate_in_any_code(const ImageView& image, const Options& options,
+                               const Prediction* prediction, const CodeEvidence& evidence,
+                               DesktopWorkspace& w) {
+    const Status status = check(image, options, w);
+    if (status != Status::ok) return {refuse(status, w), options.profile, evidence};
+    w.other_codes.are_wanted = true;
+    return locate_checked(image, options, prediction, PossibleCodes(evidence), evidence, w);
+}
+
+CodeReading locate_in_code(const ImageView& image, const Options& options, DesktopWorkspace& w) {
+    const Status status = check(image, options, w);
+    if (status != Status::ok) return {refuse(status, w), options.profile, {}};
+    const PossibleCodes given(options.profile);
+    w.other_codes.are_wanted = true;
+    w.other_codes.log2_in_question_q8 = OtherCodes::kNoneInQuestion;
+    CodeReading reading = locate_checked(image, options, nullptr, given, {}, w);
+    if (reading.fix.status == Status::ok) {
+        name_code_that_explains(w.other_codes, reading);
+    } else if (leaves_code_open(reading.fix.status)) {
+        note_other_reading(locate_in_any_code(image, options, nullptr, {}, w), reading);
+        locate(image, options, nullptr, w);  // The workspace must match the fix that is returned.
+    }
+    return reading;
+}
+
+}  // namespace dotpose::core
+
+namespace dotpose {
+
+SmallMemory::SmallMemory() : workspace_(core::make_workspace<core::SmallWorkspace>(bytes_)) {}
+LargeMemory::LargeMemory() : workspace_(core::make_workspace<core::LargeWorkspace>(bytes_)) {}
+
+Locator::Locator(SmallMemory& memory, const Options& options)
+    : RowLocator(memory.workspace_, options) {}
+
+Locator::Locator(LargeMemory& memory, const Options& options)
+    : RowLocator(memory.workspace_, options) {}
+
+core::DesktopWorkspace& Locator::workspace() {
+    return static_cast<core::DesktopWorkspace&>(*workspace_);
+}
+
+Fix Locator::locate(const ImageView& image) {
+    core::locate(image, options_, nullptr, workspace());
+    return finished();
+}
+
+Fix Locator::locate(const ImageView& image, const Prediction& prediction) {
+    core::locate(image, options_, &prediction, workspace());
+    return finished();
+}
+
+CodeReading Locator::finished(CodeReading reading) {
+    options_.profile = reading.code;
+    workspace().fix = reading.fix;
+    reading.fix = finished();
+    return reading;
+}
+
+CodeReading Locator::locate_in_any_code(const ImageView& image, const CodeEvidence& evidence) {
+    return finished(core::locate_in_any_code(image, options_, nullptr, evidence, workspace()));
+}
+
+CodeReading Locator::locate_in_any_code(const ImageView& image, const Prediction& prediction,
+                                        const CodeEvidence& evidence) {
+    return finished(core::locate_in_any_code(image, options_, &prediction, evidence, workspace()));
+}
+
+CodeReading Locator::locate_in_code(const ImageView& image) {
+    return finished(core::locate_in_code(image, options_, workspace()));
+}
+
+Status Locator::begin(int width_px, int height_px) {
+    const Status status = core::begin_image(width_px, height_px, options_, workspace());
+    return note_begin(status, height_px);
+}
+
+Status Locator::begin(int width_px, int height_px, const Prediction& prediction) {
+    const Status status = begin(width_px, height_px);
+    workspace().pushed.has_prediction = true;
+    workspace().pushed.prediction = prediction;
+    return status;
+}
+
+void Locator::push_row(const std::uint8_t* pixels) {
+    if (takes_row()) workspace().pushed.add_row(pixels);
+}
+
+Fix Locator::finish() {
+    if (!has_rows()) return finished();
+    core::PushedImage& pushed = workspace().pushed;
+    const ImageView image = pushed.completed();
+    return pushed.has_prediction ? locate(image, pushed.prediction) : locate(image);
+}
+
+}  // namespace dotpose

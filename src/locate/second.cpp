@@ -1,0 +1,168 @@
+#include "locate/second.hpp"
+
+#include <algorithm>
+
+#include "core/decode/likelihood.hpp"
+#include "core/decode/position.hpp"
+#include "core/decode/sample_cells.hpp"
+#include "core/decode/window.hpp"
+#include "core/detect/smooth.hpp"
+#include "core/integrity/verify.hpp"
+#include "core/kernels/select.hpp"
+#include "core/lattice/periodogram_search.hpp"
+#include "core/lattice/refine_grid.hpp"
+#include "core/steps.hpp"
+#include "locate/dot_reader.hpp"
+#include "locate/fitted_pose.hpp"
+#include "locate/tracked.hpp"
+#include "locate/tuning.hpp"
+
+namespace dotpose::core {
+namespace {
+
+namespace tuned = tuning::second;
+
+/// Returns the options with the thresholds of a filtered image.
+Options for_filtered(Options options) {
+    ThresholdOptions& threshold = options.threshold;
+    threshold.min_contrast = threshold.min_contrast / 2 + 1;
+    threshold.low_q8 = (tuned::kLow_3rds * threshold.low_q8 + 2) / 3;
+    threshold.high_q8 = (tuned::kHigh_10ths * threshold.high_q8 + 9) / 10;
+    return options;
+}
+
+/// Filters the image and detects its blobs.
+void detect_filtered(const ImageView& image, const Options& filtered, DesktopWorkspace& w) {
+    begin_frame(image.width_px, image.height_px, w);
+    begin_smoothing(image, w.smoothing);
+    for (int v = 0; v < image.height_px; ++v)
+        detect_row(next_smooth_row(image, w.smoothing), filtered, w);
+}
+
+/// Finds the grid that the dots lie on, also for tilted cameras and bent lenses; slower than
+/// `find_grid`.
+Status find_grid_thoroughly(const Options& options, DesktopWorkspace& w) {
+    const Vec centre_q8 = image_centre_q8(w.light);
+    const Status status = find_axes(centre_q8, kMaxSeeds, w);
+    if (status != Status::ok) return status;
+    search_periodogram(w.found_dots(), first(w.seeds, w.seed_count), centre_q8, tuned::kMaxTurn_deg,
+                       w.lattice);
+    return refine_grid(w.found_dots(), options.lattice, centre_q8, w.lattice, w.grid_from_image);
+}
+
+/// Samples the bits from the image through the grid. Returns false if it shows two overlapping
+/// patterns.
+bool shows_one_pattern(const ImageView& image, const Options& options, DesktopWorkspace& w) {
+    return sample_cells(image, w.smoothing.paper, options.lens, w.grid_from_image, w.grid);
+}
+
+/// Decodes by the decoder of the options.
+Status decode(const Options& options, DesktopWorkspace& w) {
+    if (options.decoder == Decoder::window) {
+        return decode_window(w.grid, options.profile, w.line_scores, w.decoding);
+    }
+    return decode_all(w.grid, options.profile, w.line_scores, w.decoding);
+}
+
+/// Finds the position in the code from the bits, and checks whether all dots agree with it.
+Status read_position(const Options& options, DesktopWorkspace& w) {
+    w.decoding.window = choose_window(w.grid, kWindowSide);  // II-B.5
+    choose_region(w);
+    Status status = decode(options, w);  // II-B.6-7
+    if (status == Status::ok) {
+        status = verify_among_codes(w.grid, options.profile, wanted_codes(w), w.decoding,
+                                    options.integrity, w.line_scores, w.fix);
+    }
+    return status == Status::ok ? status : refused(status, w);
+}
+
+/// Reads the bits again through a grid that is fitted to the dots of the doubtful position. If the
+/// position is correct, the bits become clearer.
+Status resample(const ImageView& image, const Options& options, DesktopWorkspace& w) {
+    PoseFit fit;
+    if (!fit_pattern(options, image, w, fit)) return Status::not_certain;
+    w.grid_from_image = w.pattern_from_image;
+    w.decoding.pattern_from_grid = {};
+    w.decoding.p_wrong_log2_q8 = {};  // They belonged to the bits before.
+    return shows_one_pattern(image, options, w) ? read_position(options, w) : Status::not_certain;
+}
+
+/// Measures the dots of the fix as the first attempt does, whose centres are not biased, if they
+/// fall on the pixels alike.
+void take_bias(const ImageView& image, const Options& options, DesktopWorkspace& w) {
+    if (options.decoder == Decoder::window) return;
+    const float variance_px2 =
+        w.fix.residual_px * w.fix.residual_px / static_cast<float>(w.fix.dots_used);
+    if (may_be_biased(float_plane(w.pattern_from_image), variance_px2,
+                      std::max(image.width_px, image.height_px))) {
+        measure_again(kernels(), image, options, w);
+    }
+}
+
+/// Finds dots and grid in the filtered image, and reads the bits.
+Status see_with(const Options& filtered, const ImageView& image, DesktopWorkspace& w) {
+    detect_filtered(image, filtered, w);
+    Status status = find_dots(filtered, w);                                // II-B.1
+    if (status == Status::ok) status = find_grid_thoroughly(filtered, w);  // II-B.2-3
+    if (status == Status::ok) {
+        status = assign_likelihoods(w.found_dots(), w.grid_from_image, w.grid);  // II-B.4
+    }
+    if (status != Status::ok) return status;
+    return shows_one_pattern(image, filtered, w) ? Status::ok : Status::not_certain;
+}
+
+/// Finds dots and grid, for pale dots by a second look with a lower threshold, and reads the bits.
+Status see_filtered(const ImageView& image, const Options& options, DesktopWorkspace& w) {
+    Options filtered = for_filtered(options);
+    const Status status = see_with(filtered, image, w);
+    const int pale = (options.threshold.min_contrast + tuned::kPaleParts - 1) / tuned::kPaleParts;
+    const bool may_be_pale = (status == Status::no_contrast || status == Status::too_few_dots) &&
+                             w.light.greatest_contrast >= pale;
+    if (!may_be_pale) return status;
+    const Fix seen = w.fix;
+    filtered.threshold.min_contrast = pale;
+    if (see_with(filtered, image, w) == Status::ok) return Status::ok;
+    // The second look found no pattern: its dots were noise, so the result of the first look
+    // stands.
+    w.fix = seen;
+    w.dot_count = 0;
+    return status;
+}
+
+/// Measures the pose at the position found, and weighs the other codes.
+Status measure_and_weigh(const ImageView& image, const Options& options, DesktopWorkspace& w) {
+    const Status status = measure_pose(options, image, w);  // II-B.8
+    w.fix.attempt = Attempt::second;
+    if (status == Status::ok) {
+        weigh_other_codes(kernels(), w.grid, options.profile, w.decoding, w.line_scores,
+                          wanted_codes(w));
+        take_bias(image, options, w);
+    }
+    return status;
+}
+
+}  // namespace
+
+bool SecondAttempt::read(const Options& options, Resampling resampling) {
+    if (!is_seen_) {
+        w_.fix.status = see_filtered(image_, options, w_);
+        w_.fix.attempt = Attempt::second;
+        seen_ = w_.fix;
+        is_seen_ = true;
+    }
+    w_.fix = seen_;
+    if (seen_.status != Status::ok) return false;
+    w_.decoding = {};
+    Status& status = w_.fix.status;
+    status = read_position(options, w_);
+    if (status == Status::not_certain && resampling == Resampling::if_doubtful) {
+        status = resample(image_, options, w_);
+        is_seen_ = false;
+    }
+    if (status != Status::ok) return false;
+    status = measure_and_weigh(image_, options, w_);
+    is_seen_ = false;  // The dots were measured again.
+    return status == Status::ok;
+}
+
+}  // namespace dotpose::core

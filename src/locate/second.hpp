@@ -1,0 +1,31 @@
+// The second attempt: filters an image against noise and uneven light, finds the grid of all its
+// dots thoroughly, and reads the bits from the image at each cell.
+#pragma once
+
+#include "dotpose/image.hpp"
+#include "dotpose/options.hpp"
+#include "locate/workspace.hpp"
+
+namespace dotpose::core {
+
+/// Second attempts at one image in several codes. The filtered image, its dots and its grid do not
+/// depend on the code, so they are computed once.
+class SecondAttempt {
+  public:
+    enum class Resampling : std::uint8_t { never, if_doubtful };
+
+    SecondAttempt(const ImageView& image, DesktopWorkspace& w) : image_(image), w_(w) {}
+
+    /// Locates the image in the code of the options. Returns true if there is a fix; the workspace
+    /// has it, or the status. With `Resampling::if_doubtful`, a position that is not certain is
+    /// read again through a grid that is fitted to its dots.
+    bool read(const Options& options, Resampling resampling);
+
+  private:
+    const ImageView& image_;
+    DesktopWorkspace& w_;
+    bool is_seen_ = false;  ///< true if the workspace has dots and cells of the filtered image
+    Fix seen_;              ///< the fix at that time, without a position
+};
+
+}  // namespace dotpose::core

@@ -1,0 +1,174 @@
+// Desktop workspace: all memory of a Locator.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/other_codes.hpp"
+#include "core/patch_memory.hpp"
+#include "core/stages.hpp"
+#include "core/workspace.hpp"
+#include "dotpose/image.hpp"
+#include "dotpose/prediction.hpp"
+
+namespace dotpose::core {
+
+/// An image whose rows are pushed to a Locator, which keeps them.
+struct PushedImage {
+    std::span<std::uint8_t> memory;
+    int width_px = 0;
+    int height_px = 0;
+    int rows = 0;  ///< number of rows so far
+    bool has_prediction = false;
+    Prediction prediction;
+
+    /// Starts an image. Returns false if it is larger than the memory.
+    bool begin(int width, int height) {
+        width_px = width;
+        height_px = height;
+        rows = 0;
+        has_prediction = false;
+        return size(height) <= memory.size();
+    }
+    void add_row(const std::uint8_t* pixels) {
+        std::copy_n(pixels, width_px, memory.begin() + static_cast<std::ptrdiff_t>(size(rows)));
+        ++rows;
+    }
+    /// Returns the image; rows that are missing are white.
+    ImageView completed() const {
+        const std::size_t begin = size(rows);
+        std::fill_n(memory.begin() + static_cast<std::ptrdiff_t>(begin), size(height_px) - begin,
+                    std::uint8_t{255});
+        return {memory.data(), width_px, height_px, width_px};
+    }
+
+  private:
+    std::size_t size(int height) const {
+        return static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height);
+    }
+};
+
+/// What only the attempts of desktops need in addition.
+struct DesktopWorkspace : Workspace {
+    Patch* patch = nullptr;
+    MeasuredDots measured;
+    std::span<std::uint8_t> column_rolls;
+    std::span<std::uint8_t> row_rolls;
+    Smoothing smoothing;
+    OtherCodes other_codes;
+    PushedImage pushed;
+    bool is_mirrored = false;  ///< true if an attempt saw the code as in a mirror
+};
+
+/// Returns where to put the odds of other profiles; null if they are not wanted.
+inline OtherCodes* wanted_codes(DesktopWorkspace& w) {
+    return w.other_codes.are_wanted ? &w.other_codes : nullptr;
+}
+
+/// A workspace with its memory, for images up to `MaxWidth` px wide. It keeps the `MaxDots` dots
+/// nearest the image centre and the middle `GridSide` x `GridSide` cells of the grid.
+template <int MaxWidth, int MaxDots, int GridSide>
+class WorkspaceOf : public DesktopWorkspace {
+  public:
+    static_assert(MaxWidth >= 64 && MaxWidth <= 4096, "images are 64 to 4096 px wide");
+    static_assert(GridSide >= 16 && GridSide <= kMaxGridSide, "lines of the grid have fixed room");
+    static_assert(MaxDots >= 64 && MaxDots < GridCell::kHidden, "dots are counted in 16 bits");
+
+    WorkspaceOf() {
+        max_width_px = MaxWidth;
+        keeps_every_stage = true;
+        pushed.memory = pushed_;
+        patch = &patch_;
+        measured.column = floats_[0];
+        measured.row = floats_[1];
+        measured.x = floats_[2];
+        measured.y = floats_[3];
+        measured.bits = ints_[0];
+        measured.window_u = ints_[1];
+        measured.window_v = ints_[2];
+        measured.mass = ints_[3];
+        measured.sum_u = ints_[4];
+        measured.sum_v = ints_[5];
+        measured.paper = ints_[6];
+        column_rolls = rolls_[0];
+        row_rolls = rolls_[1];
+        smoothing.lines = smooth_lines_;
+        smoothing.row = smooth_row_;
+        smoothing.paper.levels = papers_;
+        smoothing.paper.brightest = brightest_papers_;
+        smoothing.column_sums = smooth_sums_;
+        light.rows = rows_;
+        light.tiles = tiles_;
+        light.half_low_levels = half_low_levels_;
+        light.high_levels = high_levels_;
+        open.runs = runs_;
+        open.blobs = blobs_;
+        dots = dots_;
+        seeds = seeds_;
+        buckets = buckets_;
+        edge_values = edge_values_;
+        neighbours = neighbours_;
+        edges = edges_;
+        grid.storage = cells_;
+        grid.side = GridSide;
+        line_scores = line_scores_;
+        tracking.rows = tracked_rows_;
+        tracking.lines = tracked_lines_;
+        tracking.grid_rows = grid_rows_;
+    }
+    WorkspaceOf(const WorkspaceOf&) = delete;
+    WorkspaceOf& operator=(const WorkspaceOf&) = delete;
+
+  private:
+    // Small images have low tiles, larger ones high tiles: see `begin_light`.
+    static constexpr int kBand_px =
+        MaxWidth <= kLargestWithLowTiles_px ? kLowTile_px : kHighTile_px;
+    static constexpr int kTiles = MaxWidth / kTileWidth_px + 1;
+    static constexpr int kLevels = kTiles * kTileWidth_px + kReadAhead_px;
+    // Every second pixel may begin a run, and every run a blob.
+    static constexpr int kRuns = MaxWidth / 2 + 2;
+
+    // Number of lines that cross an image turned by any angle.
+    static constexpr std::size_t kRolls = 1024;
+
+    Patch patch_;
+    std::array<std::array<float, MaxDots + 40>, 4> floats_;
+    std::array<std::array<std::int32_t, MaxDots + 40>, 7> ints_;
+    std::array<std::array<std::uint8_t, kRolls>, 2> rolls_;
+    std::array<std::uint16_t, 5 * MaxWidth> smooth_lines_{};
+    std::array<std::uint8_t, MaxWidth> smooth_row_{};
+    // Blocks are a tenth of the shorter side, so at least 6 px: at most 11 x 683 of them.
+    std::array<std::uint8_t, 11 * 683> papers_{};
+    std::array<std::uint8_t, 11 * 683> brightest_papers_{};
+    std::array<std::uint32_t, MaxWidth> smooth_sums_{};
+    alignas(
+        8) std::array<std::uint8_t, 2 * kBand_px * kTiles * kTileWidth_px + kReadAhead_px> rows_{};
+    std::array<Tile, 4 * kTiles> tiles_{};
+    alignas(8) std::array<std::uint8_t, kLevels> half_low_levels_{};
+    alignas(8) std::array<std::uint8_t, kLevels> high_levels_{};
+    std::array<Run, 2 * kRuns> runs_{};
+    std::array<OpenBlob, 2 * kRuns> blobs_{};
+    std::array<Dot, MaxDots> dots_{};
+    std::array<std::uint16_t, kMaxSeeds> seeds_{};
+    std::array<BucketedSeed, kMaxSeeds + 1> buckets_{};
+    std::array<std::array<std::int16_t, 4>, kMaxSeeds> neighbours_{};
+    std::array<Edge, 2 * kMaxSeeds> edges_{};
+    std::array<std::int32_t, 4 * kMaxSeeds> edge_values_{};
+    std::array<GridCell, GridSide * GridSide> cells_{};
+    std::array<ScoredLine, 2 * std::min(GridSide, kMaxLines)> line_scores_{};
+    std::array<std::uint8_t, 36 * std::min(MaxWidth, 376)> tracked_rows_{};
+    std::array<TrackedLine, 2 * kMostTracked> tracked_lines_{};
+    std::array<TrackedRow, kMostTracked> grid_rows_{};
+    // Left as it is, so that a system gives no memory for an image that is never pushed.
+    std::array<std::uint8_t, static_cast<std::size_t>(MaxWidth) * MaxWidth> pushed_;
+};
+
+/// Workspace for the paper's 188 x 120 px sensor.
+using SmallWorkspace = WorkspaceOf<188, 384, 32>;
+/// Workspace for images up to 4096 x 4096 px.
+using LargeWorkspace = WorkspaceOf<4096, 16384, 192>;
+
+}  // namespace dotpose::core

@@ -1,0 +1,86 @@
+// Which cells are read: those that have all their pixels in the image, and no others.
+#include "device/read_dots.hpp"
+
+#include <array>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "device/predicted.hpp"
+#include "dotpose/tools/random.hpp"
+
+namespace dotpose::core_test::read_dots_test {
+namespace {
+
+using namespace core;
+
+TEST(ReadDots, LooksAtAllCellsInView) {
+    Rng rng(4);
+    for (int round = 0; round < 500; ++round) {
+        std::array<TrackedRow, kMostTracked> rows{};
+        Tracking tracking;
+        tracking.grid_rows = rows;
+        tracking.width_px = 188;
+        tracking.height_px = 120;
+        tracking.stride_px = 188;
+        tracking.first_cell = 2;
+        tracking.last_cell = 29;
+        const double angle = round < 4 ? round * M_PI / 2 : rng.uniform(-M_PI, M_PI);
+        const double spacing_px = rng.uniform(8.6, 13);
+        const double along = spacing_px * 65536 * std::cos(angle);
+        const double across = spacing_px * 65536 * std::sin(angle);
+        const auto rounded = [](double value) {
+            return static_cast<std::int32_t>(std::lround(value));
+        };
+        tracking.cells.along_x_q16 = {rounded(along), rounded(across)};
+        tracking.cells.along_y_q16 = {rounded(-across), rounded(along)};
+        const double i_middle = rng.uniform(16, 17);
+        const double j_middle = rng.uniform(16, 17);
+        tracking.cells.origin_q16 = {rounded(93.5 * 65536 - i_middle * along + j_middle * across),
+                                     rounded(59.5 * 65536 - i_middle * across - j_middle * along)};
+        set_displacement(4096 / 6, tracking);
+        ASSERT_TRUE(begin_reading(tracking));
+
+        std::set<std::pair<int, int>> looked_at;
+        const Vec x = tracking.cells.along_x_q16;
+        const int way = x.y < 0 ? -1 : 1;
+        for (int j = 0; j < kMostTracked; ++j) {
+            const TrackedRow& row = rows[static_cast<std::size_t>(j)];
+            if (row.next_q16.y == TrackedRow::kNever_q16) continue;
+            const Vec first_q16 = place_q16(tracking.cells, row.i, j);
+            EXPECT_EQ(row.next_q16.x, first_q16.x);
+            EXPECT_EQ(row.next_q16.y, first_q16.y);
+            for (int i = row.i; tracking.view.has(place_q16(tracking.cells, i, j)); i += way)
+                looked_at.emplace(i, j);
+        }
+        for (int j = 0; j < kMostTracked; ++j) {
+            for (int i = 0; i < kMostTracked; ++i) {
+                const Vec at_q16 = place_q16(tracking.cells, i, j);
+                // Squares of 9 x 9 px around intersections and of 5 x 5 px around dots have to be
+                // in the image.
+                const auto is_in = [&](double at_px, double displaced_px, int side_px) {
+                    const double corner = std::floor(at_px);
+                    bool in = corner >= 4 && corner <= side_px - 5;
+                    for (const double dot_px : {at_px - displaced_px, at_px + displaced_px}) {
+                        const double pixel = std::floor(dot_px + 0.5);
+                        in = in && pixel >= 2 && pixel <= side_px - 3;
+                    }
+                    return in;
+                };
+                double most = 0;
+                for (const Vec displaced : tracking.displaced_q16) {
+                    most = std::max(
+                        {most, std::abs(displaced.x / 65536.0), std::abs(displaced.y / 65536.0)});
+                }
+                const bool is_in_view =
+                    is_in(at_q16.x / 65536.0, most, 188) && is_in(at_q16.y / 65536.0, most, 120);
+                EXPECT_EQ(looked_at.contains({i, j}), is_in_view) << round << ": " << i << ' ' << j;
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace dotpose::core_test::read_dots_test
