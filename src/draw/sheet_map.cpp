@@ -27,7 +27,7 @@ constexpr double kBoxPitch_x = 230;
 constexpr double kBoxPitch_y = 300;
 constexpr std::size_t kBoxRows = 3;
 /// Beyond it a page is smaller than the rounding of the numbers in the drawing.
-constexpr double kMostExtent_m = 1e7;
+constexpr double kMaxExtent_m = 1e7;
 constexpr const char* kCentred = R"(text-anchor="middle" fill="#17202a")";
 constexpr const char* kCentredQuiet = R"(text-anchor="middle" fill="#6b7885")";
 
@@ -45,7 +45,7 @@ std::array<Point, 4> corners_m(const SheetEntry& entry) {
 /// The box that holds all pages with a pose and the world's origin, which is left out where the
 /// pages would get too small beside it.
 Bounds world_bounds(std::span<const SheetEntry> sheets) {
-    constexpr double kMostForOrigin = 3;
+    constexpr double kMaxRatioForOrigin = 3;
     Bounds bounds;
     for (const SheetEntry& entry : sheets) {
         if (!entry.world) continue;
@@ -54,9 +54,9 @@ Bounds world_bounds(std::span<const SheetEntry> sheets) {
     }
     Bounds with_origin = bounds;
     with_origin.add({0, 0});
-    const bool is_near = with_origin.extent() <= kMostForOrigin * bounds.extent();
+    const bool is_near = with_origin.extent() <= kMaxRatioForOrigin * bounds.extent();
     const Bounds shown = is_near ? with_origin : bounds;
-    if (!bounds.is_empty() && !(shown.extent() < kMostExtent_m)) {
+    if (!bounds.is_empty() && !(shown.extent() < kMaxExtent_m)) {
         throw Error(fmt::format("the sheets lie over {:g} km of the world: too far apart to draw",
                                 shown.extent() / 1000));
     }

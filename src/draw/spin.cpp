@@ -17,7 +17,7 @@ using namespace dotpose::draw;
 
 /// Residuals are not enlarged beyond the scale at which this one fills the panel, so that noise
 /// looks small.
-constexpr double kLeastFullScale_mm = 0.001;
+constexpr double kMinFullScale_mm = 0.001;
 
 class SpinPicture {
   public:
@@ -81,7 +81,7 @@ class SpinPicture {
 
     /// Draws the centre of rotation as each frame alone gives it.
     void draw_residuals() {
-        double full_mm = kLeastFullScale_mm;
+        double full_mm = kMinFullScale_mm;
         for (const SpinStation& station : spin_.stations)
             full_mm = std::max(full_mm, std::hypot(station.off_x_mm, station.off_y_mm));
         const double per_mm = 0.45 * kPanelSide / full_mm;

@@ -18,10 +18,10 @@ namespace {
 
 using namespace dotpose::draw;
 
-constexpr double kLongestArrow = 70;
+constexpr double kMaxArrow = 70;
 /// Arrows are not enlarged beyond the scale at which this disagreement has the longest arrow, so
 /// that noise looks small.
-constexpr double kLeastArrowScale_mm = 0.002;
+constexpr double kMinArrowScale_mm = 0.002;
 
 /// The image centre of one frame, in world mm with y DOWN, and the difference between its positions
 /// by the two sheets.
@@ -95,7 +95,7 @@ class StitchingPicture {
             if (entry.world) draw_sheet(panel, entry);
         }
         const std::vector<Disagreement> all = disagreements(sheets, stitching_);
-        double full_mm = kLeastArrowScale_mm;
+        double full_mm = kMinArrowScale_mm;
         double squares = 0;
         for (const Disagreement& one : all) {
             full_mm = std::max(full_mm, length(one.off));
@@ -103,7 +103,7 @@ class StitchingPicture {
         }
         for (const Disagreement& one : all) {
             const Point at = on_drawing(panel, one.at);
-            svg_.arrow(at, at + kLongestArrow / full_mm * one.off, 1.6, ink);
+            svg_.arrow(at, at + kMaxArrow / full_mm * one.off, 1.6, ink);
         }
         draw_panel_head(
             panel, title,

@@ -54,7 +54,7 @@ double median_of(std::vector<double> values) {
 
 /// Least squares; without a spread of the true places only the offset is fitted.
 Map fit(std::span<const Pair> pairs) {
-    constexpr double kLeastSpread_mm = 1e-6;
+    constexpr double kMinSpread_mm = 1e-6;
     const auto count = static_cast<double>(pairs.size());
     Complex found = 0;
     Complex truth = 0;
@@ -71,7 +71,7 @@ Map fit(std::span<const Pair> pairs) {
         spread_mm = std::max(spread_mm, std::abs(pair.truth - truth));
     }
     Map map;
-    if (squares > 0 && spread_mm > kLeastSpread_mm) map.factor = product / squares;
+    if (squares > 0 && spread_mm > kMinSpread_mm) map.factor = product / squares;
     map.offset = truth - map.factor * found;
     return map;
 }
@@ -89,13 +89,13 @@ double near_limit(std::span<const Pair> pairs, const Map& map) {
     return kNear_medians * median_residual(pairs, map) + 1e-9;
 }
 
-/// Fits the pairs without outliers: begins with the map through two pairs that has the least median
+/// Fits the pairs without outliers: begins with the map through two pairs with the smallest median
 /// of residuals, and fits all pairs near it.
 Map fit_most(std::span<const Pair> pairs) {
     constexpr std::size_t kTries = 500;
     constexpr int kRounds = 5;
     Map best = fit(pairs);
-    double least = median_residual(pairs, best);
+    double min_median = median_residual(pairs, best);
     const std::size_t n = pairs.size();
     const std::size_t all = n * (n - 1) / 2;
     for (std::size_t k = 0; k < std::min(all, kTries); ++k) {
@@ -103,9 +103,9 @@ Map fit_most(std::span<const Pair> pairs) {
         const std::size_t apart = 1 + (n / 2 + 7 * (k / n)) % (n - 1);
         const Map map = fit(std::array{pairs[k % n], pairs[(k + apart) % n]});
         const double median = median_residual(pairs, map);
-        if (median < least) {
+        if (median < min_median) {
             best = map;
-            least = median;
+            min_median = median;
         }
     }
     for (int round = 0; round < kRounds; ++round) {

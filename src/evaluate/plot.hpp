@@ -23,8 +23,8 @@ inline constexpr const char* kBelow = "#1565c0";  ///< negative errors; blue as 
 }  // namespace style
 
 /// Returns the largest step of the form 1, 2, 2.5 or 5 times a power of ten that divides `range`
-/// into at least `least` steps.
-double tick_step(double range, int least);
+/// into at least `min_count` steps.
+double tick_step(double range, int min_count);
 
 /// Returns the smallest number of the form 1, 1.5, 2, 2.5, 3, 4, 5, 6 or 8 times a power of ten
 /// that is at least `value`.
@@ -39,7 +39,7 @@ struct Scale {
     double at_last = 1;
 
     double at(double value) const;
-    std::vector<double> ticks(int least) const;
+    std::vector<double> ticks(int min_count) const;
 };
 
 /// A rectangle with an x axis below and a y axis to the left.

@@ -21,7 +21,7 @@ constexpr double kLeft = 80;
 constexpr double kPlotWidth = kWidth - kLeft - 40;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 /// Errors are drawn from this number of fixes on; those of fewer are no useful statistic.
-constexpr int kFewestFixes = 5;
+constexpr int kMinFixes = 5;
 
 struct Words {
     const char* title;
@@ -60,10 +60,10 @@ double success(const Score& score) {
     return 100 * score.located_share();
 }
 double median_um(const Score& score) {
-    return score.located >= kFewestFixes ? score.position_um.median : kNone;
+    return score.located >= kMinFixes ? score.position_um.median : kNone;
 }
 double p95_um(const Score& score) {
-    return score.located >= kFewestFixes ? score.position_um.p95 : kNone;
+    return score.located >= kMinFixes ? score.position_um.p95 : kNone;
 }
 
 void draw_head(Svg& svg, const Sweep& sweep) {
@@ -92,17 +92,17 @@ void mark_wrong(Svg& svg, const Axes& axes, const Sweep& sweep, Decoder decoder)
 
 /// Returns a logarithmic scale that contains all errors and whose ends are round numbers.
 Scale error_scale(const Sweep& sweep) {
-    double least = 1e300;
-    double most = 0;
+    double low_um = 1e300;
+    double high_um = 0;
     for (const SweepPoint& point : sweep.points) {
         for (const Score* score : {&point.window, &point.all}) {
-            if (score->located < kFewestFixes) continue;
-            least = std::min(least, score->position_um.median);
-            most = std::max(most, score->position_um.p95);
+            if (score->located < kMinFixes) continue;
+            low_um = std::min(low_um, score->position_um.median);
+            high_um = std::max(high_um, score->position_um.p95);
         }
     }
-    if (most <= 0) return {1, 10, true};
-    return {1 / rounded_up(1 / (0.9 * least)), rounded_up(1.1 * most), true};
+    if (high_um <= 0) return {1, 10, true};
+    return {1 / rounded_up(1 / (0.9 * low_um)), rounded_up(1.1 * high_um), true};
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace dotpose::files {
 namespace {
 
 /// Greatest undistorted coordinate; larger ones come from an iteration that does not converge.
-constexpr double kMostUndistorted_px = 1e6;
+constexpr double kMaxUndistorted_px = 1e6;
 
 /// Number of parameters: k, the centre, and an affine map, as the fit of every pose contains one;
 /// lengths are in units of half the image diagonal.
@@ -87,12 +87,12 @@ Parameters step_of(const std::vector<Pair>& pairs, const Parameters& parameters,
 
 /// Improves the parameters until steps are lost in rounding; returns the sum of squares.
 double minimise(const std::vector<Pair>& pairs, Parameters& parameters) {
-    constexpr int kMostSteps = 500;
-    constexpr double kMostDamping = 1e9;
-    constexpr double kLeastStep = 1e-12;
+    constexpr int kMaxSteps = 500;
+    constexpr double kMaxDamping = 1e9;
+    constexpr double kMinStep = 1e-12;
     double damping = 1e-4;
     double squares = squares_of(pairs, parameters);
-    for (int i = 0; i < kMostSteps && damping < kMostDamping; ++i) {
+    for (int i = 0; i < kMaxSteps && damping < kMaxDamping; ++i) {
         const Parameters step = step_of(pairs, parameters, damping);
         Parameters next = parameters;
         double longest = 0;
@@ -108,7 +108,7 @@ double minimise(const std::vector<Pair>& pairs, Parameters& parameters) {
         } else {
             damping *= 1.5;
         }
-        if (longest < kLeastStep) break;
+        if (longest < kMinStep) break;
     }
     return squares;
 }
@@ -146,8 +146,8 @@ double fit_division_model(const PlumbBob& lens, Camera& camera) {
             const PixelPoint pixel{(camera.width_px - 1.0) * i / kSteps,
                                    (camera.height_px - 1.0) * j / kSteps};
             const PixelPoint wanted = lens.undistorted(pixel);
-            if (!(std::abs(wanted.u) <= kMostUndistorted_px &&
-                  std::abs(wanted.v) <= kMostUndistorted_px)) {
+            if (!(std::abs(wanted.u) <= kMaxUndistorted_px &&
+                  std::abs(wanted.v) <= kMaxUndistorted_px)) {
                 return std::numeric_limits<double>::infinity();
             }
             pairs.push_back({{pixel.u / reach_px, pixel.v / reach_px},

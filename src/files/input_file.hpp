@@ -17,7 +17,7 @@ namespace dotpose::files {
 /// Returns the text of a file or pipe, or none if there is no such file. Throws Error if it cannot
 /// be read or has more than `most` bytes; it stops reading there, so that an endless file does not
 /// fill the memory.
-std::optional<std::string> text_of(const std::filesystem::path& path, std::size_t most);
+std::optional<std::string> text_of(const std::filesystem::path& path, std::size_t max_bytes);
 
 /// Reads the next line, without its line break; returns false at the end of the file. Throws Error
 /// if the line has more than 64 KB, after which it stops reading, or if reading fails.

@@ -14,12 +14,12 @@ namespace {
 
 /// Greatest difference, in px rms over the image, between eq. 2 and the plumb_bob lens that it
 /// replaces.
-constexpr double kLargestMisfit_px = 0.5;
+constexpr double kMaxMisfit_px = 0.5;
 
 /// Focal lengths, centres and distortion coefficients of cameras are far below these; a fit to
 /// larger ones may overflow.
-constexpr double kMostPx = 1e6;
-constexpr double kMostDistortion = 1e3;
+constexpr double kMaxPx = 1e6;
+constexpr double kMaxDistortion = 1e3;
 
 /// Returns the list under a key, as in the matrices of camera_calibration_parsers or in a printed
 /// message.
@@ -72,8 +72,8 @@ Camera camera_from_camera_info(const YamlMap& file) {
     if (!(matrix[0] > 0 && matrix[4] > 0)) {
         file.fail(matrix_key, "has no focal lengths above 0: this camera was never calibrated");
     }
-    const auto is_focal = [](double px) { return px >= 1 && px <= kMostPx; };
-    const auto is_centre = [](double px) { return std::abs(px) <= kMostPx; };
+    const auto is_focal = [](double px) { return px >= 1 && px <= kMaxPx; };
+    const auto is_centre = [](double px) { return std::abs(px) <= kMaxPx; };
     if (!is_focal(matrix[0]) || !is_focal(matrix[4]) || !is_centre(matrix[2]) ||
         !is_centre(matrix[5])) {
         file.fail(matrix_key, "has focal lengths, or a centre, that no camera has");
@@ -83,14 +83,14 @@ Camera camera_from_camera_info(const YamlMap& file) {
     if (d.size() != 4 && d.size() != 5) {
         file.fail("distortion_coefficients", "must be k1, k2, t1, t2 and k3");
     }
-    if (std::ranges::any_of(d, [](double k) { return std::abs(k) > kMostDistortion; })) {
+    if (std::ranges::any_of(d, [](double k) { return std::abs(k) > kMaxDistortion; })) {
         file.fail("distortion_coefficients", "are larger than those of any lens");
     }
     d.resize(5);
     const PlumbBob lens{matrix[0], matrix[4], matrix[2], matrix[5], d[0], d[1], d[2], d[3], d[4]};
     camera.focal_px = std::sqrt(lens.fx * lens.fy);
     const double misfit_px = fit_division_model(lens, camera);
-    if (!(misfit_px <= kLargestMisfit_px)) {
+    if (!(misfit_px <= kMaxMisfit_px)) {
         file.fail(
             "distortion_coefficients",
             fmt::format("describe a lens that one coefficient cannot follow (it would be {:.1f} "

@@ -24,10 +24,10 @@ using base::throw_system;
 namespace {
 
 /// Largest sheet file that is read; it holds about 100,000 sheets.
-constexpr std::size_t kMostBytes = std::size_t{64} << 20;
+constexpr std::size_t kMaxBytes = std::size_t{64} << 20;
 
 std::optional<std::string> text_of(const fs::path& path) {
-    return files::text_of(path, kMostBytes);
+    return files::text_of(path, kMaxBytes);
 }
 
 /// Waits for locks on a file, until the time allowed for all of them together is over.

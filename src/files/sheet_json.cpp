@@ -48,7 +48,7 @@ class Node {
         return value.get<double>();
     }
 
-    std::int64_t whole(const char* key, std::int64_t least, std::int64_t most) const {
+    std::int64_t whole(const char* key, std::int64_t min, std::int64_t max) const {
         const json& value = member(key);
         if (!value.is_number_integer()) fail(path_of(key), "must be a whole number");
         // nlohmann-json keeps numbers from 2^63 on as unsigned; as signed integers they would wrap.
@@ -56,9 +56,8 @@ class Node {
             value.is_number_unsigned() &&
             value.get<std::uint64_t>() > std::uint64_t{std::numeric_limits<std::int64_t>::max()};
         const auto number = value.get<std::int64_t>();
-        if (is_huge || number < least || number > most) {
-            fail(path_of(key),
-                 fmt::format("is {}; it must be {} to {}", value.dump(), least, most));
+        if (is_huge || number < min || number > max) {
+            fail(path_of(key), fmt::format("is {}; it must be {} to {}", value.dump(), min, max));
         }
         return number;
     }

@@ -21,7 +21,7 @@ constexpr auto kPatience = 3s;
 /// Time between attempts to reach a broker that does not answer.
 constexpr auto kBetweenAttempts = 500ms;
 /// Most messages that libmosquitto has at a time; it sends them in their order.
-constexpr std::size_t kMostUnderWay = 20;
+constexpr std::size_t kMaxUnderWay = 20;
 /// Quality of service of messages about the presence: they arrive.
 constexpr int kPresenceQos = 1;
 /// Longest wait for something to send or to receive.
@@ -161,7 +161,7 @@ void MqttClient::start() {
     mosquitto_publish_callback_set(mosquitto_, Callbacks::on_publish);
     mosquitto_message_callback_set(mosquitto_, Callbacks::on_message);
     // One more than those of `publish`, so that the presence does not wait for them.
-    mosquitto_max_inflight_messages_set(mosquitto_, static_cast<unsigned>(kMostUnderWay + 1));
+    mosquitto_max_inflight_messages_set(mosquitto_, static_cast<unsigned>(kMaxUnderWay + 1));
     // Messages are published from other threads than that of `run`.
     mosquitto_threaded_set(mosquitto_, true);
     constexpr int kKeepAlive_s = 10;
@@ -316,7 +316,7 @@ void MqttPublisher::publish(std::string topic, std::string payload) {
 
 void MqttPublisher::send_waiting() {
     const std::lock_guard lock(mutex_);
-    while (!waiting_.empty() && under_way_.size() < kMostUnderWay) {
+    while (!waiting_.empty() && under_way_.size() < kMaxUnderWay) {
         const Message& newest = waiting_.back();
         int id = 0;
         const int code = mosquitto_publish(handle(), &id, newest.topic.c_str(),
@@ -416,8 +416,8 @@ int MqttSubscriber::work() {
 }
 
 int MqttSubscriber::receive_all() {
-    constexpr int kMost = 256;  // then the answers are due
-    for (int i = 0; i < kMost; ++i) {
+    constexpr int kMaxBatch = 256;  // then the answers are due
+    for (int i = 0; i < kMaxBatch; ++i) {
         const std::int64_t before = received_;
         const int code = mosquitto_loop_read(handle(), 1);
         if (code != MOSQ_ERR_SUCCESS || received_ == before) return code;

@@ -71,23 +71,23 @@ PageArea edge_of_sheet(const Shot& shot, double share, Rng& rng) {
         area.x_grid = x_grid(shot.pose) + u * along.x - v * along.y;
         area.y_grid = y_grid(shot.pose) + u * along.y + v * along.x;
     };
-    double least = -size;
-    double most = size;
+    double low = -size;
+    double high = size;
     for (int halving = 0; halving < 40; ++halving) {
-        const double middle = (least + most) / 2;
+        const double middle = (low + high) / 2;
         advance(middle);
-        (share_in(area, points) < share ? least : most) = middle;
+        (share_in(area, points) < share ? low : high) = middle;
     }
     return area;
 }
 
 /// Draws a rectangle inside the view that contains enough dots.
 PageArea draw_island(const Shot& shot, Rng& rng) {
-    constexpr double kFewest = PartialView::kFewestIslandDots * 1.05;
+    constexpr double kMinDots = PartialView::kFewestIslandDots * 1.05;
     PageArea area;
     const double width = rng.uniform(7, 12);
     area.half_width = width / 2;
-    area.half_height = std::max(rng.uniform(7, 12), kFewest / width) / 2;
+    area.half_height = std::max(rng.uniform(7, 12), kMinDots / width) / 2;
     area.angle_rad = draw_direction(shot, rng);
     const Projection projection(shot.camera, shot.pose);
     const double reach_px = 0.75 * spacing_px(shot) * std::hypot(area.half_width, area.half_height);
@@ -136,8 +136,9 @@ void cover_partly(Shot& shot, const PartialView& view) {
         return;
     }
     // The margin of 15 % is for the dots at the border, which are not seen whole.
-    const double least = std::max(view.least_share, 1.15 * view.fewest_dots / intersections(shot));
-    const double share = rng.uniform(least, std::max(least, view.most_share));
+    const double min_share =
+        std::max(view.least_share, 1.15 * view.fewest_dots / intersections(shot));
+    const double share = rng.uniform(min_share, std::max(min_share, view.most_share));
     const PageArea dots = edge_of_sheet(shot, share, rng);
     shot.page.areas = {dots};
     if (!view.on_table) return;

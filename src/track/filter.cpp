@@ -14,13 +14,13 @@ constexpr float kHold_s = 0.5F;
 /// next. It rises and falls by the same factor, so that in balance the innovations keep their sign
 /// as often as they change it, as those of a matched filter do.
 constexpr float kAgility_step = 1.5F;
-constexpr float kLeast_agility = 1e-6F;
+constexpr float kMinAgility = 1e-6F;
 /// Innovations of more standard deviations than this are not taken for noise.
 constexpr float kSurprise = 4;
 /// Number of sightings over which their scatter is averaged.
 constexpr float kScatter_sightings = 32;
-constexpr float kLeast_scatter = 0.01F;
-constexpr float kLargest_scatter = 9;
+constexpr float kMinScatter = 0.01F;
+constexpr float kMaxScatter = 9;
 
 /// Bound of the rounding error of the difference of two variances, relative to the larger one.
 constexpr float kRounding = 4e-6F;
@@ -253,7 +253,7 @@ MotionEstimate fitted(const MotionEstimate& predicted, const Sighting& sighting,
         // follows the noise, they alternate.
         const float agility = repeated > 0 ? old * kAgility_step : old / kAgility_step;
         const float needed = old + surprise() / (pushed * squared(effect[0]));
-        motion.agility[i] = std::clamp(std::max(agility, needed), kLeast_agility, 1.0F);
+        motion.agility[i] = std::clamp(std::max(agility, needed), kMinAgility, 1.0F);
         add_noise(motion.covariance, i, (motion.agility[i] - old) * pushed, effect);
         // An innovation that this does not explain may come from a collision, which changes the
         // velocity abruptly. The first one may also be an outlier, so it changes the position only;
@@ -287,8 +287,7 @@ MotionEstimate corrected(const MotionEstimate& predicted, const Sighting& sighti
     motion.noise = noise_of(sighting, options);
     subtract_known(motion.covariance, weighted, motion.noise);
     motion.scatter +=
-        (std::clamp(distance / 3, kLeast_scatter, kLargest_scatter) - motion.scatter) /
-        kScatter_sightings;
+        (std::clamp(distance / 3, kMinScatter, kMaxScatter) - motion.scatter) / kScatter_sightings;
     set_pose_covariance(motion);
     return motion;
 }

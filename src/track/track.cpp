@@ -19,7 +19,7 @@ static_assert((std::uint64_t{kPositionsPerAxis} * kSections * 4) >> kHypotheses_
 /// Positions that differ by fewer cells than this have different places in each of the sequences
 /// that encode the position, the shortest of which has a period of 31, so they resemble each other
 /// only by chance. docs/tracking.md explains this.
-constexpr int kShortestSequence = 31;
+constexpr int kMinSequence_frames = 31;
 
 float seconds(std::int64_t from_us, std::int64_t to_us) {
     return static_cast<float>(to_us - from_us) * 1e-6F;
@@ -66,7 +66,7 @@ bool is_reachable(const MotionEstimate& from, const Sighting& sighting,
 int p_wrong_with_prior(const Sighting& sighting, const Vector3& limits,
                        const TrackOptions& options) {
     const float half = std::max(limits[0], limits[1]) / options.spacing_mm;
-    if (!(half < static_cast<float>(kShortestSequence / 2)) || limits[2] > 0.78F) return 0;
+    if (!(half < static_cast<float>(kMinSequence_frames / 2)) || limits[2] > 0.78F) return 0;
     const auto cells = static_cast<unsigned>(2 * half) + 2;
     int cells_log2 = 0;
     while ((1U << cells_log2) < cells)

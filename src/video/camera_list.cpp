@@ -16,9 +16,9 @@
 namespace dotpose::video {
 namespace {
 
-constexpr int kMostDevices = 64;
+constexpr int kMaxDevices = 64;
 /// Most entries of each kind that a driver is asked for; a broken one might never end.
-constexpr std::uint32_t kMostEntries = 256;
+constexpr std::uint32_t kMaxEntries = 256;
 
 class Device {
   public:
@@ -50,7 +50,7 @@ class Device {
 template <typename Entry>
 void for_each_entry(const Device& device, unsigned long request, Entry entry,
                     const std::function<void(const Entry&)>& use) {
-    for (std::uint32_t index = 0; index < kMostEntries; ++index) {
+    for (std::uint32_t index = 0; index < kMaxEntries; ++index) {
         entry.index = index;
         if (!device.ask(request, entry)) return;
         use(entry);
@@ -150,7 +150,7 @@ bool is_camera(const v4l2_capability& device) {
 
 std::vector<FoundCamera> find_cameras() {
     std::vector<FoundCamera> cameras;
-    for (int number = 0; number < kMostDevices; ++number) {
+    for (int number = 0; number < kMaxDevices; ++number) {
         FoundCamera camera;
         camera.device = fmt::format("/dev/video{}", number);
         const Device device(camera.device);

@@ -73,8 +73,8 @@ void draw_gauges(const CalibrationScene& scene, cv::Mat panel) {
         top += kRowHeight;
     }
     const int radius = std::min((panel.rows - top) / 2 - kMargin, 80);
-    constexpr int kLeastRadius = 20;
-    if (radius >= kLeastRadius) {
+    constexpr int kMinRadius = 20;
+    if (radius >= kMinRadius) {
         draw_directions(scene, {panel.cols / 2, top + kMargin + radius}, radius, panel);
     }
 }

@@ -93,8 +93,8 @@ class H264File::Encoder {
         encoder_->width = size.width;
         encoder_->height = size.height;
         encoder_->pix_fmt = AV_PIX_FMT_YUV420P;
-        constexpr int kLargestDenominator = 100'000;
-        encoder_->framerate = av_d2q(fps, kLargestDenominator);
+        constexpr int kMaxDenominator = 100'000;
+        encoder_->framerate = av_d2q(fps, kMaxDenominator);
         encoder_->time_base = av_inv_q(encoder_->framerate);
         if ((file_->oformat->flags & AVFMT_GLOBALHEADER) != 0) {
             encoder_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;

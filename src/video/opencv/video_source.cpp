@@ -181,8 +181,8 @@ class VideoFile : public capture::FrameSource {
     /// Sends the next packet of the video to the decoder, or the end of the stream after the last
     /// one.
     void send_packet() {
-        constexpr int kMostFailures = 100;
-        for (int failures = 0; failures < kMostFailures;) {
+        constexpr int kMaxFailures = 100;
+        for (int failures = 0; failures < kMaxFailures;) {
             const int code = av_read_frame(file_.get(), packet_.get());
             if (code == AVERROR_EOF) break;
             if (code < 0) {
