@@ -1,5 +1,4 @@
-// Draws the residuals before and after a calibration and the parts of the image where dots were
-// seen.
+// Draws the residuals before and after a calibration, and the coverage of the image by dots.
 #include <algorithm>
 #include <cmath>
 #include <ostream>
@@ -20,12 +19,12 @@ constexpr double kHead = 74;
 constexpr double kMaxSide = 520;
 /// Number of parts into which the longer side of the image is divided; each part has one arrow.
 constexpr int kParts = 22;
-/// Arrows are not enlarged beyond the scale at which this residual has the longest arrow, so that
-/// residuals that are only noise look small.
+/// Smallest residual that is drawn with the longest arrow; residuals of pure noise therefore look
+/// small.
 constexpr double kMinFullScale_px = 0.05;
 
 struct Part {
-    Point before;  ///< sum of the residuals before the calibration, px
+    Point before;  ///< sum of the residuals before the calibration, in px
     Point after;
     int dots = 0;
 };
@@ -76,7 +75,8 @@ class CalibrationPicture {
                  at.x, at.y, width(), height(), colour::kFrame);
     }
 
-    /// Calls `use(part, middle)` for all parts with dots; `middle` is its centre on the drawing.
+    /// Calls `use(part, middle)` for all parts with dots; `middle` is the centre of the part on the
+    /// drawing.
     template <typename Use>
     void visit(int panel, Use use) const {
         for (int j = 0; j < rows_; ++j) {

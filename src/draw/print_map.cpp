@@ -16,12 +16,11 @@ using namespace dotpose::draw;
 constexpr double kMapMargin = 40;
 constexpr double kMapHead = 110;
 constexpr double kMaxMapSide = 1000;
-/// Length of the longest arrow in units of the drawing; it is shorter where arrows are closer
-/// together than this.
+/// Length of the longest arrow in units of the drawing; shorter if the spacing of the arrows is
+/// smaller.
 constexpr double kMaxArrow = 45;
 constexpr double kMaxStep = 0.95;
-/// Arrows are not enlarged beyond the scale at which this distortion has the longest arrow, so that
-/// noise looks small.
+/// Smallest distortion that is drawn with the longest arrow; noise therefore looks small.
 constexpr double kMinMapScale_mm = 0.01;
 
 /// Returns the largest number of the form 1, 2 or 5 times a power of ten that is at most `value`.

@@ -1,5 +1,5 @@
-// Draws sheets side by side before and after stitching, and how far the two sheets of each frame
-// over a seam disagree about its position.
+// Draws sheets side by side before and after stitching, with the difference between the two
+// positions of each frame over a seam.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,12 +19,11 @@ namespace {
 using namespace dotpose::draw;
 
 constexpr double kMaxArrow = 70;
-/// Arrows are not enlarged beyond the scale at which this disagreement has the longest arrow, so
-/// that noise looks small.
+/// Smallest difference that is drawn with the longest arrow; noise therefore looks small.
 constexpr double kMinArrowScale_mm = 0.002;
 
 /// The image centre of one frame, in world mm with y DOWN, and the difference between its positions
-/// by the two sheets.
+/// on the two sheets.
 struct Disagreement {
     Point at;
     Point off;
