@@ -57,7 +57,7 @@ std::vector<double> Scale::ticks(int min_count) const {
             result.push_back(i * step + 0.0);  // the sum turns -0 into 0
         return result;
     }
-    // Over several decades, fewer multiples of each power of ten are labelled.
+    // Over several decades, fewer multiples of each power of ten have labels.
     const bool is_long = last / first > 150;
     for (double power = std::pow(10, std::floor(std::log10(first))); power <= last; power *= 10) {
         for (const double factor : {1.0, 2.0, 5.0}) {

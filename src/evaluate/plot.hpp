@@ -30,7 +30,7 @@ double tick_step(double range, int min_count);
 /// that is at least `value`.
 double rounded_up(double value);
 
-/// One axis: it converts data values to drawing units.
+/// One axis; converts data values to drawing units.
 struct Scale {
     double first = 0;
     double last = 1;  ///< may be below `first`, unless `is_log`
@@ -64,7 +64,7 @@ class Axes {
         const char* colour = draw::colour::kInk;
         bool is_dashed = false;
         bool has_marks = true;
-        bool is_wide = false;  ///< wide enough to be seen under a curve that covers it
+        bool is_wide = false;  ///< whether it is wide enough to be visible under another curve
     };
     /// Draws a curve through the points. It is interrupted where a coordinate is not a number.
     void curve(std::span<const Point> data, const Line& line) const;

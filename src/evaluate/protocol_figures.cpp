@@ -36,15 +36,15 @@ struct Coordinate {
     const char* unit;
 };
 
-/// The words of a figure.
+/// The texts of a figure.
 struct Words {
-    const char* how;       ///< how the poses were taken
-    std::string stations;  ///< how many there are
+    const char* how;       ///< origin of the poses
+    std::string stations;  ///< number of stations
     const char* y_label;
     bool is_y_up = false;
 };
 
-/// The square of the page that a panel shows.
+/// The square of the page in a panel.
 struct Extent {
     Vec2 middle_mm;
     double side_mm = 1;
@@ -106,11 +106,11 @@ const char* colour_of(double bias) {
 constexpr double kMaxMark = 16;
 
 double mark_radius(double bias, double scale) {
-    // The area of a mark is proportional to its value; small values keep a mark that can be seen.
+    // The area of a mark is proportional to its value; marks of small values stay visible.
     return std::max(1.2, kMaxMark * std::sqrt(std::abs(bias) / scale));
 }
 
-/// The axes of a page, with y as its coordinates have it.
+/// The axes of a page, with y in the direction of its coordinates.
 struct PageScale {
     Scale x;
     Scale y;

@@ -1,5 +1,4 @@
-// Draws a sweep: the share of frames that are located above, the errors below, over the same
-// condition.
+// Draws a sweep: the share of located frames above, the errors below, over the same condition.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,7 +19,7 @@ constexpr double kHeight = 690;
 constexpr double kLeft = 80;
 constexpr double kPlotWidth = kWidth - kLeft - 40;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-/// Errors are drawn from this number of fixes on; those of fewer are no useful statistic.
+/// Minimum number of fixes for which errors are drawn.
 constexpr int kMinFixes = 5;
 
 struct Words {
@@ -120,8 +119,8 @@ void draw_sweep(std::ostream& out, const Sweep& sweep) {
     const Axes below(svg, {kLeft, 390, kPlotWidth, 220}, x, error_scale(sweep));
     below.draw_y("position error of the fixes, µm: median (solid) and 95 % (dashed)");
     below.draw_x(words.x_label);
-    // The curves of the decoder `window` are drawn first and wider, so that they stay visible where
-    // both are the same.
+    // The curves of the decoder `window` are drawn first and wider, and stay visible where both are
+    // equal.
     for (const Decoder decoder : kDecoders) {
         const bool is_window = decoder == Decoder::window;
         const char* colour = is_window ? style::kWindow : style::kAll;

@@ -1,4 +1,4 @@
-// Camera: its geometry, and its use in `locate`.
+// The geometry of a camera, and its use in `locate`.
 #include "dotpose/files/camera.hpp"
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace dotpose {
 namespace {
 
 constexpr double kMaxCentre_px = 1000;
-/// Greatest distance of the reference point: far outside any image, and far inside the range of the
+/// Maximum distance of the reference point: far outside any image, and far inside the range of the
 /// fixed-point pose.
 constexpr double kMaxReference_px = 10'000;
 constexpr double kMaxFocal_px = 1e6;
@@ -56,7 +56,7 @@ void require_paper(const PaperScale& paper, const Camera& camera) {
     require(is_length(paper.mm_per_px_x) && is_length(paper.mm_per_px_y), "mm_per_px",
             "must be from 0.000001 to 1000");
     require(std::abs(paper.skew) <= 0.5, "skew", "must be from -0.5 to 0.5");
-    // The horizon, where the divisor of `on_paper` is 0, must lie far outside of the image.
+    // The horizon, where the divisor of `on_paper` is 0, must be far outside the image.
     const double max_u =
         std::max(std::abs(camera.centre_px.u), std::abs(camera.width_px - 1 - camera.centre_px.u));
     const double max_v =
@@ -178,8 +178,8 @@ Camera part_of(const Camera& camera, int left_px, int top_px, int width_px, int 
     part.centre_px = moved(camera.centre_px);
     part.reference_px = moved(camera.reference_px.value_or(image_centre(camera)));
     if (camera.paper) {
-        // The heading is defined by the image x axis at the image centre, which differs in the
-        // part.
+        // The heading is defined by the image x axis at the image centre, and the part has another
+        // centre.
         part.theta_offset_rad +=
             image_axis_rad(camera, image_centre(camera)) - image_axis_rad(part, image_centre(part));
     }

@@ -11,16 +11,16 @@
 namespace dotpose::files {
 namespace {
 
-/// Greatest undistorted coordinate; larger ones come from an iteration that does not converge.
+/// Maximum undistorted coordinate; larger values come from an iteration that does not converge.
 constexpr double kMaxUndistorted_px = 1e6;
 
-/// Number of parameters: k, the centre, and an affine map, as the fit of every pose contains one;
-/// lengths are in units of half the image diagonal.
+/// Number of parameters: k, the centre, and an affine map, because the fit of every pose contains
+/// an affine map. Lengths are in units of half the image diagonal.
 constexpr std::size_t kParameters = 9;
 using Fit = LeastSquares<kParameters>;
 using Parameters = Fit::Vector;
 
-/// One place of the image, distorted and undistorted, in the same units.
+/// One point of the image, distorted and undistorted, in the same units.
 struct Pair {
     PixelPoint seen;
     PixelPoint wanted;
@@ -66,7 +66,7 @@ double squares_of(const std::vector<Pair>& pairs, const Parameters& parameters) 
     return squares;
 }
 
-/// Returns a step of Levenberg and Marquardt.
+/// Returns a Levenberg-Marquardt step.
 Parameters step_of(const std::vector<Pair>& pairs, const Parameters& parameters, double damping) {
     Fit fit;
     Parameters norms2{};
@@ -85,7 +85,7 @@ Parameters step_of(const std::vector<Pair>& pairs, const Parameters& parameters,
     return fit.solve();
 }
 
-/// Improves the parameters until steps are lost in rounding; returns the sum of squares.
+/// Improves the parameters until steps vanish in rounding; returns the sum of squares.
 double minimise(const std::vector<Pair>& pairs, Parameters& parameters) {
     constexpr int kMaxSteps = 500;
     constexpr double kMaxDamping = 1e9;
@@ -120,7 +120,7 @@ PixelPoint PlumbBob::undistorted(PixelPoint pixel) const {
     const double yd = (pixel.v - cy) / fy;
     double x = xd;
     double y = yd;
-    // Solved by fixed-point iteration, as there is no closed form.
+    // Solved by fixed-point iteration, because there is no closed form.
     constexpr int kIterations = 100;
     for (int i = 0; i < kIterations; ++i) {
         const double r2 = x * x + y * y;

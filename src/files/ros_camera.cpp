@@ -12,16 +12,16 @@
 namespace dotpose::files {
 namespace {
 
-/// Greatest difference, in px rms over the image, between eq. 2 and the plumb_bob lens that it
+/// Maximum difference, in px rms over the image, between eq. 2 and the plumb_bob lens that it
 /// replaces.
 constexpr double kMaxMisfit_px = 0.5;
 
-/// Focal lengths, centres and distortion coefficients of cameras are far below these; a fit to
-/// larger ones may overflow.
+/// Maximum focal length, centre and distortion coefficients, far above those of cameras; a fit to
+/// larger values may overflow.
 constexpr double kMaxPx = 1e6;
 constexpr double kMaxDistortion = 1e3;
 
-/// Returns the list under a key, as in the matrices of camera_calibration_parsers or in a printed
+/// Returns the list under a key, in the format of camera_calibration_parsers or of a printed
 /// message.
 std::vector<double> coefficients(const YamlMap& file, const char* nested, const char* lower,
                                  const char* upper, std::size_t count) {
@@ -29,11 +29,11 @@ std::vector<double> coefficients(const YamlMap& file, const char* nested, const 
     return file.numbers(file.has(lower) ? lower : file.has(upper) ? upper : nested, count);
 }
 
-/// The model that adds k4 to k6, a divisor, to plumb_bob; some drivers state it for every camera.
+/// The model plumb_bob with a divisor, k4 to k6; some drivers report it for every camera.
 constexpr const char* kRational = "rational_polynomial";
 
-/// Returns the coefficients of plumb_bob among those of a rational polynomial whose further terms,
-/// k4 to k6 and those of a prism and a tilted sensor, are all 0.
+/// Returns the plumb_bob coefficients of a rational polynomial. Throws Error unless the other
+/// coefficients (k4 to k6, thin prism, tilted sensor) are 0.
 std::vector<double> without_rational_terms(const YamlMap& file, std::vector<double> d) {
     constexpr std::size_t kPlumbBob = 5;
     const auto is_set = [](double k) { return k != 0; };

@@ -32,7 +32,7 @@ Range rows_of(const Sheet& sheet) {
 bool overlap(Range a, Range b) {
     return a.first < b.end && b.first < a.end;
 }
-/// Extends a range by the gap that is kept on both sides of it.
+/// Extends a range by the required gap on both sides.
 Range with_gap(Range range) {
     return {range.first - kSheetGap_cells, range.end + kSheetGap_cells};
 }
@@ -51,7 +51,7 @@ void validate_name(const std::string& name) {
     }
 }
 
-/// Finds the leftmost column from which `columns` columns are free in these rows, or none.
+/// Finds the leftmost column where `columns` columns are free in these rows, or none.
 std::optional<std::uint32_t> free_column(const std::vector<SheetEntry>& sheets, Range rows,
                                          int columns) {
     std::vector<Range> taken;

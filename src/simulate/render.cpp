@@ -12,7 +12,7 @@ void require(bool holds, const std::string& otherwise) {
     if (!holds) throw BadArgument(otherwise);
 }
 
-// Whether a value is from `low` to `high`; false for NaN.
+// Whether a value is between `low` and `high`; false for NaN.
 bool within(double value, double low, double high) {
     return value >= low && value <= high;
 }
