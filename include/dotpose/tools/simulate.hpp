@@ -175,13 +175,13 @@ class Projection {
     double k_;
     double focal_px_;
     double distance_mm_;
-    // camera_mm = x_axis * offset.x + y_axis * offset.y + (0, 0, distance): the pattern's axes as
-    // the camera sees them (x right, y down, z ahead).
+    // camera_mm = x_axis * offset.x + y_axis * offset.y + (0, 0, distance): the pattern's axes in
+    // the frame of the camera (x right, y down, z ahead).
     std::array<double, 3> x_axis_;
     std::array<double, 3> y_axis_;
 };
 
-/// Renders the image that the camera sees. `seed` determines noise, dirt and graphics.
+/// Renders the camera's image. `seed` determines noise, dirt and graphics.
 GreyImage render(const Page& page, const CameraModel& camera, const CameraPose& pose,
                  const Imperfections& imperfections, std::uint64_t seed);
 
@@ -192,22 +192,22 @@ GreyImage render(const Pattern& pattern, const CameraModel& camera, const Camera
 /// A page given as an image, for example a PDF rendered at 1200 dpi. Between pixels, its darkness
 /// is interpolated linearly.
 struct PageImage {
-    ImageView image;  ///< 255 is bare paper, 0 is solid ink; around it is endless paper
+    ImageView image;  ///< 255 is bare paper, 0 is solid ink; surrounded by unlimited paper
     double mm_per_px = 25.4 / 1200;
     /// Point under the image centre, from the upper left corner of the image: x right, y down.
     Vec2 centre_mm;
 };
 
-/// Renders the image that the camera sees of a page image. Of the pose only the angles count; of
-/// the imperfections, the printer's own (jitter, missing dots), dirt and graphics do not count.
+/// Renders the camera's image of a page image. Uses only the angles of the pose, and ignores the
+/// imperfections of the printer (jitter, missing dots), dirt and graphics.
 GreyImage render(const PageImage& page, const CameraModel& camera, const CameraPose& pose,
                  const Imperfections& imperfections, std::uint64_t seed);
 
-/// What all frames of a run have in common.
+/// The common parameters of all frames of a run.
 struct Setup {
     Preset preset = Preset::nominal;
-    Pattern pattern;             ///< its section counts only if `random_section` is false
-    bool random_section = true;  ///< each frame reads another section
+    Pattern pattern;             ///< its section is used only if `random_section` is false
+    bool random_section = true;  ///< whether each frame has a random section
     CameraModel camera;
     std::uint64_t seed = 1;
 };
@@ -225,42 +225,42 @@ struct Shot {
 /// on it, imperfections from the preset.
 Shot draw_shot(const Setup& setup, std::uint64_t index);
 
-/// A view that the pattern covers only in part.
+/// A view that is only partly covered by the pattern.
 struct PartialView {
-    /// 0: one area along a border or in a corner of the image. Otherwise the number of rectangles
-    /// anywhere in the image, apart from each other, each with at least `kFewestIslandDots` dots.
+    /// Number of separate rectangles anywhere in the image, each with at least `kFewestIslandDots`
+    /// dots; 0 for one area along a border or in a corner of the image.
     int islands = 0;
     static constexpr int kFewestIslandDots = 60;
-    /// Range of the share of the image that the one area covers; the area holds at least
+    /// Range of the fraction of the image that the single area covers; the area has at least
     /// `fewest_dots`.
     double least_share = 0.15;
     double most_share = 0.45;
     int fewest_dots = 150;
-    /// Whether the one area is the corner or side of a sheet that lies on a table.
+    /// Whether the single area is the corner or side of a sheet on a table.
     bool on_table = false;
 };
 
-/// Draws from the shot's seed where its page has dots and where its paper ends. In every second
-/// frame, areas have the direction of the pattern, otherwise that of the image. Throws BadArgument
-/// if there is no room for the islands.
+/// Draws the areas with dots and the edge of the paper from the shot's seed. In every second frame,
+/// areas are aligned with the pattern, otherwise with the image. Throws BadArgument if there is no
+/// room for the islands.
 void cover_partly(Shot& shot, const PartialView& view);
 
 /// Renders a shot.
 GreyImage render(const Shot& shot);
 
-/// Frames without one valid position, which a locator must refuse. At a seam, the position and
-/// section of either side would also be right.
+/// Frames without a single valid position, which a locator must refuse. At a seam, the position and
+/// section of either side are also correct.
 enum class Scene : std::uint8_t {
     black,
     white,
     noise,            ///< each pixel dark with probability `density`, nothing else
     text,             ///< a page of words
     plain_grid,       ///< dots on the intersections, not displaced
-    random_symbols,   ///< a perfect grid whose symbols are drawn at random
+    random_symbols,   ///< a perfect grid with random symbols
     scattered_dots,   ///< dots at random places, `density` per grid cell
     checkerboard,     ///< squares of two grid spacings
     seam_vertical,    ///< two sections side by side, the border through the image centre
-    seam_horizontal,  ///< two sections one above the other
+    seam_horizontal,  ///< two sections, one above the other
     mirrored,         ///< the pattern seen from behind
 };
 /// All values of Scene, for tables.
@@ -271,8 +271,8 @@ inline constexpr std::array kScenes = {
 /// Returns the identifier, such as "seam_vertical".
 const char* name(Scene scene);
 
-/// Renders `scene` with the shot's camera, pose and imperfections in place of its page. `density`
-/// is 0 to 1 and counts for `noise` and `scattered_dots` only.
+/// Renders `scene` with the shot's camera, pose and imperfections instead of its page. `density` is
+/// 0 to 1 and used only for `noise` and `scattered_dots`.
 GreyImage render_scene(Scene scene, const Shot& shot, double density = 0.5);
 
 }  // namespace dotpose
